@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_cosection authors
+#pragma once
+
+#include <pcl/cosection/common/export.h>
+
+#include <Eigen/Geometry>
+
+#include <optional>
+#include <vector>
+
+namespace pcl
+{
+namespace cosection
+{
+
+/** \brief A pinhole camera without distortion: pixel (u, v) of integer coordinates is the centre of
+ * a pixel; z points forward, x right, y down. */
+struct PCL_COSECTION_EXPORT PinholeCamera
+{
+  int width = 0;   ///< pixels
+  int height = 0;  ///< pixels
+  double fx = 0.0; ///< focal length, pixels
+  double fy = 0.0; ///< focal length, pixels
+  double cx = 0.0; ///< principal point, pixels
+  double cy = 0.0; ///< principal point, pixels
+
+  /** \brief Pixel coordinates of a point of the sensor frame with z > 0. */
+  Eigen::Vector2d
+  project (const Eigen::Vector3d& p) const
+  {
+    return {fx * p.x () / p.z () + cx, fy * p.y () / p.z () + cy};
+  }
+
+  /** \brief Point of the sensor frame at depth \a z (metres along the optical axis). */
+  Eigen::Vector3d
+  unproject (double u, double v, double z) const
+  {
+    return {(u - cx) / fx * z, (v - cy) / fy * z, z};
+  }
+
+  /** \brief \throws InvalidArgument if the size or a focal length is not positive and finite. */
+  void
+  validate () const;
+};
+
+/** \brief One depth image and where it was taken from. */
+struct PCL_COSECTION_EXPORT DepthView
+{
+  PinholeCamera camera;
+  std::vector<float> depth; ///< width * height, row by row, metres along the optical axis; NaN: no reading
+  Eigen::Isometry3d T_world_sensor = Eigen::Isometry3d::Identity ();
+
+  float
+  at (int u, int v) const
+  {
+    return depth[static_cast<std::size_t> (v) * camera.width + u];
+  }
+};
+
+/** \brief Standard deviation of the depth of a structured-light sensor at range \a z, metres
+ * (C. Nguyen, S. Izadi, D. Lovell, "Modeling Kinect Sensor Noise for Improved 3D Reconstruction and
+ * Tracking", 3DIMPVT 2012, axial noise at small angles). */
+inline double
+depthNoiseSigma (double z)
+{
+  return 0.0012 + 0.0019 * (z - 0.4) * (z - 0.4);
+}
+
+/** \brief Least-squares pinhole of an organised cloud in its sensor frame: x/z and y/z as affine
+ * functions of the column and the row.
+ * \param[in] points width * height points, row by row; not finite: no reading
+ * \return nothing if fewer than 50 points are usable, or the residual's root mean square exceeds
+ * half a pixel (the cloud is not a pinhole's image) */
+PCL_COSECTION_EXPORT std::optional<PinholeCamera>
+fitPinholeCamera (const std::vector<Eigen::Vector3f>& points, int width, int height);
+
+} // namespace cosection
+} // namespace pcl

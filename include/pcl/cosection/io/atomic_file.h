@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_cosection authors
+#pragma once
+
+#include <pcl/cosection/common/export.h>
+
+#include <functional>
+#include <string>
+
+namespace pcl
+{
+namespace cosection
+{
+
+/** \brief Let \a write fill a file of a temporary name beside \a path, then rename it to \a path.
+ * If \a write throws, or anything fails, the temporary file is removed and \a path is untouched.
+ * \throws IoError naming \a path and the system's reason */
+PCL_COSECTION_EXPORT void
+writeAtomically (const std::string& path, const std::function<void (const std::string& temporary_path)>& write);
+
+} // namespace cosection
+} // namespace pcl

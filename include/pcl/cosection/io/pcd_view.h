@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_cosection authors
+#pragma once
+
+#include <pcl/cosection/common/camera.h>
+#include <pcl/cosection/common/export.h>
+#include <pcl/cosection/surface/oriented_point.h>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace pcl
+{
+namespace cosection
+{
+
+/** \brief How to read a PCD file as a view. */
+struct PCL_COSECTION_EXPORT PcdViewOptions
+{
+  double scale = 1.0;        ///< multiplies all coordinates, the viewpoint's too: 0.001 for millimetres
+  bool world_points = false; ///< the points are in the world frame, not in the sensor's
+  std::optional<std::array<double, 4>> intrinsics; ///< fx, fy, cx, cy in pixels, where no pinhole fits the points
+  int normal_neighbours = 20; ///< nearest points for the normals of an unorganised cloud
+  int threads = 0;            ///< 0: all
+
+  /** \brief \throws InvalidArgument naming the first parameter outside its domain. */
+  void
+  validate () const;
+};
+
+/** \brief One view of a scene: what belongs to which object, and the rays that measured it. */
+struct PCL_COSECTION_EXPORT LabelledView
+{
+  /** \brief Points of one label. */
+  struct Points
+  {
+    std::vector<OrientedPoint> points; ///< world frame, with a reliable normal
+    std::size_t readings = 0;          ///< finite points, with a normal or not
+  };
+
+  std::optional<DepthView> view;           ///< only of an organised cloud from a pinhole camera
+  std::map<std::uint32_t, Points> objects; ///< by label; 0: background
+  bool has_labels = false;                 ///< without, everything is object 1
+  bool has_colour = false;
+  std::vector<std::string> warnings; ///< one line each, naming the file
+};
+
+/** \brief Read a PCD file as one view.
+ *
+ * The points are in the sensor frame; the VIEWPOINT of the header is the pose of the sensor in the
+ * world. An organised cloud (HEIGHT > 1) gives a depth view and normals (computeOrganizedNormals ());
+ * an unorganised one has its normals in the file, or gets them from pcl::NormalEstimationOMP, per
+ * label and towards the viewpoint. Fields: x y z (floating point), label (integer; negative: ignored),
+ * rgb or rgba, normal_x normal_y normal_z; others are skipped.
+ *
+ * \throws IoError if the file is not a well formed PCD file with these fields
+ * \throws DegenerateInput if it holds no finite point
+ * \throws InvalidArgument if an option is outside its domain */
+PCL_COSECTION_EXPORT LabelledView
+readPcdView (const std::string& path, const PcdViewOptions& options = {});
+
+} // namespace cosection
+} // namespace pcl

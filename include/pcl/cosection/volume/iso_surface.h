@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_cosection authors
+#pragma once
+
+#include <pcl/cosection/common/export.h>
+#include <pcl/cosection/common/triangle_mesh.h>
+#include <pcl/cosection/volume/signed_distance_field.h>
+
+namespace pcl
+{
+namespace cosection
+{
+
+struct PCL_COSECTION_EXPORT IsoSurfaceOptions
+{
+  bool closed = true; ///< treat the outermost voxels as outside, so that the surface closes inside the volume
+  int threads = 0;    ///< 0: all
+};
+
+/** \brief Zero level set of a signed distance field as a manifold mesh, in the field's frame, with
+ * normals from the field's gradient.
+ *
+ * Marching cubes with a vertex per cut grid edge (welded by construction) and a face rule that is
+ * the same for both cells of a face. No polygon is split by a diagonal in a face of its cell, where
+ * the neighbour's diagonal might coincide with it; so every edge belongs to exactly two triangles
+ * and every vertex to one fan, for any field. Exact zeros and values that are not finite count as
+ * outside; vertices keep away from grid points, so that no triangle degenerates.
+ *
+ * With \a closed the result is a closed 2-manifold strictly inside the box of voxel centres. The
+ * order of vertices and triangles does not depend on the number of threads. */
+PCL_COSECTION_EXPORT TriangleMesh
+extractIsoSurface (const SignedDistanceField& field, const IsoSurfaceOptions& options = {});
+
+} // namespace cosection
+} // namespace pcl

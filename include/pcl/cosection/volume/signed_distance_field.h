@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_cosection authors
+#pragma once
+
+#include <pcl/cosection/common/export.h>
+#include <pcl/cosection/volume/voxel_grid.h>
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <vector>
+
+namespace pcl
+{
+namespace cosection
+{
+
+/** \brief A signed distance sampled on a grid: metres, positive outside, negative inside. */
+struct PCL_COSECTION_EXPORT SignedDistanceField
+{
+  using Ptr = std::shared_ptr<SignedDistanceField>;
+  using ConstPtr = std::shared_ptr<const SignedDistanceField>;
+
+  VoxelGrid grid;
+  std::vector<float> values;          ///< metres, one per voxel
+  std::vector<std::uint8_t> supported; ///< 1 where the value is evidence rather than extrapolation; empty: everywhere
+
+  /** \brief Trilinear interpolation at \a p (metres, the grid's frame); nothing outside the voxel
+   * centres' box. */
+  std::optional<float>
+  sample (const Eigen::Vector3d& p) const;
+
+  /** \brief As sample (), and nothing where the nearest voxel is not supported. */
+  std::optional<float>
+  sampleSupported (const Eigen::Vector3d& p) const;
+};
+
+} // namespace cosection
+} // namespace pcl
