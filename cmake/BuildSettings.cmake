@@ -1,0 +1,38 @@
+# How this project compiles its own code. Nothing here is exported.
+
+if(NOT CMAKE_BUILD_TYPE AND NOT CMAKE_CONFIGURATION_TYPES)
+  set(CMAKE_BUILD_TYPE Release CACHE STRING "Debug, Release, RelWithDebInfo or MinSizeRel" FORCE)
+endif()
+
+set(CMAKE_CXX_STANDARD 17)
+set(CMAKE_CXX_STANDARD_REQUIRED ON)
+set(CMAKE_CXX_EXTENSIONS OFF)
+set(CMAKE_CXX_VISIBILITY_PRESET hidden)
+set(CMAKE_VISIBILITY_INLINES_HIDDEN ON)
+set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
+
+set(CMAKE_RUNTIME_OUTPUT_DIRECTORY "${PROJECT_BINARY_DIR}/bin")
+set(CMAKE_LIBRARY_OUTPUT_DIRECTORY "${PROJECT_BINARY_DIR}/lib")
+
+find_program(CCACHE_PROGRAM ccache)
+mark_as_advanced(CCACHE_PROGRAM)
+if(CCACHE_PROGRAM AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
+  set(CMAKE_CXX_COMPILER_LAUNCHER "${CCACHE_PROGRAM}")
+endif()
+
+# Linked by every target of this project. PCL's components and VTK's modules name libraries that
+# we do not use; --as-needed keeps them out of our files.
+add_library(pcl_cosection_build_settings INTERFACE)
+target_compile_options(pcl_cosection_build_settings INTERFACE -Wall -Wextra)
+if(UNIX AND NOT APPLE)
+  target_link_options(pcl_cosection_build_settings INTERFACE -Wl,--as-needed -Wl,--no-undefined)
+endif()
+
+if(PCL_COSECTION_SANITIZE)
+  # Functions compiled for several processors are chosen by the loader before the sanitizers are
+  # ready, so there is one version only.
+  target_compile_definitions(pcl_cosection_build_settings INTERFACE PCL_COSECTION_NO_MULTIVERSIONING)
+  target_compile_options(pcl_cosection_build_settings INTERFACE
+    -fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer -g1)
+  target_link_options(pcl_cosection_build_settings INTERFACE -fsanitize=address,undefined)
+endif()
