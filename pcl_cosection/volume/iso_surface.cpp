@@ -7,6 +7,8 @@
 #include <pcl/cosection/common/parallel.h>
 #include <pcl/cosection/volume/iso_surface.h>
 
+#include <Eigen/Geometry>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
