@@ -1,0 +1,207 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_cosection authors
+#include "pcd_cloud.h"
+
+#include "pcd_header.h"
+#include "quiet_console.h"
+
+#include <pcl/cosection/common/error.h>
+
+#include <pcl/PCLPointCloud2.h>
+#include <pcl/io/pcd_io.h>
+
+#include <cmath>
+#include <cstring>
+#include <limits>
+
+namespace pcl
+{
+namespace cosection
+{
+
+namespace
+{
+
+constexpr float nan_value = std::numeric_limits<float>::quiet_NaN ();
+
+/** \brief One field of a loaded cloud, any numeric type. */
+class Column
+{
+public:
+  Column (const std::string& path, const PCLPointCloud2& cloud, const PcdField& field)
+  : data_ (cloud.data.data ()), step_ (cloud.point_step), type_ (field.type), size_ (field.size)
+  {
+    for (const PCLPointField& f : cloud.fields)
+      if (f.name == field.name)
+      {
+        offset_ = f.offset;
+        if (offset_ + size_ <= step_)
+          return;
+      }
+    throw IoError (path + ": field " + field.name + " cannot be read");
+  }
+
+  double
+  real (std::size_t i) const
+  {
+    return (size_ == 4 ? static_cast<double> (load<float> (i)) : load<double> (i));
+  }
+
+  std::int64_t
+  integer (std::size_t i) const
+  {
+    switch (size_)
+    {
+      case 1: return (type_ == 'I' ? load<std::int8_t> (i) : load<std::uint8_t> (i));
+      case 2: return (type_ == 'I' ? load<std::int16_t> (i) : load<std::uint16_t> (i));
+      case 4: return (type_ == 'I' ? load<std::int32_t> (i) : static_cast<std::int64_t> (load<std::uint32_t> (i)));
+      default: return (load<std::int64_t> (i));
+    }
+  }
+
+  std::uint32_t
+  bits (std::size_t i) const
+  {
+    return (load<std::uint32_t> (i));
+  }
+
+private:
+  template <typename T> T
+  load (std::size_t i) const
+  {
+    T value;
+    std::memcpy (&value, data_ + i * step_ + offset_, sizeof (T));
+    return (value);
+  }
+
+  const std::uint8_t* data_;
+  std::size_t step_;
+  std::size_t offset_ = 0;
+  char type_;
+  std::size_t size_;
+};
+
+PCLPointCloud2
+loadCloud (const std::string& path, const PcdHeader& header)
+{
+  const QuietConsole quiet;
+  PCLPointCloud2 cloud;
+  Eigen::Vector4f origin;
+  Eigen::Quaternionf orientation;
+  int version = 0, status = -1;
+  try
+  {
+    status = PCDReader ().read (path, cloud, origin, orientation, version);
+  }
+  catch (const std::bad_alloc&)
+  {
+    throw;
+  }
+  catch (const std::exception&)
+  {
+    status = -1;
+  }
+  if (status < 0 || cloud.data.size () < header.points * cloud.point_step)
+    throw IoError (path + ": its points cannot be decoded; the file is damaged");
+  return (cloud);
+}
+
+const PcdField&
+requireReal (const std::string& path, const PcdHeader& header, const std::string& name)
+{
+  const PcdField* field = header.find (name);
+  if (!field)
+    throw IoError (path + ": has no field " + name + "; fields x, y and z are needed");
+  if (field->type != 'F' || field->count != 1)
+    throw IoError (path + ": field " + name + " must be one floating point number (TYPE F, COUNT 1)");
+  return (*field);
+}
+
+/** \brief Three fields as vectors. */
+std::vector<Eigen::Vector3f>
+readVectors (const std::string& path, const PcdHeader& header, const PCLPointCloud2& cloud,
+             const std::array<std::string, 3>& names, const Eigen::Affine3d& transform)
+{
+  const std::array<Column, 3> columns = {Column (path, cloud, requireReal (path, header, names[0])),
+                                         Column (path, cloud, requireReal (path, header, names[1])),
+                                         Column (path, cloud, requireReal (path, header, names[2]))};
+  std::vector<Eigen::Vector3f> vectors (header.points);
+  for (std::size_t i = 0; i < vectors.size (); ++i)
+  {
+    const Eigen::Vector3d v (columns[0].real (i), columns[1].real (i), columns[2].real (i));
+    vectors[i] = (transform * v).cast<float> ();
+    if (!std::isfinite (vectors[i].squaredNorm ()))
+      vectors[i].setConstant (nan_value);
+  }
+  return (vectors);
+}
+
+void
+readLabels (const std::string& path, const PCLPointCloud2& cloud, const PcdField& field, SensorCloud& result)
+{
+  if (field.type == 'F' || field.count != 1)
+    throw IoError (path + ": field label must be one integer (TYPE U or I, COUNT 1)");
+  const Column column (path, cloud, field);
+  for (std::size_t i = 0; i < result.labels.size (); ++i)
+  {
+    const std::int64_t label = column.integer (i);
+    if (label > std::numeric_limits<std::int32_t>::max ())
+      throw IoError (path + ": label " + std::to_string (label) + " is too large, the largest is 2147483647");
+    if (label >= 0)
+      result.labels[i] = static_cast<std::uint32_t> (label);
+    else if (result.positions[i].allFinite ())
+    {
+      result.positions[i].setConstant (nan_value);
+      ++result.ignored;
+    }
+  }
+}
+
+} // namespace
+
+SensorCloud
+readSensorCloud (const std::string& path, const PcdViewOptions& options)
+{
+  const PcdHeader header = readPcdHeader (path);
+  for (const char* name : {"x", "y", "z"})
+    requireReal (path, header, name);
+  const PCLPointCloud2 cloud = loadCloud (path, header);
+
+  SensorCloud result;
+  result.width = static_cast<int> (header.width);
+  result.height = static_cast<int> (header.height);
+  const auto& v = header.viewpoint;
+  result.T_world_sensor.linear () = Eigen::Quaterniond (v[3], v[4], v[5], v[6]).normalized ().toRotationMatrix ();
+  result.T_world_sensor.translation () = options.scale * Eigen::Vector3d (v[0], v[1], v[2]);
+  const Eigen::Isometry3d T_sensor_points =
+      options.world_points ? result.T_world_sensor.inverse () : Eigen::Isometry3d::Identity ();
+
+  result.positions = readVectors (path, header, cloud, {"x", "y", "z"},
+                                  Eigen::Affine3d (T_sensor_points) * Eigen::Scaling (options.scale));
+  if (header.find ("normal_x") && header.find ("normal_y") && header.find ("normal_z"))
+    result.normals = readVectors (path, header, cloud, {"normal_x", "normal_y", "normal_z"},
+                                  Eigen::Affine3d (Eigen::Affine3d::MatrixType (
+                                      Eigen::Isometry3d (T_sensor_points.rotation ()).matrix ())));
+  result.labels.assign (header.points, 1);
+  if (const PcdField* label = header.find ("label"))
+  {
+    result.has_labels = true;
+    readLabels (path, cloud, *label, result);
+  }
+  const PcdField* colour = header.find ("rgb") ? header.find ("rgb") : header.find ("rgba");
+  if (colour && colour->size == 4 && colour->count == 1)
+  {
+    const Column column (path, cloud, *colour);
+    result.colours.resize (header.points);
+    for (std::size_t i = 0; i < result.colours.size (); ++i)
+    {
+      const std::uint32_t bits = column.bits (i); // 0xAARRGGBB, whether the field is declared F or U
+      result.colours[i] = {static_cast<std::uint8_t> (bits >> 16), static_cast<std::uint8_t> (bits >> 8),
+                           static_cast<std::uint8_t> (bits)};
+    }
+  }
+  return (result);
+}
+
+} // namespace cosection
+} // namespace pcl

@@ -1,0 +1,210 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_cosection authors
+#include <pcl/cosection/io/pcd_view.h>
+
+#include "pcd_cloud.h"
+#include "quiet_console.h"
+
+#include <pcl/cosection/common/error.h>
+#include <pcl/cosection/common/parallel.h>
+#include <pcl/cosection/surface/organized_normals.h>
+
+#include <pcl/features/normal_3d_omp.h>
+#include <pcl/point_types.h>
+#include <pcl/search/kdtree.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <sstream>
+#include <utility>
+
+namespace pcl
+{
+namespace cosection
+{
+
+namespace
+{
+
+constexpr float nan_value = std::numeric_limits<float>::quiet_NaN ();
+constexpr double millimetre_extent = 100.0; ///< metres; a scene this large is probably not in metres
+constexpr double intrinsics_tolerance_px = 2.0;
+
+/** \brief Root mean square distance of the points from their pixels under a camera. */
+double
+reprojectionError (const SensorCloud& cloud, const PinholeCamera& camera)
+{
+  double sum = 0.0;
+  std::size_t count = 0;
+  for (int v = 0; v < cloud.height; ++v)
+    for (int u = 0; u < cloud.width; ++u)
+    {
+      const Eigen::Vector3f& p = cloud.positions[static_cast<std::size_t> (v) * cloud.width + u];
+      if (!(p.z () > 0.0f))
+        continue;
+      sum += (camera.project (p.cast<double> ()) - Eigen::Vector2d (u, v)).squaredNorm ();
+      ++count;
+    }
+  return (count == 0 ? std::numeric_limits<double>::infinity () : std::sqrt (sum / static_cast<double> (count)));
+}
+
+void
+addRays (const std::string& path, const PcdViewOptions& options, const SensorCloud& cloud, LabelledView& result)
+{
+  std::optional<PinholeCamera> camera = fitPinholeCamera (cloud.positions, cloud.width, cloud.height);
+  if (!camera && options.intrinsics)
+  {
+    const auto& k = *options.intrinsics;
+    camera = PinholeCamera{cloud.width, cloud.height, k[0], k[1], k[2], k[3]};
+    const double error = reprojectionError (cloud, *camera);
+    if (!(error <= intrinsics_tolerance_px))
+    {
+      std::ostringstream text;
+      text.precision (3);
+      text << path << ": the points are " << error << " pixels off the given intrinsics; its free space may be wrong";
+      result.warnings.push_back (text.str ());
+    }
+  }
+  if (!camera)
+  {
+    result.warnings.push_back (path + ": organised, but not the image of a pinhole camera in the sensor frame: no free " +
+                               "space is taken from it (give --intrinsics, or --world-points if the points are in the " +
+                               "world frame)");
+    return;
+  }
+  DepthView view;
+  view.camera = *camera;
+  view.T_world_sensor = cloud.T_world_sensor;
+  view.depth.resize (cloud.positions.size ());
+  for (std::size_t i = 0; i < view.depth.size (); ++i)
+    view.depth[i] = cloud.positions[i].z () > 0.0f ? cloud.positions[i].z () : nan_value;
+  result.view = std::move (view);
+}
+
+/** \brief Normals of the points of one label, towards the sensor. */
+void
+estimateNormals (const PcdViewOptions& options, const std::vector<std::size_t>& members, SensorCloud& cloud)
+{
+  if (members.size () < 3)
+    return;
+  auto points = pcl::make_shared<PointCloud<PointXYZ>> ();
+  for (const std::size_t i : members)
+    points->emplace_back (cloud.positions[i].x (), cloud.positions[i].y (), cloud.positions[i].z ());
+  const QuietConsole quiet;
+  NormalEstimationOMP<PointXYZ, Normal> estimation (static_cast<unsigned int> (resolveThreads (options.threads)));
+  estimation.setInputCloud (points);
+  estimation.setSearchMethod (pcl::make_shared<search::KdTree<PointXYZ>> ());
+  estimation.setKSearch (std::min (options.normal_neighbours, static_cast<int> (members.size ())));
+  estimation.setViewPoint (0.0f, 0.0f, 0.0f);
+  PointCloud<Normal> normals;
+  estimation.compute (normals);
+  for (std::size_t k = 0; k < members.size (); ++k)
+    cloud.normals[members[k]] = normals[k].getNormalVector3fMap ();
+}
+
+/** \brief Normals of an unorganised cloud without any. */
+void
+estimateNormals (const std::string& path, const PcdViewOptions& options, SensorCloud& cloud, LabelledView& result)
+{
+  cloud.normals.assign (cloud.positions.size (), Eigen::Vector3f::Constant (nan_value));
+  std::map<std::uint32_t, std::vector<std::size_t>> members;
+  Eigen::AlignedBox3f box;
+  for (std::size_t i = 0; i < cloud.positions.size (); ++i)
+    if (cloud.positions[i].allFinite ())
+    {
+      members[cloud.labels[i]].push_back (i);
+      box.extend (cloud.positions[i]);
+    }
+  for (const auto& [label, indices] : members)
+    estimateNormals (options, indices, cloud);
+  if (box.contains (Eigen::Vector3f::Zero ().eval ()))
+    result.warnings.push_back (path + ": normals are turned towards the VIEWPOINT, which lies among the points: set the " +
+                               "VIEWPOINT, or add fields normal_x normal_y normal_z");
+}
+
+/** \brief Sort the points by label, in the world frame. */
+void
+collectObjects (const SensorCloud& cloud, LabelledView& result)
+{
+  const Eigen::Isometry3d& T = cloud.T_world_sensor;
+  for (std::size_t i = 0; i < cloud.positions.size (); ++i)
+  {
+    if (!cloud.positions[i].allFinite ())
+      continue;
+    LabelledView::Points& object = result.objects[cloud.labels[i]];
+    ++object.readings;
+    const Eigen::Vector3d normal = cloud.normals[i].cast<double> ();
+    if (!(normal.squaredNorm () > 1e-6)) // NaN or zero
+      continue;
+    OrientedPoint point;
+    point.position = (T * cloud.positions[i].cast<double> ()).cast<float> ();
+    point.normal = (T.linear () * normal.normalized ()).cast<float> ();
+    if (result.has_colour)
+      point.colour = cloud.colours[i];
+    object.points.push_back (point);
+  }
+}
+
+void
+checkExtent (const std::string& path, const SensorCloud& cloud, LabelledView& result)
+{
+  Eigen::AlignedBox3f box;
+  for (const Eigen::Vector3f& p : cloud.positions)
+    if (p.allFinite ())
+      box.extend (p);
+  if (box.isEmpty ())
+    throw DegenerateInput (path + ": none of its " + std::to_string (cloud.positions.size ()) + " points is finite");
+  const double extent = box.sizes ().maxCoeff ();
+  if (extent > millimetre_extent)
+  {
+    std::ostringstream text;
+    text.precision (3);
+    text << path << ": extends over " << extent << " m; if its unit is the millimetre, give --scale 0.001";
+    result.warnings.push_back (text.str ());
+  }
+}
+
+} // namespace
+
+void
+PcdViewOptions::validate () const
+{
+  if (!(std::isfinite (scale) && scale > 0.0))
+    throw InvalidArgument ("scale must be positive and finite");
+  if (normal_neighbours < 3)
+    throw InvalidArgument ("normal_neighbours must be at least 3");
+  if (intrinsics)
+    PinholeCamera{1, 1, (*intrinsics)[0], (*intrinsics)[1], (*intrinsics)[2], (*intrinsics)[3]}.validate ();
+}
+
+LabelledView
+readPcdView (const std::string& path, const PcdViewOptions& options)
+{
+  options.validate ();
+  SensorCloud cloud = readSensorCloud (path, options);
+  if (cloud.height > 1)
+    for (Eigen::Vector3f& p : cloud.positions) // some sensors write a missing reading as zero
+      if (p.isZero (0.0f))
+        p.setConstant (nan_value);
+  LabelledView result;
+  checkExtent (path, cloud, result);
+  result.has_labels = cloud.has_labels;
+  result.has_colour = !cloud.colours.empty ();
+  if (cloud.ignored > 0)
+    result.warnings.push_back (path + ": " + std::to_string (cloud.ignored) + " points of negative label are ignored");
+  if (cloud.height > 1)
+  {
+    addRays (path, options, cloud, result);
+    OrganizedNormalsOptions normal_options;
+    normal_options.threads = options.threads;
+    cloud.normals = computeOrganizedNormals (cloud.positions, cloud.width, cloud.height, cloud.labels, normal_options);
+  }
+  else if (cloud.normals.empty ())
+    estimateNormals (path, options, cloud, result);
+  collectObjects (cloud, result);
+  return (result);
+}
+
+} // namespace cosection
+} // namespace pcl

@@ -1,0 +1,384 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_cosection authors
+#include <pcl/cosection/common/error.h>
+#include <pcl/cosection/io/pcd_view.h>
+
+#include <pcl/io/pcd_io.h>
+#include <pcl/point_types.h>
+
+#include <gtest/gtest.h>
+
+#include <unistd.h>
+
+#include <cmath>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <limits>
+#include <random>
+
+using namespace pcl::cosection;
+
+namespace
+{
+
+constexpr float nan_value = std::numeric_limits<float>::quiet_NaN ();
+
+class PcdView : public testing::Test
+{
+protected:
+  PcdView ()
+  : folder_ (std::filesystem::temp_directory_path () /
+             ("pcd_view_" + std::to_string (getpid ()) + "_" +
+              testing::UnitTest::GetInstance ()->current_test_info ()->name ()))
+  {
+    std::filesystem::create_directories (folder_);
+  }
+
+  ~PcdView () override
+  {
+    std::filesystem::remove_all (folder_);
+  }
+
+  std::string
+  path (const std::string& name) const
+  {
+    return ((folder_ / name).string ());
+  }
+
+  std::string
+  write (const std::string& content, const std::string& name = "cloud.pcd") const
+  {
+    std::ofstream (path (name), std::ios::binary) << content;
+    return (path (name));
+  }
+
+  /** \brief The message of the error that reading \a file gives. */
+  template <typename Expected> std::string
+  failure (const std::string& file, const PcdViewOptions& options = {}) const
+  {
+    try
+    {
+      readPcdView (file, options);
+    }
+    catch (const Expected& error)
+    {
+      const std::string message = error.what ();
+      EXPECT_EQ (message.find ('\n'), std::string::npos) << message;
+      EXPECT_NE (message.find (file), std::string::npos) << message;
+      return (message);
+    }
+    ADD_FAILURE () << "no error for " << file;
+    return ("");
+  }
+
+  std::filesystem::path folder_;
+};
+
+/** \brief A header of float fields x y z and what else is given. */
+std::string
+header (int width, int height, const std::string& data = "ascii", const std::string& fields = "x y z",
+        const std::string& size = "4 4 4", const std::string& type = "F F F", const std::string& viewpoint = "0 0 0 1 0 0 0")
+{
+  std::string count;
+  for (std::size_t i = 0; i < type.size (); i += 2)
+    count += " 1";
+  return ("# .PCD v0.7\nVERSION 0.7\nFIELDS " + fields + "\nSIZE " + size + "\nTYPE " + type + "\nCOUNT" + count + "\nWIDTH " +
+          std::to_string (width) + "\nHEIGHT " + std::to_string (height) + "\nVIEWPOINT " + viewpoint + "\nPOINTS " +
+          std::to_string (width * height) + "\nDATA " + data + "\n");
+}
+
+/** \brief A plane at depth 1 seen by a pinhole, label 0 on the left and 7 on the right. */
+pcl::PointCloud<pcl::PointXYZRGBL>
+organizedPlane ()
+{
+  const PinholeCamera camera{64, 48, 60.0, 62.0, 31.0, 24.0};
+  pcl::PointCloud<pcl::PointXYZRGBL> cloud (64, 48);
+  for (int v = 0; v < 48; ++v)
+    for (int u = 0; u < 64; ++u)
+    {
+      auto& p = cloud.at (u, v);
+      p.getVector3fMap () = camera.unproject (u, v, 1.0).cast<float> ();
+      p.r = 10;
+      p.g = 20;
+      p.b = 30;
+      p.label = u < 32 ? 0 : 7;
+    }
+  return (cloud);
+}
+
+/** \brief Points on a sphere's lower half at (0, 0, 2), as a sensor at the origin sees it. */
+pcl::PointCloud<pcl::PointXYZ>
+hemisphere (int count)
+{
+  std::mt19937 generator (5);
+  std::normal_distribution<float> gauss;
+  pcl::PointCloud<pcl::PointXYZ> cloud;
+  for (int i = 0; i < count; ++i)
+  {
+    Eigen::Vector3f n (gauss (generator), gauss (generator), gauss (generator));
+    n.normalize ();
+    n.z () = -std::abs (n.z ());
+    if (n.z () > -0.3f) // the sensor does not see the rim
+      continue;
+    const Eigen::Vector3f p = Eigen::Vector3f (0.0f, 0.0f, 2.0f) + 0.3f * n;
+    cloud.emplace_back (p.x (), p.y (), p.z ());
+  }
+  return (cloud);
+}
+
+} // namespace
+
+TEST_F (PcdView, OrganizedGivesRaysNormalsLabelsAndColours)
+{
+  auto cloud = organizedPlane ();
+  cloud.at (5, 6).x = nan_value;
+  cloud.sensor_origin_ = Eigen::Vector4f (1.0f, 2.0f, 3.0f, 0.0f);
+  cloud.sensor_orientation_ = Eigen::Quaternionf (Eigen::AngleAxisf (0.5f, Eigen::Vector3f::UnitX ()));
+  pcl::io::savePCDFileBinary (path ("a.pcd"), cloud);
+  pcl::io::savePCDFileBinaryCompressed (path ("b.pcd"), cloud);
+  pcl::io::savePCDFileASCII (path ("c.pcd"), cloud);
+  const Eigen::Isometry3d T = Eigen::Translation3d (1, 2, 3) * Eigen::AngleAxisd (0.5, Eigen::Vector3d::UnitX ());
+  for (const char* name : {"a.pcd", "b.pcd", "c.pcd"})
+  {
+    SCOPED_TRACE (name);
+    const LabelledView view = readPcdView (path (name));
+    EXPECT_TRUE (view.warnings.empty ());
+    EXPECT_TRUE (view.has_labels);
+    EXPECT_TRUE (view.has_colour);
+    ASSERT_EQ (view.objects.size (), 2u);
+    EXPECT_EQ (view.objects.at (0).readings, 32u * 48u - 1u);
+    EXPECT_EQ (view.objects.at (7).readings, 32u * 48u);
+    ASSERT_GT (view.objects.at (7).points.size (), 1400u);
+    for (const OrientedPoint& p : view.objects.at (7).points)
+    {
+      EXPECT_NEAR ((T.inverse () * p.position.cast<double> ()).z (), 1.0, 1e-5);
+      EXPECT_LT ((p.normal.cast<double> () + T.linear ().col (2)).norm (), 1e-3);
+      EXPECT_EQ (p.colour, (std::array<std::uint8_t, 3>{10, 20, 30}));
+      EXPECT_EQ (p.weight, 1.0f);
+    }
+    ASSERT_TRUE (view.view);
+    EXPECT_NEAR (view.view->camera.fx, 60.0, 1e-3);
+    EXPECT_NEAR (view.view->camera.cy, 24.0, 1e-3);
+    EXPECT_TRUE (view.view->T_world_sensor.isApprox (T, 1e-6));
+    EXPECT_NEAR (view.view->at (40, 40), 1.0f, 1e-5f);
+    EXPECT_TRUE (std::isnan (view.view->at (5, 6)));
+  }
+}
+
+TEST_F (PcdView, WorldPointsMoveToTheSensor)
+{
+  auto cloud = organizedPlane ();
+  pcl::io::savePCDFileBinary (path ("sensor.pcd"), cloud);
+  const Eigen::Isometry3f T = Eigen::Translation3f (0.3f, -2.0f, 1.0f) * Eigen::AngleAxisf (2.0f, Eigen::Vector3f (1, 2, 3).normalized ());
+  for (auto& p : cloud)
+    p.getVector3fMap () = T * Eigen::Vector3f (p.getVector3fMap ());
+  cloud.sensor_origin_.head<3> () = T.translation ();
+  cloud.sensor_orientation_ = Eigen::Quaternionf (T.linear ());
+  pcl::io::savePCDFileBinary (path ("world.pcd"), cloud);
+  PcdViewOptions options;
+  options.world_points = true;
+  const LabelledView view = readPcdView (path ("world.pcd"), options);
+  ASSERT_TRUE (view.view);
+  EXPECT_NEAR (view.view->camera.fx, 60.0, 0.01);
+  EXPECT_NEAR (view.view->at (3, 3), 1.0f, 1e-4f);
+  const OrientedPoint& p = view.objects.at (7).points.front ();
+  const OrientedPoint& q = readPcdView (path ("sensor.pcd")).objects.at (7).points.front ();
+  EXPECT_LT ((p.position - T * q.position).norm (), 1e-4f);
+  EXPECT_LT ((p.normal - T.linear () * q.normal).norm (), 1e-3f);
+}
+
+TEST_F (PcdView, ScaleTurnsMillimetresIntoMetres)
+{
+  auto cloud = organizedPlane ();
+  for (auto& p : cloud)
+    p.getVector3fMap () *= 1000.0f;
+  cloud.sensor_origin_ = Eigen::Vector4f (500.0f, 0.0f, 0.0f, 0.0f);
+  pcl::io::savePCDFileBinary (path ("mm.pcd"), cloud);
+  const LabelledView unscaled = readPcdView (path ("mm.pcd"));
+  ASSERT_FALSE (unscaled.warnings.empty ());
+  EXPECT_NE (unscaled.warnings[0].find ("--scale 0.001"), std::string::npos);
+  PcdViewOptions options;
+  options.scale = 0.001;
+  const LabelledView view = readPcdView (path ("mm.pcd"), options);
+  EXPECT_TRUE (view.warnings.empty ());
+  EXPECT_NEAR (view.view->at (3, 3), 1.0f, 1e-5f);
+  EXPECT_NEAR (view.view->T_world_sensor.translation ().x (), 0.5, 1e-6);
+}
+
+TEST_F (PcdView, NoPinholeNoRaysUnlessIntrinsicsAreGiven)
+{
+  auto cloud = organizedPlane ();
+  std::mt19937 generator (1);
+  std::uniform_real_distribution<float> jitter (-0.05f, 0.05f); // three pixels
+  for (auto& p : cloud)
+    p.x += jitter (generator);
+  pcl::io::savePCDFileBinary (path ("a.pcd"), cloud);
+  LabelledView view = readPcdView (path ("a.pcd"));
+  EXPECT_FALSE (view.view);
+  ASSERT_EQ (view.warnings.size (), 1u);
+  EXPECT_NE (view.warnings[0].find ("--intrinsics"), std::string::npos);
+  PcdViewOptions options;
+  options.intrinsics = {60.0, 62.0, 31.0, 24.0};
+  view = readPcdView (path ("a.pcd"), options);
+  ASSERT_TRUE (view.view);
+  EXPECT_EQ (view.view->camera.fy, 62.0);
+  EXPECT_TRUE (view.warnings.empty ());
+  options.intrinsics = {30.0, 30.0, 31.0, 24.0};
+  view = readPcdView (path ("a.pcd"), options);
+  ASSERT_EQ (view.warnings.size (), 1u);
+  EXPECT_NE (view.warnings[0].find ("off the given intrinsics"), std::string::npos);
+}
+
+TEST_F (PcdView, ZeroIsNoReadingInAnOrganizedCloud)
+{
+  auto cloud = organizedPlane ();
+  cloud.at (40, 10).getVector3fMap ().setZero ();
+  pcl::io::savePCDFileBinary (path ("a.pcd"), cloud);
+  const LabelledView view = readPcdView (path ("a.pcd"));
+  EXPECT_EQ (view.objects.at (7).readings, 32u * 48u - 1u);
+  EXPECT_TRUE (std::isnan (view.view->at (40, 10)));
+}
+
+TEST_F (PcdView, UnorganizedGetsNormalsTowardsTheSensor)
+{
+  pcl::io::savePCDFileBinary (path ("a.pcd"), hemisphere (3000));
+  const LabelledView view = readPcdView (path ("a.pcd"));
+  EXPECT_FALSE (view.view);
+  EXPECT_FALSE (view.has_labels);
+  EXPECT_FALSE (view.has_colour);
+  EXPECT_TRUE (view.warnings.empty ());
+  ASSERT_EQ (view.objects.size (), 1u);
+  int good = 0;
+  for (const OrientedPoint& p : view.objects.at (1).points)
+    good += p.normal.dot ((p.position - Eigen::Vector3f (0, 0, 2)).normalized ()) > 0.9f;
+  EXPECT_GT (good, 0.98 * static_cast<double> (view.objects.at (1).points.size ()));
+}
+
+TEST_F (PcdView, SensorAmongThePointsIsWarnedOf)
+{
+  auto cloud = hemisphere (500);
+  for (auto& p : cloud)
+    p.z -= 1.8f;
+  pcl::io::savePCDFileBinary (path ("a.pcd"), cloud);
+  const LabelledView view = readPcdView (path ("a.pcd"));
+  ASSERT_EQ (view.warnings.size (), 1u);
+  EXPECT_NE (view.warnings[0].find ("VIEWPOINT"), std::string::npos);
+}
+
+TEST_F (PcdView, NormalsOfTheFileAreKept)
+{
+  const std::string file = write (header (3, 1, "ascii", "x y z normal_x normal_y normal_z", "4 4 4 4 4 4", "F F F F F F",
+                                          "0 0 5 0 1 0 0") +
+                                  "1 2 3 0 0 2\n4 5 6 nan nan nan\n7 8 9 0 0 0\n");
+  const LabelledView view = readPcdView (file);
+  EXPECT_EQ (view.objects.at (1).readings, 3u);
+  ASSERT_EQ (view.objects.at (1).points.size (), 1u); // normals of no length are none
+  EXPECT_TRUE (view.objects.at (1).points[0].normal.isApprox (-Eigen::Vector3f::UnitZ (), 1e-6f));
+  EXPECT_TRUE (view.objects.at (1).points[0].position.isApprox (Eigen::Vector3f (1, -2, 2), 1e-6f));
+}
+
+TEST_F (PcdView, LabelsOfAnyIntegerTypeAndDoubles)
+{
+  const auto read = [this] (const std::string& label, const std::string& size, const std::string& type) {
+    return (readPcdView (write (header (2, 1, "ascii", "label x y z", size + " 8 8 8", type + " F F F") + label +
+                                " 1 2 3\n-0 4 5 6\n")));
+  };
+  EXPECT_EQ (read ("200", "1", "U").objects.count (200), 1u);
+  EXPECT_EQ (read ("100", "1", "I").objects.count (100), 1u);
+  EXPECT_EQ (read ("40000", "2", "U").objects.count (40000), 1u);
+  EXPECT_EQ (read ("3000000", "4", "I").objects.count (3000000), 1u);
+  EXPECT_EQ (read ("3000000", "8", "U").objects.count (3000000), 1u);
+  const LabelledView negative = read ("-1", "4", "I");
+  EXPECT_EQ (negative.objects.size (), 1u);
+  ASSERT_FALSE (negative.warnings.empty ());
+  EXPECT_NE (negative.warnings[0].find ("negative label"), std::string::npos);
+}
+
+TEST_F (PcdView, BadFilesAreRefusedInOneLine)
+{
+  EXPECT_NE (failure<IoError> (path ("missing.pcd")).find ("no such file"), std::string::npos);
+  EXPECT_NE (failure<IoError> (folder_.string ()).find ("directory"), std::string::npos);
+  EXPECT_NE (failure<IoError> (write ("")).find ("empty"), std::string::npos);
+  EXPECT_NE (failure<IoError> (write ("ply\nformat ascii 1.0\n")).find ("not a PCD"), std::string::npos);
+  EXPECT_NE (failure<IoError> (write (std::string (100000, '\x7f'))).find ("not a PCD"), std::string::npos);
+  EXPECT_NE (failure<IoError> (write ("# .PCD\nVERSION 0.7\n")).find ("no DATA"), std::string::npos);
+  EXPECT_NE (failure<DegenerateInput> (write (header (0, 1))).find ("no points"), std::string::npos);
+  EXPECT_NE (failure<DegenerateInput> (write (header (2, 1) + "nan nan nan\nnan nan nan\n")).find ("finite"), std::string::npos);
+  EXPECT_NE (failure<IoError> (write (header (1, 1, "ascii", "x y w") + "1 2 3\n")).find ("no field z"), std::string::npos);
+  EXPECT_NE (failure<IoError> (write (header (1, 1, "ascii", "x y z", "4 4 4", "I I I") + "1 2 3\n")).find ("TYPE F"),
+             std::string::npos);
+  EXPECT_NE (failure<IoError> (write (header (1, 1, "ascii", "x y z label", "4 4 4 4", "F F F F") + "1 2 3 4\n")).find ("integer"),
+             std::string::npos);
+  EXPECT_NE (failure<IoError> (write (header (1, 1, "ascii", "x y z", "4 4 3") + "1 2 3\n")).find ("SIZE"), std::string::npos);
+  EXPECT_NE (failure<IoError> (write (header (1, 1, "gzip") + "1 2 3\n")).find ("ascii, binary"), std::string::npos);
+  EXPECT_NE (failure<IoError> (write (header (1, 1, "ascii", "x y z", "4 4 4", "F F F", "0 0 0 0 0 0 0") + "1 2 3\n")).find ("VIEWPOINT"),
+             std::string::npos);
+  EXPECT_NE (failure<IoError> (write (header (2, 1) + "1 2 3\n1 2 x\n")).find ("not a number"), std::string::npos);
+  EXPECT_NE (failure<IoError> (write (header (2, 1) + "1 2 3\n1 2 3 4\n")).find ("4 values"), std::string::npos);
+  EXPECT_NE (failure<IoError> (write (header (3, 1) + "1 2 3 \n1 2 3     \n")).find ("truncated"), std::string::npos);
+  EXPECT_NE (failure<IoError> (write (header (40000, 40000, "binary") + "abc")).find ("truncated"), std::string::npos);
+  std::string absurd = header (7, 1, "binary");
+  absurd.replace (absurd.find ("WIDTH 7"), 7, "WIDTH 99999999999999999999");
+  EXPECT_NE (failure<IoError> (write (absurd)).find ("WIDTH"), std::string::npos);
+  absurd = header (7, 1, "binary");
+  absurd.replace (absurd.find ("WIDTH 7"), 7, "WIDTH -7");
+  EXPECT_NE (failure<IoError> (write (absurd)).find ("WIDTH"), std::string::npos);
+}
+
+TEST_F (PcdView, DamagedFilesNeverCrash)
+{
+  auto cloud = organizedPlane ();
+  pcl::io::savePCDFileBinary (path ("binary.pcd"), cloud);
+  pcl::io::savePCDFileBinaryCompressed (path ("compressed.pcd"), cloud);
+  cloud.resize (50);
+  pcl::io::savePCDFileASCII (path ("ascii.pcd"), cloud);
+  std::mt19937 generator (7);
+  int refused = 0;
+  for (const char* name : {"binary.pcd", "compressed.pcd", "ascii.pcd"})
+  {
+    std::ifstream file (path (name), std::ios::binary);
+    const std::string good ((std::istreambuf_iterator<char> (file)), {});
+    for (int trial = 0; trial < 60; ++trial)
+    {
+      std::string bad = good;
+      if (trial % 3 == 0)
+        bad.resize (generator () % good.size ());
+      else
+        for (int k = 0; k < 3; ++k) // in the header, or right after it
+          bad[generator () % std::min<std::size_t> (bad.size (), trial % 3 == 1 ? 180 : 400)] = static_cast<char> (generator ());
+      try
+      {
+        readPcdView (write (bad));
+      }
+      catch (const Error&)
+      {
+        ++refused;
+      }
+    }
+  }
+  EXPECT_GT (refused, 60);
+}
+
+TEST_F (PcdView, SameForAnyNumberOfThreads)
+{
+  pcl::io::savePCDFileBinary (path ("a.pcd"), hemisphere (2000));
+  PcdViewOptions options;
+  options.threads = 1;
+  const auto one = readPcdView (path ("a.pcd"), options).objects.at (1).points;
+  options.threads = 4;
+  const auto four = readPcdView (path ("a.pcd"), options).objects.at (1).points;
+  ASSERT_EQ (one.size (), four.size ());
+  for (std::size_t i = 0; i < one.size (); ++i)
+    ASSERT_TRUE (one[i].normal == four[i].normal);
+}
+
+TEST_F (PcdView, RefusesWrongOptions)
+{
+  PcdViewOptions options;
+  options.scale = -1.0;
+  EXPECT_THROW (readPcdView ("x.pcd", options), InvalidArgument);
+  options = {};
+  options.intrinsics = {0.0, 1.0, 1.0, 1.0};
+  EXPECT_THROW (readPcdView ("x.pcd", options), InvalidArgument);
+}
