@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_cosection authors
+#pragma once
+
+#include <pcl/cosection/common/camera.h>
+#include <pcl/cosection/common/export.h>
+#include <pcl/cosection/common/progress.h>
+#include <pcl/cosection/common/triangle_mesh.h>
+#include <pcl/cosection/surface/options.h>
+#include <pcl/cosection/surface/oriented_point.h>
+#include <pcl/cosection/surface/solver.h>
+#include <pcl/cosection/volume/signed_distance_field.h>
+
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace pcl
+{
+namespace cosection
+{
+
+/** \brief The measurements of one object. */
+struct PCL_COSECTION_EXPORT ObjectInput
+{
+  int id = 0;                        ///< unique, positive
+  std::vector<OrientedPoint> points; ///< object frame
+  std::vector<Eigen::Isometry3d> T_world_object; ///< one per view of the scene, or empty: the object frame is the world frame
+};
+
+/** \brief A completed object. */
+struct PCL_COSECTION_EXPORT ObjectResult
+{
+  int id = 0;
+  std::string error;     ///< empty, or why there is no mesh
+  TriangleMesh mesh;     ///< closed, object frame
+  SignedDistanceField::Ptr signed_distance; ///< object frame
+  SolverSummary solver;
+  double penetration_m = 0.0; ///< deepest vertex inside supported parts of a neighbour or the background
+};
+
+/** \brief Everything CoSection::reconstruct () computes. */
+struct PCL_COSECTION_EXPORT SceneResult
+{
+  std::vector<ObjectResult> objects;       ///< in the order of addObject ()
+  TriangleMesh background;                 ///< open, trimmed to supported regions; world frame
+  std::vector<Eigen::Vector4d> planes;     ///< support planes used: unit normal n towards free space, n.x + d = 0, world frame
+  std::map<std::string, double> timings_s; ///< data_term, constraints, solve, mesh
+  std::vector<std::string> warnings;
+};
+
+/** \brief Co-Section: joint completion of several objects and the background they stand on, from
+ * oriented points and the free space seen by depth views, under the constraint that bodies do not
+ * intersect (M. Strecke, J. Stueckler, "Where Does It End? Reasoning About Hidden Surfaces by Object
+ * Intersection Constraints", CVPR 2020).
+ *
+ * \code
+ * CoSection scene;
+ * scene.addView (view);                  // free space
+ * scene.setBackground (table_points);    // what the objects stand on
+ * scene.addObject ({1, cup_points, {}});
+ * const SceneResult result = scene.reconstruct ();
+ * \endcode */
+class PCL_COSECTION_EXPORT CoSection
+{
+public:
+  /** \throws InvalidArgument */
+  explicit CoSection (const CoSectionOptions& options = {});
+  ~CoSection ();
+  CoSection (CoSection&&) noexcept;
+  CoSection&
+  operator= (CoSection&&) noexcept;
+
+  /** \brief Add a depth view of the whole scene; what lies in front of its readings is free.
+   * \return its index, to which ObjectInput::T_world_object refers
+   * \throws InvalidArgument if the camera is not valid or the depth has another size */
+  int
+  addView (DepthView view);
+
+  /** \brief Points of everything that is not an object, world frame; replaces earlier ones. */
+  void
+  setBackground (std::vector<OrientedPoint> points);
+
+  /** \throws InvalidArgument if the id is not positive or already there */
+  void
+  addObject (ObjectInput object);
+
+  /** \brief A plane that bounds all objects: (n, d) with n.x + d >= 0 outside of what carries them,
+   * world frame; need not be normalised. \throws InvalidArgument if the normal is zero */
+  void
+  addSupportPlane (const Eigen::Vector4d& plane);
+
+  /** \brief Another body that objects cannot enter, in the world frame. */
+  void
+  addIntersection (SignedDistanceField::ConstPtr body);
+
+  /** \brief Run. One failing object does not lose the others: see ObjectResult::error.
+   * \throws Cancelled, MemoryLimitExceeded */
+  SceneResult
+  reconstruct (const ProgressCallback& progress = {}) const;
+
+private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+} // namespace cosection
+} // namespace pcl

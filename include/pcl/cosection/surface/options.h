@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_cosection authors
+#pragma once
+
+#include <pcl/cosection/common/export.h>
+
+#include <cstddef>
+#include <string>
+
+namespace pcl
+{
+namespace cosection
+{
+
+/** \brief How the measurements at a voxel are combined. */
+enum class Weighting
+{
+  Mean, ///< divided by the number of points in reach: bounded whatever the number of views
+  Sum,  ///< equation (2) as printed
+};
+
+/** \brief The distance that the hull constraint asks for in free space. */
+enum class HullDistance
+{
+  Exact,    ///< Euclidean distance to the hull
+  OneVoxel, ///< the paper's lower bound
+};
+
+enum class SolverType
+{
+  Multigrid,
+  FastJacobi,
+};
+
+/** \brief Parameters of the minimisation. */
+struct PCL_COSECTION_EXPORT SolverOptions
+{
+  SolverType type = SolverType::Multigrid;
+  int max_iterations = 60;      ///< per level: multigrid cycles (Fast Jacobi: cycles of \a cycle_length sweeps)
+  double tolerance_vox = 0.01;  ///< stop when no value near the zero set changes by more in one iteration
+  int cycle_length = 20;        ///< Fast Jacobi: sweeps in a cycle
+  int smoothing_degree = 5;     ///< multigrid: degree of the Chebyshev polynomial before and after each coarse correction
+  int threads = 0;              ///< 0: all
+};
+
+/** \brief The parameters of Co-Section. Lengths are in metres unless the name says otherwise. */
+struct PCL_COSECTION_EXPORT CoSectionOptions
+{
+  double voxel_size_m = 0.0; ///< h; 0: from \a resolution
+  int resolution = 0;        ///< voxels along the longest observed side; 0: 64, but no finer than the points' spacing allows
+  double padding = 0.3;      ///< volume beyond the observed box on each side, as a fraction of its longest side
+  double background_voxel_size_m = 0.0; ///< 0: twice the smallest object voxel; never more
+
+  bool use_hull = true;         ///< E_hull, equation (3)
+  bool use_intersection = true; ///< E_inter, equation (5)
+  bool use_planes = true;       ///< find support planes in the background and continue them under the objects
+  bool use_extent_prior = true; ///< remedy for swelling: a weak pull outside where nothing suggests the object
+  bool revise_votes = true;     ///< free space can be revised by contradicting evidence
+  bool intersect_solved = true; ///< neighbours act through their optimised fields (false: through their data alone, the paper)
+
+  double alpha = 0.005;     ///< weight of the Hessian, per voxel units: metric value times h^4
+  double beta_hull = 0.01;  ///< weight of the hull constraint
+  double beta_inter = 0.01; ///< weight of the intersection constraint
+  double beta_extent = 0.001; ///< weight of the pull that prevents swelling
+  double sigma_vox = 1.0;   ///< width of a point's Gaussian; cut off at three times it
+  double max_bound_vox = 5.0; ///< cap of the intersection distance, and reach of evidence behind data
+  Weighting weighting = Weighting::Mean;
+  HullDistance hull_distance = HullDistance::Exact;
+
+  int max_passes = 5;            ///< simultaneous passes over all objects
+  std::size_t max_memory_bytes = 0; ///< 0: no limit
+  SolverOptions solver;
+  int threads = 0;               ///< 0: all
+
+  /** \brief The parameters of the publication. */
+  static CoSectionOptions
+  paper ();
+
+  /** \brief \throws InvalidArgument naming the first parameter outside its domain. */
+  void
+  validate () const;
+};
+
+} // namespace cosection
+} // namespace pcl

@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_cosection authors
+#pragma once
+
+#include <cstdint>
+
+namespace pcl
+{
+namespace cosection
+{
+namespace kernels
+{
+
+// Loops over one row of voxels. They carry all of the solver's arithmetic, and are compiled for
+// several instruction sets (see multiversion.h). Overloads for float and double.
+
+/** \brief The row, its four neighbours in y and z (the row itself where there is none). */
+template <typename Real> struct RowNeighbours
+{
+  const Real* center;
+  const Real* y_minus;
+  const Real* y_plus;
+  const Real* z_minus;
+  const Real* z_plus;
+};
+
+/** \brief out = sum over the existing 6-neighbours of (u - u_neighbour): minus the 7-point
+ * Laplacian with natural boundary. Differences first, which keeps float accurate to the local
+ * variation of u rather than to its magnitude. */
+void
+laplaceRow (const RowNeighbours<float>& u, int n, float* out);
+void
+laplaceRow (const RowNeighbours<double>& u, int n, double* out);
+
+/** \brief out -= a - b, element by element. */
+void
+subtractDifference (const float* a, const float* b, int n, float* out);
+void
+subtractDifference (const double* a, const double* b, int n, double* out);
+
+/** \brief The diagonal of H^T H along a row: second[i] + slope first[i] + constant. */
+template <typename Real> struct HessianDiagonal
+{
+  const Real* first;
+  const Real* second;
+  Real slope;
+  Real constant;
+};
+
+/** \brief One step of the Chebyshev smoother on the finest level:
+ *     d = momentum d + step (rhs - alpha h - w z) / (alpha diagonal + w). */
+void
+chebyshevRow (const float* rhs, const float* h, const std::uint16_t* w, const float* z,
+              const HessianDiagonal<float>& diagonal, float alpha, float momentum, float step, int n, float* d);
+void
+chebyshevRow (const double* rhs, const double* h, const std::uint16_t* w, const double* z,
+              const HessianDiagonal<double>& diagonal, double alpha, double momentum, double step, int n, double* d);
+
+/** \brief out = rhs - alpha h - w z. */
+void
+residualRow (const float* rhs, const float* h, const std::uint16_t* w, const float* z, float alpha, int n, float* out);
+void
+residualRow (const double* rhs, const double* h, const std::uint16_t* w, const double* z, double alpha, int n, double* out);
+
+/** \brief out += a. */
+void
+addRow (const float* a, int n, float* out);
+void
+addRow (const double* a, int n, double* out);
+
+/** \brief out += factor a. */
+void
+addScaledRow (const float* a, float factor, int n, float* out);
+void
+addScaledRow (const double* a, double factor, int n, double* out);
+
+/** \brief out = a + factor out. */
+void
+scaleAddRow (const float* a, float factor, int n, float* out);
+void
+scaleAddRow (const double* a, double factor, int n, double* out);
+
+/** \brief out += T v for the symmetric matrix of diagonals T (i, i) = diagonal[i], T (i, i + 1) =
+ * first[i] and T (i, i + 2) = second[i]; \a first and \a second may be null. */
+void
+symmetricRow (const float* v, const float* diagonal, const float* first, const float* second, int n, float* out);
+void
+symmetricRow (const double* v, const double* diagonal, const double* first, const double* second, int n, double* out);
+
+/** \brief Rows of the three one-dimensional factors along an axis, at offsets -2 ... 2. */
+template <typename Real> struct AxisCoefficients
+{
+  Real mass[5];
+  Real first[5];
+  Real second[5];
+};
+
+/** \brief Contraction along y of the three fields contracted along x (mass, first, second):
+ *     out_second = mass (second) + second (mass) + 2 first (first)
+ *     out_first  = 2 (mass (first) + first (mass))
+ *     out_mass   = mass (mass)
+ * \param[in] mass, first, second five rows each */
+void
+contractRows (const float* const* mass, const float* const* first, const float* const* second,
+              const AxisCoefficients<float>& c, int n, float* out_mass, float* out_first, float* out_second);
+void
+contractRows (const double* const* mass, const double* const* first, const double* const* second,
+              const AxisCoefficients<double>& c, int n, double* out_mass, double* out_first, double* out_second);
+
+/** \brief Last contraction: out = mass (second) + first (first) + second (mass). */
+void
+contractPlanes (const float* const* mass, const float* const* first, const float* const* second,
+                const AxisCoefficients<float>& c, int n, float* out);
+void
+contractPlanes (const double* const* mass, const double* const* first, const double* const* second,
+                const AxisCoefficients<double>& c, int n, double* out);
+
+/** \brief d = momentum d + step inverse_diagonal (rhs - product). */
+void
+chebyshevStepRow (const float* rhs, const float* product, const float* inverse_diagonal, float momentum, float step,
+                  int n, float* d);
+void
+chebyshevStepRow (const double* rhs, const double* product, const double* inverse_diagonal, double momentum, double step,
+                  int n, double* d);
+
+/** \brief out = sum_k coefficients[k][i] in[i + k - 2], k = 0 ... 4, for a row with two readable
+ * values before and behind. */
+void
+pentadiagonalRow (const float* in, const float* const* coefficients, int n, float* out);
+void
+pentadiagonalRow (const double* in, const double* const* coefficients, int n, double* out);
+
+/** \brief Weights are kept in the upper half of a float: they only steer the preconditioner. */
+inline std::uint16_t
+packWeight (float w)
+{
+  union
+  {
+    float f;
+    std::uint32_t u;
+  } bits{w};
+  return static_cast<std::uint16_t> ((bits.u + 0x8000u) >> 16);
+}
+
+inline float
+unpackWeight (std::uint16_t w)
+{
+  union
+  {
+    std::uint32_t u;
+    float f;
+  } bits{static_cast<std::uint32_t> (w) << 16};
+  return bits.f;
+}
+
+} // namespace kernels
+} // namespace cosection
+} // namespace pcl

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_cosection authors
+#pragma once
+
+#include <pcl/cosection/common/error.h>
+#include <pcl/cosection/surface/solver.h>
+
+namespace pcl
+{
+namespace cosection
+{
+
+/** \brief Values within this many voxels of zero count as near the zero set. */
+constexpr double zero_band_vox = 1.5;
+
+/** \brief One level of a solve: minimise from the given u. \a tolerance_vox in units of u. */
+template <typename Real> SolverSummary
+solveLevelMultigrid (const EnergyProblem& problem, const SolverOptions& options, double band, double tolerance,
+                     std::vector<Real>& u, const ProgressCallback& progress);
+
+template <typename Real> SolverSummary
+solveLevelFastJacobi (const EnergyProblem& problem, const SolverOptions& options, double band, double tolerance,
+                      std::vector<Real>& u, const ProgressCallback& progress);
+
+inline void
+report (const ProgressCallback& progress, double fraction)
+{
+  if (progress && !progress ("solve", fraction))
+    throw Cancelled ("cancelled");
+}
+
+} // namespace cosection
+} // namespace pcl
