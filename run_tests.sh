@@ -1,0 +1,61 @@
+#!/usr/bin/env bash
+# Builds everything and runs the tests; see usage ().
+set -euo pipefail
+
+usage ()
+{
+  cat << 'END'
+Usage: run_tests.sh [--all] [--sanitize] [--help]
+
+Installs missing Debian packages, builds into build/ and runs the tests labelled quick and data,
+among them a project that uses the installed package, and the documentation with warnings as errors.
+
+  --all       the slow tests too
+  --sanitize  with AddressSanitizer and UndefinedBehaviorSanitizer, into build-sanitize/
+  --help      this text
+
+Tests of real data read $PCL_COSECTION_DATA, else ../shared/data beside this folder, and are
+skipped where that is absent.
+END
+}
+
+labels=(--label-regex '^(quick|data)$')
+build=build
+options=()
+for argument in "$@"; do
+  case $argument in
+    --all) labels=() ;;
+    --sanitize)
+      build=build-sanitize
+      # Debug keeps the assertions, also Eigen's.
+      options=(-DPCL_COSECTION_SANITIZE=ON -DPCL_COSECTION_BUILD_BENCHMARKS=OFF
+        -DCMAKE_BUILD_TYPE=Debug "-DCMAKE_CXX_FLAGS_DEBUG=-O1 -g1")
+      ;;
+    --help)
+      usage
+      exit 0
+      ;;
+    *)
+      echo "run_tests.sh: unknown option '$argument'" >&2
+      usage >&2
+      exit 2
+      ;;
+  esac
+done
+
+cd "$(dirname "${BASH_SOURCE[0]}")"
+jobs=$(nproc)
+
+step ()
+{
+  echo "== $*"
+}
+
+step "Dependencies"
+./install_dependencies.sh
+step "Configure $build/"
+cmake -G Ninja -S . -B "$build" "${options[@]}"
+step "Build with $jobs jobs"
+cmake --build "$build" --parallel "$jobs"
+step "Test"
+ctest --test-dir "$build" --output-on-failure --no-tests=error --parallel "$jobs" "${labels[@]}"

@@ -1,0 +1,35 @@
+# Installs the build in BUILD_DIR below WORK_DIR, builds the project in this folder against what was
+# installed, and runs it. Started by CTest with -D for each of
+#   BUILD_DIR  WORK_DIR  GENERATOR  CXX_COMPILER  CXX_LAUNCHER  BUILD_TYPE  VERSION  TOOL
+
+# Fails with what the command said unless it succeeds.
+function(run)
+  execute_process(COMMAND ${ARGV} RESULT_VARIABLE result OUTPUT_VARIABLE output ERROR_VARIABLE output)
+  if(NOT result EQUAL 0)
+    list(JOIN ARGV " " command)
+    message(FATAL_ERROR "${command}: ${result}\n${output}")
+  endif()
+  set(run_output "${output}" PARENT_SCOPE)
+endfunction()
+
+file(REMOVE_RECURSE "${WORK_DIR}")
+# The package must not depend on where it was meant to be installed.
+run("${CMAKE_COMMAND}" --install "${BUILD_DIR}" --prefix "${WORK_DIR}/staged")
+file(RENAME "${WORK_DIR}/staged" "${WORK_DIR}/prefix")
+
+run("${CMAKE_COMMAND}"
+  -G "${GENERATOR}" -S "${CMAKE_CURRENT_LIST_DIR}" -B "${WORK_DIR}/build"
+  "-DCMAKE_PREFIX_PATH=${WORK_DIR}/prefix"
+  "-DCMAKE_CXX_COMPILER=${CXX_COMPILER}"
+  "-DCMAKE_CXX_COMPILER_LAUNCHER=${CXX_LAUNCHER}"
+  "-DCMAKE_BUILD_TYPE=${BUILD_TYPE}")
+run("${CMAKE_COMMAND}" --build "${WORK_DIR}/build")
+run("${WORK_DIR}/build/consumer")
+message(STATUS "${run_output}")
+
+if(TOOL)
+  run("${WORK_DIR}/prefix/${TOOL}" --version)
+  if(NOT run_output MATCHES "${VERSION}")
+    message(FATAL_ERROR "the installed program says '${run_output}', not ${VERSION}")
+  endif()
+endif()
