@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_cosection authors
+#pragma once
+
+#include <string>
+
+namespace pcl
+{
+namespace cosection
+{
+
+/** \brief Replace the contents of a file. \throws std::system_error with the system's reason, which
+ * writeAtomically () turns into an IoError that names the final path. */
+void
+writeBytes (const std::string& path, const std::string& bytes);
+
+/** \brief \throws IoError naming \a path and the system's reason */
+std::string
+readBytes (const std::string& path);
+
+} // namespace cosection
+} // namespace pcl

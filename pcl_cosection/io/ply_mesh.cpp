@@ -1,0 +1,372 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_cosection authors
+
+#include "ply_mesh.h"
+
+#include <pcl/cosection/common/error.h>
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+#include <functional>
+#include <limits>
+#include <sstream>
+
+namespace pcl
+{
+namespace cosection
+{
+namespace
+{
+
+// ---- Writing ------------------------------------------------------------------------------------
+
+template <typename T> void
+put (std::string& bytes, const T& value)
+{
+  static_assert (std::is_trivially_copyable<T>::value, "only plain values have a file format");
+  const std::size_t size = bytes.size ();
+  bytes.resize (size + sizeof (T));
+  std::memcpy (&bytes[size], &value, sizeof (T));
+}
+
+void
+put (std::string& bytes, const Eigen::Vector3f& v)
+{
+  for (int axis = 0; axis < 3; ++axis)
+    put (bytes, v[axis]);
+}
+
+// ---- Reading: header ----------------------------------------------------------------------------
+
+struct Property
+{
+  std::string name;
+  std::string type;
+  std::string count_type; ///< of lists; else empty
+};
+
+struct Element
+{
+  std::string name;
+  std::uint64_t count = 0;
+  std::vector<Property> properties;
+};
+
+/** \brief Bytes of a scalar type; 0 if there is none of this name. */
+std::size_t
+scalarSize (const std::string& type)
+{
+  if (type == "char" || type == "int8" || type == "uchar" || type == "uint8")
+    return 1;
+  if (type == "short" || type == "int16" || type == "ushort" || type == "uint16")
+    return 2;
+  if (type == "int" || type == "int32" || type == "uint" || type == "uint32" || type == "float" || type == "float32")
+    return 4;
+  if (type == "double" || type == "float64")
+    return 8;
+  return 0;
+}
+
+template <typename T> double
+load (const char* data)
+{
+  T value;
+  std::memcpy (&value, data, sizeof (T));
+  return static_cast<double> (value);
+}
+
+using Loader = double (*) (const char*);
+
+Loader
+scalarLoader (const std::string& type)
+{
+  if (type == "char" || type == "int8")
+    return load<std::int8_t>;
+  if (type == "uchar" || type == "uint8")
+    return load<std::uint8_t>;
+  if (type == "short" || type == "int16")
+    return load<std::int16_t>;
+  if (type == "ushort" || type == "uint16")
+    return load<std::uint16_t>;
+  if (type == "int" || type == "int32")
+    return load<std::int32_t>;
+  if (type == "uint" || type == "uint32")
+    return load<std::uint32_t>;
+  if (type == "float" || type == "float32")
+    return load<float>;
+  return load<double>;
+}
+
+Property
+parseProperty (std::istringstream& words)
+{
+  Property property;
+  words >> property.type;
+  if (property.type == "list")
+    words >> property.count_type >> property.type;
+  words >> property.name;
+  if (!words || scalarSize (property.type) == 0 ||
+      (!property.count_type.empty () && scalarSize (property.count_type) == 0))
+    throw IoError ("a property of the PLY header has an unknown type");
+  return property;
+}
+
+/** \brief Reads the header and moves \a offset behind it. */
+std::vector<Element>
+parseHeader (const std::string& bytes, std::size_t& offset)
+{
+  std::vector<Element> elements;
+  bool binary = false;
+  for (int line_number = 0;; ++line_number)
+  {
+    const std::size_t end = bytes.find ('\n', offset);
+    if (end == std::string::npos)
+      throw IoError (line_number == 0 ? "not a PLY file" : "the PLY header does not end");
+    std::istringstream words (bytes.substr (offset, end - offset));
+    offset = end + 1;
+    std::string keyword;
+    words >> keyword;
+    if (line_number == 0)
+    {
+      if (keyword != "ply")
+        throw IoError ("not a PLY file");
+      continue;
+    }
+    if (keyword == "end_header")
+      break;
+    if (keyword == "format")
+    {
+      std::string format;
+      words >> format;
+      binary = (format == "binary_little_endian");
+      if (!binary)
+        throw IoError ("PLY format '" + format + "' is not supported, only binary_little_endian");
+    }
+    else if (keyword == "element")
+    {
+      Element element;
+      if (!(words >> element.name >> element.count))
+        throw IoError ("an element of the PLY header has no count");
+      elements.push_back (element);
+    }
+    else if (keyword == "property")
+    {
+      if (elements.empty ())
+        throw IoError ("a property of the PLY header belongs to no element");
+      elements.back ().properties.push_back (parseProperty (words));
+    }
+    else if (keyword != "comment" && keyword != "obj_info" && !keyword.empty ())
+      throw IoError ("unknown keyword in the PLY header");
+  }
+  if (!binary)
+    throw IoError ("the PLY header names no format");
+  return elements;
+}
+
+// ---- Reading: data ------------------------------------------------------------------------------
+
+/** \brief The data behind the header; every access is checked. */
+class Reader
+{
+public:
+  Reader (const std::string& bytes, std::size_t offset) : data_ (bytes.data () + offset), left_ (bytes.size () - offset)
+  {}
+
+  /** \brief The next \a count * \a size bytes. */
+  const char*
+  take (std::uint64_t count, std::size_t size)
+  {
+    if (size != 0 && count > left_ / size)
+      throw IoError ("the PLY file is shorter than its header says");
+    const char* data = data_;
+    data_ += count * size;
+    left_ -= count * size;
+    return data;
+  }
+
+private:
+  const char* data_;
+  std::size_t left_;
+};
+
+/** \brief Where values of one vertex property go. */
+using Setter = std::function<void (TriangleMesh&, std::size_t, double)>;
+
+std::uint8_t
+toByte (double value)
+{
+  return static_cast<std::uint8_t> (value >= 0.0 ? std::min (value, 255.0) : 0.0);
+}
+
+Setter
+vertexSetter (const std::string& name)
+{
+  static constexpr std::array<const char*, 3> positions = {"x", "y", "z"};
+  static constexpr std::array<const char*, 3> normals = {"nx", "ny", "nz"};
+  static constexpr std::array<const char*, 3> colours = {"red", "green", "blue"};
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    if (name == positions[axis])
+      return [axis] (TriangleMesh& m, std::size_t v, double value) { m.vertices[v][axis] = static_cast<float> (value); };
+    if (name == normals[axis])
+      return [axis] (TriangleMesh& m, std::size_t v, double value) { m.normals[v][axis] = static_cast<float> (value); };
+    if (name == colours[axis])
+      return [axis] (TriangleMesh& m, std::size_t v, double value) { m.colours[v][axis] = toByte (value); };
+  }
+  if (name == "confidence")
+    return [] (TriangleMesh& m, std::size_t v, double value) { m.confidence[v] = static_cast<float> (value); };
+  if (name == "provenance")
+    return [] (TriangleMesh& m, std::size_t v, double value) { m.provenance[v] = toByte (value); };
+  return {};
+}
+
+void
+readVertices (const Element& element, Reader& reader, TriangleMesh& mesh)
+{
+  struct Column
+  {
+    Setter set;
+    Loader load;
+    std::size_t offset;
+  };
+  std::size_t stride = 0;
+  std::vector<Column> columns;
+  std::string names = " ";
+  for (const Property& property : element.properties)
+  {
+    if (!property.count_type.empty ())
+      throw IoError ("a vertex property is a list");
+    if (const Setter set = vertexSetter (property.name))
+      columns.push_back ({set, scalarLoader (property.type), stride});
+    stride += scalarSize (property.type);
+    names += property.name + " ";
+  }
+  const auto has = [&names] (const char* name) { return names.find (std::string (" ") + name + " ") != std::string::npos; };
+  if (!has ("x") || !has ("y") || !has ("z"))
+    throw IoError ("the vertices have no x, y and z");
+
+  const char* data = reader.take (element.count, stride); // bounds the allocations below by the size of the file
+  mesh.vertices.resize (element.count);
+  if (has ("nx") || has ("ny") || has ("nz"))
+    mesh.normals.resize (element.count, Eigen::Vector3f::Zero ());
+  if (has ("red") || has ("green") || has ("blue"))
+    mesh.colours.resize (element.count);
+  if (has ("confidence"))
+    mesh.confidence.resize (element.count);
+  if (has ("provenance"))
+    mesh.provenance.resize (element.count);
+  for (std::size_t v = 0; v < element.count; ++v, data += stride)
+    for (const Column& column : columns)
+      column.set (mesh, v, column.load (data + column.offset));
+}
+
+void
+readFaces (const Element& element, Reader& reader, TriangleMesh& mesh)
+{
+  const auto is_corners = [] (const Property& property) {
+    return !property.count_type.empty () && (property.name == "vertex_indices" || property.name == "vertex_index");
+  };
+  if (std::none_of (element.properties.begin (), element.properties.end (), is_corners))
+    throw IoError ("the faces have no vertex_indices");
+  for (std::uint64_t f = 0; f < element.count; ++f)
+    for (const Property& property : element.properties)
+    {
+      const std::size_t size = scalarSize (property.type);
+      if (property.count_type.empty ())
+      {
+        reader.take (1, size);
+        continue;
+      }
+      const double count = scalarLoader (property.count_type) (reader.take (1, scalarSize (property.count_type)));
+      if (!(count >= 0.0 && count <= std::numeric_limits<std::uint32_t>::max ()))
+        throw IoError ("a face has an impossible number of corners");
+      const char* data = reader.take (static_cast<std::uint64_t> (count), size);
+      if (!is_corners (property))
+        continue;
+      if (count != 3.0)
+        throw IoError ("a face is not a triangle");
+      TriangleMesh::Triangle triangle;
+      for (int n = 0; n < 3; ++n)
+      {
+        const double index = scalarLoader (property.type) (data + n * size);
+        if (!(index >= 0.0 && index < static_cast<double> (mesh.vertices.size ())))
+          throw IoError ("a face refers to a vertex that does not exist");
+        triangle[n] = static_cast<std::uint32_t> (index);
+      }
+      mesh.triangles.push_back (triangle);
+    }
+}
+
+} // namespace
+
+std::string
+encodePly (const TriangleMesh& mesh)
+{
+  std::ostringstream header;
+  header.imbue (std::locale::classic ());
+  header << "ply\nformat binary_little_endian 1.0\nelement vertex " << mesh.vertices.size ()
+         << "\nproperty float x\nproperty float y\nproperty float z\n";
+  if (!mesh.normals.empty ())
+    header << "property float nx\nproperty float ny\nproperty float nz\n";
+  if (!mesh.colours.empty ())
+    header << "property uchar red\nproperty uchar green\nproperty uchar blue\n";
+  if (!mesh.confidence.empty ())
+    header << "property float confidence\n";
+  if (!mesh.provenance.empty ())
+    header << "property uchar provenance\n";
+  header << "element face " << mesh.triangles.size () << "\nproperty list uchar int vertex_indices\nend_header\n";
+
+  std::string bytes = header.str ();
+  bytes.reserve (bytes.size () + mesh.vertices.size () * 32 + mesh.triangles.size () * 13);
+  for (std::size_t v = 0; v < mesh.vertices.size (); ++v)
+  {
+    put (bytes, mesh.vertices[v]);
+    if (!mesh.normals.empty ())
+      put (bytes, mesh.normals[v]);
+    if (!mesh.colours.empty ())
+      put (bytes, mesh.colours[v]);
+    if (!mesh.confidence.empty ())
+      put (bytes, mesh.confidence[v]);
+    if (!mesh.provenance.empty ())
+      put (bytes, mesh.provenance[v]);
+  }
+  for (const auto& triangle : mesh.triangles)
+  {
+    put (bytes, std::uint8_t{3});
+    put (bytes, triangle);
+  }
+  return bytes;
+}
+
+TriangleMesh
+decodePly (const std::string& bytes)
+{
+  std::size_t offset = 0;
+  const auto elements = parseHeader (bytes, offset);
+  Reader reader (bytes, offset);
+  TriangleMesh mesh;
+  bool has_vertices = false;
+  bool has_faces = false;
+  for (const Element& element : elements)
+  {
+    if (element.name == "vertex" && !has_vertices)
+    {
+      readVertices (element, reader, mesh);
+      has_vertices = true;
+    }
+    else if (element.name == "face" && has_vertices && !has_faces)
+    {
+      readFaces (element, reader, mesh);
+      has_faces = true;
+    }
+    else if (!has_faces)
+      throw IoError ("the PLY file does not begin with one list of vertices and one of faces");
+  }
+  if (!has_faces)
+    throw IoError ("the PLY file has no faces");
+  return mesh;
+}
+
+} // namespace cosection
+} // namespace pcl

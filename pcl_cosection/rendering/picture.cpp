@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_cosection authors
+
+#include "../io/file_bytes.h"
+#include "../io/vtk_errors.h"
+
+#include <pcl/cosection/common/error.h>
+#include <pcl/cosection/io/atomic_file.h>
+#include <pcl/cosection/rendering/picture.h>
+
+#include <vtkImageData.h>
+#include <vtkNew.h>
+#include <vtkPNGWriter.h>
+#include <vtkUnsignedCharArray.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace pcl
+{
+namespace cosection
+{
+namespace
+{
+
+constexpr double ambient_light = 0.25; ///< the rest comes from the head light
+
+std::size_t
+pixelCount (const Picture& picture)
+{
+  return static_cast<std::size_t> (picture.width) * picture.height;
+}
+
+void
+checkPicture (const Picture& picture)
+{
+  if (picture.width < 1 || picture.height < 1 || picture.pixels.size () != pixelCount (picture))
+    throw InvalidArgument ("picture: there must be width * height pixels");
+}
+
+} // namespace
+
+Picture
+shade (const RasterImage& image, const PinholeCamera& camera, const std::array<std::uint8_t, 3>& background)
+{
+  if (image.width != camera.width || image.height != camera.height)
+    throw InvalidArgument ("shade: the image was not taken by this camera");
+  Picture picture;
+  picture.width = image.width;
+  picture.height = image.height;
+  picture.pixels.assign (pixelCount (picture), background);
+  for (int v = 0; v < image.height; ++v)
+    for (int u = 0; u < image.width; ++u)
+    {
+      const std::size_t pixel = static_cast<std::size_t> (v) * image.width + u;
+      if (!std::isfinite (image.depth[pixel]))
+        continue;
+      const Eigen::Vector3d to_camera = -camera.unproject (u, v, 1.0).normalized ();
+      const double cosine = std::max (0.0, to_camera.dot (image.normals[pixel].cast<double> ()));
+      const double light = ambient_light + (1.0 - ambient_light) * cosine;
+      for (int channel = 0; channel < 3; ++channel)
+        picture.pixels[pixel][channel] =
+            static_cast<std::uint8_t> (std::lround (std::min (1.0, light) * image.colours[pixel][channel]));
+    }
+  return picture;
+}
+
+std::vector<std::array<std::uint8_t, 3>>
+provenanceColours (const TriangleMesh& mesh)
+{
+  static constexpr std::array<std::array<std::uint8_t, 3>, 4> colours = {{
+      {190, 190, 190}, // Observed
+      {240, 150, 50},  // Inferred
+      {80, 130, 220},  // Hull
+      {90, 180, 90},   // Intersection
+  }};
+  std::vector<std::array<std::uint8_t, 3>> result (mesh.vertices.size (), colours[0]);
+  if (!mesh.provenance.empty () && mesh.provenance.size () != mesh.vertices.size ())
+    throw InvalidArgument ("provenanceColours: there must be one value per vertex");
+  for (std::size_t v = 0; v < mesh.provenance.size (); ++v)
+    if (mesh.provenance[v] < colours.size ())
+      result[v] = colours[mesh.provenance[v]];
+  return result;
+}
+
+Picture
+beside (const std::vector<Picture>& pictures, int gap_px)
+{
+  Picture result;
+  if (pictures.empty ())
+    return result;
+  if (gap_px < 0)
+    throw InvalidArgument ("beside: the gap must not be negative");
+  result.height = pictures[0].height;
+  result.width = gap_px * (static_cast<int> (pictures.size ()) - 1);
+  for (const Picture& picture : pictures)
+  {
+    checkPicture (picture);
+    if (picture.height != result.height)
+      throw InvalidArgument ("beside: the pictures must have equal height");
+    result.width += picture.width;
+  }
+  result.pixels.assign (pixelCount (result), {255, 255, 255});
+  std::size_t left = 0;
+  for (const Picture& picture : pictures)
+  {
+    for (int v = 0; v < picture.height; ++v)
+      std::copy_n (picture.pixels.begin () + static_cast<std::ptrdiff_t> (v) * picture.width, picture.width,
+                   result.pixels.begin () + static_cast<std::ptrdiff_t> (v) * result.width + static_cast<std::ptrdiff_t> (left));
+    left += static_cast<std::size_t> (picture.width) + gap_px;
+  }
+  return result;
+}
+
+void
+writePng (const Picture& picture, const std::string& path)
+{
+  checkPicture (picture);
+  vtkNew<vtkImageData> image;
+  image->SetDimensions (picture.width, picture.height, 1);
+  image->AllocateScalars (VTK_UNSIGNED_CHAR, 3);
+  auto* out = static_cast<std::uint8_t*> (image->GetScalarPointer ());
+  for (int v = picture.height - 1; v >= 0; --v) // VTK's first row is the lowest
+    for (int u = 0; u < picture.width; ++u)
+      out = std::copy_n (picture.pixels[static_cast<std::size_t> (v) * picture.width + u].begin (), 3, out);
+
+  writeAtomically (path, [&] (const std::string& temporary) {
+    vtkNew<vtkPNGWriter> writer;
+    const auto errors = VtkErrors::observe (*writer);
+    writer->SetInputData (image);
+    writer->WriteToMemoryOn ();
+    writer->Write ();
+    vtkUnsignedCharArray* encoded = writer->GetResult ();
+    if (errors->failed () || encoded == nullptr)
+      throw IoError ("cannot write '" + path + "': VTK could not encode the picture");
+    writeBytes (temporary, std::string (reinterpret_cast<const char*> (encoded->GetPointer (0)),
+                                        static_cast<std::size_t> (encoded->GetNumberOfValues ())));
+  });
+}
+
+} // namespace cosection
+} // namespace pcl

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_cosection authors
+#pragma once
+
+#include <pcl/cosection/common/triangle_mesh.h>
+
+#include <cmath>
+
+namespace pcl
+{
+namespace cosection
+{
+namespace test
+{
+
+/** \brief The box from \a lower to \a upper as 12 triangles. */
+inline TriangleMesh
+boxMesh (const Eigen::Vector3f& lower, const Eigen::Vector3f& upper)
+{
+  TriangleMesh mesh;
+  for (int corner = 0; corner < 8; ++corner)
+    mesh.vertices.emplace_back ((corner & 1) ? upper.x () : lower.x (), (corner & 2) ? upper.y () : lower.y (),
+                                (corner & 4) ? upper.z () : lower.z ());
+  mesh.triangles = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6}, {0, 1, 4}, {1, 5, 4},
+                    {2, 6, 3}, {3, 6, 7}, {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
+  return mesh;
+}
+
+/** \brief A torus about the z axis of n x m quadrilaterals, with normals. */
+inline TriangleMesh
+torusMesh (double ring, double tube, std::uint32_t n, std::uint32_t m)
+{
+  TriangleMesh mesh;
+  for (std::uint32_t i = 0; i < n; ++i)
+    for (std::uint32_t j = 0; j < m; ++j)
+    {
+      const double a = 2.0 * M_PI * i / n;
+      const double b = 2.0 * M_PI * j / m;
+      const Eigen::Vector3d normal (std::cos (a) * std::cos (b), std::sin (a) * std::cos (b), std::sin (b));
+      const Eigen::Vector3d centre (ring * std::cos (a), ring * std::sin (a), 0.0);
+      mesh.vertices.push_back ((centre + tube * normal).cast<float> ());
+      mesh.normals.push_back (normal.cast<float> ());
+      const auto at = [&] (std::uint32_t di, std::uint32_t dj) { return (i + di) % n * m + (j + dj) % m; };
+      mesh.triangles.push_back ({at (0, 0), at (1, 0), at (1, 1)});
+      mesh.triangles.push_back ({at (0, 0), at (1, 1), at (0, 1)});
+    }
+  return mesh;
+}
+
+/** \brief A sphere of n x 2n quadrilaterals about the origin, with normals; closed at the poles. */
+inline TriangleMesh
+sphereMesh (double radius, std::uint32_t n)
+{
+  TriangleMesh mesh;
+  const auto add = [&] (double polar, double azimuth) {
+    const Eigen::Vector3d d (std::sin (polar) * std::cos (azimuth), std::sin (polar) * std::sin (azimuth), std::cos (polar));
+    mesh.vertices.push_back ((radius * d).cast<float> ());
+    mesh.normals.push_back (d.cast<float> ());
+  };
+  add (0.0, 0.0);
+  for (std::uint32_t i = 1; i < n; ++i)
+    for (std::uint32_t j = 0; j < 2 * n; ++j)
+      add (M_PI * i / n, M_PI * j / n);
+  add (M_PI, 0.0);
+  const auto at = [n] (std::uint32_t i, std::uint32_t j) { return 1 + (i - 1) * 2 * n + j % (2 * n); };
+  const std::uint32_t last = static_cast<std::uint32_t> (mesh.vertices.size ()) - 1;
+  for (std::uint32_t j = 0; j < 2 * n; ++j)
+  {
+    mesh.triangles.push_back ({0, at (1, j), at (1, j + 1)});
+    for (std::uint32_t i = 1; i + 1 < n; ++i)
+    {
+      mesh.triangles.push_back ({at (i, j), at (i + 1, j), at (i + 1, j + 1)});
+      mesh.triangles.push_back ({at (i, j), at (i + 1, j + 1), at (i, j + 1)});
+    }
+    mesh.triangles.push_back ({at (n - 1, j), last, at (n - 1, j + 1)});
+  }
+  return mesh;
+}
+
+} // namespace test
+} // namespace cosection
+} // namespace pcl

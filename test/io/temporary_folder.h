@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_cosection authors
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <string>
+
+#include <stdlib.h>
+#include <sys/resource.h>
+
+#include <csignal>
+
+namespace pcl
+{
+namespace cosection
+{
+namespace test
+{
+
+/** \brief A new folder that lives as long as the object. */
+class TemporaryFolder
+{
+public:
+  TemporaryFolder ()
+  {
+    std::string pattern = (std::filesystem::temp_directory_path () / "pcl_cosection_XXXXXX").string ();
+    if (::mkdtemp (&pattern[0]) == nullptr)
+      throw std::runtime_error ("cannot create " + pattern);
+    path_ = pattern;
+  }
+  TemporaryFolder (const TemporaryFolder&) = delete;
+  TemporaryFolder&
+  operator= (const TemporaryFolder&) = delete;
+
+  ~TemporaryFolder ()
+  {
+    std::error_code ignored;
+    std::filesystem::remove_all (path_, ignored);
+  }
+
+  std::string
+  file (const std::string& name) const
+  {
+    return (path_ / name).string ();
+  }
+
+  std::size_t
+  entries () const
+  {
+    return static_cast<std::size_t> (
+        std::distance (std::filesystem::directory_iterator (path_), std::filesystem::directory_iterator ()));
+  }
+
+private:
+  std::filesystem::path path_;
+};
+
+/** \brief While it lives, files of this process cannot grow beyond a size, as on a full disk. */
+class FileSizeLimit
+{
+public:
+  explicit FileSizeLimit (rlim_t bytes)
+  {
+    ::getrlimit (RLIMIT_FSIZE, &before_);
+    const rlimit limited{bytes, before_.rlim_max};
+    handler_ = std::signal (SIGXFSZ, SIG_IGN);
+    ::setrlimit (RLIMIT_FSIZE, &limited);
+  }
+  FileSizeLimit (const FileSizeLimit&) = delete;
+  FileSizeLimit&
+  operator= (const FileSizeLimit&) = delete;
+
+  ~FileSizeLimit ()
+  {
+    ::setrlimit (RLIMIT_FSIZE, &before_);
+    std::signal (SIGXFSZ, handler_);
+  }
+
+private:
+  rlimit before_;
+  void (*handler_) (int);
+};
+
+inline std::string
+readFile (const std::string& path)
+{
+  std::ifstream in (path, std::ios::binary);
+  return {std::istreambuf_iterator<char> (in), std::istreambuf_iterator<char> ()};
+}
+
+inline void
+writeFile (const std::string& path, const std::string& bytes)
+{
+  std::ofstream (path, std::ios::binary) << bytes;
+}
+
+/** \brief The message of the exception of type \a Exception that \a action throws. */
+template <typename Exception, typename Action> std::string
+messageOf (Action&& action)
+{
+  try
+  {
+    action ();
+  }
+  catch (const Exception& error)
+  {
+    EXPECT_EQ (std::string (error.what ()).find ('\n'), std::string::npos);
+    return error.what ();
+  }
+  ADD_FAILURE () << "no exception of the expected type";
+  return {};
+}
+
+} // namespace test
+} // namespace cosection
+} // namespace pcl
