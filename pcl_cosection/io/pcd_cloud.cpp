@@ -29,7 +29,10 @@ class Column
 {
 public:
   Column (const std::string& path, const PCLPointCloud2& cloud, const PcdField& field)
-  : data_ (cloud.data.data ()), step_ (cloud.point_step), type_ (field.type), size_ (field.size)
+      : data_ (cloud.data.data ())
+      , step_ (cloud.point_step)
+      , type_ (field.type)
+      , size_ (field.size)
   {
     for (const PCLPointField& f : cloud.fields)
       if (f.name == field.name)
@@ -52,10 +55,14 @@ public:
   {
     switch (size_)
     {
-      case 1: return (type_ == 'I' ? load<std::int8_t> (i) : load<std::uint8_t> (i));
-      case 2: return (type_ == 'I' ? load<std::int16_t> (i) : load<std::uint16_t> (i));
-      case 4: return (type_ == 'I' ? load<std::int32_t> (i) : static_cast<std::int64_t> (load<std::uint32_t> (i)));
-      default: return (load<std::int64_t> (i));
+    case 1:
+      return (type_ == 'I' ? load<std::int8_t> (i) : load<std::uint8_t> (i));
+    case 2:
+      return (type_ == 'I' ? load<std::int16_t> (i) : load<std::uint16_t> (i));
+    case 4:
+      return (type_ == 'I' ? load<std::int32_t> (i) : static_cast<std::int64_t> (load<std::uint32_t> (i)));
+    default:
+      return (load<std::int64_t> (i));
     }
   }
 
@@ -66,7 +73,8 @@ public:
   }
 
 private:
-  template <typename T> T
+  template <typename T>
+  T
   load (std::size_t i) const
   {
     T value;
@@ -179,9 +187,9 @@ readSensorCloud (const std::string& path, const PcdViewOptions& options)
   result.positions = readVectors (path, header, cloud, {"x", "y", "z"},
                                   Eigen::Affine3d (T_sensor_points) * Eigen::Scaling (options.scale));
   if (header.find ("normal_x") && header.find ("normal_y") && header.find ("normal_z"))
-    result.normals = readVectors (path, header, cloud, {"normal_x", "normal_y", "normal_z"},
-                                  Eigen::Affine3d (Eigen::Affine3d::MatrixType (
-                                      Eigen::Isometry3d (T_sensor_points.rotation ()).matrix ())));
+    result.normals = readVectors (
+        path, header, cloud, {"normal_x", "normal_y", "normal_z"},
+        Eigen::Affine3d (Eigen::Affine3d::MatrixType (Eigen::Isometry3d (T_sensor_points.rotation ()).matrix ())));
   result.labels.assign (header.points, 1);
   if (const PcdField* label = header.find ("label"))
   {

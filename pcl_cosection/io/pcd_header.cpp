@@ -83,7 +83,8 @@ isWhite (char c)
 class HeaderParser
 {
 public:
-  explicit HeaderParser (const std::string& path) : path_ (path) {}
+  explicit HeaderParser (const std::string& path) : path_ (path)
+  {}
 
   PcdHeader
   parse (const std::string& text)
@@ -124,25 +125,28 @@ private:
     else if (key == "TYPE")
       perField (tokens, [] (PcdField& f, const std::string& t) { f.type = t[0]; });
     else if (key == "COUNT")
-      perField (tokens, [&] (PcdField& f, const std::string& t) { f.count = parseCount (path_, key, t, max_elements); });
+      perField (tokens,
+                [&] (PcdField& f, const std::string& t) { f.count = parseCount (path_, key, t, max_elements); });
     else if (key == "WIDTH" || key == "HEIGHT" || key == "POINTS")
     {
       if (tokens.size () != 2)
         fail (path_, key + " in the PCD header must have one value");
-      (key == "WIDTH" ? header_.width : key == "HEIGHT" ? header_.height : header_.points) =
-          parseCount (path_, key, tokens[1], max_points);
+      (key == "WIDTH"    ? header_.width
+       : key == "HEIGHT" ? header_.height
+                         : header_.points) = parseCount (path_, key, tokens[1], max_points);
     }
     else if (key == "VIEWPOINT")
       parseViewpoint (tokens);
     else if (key == "DATA")
       parseEncoding (tokens);
     else
-      fail (path_, known_lines_ == 0 ? "is not a PCD file (it begins with \"" + printable (key) + "\")"
-                                     : "the PCD header has an unknown line \"" + printable (key) + "\"");
+      fail (path_,
+            known_lines_ == 0 ? "is not a PCD file" : "the PCD header has an unknown line \"" + printable (key) + "\"");
     ++known_lines_;
   }
 
-  template <typename Assign> void
+  template <typename Assign>
+  void
   perField (const Tokens& tokens, Assign&& assign)
   {
     if (header_.fields.empty () || tokens.size () != header_.fields.size () + 1)
@@ -274,8 +278,8 @@ checkAscii (const std::string& path, const PcdHeader& header, std::istream& file
     if (row_values == 0)
       continue;
     if (row_values != values)
-      fail (path, "point " + std::to_string (rows) + " has " + std::to_string (row_values) + " values, its header announces " +
-                      std::to_string (values));
+      fail (path, "point " + std::to_string (rows) + " has " + std::to_string (row_values) +
+                      " values, its header announces " + std::to_string (values));
     ++rows;
   }
   if (rows < header.points)
@@ -288,7 +292,8 @@ checkAscii (const std::string& path, const PcdHeader& header, std::istream& file
 const PcdField*
 PcdHeader::find (const std::string& name) const
 {
-  const auto found = std::find_if (fields.begin (), fields.end (), [&] (const PcdField& f) { return (f.name == name); });
+  const auto found =
+      std::find_if (fields.begin (), fields.end (), [&] (const PcdField& f) { return (f.name == name); });
   return (found == fields.end () ? nullptr : &*found);
 }
 

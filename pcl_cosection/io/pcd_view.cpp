@@ -68,9 +68,9 @@ addRays (const std::string& path, const PcdViewOptions& options, const SensorClo
   }
   if (!camera)
   {
-    result.warnings.push_back (path + ": organised, but not the image of a pinhole camera in the sensor frame: no free " +
-                               "space is taken from it (give --intrinsics, or --world-points if the points are in the " +
-                               "world frame)");
+    result.warnings.push_back (
+        path + ": organised, but not the image of a pinhole camera in the sensor frame: no free " +
+        "space is taken from it (give --intrinsics, or --world-points if the points are in the " + "world frame)");
     return;
   }
   DepthView view;
@@ -119,7 +119,8 @@ estimateNormals (const std::string& path, const PcdViewOptions& options, SensorC
   for (const auto& [label, indices] : members)
     estimateNormals (options, indices, cloud);
   if (box.contains (Eigen::Vector3f::Zero ().eval ()))
-    result.warnings.push_back (path + ": normals are turned towards the VIEWPOINT, which lies among the points: set the " +
+    result.warnings.push_back (path +
+                               ": normals are turned towards the VIEWPOINT, which lies among the points: set the " +
                                "VIEWPOINT, or add fields normal_x normal_y normal_z");
 }
 

@@ -23,12 +23,12 @@ namespace
 {
 
 constexpr int max_radius = 15;
-constexpr double trim_sigmas = 3.5;    ///< points farther from the first plane are not of this surface
-constexpr double link_sigmas = 4.0;    ///< jump in range between neighbours that noise explains ...
-constexpr double link_slope = 3.7;     ///< ... plus this, tan (75 degrees), times the distance across
-constexpr double planar_sigmas = 1.5;  ///< thickness of a plane that noise explains ...
-constexpr double planar_ratio = 0.05;  ///< ... plus this share of the second eigenvalue for curvature
-constexpr double line_ratio = 0.02;    ///< second over first eigenvalue: below, the support is a line
+constexpr double trim_sigmas = 3.5;   ///< points farther from the first plane are not of this surface
+constexpr double link_sigmas = 4.0;   ///< jump in range between neighbours that noise explains ...
+constexpr double link_slope = 3.7;    ///< ... plus this, tan (75 degrees), times the distance across
+constexpr double planar_sigmas = 1.5; ///< thickness of a plane that noise explains ...
+constexpr double planar_ratio = 0.05; ///< ... plus this share of the second eigenvalue for curvature
+constexpr double line_ratio = 0.02;   ///< second over first eigenvalue: below, the support is a line
 
 /** \brief Pixels of one window relative to its centre, as arrays for vectorised sums. */
 struct Window
@@ -88,8 +88,14 @@ class NormalEstimator
 public:
   NormalEstimator (const std::vector<Eigen::Vector3f>& points, int width, int height,
                    const std::vector<std::uint32_t>& labels, const OrganizedNormalsOptions& options)
-  : points_ (points), width_ (width), height_ (height), labels_ (labels), options_ (options),
-    range_ (points.size ()), reach_ (points.size ()), min_cosine_ (std::cos (options.max_incidence_rad))
+      : points_ (points)
+      , width_ (width)
+      , height_ (height)
+      , labels_ (labels)
+      , options_ (options)
+      , range_ (points.size ())
+      , reach_ (points.size ())
+      , min_cosine_ (std::cos (options.max_incidence_rad))
   {
     parallelFor (0, static_cast<int> (points.size ()), options.threads, [this] (int i) {
       const float range = points_[i].norm ();
@@ -112,10 +118,10 @@ public:
     if (range <= 0.0 || pitch_ <= 0.0)
       return (none);
     const double pixel_m = pitch_ * range;
-    const int radius = static_cast<int> (std::clamp<double> (
-        std::round (options_.radius_m / pixel_m), options_.min_radius_px, options_.max_radius_px));
-    const int needed = std::max (
-        6, static_cast<int> (std::ceil (options_.min_support * (2 * radius + 1) * (2 * radius + 1))));
+    const int radius = static_cast<int> (
+        std::clamp<double> (std::round (options_.radius_m / pixel_m), options_.min_radius_px, options_.max_radius_px));
+    const int needed =
+        std::max (6, static_cast<int> (std::ceil (options_.min_support * (2 * radius + 1) * (2 * radius + 1))));
     const double sigma = depthNoiseSigma (range);
 
     collect (u, v, radius, window);
@@ -163,7 +169,8 @@ private:
 
   /** \brief Walk along a row or a column; calls \a visit (step, pixel) at every pixel reached without
    * a jump in range. Unusable pixels are stepped over. */
-  template <typename Visit> void
+  template <typename Visit>
+  void
   walk (int start, int stride, int steps, Visit&& visit) const
   {
     const float noise = static_cast<float> (link_sigmas * depthNoiseSigma (range_[start]));
@@ -265,7 +272,8 @@ OrganizedNormalsOptions::validate () const
   require (max_radius_px >= min_radius_px && max_radius_px <= max_radius,
            "normals: max_radius_px must be between min_radius_px and " + std::to_string (max_radius));
   require (min_support >= 0.0 && min_support <= 1.0, "normals: min_support must be between 0 and 1");
-  require (max_incidence_rad > 0.0 && max_incidence_rad < 1.57, "normals: max_incidence_rad must be between 0 and 1.57");
+  require (max_incidence_rad > 0.0 && max_incidence_rad < 1.57,
+           "normals: max_incidence_rad must be between 0 and 1.57");
 }
 
 std::vector<Eigen::Vector3f>

@@ -28,9 +28,9 @@ class PcdView : public testing::Test
 {
 protected:
   PcdView ()
-  : folder_ (std::filesystem::temp_directory_path () /
-             ("pcd_view_" + std::to_string (getpid ()) + "_" +
-              testing::UnitTest::GetInstance ()->current_test_info ()->name ()))
+      : folder_ (std::filesystem::temp_directory_path () /
+                 ("pcd_view_" + std::to_string (getpid ()) + "_" +
+                  testing::UnitTest::GetInstance ()->current_test_info ()->name ()))
   {
     std::filesystem::create_directories (folder_);
   }
@@ -54,7 +54,8 @@ protected:
   }
 
   /** \brief The message of the error that reading \a file gives. */
-  template <typename Expected> std::string
+  template <typename Expected>
+  std::string
   failure (const std::string& file, const PcdViewOptions& options = {}) const
   {
     try
@@ -78,14 +79,15 @@ protected:
 /** \brief A header of float fields x y z and what else is given. */
 std::string
 header (int width, int height, const std::string& data = "ascii", const std::string& fields = "x y z",
-        const std::string& size = "4 4 4", const std::string& type = "F F F", const std::string& viewpoint = "0 0 0 1 0 0 0")
+        const std::string& size = "4 4 4", const std::string& type = "F F F",
+        const std::string& viewpoint = "0 0 0 1 0 0 0")
 {
   std::string count;
   for (std::size_t i = 0; i < type.size (); i += 2)
     count += " 1";
-  return ("# .PCD v0.7\nVERSION 0.7\nFIELDS " + fields + "\nSIZE " + size + "\nTYPE " + type + "\nCOUNT" + count + "\nWIDTH " +
-          std::to_string (width) + "\nHEIGHT " + std::to_string (height) + "\nVIEWPOINT " + viewpoint + "\nPOINTS " +
-          std::to_string (width * height) + "\nDATA " + data + "\n");
+  return ("# .PCD v0.7\nVERSION 0.7\nFIELDS " + fields + "\nSIZE " + size + "\nTYPE " + type + "\nCOUNT" + count +
+          "\nWIDTH " + std::to_string (width) + "\nHEIGHT " + std::to_string (height) + "\nVIEWPOINT " + viewpoint +
+          "\nPOINTS " + std::to_string (width * height) + "\nDATA " + data + "\n");
 }
 
 /** \brief A plane at depth 1 seen by a pinhole, label 0 on the left and 7 on the right. */
@@ -170,7 +172,8 @@ TEST_F (PcdView, WorldPointsMoveToTheSensor)
 {
   auto cloud = organizedPlane ();
   pcl::io::savePCDFileBinary (path ("sensor.pcd"), cloud);
-  const Eigen::Isometry3f T = Eigen::Translation3f (0.3f, -2.0f, 1.0f) * Eigen::AngleAxisf (2.0f, Eigen::Vector3f (1, 2, 3).normalized ());
+  const Eigen::Isometry3f T =
+      Eigen::Translation3f (0.3f, -2.0f, 1.0f) * Eigen::AngleAxisf (2.0f, Eigen::Vector3f (1, 2, 3).normalized ());
   for (auto& p : cloud)
     p.getVector3fMap () = T * Eigen::Vector3f (p.getVector3fMap ());
   cloud.sensor_origin_.head<3> () = T.translation ();
@@ -268,9 +271,9 @@ TEST_F (PcdView, SensorAmongThePointsIsWarnedOf)
 
 TEST_F (PcdView, NormalsOfTheFileAreKept)
 {
-  const std::string file = write (header (3, 1, "ascii", "x y z normal_x normal_y normal_z", "4 4 4 4 4 4", "F F F F F F",
-                                          "0 0 5 0 1 0 0") +
-                                  "1 2 3 0 0 2\n4 5 6 nan nan nan\n7 8 9 0 0 0\n");
+  const std::string file =
+      write (header (3, 1, "ascii", "x y z normal_x normal_y normal_z", "4 4 4 4 4 4", "F F F F F F", "0 0 5 0 1 0 0") +
+             "1 2 3 0 0 2\n4 5 6 nan nan nan\n7 8 9 0 0 0\n");
   const LabelledView view = readPcdView (file);
   EXPECT_EQ (view.objects.at (1).readings, 3u);
   ASSERT_EQ (view.objects.at (1).points.size (), 1u); // normals of no length are none
@@ -304,15 +307,20 @@ TEST_F (PcdView, BadFilesAreRefusedInOneLine)
   EXPECT_NE (failure<IoError> (write (std::string (100000, '\x7f'))).find ("not a PCD"), std::string::npos);
   EXPECT_NE (failure<IoError> (write ("# .PCD\nVERSION 0.7\n")).find ("no DATA"), std::string::npos);
   EXPECT_NE (failure<DegenerateInput> (write (header (0, 1))).find ("no points"), std::string::npos);
-  EXPECT_NE (failure<DegenerateInput> (write (header (2, 1) + "nan nan nan\nnan nan nan\n")).find ("finite"), std::string::npos);
-  EXPECT_NE (failure<IoError> (write (header (1, 1, "ascii", "x y w") + "1 2 3\n")).find ("no field z"), std::string::npos);
+  EXPECT_NE (failure<DegenerateInput> (write (header (2, 1) + "nan nan nan\nnan nan nan\n")).find ("finite"),
+             std::string::npos);
+  EXPECT_NE (failure<IoError> (write (header (1, 1, "ascii", "x y w") + "1 2 3\n")).find ("no field z"),
+             std::string::npos);
   EXPECT_NE (failure<IoError> (write (header (1, 1, "ascii", "x y z", "4 4 4", "I I I") + "1 2 3\n")).find ("TYPE F"),
              std::string::npos);
-  EXPECT_NE (failure<IoError> (write (header (1, 1, "ascii", "x y z label", "4 4 4 4", "F F F F") + "1 2 3 4\n")).find ("integer"),
+  EXPECT_NE (failure<IoError> (write (header (1, 1, "ascii", "x y z label", "4 4 4 4", "F F F F") + "1 2 3 4\n"))
+                 .find ("integer"),
              std::string::npos);
-  EXPECT_NE (failure<IoError> (write (header (1, 1, "ascii", "x y z", "4 4 3") + "1 2 3\n")).find ("SIZE"), std::string::npos);
+  EXPECT_NE (failure<IoError> (write (header (1, 1, "ascii", "x y z", "4 4 3") + "1 2 3\n")).find ("SIZE"),
+             std::string::npos);
   EXPECT_NE (failure<IoError> (write (header (1, 1, "gzip") + "1 2 3\n")).find ("ascii, binary"), std::string::npos);
-  EXPECT_NE (failure<IoError> (write (header (1, 1, "ascii", "x y z", "4 4 4", "F F F", "0 0 0 0 0 0 0") + "1 2 3\n")).find ("VIEWPOINT"),
+  EXPECT_NE (failure<IoError> (write (header (1, 1, "ascii", "x y z", "4 4 4", "F F F", "0 0 0 0 0 0 0") + "1 2 3\n"))
+                 .find ("VIEWPOINT"),
              std::string::npos);
   EXPECT_NE (failure<IoError> (write (header (2, 1) + "1 2 3\n1 2 x\n")).find ("not a number"), std::string::npos);
   EXPECT_NE (failure<IoError> (write (header (2, 1) + "1 2 3\n1 2 3 4\n")).find ("4 values"), std::string::npos);
@@ -346,7 +354,8 @@ TEST_F (PcdView, DamagedFilesNeverCrash)
         bad.resize (generator () % good.size ());
       else
         for (int k = 0; k < 3; ++k) // in the header, or right after it
-          bad[generator () % std::min<std::size_t> (bad.size (), trial % 3 == 1 ? 180 : 400)] = static_cast<char> (generator ());
+          bad[generator () % std::min<std::size_t> (bad.size (), trial % 3 == 1 ? 180 : 400)] =
+              static_cast<char> (generator ());
       try
       {
         readPcdView (write (bad));

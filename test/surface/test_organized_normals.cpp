@@ -66,8 +66,7 @@ valid (const Eigen::Vector3f& n)
 } // namespace
 
 class TiltedPlane : public testing::TestWithParam<double>
-{
-};
+{};
 
 TEST_P (TiltedPlane, HasItsNormalEverywhere)
 {
@@ -140,8 +139,7 @@ TEST (OrganizedNormals, NoisySphereIsNearTheTruth)
 }
 
 class StepEdge : public testing::TestWithParam<double>
-{
-};
+{};
 
 TEST_P (StepEdge, DoesNotBendTheNormals)
 {

@@ -25,8 +25,8 @@ struct PCL_COSECTION_EXPORT PcdViewOptions
   double scale = 1.0;        ///< multiplies all coordinates, the viewpoint's too: 0.001 for millimetres
   bool world_points = false; ///< the points are in the world frame, not in the sensor's
   std::optional<std::array<double, 4>> intrinsics; ///< fx, fy, cx, cy in pixels, where no pinhole fits the points
-  int normal_neighbours = 20; ///< nearest points for the normals of an unorganised cloud
-  int threads = 0;            ///< 0: all
+  int normal_neighbours = 20;                      ///< nearest points for the normals of an unorganised cloud
+  int threads = 0;                                 ///< 0: all
 
   /** \brief \throws InvalidArgument naming the first parameter outside its domain. */
   void

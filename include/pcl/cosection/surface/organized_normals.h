@@ -17,12 +17,12 @@ namespace cosection
 /** \brief Parameters of computeOrganizedNormals (). */
 struct PCL_COSECTION_EXPORT OrganizedNormalsOptions
 {
-  double radius_m = 0.01;           ///< half width of the window on the surface
-  int min_radius_px = 3;            ///< the window is never smaller, pixels
-  int max_radius_px = 7;            ///< nor larger, pixels; at most 15
-  double min_support = 1.0 / 3.0;   ///< share of the window's pixels that must lie on the fitted plane
-  double max_incidence_rad = 1.45;  ///< largest angle between the normal and the direction to the sensor
-  int threads = 0;                  ///< 0: all
+  double radius_m = 0.01;          ///< half width of the window on the surface
+  int min_radius_px = 3;           ///< the window is never smaller, pixels
+  int max_radius_px = 7;           ///< nor larger, pixels; at most 15
+  double min_support = 1.0 / 3.0;  ///< share of the window's pixels that must lie on the fitted plane
+  double max_incidence_rad = 1.45; ///< largest angle between the normal and the direction to the sensor
+  int threads = 0;                 ///< 0: all
 
   /** \brief \throws InvalidArgument naming the first parameter outside its domain. */
   void
@@ -49,8 +49,7 @@ struct PCL_COSECTION_EXPORT OrganizedNormalsOptions
  * \endcode */
 PCL_COSECTION_EXPORT std::vector<Eigen::Vector3f>
 computeOrganizedNormals (const std::vector<Eigen::Vector3f>& points, int width, int height,
-                         const std::vector<std::uint32_t>& labels = {},
-                         const OrganizedNormalsOptions& options = {});
+                         const std::vector<std::uint32_t>& labels = {}, const OrganizedNormalsOptions& options = {});
 
 } // namespace cosection
 } // namespace pcl
