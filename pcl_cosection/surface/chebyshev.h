@@ -7,7 +7,7 @@ namespace pcl
 namespace cosection
 {
 
-/** \brief The largest eigenvalue known in the interior is taken larger by this, for the border. */
+/** \brief An estimated largest eigenvalue is taken larger by this. */
 constexpr double chebyshev_safety = 1.08;
 
 /** \brief Coefficients of a Chebyshev iteration of the fourth kind, which needs only the largest

@@ -28,9 +28,6 @@ struct GalerkinAxis
 {
   int size = 0;
   Pentadiagonal mass, first, second;
-  /** \brief The rows far from any border (also of axes too short to have one). */
-  std::array<double, 5> interior_mass{}, interior_first{}, interior_second{};
-
   /** \brief The finest level. */
   static GalerkinAxis
   finest (int size);
@@ -38,12 +35,12 @@ struct GalerkinAxis
   /** \brief The next coarser level. */
   GalerkinAxis
   coarsen (const AxisTransfer& transfer) const;
-};
 
-/** \brief Largest eigenvalue of D^-1 R in the interior of a level, by its Fourier symbol; R the
- * Hessian's Gram matrix of the three axes and D its diagonal. */
-double
-largestSymbol (const std::array<GalerkinAxis, 3>& axes);
+  /** \brief The same axis with rows taken out of its middle, where they are all alike, so that no
+   * more than \a size are left: what an axis so short looks like to a local quantity. */
+  GalerkinAxis
+  shortened (int size) const;
+};
 
 } // namespace cosection
 } // namespace pcl

@@ -25,7 +25,6 @@ template <typename Real>
 GalerkinLevel<Real>::GalerkinLevel (const std::array<GalerkinAxis, 3>& axes, double alpha, int threads)
 : dims_ (axes[0].size, axes[1].size, axes[2].size)
 , threads_ (threads)
-, largest_eigenvalue_ (static_cast<Real> (chebyshev_safety * largestSymbol (axes)))
 {
   const std::array<const Pentadiagonal*, 3> along_x{&axes[0].mass, &axes[0].first, &axes[0].second};
   for (int field = 0; field < 3; ++field)
@@ -63,21 +62,50 @@ GalerkinLevel<Real>::GalerkinLevel (const std::array<GalerkinAxis, 3>& axes, dou
       }
 }
 
+template <typename Real> double
+GalerkinLevel<Real>::estimateLargestEigenvalue () const
+{
+  constexpr int iterations = 30;
+  std::vector<Real> v (size ());
+  std::vector<Real> next (size ());
+  for (std::size_t n = 0; n < v.size (); ++n) // rough, and the same every time
+    v[n] = static_cast<Real> ((n * 2654435761u >> 16) % 1024) - Real (511.5);
+  double eigenvalue = 0.0;
+  for (int i = 0; i < iterations; ++i)
+  {
+    forEachRow (v.data (), [&] (int j, int k, const Real* product) {
+      const std::size_t offset = (static_cast<std::size_t> (k) * dims_.y () + j) * dims_.x ();
+      for (int x = 0; x < dims_.x (); ++x)
+        next[offset + x] = product[x] / diagonal_[offset + x];
+    });
+    double norm = 0.0;
+    double dot = 0.0;
+    for (std::size_t n = 0; n < v.size (); ++n)
+    {
+      norm += static_cast<double> (diagonal_[n]) * v[n] * v[n];
+      dot += static_cast<double> (diagonal_[n]) * v[n] * next[n];
+    }
+    eigenvalue = dot / norm; // Rayleigh quotient
+    const Real scale = static_cast<Real> (1.0 / eigenvalue);
+    for (std::size_t n = 0; n < v.size (); ++n)
+      v[n] = scale * next[n];
+  }
+  return eigenvalue;
+}
+
 template <typename Real> void
 GalerkinLevel<Real>::updateDiagonal ()
 {
   inverse_diagonal_.resize (size ());
-  const std::vector<Real> ones (size (), Real (1));
   parallelFor (0, dims_.z (), threads_, [&] (int k) {
     std::vector<Real> sums (dims_.x ());
     for (int j = 0; j < dims_.y (); ++j)
     {
       std::fill (sums.begin (), sums.end (), Real (0));
-      weights.addRowProduct (ones.data (), j, k, sums.data ());
+      weights.addAbsoluteRowSums (j, k, sums.data ());
       const std::size_t offset = (static_cast<std::size_t> (k) * dims_.y () + j) * dims_.x ();
-      const Real* own = weights.entry (0, 0, 0).data () + offset;
       for (int i = 0; i < dims_.x (); ++i)
-        inverse_diagonal_[offset + i] = Real (1) / (diagonal_[offset + i] + std::max (sums[i], own[i]));
+        inverse_diagonal_[offset + i] = Real (1) / (diagonal_[offset + i] + sums[i]);
     }
   });
 }

@@ -24,6 +24,16 @@ template <typename Real> class GalerkinLevel
 public:
   GalerkinLevel (const std::array<GalerkinAxis, 3>& axes, double alpha, int threads);
 
+  /** \brief Largest eigenvalue of D^-1 times the regulariser, which smooth () needs; by power iteration. */
+  double
+  estimateLargestEigenvalue () const;
+
+  void
+  setLargestEigenvalue (double value)
+  {
+    largest_eigenvalue_ = value;
+  }
+
   /** \brief The weights' part; after changing it call updateDiagonal (). */
   GalerkinWeights<Real> weights;
 
@@ -57,9 +67,8 @@ public:
 private:
   Eigen::Vector3i dims_;
   int threads_;
-  Real largest_eigenvalue_;                          // of D^-1 times the operator
-  std::array<Pentadiagonal, 3> factors_;             // mass, first and second along x
-  std::array<std::vector<Real>, 15> x_coefficients_; // the same: [5 * factor + offset][x]
+  double largest_eigenvalue_ = 0.0;                  // of D^-1 times the operator
+  std::array<std::vector<Real>, 15> x_coefficients_; // [5 * (mass, first, second) + offset][x]
   std::array<std::vector<kernels::AxisCoefficients<Real>>, 2> coefficients_; // by y, and by z times alpha
   std::vector<Real> diagonal_;                       // of the regulariser
   std::vector<Real> inverse_diagonal_;

@@ -147,28 +147,44 @@ GalerkinWeights<Real>::coarsen (const GridTransfer& transfer, const GalerkinWeig
             [&] (int entry, int z, Real*) { return fine.entries[entry].data () + z * plane; });
 }
 
+template <typename Real>
+template <typename Function> void
+GalerkinWeights<Real>::forEachCoupledRow (int j, int k, Function&& f) const
+{
+  if (entries.empty ())
+    return;
+  for (int z = std::max (0, k - span[2]); z <= std::min (dims.z () - 1, k + span[2]); ++z)
+    for (int y = std::max (0, j - span[1]); y <= std::min (dims.y () - 1, j + span[1]); ++y)
+      f ((static_cast<std::size_t> (z) * dims.y () + y) * dims.x (),
+         (static_cast<std::size_t> (std::min (k, z)) * dims.y () + std::min (j, y)) * dims.x (), std::abs (y - j),
+         std::abs (z - k));
+}
+
 template <typename Real> void
 GalerkinWeights<Real>::addRowProduct (const Real* v, int j, int k, Real* out) const
 {
+  forEachCoupledRow (j, k, [&] (std::size_t from, std::size_t base, int b, int c) {
+    kernels::symmetricRow (v + from, entry (0, b, c).data () + base, span[0] > 0 ? entry (1, b, c).data () + base : nullptr,
+                           span[0] > 1 ? entry (2, b, c).data () + base : nullptr, dims.x (), out);
+  });
+}
+
+template <typename Real> void
+GalerkinWeights<Real>::addAbsoluteRowSums (int j, int k, Real* out) const
+{
   const int nx = dims.x ();
-  for (int dz = -span[2]; dz <= span[2]; ++dz)
-  {
-    const int z = k + dz;
-    if (z < 0 || z >= dims.z ())
-      continue;
-    for (int dy = -span[1]; dy <= span[1]; ++dy)
+  forEachCoupledRow (j, k, [&] (std::size_t, std::size_t base, int b, int c) {
+    for (int a = 0; a <= span[0]; ++a)
     {
-      const int y = j + dy;
-      if (y < 0 || y >= dims.y ())
-        continue;
-      const Real* in = v + (static_cast<std::size_t> (z) * dims.y () + y) * nx;
-      const std::size_t base = (static_cast<std::size_t> (std::min (k, z)) * dims.y () + std::min (j, y)) * nx;
-      const int b = std::abs (dy);
-      const int c = std::abs (dz);
-      kernels::symmetricRow (in, entry (0, b, c).data () + base, span[0] > 0 ? entry (1, b, c).data () + base : nullptr,
-                             span[0] > 1 ? entry (2, b, c).data () + base : nullptr, nx, out);
+      const Real* values = entry (a, b, c).data () + base;
+      for (int i = 0; i + a < nx; ++i)
+      {
+        out[i] += std::abs (values[i]);
+        if (a > 0)
+          out[i + a] += std::abs (values[i]);
+      }
     }
-  }
+  });
 }
 
 template struct GalerkinWeights<float>;

@@ -45,6 +45,17 @@ template <typename Real> struct GalerkinWeights
   /** \brief out += row (j, k) of the matrix times v. */
   void
   addRowProduct (const Real* v, int j, int k, Real* out) const;
+
+  /** \brief out += sums of the absolute values of row (j, k), an upper bound of its eigenvalues. (At the
+   * border interpolation extrapolates, with negative weights.) */
+  void
+  addAbsoluteRowSums (int j, int k, Real* out) const;
+
+private:
+  /** \brief f (first of the row in v, first of the row of entries, |dy|, |dz|) for every row that row
+   * (j, k) couples to. */
+  template <typename Function> void
+  forEachCoupledRow (int j, int k, Function&& f) const;
 };
 
 extern template struct GalerkinWeights<float>;

@@ -17,6 +17,17 @@ constexpr double largest_eigenvalue_finest = 144.0 / 42.0 * chebyshev_safety; //
 
 constexpr int coarsest_axis = 4; // axes are halved down to this many voxels
 
+/** \brief Largest eigenvalue of D^-1 R for the regulariser R of a coarse level. The border, where
+ * interpolation extrapolates, decides it; a few voxels between the borders suffice. */
+double
+largestEigenvalue (const std::array<GalerkinAxis, 3>& axes)
+{
+  constexpr int probe_axis = 8;
+  const std::array<GalerkinAxis, 3> probe{axes[0].shortened (probe_axis), axes[1].shortened (probe_axis),
+                                          axes[2].shortened (probe_axis)};
+  return GalerkinLevel<double> (probe, 1.0, 1).estimateLargestEigenvalue ();
+}
+
 } // namespace
 
 template <typename Real>
@@ -36,6 +47,7 @@ MultigridPreconditioner<Real>::MultigridPreconditioner (const Eigen::Vector3i& d
     levels_.push_back (Level{transfer, GalerkinLevel<Real> (axes, alpha, threads), {}, {}, {}});
     Level& level = levels_.back ();
     level.op.weights.allocate (transfer, span);
+    level.op.setLargestEigenvalue (chebyshev_safety * largestEigenvalue (axes));
     span = level.op.weights.span;
     level.rhs.resize (level.op.size ());
     level.z.resize (level.op.size ());
