@@ -261,40 +261,62 @@ readVertices (const Element& element, Reader& reader, TriangleMesh& mesh)
       column.set (mesh, v, column.load (data + column.offset));
 }
 
+/** \brief A property of a face, ready to be read again and again. */
+struct FaceColumn
+{
+  explicit FaceColumn (const Property& property)
+  : is_list (!property.count_type.empty ()),
+    is_corners (is_list && (property.name == "vertex_indices" || property.name == "vertex_index")),
+    size (scalarSize (property.type)), count_size (scalarSize (property.count_type)),
+    load (scalarLoader (property.type)), load_count (scalarLoader (property.count_type))
+  {}
+
+  bool is_list;
+  bool is_corners;
+  std::size_t size;
+  std::size_t count_size;
+  Loader load;
+  Loader load_count;
+};
+
+TriangleMesh::Triangle
+readTriangle (const char* data, const FaceColumn& column, double vertex_count)
+{
+  TriangleMesh::Triangle triangle;
+  for (int n = 0; n < 3; ++n)
+  {
+    const double index = column.load (data + n * column.size);
+    if (!(index >= 0.0 && index < vertex_count))
+      throw IoError ("a face refers to a vertex that does not exist");
+    triangle[n] = static_cast<std::uint32_t> (index);
+  }
+  return triangle;
+}
+
 void
 readFaces (const Element& element, Reader& reader, TriangleMesh& mesh)
 {
-  const auto is_corners = [] (const Property& property) {
-    return !property.count_type.empty () && (property.name == "vertex_indices" || property.name == "vertex_index");
-  };
-  if (std::none_of (element.properties.begin (), element.properties.end (), is_corners))
+  const std::vector<FaceColumn> columns (element.properties.begin (), element.properties.end ());
+  if (std::none_of (columns.begin (), columns.end (), [] (const FaceColumn& column) { return column.is_corners; }))
     throw IoError ("the faces have no vertex_indices");
+  const auto vertex_count = static_cast<double> (mesh.vertices.size ());
   for (std::uint64_t f = 0; f < element.count; ++f)
-    for (const Property& property : element.properties)
+    for (const FaceColumn& column : columns)
     {
-      const std::size_t size = scalarSize (property.type);
-      if (property.count_type.empty ())
+      if (!column.is_list)
       {
-        reader.take (1, size);
+        reader.take (1, column.size);
         continue;
       }
-      const double count = scalarLoader (property.count_type) (reader.take (1, scalarSize (property.count_type)));
+      const double count = column.load_count (reader.take (1, column.count_size));
       if (!(count >= 0.0 && count <= std::numeric_limits<std::uint32_t>::max ()))
         throw IoError ("a face has an impossible number of corners");
-      const char* data = reader.take (static_cast<std::uint64_t> (count), size);
-      if (!is_corners (property))
+      const char* data = reader.take (static_cast<std::uint64_t> (count), column.size);
+      if (!column.is_corners)
         continue;
       if (count != 3.0)
         throw IoError ("a face is not a triangle");
-      TriangleMesh::Triangle triangle;
-      for (int n = 0; n < 3; ++n)
-      {
-        const double index = scalarLoader (property.type) (data + n * size);
-        if (!(index >= 0.0 && index < static_cast<double> (mesh.vertices.size ())))
-          throw IoError ("a face refers to a vertex that does not exist");
-        triangle[n] = static_cast<std::uint32_t> (index);
-      }
-      mesh.triangles.push_back (triangle);
+      mesh.triangles.push_back (readTriangle (data, column, vertex_count));
     }
 }
 
