@@ -95,12 +95,14 @@ public:
   void
   addIntersection (SignedDistanceField::ConstPtr body);
 
-  /** \brief Run. One failing object does not lose the others: see ObjectResult::error.
-   * \throws Cancelled, MemoryLimitExceeded */
+  /** \brief Run. One failing object (degenerate, too large for the memory allowed ...) does not lose the
+   * others: see ObjectResult::error; a background that fails is a warning.
+   * \throws Cancelled */
   SceneResult
   reconstruct (const ProgressCallback& progress = {}) const;
 
 private:
+  friend class CoSectionRun;
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };

@@ -45,6 +45,12 @@ public:
   /** \brief False where there is no bound. */
   explicit operator bool () const { return weight_ != 0; }
 
+  bool
+  operator== (const LowerBound& other) const
+  {
+    return distance_ == other.distance_ && weight_ == other.weight_;
+  }
+
 private:
   std::uint16_t distance_ = 0;
   std::uint16_t weight_ = 0; // upper half of a float

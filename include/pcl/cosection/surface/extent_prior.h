@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_cosection authors
+#pragma once
+
+#include <pcl/cosection/common/camera.h>
+#include <pcl/cosection/common/export.h>
+#include <pcl/cosection/surface/oriented_point.h>
+#include <pcl/cosection/volume/voxel_grid.h>
+
+#include <utility>
+#include <vector>
+
+namespace pcl
+{
+namespace cosection
+{
+
+/** \brief How large an object appears: extents of its points (1st to 99th percentile) along their
+ * principal axes, metres, largest first. Zero for no points. */
+PCL_COSECTION_EXPORT Eigen::Vector3d
+observedExtents (const std::vector<OrientedPoint>& points);
+
+/** \brief Remedy for swelling: a distance that a voxel should keep from the object because nothing
+ * suggests that the object reaches it.
+ *
+ * Where no ray and no neighbour bounds a shape, the Hessian term alone continues it without end. What
+ * speaks for matter in a hidden voxel is an observed surface in front of it, and for how far behind
+ * that surface, the size of what was observed: most things are about as deep as they are wide. So a
+ * voxel x may lie up to
+ *
+ *     behind observed surface, on a viewing ray:  middle observed extent * \a depth_factor
+ *     elsewhere (missing readings, occluded):      middle observed extent * \a side_factor
+ *
+ * from the nearest data; what it exceeds that by is the bound, to be applied with a weak weight to
+ * voxels that were not seen free. */
+struct PCL_COSECTION_EXPORT ExtentPrior
+{
+  double depth_factor = 0.75; ///< of the middle observed extent
+  double side_factor = 0.15;  ///< of the middle observed extent
+
+  /** \brief Bounds in voxels, 0 where there is none.
+   * \param[in] data_distance_vox distance to the nearest voxel with data
+   * \param[in] points the object's, the grid's frame
+   * \param[in] views cameras and their poses in the grid's frame; none: every voxel counts as behind */
+  std::vector<float>
+  bounds (const VoxelGrid& grid, const std::vector<float>& data_distance_vox, const std::vector<OrientedPoint>& points,
+          const std::vector<std::pair<PinholeCamera, Eigen::Isometry3d>>& views, int threads = 0) const;
+};
+
+} // namespace cosection
+} // namespace pcl

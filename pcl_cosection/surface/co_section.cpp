@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_cosection authors
+#include <pcl/cosection/surface/co_section.h>
+
+#include "co_section_run.h"
+
+#include <pcl/cosection/common/error.h>
+
+#include <algorithm>
+#include <string>
+
+namespace pcl
+{
+namespace cosection
+{
+
+CoSection::CoSection (const CoSectionOptions& options) : impl_ (new Impl)
+{
+  options.validate ();
+  impl_->options = options;
+}
+
+CoSection::~CoSection () = default;
+CoSection::CoSection (CoSection&&) noexcept = default;
+CoSection&
+CoSection::operator= (CoSection&&) noexcept = default;
+
+int
+CoSection::addView (DepthView view)
+{
+  view.camera.validate ();
+  if (view.depth.size () != static_cast<std::size_t> (view.camera.width) * view.camera.height)
+    throw InvalidArgument ("the depth of a view has " + std::to_string (view.depth.size ()) + " values; its camera has " +
+                           std::to_string (view.camera.width) + " x " + std::to_string (view.camera.height) + " pixels");
+  impl_->views.emplace_back (std::move (view));
+  return static_cast<int> (impl_->views.size ()) - 1;
+}
+
+void
+CoSection::setBackground (std::vector<OrientedPoint> points)
+{
+  impl_->background = std::move (points);
+}
+
+void
+CoSection::addObject (ObjectInput object)
+{
+  if (object.id <= 0)
+    throw InvalidArgument ("object id is " + std::to_string (object.id) + "; it must be positive");
+  if (std::any_of (impl_->objects.begin (), impl_->objects.end (), [&] (const ObjectInput& o) { return o.id == object.id; }))
+    throw InvalidArgument ("object " + std::to_string (object.id) + " was added twice");
+  impl_->objects.push_back (std::move (object));
+}
+
+void
+CoSection::addSupportPlane (const Eigen::Vector4d& plane)
+{
+  const double norm = plane.head<3> ().norm ();
+  if (!(norm > 0.0) || !plane.allFinite ())
+    throw InvalidArgument ("the normal of a plane must not be zero");
+  impl_->planes.push_back (plane / norm);
+}
+
+void
+CoSection::addIntersection (SignedDistanceField::ConstPtr body)
+{
+  if (!body || body->values.size () != body->grid.size ())
+    throw InvalidArgument ("a signed distance field must have one value per voxel");
+  impl_->bodies.push_back (std::move (body));
+}
+
+SceneResult
+CoSection::reconstruct (const ProgressCallback& progress) const
+{
+  return CoSectionRun (*impl_, progress).run ();
+}
+
+} // namespace cosection
+} // namespace pcl

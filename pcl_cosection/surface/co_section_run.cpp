@@ -1,0 +1,445 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_cosection authors
+#include "co_section_run.h"
+
+#include "mesh_colours.h"
+#include "volume_layout.h"
+
+#include <pcl/cosection/common/error.h>
+#include <pcl/cosection/common/parallel.h>
+#include <pcl/cosection/surface/support_plane.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <new>
+
+namespace pcl
+{
+namespace cosection
+{
+
+namespace
+{
+
+constexpr double background_voxels_per_object_voxel = 2.0;
+constexpr double background_only_resolution = 128.0; // voxels along the longest side, if there is no object
+constexpr double plane_inlier_voxels = 2.0;
+constexpr double min_plane_inlier_m = 0.004;
+constexpr double same_pose_voxels = 0.5;
+constexpr double penetration_voxels = 0.5; // more is resolved by growing weights
+constexpr double weight_growth = 4.0;
+constexpr double max_weight_growth = 1024.0;
+constexpr double same_plane_cosine = 0.999;
+constexpr double same_plane_m = 0.005;
+
+std::vector<Eigen::Vector3d>
+corners (const Eigen::AlignedBox3d& box)
+{
+  std::vector<Eigen::Vector3d> points;
+  for (int c = 0; c < 8; ++c)
+    points.push_back (box.corner (static_cast<Eigen::AlignedBox3d::CornerType> (c)));
+  return points;
+}
+
+Eigen::Vector4d
+transformPlane (const Eigen::Vector4d& plane, const Eigen::Isometry3d& T_plane_target)
+{
+  Eigen::Vector4d out;
+  out.head<3> () = T_plane_target.linear ().transpose () * plane.head<3> ();
+  out[3] = plane[3] + plane.head<3> ().dot (T_plane_target.translation ());
+  return out;
+}
+
+} // namespace
+
+CoSectionRun::CoSectionRun (const CoSection::Impl& scene, const ProgressCallback& progress)
+: scene_ (scene), progress_ (progress)
+{}
+
+void
+CoSectionRun::report (const std::string& stage, double fraction) const
+{
+  if (progress_ && !progress_ (stage, std::min (1.0, fraction)))
+    throw Cancelled ("cancelled");
+}
+
+template <typename Function> void
+CoSectionRun::timed (const char* stage, Function&& f)
+{
+  const auto start = std::chrono::steady_clock::now ();
+  f ();
+  result_.timings_s[stage] += std::chrono::duration<double> (std::chrono::steady_clock::now () - start).count ();
+}
+
+/** \brief Do something for one object; if it fails, only that object is lost. */
+template <typename Function> void
+CoSectionRun::guarded (Object& object, Function&& f)
+{
+  const auto fail = [&] (const std::string& what) {
+    object.result->error = what;
+    object.volume.reset ();
+    object.field = SignedDistanceField ();
+  };
+  try
+  {
+    f ();
+  }
+  catch (const Cancelled&)
+  {
+    throw;
+  }
+  catch (const Error& e)
+  {
+    fail (e.what ());
+  }
+  catch (const std::bad_alloc&)
+  {
+    fail ("not enough memory");
+  }
+}
+
+Eigen::Isometry3d
+CoSectionRun::pose (const Object& object, std::size_t view) const
+{
+  const auto& poses = object.input->T_world_object;
+  return poses.empty () ? Eigen::Isometry3d::Identity () : poses[std::min (view, poses.size () - 1)];
+}
+
+std::vector<Eigen::Isometry3d>
+CoSectionRun::relativePoses (const Object& of, const Object* to) const
+{
+  const std::size_t times =
+      std::max<std::size_t> (1, std::max (of.input->T_world_object.size (), to ? to->input->T_world_object.size () : 0));
+  const std::vector<Eigen::Vector3d> probes = corners (boxOf (of.volume->grid ()));
+  const double same = same_pose_voxels * of.volume->grid ().voxel_size_m;
+  std::vector<Eigen::Isometry3d> poses;
+  for (std::size_t t = 0; t < times; ++t)
+  {
+    const Eigen::Isometry3d T = (to ? pose (*to, t).inverse () : Eigen::Isometry3d::Identity ()) * pose (of, t);
+    const auto moved = [&] (const Eigen::Isometry3d& other) {
+      return std::any_of (probes.begin (), probes.end (),
+                          [&] (const Eigen::Vector3d& p) { return (T * p - other * p).norm () > same; });
+    };
+    if (std::all_of (poses.begin (), poses.end (), moved))
+      poses.push_back (T);
+  }
+  return poses;
+}
+
+void
+CoSectionRun::createVolumes ()
+{
+  result_.objects.resize (scene_.objects.size ());
+  objects_.resize (scene_.objects.size ());
+  for (std::size_t i = 0; i < objects_.size (); ++i)
+  {
+    Object& object = objects_[i];
+    object.input = &scene_.objects[i];
+    object.result = &result_.objects[i];
+    object.result->id = object.input->id;
+    guarded (object, [&] {
+      if (!object.input->T_world_object.empty () && object.input->T_world_object.size () != scene_.views.size ())
+        throw InvalidArgument ("there are " + std::to_string (object.input->T_world_object.size ()) + " poses for " +
+                               std::to_string (scene_.views.size ()) + " views");
+      object.volume = std::make_unique<ShapeVolume> (layoutObject (object.input->points, scene_.options), scene_.options);
+    });
+  }
+}
+
+void
+CoSectionRun::findPlanes ()
+{
+  if (!scene_.options.use_intersection)
+    return;
+  for (Object& object : objects_)
+  {
+    if (!object.alive ())
+      continue;
+    object.planes = scene_.planes;
+    if (scene_.options.use_planes && !scene_.background.empty ())
+    {
+      std::vector<OrientedPoint> points = object.input->points;
+      for (OrientedPoint& p : points)
+        p.position = (pose (object, 0) * p.position.cast<double> ()).cast<float> ();
+      SupportPlaneOptions options;
+      options.inlier_distance_m =
+          std::max (min_plane_inlier_m, plane_inlier_voxels * object.volume->grid ().voxel_size_m);
+      for (const Eigen::Vector4d& plane : findSupportPlanes (scene_.background, points, options))
+        object.planes.push_back (plane);
+    }
+    const Eigen::Vector3d center = pose (object, 0) * boxOf (object.volume->grid ()).center ();
+    for (const Eigen::Vector4d& plane : object.planes)
+    {
+      const bool known = std::any_of (result_.planes.begin (), result_.planes.end (), [&] (const Eigen::Vector4d& other) {
+        return plane.head<3> ().dot (other.head<3> ()) > same_plane_cosine &&
+               std::abs ((plane - other).head<3> ().dot (center) + plane[3] - other[3]) < same_plane_m;
+      });
+      if (!known)
+        result_.planes.push_back (plane);
+    }
+  }
+}
+
+void
+CoSectionRun::solveBackground ()
+{
+  if (scene_.background.empty ())
+    return;
+  std::vector<Eigen::AlignedBox3d> boxes;
+  std::vector<PlaneContinuation> planes;
+  double voxel = scene_.options.background_voxel_size_m;
+  double smallest = std::numeric_limits<double>::infinity ();
+  for (const Object& object : objects_)
+  {
+    if (!object.alive ())
+      continue;
+    Eigen::AlignedBox3d box;
+    for (const Eigen::Isometry3d& T : relativePoses (object, nullptr))
+      for (const Eigen::Vector3d& corner : corners (boxOf (object.volume->grid ())))
+        box.extend (T * corner);
+    boxes.push_back (box);
+    smallest = std::min (smallest, object.volume->grid ().voxel_size_m);
+    for (const Eigen::Vector4d& plane : object.planes)
+      planes.push_back ({plane, box});
+  }
+  if (boxes.empty ())
+  {
+    Eigen::AlignedBox3d box;
+    for (const OrientedPoint& p : scene_.background)
+      if (p.position.allFinite ())
+        box.extend (p.position.cast<double> ());
+    boxes.push_back (box);
+    smallest = box.sizes ().maxCoeff () / background_only_resolution / background_voxels_per_object_voxel;
+  }
+  if (voxel <= 0.0)
+    voxel = background_voxels_per_object_voxel * smallest;
+  boxes = uniteOverlapping (std::move (boxes));
+  for (const Eigen::AlignedBox3d& box : boxes)
+  {
+    try
+    {
+      ShapeVolume volume (layoutBox (box, voxel, scene_.options), scene_.options);
+      timed ("data_term", [&] { volume.addPoints (scene_.background); });
+      timed ("constraints", [&] {
+        for (const FreeSpaceView& view : scene_.views)
+          volume.addView (view, view.view ().T_world_sensor);
+        volume.prepare (planes);
+      });
+      if (!volume.hasData ())
+        continue;
+      timed ("solve", [&] { volume.solve ([this] (const std::string&, double f) { report ("background", 0.3 * f); return true; }); });
+      timed ("mesh", [&] {
+        TriangleMesh mesh = volume.trimmedMesh ();
+        transferColours (scene_.background, volume.grid (), mesh);
+        appendMesh (result_.background, mesh);
+      });
+      background_.push_back (volume.solvedField ());
+    }
+    catch (const Cancelled&)
+    {
+      throw;
+    }
+    catch (const Error& e)
+    {
+      result_.warnings.push_back (std::string ("the background was left out: ") + e.what ());
+    }
+  }
+}
+
+void
+CoSectionRun::prepareObject (Object& object)
+{
+  std::vector<std::pair<PinholeCamera, Eigen::Isometry3d>> cameras;
+  timed ("data_term", [&] { object.volume->addPoints (object.input->points); });
+  timed ("constraints", [&] {
+    for (std::size_t v = 0; v < scene_.views.size (); ++v)
+    {
+      const DepthView& view = scene_.views[v].view ();
+      const Eigen::Isometry3d T_object_sensor = pose (object, v).inverse () * view.T_world_sensor;
+      cameras.emplace_back (view.camera, T_object_sensor);
+      if (scene_.options.use_hull)
+        object.volume->addView (scene_.views[v], T_object_sensor);
+    }
+    object.volume->prepare ();
+    if (!object.volume->hasData ())
+      throw DegenerateInput ("no usable measurements: all of its points lie in space that was seen free");
+    if (scene_.options.use_extent_prior)
+      object.volume->addExtentPrior (object.input->points, cameras);
+  });
+  object.field = object.volume->measuredField ();
+}
+
+std::vector<LowerBound>
+CoSectionRun::bounds (const Object& object) const
+{
+  const CoSectionOptions& options = scene_.options;
+  IntersectionConstraint constraint (object.volume->grid (), options.max_bound_vox, options.threads);
+  if (!options.use_intersection || options.beta_inter <= 0.0)
+    return {};
+  for (const Eigen::Isometry3d& T_world_object : relativePoses (object, nullptr))
+  {
+    for (const Eigen::Vector4d& plane : object.planes)
+      constraint.addHalfSpace (transformPlane (plane, T_world_object), object.volume->freeSpace (), options.beta_inter);
+    for (const SignedDistanceField& body : background_)
+      constraint.addBody (body, T_world_object, options.beta_inter);
+    for (const auto& body : scene_.bodies)
+      constraint.addBody (*body, T_world_object, options.beta_inter);
+  }
+  for (std::size_t p = 0; p < objects_.size (); ++p)
+  {
+    const Object& other = objects_[p];
+    if (&other == &object || !other.alive ())
+      continue;
+    const auto grown = object.beta.find (p);
+    const double beta = options.beta_inter * (grown == object.beta.end () ? 1.0 : grown->second);
+    for (const Eigen::Isometry3d& T : relativePoses (object, &other))
+      constraint.addBody (other.field, T, beta);
+  }
+  return constraint.bounds ();
+}
+
+void
+CoSectionRun::solvePass (int pass)
+{
+  // Simultaneous: all bounds are taken from the fields of the pass before.
+  std::vector<std::vector<LowerBound>> all (objects_.size ());
+  timed ("constraints", [&] {
+    for (std::size_t o = 0; o < objects_.size (); ++o)
+      if (objects_[o].alive ())
+        guarded (objects_[o], [&] { all[o] = bounds (objects_[o]); });
+  });
+  for (std::size_t o = 0; o < objects_.size (); ++o)
+  {
+    Object& object = objects_[o];
+    if (!object.alive ())
+      continue;
+    const auto fraction = [&] (double f) {
+      const double done = (static_cast<double> (o) + f) / static_cast<double> (objects_.size ());
+      return pass == 0 ? 0.3 + 0.5 * done : 0.8 + 0.15 * (pass - 1 + done) / std::max (1, scene_.options.max_passes - 1);
+    };
+    guarded (object, [&] {
+      if (!object.volume->setIntersection (std::move (all[o])) && object.volume->solved ())
+        return;
+      timed ("solve", [&] {
+        object.result->solver = object.volume->solve ([&] (const std::string&, double f) {
+          report ("object " + std::to_string (object.input->id), fraction (f));
+          return true;
+        });
+      });
+    });
+  }
+  if (scene_.options.intersect_solved)
+    for (Object& object : objects_)
+      if (object.alive ())
+        object.field = object.volume->solvedField ();
+}
+
+double
+CoSectionRun::penetration (const Object& object, const SignedDistanceField& body,
+                           const std::vector<Eigen::Isometry3d>& poses) const
+{
+  // Deepest voxel within half a voxel of the object's surface.
+  const SignedDistanceField& own = object.field;
+  const VoxelGrid& grid = own.grid;
+  const auto near = static_cast<float> (0.5 * grid.voxel_size_m);
+  std::vector<double> deepest (grid.dims.z (), 0.0);
+  parallelFor (0, grid.dims.z (), scene_.options.threads, [&] (int k) {
+    for (int j = 0; j < grid.dims.y (); ++j)
+      for (int i = 0; i < grid.dims.x (); ++i)
+        if (std::abs (own.values[grid.index (i, j, k)]) <= near)
+          for (const Eigen::Isometry3d& T : poses)
+          {
+            const auto u = body.sampleSupported (T * grid.center (i, j, k));
+            if (u)
+              deepest[k] = std::max (deepest[k], static_cast<double> (-*u));
+          }
+  });
+  return *std::max_element (deepest.begin (), deepest.end ());
+}
+
+double
+CoSectionRun::penetration (const Object& object) const
+{
+  double deepest = 0.0;
+  for (const SignedDistanceField& body : background_)
+    deepest = std::max (deepest, penetration (object, body, relativePoses (object, nullptr)));
+  for (const Object& other : objects_)
+    if (&other != &object && other.alive ())
+      deepest = std::max (deepest, penetration (object, other.field, relativePoses (object, &other)));
+  return deepest;
+}
+
+bool
+CoSectionRun::growWeightsWherePenetrating ()
+{
+  bool any = false;
+  for (Object& object : objects_)
+    for (std::size_t p = 0; object.alive () && p < objects_.size (); ++p)
+    {
+      const Object& other = objects_[p];
+      if (&other == &object || !other.alive ())
+        continue;
+      const double allowed =
+          penetration_voxels * std::max (object.field.grid.voxel_size_m, other.field.grid.voxel_size_m);
+      if (penetration (object, other.field, relativePoses (object, &other)) <= allowed)
+        continue;
+      double& beta = object.beta.try_emplace (p, 1.0).first->second;
+      if (beta < max_weight_growth)
+      {
+        beta *= weight_growth;
+        any = true;
+      }
+    }
+  return any;
+}
+
+void
+CoSectionRun::solveObjects ()
+{
+  const bool mutual = scene_.options.use_intersection && scene_.options.intersect_solved && objects_.size () > 1;
+  const int passes = mutual ? scene_.options.max_passes : 1;
+  for (int pass = 0; pass < passes; ++pass)
+  {
+    solvePass (pass);
+    if (pass > 0 && pass + 1 < passes && !growWeightsWherePenetrating ())
+      break;
+  }
+}
+
+void
+CoSectionRun::finishObject (Object& object)
+{
+  object.field = object.volume->solvedField ();
+  object.result->mesh = object.volume->closedMesh ();
+  if (object.result->mesh.empty ())
+    throw DegenerateInput ("its measurements determine no closed surface");
+  transferColours (object.input->points, object.volume->grid (), object.result->mesh);
+  object.result->signed_distance = std::make_shared<SignedDistanceField> (object.field);
+}
+
+SceneResult
+CoSectionRun::run ()
+{
+  report ("measurements", 0.0);
+  createVolumes ();
+  timed ("constraints", [&] { findPlanes (); });
+  solveBackground ();
+  for (Object& object : objects_)
+    if (object.alive ())
+      guarded (object, [&] { prepareObject (object); });
+  solveObjects ();
+  timed ("mesh", [&] {
+    for (Object& object : objects_)
+      if (object.alive ())
+        guarded (object, [&] { finishObject (object); });
+    for (Object& object : objects_)
+      if (object.alive () && scene_.options.use_intersection)
+        object.result->penetration_m = penetration (object);
+  });
+  report ("done", 1.0);
+  return std::move (result_);
+}
+
+} // namespace cosection
+} // namespace pcl

@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_cosection authors
+#include <pcl/cosection/surface/hull_constraint.h>
+
+#include <pcl/cosection/common/parallel.h>
+#include <pcl/cosection/volume/distance_transform.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace pcl
+{
+namespace cosection
+{
+
+namespace
+{
+
+constexpr double margin_voxels = 3.0;
+constexpr double margin_sigmas = 3.0;
+constexpr double edge_sigmas = 6.0;   // neighbouring depths that differ by more are different surfaces ...
+constexpr double edge_slope = 0.03;   // ... unless a steep surface explains it: fraction of the depth
+constexpr int max_footprint = 12;     // pixels
+
+/** \brief Minimum over a window of 2 radius + 1 elements along one dimension. */
+void
+slidingMinimum (const float* in, float* out, int size, int stride, int radius)
+{
+  for (int i = 0; i < size; ++i)
+  {
+    float smallest = std::numeric_limits<float>::infinity ();
+    for (int j = std::max (0, i - radius); j <= std::min (size - 1, i + radius); ++j)
+      smallest = std::min (smallest, in[static_cast<std::size_t> (j) * stride]);
+    out[static_cast<std::size_t> (i) * stride] = smallest;
+  }
+}
+
+} // namespace
+
+FreeSpaceView::FreeSpaceView (DepthView view) : view_ (std::move (view)), edge_ (view_.depth.size (), 0)
+{
+  const int width = view_.camera.width;
+  const int height = view_.camera.height;
+  const auto compare = [&] (int u, int v, int u2, int v2) {
+    const float a = view_.at (u, v);
+    const float b = view_.at (u2, v2);
+    if (!std::isfinite (a) || !std::isfinite (b))
+      return;
+    const double near = std::min (a, b);
+    if (std::abs (a - b) > edge_sigmas * depthNoiseSigma (near) + edge_slope * near)
+    {
+      edge_[static_cast<std::size_t> (v) * width + u] = 1;
+      edge_[static_cast<std::size_t> (v2) * width + u2] = 1;
+    }
+  };
+  for (int v = 0; v < height; ++v)
+    for (int u = 0; u < width; ++u)
+    {
+      if (u + 1 < width)
+        compare (u, v, u + 1, v);
+      if (v + 1 < height)
+        compare (u, v, u, v + 1);
+    }
+}
+
+std::vector<float>
+FreeSpaceView::nearestDepth (int radius) const
+{
+  const int width = view_.camera.width;
+  const int height = view_.camera.height;
+  std::vector<float> depth (view_.depth);
+  for (float& z : depth)
+    if (!std::isfinite (z) || z <= 0.0f)
+      z = std::numeric_limits<float>::infinity ();
+  std::vector<float> rows (depth.size ());
+  for (int v = 0; v < height; ++v)
+    slidingMinimum (depth.data () + static_cast<std::size_t> (v) * width, rows.data () + static_cast<std::size_t> (v) * width,
+                    width, 1, radius);
+  for (int u = 0; u < width; ++u)
+    slidingMinimum (rows.data () + u, depth.data () + u, height, width, radius);
+  return depth;
+}
+
+HullConstraint::HullConstraint (const VoxelGrid& grid, int threads)
+: grid_ (grid), threads_ (threads), votes_for_ (grid.size (), 0), votes_against_ (grid.size (), 0)
+{}
+
+void
+HullConstraint::add (const FreeSpaceView& view, const Eigen::Isometry3d& T_grid_sensor)
+{
+  const PinholeCamera& camera = view.view ().camera;
+  const Eigen::Isometry3d T_sensor_grid = T_grid_sensor.inverse ();
+  const Eigen::Vector3d step = T_sensor_grid.linear ().col (0) * grid_.voxel_size_m;
+
+  // The footprint at the nearest corner of the volume serves all its voxels.
+  double nearest = std::numeric_limits<double>::infinity ();
+  for (int corner = 0; corner < 8; ++corner)
+  {
+    const Eigen::Vector3i at ((corner & 1) ? grid_.dims.x () - 1 : 0, (corner & 2) ? grid_.dims.y () - 1 : 0,
+                              (corner & 4) ? grid_.dims.z () - 1 : 0);
+    nearest = std::min (nearest, (T_sensor_grid * grid_.center (at.x (), at.y (), at.z ())).z ());
+  }
+  const double focal = std::max (camera.fx, camera.fy);
+  const double half_diagonal = 0.5 * std::sqrt (3.0) * grid_.voxel_size_m;
+  const int radius = nearest > half_diagonal
+                         ? std::min (max_footprint, static_cast<int> (std::ceil (half_diagonal * focal / nearest)))
+                         : max_footprint;
+  const std::vector<float> nearest_depth = view.nearestDepth (radius);
+  const double voxel_margin = margin_voxels * grid_.voxel_size_m;
+
+  const auto vote = [] (std::uint8_t& votes) {
+    if (votes < 255)
+      ++votes;
+  };
+  parallelFor (0, grid_.dims.z (), threads_, [&] (int k) {
+    for (int j = 0; j < grid_.dims.y (); ++j)
+    {
+      const Eigen::Vector3d start = T_sensor_grid * grid_.center (0, j, k);
+      std::size_t n = grid_.index (0, j, k);
+      for (int i = 0; i < grid_.dims.x (); ++i, ++n)
+      {
+        const Eigen::Vector3d p = start + i * step;
+        if (p.z () <= 0.0)
+          continue;
+        const double inverse = 1.0 / p.z ();
+        const double u = camera.fx * p.x () * inverse + camera.cx + 0.5;
+        const double v = camera.fy * p.y () * inverse + camera.cy + 0.5;
+        if (!(u >= 0.0 && v >= 0.0 && u < camera.width && v < camera.height))
+          continue;
+        const int column = static_cast<int> (u);
+        const int row = static_cast<int> (v);
+        const float depth = view.view ().at (column, row);
+        if (!(depth > 0.0f) || !std::isfinite (depth))
+          continue;
+        const double margin = std::max (voxel_margin, margin_sigmas * depthNoiseSigma (depth));
+        const double gap = depth - p.z ();
+        if (gap < -margin)
+          continue;
+        if (gap <= margin)
+          vote (votes_against_[n]);
+        else if (!view.atEdge (column, row) &&
+                 nearest_depth[static_cast<std::size_t> (row) * camera.width + column] - p.z () > margin)
+          vote (votes_for_[n]);
+      }
+    }
+  });
+}
+
+std::vector<std::uint8_t>
+HullConstraint::freeSpace (bool revise) const
+{
+  std::vector<std::uint8_t> free_space (votes_for_.size ());
+  for (std::size_t n = 0; n < free_space.size (); ++n)
+    free_space[n] = votes_for_[n] > (revise ? votes_against_[n] : 0);
+  return free_space;
+}
+
+std::vector<float>
+hullDistance (const Eigen::Vector3i& dims, const std::vector<std::uint8_t>& free_space, int threads)
+{
+  std::vector<std::uint8_t> hull (free_space.size ());
+  for (std::size_t n = 0; n < hull.size (); ++n)
+    hull[n] = free_space[n] == 0;
+  std::vector<float> distance = distanceTransform (dims, hull, threads);
+  parallelFor (0, dims.z (), threads, [&] (int k) {
+    for (int j = 0; j < dims.y (); ++j)
+      for (int i = 0; i < dims.x (); ++i)
+      {
+        // The nearest voxel outside the volume is straight across the nearest border.
+        const int border = std::min ({i + 1, j + 1, k + 1, dims.x () - i, dims.y () - j, dims.z () - k});
+        float& d = distance[(static_cast<std::size_t> (k) * dims.y () + j) * dims.x () + i];
+        d = std::min (d, static_cast<float> (border));
+      }
+  });
+  return distance;
+}
+
+} // namespace cosection
+} // namespace pcl

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_cosection authors
+#include "mesh_colours.h"
+
+#include <algorithm>
+#include <cmath>
+#include <unordered_map>
+
+namespace pcl
+{
+namespace cosection
+{
+
+namespace
+{
+
+struct ColourSum
+{
+  Eigen::Vector3f sum = Eigen::Vector3f::Zero ();
+  float count = 0.0f;
+};
+
+} // namespace
+
+void
+transferColours (const std::vector<OrientedPoint>& points, const VoxelGrid& grid, TriangleMesh& mesh)
+{
+  const auto coloured = [] (const OrientedPoint& p) { return p.colour != std::array<std::uint8_t, 3>{0, 0, 0}; };
+  if (std::none_of (points.begin (), points.end (), coloured))
+    return;
+  const auto voxelOf = [&] (const Eigen::Vector3f& p) -> Eigen::Vector3i {
+    return grid.toVoxel (p.cast<double> ()).array ().round ().cast<int> ();
+  };
+  std::unordered_map<std::size_t, ColourSum> voxels;
+  for (const OrientedPoint& point : points)
+  {
+    const Eigen::Vector3i at = voxelOf (point.position);
+    if (!grid.contains (at.x (), at.y (), at.z ()))
+      continue;
+    ColourSum& voxel = voxels[grid.index (at.x (), at.y (), at.z ())];
+    voxel.sum += Eigen::Vector3f (point.colour[0], point.colour[1], point.colour[2]);
+    voxel.count += 1.0f;
+  }
+
+  mesh.colours.assign (mesh.vertices.size (), {128, 128, 128});
+  std::vector<bool> done (mesh.vertices.size (), false);
+  std::vector<std::uint32_t> front;
+  for (std::size_t v = 0; v < mesh.vertices.size (); ++v)
+  {
+    const Eigen::Vector3i at = voxelOf (mesh.vertices[v]);
+    ColourSum total;
+    for (int dz = -1; dz <= 1; ++dz)
+      for (int dy = -1; dy <= 1; ++dy)
+        for (int dx = -1; dx <= 1; ++dx)
+        {
+          if (!grid.contains (at.x () + dx, at.y () + dy, at.z () + dz))
+            continue;
+          const auto voxel = voxels.find (grid.index (at.x () + dx, at.y () + dy, at.z () + dz));
+          if (voxel == voxels.end ())
+            continue;
+          total.sum += voxel->second.sum;
+          total.count += voxel->second.count;
+        }
+    if (total.count == 0.0f)
+      continue;
+    for (int c = 0; c < 3; ++c)
+      mesh.colours[v][c] = static_cast<std::uint8_t> (std::lround (total.sum[c] / total.count));
+    done[v] = true;
+    front.push_back (static_cast<std::uint32_t> (v));
+  }
+
+  // Breadth first along the edges from all coloured vertices at once.
+  std::vector<std::uint32_t> begin (mesh.vertices.size () + 1, 0);
+  for (const auto& triangle : mesh.triangles)
+    for (const std::uint32_t v : triangle)
+      begin[v + 1] += 2;
+  for (std::size_t v = 0; v < mesh.vertices.size (); ++v)
+    begin[v + 1] += begin[v];
+  std::vector<std::uint32_t> neighbours (begin.back ());
+  std::vector<std::uint32_t> next (begin.begin (), begin.end () - 1);
+  for (const auto& triangle : mesh.triangles)
+    for (int c = 0; c < 3; ++c)
+    {
+      neighbours[next[triangle[c]]++] = triangle[(c + 1) % 3];
+      neighbours[next[triangle[c]]++] = triangle[(c + 2) % 3];
+    }
+  for (std::size_t head = 0; head < front.size (); ++head)
+  {
+    const std::uint32_t v = front[head];
+    for (std::uint32_t e = begin[v]; e < begin[v + 1]; ++e)
+      if (!done[neighbours[e]])
+      {
+        done[neighbours[e]] = true;
+        mesh.colours[neighbours[e]] = mesh.colours[v];
+        front.push_back (neighbours[e]);
+      }
+  }
+}
+
+} // namespace cosection
+} // namespace pcl

@@ -1,0 +1,265 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_cosection authors
+#include "shape_volume.h"
+
+#include <pcl/cosection/common/parallel.h>
+#include <pcl/cosection/surface/extent_prior.h>
+#include <pcl/cosection/surface/imls_data_term.h>
+#include <pcl/cosection/volume/distance_transform.h>
+#include <pcl/cosection/volume/iso_surface.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace pcl
+{
+namespace cosection
+{
+
+namespace
+{
+
+constexpr float observed_weight = 0.3f;        // sum of weights that makes a voxel one with data: a point within 1.1 sigma
+constexpr double continued_plane_weight = 0.5; // of the data term on a continued plane, as of a densely measured one
+constexpr double continued_plane_gap_vox = 2.0; // planes are continued where no data is nearer
+constexpr double observed_reach_vox = 1.0;
+constexpr double intersection_reach_vox = 1.0;
+constexpr double hull_reach_vox = 1.5;
+constexpr double confidence_scale_vox = 5.0;
+constexpr std::size_t bytes_per_voxel = 72;
+
+} // namespace
+
+ShapeVolume::ShapeVolume (const VoxelGrid& grid, const CoSectionOptions& options)
+: grid_ (grid), options_ (options), hull_ (grid, options.threads)
+{
+  problem_.dims = grid.dims;
+  problem_.alpha = options.alpha;
+}
+
+std::size_t
+ShapeVolume::estimateBytes (const VoxelGrid& grid)
+{
+  return grid.size () * bytes_per_voxel;
+}
+
+void
+ShapeVolume::addPoints (const std::vector<OrientedPoint>& points)
+{
+  ImlsDataTerm data;
+  data.add (grid_, points, options_.sigma_vox, options_.threads);
+  point_weight_ = data.weight;
+  data.finish (options_.weighting);
+  problem_.weight = std::move (data.weight);
+  problem_.weighted_target = std::move (data.weighted_target);
+}
+
+void
+ShapeVolume::addView (const FreeSpaceView& view, const Eigen::Isometry3d& T_grid_sensor)
+{
+  hull_.add (view, T_grid_sensor);
+}
+
+bool
+ShapeVolume::hasData () const
+{
+  return std::any_of (data_.begin (), data_.end (), [] (std::uint8_t d) { return d != 0; });
+}
+
+void
+ShapeVolume::prepare (const std::vector<PlaneContinuation>& planes)
+{
+  free_space_ = hull_.freeSpace (options_.revise_votes);
+  hull_ = HullConstraint (VoxelGrid{}); // its votes are counted
+  data_.assign (grid_.size (), 0);
+  for (std::size_t n = 0; n < grid_.size (); ++n)
+  {
+    if (free_space_[n])
+      problem_.weight[n] = problem_.weighted_target[n] = 0.0f;
+    else
+      data_[n] = point_weight_[n] >= observed_weight;
+  }
+  std::vector<float> ().swap (point_weight_);
+  data_distance_vox_ = distanceTransform (grid_.dims, data_, options_.threads);
+
+  for (const PlaneContinuation& continuation : planes)
+    parallelFor (0, grid_.dims.z (), options_.threads, [&] (int k) {
+      for (int j = 0; j < grid_.dims.y (); ++j)
+        for (int i = 0; i < grid_.dims.x (); ++i)
+        {
+          const std::size_t n = grid_.index (i, j, k);
+          if (free_space_[n] || data_distance_vox_[n] < continued_plane_gap_vox)
+            continue;
+          const Eigen::Vector3d p = grid_.center (i, j, k);
+          const double s = (continuation.plane.head<3> ().dot (p) + continuation.plane[3]) / grid_.voxel_size_m;
+          if (std::abs (s) > 3.0 * options_.sigma_vox || !continuation.region.contains (p))
+            continue;
+          const double w = continued_plane_weight * std::exp (-s * s / (options_.sigma_vox * options_.sigma_vox));
+          problem_.weight[n] = static_cast<float> (w);
+          problem_.weighted_target[n] = static_cast<float> (w * s);
+          if (std::abs (s) <= 1.0)
+            data_[n] = 1;
+        }
+    });
+  if (!planes.empty ())
+    data_distance_vox_ = distanceTransform (grid_.dims, data_, options_.threads);
+
+  if (options_.use_hull && options_.beta_hull > 0.0)
+  {
+    const std::vector<float> distance = hullDistance (grid_.dims, free_space_, options_.threads);
+    problem_.exterior.resize (grid_.size ());
+    for (std::size_t n = 0; n < grid_.size (); ++n)
+      if (free_space_[n])
+        problem_.exterior[n] = LowerBound (options_.hull_distance == HullDistance::Exact ? distance[n] : 1.0f,
+                                           static_cast<float> (options_.beta_hull));
+  }
+}
+
+void
+ShapeVolume::addExtentPrior (const std::vector<OrientedPoint>& points,
+                             const std::vector<std::pair<PinholeCamera, Eigen::Isometry3d>>& views)
+{
+  if (options_.beta_extent <= 0.0)
+    return;
+  const std::vector<float> bounds = ExtentPrior ().bounds (grid_, data_distance_vox_, points, views, options_.threads);
+  problem_.exterior.resize (grid_.size ());
+  for (std::size_t n = 0; n < grid_.size (); ++n)
+    if (bounds[n] > 0.0f && !problem_.exterior[n])
+      problem_.exterior[n] = LowerBound (bounds[n], static_cast<float> (options_.beta_extent));
+}
+
+bool
+ShapeVolume::setIntersection (std::vector<LowerBound> bounds)
+{
+  const bool changed = bounds != problem_.intersection;
+  problem_.intersection = std::move (bounds);
+  return changed;
+}
+
+SolverSummary
+ShapeVolume::solve (const ProgressCallback& progress)
+{
+  SolverOptions solver = options_.solver;
+  solver.threads = options_.threads;
+  return cosection::solve (problem_, solver, u_, progress);
+}
+
+SignedDistanceField
+ShapeVolume::measuredField () const
+{
+  SignedDistanceField field;
+  field.grid = grid_;
+  field.values.resize (grid_.size (), 0.0f);
+  field.supported.resize (grid_.size (), 0);
+  for (std::size_t n = 0; n < grid_.size (); ++n)
+    if (data_[n])
+    {
+      field.values[n] = static_cast<float> (problem_.weighted_target[n] / problem_.weight[n] * grid_.voxel_size_m);
+      field.supported[n] = 1;
+    }
+  return field;
+}
+
+std::vector<std::uint8_t>
+ShapeVolume::supported () const
+{
+  std::vector<std::uint8_t> supported (grid_.size ());
+  for (std::size_t n = 0; n < grid_.size (); ++n)
+    supported[n] = !free_space_[n] && data_distance_vox_[n] <= options_.max_bound_vox;
+  return supported;
+}
+
+SignedDistanceField
+ShapeVolume::solvedField () const
+{
+  SignedDistanceField field;
+  field.grid = grid_;
+  field.values.resize (grid_.size ());
+  for (std::size_t n = 0; n < grid_.size (); ++n)
+    field.values[n] = static_cast<float> (u_[n] * grid_.voxel_size_m);
+  field.supported = supported ();
+  return field;
+}
+
+TriangleMesh
+ShapeVolume::closedMesh () const
+{
+  IsoSurfaceOptions iso;
+  iso.closed = true;
+  iso.threads = options_.threads;
+  TriangleMesh mesh = extractIsoSurface (solvedField (), iso);
+  attachEvidence (mesh);
+
+  const std::vector<int> component = labelComponents (mesh);
+  std::vector<bool> observed (component.empty () ? 0 : *std::max_element (component.begin (), component.end ()) + 1, false);
+  for (std::size_t v = 0; v < mesh.vertices.size (); ++v)
+    if (mesh.provenance[v] == static_cast<std::uint8_t> (Provenance::Observed))
+      observed[component[v]] = true;
+  std::vector<bool> keep (mesh.triangles.size ());
+  for (std::size_t t = 0; t < keep.size (); ++t)
+    keep[t] = observed[component[mesh.triangles[t][0]]];
+  return extractTriangles (mesh, keep);
+}
+
+TriangleMesh
+ShapeVolume::trimmedMesh () const
+{
+  IsoSurfaceOptions iso;
+  iso.closed = false;
+  iso.threads = options_.threads;
+  const SignedDistanceField field = solvedField ();
+  TriangleMesh mesh = extractIsoSurface (field, iso);
+  attachEvidence (mesh);
+  std::vector<bool> near (mesh.vertices.size ());
+  for (std::size_t v = 0; v < near.size (); ++v)
+  {
+    const Eigen::Vector3i at = grid_.toVoxel (mesh.vertices[v].cast<double> ()).array ().round ().cast<int> ();
+    near[v] = grid_.contains (at.x (), at.y (), at.z ()) && field.supported[grid_.index (at.x (), at.y (), at.z ())];
+  }
+  std::vector<bool> keep (mesh.triangles.size ());
+  for (std::size_t t = 0; t < keep.size (); ++t)
+    keep[t] = near[mesh.triangles[t][0]] && near[mesh.triangles[t][1]] && near[mesh.triangles[t][2]];
+  return extractTriangles (mesh, keep);
+}
+
+void
+ShapeVolume::attachEvidence (TriangleMesh& mesh) const
+{
+  mesh.confidence.resize (mesh.vertices.size ());
+  mesh.provenance.resize (mesh.vertices.size ());
+  parallelFor (0, static_cast<int> (mesh.vertices.size ()), options_.threads, [&] (int v) {
+    const Eigen::Vector3d at = grid_.toVoxel (mesh.vertices[v].cast<double> ());
+    double data_distance = std::numeric_limits<double>::infinity ();
+    bool bounded_by_body = false;
+    bool bounded_by_hull = false;
+    constexpr int reach = 2; // voxels, of the largest distance below
+    const Eigen::Vector3i base = at.array ().floor ().cast<int> ();
+    for (int dz = -reach + 1; dz <= reach; ++dz)
+      for (int dy = -reach + 1; dy <= reach; ++dy)
+        for (int dx = -reach + 1; dx <= reach; ++dx)
+        {
+          const Eigen::Vector3i cell = base + Eigen::Vector3i (dx, dy, dz);
+          if (!grid_.contains (cell.x (), cell.y (), cell.z ()))
+            continue;
+          const std::size_t n = grid_.index (cell.x (), cell.y (), cell.z ());
+          const double distance = (cell.cast<double> () - at).norm ();
+          data_distance = std::min (data_distance, data_[n] ? distance : distance + data_distance_vox_[n]);
+          bounded_by_hull |= free_space_[n] && distance <= hull_reach_vox;
+          bounded_by_body |= !problem_.intersection.empty () && problem_.intersection[n] &&
+                             u_[n] < problem_.intersection[n].distance () && distance <= intersection_reach_vox;
+        }
+    Provenance provenance = Provenance::Inferred;
+    if (data_distance <= observed_reach_vox)
+      provenance = Provenance::Observed;
+    else if (bounded_by_body)
+      provenance = Provenance::Intersection;
+    else if (bounded_by_hull)
+      provenance = Provenance::Hull;
+    mesh.provenance[v] = static_cast<std::uint8_t> (provenance);
+    mesh.confidence[v] = static_cast<float> (std::exp (-data_distance / confidence_scale_vox));
+  });
+}
+
+} // namespace cosection
+} // namespace pcl

@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_cosection authors
+#pragma once
+
+#include <pcl/cosection/common/progress.h>
+#include <pcl/cosection/common/triangle_mesh.h>
+#include <pcl/cosection/surface/energy_problem.h>
+#include <pcl/cosection/surface/hull_constraint.h>
+#include <pcl/cosection/surface/options.h>
+#include <pcl/cosection/surface/oriented_point.h>
+#include <pcl/cosection/surface/solver.h>
+#include <pcl/cosection/volume/signed_distance_field.h>
+
+#include <Eigen/Geometry>
+
+#include <utility>
+#include <vector>
+
+namespace pcl
+{
+namespace cosection
+{
+
+/** \brief A plane to be continued where it was not seen, and the region in which to do so. */
+struct PlaneContinuation
+{
+  Eigen::Vector4d plane;      // unit normal towards free space, the grid's frame
+  Eigen::AlignedBox3d region; // the grid's frame
+};
+
+/** \brief One body, an object or a piece of background, from measurements to a mesh: its energy on its
+ * grid, and the field that minimises it. Everything is in the grid's frame.
+ *
+ * Use: addPoints () and addView (), then prepare (); then any number of setIntersection () and solve (),
+ * each warm-started from the last; then mesh (). */
+class ShapeVolume
+{
+public:
+  ShapeVolume (const VoxelGrid& grid, const CoSectionOptions& options);
+
+  /** \brief Bytes that a volume of so many voxels needs at its peak, generously. */
+  static std::size_t
+  estimateBytes (const VoxelGrid& grid);
+
+  void
+  addPoints (const std::vector<OrientedPoint>& points);
+
+  void
+  addView (const FreeSpaceView& view, const Eigen::Isometry3d& T_grid_sensor);
+
+  /** \brief Turn the measurements into the energy's terms. */
+  void
+  prepare (const std::vector<PlaneContinuation>& planes = {});
+
+  /** \brief Add the pull that prevents swelling; after prepare (). */
+  void
+  addExtentPrior (const std::vector<OrientedPoint>& points,
+                  const std::vector<std::pair<PinholeCamera, Eigen::Isometry3d>>& views);
+
+  /** \return whether they differ from those before */
+  bool
+  setIntersection (std::vector<LowerBound> bounds);
+
+  SolverSummary
+  solve (const ProgressCallback& progress);
+
+  /** \brief 1 where seen free. */
+  const std::vector<std::uint8_t>&
+  freeSpace () const
+  {
+    return free_space_;
+  }
+
+  const VoxelGrid&
+  grid () const
+  {
+    return grid_;
+  }
+
+  bool
+  solved () const
+  {
+    return !u_.empty ();
+  }
+
+  bool
+  hasData () const;
+
+  /** \brief sum w f / sum w, supported where there is data: what the measurements alone say. */
+  SignedDistanceField
+  measuredField () const;
+
+  /** \brief The minimiser, supported within reach of data and where not seen free. */
+  SignedDistanceField
+  solvedField () const;
+
+  /** \brief Closed mesh of the minimiser with provenance and confidence; without parts that have no data. */
+  TriangleMesh
+  closedMesh () const;
+
+  /** \brief Open mesh of the minimiser where it is supported. */
+  TriangleMesh
+  trimmedMesh () const;
+
+private:
+  std::vector<std::uint8_t>
+  supported () const;
+  void
+  attachEvidence (TriangleMesh& mesh) const;
+
+  VoxelGrid grid_;
+  CoSectionOptions options_;
+  HullConstraint hull_;
+  EnergyProblem problem_;
+  std::vector<float> point_weight_;         // sum of the points' weights before averaging
+  std::vector<std::uint8_t> free_space_;
+  std::vector<std::uint8_t> data_;          // 1 where points are near
+  std::vector<float> data_distance_vox_;
+  std::vector<float> u_;                    // voxels
+};
+
+} // namespace cosection
+} // namespace pcl
