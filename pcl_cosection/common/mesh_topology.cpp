@@ -18,7 +18,7 @@ namespace
 /** \brief Side n of a triangle runs from its corner n to corner n + 1. */
 struct Side
 {
-  std::uint64_t edge;     ///< both vertices, the smaller first
+  std::uint64_t edge; ///< both vertices, the smaller first
   std::uint32_t triangle;
   std::uint8_t corner;
   bool forward; ///< runs from the smaller to the larger vertex

@@ -17,7 +17,8 @@ namespace
 
 constexpr std::uint32_t dropped = std::numeric_limits<std::uint32_t>::max ();
 
-template <typename T> std::vector<T>
+template <typename T>
+std::vector<T>
 select (const std::vector<T>& values, const std::vector<std::uint32_t>& indices)
 {
   std::vector<T> selected;
@@ -30,7 +31,8 @@ select (const std::vector<T>& values, const std::vector<std::uint32_t>& indices)
 }
 
 /** \brief Append the values of \a other's vertices, if both meshes have such values. */
-template <typename T> void
+template <typename T>
+void
 appendProperty (std::vector<T>& values, std::size_t vertices, const std::vector<T>& other, std::size_t other_vertices)
 {
   if (values.size () != vertices || other.size () != other_vertices)

@@ -65,7 +65,8 @@ createTemporary (const fs::path& target)
 class TemporaryFile
 {
 public:
-  explicit TemporaryFile (const fs::path& target) : path_ (createTemporary (target)) {}
+  explicit TemporaryFile (const fs::path& target) : path_ (createTemporary (target))
+  {}
   TemporaryFile (const TemporaryFile&) = delete;
   TemporaryFile&
   operator= (const TemporaryFile&) = delete;

@@ -63,7 +63,8 @@ encodeStl (const TriangleMesh& mesh)
 }
 
 /** \brief Appends a number as text, in full precision whatever the locale. */
-template <typename T> void
+template <typename T>
+void
 appendNumber (std::string& text, T value)
 {
   std::array<char, 32> digits;

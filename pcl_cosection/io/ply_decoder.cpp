@@ -50,7 +50,8 @@ scalarSize (const std::string& type)
   return 0;
 }
 
-template <typename T> double
+template <typename T>
+double
 load (const char* data)
 {
   T value;
@@ -190,7 +191,8 @@ vertexSetter (const std::string& name)
   for (int axis = 0; axis < 3; ++axis)
   {
     if (name == positions[axis])
-      return [axis] (TriangleMesh& m, std::size_t v, double value) { m.vertices[v][axis] = static_cast<float> (value); };
+      return
+          [axis] (TriangleMesh& m, std::size_t v, double value) { m.vertices[v][axis] = static_cast<float> (value); };
     if (name == normals[axis])
       return [axis] (TriangleMesh& m, std::size_t v, double value) { m.normals[v][axis] = static_cast<float> (value); };
     if (name == colours[axis])
@@ -224,7 +226,9 @@ readVertices (const Element& element, Reader& reader, TriangleMesh& mesh)
     stride += scalarSize (property.type);
     names += property.name + " ";
   }
-  const auto has = [&names] (const char* name) { return names.find (std::string (" ") + name + " ") != std::string::npos; };
+  const auto has = [&names] (const char* name) {
+    return names.find (std::string (" ") + name + " ") != std::string::npos;
+  };
   if (!has ("x") || !has ("y") || !has ("z"))
     throw IoError ("the vertices have no x, y and z");
 
@@ -247,10 +251,12 @@ readVertices (const Element& element, Reader& reader, TriangleMesh& mesh)
 struct FaceColumn
 {
   explicit FaceColumn (const Property& property)
-  : is_list (!property.count_type.empty ()),
-    is_corners (is_list && (property.name == "vertex_indices" || property.name == "vertex_index")),
-    size (scalarSize (property.type)), count_size (scalarSize (property.count_type)),
-    load (scalarLoader (property.type)), load_count (scalarLoader (property.count_type))
+      : is_list (!property.count_type.empty ())
+      , is_corners (is_list && (property.name == "vertex_indices" || property.name == "vertex_index"))
+      , size (scalarSize (property.type))
+      , count_size (scalarSize (property.count_type))
+      , load (scalarLoader (property.type))
+      , load_count (scalarLoader (property.count_type))
   {}
 
   bool is_list;

@@ -15,7 +15,8 @@ namespace cosection
 namespace
 {
 
-template <typename T> void
+template <typename T>
+void
 put (std::string& bytes, const T& value)
 {
   static_assert (std::is_trivially_copyable<T>::value, "only plain values have a file format");

@@ -23,7 +23,8 @@ namespace
 {
 
 /** \brief Lends \a values to the image, which only reads them. */
-template <typename Array, typename T> void
+template <typename Array, typename T>
+void
 addArray (vtkImageData& image, const char* name, const std::vector<T>& values)
 {
   vtkNew<Array> array;
@@ -57,6 +58,8 @@ saveSignedDistance (const SignedDistanceField& field, const std::string& path)
     const auto errors = VtkErrors::observe (*writer);
     writer->SetInputData (image);
     writer->EncodeAppendedDataOff ();
+    writer->SetCompressorTypeToNone (); // compressing would take several times as long as all the rest
+    writer->SetHeaderTypeToUInt64 ();
     writer->WriteToOutputStringOn ();
     if (writer->Write () == 0 || errors->failed ())
       throw IoError ("cannot write '" + path + "': VTK could not encode the field");

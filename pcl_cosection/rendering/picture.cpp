@@ -106,7 +106,8 @@ beside (const std::vector<Picture>& pictures, int gap_px)
   {
     for (int v = 0; v < picture.height; ++v)
       std::copy_n (picture.pixels.begin () + static_cast<std::ptrdiff_t> (v) * picture.width, picture.width,
-                   result.pixels.begin () + static_cast<std::ptrdiff_t> (v) * result.width + static_cast<std::ptrdiff_t> (left));
+                   result.pixels.begin () + static_cast<std::ptrdiff_t> (v) * result.width +
+                       static_cast<std::ptrdiff_t> (left));
     left += static_cast<std::size_t> (picture.width) + gap_px;
   }
   return result;

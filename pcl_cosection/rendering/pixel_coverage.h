@@ -35,7 +35,8 @@ struct SubpixelPoint
  * A centre exactly on a side belongs to the triangle to whose left or top the side is: of two
  * triangles that share it, just one covers the pixel (J. Pineda, "A Parallel Algorithm for Polygon
  * Rasterization", SIGGRAPH 1988). */
-template <typename Visit> void
+template <typename Visit>
+void
 forEachCoveredPixel (SubpixelPoint a, SubpixelPoint b, SubpixelPoint c, int width, int height, Visit&& visit)
 {
   const auto twice_area = (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
@@ -48,8 +49,9 @@ forEachCoveredPixel (SubpixelPoint a, SubpixelPoint b, SubpixelPoint c, int widt
   struct SideFunction
   {
     SideFunction (const SubpixelPoint& p, const SubpixelPoint& q)
-    : step_u (-(q.y - p.y) * SubpixelPoint::subpixels), step_v ((q.x - p.x) * SubpixelPoint::subpixels),
-      constant ((q.y - p.y) * p.x - (q.x - p.x) * p.y)
+        : step_u (-(q.y - p.y) * SubpixelPoint::subpixels)
+        , step_v ((q.x - p.x) * SubpixelPoint::subpixels)
+        , constant ((q.y - p.y) * p.x - (q.x - p.x) * p.y)
     {
       const bool owns_points_on_it = q.y < p.y || (q.y == p.y && q.x > p.x);
       if (!owns_points_on_it)

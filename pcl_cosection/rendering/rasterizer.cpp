@@ -33,8 +33,9 @@ class TrianglePlane
 {
 public:
   TrianglePlane (const Eigen::Vector3d& p0, const Eigen::Vector3d& p1, const Eigen::Vector3d& p2, double near_m)
-  : determinant_ (p0.dot (p1.cross (p2))), z_min_ (std::max (near_m, std::min ({p0.z (), p1.z (), p2.z ()}))),
-    z_max_ (std::max ({p0.z (), p1.z (), p2.z ()}))
+      : determinant_ (p0.dot (p1.cross (p2)))
+      , z_min_ (std::max (near_m, std::min ({p0.z (), p1.z (), p2.z ()})))
+      , z_max_ (std::max ({p0.z (), p1.z (), p2.z ()}))
   {
     weights_.row (0) = p1.cross (p2);
     weights_.row (1) = p2.cross (p0);
@@ -110,7 +111,9 @@ direction (const Eigen::Vector3d& v, const Eigen::Vector3d& fallback)
 } // namespace
 
 Rasterizer::Rasterizer (const PinholeCamera& camera, const Eigen::Isometry3d& T_world_camera, double near_m)
-: camera_ (camera), T_camera_world_ (T_world_camera.inverse ()), near_m_ (near_m)
+    : camera_ (camera)
+    , T_camera_world_ (T_world_camera.inverse ())
+    , near_m_ (near_m)
 {
   camera.validate ();
   if (!(near_m > 0.0))
@@ -160,8 +163,9 @@ Rasterizer::draw (const TriangleMesh& mesh, int id, const Eigen::Isometry3d& T_w
       Eigen::Vector3d normal = plane.normal ();
       if (!mesh.normals.empty ())
       {
-        normal = T_camera_mesh.linear () * (weights[0] * mesh.normals[a].cast<double> () + weights[1] * mesh.normals[b].cast<double> () +
-                                            weights[2] * mesh.normals[c].cast<double> ());
+        normal = T_camera_mesh.linear () *
+                 (weights[0] * mesh.normals[a].cast<double> () + weights[1] * mesh.normals[b].cast<double> () +
+                  weights[2] * mesh.normals[c].cast<double> ());
         if (!plane.facesCamera ())
           normal = -normal;
       }

@@ -42,7 +42,8 @@ transformRow (const std::uint8_t* mask, float* squared, int n)
 class LowerEnvelope
 {
 public:
-  explicit LowerEnvelope (int length) : length_ (length), apex_ (length), height_ (length), begin_ (length + 1) {}
+  explicit LowerEnvelope (int length) : length_ (length), apex_ (length), height_ (length), begin_ (length + 1)
+  {}
 
   /** \brief f (q) := min_p (q - p)^2 + f (p), in place. */
   void
@@ -95,9 +96,14 @@ class LineBatch
 public:
   static constexpr int columns = 16;
 
-  explicit LineBatch (int length) : length_ (length), lines_ (static_cast<std::size_t> (columns) * length), envelope_ (length) {}
+  explicit LineBatch (int length)
+      : length_ (length)
+      , lines_ (static_cast<std::size_t> (columns) * length)
+      , envelope_ (length)
+  {}
 
-  template <typename Finish> void
+  template <typename Finish>
+  void
   transform (float* first, int count, std::size_t stride, Finish&& finish)
   {
     for (int q = 0; q < length_; ++q)

@@ -35,7 +35,8 @@ class SliceVertices
 {
 public:
   explicit SliceVertices (const Eigen::Vector3i& dims)
-  : row_ (3 * static_cast<std::size_t> (dims.x ())), ids_ (row_ * dims.y (), no_vertex)
+      : row_ (3 * static_cast<std::size_t> (dims.x ()))
+      , ids_ (row_ * dims.y (), no_vertex)
   {}
 
   std::uint32_t&
@@ -53,8 +54,12 @@ class Extractor
 {
 public:
   Extractor (const SignedDistanceField& field, const IsoSurfaceOptions& options)
-  : field_ (field), grid_ (field.grid), dims_ (field.grid.dims), options_ (options), inside_ (grid_.size ()),
-    row_state_ (static_cast<std::size_t> (dims_.y ()) * dims_.z ())
+      : field_ (field)
+      , grid_ (field.grid)
+      , dims_ (field.grid.dims)
+      , options_ (options)
+      , inside_ (grid_.size ())
+      , row_state_ (static_cast<std::size_t> (dims_.y ()) * dims_.z ())
   {}
 
   TriangleMesh
@@ -116,8 +121,9 @@ private:
         for (int i = 0; i < dims_.x (); ++i)
           count += inside[i];
       }
-      row_state_[static_cast<std::size_t> (k) * dims_.y () + j] =
-          (count == 0 ? all_outside : count == dims_.x () ? all_inside : mixed);
+      row_state_[static_cast<std::size_t> (k) * dims_.y () + j] = (count == 0            ? all_outside
+                                                                   : count == dims_.x () ? all_inside
+                                                                                         : mixed);
     }
   }
 
@@ -135,7 +141,8 @@ private:
   }
 
   /** \brief Call visit (i, j, axis) for each cut edge that begins in slice \a k, in a fixed order. */
-  template <typename Visit> void
+  template <typename Visit>
+  void
   forEachCutEdge (int k, Visit&& visit) const
   {
     const std::size_t step_y = dims_.x ();
@@ -166,7 +173,8 @@ private:
   }
 
   /** \brief Call visit (i, j, case) for each cell between slices \a k and k + 1 that has triangles. */
-  template <typename Visit> void
+  template <typename Visit>
+  void
   forEachCutCell (int k, Visit&& visit) const
   {
     if (k + 1 >= dims_.z ())
@@ -312,8 +320,8 @@ private:
       if (!missing[triangle[0]] && !missing[triangle[1]] && !missing[triangle[2]])
         continue;
       const Eigen::Vector3d p = mesh_.vertices[triangle[0]].cast<double> ();
-      const Eigen::Vector3d area = (mesh_.vertices[triangle[1]].cast<double> () - p)
-                                       .cross (mesh_.vertices[triangle[2]].cast<double> () - p);
+      const Eigen::Vector3d area =
+          (mesh_.vertices[triangle[1]].cast<double> () - p).cross (mesh_.vertices[triangle[2]].cast<double> () - p);
       for (const auto v : triangle)
         sums[v] += area;
     }

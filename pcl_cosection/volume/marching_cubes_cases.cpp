@@ -60,8 +60,7 @@ contourSuccessors (unsigned inside)
         int last = n + 1; // the run of inside corners that begins behind corner n
         while (is_inside (last + 1))
           ++last;
-        next[edgeBetween (corners[n], corners[(n + 1) % 4])] =
-            edgeBetween (corners[last % 4], corners[(last + 1) % 4]);
+        next[edgeBetween (corners[n], corners[(n + 1) % 4])] = edgeBetween (corners[last % 4], corners[(last + 1) % 4]);
       }
     }
   return next;
@@ -102,8 +101,7 @@ bool
 shareFace (int a, int b)
 {
   for (int axis = 0; axis < 3; ++axis)
-    if (a / 4 != axis && b / 4 != axis &&
-        ((edgeBegin (a) >> axis) & 1) == ((edgeBegin (b) >> axis) & 1))
+    if (a / 4 != axis && b / 4 != axis && ((edgeBegin (a) >> axis) & 1) == ((edgeBegin (b) >> axis) & 1))
       return true;
   return false;
 }
@@ -114,7 +112,10 @@ class LoopTriangulation
 {
 public:
   explicit LoopTriangulation (const Loop& loop)
-  : loop_ (loop), n_ (static_cast<int> (loop.size ())), cost_ (n_ * n_, 0.0), apex_ (n_ * n_, -1)
+      : loop_ (loop)
+      , n_ (static_cast<int> (loop.size ()))
+      , cost_ (n_ * n_, 0.0)
+      , apex_ (n_ * n_, -1)
   {
     for (int length = 2; length < n_; ++length)
       for (int i = 0; i + length < n_; ++i)

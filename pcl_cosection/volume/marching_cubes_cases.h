@@ -21,7 +21,8 @@ struct Case
   static constexpr int max_triangles = 5;
 
   int triangle_count = 0;
-  std::array<std::array<std::uint8_t, 3>, max_triangles> triangles{}; ///< the edges that carry the corners; outward orientation
+  std::array<std::array<std::uint8_t, 3>, max_triangles>
+      triangles{}; ///< the edges that carry the corners; outward orientation
 };
 
 using CaseTable = std::array<Case, 256>;

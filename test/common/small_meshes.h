@@ -53,7 +53,8 @@ sphereMesh (double radius, std::uint32_t n)
 {
   TriangleMesh mesh;
   const auto add = [&] (double polar, double azimuth) {
-    const Eigen::Vector3d d (std::sin (polar) * std::cos (azimuth), std::sin (polar) * std::sin (azimuth), std::cos (polar));
+    const Eigen::Vector3d d (std::sin (polar) * std::cos (azimuth), std::sin (polar) * std::sin (azimuth),
+                             std::cos (polar));
     mesh.vertices.push_back ((radius * d).cast<float> ());
     mesh.normals.push_back (d.cast<float> ());
   };

@@ -60,7 +60,8 @@ TEST (PinholeCamera, ValidateRefusesImpossibleParameters)
 {
   EXPECT_NO_THROW (smallCamera ().validate ());
   EXPECT_THROW (PinholeCamera ().validate (), InvalidArgument);
-  for (const double bad : {0.0, -1.0, std::numeric_limits<double>::quiet_NaN (), std::numeric_limits<double>::infinity ()})
+  for (const double bad :
+       {0.0, -1.0, std::numeric_limits<double>::quiet_NaN (), std::numeric_limits<double>::infinity ()})
   {
     auto camera = smallCamera ();
     camera.fy = bad;
@@ -113,7 +114,8 @@ TEST (FitPinholeCamera, RefusesWhatIsNoPinholeImage)
   std::vector<Eigen::Vector3f> orthographic;
   for (int v = 0; v < 60; ++v)
     for (int u = 0; u < 80; ++u)
-      orthographic.emplace_back (0.01f * u - 0.4f, 0.01f * v - 0.3f, 1.0f + 0.02f * static_cast<float> ((u * 7 + v * 13) % 20));
+      orthographic.emplace_back (0.01f * u - 0.4f, 0.01f * v - 0.3f,
+                                 1.0f + 0.02f * static_cast<float> ((u * 7 + v * 13) % 20));
   EXPECT_FALSE (fitPinholeCamera (orthographic, 80, 60).has_value ());
   // an unorganised cloud: one row
   EXPECT_FALSE (fitPinholeCamera (organizedCloud (camera, 0.0, 0.0), 4800, 1).has_value ());

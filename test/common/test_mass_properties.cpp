@@ -26,7 +26,8 @@ TEST (MassProperties, TurnWithTheBody)
 {
   auto mesh = test::torusMesh (1.0, 0.3, 30, 20);
   const auto before = computeMassProperties (mesh);
-  const Eigen::Isometry3d T = Eigen::Translation3d (0.5, -2, 3) * Eigen::AngleAxisd (1.1, Eigen::Vector3d (1, 2, -1).normalized ());
+  const Eigen::Isometry3d T =
+      Eigen::Translation3d (0.5, -2, 3) * Eigen::AngleAxisd (1.1, Eigen::Vector3d (1, 2, -1).normalized ());
   for (auto& v : mesh.vertices)
     v = (T * v.cast<double> ()).cast<float> ();
   const auto after = computeMassProperties (mesh);

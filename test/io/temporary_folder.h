@@ -99,7 +99,8 @@ writeFile (const std::string& path, const std::string& bytes)
 }
 
 /** \brief The message of the exception of type \a Exception that \a action throws. */
-template <typename Exception, typename Action> std::string
+template <typename Exception, typename Action>
+std::string
 messageOf (Action&& action)
 {
   try

@@ -180,8 +180,7 @@ TEST (MeshIo, DamagedPlyNeverCrashes)
       computeTopology (loadPlyMesh (path)); // whatever is read is at least consistent
     }
     catch (const IoError&)
-    {
-    }
+    {}
   }
 }
 

@@ -161,9 +161,12 @@ TEST (Rasterizer, TrianglesOfOneEdgeNeitherOverlapNorLeaveGaps)
   {
     const int u0 = 10, u1 = 150, v0 = 10, v1 = 110;
     TriangleMesh mesh;
-    const auto add = [&] (double u, double v) { mesh.vertices.push_back (camera.unproject (u, v, 1.0).cast<float> ()); };
+    const auto add = [&] (double u, double v) {
+      mesh.vertices.push_back (camera.unproject (u, v, 1.0).cast<float> ());
+    };
     add (column (random) + 0.25 * quarter (random), row (random) + 0.25 * quarter (random));
-    for (const auto& [u, v] : {std::pair (u0, v0), {80, v0}, {u1, v0}, {u1, 60}, {u1, v1}, {80, v1}, {u0, v1}, {u0, 60}})
+    for (const auto& [u, v] :
+         {std::pair (u0, v0), {80, v0}, {u1, v0}, {u1, 60}, {u1, v1}, {80, v1}, {u0, v1}, {u0, 60}})
       add (u, v);
     std::vector<int> hits (static_cast<std::size_t> (camera.width) * camera.height, 0);
     for (std::uint32_t n = 0; n < 8; ++n)

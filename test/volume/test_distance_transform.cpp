@@ -36,7 +36,8 @@ bruteForce (const Eigen::Vector3i& dims, const std::vector<std::uint8_t>& mask)
   for (int a = 0; a < dims.prod (); ++a)
     for (int b = 0; b < dims.prod (); ++b)
       if (mask[b] != 0)
-        distance[a] = std::min (distance[a], std::sqrt (static_cast<float> ((position (a) - position (b)).squaredNorm ())));
+        distance[a] =
+            std::min (distance[a], std::sqrt (static_cast<float> ((position (a) - position (b)).squaredNorm ())));
   return distance;
 }
 
@@ -44,7 +45,8 @@ bruteForce (const Eigen::Vector3i& dims, const std::vector<std::uint8_t>& mask)
 
 TEST (DistanceTransform, EqualsBruteForce)
 {
-  const std::vector<Eigen::Vector3i> sizes = {{1, 1, 1}, {9, 1, 1}, {1, 8, 1}, {1, 1, 7}, {13, 11, 9}, {17, 16, 5}, {33, 3, 6}};
+  const std::vector<Eigen::Vector3i> sizes = {{1, 1, 1},   {9, 1, 1},   {1, 8, 1}, {1, 1, 7},
+                                              {13, 11, 9}, {17, 16, 5}, {33, 3, 6}};
   unsigned seed = 0;
   for (const auto& dims : sizes)
     for (const double share : {0.002, 0.02, 0.3, 1.0})

@@ -35,7 +35,8 @@ shapes ()
           {"box", test::box ({0.1, 0.06, 0.03}), 2, false}};
 }
 
-template <typename T> void
+template <typename T>
+void
 expectSameBytes (const std::vector<T>& a, const std::vector<T>& b)
 {
   ASSERT_EQ (a.size (), b.size ());
@@ -54,7 +55,8 @@ SignedDistanceField
 noiseField (const Eigen::Vector3i& dims, unsigned seed, double share_inside)
 {
   std::mt19937 random (seed);
-  std::uniform_real_distribution<float> uniform (static_cast<float> (-share_inside), static_cast<float> (1.0 - share_inside));
+  std::uniform_real_distribution<float> uniform (static_cast<float> (-share_inside),
+                                                 static_cast<float> (1.0 - share_inside));
   std::uniform_int_distribution<int> special (0, 29);
   SignedDistanceField field;
   field.grid.dims = dims;
@@ -64,15 +66,32 @@ noiseField (const Eigen::Vector3i& dims, unsigned seed, double share_inside)
   for (auto& value : field.values)
     switch (special (random))
     {
-    case 0: value = 0.0f; break;
-    case 1: value = -0.0f; break;
-    case 2: value = std::numeric_limits<float>::quiet_NaN (); break;
-    case 3: value = std::numeric_limits<float>::infinity (); break;
-    case 4: value = -std::numeric_limits<float>::infinity (); break;
-    case 5: value = -std::numeric_limits<float>::denorm_min (); break;
-    case 6: value = std::numeric_limits<float>::lowest (); break;
-    case 7: value = std::numeric_limits<float>::max (); break;
-    default: value = uniform (random);
+    case 0:
+      value = 0.0f;
+      break;
+    case 1:
+      value = -0.0f;
+      break;
+    case 2:
+      value = std::numeric_limits<float>::quiet_NaN ();
+      break;
+    case 3:
+      value = std::numeric_limits<float>::infinity ();
+      break;
+    case 4:
+      value = -std::numeric_limits<float>::infinity ();
+      break;
+    case 5:
+      value = -std::numeric_limits<float>::denorm_min ();
+      break;
+    case 6:
+      value = std::numeric_limits<float>::lowest ();
+      break;
+    case 7:
+      value = std::numeric_limits<float>::max ();
+      break;
+    default:
+      value = uniform (random);
     }
   return field;
 }
@@ -219,7 +238,8 @@ TEST (IsoSurface, ClosesInsideTheVolumeOnlyOnRequest)
 
 TEST (IsoSurface, OfFieldsWithoutASignChangeIsEmpty)
 {
-  for (const float value : {1.0f, 0.0f, std::numeric_limits<float>::quiet_NaN (), -std::numeric_limits<float>::infinity ()})
+  for (const float value :
+       {1.0f, 0.0f, std::numeric_limits<float>::quiet_NaN (), -std::numeric_limits<float>::infinity ()})
   {
     SignedDistanceField field;
     field.grid.dims = {4, 5, 6};

@@ -53,8 +53,9 @@ TEST (SignedDistanceField, KnowsNothingOutsideTheBoxOfVoxelCentres)
   const auto field = trilinearField ();
   const double nan = std::numeric_limits<double>::quiet_NaN ();
   const double inf = std::numeric_limits<double>::infinity ();
-  for (const Eigen::Vector3d& v : {Eigen::Vector3d (-0.01, 1, 1), Eigen::Vector3d (3.01, 1, 1), Eigen::Vector3d (1, 2.01, 1),
-                                   Eigen::Vector3d (1, 1, -1e30), Eigen::Vector3d (nan, 1, 1), Eigen::Vector3d (1, 1, inf)})
+  for (const Eigen::Vector3d& v :
+       {Eigen::Vector3d (-0.01, 1, 1), Eigen::Vector3d (3.01, 1, 1), Eigen::Vector3d (1, 2.01, 1),
+        Eigen::Vector3d (1, 1, -1e30), Eigen::Vector3d (nan, 1, 1), Eigen::Vector3d (1, 1, inf)})
     EXPECT_FALSE (field.sample (field.grid.origin_m + field.grid.voxel_size_m * v).has_value ());
 }
 
