@@ -186,7 +186,7 @@ TEST_F (PcdView, WorldPointsMoveToTheSensor)
   EXPECT_NEAR (view.view->camera.fx, 60.0, 0.01);
   EXPECT_NEAR (view.view->at (3, 3), 1.0f, 1e-4f);
   const OrientedPoint& p = view.objects.at (7).points.front ();
-  const OrientedPoint& q = readPcdView (path ("sensor.pcd")).objects.at (7).points.front ();
+  const OrientedPoint q = readPcdView (path ("sensor.pcd")).objects.at (7).points.front ();
   EXPECT_LT ((p.position - T * q.position).norm (), 1e-4f);
   EXPECT_LT ((p.normal - T.linear () * q.normal).norm (), 1e-3f);
 }

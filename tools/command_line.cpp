@@ -1,0 +1,250 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_cosection authors
+#include "command_line.h"
+
+#include "option_table.h"
+#include "option_values.h"
+#include "suggestion.h"
+
+#include <pcl/cosection/common/error.h>
+
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <iostream>
+#include <memory>
+
+using namespace pcl::cosection;
+
+namespace
+{
+
+std::string
+unknownOption (const std::string& given, const std::vector<std::string>& names)
+{
+  return ("unknown option " + given + "; did you mean " + nearestName (given, names) + "?");
+}
+
+/** \brief Configuration files, with the same answer to unknown names as the command line. */
+class ConfigurationFile : public CLI::ConfigBase
+{
+public:
+  explicit ConfigurationFile (std::vector<std::string> names) : names_ (std::move (names))
+  {}
+
+  std::vector<CLI::ConfigItem>
+  from_config (std::istream& input) const override
+  {
+    const std::vector<CLI::ConfigItem> entries = CLI::ConfigBase::from_config (input);
+    for (const CLI::ConfigItem& item : entries)
+    {
+      if (!item.parents.empty ())
+        throw UsageError ("the configuration file has a section [" + item.parents[0] + "]; there are no sections");
+      if (std::find (names_.begin (), names_.end (), "--" + item.name) == names_.end ())
+        throw UsageError ("unknown option in the configuration file: " + item.name + "; did you mean " +
+                          nearestName ("--" + item.name, names_).substr (2) + "?");
+    }
+    return (entries);
+  }
+
+private:
+  const std::vector<std::string> names_;
+};
+
+std::vector<std::string>
+optionNames (const CLI::App& app)
+{
+  std::vector<std::string> names;
+  for (const CLI::Option* option : app.get_options ())
+    for (const std::string& name : option->get_lnames ())
+      names.push_back ("--" + name);
+  return (names);
+}
+
+/** \brief CLI11 would take the value of an unknown option for an input. */
+void
+refuseUnknownOptions (const std::vector<std::string>& arguments, const std::vector<std::string>& names)
+{
+  for (const std::string& argument : arguments)
+  {
+    if (argument == "--")
+      return;
+    const std::string name = argument.substr (0, argument.find ('='));
+    const bool is_option =
+        name.size () > 1 && name[0] == '-' && !std::isdigit (static_cast<unsigned char> (name[1])) && name[1] != '.';
+    const bool is_value = name == "-nan" || name == "-inf"; // refused later, by the option that it was given to
+    if (is_option && !is_value && name != "-h" && std::find (names.begin (), names.end (), name) == names.end ())
+      throw UsageError (unknownOption (name, names));
+  }
+}
+
+template <typename Target, typename Value>
+void
+override (Target& target, const std::optional<Value>& value)
+{
+  if (value)
+    target = *value;
+}
+
+CoSectionOptions
+methodOptions (const Given& given)
+{
+  CoSectionOptions options = given.preset == "paper" ? CoSectionOptions::paper () : CoSectionOptions ();
+  if (given.resolution)
+    options.voxel_size_m = 0.0;
+  override (options.voxel_size_m, given.voxel_size);
+  override (options.resolution, given.resolution);
+  override (options.padding, given.padding);
+  override (options.background_voxel_size_m, given.background_voxel_size);
+  override (options.alpha, given.alpha);
+  override (options.beta_hull, given.beta_hull);
+  override (options.beta_inter, given.beta_inter);
+  override (options.sigma_vox, given.sigma);
+  override (options.solver.max_iterations, given.max_iterations);
+  override (options.solver.tolerance_vox, given.tolerance);
+  override (options.threads, given.threads);
+  options.solver.threads = options.threads;
+  if (!given.constraints.empty ())
+  {
+    options.use_hull = given.constraints == "hull" || given.constraints == "all";
+    options.use_intersection = given.constraints == "intersection" || given.constraints == "all";
+  }
+  if (given.no_planes)
+    options.use_planes = false;
+  if (!given.weighting.empty ())
+    options.weighting = given.weighting == "sum" ? Weighting::Sum : Weighting::Mean;
+  if (!given.solver.empty ())
+    options.solver.type = given.solver == "fast-jacobi" ? SolverType::FastJacobi : SolverType::Multigrid;
+  if (!given.max_memory.empty ())
+  {
+    const std::optional<std::size_t> size = parseSize (given.max_memory);
+    if (!size)
+      throw UsageError ("--max-memory: \"" + given.max_memory +
+                        "\" is not valid, it must be a size such as 500M or 2G");
+    options.max_memory_bytes = *size;
+  }
+  options.validate ();
+  return (options);
+}
+
+void
+setPaths (const Given& given, Settings& settings)
+{
+  if (given.paths.empty ())
+    throw UsageError ("INPUT.pcd and OUTPUT are missing; see --help");
+  if (given.paths.size () == 1)
+    throw UsageError ("OUTPUT is missing after " + given.paths[0] + "; see --help");
+  settings.inputs.assign (given.paths.begin (), given.paths.end () - 1);
+  settings.output = given.paths.back ();
+  if (settings.output.empty ())
+    throw UsageError ("OUTPUT is empty; it must be a folder, or a file ending in .ply, .stl or .obj");
+  std::string extension = std::filesystem::path (settings.output).extension ().string ();
+  std::transform (extension.begin (), extension.end (), extension.begin (),
+                  [] (unsigned char c) { return (std::tolower (c)); });
+  if (extension == ".pcd")
+    throw UsageError ("OUTPUT is " + settings.output +
+                      ", a point cloud; it must be a folder, or a file ending in .ply, .stl or .obj");
+  const std::string mesh = meshExtension (settings.output);
+  if (!mesh.empty () && !given.format.empty () && given.format != mesh)
+    throw UsageError ("--format " + given.format + " contradicts OUTPUT " + settings.output);
+  settings.format = !mesh.empty () ? mesh : !given.format.empty () ? given.format : "ply";
+}
+
+Settings
+toSettings (const Given& given)
+{
+  Settings settings;
+  if (given.voxel_size && given.resolution)
+    throw UsageError ("--voxel-size and --resolution exclude each other");
+  if (given.quiet && given.verbose)
+    throw UsageError ("--quiet and --verbose exclude each other");
+  setPaths (given, settings);
+  settings.json = given.json;
+  settings.save_sdf = given.save_sdf;
+  settings.verbosity = given.quiet ? Verbosity::Quiet : given.verbose ? Verbosity::Verbose : Verbosity::Normal;
+  settings.preset = given.preset;
+  settings.method = methodOptions (given);
+  settings.constraints = settings.method.use_hull ? (settings.method.use_intersection ? "all" : "hull")
+                                                  : (settings.method.use_intersection ? "intersection" : "none");
+  if (!given.planes.empty ())
+  {
+    const auto planes = parseQuadruples (given.planes);
+    if (!planes)
+      throw UsageError ("--plane must be four numbers a,b,c,d");
+    for (const auto& p : *planes)
+    {
+      settings.planes.emplace_back (p[0], p[1], p[2], p[3]);
+      if (!(settings.planes.back ().head<3> ().norm () > 0.0))
+        throw UsageError ("--plane has the normal 0,0,0; (a,b,c) must point from the plane to the objects");
+    }
+  }
+  settings.reading.world_points = given.world_points;
+  settings.reading.threads = settings.method.threads;
+  override (settings.reading.scale, given.scale);
+  if (!given.intrinsics.empty ())
+  {
+    const auto intrinsics = parseQuadruples (given.intrinsics);
+    if (!intrinsics || intrinsics->size () != 1 || !((*intrinsics)[0][0] > 0.0) || !((*intrinsics)[0][1] > 0.0))
+      throw UsageError ("--intrinsics must be four numbers fx,fy,cx,cy with positive fx and fy");
+    settings.reading.intrinsics = (*intrinsics)[0];
+  }
+  return (settings);
+}
+
+} // namespace
+
+std::string
+meshExtension (const std::string& path)
+{
+  std::string extension = std::filesystem::path (path).extension ().string ();
+  std::transform (extension.begin (), extension.end (), extension.begin (),
+                  [] (unsigned char c) { return (std::tolower (c)); });
+  const bool known = extension == ".ply" || extension == ".stl" || extension == ".obj";
+  return (known ? extension.substr (1) : "");
+}
+
+std::optional<Settings>
+parseCommandLine (int argc, const char* const* argv)
+{
+  Given given;
+  CLI::App app ("Completes the hidden surfaces of objects in point clouds: closed meshes that keep clear of\n"
+                "seen free space and of each other.",
+                "pcl_cosection");
+  declareOptions (app, given);
+  const std::vector<std::string> names = optionNames (app);
+  app.config_formatter (std::make_shared<ConfigurationFile> (names));
+  refuseUnknownOptions (std::vector<std::string> (argv + 1, argv + argc), names);
+  try
+  {
+    app.parse (argc, argv);
+    return (toSettings (given));
+  }
+  catch (const CLI::CallForHelp&)
+  {
+    std::cout << helpText (app);
+  }
+  catch (const CLI::CallForVersion& version)
+  {
+    std::cout << version.what () << std::endl;
+  }
+  catch (const CLI::FileError&)
+  {
+    throw UsageError ("--config: the file cannot be read");
+  }
+  catch (const CLI::ArgumentMismatch& error)
+  {
+    const std::string message = error.what ();
+    const bool missing = message.find ("missing") != std::string::npos;
+    throw UsageError (message.substr (0, message.find (':')) +
+                      (missing ? " needs a value" : " is given more than once"));
+  }
+  catch (const CLI::ParseError& error)
+  {
+    throw UsageError (error.what ());
+  }
+  catch (const InvalidArgument& error)
+  {
+    throw UsageError (error.what ());
+  }
+  return (std::nullopt);
+}

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_cosection authors
+#pragma once
+
+#include "terminal.h"
+
+#include <pcl/cosection/io/pcd_view.h>
+#include <pcl/cosection/surface/options.h>
+
+#include <Eigen/Core>
+
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+/** \brief The command line, or the configuration file, is not right; what () is one line. */
+class UsageError : public std::runtime_error
+{
+public:
+  using std::runtime_error::runtime_error;
+};
+
+/** \brief What the user asked for. */
+struct Settings
+{
+  std::vector<std::string> inputs;
+  std::string output;
+  std::string format = "ply"; ///< extension of the meshes
+  std::string json;           ///< empty: no summary
+  bool save_sdf = false;
+  Verbosity verbosity = Verbosity::Normal;
+  std::string preset;      ///< empty: our own defaults
+  std::string constraints; ///< none, hull, intersection or all
+  std::vector<Eigen::Vector4d> planes;
+  pcl::cosection::PcdViewOptions reading;
+  pcl::cosection::CoSectionOptions method;
+};
+
+/** \brief The extension of \a path in lower case without the dot, if it is one of a mesh format
+ * that can be written; else empty. */
+std::string
+meshExtension (const std::string& path);
+
+/** \brief Read the command line and the configuration file that it names.
+ * \return nothing if all that was asked for was printed (--help, --version)
+ * \throws UsageError */
+std::optional<Settings>
+parseCommandLine (int argc, const char* const* argv);

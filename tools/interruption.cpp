@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_cosection authors
+#include "interruption.h"
+
+#include <csignal>
+
+namespace
+{
+
+volatile std::sig_atomic_t signal_received = 0;
+
+extern "C" void
+rememberSignal (int)
+{
+  signal_received = 1;
+}
+
+} // namespace
+
+void
+catchInterruptions ()
+{
+  struct sigaction action = {};
+  action.sa_handler = rememberSignal;
+  action.sa_flags = SA_RESTART | static_cast<int> (SA_RESETHAND);
+  sigemptyset (&action.sa_mask);
+  sigaction (SIGINT, &action, nullptr);
+  sigaction (SIGTERM, &action, nullptr);
+}
+
+bool
+interrupted ()
+{
+  return (signal_received != 0);
+}

@@ -1,0 +1,11 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_cosection authors
+#pragma once
+
+/** \brief From now on, the first SIGINT or SIGTERM only sets a flag; a second one ends the program at once. */
+void
+catchInterruptions ();
+
+/** \brief Whether a signal has asked the program to stop. */
+bool
+interrupted ();

@@ -1,0 +1,226 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_cosection authors
+#include "option_table.h"
+
+#include "option_values.h"
+
+#include <pcl/cosection/surface/options.h>
+#include <pcl/cosection/version.h>
+
+#include <limits>
+#include <memory>
+#include <sstream>
+
+using namespace pcl::cosection;
+
+namespace
+{
+
+constexpr double unlimited = std::numeric_limits<double>::max ();
+
+const char* const examples = R"(Examples:
+  pcl_cosection table.pcd meshes
+      every labelled object of one organised view, and the table, into the folder meshes
+  pcl_cosection front.pcd left.pcd cup.ply
+      one object seen in two views (VIEWPOINT in each header), as one closed mesh
+  pcl_cosection --plane 0,0,1,0.72 --voxel-size 0.003 cup.pcd cup.stl
+      what stands on a known plane, z = -0.72 in the world, with voxels of 3 mm
+  pcl_cosection --preset paper --constraints hull --json summary.json scene.pcd out
+      the parameters of the publication, without the intersection constraint
+
+A configuration file has a line NAME = VALUE for each option, without the dashes:
+  voxel-size = 0.004
+  plane = [0, 0, 1, 0.72]
+
+Exit status: 0 all went well, 1 something failed, 2 wrong usage, 130 interrupted.)";
+
+class HelpFormatter : public CLI::Formatter
+{
+public:
+  std::string
+  make_usage (const CLI::App*, std::string) const override
+  {
+    return ("\nUsage: pcl_cosection [OPTIONS] INPUT.pcd [INPUT.pcd ...] OUTPUT\n");
+  }
+
+  std::string
+  make_positionals (const CLI::App*) const override
+  {
+    return ("\nINPUT is a view: points in the sensor frame, VIEWPOINT of the header = pose of the sensor.\n"
+            "  An integer field \"label\" says which object a point belongs to, 0 is the background; without\n"
+            "  it, everything is object 1. Organised clouds also tell which space is free.\n"
+            "OUTPUT ending in .ply, .stl or .obj is one file with the meshes of all objects, without the\n"
+            "  background; anything else is a folder for background.ply and object_LABEL.ply.\n"
+            "Meshes are in the world frame, in metres.\n");
+  }
+};
+
+/** \brief A default for the help screen. */
+template <typename Value>
+std::string
+byDefault (Value value)
+{
+  std::ostringstream text;
+  text << " (default: " << value << ")";
+  return (text.str ());
+}
+
+CLI::Validator
+oneOf (const std::vector<std::string>& words)
+{
+  return (CLI::IsMember (words));
+}
+
+void
+declareInput (CLI::App& app, Given& given)
+{
+  const std::string group = "Input";
+  app.add_option ("paths", given.paths)->group ("")->configurable (false);
+  app.add_flag ("--world-points", given.world_points, "Points are in the world frame already")->group (group);
+  app.add_option ("--intrinsics", given.intrinsics, "Camera in pixels, for organised clouds that no pinhole fits")
+      ->option_text ("FX,FY,CX,CY")
+      ->allow_extra_args (false)
+      ->group (group);
+  app.add_option ("--scale", given.scale, "Multiplies all coordinates: 0.001 for millimetres")
+      ->option_text ("FACTOR")
+      ->check (numberRange (0, unlimited, true))
+      ->group (group);
+  app.add_option ("--plane", given.planes,
+                  "Plane a x + b y + c z + d = 0 of the world that objects stand\n"
+                  "on, (a,b,c) pointing to the objects; may be repeated")
+      ->option_text ("A,B,C,D")
+      ->allow_extra_args (false)
+      ->group (group);
+}
+
+void
+declareVolume (CLI::App& app, Given& given)
+{
+  const CoSectionOptions defaults;
+  const std::string group = "Volume";
+  app.add_option ("--voxel-size", given.voxel_size, "Edge of an object's voxels")
+      ->option_text ("METRES")
+      ->check (numberRange (0, unlimited, true))
+      ->group (group);
+  app.add_option ("--resolution", given.resolution,
+                  "Voxels along an object's longest observed side\n(default: 64, fewer where points are sparse)")
+      ->option_text ("N")
+      ->check (wholeRange (4, 4096))
+      ->group (group);
+  app.add_option ("--padding", given.padding,
+                  "Volume beyond the observed box on each side, as a fraction\nof its longest side" +
+                      byDefault (defaults.padding))
+      ->option_text ("FRACTION")
+      ->check (numberRange (0, 10))
+      ->group (group);
+  app.add_option ("--background-voxel-size", given.background_voxel_size,
+                  "Edge of the background's voxels\n(default: twice the smallest object's)")
+      ->option_text ("METRES")
+      ->check (numberRange (0, unlimited, true))
+      ->group (group);
+  app.add_option ("--max-memory", given.max_memory, "Refuse volumes that need more, for example 500M or 2G")
+      ->option_text ("BYTES")
+      ->group (group);
+}
+
+void
+declareMethod (CLI::App& app, Given& given)
+{
+  const CoSectionOptions defaults;
+  const std::string group = "Method";
+  app.add_option ("--preset", given.preset, "The parameters of the publication; other options override it")
+      ->option_text ("paper")
+      ->check (oneOf ({"paper"}))
+      ->group (group);
+  app.add_option ("--constraints", given.constraints,
+                  "What bounds hidden surfaces: seen free space (hull), other\nbodies (intersection)" +
+                      byDefault ("all"))
+      ->option_text ("none|hull|intersection|all")
+      ->check (oneOf ({"none", "hull", "intersection", "all"}))
+      ->group (group);
+  app.add_flag ("--no-planes", given.no_planes, "Do not look for support planes in the background")->group (group);
+  app.add_option ("--alpha", given.alpha, "Weight of smoothness, relative to the voxel" + byDefault (defaults.alpha))
+      ->option_text ("WEIGHT")
+      ->check (numberRange (0, unlimited, true))
+      ->group (group);
+  app.add_option ("--beta-hull", given.beta_hull, "Weight of seen free space" + byDefault (defaults.beta_hull))
+      ->option_text ("WEIGHT")
+      ->check (numberRange (0, unlimited))
+      ->group (group);
+  app.add_option ("--beta-inter", given.beta_inter, "Weight of other bodies" + byDefault (defaults.beta_inter))
+      ->option_text ("WEIGHT")
+      ->check (numberRange (0, unlimited))
+      ->group (group);
+  app.add_option ("--sigma", given.sigma, "Width of a point's influence" + byDefault (defaults.sigma_vox))
+      ->option_text ("VOXELS")
+      ->check (numberRange (0, 10, true))
+      ->group (group);
+  app.add_option ("--weighting", given.weighting, "How points in reach of a voxel are combined" + byDefault ("mean"))
+      ->option_text ("mean|sum")
+      ->check (oneOf ({"mean", "sum"}))
+      ->group (group);
+  app.add_option ("--solver", given.solver, "How the minimum is found" + byDefault ("multigrid"))
+      ->option_text ("multigrid|fast-jacobi")
+      ->check (oneOf ({"multigrid", "fast-jacobi"}))
+      ->group (group);
+  app.add_option ("--max-iterations", given.max_iterations,
+                  "Most iterations on each level" + byDefault (defaults.solver.max_iterations))
+      ->option_text ("N")
+      ->check (wholeRange (1, 10000000))
+      ->group (group);
+  app.add_option ("--tolerance", given.tolerance,
+                  "Stop when the surface moves less in one iteration" + byDefault (defaults.solver.tolerance_vox))
+      ->option_text ("VOXELS")
+      ->check (numberRange (0, unlimited, true))
+      ->group (group);
+}
+
+void
+declareOutput (CLI::App& app, Given& given)
+{
+  const std::string output = "Output";
+  app.add_option ("--format", given.format, "Format of the meshes in a folder" + byDefault ("ply"))
+      ->option_text ("ply|stl|obj")
+      ->check (oneOf ({"ply", "stl", "obj"}))
+      ->group (output);
+  app.add_flag ("--save-sdf", given.save_sdf, "Write each object's signed distance beside its mesh (.vti)")
+      ->group (output);
+  app.add_option ("--json", given.json, "Write a summary for programs")->option_text ("FILE")->group (output);
+
+  const std::string general = "General";
+  app.add_option ("--threads", given.threads, "Threads to use, without influence on results\n(default: all processors)")
+      ->option_text ("N")
+      ->check (wholeRange (1, 1024))
+      ->group (general);
+  app.add_flag ("--verbose", given.verbose, "Say what is being done")->group (general);
+  app.add_flag ("--quiet", given.quiet, "Print errors only")->group (general);
+  app.set_config ("--config", "", "Read options from a file; the command line overrides it")
+      ->option_text ("FILE")
+      ->group (general);
+  app.set_version_flag ("--version", "pcl_cosection " PCL_COSECTION_VERSION, "Print the version")->group (general);
+  app.set_help_flag ("-h,--help", "Print this")->group (general);
+}
+
+} // namespace
+
+void
+declareOptions (CLI::App& app, Given& given)
+{
+  const auto formatter = std::make_shared<HelpFormatter> ();
+  formatter->column_width (34);
+  app.formatter (formatter);
+  app.footer (examples);
+  declareInput (app, given);
+  declareVolume (app, given);
+  declareMethod (app, given);
+  declareOutput (app, given);
+}
+
+std::string
+helpText (const CLI::App& app)
+{
+  std::string text = app.help (); // with two blank lines between groups
+  for (std::size_t i = text.find ("\n\n\n"); i != std::string::npos; i = text.find ("\n\n\n"))
+    text.erase (i, 1);
+  return (text);
+}

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_cosection authors
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+/** \brief The options as the user gave them: what is absent leaves the preset as it is. */
+struct Given
+{
+  std::vector<std::string> paths;
+  std::optional<double> voxel_size, padding, background_voxel_size, alpha, beta_hull, beta_inter, sigma, tolerance,
+      scale;
+  std::optional<int> resolution, max_iterations, threads;
+  std::string constraints, weighting, solver, preset, max_memory, format, json;
+  std::vector<std::string> planes, intrinsics;
+  bool no_planes = false, save_sdf = false, world_points = false, verbose = false, quiet = false;
+};
+
+/** \brief Declare every option of the program, and where the help screen shows it. */
+void
+declareOptions (CLI::App& app, Given& given);
+
+/** \brief The help screen. */
+std::string
+helpText (const CLI::App& app);

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_cosection authors
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+/** \brief A finite number that fills \a text; nothing if it is anything else. */
+std::optional<double>
+parseNumber (const std::string& text);
+
+/** \brief Bytes from "500M", "2G", "1.5GiB" or "1000000"; k, M, G and T are powers of 1024.
+ * Nothing if \a text is no such size, or zero. */
+std::optional<std::size_t>
+parseSize (const std::string& text);
+
+/** \brief Four numbers each from values "a,b,c,d", or from values of one number (a list in a
+ * configuration file). Nothing if they do not come in fours. */
+std::optional<std::vector<std::array<double, 4>>>
+parseQuadruples (const std::vector<std::string>& values);
+
+/** \brief Accepts a finite number in [\a least, \a most]; in (\a least, \a most] if \a open. */
+CLI::Validator
+numberRange (double least, double most, bool open = false);
+
+/** \brief Accepts a whole number in [\a least, \a most]. */
+CLI::Validator
+wholeRange (long least, long most);

@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_cosection authors
+
+// Completes the hidden surfaces of the objects in PCD views; see pcl_cosection --help.
+
+#include "command_line.h"
+#include "interruption.h"
+#include "json_summary.h"
+#include "output_target.h"
+#include "scene_input.h"
+#include "terminal.h"
+
+#include <pcl/cosection/common/error.h>
+#include <pcl/cosection/surface/co_section.h>
+
+#include <chrono>
+#include <iomanip>
+#include <new>
+#include <sstream>
+#include <utility>
+
+using namespace pcl::cosection;
+
+namespace
+{
+
+enum ExitStatus
+{
+  Success = 0,
+  Failure = 1,
+  WrongUsage = 2,
+  Interrupted = 130,
+};
+
+constexpr double read_share = 0.1; ///< of the progress bar
+
+class Stopwatch
+{
+public:
+  double
+  seconds () const
+  {
+    return (std::chrono::duration<double> (std::chrono::steady_clock::now () - start_).count ());
+  }
+
+private:
+  const std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now ();
+};
+
+CoSection
+toScene (const Settings& settings, SceneInput input)
+{
+  CoSection scene (settings.method);
+  for (DepthView& view : input.views)
+    scene.addView (std::move (view));
+  if (!input.background.empty ())
+    scene.setBackground (std::move (input.background));
+  for (auto& [label, points] : input.objects)
+    scene.addObject ({label, std::move (points), {}});
+  for (const Eigen::Vector4d& plane : settings.planes)
+    scene.addSupportPlane (plane);
+  return (scene);
+}
+
+std::string
+describe (const ObjectResult& object)
+{
+  std::ostringstream text;
+  text << "object " << object.id << ": " << object.mesh.vertices.size () << " vertices, " << std::setprecision (3)
+       << 1000.0 * computeMassProperties (object.mesh).volume_m3 << " litres";
+  if (object.signed_distance)
+    text << ", voxels of " << 1000.0 * object.signed_distance->grid.voxel_size_m << " mm";
+  if (object.penetration_m > 0.0)
+    text << ", " << 1000.0 * object.penetration_m << " mm inside another body";
+  return (text.str ());
+}
+
+/** \brief Read, complete, write. \return whether every object succeeded */
+bool
+run (const Settings& settings, Terminal& terminal)
+{
+  const Stopwatch total;
+  const OutputTarget target (settings);
+  SceneInput input = readScene (settings, [&] (const std::string& stage, double fraction) {
+    terminal.progress (stage, read_share * fraction);
+    return (!interrupted ());
+  });
+  const double read_s = total.seconds ();
+  std::vector<std::string> warnings = input.warnings;
+  for (const std::string& warning : warnings)
+    terminal.warning (warning);
+  const bool has_colour = input.has_colour;
+
+  SceneResult result =
+      toScene (settings, std::move (input)).reconstruct ([&] (const std::string& stage, double fraction) {
+        terminal.progress (stage, read_share + (1.0 - read_share) * fraction);
+        return (!interrupted ());
+      });
+  if (interrupted ())
+    throw Cancelled ("interrupted");
+
+  for (const std::string& warning : result.warnings)
+    terminal.warning (warning);
+  warnings.insert (warnings.end (), result.warnings.begin (), result.warnings.end ());
+  bool all_good = true;
+  for (ObjectResult& object : result.objects)
+  {
+    if (!has_colour)
+      object.mesh.colours.clear ();
+    if (object.error.empty ())
+    {
+      terminal.result (describe (object));
+      continue;
+    }
+    all_good = false;
+    warnings.push_back ("object " + std::to_string (object.id) + ": " + object.error);
+    terminal.error (warnings.back ());
+  }
+  if (!has_colour)
+    result.background.colours.clear ();
+  for (const std::string& file : target.write (result))
+    terminal.result ("wrote " + file);
+
+  std::map<std::string, double> timings_s = result.timings_s;
+  timings_s["read"] = read_s;
+  timings_s["total"] = total.seconds ();
+  if (!settings.json.empty ())
+    writeJsonSummary (settings, result, timings_s, warnings);
+  for (const auto& [stage, seconds] : timings_s)
+    terminal.detail (stage + ": " + std::to_string (seconds) + " s");
+  return (all_good);
+}
+
+} // namespace
+
+int
+main (int argc, char** argv)
+{
+  Terminal terminal ("pcl_cosection");
+  try
+  {
+    const std::optional<Settings> settings = parseCommandLine (argc, argv);
+    if (!settings)
+      return (Success);
+    terminal.setVerbosity (settings->verbosity);
+    catchInterruptions ();
+    return (run (*settings, terminal) ? Success : Failure);
+  }
+  catch (const UsageError& error)
+  {
+    terminal.error (error.what ());
+    return (WrongUsage);
+  }
+  catch (const Cancelled&)
+  {
+    terminal.error ("interrupted, nothing was written");
+    return (Interrupted);
+  }
+  catch (const std::bad_alloc&)
+  {
+    terminal.error ("out of memory; use larger voxels (--voxel-size, --resolution)");
+  }
+  catch (const std::exception& error)
+  {
+    terminal.error (error.what ());
+  }
+  return (Failure);
+}

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_cosection authors
+#pragma once
+
+#include "command_line.h"
+
+#include <pcl/cosection/common/camera.h>
+#include <pcl/cosection/common/progress.h>
+#include <pcl/cosection/surface/oriented_point.h>
+
+#include <map>
+#include <string>
+#include <vector>
+
+/** \brief What all input files together say. */
+struct SceneInput
+{
+  std::map<int, std::vector<pcl::cosection::OrientedPoint>> objects; ///< by label
+  std::vector<pcl::cosection::OrientedPoint> background;
+  std::vector<pcl::cosection::DepthView> views;
+  bool has_colour = false;
+  std::vector<std::string> warnings;
+};
+
+/** \brief Read and merge the views; labels of too few points are dropped with a warning.
+ * \throws pcl::cosection::Error also if no object is left, or if \a progress returns false */
+SceneInput
+readScene (const Settings& settings, const pcl::cosection::ProgressCallback& progress);

@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_cosection authors
+#include "terminal.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+#include <iostream>
+
+namespace
+{
+
+constexpr int bar_width = 30;
+constexpr std::size_t stage_width = 40; // so that the bar fits into a line of 80 characters
+
+/** \brief A terminal that can go back to the beginning of its line. */
+bool
+isTerminal ()
+{
+  const char* term = std::getenv ("TERM");
+  return (isatty (STDERR_FILENO) != 0 && !(term && std::string (term) == "dumb"));
+}
+
+std::string
+oneLine (std::string text)
+{
+  while (!text.empty () && (text.back () == '\n' || text.back () == '\r'))
+    text.pop_back ();
+  std::replace_if (
+      text.begin (), text.end (), [] (char c) { return (c == '\n' || c == '\r'); }, ' ');
+  return (text);
+}
+
+} // namespace
+
+Terminal::Terminal (const std::string& program, Verbosity verbosity)
+    : program_ (program)
+    , verbosity_ (verbosity)
+    , is_terminal_ (isTerminal ())
+{}
+
+Terminal::~Terminal ()
+{
+  clearBar ();
+}
+
+void
+Terminal::setVerbosity (Verbosity verbosity)
+{
+  verbosity_ = verbosity;
+}
+
+void
+Terminal::result (const std::string& line)
+{
+  if (verbosity_ == Verbosity::Quiet)
+    return;
+  clearBar ();
+  std::cout << line << std::endl;
+}
+
+void
+Terminal::detail (const std::string& line)
+{
+  if (verbosity_ == Verbosity::Verbose)
+    say ("", line);
+}
+
+void
+Terminal::warning (const std::string& line)
+{
+  if (verbosity_ != Verbosity::Quiet)
+    say ("warning: ", line);
+}
+
+void
+Terminal::error (const std::string& line)
+{
+  say ("error: ", line);
+}
+
+void
+Terminal::progress (const std::string& stage, double fraction)
+{
+  if (stage != stage_)
+    detail (stage);
+  stage_ = stage;
+  if (!is_terminal_ || verbosity_ == Verbosity::Quiet)
+    return;
+  const double clamped = std::min (1.0, std::max (0.0, fraction));
+  const int filled = static_cast<int> (clamped * bar_width);
+  char percent[8];
+  std::snprintf (percent, sizeof (percent), "%3d%%", static_cast<int> (100.0 * clamped));
+  const std::string bar = "[" + std::string (filled, '#') + std::string (bar_width - filled, ' ') + "] " + percent +
+                          " " + stage.substr (0, stage_width);
+  if (bar == bar_)
+    return;
+  clearBar ();
+  bar_ = bar;
+  std::cerr << bar_ << std::flush;
+}
+
+void
+Terminal::clearBar ()
+{
+  if (!bar_.empty ())
+    std::cerr << '\r' << std::string (bar_.size (), ' ') << '\r' << std::flush;
+  bar_.clear ();
+}
+
+void
+Terminal::say (const std::string& kind, const std::string& line)
+{
+  clearBar ();
+  std::cerr << program_ + ": " + kind + oneLine (line) + "\n" << std::flush;
+}
