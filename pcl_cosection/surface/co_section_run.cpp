@@ -250,14 +250,14 @@ CoSectionRun::solveBackground ()
 void
 CoSectionRun::prepareObject (Object& object)
 {
-  std::vector<std::pair<PinholeCamera, Eigen::Isometry3d>> cameras;
+  std::vector<std::pair<const DepthView*, Eigen::Isometry3d>> views;
   timed ("data_term", [&] { object.volume->addPoints (object.input->points); });
   timed ("constraints", [&] {
     for (std::size_t v = 0; v < scene_.views.size (); ++v)
     {
       const DepthView& view = scene_.views[v].view ();
       const Eigen::Isometry3d T_object_sensor = pose (object, v).inverse () * view.T_world_sensor;
-      cameras.emplace_back (view.camera, T_object_sensor);
+      views.emplace_back (&view, T_object_sensor);
       if (scene_.options.use_hull)
         object.volume->addView (scene_.views[v], T_object_sensor);
     }
@@ -265,7 +265,7 @@ CoSectionRun::prepareObject (Object& object)
     if (!object.volume->hasData ())
       throw DegenerateInput ("no usable measurements: all of its points lie in space that was seen free");
     if (scene_.options.use_extent_prior)
-      object.volume->addExtentPrior (object.input->points, cameras);
+      object.volume->addExtentPrior (object.input->points, views);
   });
   object.field = object.volume->measuredField ();
 }

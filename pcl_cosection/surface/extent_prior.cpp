@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 #include <limits>
 
 namespace pcl
@@ -23,49 +22,65 @@ constexpr double low_percentile = 0.01;
 constexpr double high_percentile = 0.99;
 constexpr int mask_cell = 4; // pixels: the silhouette is kept at this resolution, which closes its pores
 
-/** \brief Nearest depth of an object's points per cell of an image; infinity outside its silhouette. */
+enum class Evidence
+{
+  None,
+  Occluded,
+  Behind,
+};
+
+/** \brief What a view says of voxels that it does not see free. The object's silhouette is kept as the
+ * nearest depth of its points per cell of the image. */
 class Silhouette
 {
 public:
-  Silhouette (const PinholeCamera& camera, const Eigen::Isometry3d& T_grid_sensor, const std::vector<OrientedPoint>& points)
-  : camera_ (camera)
+  Silhouette (const DepthView& view, const Eigen::Isometry3d& T_grid_sensor, const std::vector<OrientedPoint>& points)
+  : view_ (view)
   , T_sensor_grid_ (T_grid_sensor.inverse ())
-  , width_ ((camera.width + mask_cell - 1) / mask_cell)
-  , height_ ((camera.height + mask_cell - 1) / mask_cell)
+  , width_ ((view.camera.width + mask_cell - 1) / mask_cell)
+  , height_ ((view.camera.height + mask_cell - 1) / mask_cell)
   , depth_ (static_cast<std::size_t> (width_) * height_, std::numeric_limits<float>::infinity ())
   {
+    int u = 0;
+    int v = 0;
     for (const OrientedPoint& point : points)
     {
       const Eigen::Vector3d p = T_sensor_grid_ * point.position.cast<double> ();
-      int cell = 0;
-      if (find (p, cell))
-        depth_[cell] = std::min (depth_[cell], static_cast<float> (p.z ()));
+      if (!find (p, u, v))
+        continue;
+      float& nearest = depth_[static_cast<std::size_t> (v / mask_cell) * width_ + u / mask_cell];
+      nearest = std::min (nearest, static_cast<float> (p.z ()));
     }
   }
 
-  /** \brief True if \a p, in the grid's frame, lies behind an observed point. */
-  bool
-  hides (const Eigen::Vector3d& p) const
+  Evidence
+  at (const Eigen::Vector3d& p) const
   {
     const Eigen::Vector3d q = T_sensor_grid_ * p;
-    int cell = 0;
-    return find (q, cell) && q.z () > depth_[cell];
+    int u = 0;
+    int v = 0;
+    if (!find (q, u, v))
+      return Evidence::None;
+    if (q.z () > depth_[static_cast<std::size_t> (v / mask_cell) * width_ + u / mask_cell])
+      return Evidence::Behind;
+    return q.z () > view_.at (u, v) ? Evidence::Occluded : Evidence::None; // no reading: not a number
   }
 
 private:
   bool
-  find (const Eigen::Vector3d& p, int& cell) const
+  find (const Eigen::Vector3d& p, int& u, int& v) const
   {
     if (!(p.z () > 0.0))
       return false;
-    const Eigen::Vector2d pixel = camera_.project (p) + Eigen::Vector2d::Constant (0.5);
-    if (!(pixel.x () >= 0.0 && pixel.y () >= 0.0 && pixel.x () < camera_.width && pixel.y () < camera_.height))
+    const Eigen::Vector2d pixel = view_.camera.project (p) + Eigen::Vector2d::Constant (0.5);
+    if (!(pixel.x () >= 0.0 && pixel.y () >= 0.0 && pixel.x () < view_.camera.width && pixel.y () < view_.camera.height))
       return false;
-    cell = static_cast<int> (pixel.y ()) / mask_cell * width_ + static_cast<int> (pixel.x ()) / mask_cell;
+    u = static_cast<int> (pixel.x ());
+    v = static_cast<int> (pixel.y ());
     return true;
   }
 
-  PinholeCamera camera_;
+  const DepthView& view_;
   Eigen::Isometry3d T_sensor_grid_;
   int width_;
   int height_;
@@ -111,14 +126,19 @@ observedExtents (const std::vector<OrientedPoint>& points)
 std::vector<float>
 ExtentPrior::bounds (const VoxelGrid& grid, const std::vector<float>& data_distance_vox,
                      const std::vector<OrientedPoint>& points,
-                     const std::vector<std::pair<PinholeCamera, Eigen::Isometry3d>>& views, int threads) const
+                     const std::vector<std::pair<const DepthView*, Eigen::Isometry3d>>& views, int threads) const
 {
   std::vector<Silhouette> silhouettes;
-  for (const auto& [camera, T_grid_sensor] : views)
-    silhouettes.emplace_back (camera, T_grid_sensor, points);
+  for (const auto& [view, T_grid_sensor] : views)
+    silhouettes.emplace_back (*view, T_grid_sensor, points);
   const double extent_vox = observedExtents (points)[1] / grid.voxel_size_m;
-  const auto side = static_cast<float> (side_factor * extent_vox);
-  const auto depth = static_cast<float> (depth_factor * extent_vox);
+  const auto allowed = [&] (Evidence evidence) {
+    const double factor = evidence == Evidence::Behind     ? depth_factor
+                          : evidence == Evidence::Occluded ? occluded_factor
+                                                           : side_factor;
+    return static_cast<float> (factor * extent_vox);
+  };
+  const float unquestioned = std::min ({allowed (Evidence::Behind), allowed (Evidence::Occluded), allowed (Evidence::None)});
 
   std::vector<float> bounds (grid.size (), 0.0f);
   parallelFor (0, grid.dims.z (), threads, [&] (int k) {
@@ -126,12 +146,12 @@ ExtentPrior::bounds (const VoxelGrid& grid, const std::vector<float>& data_dista
       for (int i = 0; i < grid.dims.x (); ++i)
       {
         const std::size_t n = grid.index (i, j, k);
-        if (data_distance_vox[n] <= side)
+        if (data_distance_vox[n] <= unquestioned)
           continue;
-        const Eigen::Vector3d p = grid.center (i, j, k);
-        const bool behind = silhouettes.empty () || std::any_of (silhouettes.begin (), silhouettes.end (),
-                                                                 [&] (const Silhouette& s) { return s.hides (p); });
-        bounds[n] = std::max (0.0f, data_distance_vox[n] - (behind ? depth : side));
+        Evidence evidence = silhouettes.empty () ? Evidence::Behind : Evidence::None;
+        for (const Silhouette& silhouette : silhouettes)
+          evidence = std::max (evidence, silhouette.at (grid.center (i, j, k)));
+        bounds[n] = std::max (0.0f, data_distance_vox[n] - allowed (evidence));
       }
   });
   return bounds;

@@ -24,7 +24,7 @@ fill (const Pentadiagonal& matrix, int i, double factor, Real (&row)[5])
 template <typename Real>
 GalerkinLevel<Real>::GalerkinLevel (const std::array<GalerkinAxis, 3>& axes, double alpha, int threads)
 : dims_ (axes[0].size, axes[1].size, axes[2].size)
-, threads_ (threads)
+, threads_ (threadsForVoxels (threads, size ()))
 {
   const std::array<const Pentadiagonal*, 3> along_x{&axes[0].mass, &axes[0].first, &axes[0].second};
   for (int field = 0; field < 3; ++field)

@@ -52,6 +52,12 @@ public:
   void
   smooth (const Real* rhs, Real* z, Real* d, int degree, bool from_zero) const;
 
+  int
+  threads () const
+  {
+    return threads_;
+  }
+
   const Eigen::Vector3i&
   dims () const
   {

@@ -10,7 +10,8 @@ namespace cosection
 {
 
 template <typename Real>
-HessianOperator<Real>::HessianOperator (const Eigen::Vector3i& dims, int threads) : dims_ (dims), threads_ (threads)
+HessianOperator<Real>::HessianOperator (const Eigen::Vector3i& dims, int threads) : dims_ (dims)
+, threads_ (threadsForVoxels (threads, static_cast<std::size_t> (dims.x ()) * dims.y () * dims.z ()))
 {
   for (int axis = 0; axis < 3; ++axis)
   {

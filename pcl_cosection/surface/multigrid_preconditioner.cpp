@@ -33,7 +33,7 @@ largestEigenvalue (const std::array<GalerkinAxis, 3>& axes)
 template <typename Real>
 MultigridPreconditioner<Real>::MultigridPreconditioner (const Eigen::Vector3i& dims, double alpha, int smoothing_degree,
                                                         int threads)
-: hessian_ (dims, threads), alpha_ (alpha), degree_ (smoothing_degree), threads_ (threads)
+: hessian_ (dims, threads), alpha_ (alpha), degree_ (smoothing_degree), threads_ (hessian_.threads ())
 {
   std::array<GalerkinAxis, 3> axes{GalerkinAxis::finest (dims.x ()), GalerkinAxis::finest (dims.y ()),
                                    GalerkinAxis::finest (dims.z ())};
@@ -66,7 +66,7 @@ MultigridPreconditioner<Real>::setWeights (const std::uint16_t* weights)
     if (l == 0)
       op.weights.coarsen (levels_[l].transfer, weights, threads_);
     else
-      op.weights.coarsen (levels_[l].transfer, levels_[l - 1].op.weights, threads_);
+      op.weights.coarsen (levels_[l].transfer, levels_[l - 1].op.weights, op.threads ());
     op.updateDiagonal ();
   }
   factorizeCoarsest ();
@@ -160,9 +160,9 @@ MultigridPreconditioner<Real>::cycle (std::size_t l)
     for (int i = 0; i < level.op.dims ().x (); ++i)
       level.d[offset + i] = level.rhs[offset + i] - product[i];
   });
-  coarse.transfer.restrict (level.d.data (), coarse.rhs.data (), threads_);
+  coarse.transfer.restrict (level.d.data (), coarse.rhs.data (), level.op.threads ());
   cycle (l + 1);
-  coarse.transfer.prolongAdd (coarse.z.data (), level.z.data (), threads_);
+  coarse.transfer.prolongAdd (coarse.z.data (), level.z.data (), level.op.threads ());
   level.op.smooth (level.rhs.data (), level.z.data (), level.d.data (), degree_, false);
 }
 

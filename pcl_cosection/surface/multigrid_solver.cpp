@@ -28,7 +28,7 @@ template <typename Real> class NewtonMultigrid
 public:
   NewtonMultigrid (const EnergyProblem& problem, const SolverOptions& options, std::vector<Real>& u)
   : problem_ (problem)
-  , threads_ (options.threads)
+  , threads_ (threadsForVoxels (options.threads, problem.size ()))
   , preconditioner_ (problem.dims, problem.alpha, options.smoothing_degree, options.threads)
   , u_ (u)
   , residual_ (u.size ())

@@ -118,7 +118,7 @@ ShapeVolume::prepare (const std::vector<PlaneContinuation>& planes)
 
 void
 ShapeVolume::addExtentPrior (const std::vector<OrientedPoint>& points,
-                             const std::vector<std::pair<PinholeCamera, Eigen::Isometry3d>>& views)
+                             const std::vector<std::pair<const DepthView*, Eigen::Isometry3d>>& views)
 {
   if (options_.beta_extent <= 0.0)
     return;

@@ -55,7 +55,7 @@ public:
   /** \brief Add the pull that prevents swelling; after prepare (). */
   void
   addExtentPrior (const std::vector<OrientedPoint>& points,
-                  const std::vector<std::pair<PinholeCamera, Eigen::Isometry3d>>& views);
+                  const std::vector<std::pair<const DepthView*, Eigen::Isometry3d>>& views);
 
   /** \return whether they differ from those before */
   bool

@@ -5,6 +5,7 @@
 #include <omp.h>
 
 #include <algorithm>
+#include <cstddef>
 #include <exception>
 
 namespace pcl
@@ -17,6 +18,15 @@ inline int
 resolveThreads (int requested)
 {
   return (requested > 0 ? requested : std::max (1, omp_get_num_procs ()));
+}
+
+/** \brief As resolveThreads (), but no more than are worth waking up for a pass over so many voxels. */
+inline int
+threadsForVoxels (int requested, std::size_t voxels)
+{
+  constexpr std::size_t voxels_per_thread = 16384;
+  const std::size_t useful = std::max<std::size_t> (1, voxels / voxels_per_thread);
+  return static_cast<int> (std::min (static_cast<std::size_t> (resolveThreads (requested)), useful));
 }
 
 /** \brief Call \a body (first, last) for consecutive chunks of [begin, end), one chunk per thread.

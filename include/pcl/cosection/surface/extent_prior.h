@@ -24,27 +24,30 @@ observedExtents (const std::vector<OrientedPoint>& points);
  * suggests that the object reaches it.
  *
  * Where no ray and no neighbour bounds a shape, the Hessian term alone continues it without end. What
- * speaks for matter in a hidden voxel is an observed surface in front of it, and for how far behind
- * that surface, the size of what was observed: most things are about as deep as they are wide. So a
- * voxel x may lie up to
+ * speaks for matter in a hidden voxel is an observed surface of the object in front of it, and for how far
+ * behind that surface, the size of what was observed: most things are about as deep as they are wide. So a
+ * voxel may lie up to a fraction of the middle observed extent from the nearest data:
  *
- *     behind observed surface, on a viewing ray:  middle observed extent * \a depth_factor
- *     elsewhere (missing readings, occluded):      middle observed extent * \a side_factor
+ *     behind an observed surface of the object, along a viewing ray:  \a depth_factor
+ *     behind the surface of something else (occluded):                \a occluded_factor
+ *     elsewhere (missing readings, out of view):                      \a side_factor
  *
- * from the nearest data; what it exceeds that by is the bound, to be applied with a weak weight to
- * voxels that were not seen free. */
+ * What it exceeds that by is the bound, to be applied with a weak weight to voxels that were not seen
+ * free. */
 struct PCL_COSECTION_EXPORT ExtentPrior
 {
-  double depth_factor = 0.75; ///< of the middle observed extent
-  double side_factor = 0.15;  ///< of the middle observed extent
+  double depth_factor = 0.75;   ///< of the middle observed extent
+  double occluded_factor = 0.5; ///< of the middle observed extent
+  double side_factor = 0.15;    ///< of the middle observed extent
 
   /** \brief Bounds in voxels, 0 where there is none.
    * \param[in] data_distance_vox distance to the nearest voxel with data
    * \param[in] points the object's, the grid's frame
-   * \param[in] views cameras and their poses in the grid's frame; none: every voxel counts as behind */
+   * \param[in] views depth views and their sensors' poses in the grid's frame; none: every voxel counts as
+   * behind an observed surface */
   std::vector<float>
   bounds (const VoxelGrid& grid, const std::vector<float>& data_distance_vox, const std::vector<OrientedPoint>& points,
-          const std::vector<std::pair<PinholeCamera, Eigen::Isometry3d>>& views, int threads = 0) const;
+          const std::vector<std::pair<const DepthView*, Eigen::Isometry3d>>& views, int threads = 0) const;
 };
 
 } // namespace cosection
