@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_cosection authors
+#include "tool_run.h"
+
+#include <fcntl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <csignal>
+#include <fstream>
+#include <iterator>
+#include <stdexcept>
+#include <thread>
+
+namespace
+{
+
+const char* const output_name = "tool_stdout.txt";
+const char* const error_name = "tool_stderr.txt";
+
+void
+redirect (const char* name, int target)
+{
+  const int file = open (name, O_WRONLY | O_CREAT | O_TRUNC, 0644);
+  if (file < 0 || dup2 (file, target) < 0)
+    _exit (126);
+  close (file);
+}
+
+std::string
+readAll (const std::string& path)
+{
+  std::ifstream file (path, std::ios::binary);
+  return (std::string ((std::istreambuf_iterator<char> (file)), {}));
+}
+
+} // namespace
+
+ToolRun::ToolRun (const std::vector<std::string>& arguments, const std::string& folder) : folder_ (folder)
+{
+  std::vector<std::string> words = {PCL_COSECTION_TOOL};
+  words.insert (words.end (), arguments.begin (), arguments.end ());
+  std::vector<char*> pointers;
+  for (std::string& word : words)
+    pointers.push_back (word.data ());
+  pointers.push_back (nullptr);
+  process_ = fork ();
+  if (process_ < 0)
+    throw std::runtime_error ("fork failed");
+  if (process_ == 0)
+  {
+    if (chdir (folder_.c_str ()) != 0)
+      _exit (126);
+    redirect (output_name, STDOUT_FILENO);
+    redirect (error_name, STDERR_FILENO);
+    execv (pointers[0], pointers.data ());
+    _exit (127);
+  }
+}
+
+ToolRun::~ToolRun ()
+{
+  if (ended_)
+    return;
+  kill (process_, SIGKILL);
+  wait ();
+}
+
+void
+ToolRun::send (int signal) const
+{
+  if (!ended_)
+    kill (process_, signal);
+}
+
+bool
+ToolRun::waitForError (const std::string& text)
+{
+  for (int i = 0; i < 1200; ++i)
+  {
+    if (errors ().find (text) != std::string::npos)
+      return (true);
+    if (waitpid (process_, &status_, WNOHANG) == process_)
+    {
+      ended_ = true;
+      return (false);
+    }
+    std::this_thread::sleep_for (std::chrono::milliseconds (50));
+  }
+  return (false);
+}
+
+int
+ToolRun::wait ()
+{
+  if (!ended_)
+    waitpid (process_, &status_, 0);
+  ended_ = true;
+  return (WIFEXITED (status_) ? WEXITSTATUS (status_) : -WTERMSIG (status_));
+}
+
+std::string
+ToolRun::output () const
+{
+  return (readAll (folder_ + "/" + output_name));
+}
+
+std::string
+ToolRun::errors () const
+{
+  return (readAll (folder_ + "/" + error_name));
+}

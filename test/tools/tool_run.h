@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_cosection authors
+#pragma once
+
+#include <sys/types.h>
+
+#include <string>
+#include <vector>
+
+/** \brief A started pcl_cosection. */
+class ToolRun
+{
+public:
+  /** \param[in] folder its working directory; what it prints goes to files in there */
+  ToolRun (const std::vector<std::string>& arguments, const std::string& folder);
+
+  /** \brief Kills the program if it is still running. */
+  ~ToolRun ();
+  ToolRun (const ToolRun&) = delete;
+  ToolRun&
+  operator= (const ToolRun&) = delete;
+
+  void
+  send (int signal) const;
+
+  /** \brief Wait until standard error contains \a text. \return false after a minute, or if the
+   * program ends before */
+  bool
+  waitForError (const std::string& text);
+
+  /** \brief Wait for the end. \return the exit status, or minus the signal that ended the program */
+  int
+  wait ();
+
+  std::string
+  output () const;
+
+  std::string
+  errors () const;
+
+private:
+  const std::string folder_;
+  pid_t process_ = -1;
+  bool ended_ = false;
+  int status_ = 0;
+};
