@@ -266,6 +266,11 @@ CoSectionRun::prepareObject (Object& object)
       throw DegenerateInput ("no usable measurements: all of its points lie in space that was seen free");
     if (scene_.options.use_extent_prior)
       object.volume->addExtentPrior (object.input->points, views);
+    if (scene_.options.use_contact_prior && !views.empty ())
+      for (const Eigen::Isometry3d& T_world_object : relativePoses (object, nullptr))
+        for (const Eigen::Vector4d& plane : object.planes)
+          object.volume->addContactPrior (object.input->points, transformPlane (plane, T_world_object),
+                                          views.front ().second.translation ());
   });
   object.field = object.volume->measuredField ();
 }

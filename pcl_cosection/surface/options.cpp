@@ -34,6 +34,7 @@ CoSectionOptions::paper ()
   o.background_voxel_size_m = 0.02;
   o.use_planes = false;
   o.use_extent_prior = false;
+  o.use_contact_prior = false;
   o.revise_votes = false;
   o.intersect_solved = false;
   o.alpha = 0.005;
@@ -61,6 +62,8 @@ CoSectionOptions::validate () const
   require (finite (beta_hull) && beta_hull >= 0.0 && beta_hull <= 1e6, "beta-hull", beta_hull, "between 0 and 1e6");
   require (finite (beta_inter) && beta_inter >= 0.0 && beta_inter <= 1e6, "beta-inter", beta_inter, "between 0 and 1e6");
   require (finite (beta_extent) && beta_extent >= 0.0 && beta_extent <= 1e6, "beta-extent", beta_extent,
+           "between 0 and 1e6");
+  require (finite (beta_contact) && beta_contact >= 0.0 && beta_contact <= 1e6, "beta-contact", beta_contact,
            "between 0 and 1e6");
   require (finite (sigma_vox) && sigma_vox > 0.0 && sigma_vox <= 10.0, "sigma", sigma_vox,
            "positive and at most 10 voxels");

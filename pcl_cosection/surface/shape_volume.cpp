@@ -3,6 +3,7 @@
 #include "shape_volume.h"
 
 #include <pcl/cosection/common/parallel.h>
+#include <pcl/cosection/surface/contact_prior.h>
 #include <pcl/cosection/surface/extent_prior.h>
 #include <pcl/cosection/surface/imls_data_term.h>
 #include <pcl/cosection/volume/distance_transform.h>
@@ -127,6 +128,26 @@ ShapeVolume::addExtentPrior (const std::vector<OrientedPoint>& points,
   for (std::size_t n = 0; n < grid_.size (); ++n)
     if (bounds[n] > 0.0f && !problem_.exterior[n])
       problem_.exterior[n] = LowerBound (bounds[n], static_cast<float> (options_.beta_extent));
+}
+
+void
+ShapeVolume::addContactPrior (const std::vector<OrientedPoint>& points, const Eigen::Vector4d& plane,
+                              const Eigen::Vector3d& sensor_m)
+{
+  if (options_.beta_contact <= 0.0)
+    return;
+  const std::vector<std::uint8_t> patch = ContactPrior ().patch (grid_, plane, points, sensor_m, free_space_);
+  for (std::size_t n = 0; n < patch.size (); ++n)
+  {
+    if (!patch[n] || data_[n])
+      continue;
+    const auto i = static_cast<int> (n % grid_.dims.x ());
+    const auto j = static_cast<int> (n / grid_.dims.x () % grid_.dims.y ());
+    const auto k = static_cast<int> (n / grid_.dims.x () / grid_.dims.y ());
+    const double height_vox = (plane.head<3> ().dot (grid_.center (i, j, k)) + plane[3]) / grid_.voxel_size_m;
+    problem_.weight[n] += static_cast<float> (options_.beta_contact);
+    problem_.weighted_target[n] -= static_cast<float> (options_.beta_contact * height_vox);
+  }
 }
 
 bool

@@ -57,6 +57,10 @@ public:
   addExtentPrior (const std::vector<OrientedPoint>& points,
                   const std::vector<std::pair<const DepthView*, Eigen::Isometry3d>>& views);
 
+  /** \brief Let the object rest on a support plane where that is hidden; after prepare (). */
+  void
+  addContactPrior (const std::vector<OrientedPoint>& points, const Eigen::Vector4d& plane, const Eigen::Vector3d& sensor_m);
+
   /** \return whether they differ from those before */
   bool
   setIntersection (std::vector<LowerBound> bounds);

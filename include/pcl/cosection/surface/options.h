@@ -55,6 +55,7 @@ struct PCL_COSECTION_EXPORT CoSectionOptions
   bool use_intersection = true; ///< E_inter, equation (5)
   bool use_planes = true;       ///< find support planes in the background and continue them under the objects
   bool use_extent_prior = true; ///< remedy for swelling: a weak pull outside where nothing suggests the object
+  bool use_contact_prior = true; ///< let objects that come down to a support plane rest on it where that is hidden
   bool revise_votes = true;     ///< free space can be revised by contradicting evidence
   bool intersect_solved = true; ///< neighbours act through their optimised fields (false: through their data alone, the paper)
 
@@ -62,6 +63,7 @@ struct PCL_COSECTION_EXPORT CoSectionOptions
   double beta_hull = 0.01;  ///< weight of the hull constraint
   double beta_inter = 0.01; ///< weight of the intersection constraint
   double beta_extent = 0.001; ///< weight of the pull that prevents swelling
+  double beta_contact = 0.02; ///< weight of the contact with a support plane
   double sigma_vox = 1.0;   ///< width of a point's Gaussian; cut off at three times it
   double max_bound_vox = 5.0; ///< cap of the intersection distance, and reach of evidence behind data
   Weighting weighting = Weighting::Mean;
