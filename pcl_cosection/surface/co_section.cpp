@@ -57,16 +57,17 @@ CoSection::addSupportPlane (const Eigen::Vector4d& plane)
 {
   const double norm = plane.head<3> ().norm ();
   if (!(norm > 0.0) || !plane.allFinite ())
-    throw InvalidArgument ("the normal of a plane must not be zero");
+    throw InvalidArgument ("the coefficients of a plane must be finite and its normal not zero");
   impl_->planes.push_back (plane / norm);
 }
 
 void
-CoSection::addIntersection (SignedDistanceField::ConstPtr body)
+CoSection::addIntersection (SignedDistanceField::ConstPtr body, const std::vector<Eigen::Isometry3d>& T_body_world)
 {
-  if (!body || body->values.size () != body->grid.size ())
+  if (!body || body->values.size () != body->grid.size () ||
+      (!body->supported.empty () && body->supported.size () != body->grid.size ()))
     throw InvalidArgument ("a signed distance field must have one value per voxel");
-  impl_->bodies.push_back (std::move (body));
+  impl_->bodies.push_back ({std::move (body), T_body_world});
 }
 
 SceneResult

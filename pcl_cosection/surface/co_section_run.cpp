@@ -147,6 +147,16 @@ CoSectionRun::createVolumes ()
   }
 }
 
+Eigen::Vector4d
+CoSectionRun::towards (const Object& object, const Eigen::Vector4d& plane) const
+{
+  const Eigen::Vector4d local = transformPlane (plane, pose (object, 0));
+  std::ptrdiff_t above = 0;
+  for (const OrientedPoint& p : object.input->points)
+    above += local.head<3> ().dot (p.position.cast<double> ()) + local[3] > 0.0 ? 1 : -1;
+  return above < 0 ? Eigen::Vector4d (-plane) : plane;
+}
+
 void
 CoSectionRun::findPlanes ()
 {
@@ -156,7 +166,8 @@ CoSectionRun::findPlanes ()
   {
     if (!object.alive ())
       continue;
-    object.planes = scene_.planes;
+    for (const Eigen::Vector4d& plane : scene_.planes)
+      object.planes.push_back (towards (object, plane));
     if (scene_.options.use_planes && !scene_.background.empty ())
     {
       std::vector<OrientedPoint> points = object.input->points;
@@ -288,8 +299,9 @@ CoSectionRun::bounds (const Object& object) const
       constraint.addHalfSpace (transformPlane (plane, T_world_object), object.volume->freeSpace (), options.beta_inter);
     for (const SignedDistanceField& body : background_)
       constraint.addBody (body, T_world_object, options.beta_inter);
-    for (const auto& body : scene_.bodies)
-      constraint.addBody (*body, T_world_object, options.beta_inter);
+    for (const Obstacle& body : scene_.bodies)
+      for (const Eigen::Isometry3d& T_field_world : body.T_field_world)
+        constraint.addBody (*body.field, T_field_world * T_world_object, options.beta_inter);
   }
   for (std::size_t p = 0; p < objects_.size (); ++p)
   {

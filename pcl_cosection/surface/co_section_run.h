@@ -18,6 +18,13 @@ namespace pcl
 namespace cosection
 {
 
+/** \brief A body that objects cannot enter. */
+struct Obstacle
+{
+  SignedDistanceField::ConstPtr field;
+  std::vector<Eigen::Isometry3d> T_field_world;
+};
+
 /** \brief What the user has told a CoSection. */
 struct CoSection::Impl
 {
@@ -26,7 +33,7 @@ struct CoSection::Impl
   std::vector<OrientedPoint> background;
   std::vector<ObjectInput> objects;
   std::vector<Eigen::Vector4d> planes; // unit normals
-  std::vector<SignedDistanceField::ConstPtr> bodies;
+  std::vector<Obstacle> bodies;
 };
 
 /** \brief One execution of CoSection::reconstruct (). */
@@ -63,6 +70,9 @@ private:
 
   void
   createVolumes ();
+  /** \brief The plane with its normal to the side of most of the object's points. */
+  Eigen::Vector4d
+  towards (const Object& object, const Eigen::Vector4d& plane) const;
   void
   findPlanes ();
   void

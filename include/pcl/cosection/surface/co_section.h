@@ -45,7 +45,7 @@ struct PCL_COSECTION_EXPORT SceneResult
 {
   std::vector<ObjectResult> objects;       ///< in the order of addObject ()
   TriangleMesh background;                 ///< open, trimmed to supported regions; world frame
-  std::vector<Eigen::Vector4d> planes;     ///< support planes used: unit normal n towards free space, n.x + d = 0, world frame
+  std::vector<Eigen::Vector4d> planes;     ///< support planes used: unit normal n towards the objects, n.x + d = 0, world frame
   std::map<std::string, double> timings_s; ///< data_term, constraints, solve, mesh
   std::vector<std::string> warnings;
 };
@@ -86,14 +86,17 @@ public:
   void
   addObject (ObjectInput object);
 
-  /** \brief A plane that bounds all objects: (n, d) with n.x + d >= 0 outside of what carries them,
-   * world frame; need not be normalised. \throws InvalidArgument if the normal is zero */
+  /** \brief A plane a x + b y + c z + d = 0 that no object crosses, world frame; coefficients (a, b, c, d) of
+   * any scale and either sign: each object is on the side of most of its points.
+   * \throws InvalidArgument if the normal is zero or a coefficient is not finite */
   void
   addSupportPlane (const Eigen::Vector4d& plane);
 
-  /** \brief Another body that objects cannot enter, in the world frame. */
+  /** \brief Another body that objects cannot enter, at one or many poses relative to the world.
+   * \throws InvalidArgument if the field does not have one value per voxel */
   void
-  addIntersection (SignedDistanceField::ConstPtr body);
+  addIntersection (SignedDistanceField::ConstPtr body,
+                   const std::vector<Eigen::Isometry3d>& T_body_world = {Eigen::Isometry3d::Identity ()});
 
   /** \brief Run. One failing object (degenerate, too large for the memory allowed ...) does not lose the
    * others: see ObjectResult::error; a background that fails is a warning.

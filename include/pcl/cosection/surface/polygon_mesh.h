@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_cosection authors
+#pragma once
+
+#include <pcl/cosection/common/export.h>
+#include <pcl/cosection/common/triangle_mesh.h>
+
+#include <pcl/PolygonMesh.h>
+
+namespace pcl
+{
+namespace cosection
+{
+
+/** \brief As PCL's mesh: fields x y z, normal_x normal_y normal_z, rgb, confidence (float) and provenance
+ * (unsigned char), as far as \a mesh has them. The header is left alone. */
+PCL_COSECTION_EXPORT void
+toPolygonMesh (const TriangleMesh& mesh, pcl::PolygonMesh& output);
+
+} // namespace cosection
+} // namespace pcl
