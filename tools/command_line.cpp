@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <filesystem>
 #include <iostream>
 #include <memory>
@@ -115,6 +116,7 @@ methodOptions (const Given& given)
     options.weighting = given.weighting == "sum" ? Weighting::Sum : Weighting::Mean;
   if (!given.solver.empty ())
     options.solver.type = given.solver == "fast-jacobi" ? SolverType::FastJacobi : SolverType::Multigrid;
+  options.max_memory_bytes = physicalMemory (); // rather than let the system end the program
   if (!given.max_memory.empty ())
   {
     const std::optional<std::size_t> size = parseSize (given.max_memory);

@@ -118,7 +118,8 @@ declareVolume (CLI::App& app, Given& given)
       ->option_text ("METRES")
       ->check (numberRange (0, unlimited, true))
       ->group (group);
-  app.add_option ("--max-memory", given.max_memory, "Refuse volumes that need more, for example 500M or 2G")
+  app.add_option ("--max-memory", given.max_memory,
+                  "Refuse volumes that need more, for example 500M or 2G\n(default: this machine's memory)")
       ->option_text ("BYTES")
       ->group (group);
 }

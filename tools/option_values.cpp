@@ -2,6 +2,10 @@
 // Copyright (c) 2026, the pcl_cosection authors
 #include "option_values.h"
 
+#include <unistd.h>
+
+#include <algorithm>
+#include <cctype>
 #include <cerrno>
 #include <cmath>
 #include <cstdlib>
@@ -55,6 +59,12 @@ parseSize (const std::string& text)
   if (!number || *number * factor < 1.0 || *number * factor > 9e18)
     return (std::nullopt);
   return (static_cast<std::size_t> (*number * factor));
+}
+
+std::size_t
+physicalMemory ()
+{
+  return (static_cast<std::size_t> (sysconf (_SC_PHYS_PAGES)) * static_cast<std::size_t> (sysconf (_SC_PAGESIZE)));
 }
 
 std::optional<std::vector<std::array<double, 4>>>

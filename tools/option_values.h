@@ -19,6 +19,10 @@ parseNumber (const std::string& text);
 std::optional<std::size_t>
 parseSize (const std::string& text);
 
+/** \brief The memory of this machine, bytes. */
+std::size_t
+physicalMemory ();
+
 /** \brief Four numbers each from values "a,b,c,d", or from values of one number (a list in a
  * configuration file). Nothing if they do not come in fours. */
 std::optional<std::vector<std::array<double, 4>>>

@@ -158,7 +158,7 @@ main (int argc, char** argv)
   }
   catch (const std::bad_alloc&)
   {
-    terminal.error ("out of memory; use larger voxels (--voxel-size, --resolution)");
+    terminal.error ("out of memory; use larger voxels (--voxel-size, --background-voxel-size)");
   }
   catch (const std::exception& error)
   {

@@ -104,6 +104,7 @@ TEST (CommandLine, PlainUse)
   EXPECT_EQ (settings.format, "ply");
   EXPECT_EQ (settings.constraints, "all");
   EXPECT_EQ (settings.method.alpha, CoSectionOptions ().alpha);
+  EXPECT_GT (settings.method.max_memory_bytes, 0u);
   EXPECT_EQ (parse ("a.pcd out.STL").format, "stl");
   EXPECT_EQ (parse ("a.pcd out --format obj").format, "obj");
 }
