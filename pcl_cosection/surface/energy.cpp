@@ -4,6 +4,8 @@
 
 #include "hessian_rows.h"
 
+#include <pcl/cosection/common/parallel.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -13,9 +15,11 @@ namespace cosection
 {
 
 LowerBound::LowerBound (float distance_vox, float weight)
-: distance_ (static_cast<std::uint16_t> (std::lround (std::clamp (distance_vox, 0.0f, 255.0f) * 256.0f)))
-, weight_ (weight > 0.0f ? kernels::packWeight (weight) : std::uint16_t (0))
-{}
+{
+  if (weight > 0.0f)
+    bits_ = static_cast<std::uint32_t> (kernels::packWeight (weight)) << 16 |
+            static_cast<std::uint32_t> (std::lround (std::clamp (distance_vox, 0.0f, 255.0f) * 256.0f));
+}
 
 template <typename Real> double
 evaluate (const EnergyProblem& problem, const HessianOperator<Real>& hessian, const Real* u, Real* residual,
@@ -23,40 +27,15 @@ evaluate (const EnergyProblem& problem, const HessianOperator<Real>& hessian, co
 {
   const int nx = problem.dims.x ();
   const int ny = problem.dims.y ();
-  const Real alpha = static_cast<Real> (problem.alpha);
-  const LowerBound* exterior = problem.exterior.empty () ? nullptr : problem.exterior.data ();
-  const LowerBound* intersection = problem.intersection.empty () ? nullptr : problem.intersection.data ();
   std::vector<double> rows (static_cast<std::size_t> (ny) * problem.dims.z ());
   hessian.forEachRow (u, [&] (int j, int k, const Real* product) {
-    const std::size_t offset = (static_cast<std::size_t> (k) * ny + j) * nx;
-    double sum = 0.0;
-    for (int i = 0; i < nx; ++i)
-    {
-      const std::size_t n = offset + i;
-      const Real value = u[n];
-      float weight = problem.weight[n];
-      const Real smooth = alpha * product[i] + static_cast<Real> (weight) * value;
-      const Real target = problem.weighted_target[n];
-      sum += static_cast<double> (value) * (static_cast<double> (smooth) - 2.0 * target);
-      Real r = target - smooth;
-      for (const LowerBound* bounds : {exterior, intersection})
-      {
-        if (!bounds || !bounds[n])
-          continue;
-        const Real violation = static_cast<Real> (bounds[n].distance ()) - value;
-        if (violation <= Real (0))
-          continue;
-        const float beta = bounds[n].weight ();
-        weight += beta;
-        r += static_cast<Real> (beta) * violation;
-        sum += static_cast<double> (beta) * violation * violation;
-      }
-      if (residual)
-        residual[n] = r;
-      if (weights)
-        weights[n] = kernels::packWeight (weight);
-    }
-    rows[static_cast<std::size_t> (k) * ny + j] = sum;
+    const std::size_t row = static_cast<std::size_t> (k) * ny + j;
+    const std::size_t at = row * nx;
+    const kernels::EnergyRow terms{problem.weight.data () + at, problem.weighted_target.data () + at,
+                                   problem.exterior.empty () ? nullptr : problem.exterior.data () + at,
+                                   problem.intersection.empty () ? nullptr : problem.intersection.data () + at};
+    rows[row] = kernels::evaluateRow (terms, product, u + at, static_cast<Real> (problem.alpha), nx,
+                                      residual ? residual + at : nullptr, weights ? weights + at : nullptr);
   });
   double energy = 0.0;
   for (const double sum : rows)
@@ -69,27 +48,11 @@ boundDerivatives (const EnergyProblem& problem, const Real* u, const Real* p, do
 {
   const std::size_t plane = static_cast<std::size_t> (problem.dims.x ()) * problem.dims.y ();
   std::vector<LineDerivatives> planes (problem.dims.z ());
-  const Real step = static_cast<Real> (t);
   parallelFor (0, problem.dims.z (), threads, [&] (int k) {
-    LineDerivatives sum;
     for (const auto* bounds : {&problem.exterior, &problem.intersection})
-    {
-      if (bounds->empty ())
-        continue;
-      for (std::size_t n = k * plane; n < (k + 1) * plane; ++n)
-      {
-        const LowerBound& bound = (*bounds)[n];
-        if (!bound)
-          continue;
-        const Real violation = static_cast<Real> (bound.distance ()) - u[n] - step * p[n];
-        if (violation <= Real (0))
-          continue;
-        const double beta = bound.weight ();
-        sum.slope -= beta * violation * p[n];
-        sum.curvature += beta * p[n] * p[n];
-      }
-    }
-    planes[k] = sum;
+      if (!bounds->empty ())
+        kernels::boundsRow (bounds->data () + k * plane, u + k * plane, p + k * plane, static_cast<Real> (t),
+                            static_cast<int> (plane), planes[k].slope, planes[k].curvature);
   });
   LineDerivatives total;
   for (const LineDerivatives& sum : planes)
@@ -104,9 +67,11 @@ template <typename Real> double
 evaluateEnergy (const EnergyProblem& problem, const std::vector<Real>& u, std::vector<Real>* residual, int threads)
 {
   const HessianOperator<Real> hessian (problem.dims, threads);
-  if (residual)
-    residual->resize (u.size ());
-  return evaluate (problem, hessian, u.data (), residual ? residual->data () : nullptr, nullptr);
+  if (!residual)
+    return evaluate<Real> (problem, hessian, u.data (), nullptr, nullptr);
+  residual->resize (u.size ());
+  std::vector<std::uint16_t> weights (u.size ());
+  return evaluate (problem, hessian, u.data (), residual->data (), weights.data ());
 }
 
 EnergyProblem

@@ -13,10 +13,10 @@ namespace pcl
 namespace cosection
 {
 
-/** \brief E (u), with optional by-products of the same pass.
- * \param[out] residual minus half the gradient, or null
+/** \brief E (u), with by-products of the same pass unless both are null.
+ * \param[out] residual minus half the gradient
  * \param[out] weights W plus the weights of the active bounds, packed: the diagonal part of half the
- * (generalised) Hessian of E at u; or null */
+ * (generalised) Hessian of E at u */
 template <typename Real> double
 evaluate (const EnergyProblem& problem, const HessianOperator<Real>& hessian, const Real* u, Real* residual,
           std::uint16_t* weights);
@@ -32,22 +32,5 @@ struct LineDerivatives
 template <typename Real> LineDerivatives
 boundDerivatives (const EnergyProblem& problem, const Real* u, const Real* p, double t, int threads);
 
-/** \brief Sum of f (k) over the planes, in their order: the same for any number of threads. */
-template <typename PlaneFunction> double
-sumOverPlanes (int planes, int threads, PlaneFunction&& f);
-
 } // namespace cosection
 } // namespace pcl
-
-#include <pcl/cosection/common/parallel.h>
-
-template <typename PlaneFunction> double
-pcl::cosection::sumOverPlanes (int planes, int threads, PlaneFunction&& f)
-{
-  std::vector<double> sums (planes);
-  parallelFor (0, planes, threads, [&] (int k) { sums[k] = f (k); });
-  double total = 0.0;
-  for (const double sum : sums)
-    total += sum;
-  return total;
-}

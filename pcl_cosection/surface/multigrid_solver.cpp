@@ -16,13 +16,6 @@ namespace cosection
 namespace
 {
 
-/** \brief Quantities of a search direction with respect to the quadratic part of half the energy. */
-struct Products
-{
-  double zz = 0.0; // z . S z, S = W + alpha H^T H
-  double zp = 0.0; // z . S p
-};
-
 template <typename Real> class NewtonMultigrid
 {
 public:
@@ -63,62 +56,37 @@ private:
     return static_cast<std::size_t> (problem_.dims.x ()) * problem_.dims.y ();
   }
 
-  template <typename Function> double
-  sum (Function&& f) const
-  {
-    return sumOverPlanes (problem_.dims.z (), threads_, [&] (int k) {
-      double s = 0.0;
-      for (std::size_t n = k * plane (); n < (k + 1) * plane (); ++n)
-        s += f (n);
-      return s;
-    });
-  }
-
-  /** \brief direction = z + beta * direction, the minimiser of the local quadratic model over both. */
+  /** \brief direction = z + factor direction, the minimiser of the local quadratic model over both. */
   void
   combine ()
   {
     const int nx = problem_.dims.x ();
     const int ny = problem_.dims.y ();
-    const Real alpha = static_cast<Real> (problem_.alpha);
-    std::vector<Products> rows (static_cast<std::size_t> (ny) * problem_.dims.z ());
+    std::vector<kernels::DirectionProducts> rows (static_cast<std::size_t> (ny) * problem_.dims.z ());
     preconditioner_.hessian ().forEachRow (z_.data (), [&] (int j, int k, const Real* h) {
       const std::size_t row = static_cast<std::size_t> (k) * ny + j;
-      Products s;
-      for (int i = 0; i < nx; ++i)
-      {
-        const std::size_t n = row * nx + i;
-        const double product = alpha * h[i] + static_cast<Real> (problem_.weight[n]) * z_[n];
-        s.zz += product * z_[n];
-        s.zp += product * direction_[n];
-      }
-      rows[row] = s;
+      const std::size_t at = row * nx;
+      rows[row] = kernels::directionRow (problem_.weight.data () + at, weights_.data () + at, residual_.data () + at, h,
+                                         z_.data () + at, direction_.data () + at, static_cast<Real> (problem_.alpha), nx);
     });
-    Products smooth;
-    for (const Products& s : rows)
-    {
-      smooth.zz += s.zz;
-      smooth.zp += s.zp;
-    }
+    kernels::DirectionProducts s;
+    for (const kernels::DirectionProducts& row : rows)
+      s += row;
     double factor = 0.0;
     if (curvature_ > 0.0)
     {
-      const auto active = [&] (std::size_t n) {
-        return static_cast<double> (kernels::unpackWeight (weights_[n])) - problem_.weight[n];
-      };
-      const double zz = smooth.zz + sum ([&] (std::size_t n) { return active (n) * z_[n] * z_[n]; });
-      const double zp = smooth.zp + sum ([&] (std::size_t n) { return active (n) * z_[n] * direction_[n]; });
-      const double pp = curvature_ + sum ([&] (std::size_t n) { return active (n) * direction_[n] * direction_[n]; });
-      const double rz = sum ([&] (std::size_t n) { return static_cast<double> (residual_[n]) * z_[n]; });
-      const double rp = sum ([&] (std::size_t n) { return static_cast<double> (residual_[n]) * direction_[n]; });
+      const double zz = s.z_S_z + s.z_A_z;
+      const double zp = s.z_S_p + s.z_A_p;
+      const double pp = curvature_ + s.p_A_p;
       // Minimise over a z + b p and normalise to z + (b / a) p.
       const double determinant = zz * pp - zp * zp;
-      const double a = rz * pp - rp * zp;
-      const double b = rp * zz - rz * zp;
+      const double a = s.r_z * pp - s.r_p * zp;
+      const double b = s.r_p * zz - s.r_z * zp;
       if (determinant > 1e-12 * zz * pp && a > 0.0)
         factor = b / a;
     }
-    curvature_ = std::max (0.0, smooth.zz + 2.0 * factor * smooth.zp + factor * factor * curvature_);
+    curvature_ = std::max (0.0, s.z_S_z + 2.0 * factor * s.z_S_p + factor * factor * curvature_);
+    descent_ = s.r_z + factor * s.r_p;
     parallelFor (0, problem_.dims.z (), threads_, [&] (int k) {
       kernels::scaleAddRow (z_.data () + k * plane (), static_cast<Real> (factor), static_cast<int> (plane ()),
                             direction_.data () + k * plane ());
@@ -129,19 +97,19 @@ private:
   double
   lineSearch () const
   {
-    const double descent = sum ([&] (std::size_t n) { return static_cast<double> (residual_[n]) * direction_[n]; });
-    if (!(descent > 0.0))
+    if (!(descent_ > 0.0))
       return 0.0;
-    const double smooth_slope = -descent - boundDerivatives (problem_, u_.data (), direction_.data (), 0.0, threads_).slope;
+    const double smooth_slope = -descent_ - boundDerivatives (problem_, u_.data (), direction_.data (), 0.0, threads_).slope;
     double low = 0.0;
     double high = 0.0; // 0: not bracketed yet
     double t = 1.0;
     constexpr int max_evaluations = 12;
+    constexpr double slope_reduction = 1e-3;
     for (int i = 0; i < max_evaluations; ++i)
     {
       const LineDerivatives bounds = boundDerivatives (problem_, u_.data (), direction_.data (), t, threads_);
       const double slope = smooth_slope + t * curvature_ + bounds.slope;
-      if (std::abs (slope) <= 1e-3 * descent)
+      if (std::abs (slope) <= slope_reduction * descent_)
         return t;
       (slope < 0.0 ? low : high) = t;
       const double curvature = curvature_ + bounds.curvature;
@@ -157,18 +125,10 @@ private:
   double
   advance (double t, double band)
   {
-    const Real step = static_cast<Real> (t);
     std::vector<double> largest (problem_.dims.z (), 0.0);
     parallelFor (0, problem_.dims.z (), threads_, [&] (int k) {
-      Real change = 0;
-      for (std::size_t n = k * plane (); n < (k + 1) * plane (); ++n)
-      {
-        const Real before = u_[n];
-        u_[n] += step * direction_[n];
-        if (std::min (std::abs (before), std::abs (u_[n])) < static_cast<Real> (band))
-          change = std::max (change, std::abs (step * direction_[n]));
-      }
-      largest[k] = change;
+      largest[k] = kernels::advanceRow (direction_.data () + k * plane (), static_cast<Real> (t), static_cast<Real> (band),
+                                        static_cast<int> (plane ()), u_.data () + k * plane ());
     });
     return *std::max_element (largest.begin (), largest.end ());
   }
@@ -179,7 +139,8 @@ private:
   std::vector<Real>& u_;
   std::vector<Real> residual_, direction_, z_, scratch_;
   std::vector<std::uint16_t> weights_;
-  double curvature_ = 0.0; // direction . S direction
+  double curvature_ = 0.0; // of half the smooth energy along the direction
+  double descent_ = 0.0;   // residual . direction
 };
 
 } // namespace
@@ -190,6 +151,8 @@ solveLevelMultigrid (const EnergyProblem& problem, const SolverOptions& options,
 {
   SolverSummary summary;
   NewtonMultigrid<Real> newton (problem, options, u);
+  constexpr double tiny_change = 0.2;
+  bool was_small = false;
   double energy = newton.linearize ();
   summary.energies.push_back (energy);
   for (int i = 0; i < options.max_iterations; ++i)
@@ -199,11 +162,14 @@ solveLevelMultigrid (const EnergyProblem& problem, const SolverOptions& options,
     energy = newton.linearize ();
     summary.energies.push_back (energy);
     ++summary.iterations;
-    if (summary.change_vox < tolerance)
+    // One small step may be a short one; two in a row, or a tiny one, are the end.
+    const bool small = summary.change_vox < tolerance;
+    if ((small && was_small) || summary.change_vox < tiny_change * tolerance)
     {
       summary.termination = Termination::Converged;
       break;
     }
+    was_small = small;
   }
   summary.energy = energy;
   return summary;

@@ -141,7 +141,145 @@ contractZ (const Real* const* m, const Real* const* f, const Real* const* s, con
   }
 }
 
+// Sums run in this many independent lanes, so that the compiler may vectorise them and the result does
+// not depend on how it does.
+constexpr int lanes = 8;
+
+template <typename Body> PCL_COSECTION_INLINE void
+forLanes (int n, Body&& body)
+{
+  int i = 0;
+  for (; i + lanes <= n; i += lanes)
+    for (int l = 0; l < lanes; ++l)
+      body (i + l, l);
+  for (; i < n; ++i)
+    body (i, i % lanes);
+}
+
+PCL_COSECTION_INLINE double
+total (const double (&sums)[lanes])
+{
+  double sum = 0.0;
+  for (const double s : sums)
+    sum += s;
+  return sum;
+}
+
+template <typename Real, bool has_exterior, bool has_intersection, bool outputs> PCL_COSECTION_INLINE double
+evaluateTerms (const EnergyRow& row, const Real* __restrict h, const Real* __restrict u, Real alpha, int n,
+               Real* __restrict residual, std::uint16_t* __restrict packed)
+{
+  double sums[lanes] = {};
+  forLanes (n, [&] (int i, int l) {
+    const Real value = u[i];
+    float weight = row.weight[i];
+    const Real target = row.weighted_target[i];
+    const Real smooth = alpha * h[i] + static_cast<Real> (weight) * value;
+    double sum = static_cast<double> (value) * (static_cast<double> (smooth) - 2.0 * static_cast<double> (target));
+    Real r = target - smooth;
+    const auto addBound = [&] (const LowerBound& bound) {
+      const Real violation = static_cast<Real> (bound.distance ()) - value;
+      const float beta = violation > Real (0) ? bound.weight () : 0.0f;
+      weight += beta;
+      const Real pull = static_cast<Real> (beta) * violation;
+      r += pull;
+      sum += static_cast<double> (pull) * static_cast<double> (violation);
+    };
+    if (has_exterior)
+      addBound (row.exterior[i]);
+    if (has_intersection)
+      addBound (row.intersection[i]);
+    if (outputs)
+    {
+      residual[i] = r;
+      packed[i] = packWeight (weight);
+    }
+    sums[l] += sum;
+  });
+  return total (sums);
+}
+
+template <typename Real, bool outputs> PCL_COSECTION_INLINE double
+evaluateBounds (const EnergyRow& row, const Real* h, const Real* u, Real alpha, int n, Real* residual, std::uint16_t* packed)
+{
+  if (row.exterior && row.intersection)
+    return evaluateTerms<Real, true, true, outputs> (row, h, u, alpha, n, residual, packed);
+  if (row.exterior)
+    return evaluateTerms<Real, true, false, outputs> (row, h, u, alpha, n, residual, packed);
+  if (row.intersection)
+    return evaluateTerms<Real, false, true, outputs> (row, h, u, alpha, n, residual, packed);
+  return evaluateTerms<Real, false, false, outputs> (row, h, u, alpha, n, residual, packed);
+}
+
+template <typename Real> PCL_COSECTION_INLINE void
+boundDerivatives (const LowerBound* __restrict bounds, const Real* __restrict u, const Real* __restrict p, Real t, int n,
+                  double& slope, double& curvature)
+{
+  double slopes[lanes] = {};
+  double curvatures[lanes] = {};
+  forLanes (n, [&] (int i, int l) {
+    const Real violation = static_cast<Real> (bounds[i].distance ()) - u[i] - t * p[i];
+    const Real beta = violation > Real (0) ? static_cast<Real> (bounds[i].weight ()) : Real (0);
+    const Real pull = beta * p[i];
+    slopes[l] -= static_cast<double> (pull * violation);
+    curvatures[l] += static_cast<double> (pull * p[i]);
+  });
+  slope += total (slopes);
+  curvature += total (curvatures);
+}
+
+template <typename Real> PCL_COSECTION_INLINE DirectionProducts
+directionProducts (const float* __restrict weight, const std::uint16_t* __restrict packed, const Real* __restrict residual,
+                   const Real* __restrict h, const Real* __restrict z, const Real* __restrict p, Real alpha, int n)
+{
+  double sums[7][lanes] = {};
+  forLanes (n, [&] (int i, int l) {
+    const Real product = alpha * h[i] + static_cast<Real> (weight[i]) * z[i];
+    const Real active = static_cast<Real> (unpackWeight (packed[i]) - weight[i]);
+    sums[0][l] += static_cast<double> (product * z[i]);
+    sums[1][l] += static_cast<double> (product * p[i]);
+    sums[2][l] += static_cast<double> (active * z[i] * z[i]);
+    sums[3][l] += static_cast<double> (active * z[i] * p[i]);
+    sums[4][l] += static_cast<double> (active * p[i] * p[i]);
+    sums[5][l] += static_cast<double> (residual[i] * z[i]);
+    sums[6][l] += static_cast<double> (residual[i] * p[i]);
+  });
+  return {total (sums[0]), total (sums[1]), total (sums[2]), total (sums[3]), total (sums[4]), total (sums[5]), total (sums[6])};
+}
+
+template <typename Real> PCL_COSECTION_INLINE Real
+advance (const Real* __restrict p, Real t, Real band, int n, Real* __restrict u)
+{
+  Real largest[lanes] = {};
+  forLanes (n, [&] (int i, int l) {
+    const Real before = u[i];
+    const Real change = t * p[i];
+    const Real after = before + change;
+    u[i] = after;
+    const Real size = change < Real (0) ? -change : change;
+    const bool near = (before < band && before > -band) || (after < band && after > -band);
+    const Real counted = near ? size : Real (0);
+    largest[l] = counted > largest[l] ? counted : largest[l];
+  });
+  Real all = 0;
+  for (const Real value : largest)
+    all = value > all ? value : all;
+  return all;
+}
+
 } // namespace
+
+void
+DirectionProducts::operator+= (const DirectionProducts& other)
+{
+  z_S_z += other.z_S_z;
+  z_S_p += other.z_S_p;
+  z_A_z += other.z_A_z;
+  z_A_p += other.z_A_p;
+  p_A_p += other.p_A_p;
+  r_z += other.r_z;
+  r_p += other.r_p;
+}
 
 // clang-format off
 #define PCL_COSECTION_ROW_KERNELS(Real)                                                                              \
@@ -173,6 +311,18 @@ contractZ (const Real* const* m, const Real* const* f, const Real* const* s, con
   PCL_COSECTION_MULTIVERSION void chebyshevStepRow (const Real* __restrict rhs, const Real* __restrict product,      \
     const Real* __restrict inverse_diagonal, Real momentum, Real step, int n, Real* __restrict d)                    \
   { for (int i = 0; i < n; ++i) d[i] = momentum * d[i] + step * inverse_diagonal[i] * (rhs[i] - product[i]); }       \
+  PCL_COSECTION_MULTIVERSION double evaluateRow (const EnergyRow& row, const Real* h, const Real* u, Real alpha,     \
+    int n, Real* residual, std::uint16_t* packed)                                                                    \
+  { return residual ? evaluateBounds<Real, true> (row, h, u, alpha, n, residual, packed)                             \
+                    : evaluateBounds<Real, false> (row, h, u, alpha, n, residual, packed); }                         \
+  PCL_COSECTION_MULTIVERSION void boundsRow (const LowerBound* bounds, const Real* u, const Real* p, Real t, int n,  \
+    double& slope, double& curvature)                                                                                \
+  { boundDerivatives<Real> (bounds, u, p, t, n, slope, curvature); }                                                 \
+  PCL_COSECTION_MULTIVERSION DirectionProducts directionRow (const float* weight, const std::uint16_t* packed,       \
+    const Real* residual, const Real* h, const Real* z, const Real* p, Real alpha, int n)                            \
+  { return directionProducts<Real> (weight, packed, residual, h, z, p, alpha, n); }                                  \
+  PCL_COSECTION_MULTIVERSION Real advanceRow (const Real* p, Real t, Real band, int n, Real* u)                      \
+  { return advance<Real> (p, t, band, n, u); }                                                                       \
   PCL_COSECTION_MULTIVERSION void pentadiagonalRow (const Real* in, const Real* const* coefficients, int n, Real* out)\
   { pentadiagonal<Real> (in, coefficients, n, out); }
 // clang-format on

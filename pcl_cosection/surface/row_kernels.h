@@ -2,6 +2,8 @@
 // Copyright (c) 2026, the pcl_cosection authors
 #pragma once
 
+#include <pcl/cosection/surface/energy_problem.h>
+
 #include <cstdint>
 
 namespace pcl
@@ -129,6 +131,61 @@ void
 pentadiagonalRow (const float* in, const float* const* coefficients, int n, float* out);
 void
 pentadiagonalRow (const double* in, const double* const* coefficients, int n, double* out);
+
+/** \brief The terms of the energy along a row. */
+struct EnergyRow
+{
+  const float* weight;
+  const float* weighted_target;
+  const LowerBound* exterior;     ///< or null
+  const LowerBound* intersection; ///< or null
+};
+
+/** \brief The energy of a row; \a h is the row of H^T H u. \a residual (minus half the gradient) and
+ * \a packed (W plus the weights of active bounds) are written, or both null. */
+double
+evaluateRow (const EnergyRow& row, const float* h, const float* u, float alpha, int n, float* residual,
+             std::uint16_t* packed);
+double
+evaluateRow (const EnergyRow& row, const double* h, const double* u, double alpha, int n, double* residual,
+             std::uint16_t* packed);
+
+/** \brief Slope and curvature at u + t p of half the energy of the bounds of a row, added to \a slope and
+ * \a curvature. */
+void
+boundsRow (const LowerBound* bounds, const float* u, const float* p, float t, int n, double& slope, double& curvature);
+void
+boundsRow (const LowerBound* bounds, const double* u, const double* p, double t, int n, double& slope, double& curvature);
+
+/** \brief Inner products of a new direction z and the last one p, with the quadratic part S = W + alpha H^T H
+ * of half the energy, with the active bounds A, and with the residual. */
+struct DirectionProducts
+{
+  double z_S_z = 0.0;
+  double z_S_p = 0.0;
+  double z_A_z = 0.0;
+  double z_A_p = 0.0;
+  double p_A_p = 0.0;
+  double r_z = 0.0;
+  double r_p = 0.0;
+
+  void
+  operator+= (const DirectionProducts& other);
+};
+
+/** \brief \a h is the row of H^T H z. */
+DirectionProducts
+directionRow (const float* weight, const std::uint16_t* packed, const float* residual, const float* h, const float* z,
+              const float* p, float alpha, int n);
+DirectionProducts
+directionRow (const float* weight, const std::uint16_t* packed, const double* residual, const double* h, const double* z,
+              const double* p, double alpha, int n);
+
+/** \brief u += t p; returns the largest change where |u| < band before or after. */
+float
+advanceRow (const float* p, float t, float band, int n, float* u);
+double
+advanceRow (const double* p, double t, double band, int n, double* u);
 
 /** \brief Weights are kept in the upper half of a float: they only steer the preconditioner. */
 inline std::uint16_t

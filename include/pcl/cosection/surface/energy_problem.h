@@ -30,30 +30,29 @@ public:
   float
   distance () const
   {
-    return static_cast<float> (distance_) * (1.0f / 256.0f);
+    return static_cast<float> (bits_ & 0xffffu) * (1.0f / 256.0f);
   }
 
   float
   weight () const
   {
-    const std::uint32_t bits = static_cast<std::uint32_t> (weight_) << 16;
+    const std::uint32_t bits = bits_ & 0xffff0000u;
     float value;
     std::memcpy (&value, &bits, sizeof (value));
     return value;
   }
 
   /** \brief False where there is no bound. */
-  explicit operator bool () const { return weight_ != 0; }
+  explicit operator bool () const { return (bits_ & 0xffff0000u) != 0; }
 
   bool
   operator== (const LowerBound& other) const
   {
-    return distance_ == other.distance_ && weight_ == other.weight_;
+    return bits_ == other.bits_;
   }
 
 private:
-  std::uint16_t distance_ = 0;
-  std::uint16_t weight_ = 0; // upper half of a float
+  std::uint32_t bits_ = 0; // the upper half of the weight as a float, and the distance in its steps
 };
 
 /** \brief The energy of the paper on one grid, in units of voxels:
