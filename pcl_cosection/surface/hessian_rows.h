@@ -16,6 +16,13 @@ template <typename Real>
 template <typename RowFunction> void
 HessianOperator<Real>::forEachRow (const Real* u, RowFunction&& row) const
 {
+  forEachRow (u, row, [] (int) {});
+}
+
+template <typename Real>
+template <typename RowFunction, typename PlaneFunction> void
+HessianOperator<Real>::forEachRow (const Real* u, RowFunction&& row, PlaneFunction&& finished) const
+{
   const int nx = dims_.x ();
   const int ny = dims_.y ();
   const int nz = dims_.z ();
@@ -34,7 +41,18 @@ HessianOperator<Real>::forEachRow (const Real* u, RowFunction&& row) const
     return rows;
   };
 
+  // A plane is needed until the row after it is done, and by the neighbouring chunk if it is one of the
+  // two next to it.
+  std::vector<std::uint8_t> pending (nz, 1);
   parallelChunks (0, nz, threads_, [&] (int first, int last) {
+    const int first_own = first > 0 ? first + 2 : 0;
+    const int last_own = last < nz ? last - 2 : nz;
+    const auto finish = [&] (int k) {
+      if (k < first_own || k >= last_own)
+        return;
+      finished (k);
+      pending[k] = 0;
+    };
     std::vector<Real> ring (3 * plane);
     std::vector<Real> out (nx);
     const auto laplacian = [&] (int k) { return ring.data () + ((k + 3) % 3) * plane; };
@@ -83,8 +101,13 @@ HessianOperator<Real>::forEachRow (const Real* u, RowFunction&& row) const
         }
         row (j, k, const_cast<const Real*> (out.data ()));
       }
+      finish (k - 1);
     }
+    finish (last - 1);
   });
+  for (int k = 0; k < nz; ++k)
+    if (pending[k])
+      finished (k);
 }
 
 } // namespace cosection

@@ -112,6 +112,7 @@ MultigridPreconditioner<Real>::smoothFinest (const Real* rhs, Real* z, Real* d, 
       kernels::chebyshevRow (rhs + offset, product, weights_ + offset, z + offset, hessian_.diagonal (j, k), alpha,
                              momentum, step, nx, d + offset);
     };
+    const auto advance = [&] (int k) { kernels::addRow (d + k * plane, static_cast<int> (plane), z + k * plane); };
     if (s == 0)
       parallelFor (0, dims.z (), threads_, [&] (int k) {
         std::fill_n (d + k * plane, plane, Real (0));
@@ -121,11 +122,10 @@ MultigridPreconditioner<Real>::smoothFinest (const Real* rhs, Real* z, Real* d, 
         const std::vector<Real> zero (nx, Real (0));
         for (int j = 0; j < dims.y (); ++j)
           update (j, k, zero.data ());
+        advance (k);
       });
     if (s > 0 || !from_zero)
-      hessian_.forEachRow (z, update);
-    parallelFor (0, dims.z (), threads_,
-                 [&] (int k) { kernels::addRow (d + k * plane, static_cast<int> (plane), z + k * plane); });
+      hessian_.forEachRow (z, update, advance);
   }
 }
 

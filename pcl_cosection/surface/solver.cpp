@@ -15,7 +15,7 @@ namespace
 
 constexpr int multigrid_coarsest = 8;    // longest axis of the first level
 constexpr int fast_jacobi_coarsest = 32; // as in the paper
-constexpr double coarse_tolerance = 10.0; // coarse levels only start the next one: this much looser
+constexpr double coarse_tolerance = 3.0; // coarse levels only start the next one: this much looser
 
 template <typename Real> SolverSummary
 solveLevel (const EnergyProblem& problem, const SolverOptions& options, double scale, bool finest, std::vector<Real>& u,
