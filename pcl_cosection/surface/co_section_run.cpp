@@ -272,6 +272,13 @@ CoSectionRun::prepareObject (Object& object)
       if (scene_.options.use_hull)
         object.volume->addView (scene_.views[v], T_object_sensor);
     }
+    if (scene_.options.use_hull && scene_.options.carve_free_space && !views.empty ())
+    {
+      FreeSpaceCarving carving (object.volume->grid (), scene_.options.revise_votes, scene_.options.threads);
+      for (std::size_t v = 0; v < views.size (); ++v)
+        carving.add (scene_.views[v], views[v].second);
+      object.volume->setCarving (carving);
+    }
     object.volume->prepare ();
     if (!object.volume->hasData ())
       throw DegenerateInput ("no usable measurements: all of its points lie in space that was seen free");

@@ -23,20 +23,36 @@ constexpr double edge_sigmas = 6.0;   // neighbouring depths that differ by more
 constexpr double edge_slope = 0.03;   // ... unless a steep surface explains it: fraction of the depth
 constexpr int max_footprint = 12;     // pixels
 
-/** \brief Minimum over a window of 2 radius + 1 elements along one dimension. */
-void
-slidingMinimum (const float* in, float* out, int size, int stride, int radius)
+} // namespace
+
+double
+freeSpaceMargin (double depth_m, double voxel_size_m)
 {
-  for (int i = 0; i < size; ++i)
-  {
-    float smallest = std::numeric_limits<float>::infinity ();
-    for (int j = std::max (0, i - radius); j <= std::min (size - 1, i + radius); ++j)
-      smallest = std::min (smallest, in[static_cast<std::size_t> (j) * stride]);
-    out[static_cast<std::size_t> (i) * stride] = smallest;
-  }
+  return std::max (margin_voxels * voxel_size_m, margin_sigmas * depthNoiseSigma (depth_m));
 }
 
-} // namespace
+std::vector<float>
+filterDepth (const std::vector<float>& image, const PinholeCamera& camera, int radius, bool maximum)
+{
+  const auto filter = [&] (const std::vector<float>& in, int along, int across, int stride, int line_stride) {
+    std::vector<float> out (in.size ());
+    for (int line = 0; line < across; ++line)
+      for (int i = 0; i < along; ++i)
+      {
+        const std::size_t base = static_cast<std::size_t> (line) * line_stride;
+        float best = in[base + static_cast<std::size_t> (i) * stride];
+        for (int j = std::max (0, i - radius); j <= std::min (along - 1, i + radius); ++j)
+        {
+          const float value = in[base + static_cast<std::size_t> (j) * stride];
+          best = maximum ? std::max (best, value) : std::min (best, value);
+        }
+        out[base + static_cast<std::size_t> (i) * stride] = best;
+      }
+    return out;
+  };
+  const std::vector<float> rows = filter (image, camera.width, camera.height, 1, camera.width);
+  return filter (rows, camera.height, camera.width, camera.width, 1);
+}
 
 FreeSpaceView::FreeSpaceView (DepthView view) : view_ (std::move (view)), edge_ (view_.depth.size (), 0)
 {
@@ -62,24 +78,22 @@ FreeSpaceView::FreeSpaceView (DepthView view) : view_ (std::move (view)), edge_ 
       if (v + 1 < height)
         compare (u, v, u, v + 1);
     }
+
+  std::vector<float> depth (view_.depth);
+  for (float& z : depth)
+    if (!std::isfinite (z) || z <= 0.0f)
+      z = 0.0f;
+  opened_ = filterDepth (filterDepth (depth, view_.camera, 1, false), view_.camera, 1, true);
 }
 
 std::vector<float>
 FreeSpaceView::nearestDepth (int radius) const
 {
-  const int width = view_.camera.width;
-  const int height = view_.camera.height;
   std::vector<float> depth (view_.depth);
   for (float& z : depth)
     if (!std::isfinite (z) || z <= 0.0f)
       z = std::numeric_limits<float>::infinity ();
-  std::vector<float> rows (depth.size ());
-  for (int v = 0; v < height; ++v)
-    slidingMinimum (depth.data () + static_cast<std::size_t> (v) * width, rows.data () + static_cast<std::size_t> (v) * width,
-                    width, 1, radius);
-  for (int u = 0; u < width; ++u)
-    slidingMinimum (rows.data () + u, depth.data () + u, height, width, radius);
-  return depth;
+  return filterDepth (depth, view_.camera, radius, false);
 }
 
 HullConstraint::HullConstraint (const VoxelGrid& grid, int threads)
@@ -107,7 +121,6 @@ HullConstraint::add (const FreeSpaceView& view, const Eigen::Isometry3d& T_grid_
                          ? std::min (max_footprint, static_cast<int> (std::ceil (half_diagonal * focal / nearest)))
                          : max_footprint;
   const std::vector<float> nearest_depth = view.nearestDepth (radius);
-  const double voxel_margin = margin_voxels * grid_.voxel_size_m;
 
   const auto vote = [] (std::uint8_t& votes) {
     if (votes < 255)
@@ -133,7 +146,7 @@ HullConstraint::add (const FreeSpaceView& view, const Eigen::Isometry3d& T_grid_
         const float depth = view.view ().at (column, row);
         if (!(depth > 0.0f) || !std::isfinite (depth))
           continue;
-        const double margin = std::max (voxel_margin, margin_sigmas * depthNoiseSigma (depth));
+        const double margin = freeSpaceMargin (depth, grid_.voxel_size_m);
         const double gap = depth - p.z ();
         if (gap < -margin)
           continue;

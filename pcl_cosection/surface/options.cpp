@@ -35,6 +35,7 @@ CoSectionOptions::paper ()
   o.use_planes = false;
   o.use_extent_prior = false;
   o.use_contact_prior = false;
+  o.carve_free_space = false;
   o.revise_votes = false;
   o.intersect_solved = false;
   o.alpha = 0.005;

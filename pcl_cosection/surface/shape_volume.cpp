@@ -29,6 +29,23 @@ constexpr double intersection_reach_vox = 1.0;
 constexpr double hull_reach_vox = 1.5;
 constexpr double confidence_scale_vox = 5.0;
 constexpr std::size_t bytes_per_voxel = 72;
+constexpr float border_voxels = 2.0f; // a closed surface stays so far inside its volume
+
+/** \brief Raise a field near the border so that its zero set stays inside. */
+void
+keepOffBorder (SignedDistanceField& field)
+{
+  const Eigen::Vector3i& dims = field.grid.dims;
+  for (int k = 0; k < dims.z (); ++k)
+    for (int j = 0; j < dims.y (); ++j)
+      for (int i = 0; i < dims.x (); ++i)
+      {
+        const int border = std::min ({i, j, k, dims.x () - 1 - i, dims.y () - 1 - j, dims.z () - 1 - k});
+        const float bound = static_cast<float> ((border_voxels - static_cast<float> (border)) * field.grid.voxel_size_m);
+        float& value = field.values[field.grid.index (i, j, k)];
+        value = std::max (value, bound);
+      }
+}
 
 } // namespace
 
@@ -150,6 +167,12 @@ ShapeVolume::addContactPrior (const std::vector<OrientedPoint>& points, const Ei
   }
 }
 
+void
+ShapeVolume::setCarving (const FreeSpaceCarving& carving)
+{
+  carved_ = carving.lowerBounds ();
+}
+
 bool
 ShapeVolume::setIntersection (std::vector<LowerBound> bounds)
 {
@@ -198,7 +221,7 @@ ShapeVolume::solvedField () const
   field.grid = grid_;
   field.values.resize (grid_.size ());
   for (std::size_t n = 0; n < grid_.size (); ++n)
-    field.values[n] = static_cast<float> (u_[n] * grid_.voxel_size_m);
+    field.values[n] = static_cast<float> ((carved_.empty () ? u_[n] : std::max (u_[n], carved_[n])) * grid_.voxel_size_m);
   field.supported = supported ();
   return field;
 }
@@ -209,7 +232,9 @@ ShapeVolume::closedMesh () const
   IsoSurfaceOptions iso;
   iso.closed = true;
   iso.threads = options_.threads;
-  TriangleMesh mesh = extractIsoSurface (solvedField (), iso);
+  SignedDistanceField field = solvedField ();
+  keepOffBorder (field);
+  TriangleMesh mesh = extractIsoSurface (field, iso);
   attachEvidence (mesh);
 
   const std::vector<int> component = labelComponents (mesh);

@@ -5,6 +5,7 @@
 #include <pcl/cosection/common/progress.h>
 #include <pcl/cosection/common/triangle_mesh.h>
 #include <pcl/cosection/surface/energy_problem.h>
+#include <pcl/cosection/surface/free_space_carving.h>
 #include <pcl/cosection/surface/hull_constraint.h>
 #include <pcl/cosection/surface/options.h>
 #include <pcl/cosection/surface/oriented_point.h>
@@ -61,6 +62,10 @@ public:
   void
   addContactPrior (const std::vector<OrientedPoint>& points, const Eigen::Vector4d& plane, const Eigen::Vector3d& sensor_m);
 
+  /** \brief Keep the result out of what the views saw free, finer than a voxel; before solvedField (). */
+  void
+  setCarving (const FreeSpaceCarving& carving);
+
   /** \return whether they differ from those before */
   bool
   setIntersection (std::vector<LowerBound> bounds);
@@ -94,7 +99,7 @@ public:
   SignedDistanceField
   measuredField () const;
 
-  /** \brief The minimiser, supported within reach of data and where not seen free. */
+  /** \brief The minimiser, less what was carved off; supported within reach of data and where not seen free. */
   SignedDistanceField
   solvedField () const;
 
@@ -120,6 +125,7 @@ private:
   std::vector<std::uint8_t> free_space_;
   std::vector<std::uint8_t> data_;          // 1 where points are near
   std::vector<float> data_distance_vox_;
+  std::vector<float> carved_;               // lower bounds of the result, voxels; or empty
   std::vector<float> u_;                    // voxels
 };
 

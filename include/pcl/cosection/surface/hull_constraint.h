@@ -14,6 +14,15 @@ namespace pcl
 namespace cosection
 {
 
+/** \brief How much the depth along a ray must exceed that of a point for the point to be free, metres:
+ * max (3 voxels, 3 sigma_z). */
+PCL_COSECTION_EXPORT double
+freeSpaceMargin (double depth_m, double voxel_size_m);
+
+/** \brief Minimum or \a maximum of an image over a square window of \a radius pixels around every pixel. */
+PCL_COSECTION_EXPORT std::vector<float>
+filterDepth (const std::vector<float>& image, const PinholeCamera& camera, int radius, bool maximum);
+
 /** \brief A depth view prepared for looking up free space. */
 class PCL_COSECTION_EXPORT FreeSpaceView
 {
@@ -37,9 +46,18 @@ public:
   std::vector<float>
   nearestDepth (int radius) const;
 
+  /** \brief The depth without patches of less than 3 x 3 pixels that are farther than what surrounds them
+   * (morphological opening); 0 where there is no reading. */
+  const std::vector<float>&
+  openedDepth () const
+  {
+    return opened_;
+  }
+
 private:
   DepthView view_;
   std::vector<std::uint8_t> edge_;
+  std::vector<float> opened_;
 };
 
 /** \brief Votes of depth views on what is free: the complement of the hull of equation (3).

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_cosection authors
+#pragma once
+
+#include <pcl/cosection/common/export.h>
+#include <pcl/cosection/surface/hull_constraint.h>
+#include <pcl/cosection/volume/voxel_grid.h>
+
+#include <cstdint>
+#include <vector>
+
+namespace pcl
+{
+namespace cosection
+{
+
+/** \brief Signed distance to the boundary of the space that views saw free, finer than a voxel, for cutting
+ * a shape along its silhouettes: the quadratic penalty of the hull constraint leaves a rim of about a
+ * voxel outside, and hidden walls run along the rays, where such a rim is wide.
+ *
+ * Per view the distance is measured in the image, from a voxel's projection to the nearest pixel that is
+ * free at the voxel's depth (or, from within free space, to the nearest that is not), up to a few pixels.
+ * Readings count as for HullConstraint, but free patches of less than 3 x 3 pixels are ignored. A voxel is
+ * cut only where more views see it free than see a surface there. */
+class PCL_COSECTION_EXPORT FreeSpaceCarving
+{
+public:
+  /** \param[in] revise false: one view that sees a voxel free suffices */
+  FreeSpaceCarving (const VoxelGrid& grid, bool revise, int threads = 0);
+
+  void
+  add (const FreeSpaceView& view, const Eigen::Isometry3d& T_grid_sensor);
+
+  /** \brief Distances in voxels, positive in free space: lower bounds of a field that keeps out of it; very
+   * negative where no view bounds anything. */
+  std::vector<float>
+  lowerBounds () const;
+
+private:
+  VoxelGrid grid_;
+  bool revise_;
+  int threads_;
+  std::vector<float> outside_vox_; // largest distance of a view that sees the voxel free; negative: none does
+  std::vector<float> inside_vox_;  // largest (nearest to 0) distance of a view that does not
+  std::vector<std::uint8_t> votes_for_;
+  std::vector<std::uint8_t> votes_against_;
+};
+
+} // namespace cosection
+} // namespace pcl

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_cosection authors
+#include <pcl/cosection/surface/free_space_carving.h>
+
+#include <pcl/cosection/common/parallel.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace pcl
+{
+namespace cosection
+{
+
+namespace
+{
+
+constexpr int window = 4;          // pixels around a projection in which the boundary is looked for
+constexpr double inset_px = 1.0;   // the cut is made so far inside the silhouette
+constexpr float nothing = -1e6f;
+
+} // namespace
+
+FreeSpaceCarving::FreeSpaceCarving (const VoxelGrid& grid, bool revise, int threads)
+: grid_ (grid)
+, revise_ (revise)
+, threads_ (threads)
+, outside_vox_ (grid.size (), nothing)
+, inside_vox_ (grid.size (), nothing)
+, votes_for_ (grid.size (), 0)
+, votes_against_ (grid.size (), 0)
+{}
+
+void
+FreeSpaceCarving::add (const FreeSpaceView& view, const Eigen::Isometry3d& T_grid_sensor)
+{
+  const PinholeCamera& camera = view.view ().camera;
+  const Eigen::Isometry3d T_sensor_grid = T_grid_sensor.inverse ();
+  const Eigen::Vector3d step = T_sensor_grid.linear ().col (0) * grid_.voxel_size_m;
+  const std::vector<float>& opened = view.openedDepth ();
+  const std::vector<float> lowest = filterDepth (opened, camera, window, false);
+  const std::vector<float> highest = filterDepth (opened, camera, window, true);
+  const double focal = 0.5 * (camera.fx + camera.fy);
+
+  parallelFor (0, grid_.dims.z (), threads_, [&] (int k) {
+    for (int j = 0; j < grid_.dims.y (); ++j)
+    {
+      const Eigen::Vector3d start = T_sensor_grid * grid_.center (0, j, k);
+      std::size_t n = grid_.index (0, j, k);
+      for (int i = 0; i < grid_.dims.x (); ++i, ++n)
+      {
+        const Eigen::Vector3d p = start + i * step;
+        if (p.z () <= 0.0)
+          continue;
+        const Eigen::Vector2d pixel = camera.project (p);
+        if (!(pixel.x () >= -0.5 && pixel.y () >= -0.5 && pixel.x () < camera.width - 0.5 && pixel.y () < camera.height - 0.5))
+          continue;
+        const int column = static_cast<int> (pixel.x () + 0.5);
+        const int row = static_cast<int> (pixel.y () + 0.5);
+        const std::size_t at = static_cast<std::size_t> (row) * camera.width + column;
+        const float reach = static_cast<float> (p.z () + freeSpaceMargin (p.z (), grid_.voxel_size_m));
+        if (highest[at] <= reach)
+          continue; // nothing free near
+        const double voxels_per_pixel = p.z () / focal / grid_.voxel_size_m;
+        const bool free_here = opened[at] > reach;
+        double distance_px = window;
+        if (!free_here || lowest[at] <= reach)
+          for (int v = std::max (0, row - window); v <= std::min (camera.height - 1, row + window); ++v)
+            for (int u = std::max (0, column - window); u <= std::min (camera.width - 1, column + window); ++u)
+              if ((opened[static_cast<std::size_t> (v) * camera.width + u] > reach) != free_here)
+                distance_px = std::min (distance_px, std::hypot (std::max (0.0, std::abs (pixel.x () - u) - 0.5),
+                                                                 std::max (0.0, std::abs (pixel.y () - v) - 0.5)));
+        const auto signed_vox =
+            static_cast<float> (((free_here ? distance_px : -distance_px) + inset_px) * voxels_per_pixel);
+        if (signed_vox > 0.0f)
+        {
+          outside_vox_[n] = std::max (outside_vox_[n], signed_vox);
+          if (votes_for_[n] < 255)
+            ++votes_for_[n];
+        }
+        else
+          inside_vox_[n] = std::max (inside_vox_[n], signed_vox);
+        const float depth = view.view ().at (column, row);
+        if (!free_here && std::abs (depth - p.z ()) <= reach - p.z () && votes_against_[n] < 255)
+          ++votes_against_[n];
+      }
+    }
+  });
+}
+
+std::vector<float>
+FreeSpaceCarving::lowerBounds () const
+{
+  std::vector<float> bounds (outside_vox_.size ());
+  for (std::size_t n = 0; n < bounds.size (); ++n)
+  {
+    // With a single view a silhouette passes half a pixel inside its own readings.
+    const int needed = revise_ && votes_for_[n] + votes_against_[n] > 2 ? votes_against_[n] : 0;
+    bounds[n] = votes_for_[n] > needed ? outside_vox_[n] : inside_vox_[n];
+  }
+  return bounds;
+}
+
+} // namespace cosection
+} // namespace pcl
