@@ -24,8 +24,10 @@ run("${CMAKE_COMMAND}"
   "-DCMAKE_CXX_COMPILER_LAUNCHER=${CXX_LAUNCHER}"
   "-DCMAKE_BUILD_TYPE=${BUILD_TYPE}")
 run("${CMAKE_COMMAND}" --build "${WORK_DIR}/build")
-run("${WORK_DIR}/build/consumer")
-message(STATUS "${run_output}")
+foreach(program IN ITEMS consumer reconstruct_sphere)
+  run("${WORK_DIR}/build/${program}")
+  message(STATUS "${run_output}")
+endforeach()
 
 if(TOOL)
   run("${WORK_DIR}/prefix/${TOOL}" --version)

@@ -1,0 +1,35 @@
+# Fails unless every block of C++ in DOCUMENT stands in SOURCE, word for word but for its indentation.
+
+cmake_minimum_required(VERSION 3.22)
+
+file(READ "${DOCUMENT}" document)
+file(READ "${SOURCE}" source)
+string(REGEX REPLACE "\n +" "\n" source "${source}")
+
+set(fence "```cpp\n")
+set(blocks 0)
+while(TRUE)
+  string(FIND "${document}" "${fence}" begin)
+  if(begin EQUAL -1)
+    break()
+  endif()
+  string(LENGTH "${fence}" length)
+  math(EXPR begin "${begin} + ${length}")
+  string(SUBSTRING "${document}" ${begin} -1 document)
+  string(FIND "${document}" "```" end)
+  string(SUBSTRING "${document}" 0 ${end} block)
+  math(EXPR end "${end} + 3")
+  string(SUBSTRING "${document}" ${end} -1 document)
+
+  string(REGEX REPLACE "\n +" "\n" unindented "\n${block}")
+  string(FIND "${source}" "${unindented}" at)
+  if(at EQUAL -1)
+    message(FATAL_ERROR "${DOCUMENT} shows what is not in ${SOURCE}:\n${block}")
+  endif()
+  math(EXPR blocks "${blocks} + 1")
+endwhile()
+
+if(blocks EQUAL 0)
+  message(FATAL_ERROR "${DOCUMENT} has no blocks of C++")
+endif()
+message(STATUS "${blocks} blocks of C++ are in ${SOURCE}")
