@@ -4,7 +4,7 @@
 
 #include <pcl/cosection/common/error.h>
 #include <pcl/cosection/common/triangle_mesh.h>
-#include <pcl/cosection/io/atomic_file.h>
+#include <pcl/cosection/common/atomic_file.h>
 
 #include <nlohmann/json.hpp>
 

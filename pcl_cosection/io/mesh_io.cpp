@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_cosection authors
 
-#include "file_bytes.h"
+#include "../common/file_bytes.h"
 #include "ply_mesh.h"
 
 #include "../common/mesh_checks.h"
 
 #include <pcl/cosection/common/error.h>
-#include <pcl/cosection/io/atomic_file.h>
+#include <pcl/cosection/common/atomic_file.h>
 #include <pcl/cosection/io/mesh_io.h>
 
 #include <Eigen/Geometry>

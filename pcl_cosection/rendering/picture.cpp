@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_cosection authors
 
-#include "../io/file_bytes.h"
+#include "../common/file_bytes.h"
 #include "../io/vtk_errors.h"
 
 #include <pcl/cosection/common/error.h>
-#include <pcl/cosection/io/atomic_file.h>
+#include <pcl/cosection/common/atomic_file.h>
 #include <pcl/cosection/rendering/picture.h>
 
 #include <vtkImageData.h>

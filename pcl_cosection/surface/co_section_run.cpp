@@ -6,13 +6,11 @@
 #include "volume_layout.h"
 
 #include <pcl/cosection/common/error.h>
-#include <pcl/cosection/common/parallel.h>
 #include <pcl/cosection/surface/support_plane.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <new>
 
 namespace pcl
 {
@@ -27,9 +25,6 @@ constexpr double background_only_resolution = 128.0; // voxels along the longest
 constexpr double plane_inlier_voxels = 2.0;
 constexpr double min_plane_inlier_m = 0.004;
 constexpr double same_pose_voxels = 0.5;
-constexpr double penetration_voxels = 0.5; // more is resolved by growing weights
-constexpr double weight_growth = 4.0;
-constexpr double max_weight_growth = 1024.0;
 constexpr double same_plane_cosine = 0.999;
 constexpr double same_plane_m = 0.005;
 
@@ -40,15 +35,6 @@ corners (const Eigen::AlignedBox3d& box)
   for (int c = 0; c < 8; ++c)
     points.push_back (box.corner (static_cast<Eigen::AlignedBox3d::CornerType> (c)));
   return points;
-}
-
-Eigen::Vector4d
-transformPlane (const Eigen::Vector4d& plane, const Eigen::Isometry3d& T_plane_target)
-{
-  Eigen::Vector4d out;
-  out.head<3> () = T_plane_target.linear ().transpose () * plane.head<3> ();
-  out[3] = plane[3] + plane.head<3> ().dot (T_plane_target.translation ());
-  return out;
 }
 
 } // namespace
@@ -62,41 +48,6 @@ CoSectionRun::report (const std::string& stage, double fraction) const
 {
   if (progress_ && !progress_ (stage, std::min (1.0, fraction)))
     throw Cancelled ("cancelled");
-}
-
-template <typename Function> void
-CoSectionRun::timed (const char* stage, Function&& f)
-{
-  const auto start = std::chrono::steady_clock::now ();
-  f ();
-  result_.timings_s[stage] += std::chrono::duration<double> (std::chrono::steady_clock::now () - start).count ();
-}
-
-/** \brief Do something for one object; if it fails, only that object is lost. */
-template <typename Function> void
-CoSectionRun::guarded (Object& object, Function&& f)
-{
-  const auto fail = [&] (const std::string& what) {
-    object.result->error = what;
-    object.volume.reset ();
-    object.field = SignedDistanceField ();
-  };
-  try
-  {
-    f ();
-  }
-  catch (const Cancelled&)
-  {
-    throw;
-  }
-  catch (const Error& e)
-  {
-    fail (e.what ());
-  }
-  catch (const std::bad_alloc&)
-  {
-    fail ("not enough memory");
-  }
 }
 
 Eigen::Isometry3d
@@ -291,144 +242,6 @@ CoSectionRun::prepareObject (Object& object)
                                           views.front ().second.translation ());
   });
   object.field = object.volume->measuredField ();
-}
-
-std::vector<LowerBound>
-CoSectionRun::bounds (const Object& object) const
-{
-  const CoSectionOptions& options = scene_.options;
-  IntersectionConstraint constraint (object.volume->grid (), options.max_bound_vox, options.threads);
-  if (!options.use_intersection || options.beta_inter <= 0.0)
-    return {};
-  for (const Eigen::Isometry3d& T_world_object : relativePoses (object, nullptr))
-  {
-    for (const Eigen::Vector4d& plane : object.planes)
-      constraint.addHalfSpace (transformPlane (plane, T_world_object), object.volume->freeSpace (), options.beta_inter);
-    for (const SignedDistanceField& body : background_)
-      constraint.addBody (body, T_world_object, options.beta_inter);
-    for (const Obstacle& body : scene_.bodies)
-      for (const Eigen::Isometry3d& T_field_world : body.T_field_world)
-        constraint.addBody (*body.field, T_field_world * T_world_object, options.beta_inter);
-  }
-  for (std::size_t p = 0; p < objects_.size (); ++p)
-  {
-    const Object& other = objects_[p];
-    if (&other == &object || !other.alive ())
-      continue;
-    const auto grown = object.beta.find (p);
-    const double beta = options.beta_inter * (grown == object.beta.end () ? 1.0 : grown->second);
-    for (const Eigen::Isometry3d& T : relativePoses (object, &other))
-      constraint.addBody (other.field, T, beta);
-  }
-  return constraint.bounds ();
-}
-
-void
-CoSectionRun::solvePass (int pass)
-{
-  // Simultaneous: all bounds are taken from the fields of the pass before.
-  std::vector<std::vector<LowerBound>> all (objects_.size ());
-  timed ("constraints", [&] {
-    for (std::size_t o = 0; o < objects_.size (); ++o)
-      if (objects_[o].alive ())
-        guarded (objects_[o], [&] { all[o] = bounds (objects_[o]); });
-  });
-  for (std::size_t o = 0; o < objects_.size (); ++o)
-  {
-    Object& object = objects_[o];
-    if (!object.alive ())
-      continue;
-    const auto fraction = [&] (double f) {
-      const double done = (static_cast<double> (o) + f) / static_cast<double> (objects_.size ());
-      return pass == 0 ? 0.3 + 0.5 * done : 0.8 + 0.15 * (pass - 1 + done) / std::max (1, scene_.options.max_passes - 1);
-    };
-    guarded (object, [&] {
-      if (!object.volume->setIntersection (std::move (all[o])) && object.volume->solved ())
-        return;
-      timed ("solve", [&] {
-        object.result->solver = object.volume->solve ([&] (const std::string&, double f) {
-          report ("object " + std::to_string (object.input->id), fraction (f));
-          return true;
-        });
-      });
-    });
-  }
-  if (scene_.options.intersect_solved)
-    for (Object& object : objects_)
-      if (object.alive ())
-        object.field = object.volume->solvedField ();
-}
-
-double
-CoSectionRun::penetration (const Object& object, const SignedDistanceField& body,
-                           const std::vector<Eigen::Isometry3d>& poses) const
-{
-  // Deepest voxel within half a voxel of the object's surface.
-  const SignedDistanceField& own = object.field;
-  const VoxelGrid& grid = own.grid;
-  const auto near = static_cast<float> (0.5 * grid.voxel_size_m);
-  std::vector<double> deepest (grid.dims.z (), 0.0);
-  parallelFor (0, grid.dims.z (), scene_.options.threads, [&] (int k) {
-    for (int j = 0; j < grid.dims.y (); ++j)
-      for (int i = 0; i < grid.dims.x (); ++i)
-        if (std::abs (own.values[grid.index (i, j, k)]) <= near)
-          for (const Eigen::Isometry3d& T : poses)
-          {
-            const auto u = body.sampleSupported (T * grid.center (i, j, k));
-            if (u)
-              deepest[k] = std::max (deepest[k], static_cast<double> (-*u));
-          }
-  });
-  return *std::max_element (deepest.begin (), deepest.end ());
-}
-
-double
-CoSectionRun::penetration (const Object& object) const
-{
-  double deepest = 0.0;
-  for (const SignedDistanceField& body : background_)
-    deepest = std::max (deepest, penetration (object, body, relativePoses (object, nullptr)));
-  for (const Object& other : objects_)
-    if (&other != &object && other.alive ())
-      deepest = std::max (deepest, penetration (object, other.field, relativePoses (object, &other)));
-  return deepest;
-}
-
-bool
-CoSectionRun::growWeightsWherePenetrating ()
-{
-  bool any = false;
-  for (Object& object : objects_)
-    for (std::size_t p = 0; object.alive () && p < objects_.size (); ++p)
-    {
-      const Object& other = objects_[p];
-      if (&other == &object || !other.alive ())
-        continue;
-      const double allowed =
-          penetration_voxels * std::max (object.field.grid.voxel_size_m, other.field.grid.voxel_size_m);
-      if (penetration (object, other.field, relativePoses (object, &other)) <= allowed)
-        continue;
-      double& beta = object.beta.try_emplace (p, 1.0).first->second;
-      if (beta < max_weight_growth)
-      {
-        beta *= weight_growth;
-        any = true;
-      }
-    }
-  return any;
-}
-
-void
-CoSectionRun::solveObjects ()
-{
-  const bool mutual = scene_.options.use_intersection && scene_.options.intersect_solved && objects_.size () > 1;
-  const int passes = mutual ? scene_.options.max_passes : 1;
-  for (int pass = 0; pass < passes; ++pass)
-  {
-    solvePass (pass);
-    if (pass > 0 && pass + 1 < passes && !growWeightsWherePenetrating ())
-      break;
-  }
 }
 
 void

@@ -7,9 +7,13 @@
 #include <pcl/cosection/surface/co_section.h>
 #include <pcl/cosection/surface/intersection_constraint.h>
 
+#include <pcl/cosection/common/error.h>
+
 #include <chrono>
 #include <map>
 #include <memory>
+#include <new>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -17,6 +21,16 @@ namespace pcl
 {
 namespace cosection
 {
+
+/** \brief The plane in the frame of the target. */
+inline Eigen::Vector4d
+transformPlane (const Eigen::Vector4d& plane, const Eigen::Isometry3d& T_plane_target)
+{
+  Eigen::Vector4d out;
+  out.head<3> () = T_plane_target.linear ().transpose () * plane.head<3> ();
+  out[3] = plane[3] + plane.head<3> ().dot (T_plane_target.translation ());
+  return out;
+}
 
 /** \brief A body that objects cannot enter. */
 struct Obstacle
@@ -107,6 +121,41 @@ private:
   std::vector<Object> objects_;
   std::vector<SignedDistanceField> background_;
 };
+
+template <typename Function> void
+CoSectionRun::timed (const char* stage, Function&& f)
+{
+  const auto start = std::chrono::steady_clock::now ();
+  f ();
+  result_.timings_s[stage] += std::chrono::duration<double> (std::chrono::steady_clock::now () - start).count ();
+}
+
+/** \brief Do something for one object; if it fails, only that object is lost. */
+template <typename Function> void
+CoSectionRun::guarded (Object& object, Function&& f)
+{
+  const auto fail = [&] (const std::string& what) {
+    object.result->error = what;
+    object.volume.reset ();
+    object.field = SignedDistanceField ();
+  };
+  try
+  {
+    f ();
+  }
+  catch (const Cancelled&)
+  {
+    throw;
+  }
+  catch (const Error& e)
+  {
+    fail (e.what ());
+  }
+  catch (const std::bad_alloc&)
+  {
+    fail ("not enough memory");
+  }
+}
 
 } // namespace cosection
 } // namespace pcl

@@ -17,8 +17,9 @@ namespace
 {
 
 constexpr int window = 4;          // pixels around a projection in which the boundary is looked for
-constexpr double inset_px = 1.0;   // the cut is made so far inside the silhouette
+constexpr double inset_px = 1.25;  // the cut is made so far inside the silhouette
 constexpr float nothing = -1e6f;
+constexpr float far_vox = 3.0f;     // distances are of no interest beyond
 
 } // namespace
 
@@ -95,11 +96,32 @@ FreeSpaceCarving::lowerBounds () const
   std::vector<float> bounds (outside_vox_.size ());
   for (std::size_t n = 0; n < bounds.size (); ++n)
   {
-    // With a single view a silhouette passes half a pixel inside its own readings.
+    // One or two views cannot outvote each other.
     const int needed = revise_ && votes_for_[n] + votes_against_[n] > 2 ? votes_against_[n] : 0;
-    bounds[n] = votes_for_[n] > needed ? outside_vox_[n] : inside_vox_[n];
+    const float bound = votes_for_[n] > needed ? outside_vox_[n] : inside_vox_[n];
+    bounds[n] = std::clamp (bound, -far_vox, far_vox);
   }
-  return bounds;
+
+  // Pixels make stairs; a binomial filter takes them off.
+  std::vector<float> smooth (bounds.size ());
+  parallelFor (0, grid_.dims.z (), threads_, [&] (int k) {
+    for (int j = 0; j < grid_.dims.y (); ++j)
+      for (int i = 0; i < grid_.dims.x (); ++i)
+      {
+        const std::size_t n = grid_.index (i, j, k);
+        smooth[n] = bounds[n];
+        if (std::abs (bounds[n]) >= far_vox || !grid_.contains (i - 1, j - 1, k - 1) || !grid_.contains (i + 1, j + 1, k + 1))
+          continue;
+        float sum = 0.0f;
+        for (int dz = -1; dz <= 1; ++dz)
+          for (int dy = -1; dy <= 1; ++dy)
+            for (int dx = -1; dx <= 1; ++dx)
+              sum += static_cast<float> ((2 - std::abs (dx)) * (2 - std::abs (dy)) * (2 - std::abs (dz))) *
+                     bounds[grid_.index (i + dx, j + dy, k + dz)];
+        smooth[n] = sum / 64.0f;
+      }
+  });
+  return smooth;
 }
 
 } // namespace cosection

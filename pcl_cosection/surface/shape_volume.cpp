@@ -27,6 +27,7 @@ constexpr double continued_plane_gap_vox = 2.0; // planes are continued where no
 constexpr double observed_reach_vox = 1.0;
 constexpr double intersection_reach_vox = 1.0;
 constexpr double hull_reach_vox = 1.5;
+constexpr float carving_reach_vox = 1.5f; // from the boundary of free space into the hull
 constexpr double confidence_scale_vox = 5.0;
 constexpr std::size_t bytes_per_voxel = 72;
 constexpr float border_voxels = 2.0f; // a closed surface stays so far inside its volume
@@ -205,6 +206,14 @@ ShapeVolume::measuredField () const
   return field;
 }
 
+float
+ShapeVolume::carvedValue (std::size_t n) const
+{
+  if (carved_.empty () || carved_[n] <= -carving_reach_vox)
+    return u_[n];
+  return std::max (u_[n], carved_[n]);
+}
+
 std::vector<std::uint8_t>
 ShapeVolume::supported () const
 {
@@ -221,7 +230,7 @@ ShapeVolume::solvedField () const
   field.grid = grid_;
   field.values.resize (grid_.size ());
   for (std::size_t n = 0; n < grid_.size (); ++n)
-    field.values[n] = static_cast<float> ((carved_.empty () ? u_[n] : std::max (u_[n], carved_[n])) * grid_.voxel_size_m);
+    field.values[n] = static_cast<float> (carvedValue (n) * grid_.voxel_size_m);
   field.supported = supported ();
   return field;
 }
@@ -291,7 +300,7 @@ ShapeVolume::attachEvidence (TriangleMesh& mesh) const
           const std::size_t n = grid_.index (cell.x (), cell.y (), cell.z ());
           const double distance = (cell.cast<double> () - at).norm ();
           data_distance = std::min (data_distance, data_[n] ? distance : distance + data_distance_vox_[n]);
-          bounded_by_hull |= free_space_[n] && distance <= hull_reach_vox;
+          bounded_by_hull |= (free_space_[n] || (!carved_.empty () && carved_[n] >= 0.0f)) && distance <= hull_reach_vox;
           bounded_by_body |= !problem_.intersection.empty () && problem_.intersection[n] &&
                              u_[n] < problem_.intersection[n].distance () && distance <= intersection_reach_vox;
         }

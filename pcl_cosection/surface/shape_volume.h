@@ -112,6 +112,8 @@ public:
   trimmedMesh () const;
 
 private:
+  float
+  carvedValue (std::size_t n) const;
   std::vector<std::uint8_t>
   supported () const;
   void
@@ -125,7 +127,7 @@ private:
   std::vector<std::uint8_t> free_space_;
   std::vector<std::uint8_t> data_;          // 1 where points are near
   std::vector<float> data_distance_vox_;
-  std::vector<float> carved_;               // lower bounds of the result, voxels; or empty
+  std::vector<float> carved_;               // signed distance to free space, voxels; or empty
   std::vector<float> u_;                    // voxels
 };
 

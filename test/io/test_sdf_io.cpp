@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_cosection authors
 
-#include "temporary_folder.h"
+#include "common/temporary_folder.h"
 
 #include <pcl/cosection/common/error.h>
 #include <pcl/cosection/io/sdf_io.h>

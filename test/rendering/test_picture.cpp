@@ -2,7 +2,7 @@
 // Copyright (c) 2026, the pcl_cosection authors
 
 #include "common/small_meshes.h"
-#include "io/temporary_folder.h"
+#include "common/temporary_folder.h"
 
 #include <pcl/cosection/common/error.h>
 #include <pcl/cosection/rendering/picture.h>

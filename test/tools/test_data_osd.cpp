@@ -6,7 +6,7 @@
 #include "mesh_measures.h"
 #include "tool_run.h"
 
-#include "io/temporary_folder.h"
+#include "common/temporary_folder.h"
 
 #include <pcl/cosection/common/camera.h>
 #include <pcl/cosection/common/triangle_mesh.h>

@@ -6,7 +6,7 @@
 #include "mesh_measures.h"
 
 #include "common/small_meshes.h"
-#include "io/temporary_folder.h"
+#include "common/temporary_folder.h"
 
 #include <gtest/gtest.h>
 

@@ -31,8 +31,8 @@ public:
   void
   add (const FreeSpaceView& view, const Eigen::Isometry3d& T_grid_sensor);
 
-  /** \brief Distances in voxels, positive in free space: lower bounds of a field that keeps out of it; very
-   * negative where no view bounds anything. */
+  /** \brief Distances in voxels within [-3, 3], positive in free space: near the boundary, lower bounds of a
+   * field that keeps out of it. */
   std::vector<float>
   lowerBounds () const;
 

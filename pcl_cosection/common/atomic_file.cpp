@@ -2,7 +2,7 @@
 // Copyright (c) 2026, the pcl_cosection authors
 
 #include <pcl/cosection/common/error.h>
-#include <pcl/cosection/io/atomic_file.h>
+#include <pcl/cosection/common/atomic_file.h>
 
 #include <cerrno>
 #include <filesystem>
