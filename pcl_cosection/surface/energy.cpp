@@ -27,18 +27,17 @@ evaluate (const EnergyProblem& problem, const HessianOperator<Real>& hessian, co
 {
   const int nx = problem.dims.x ();
   const int ny = problem.dims.y ();
-  std::vector<double> rows (static_cast<std::size_t> (ny) * problem.dims.z ());
+  std::vector<double> planes (problem.dims.z (), 0.0); // a plane is one thread's, row after row
   hessian.forEachRow (u, [&] (int j, int k, const Real* product) {
-    const std::size_t row = static_cast<std::size_t> (k) * ny + j;
-    const std::size_t at = row * nx;
+    const std::size_t at = (static_cast<std::size_t> (k) * ny + j) * nx;
     const kernels::EnergyRow terms{problem.weight.data () + at, problem.weighted_target.data () + at,
                                    problem.exterior.empty () ? nullptr : problem.exterior.data () + at,
                                    problem.intersection.empty () ? nullptr : problem.intersection.data () + at};
-    rows[row] = kernels::evaluateRow (terms, product, u + at, static_cast<Real> (problem.alpha), nx,
+    planes[k] += kernels::evaluateRow (terms, product, u + at, static_cast<Real> (problem.alpha), nx,
                                       residual ? residual + at : nullptr, weights ? weights + at : nullptr);
   });
   double energy = 0.0;
-  for (const double sum : rows)
+  for (const double sum : planes)
     energy += sum;
   return energy;
 }

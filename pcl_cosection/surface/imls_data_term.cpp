@@ -39,6 +39,18 @@ struct Splat
   float weight;
 };
 
+/** \brief exp (-(n / sigma)^2) for whole n. */
+struct GaussianTable
+{
+  std::array<float, max_reach> values;
+
+  explicit GaussianTable (float inverse_sigma)
+  {
+    for (int n = 0; n < max_reach; ++n)
+      values[n] = std::exp (-static_cast<float> (n * n) * inverse_sigma * inverse_sigma);
+  }
+};
+
 /** \brief The part of an axis that a point reaches. */
 struct Reach
 {
@@ -47,17 +59,34 @@ struct Reach
   std::array<float, max_reach> distance;
   std::array<float, max_reach> gaussian;
 
+  /** \brief With s = 1 / sigma, exp (-s^2 (d + n)^2) = exp (-s^2 d^2) exp (-2 s^2 d)^n exp (-s^2 n^2). */
   PCL_COSECTION_INLINE void
-  set (float position, float radius, float inverse_sigma, int low, int high)
+  set (float position, float radius, float inverse_sigma, const GaussianTable& table, int low, int high)
   {
-    begin = std::max (low, static_cast<int> (std::ceil (position - radius)));
+    const int first = static_cast<int> (std::ceil (position - radius));
+    begin = std::max (low, first);
     const int end = std::min (high, static_cast<int> (std::floor (position + radius)) + 1);
     size = std::max (0, end - begin);
+    const float s2 = inverse_sigma * inverse_sigma;
+    const float d = static_cast<float> (begin) - position;
+    const float ratio = std::exp (-2.0f * s2 * d);
+    float g = std::exp (-s2 * d * d);
     for (int i = 0; i < size; ++i)
     {
-      distance[i] = static_cast<float> (begin + i) - position;
-      const float s = distance[i] * inverse_sigma;
-      gaussian[i] = std::exp (-s * s);
+      distance[i] = d + static_cast<float> (i);
+      gaussian[i] = g * table.values[i];
+      g *= ratio;
+    }
+  }
+
+  /** \brief Make it \a count long with entries that nothing reaches. */
+  PCL_COSECTION_INLINE void
+  pad (int count)
+  {
+    for (int i = size; i < count; ++i)
+    {
+      distance[i] = 1e6f;
+      gaussian[i] = 0.0f;
     }
   }
 };
@@ -77,6 +106,37 @@ splatRow (const Splat& p, const Reach& along_x, float across, float offset, floa
   }
 }
 
+constexpr int lanes = 8; // a row at the usual sigma of one voxel, padded
+using Lanes = float __attribute__ ((vector_size (lanes * sizeof (float)), aligned (4), may_alias));
+
+/** \brief splatRow () for rows of up to eight voxels, with the row's constants in registers. */
+struct RowOfLanes
+{
+  Lanes distance;
+  Lanes squared;
+  Lanes gaussian;
+  Lanes along_normal;
+
+  PCL_COSECTION_INLINE
+  RowOfLanes (const Splat& p, const Reach& along_x)
+  : distance (*reinterpret_cast<const Lanes*> (along_x.distance.data ()))
+  , squared (distance * distance)
+  , gaussian (*reinterpret_cast<const Lanes*> (along_x.gaussian.data ()))
+  , along_normal (distance * p.nx)
+  {}
+
+  PCL_COSECTION_INLINE void
+  add (float across, float offset, float limit, float* weight, float* target, float* count) const
+  {
+    const Lanes zero = distance - distance;
+    const Lanes inside = squared <= limit ? zero + 1.0f : zero;
+    const Lanes w = inside * gaussian * across;
+    *reinterpret_cast<Lanes*> (weight) += w;
+    *reinterpret_cast<Lanes*> (target) += w * (along_normal + offset);
+    *reinterpret_cast<Lanes*> (count) += inside;
+  }
+};
+
 PCL_COSECTION_MULTIVERSION void
 splat (const Splat* points, const int* order, int number, float sigma, const Target& to, int nz)
 {
@@ -84,15 +144,19 @@ splat (const Splat* points, const int* order, int number, float sigma, const Tar
   const float inverse_sigma = 1.0f / sigma;
   const int first = std::max (0, to.first_plane);
   const int last = std::min (nz, to.last_plane);
+  const GaussianTable table (inverse_sigma);
   Reach x, y, z;
   for (int n = 0; n < number; ++n)
   {
     const Splat& p = points[order[n]];
-    z.set (p.z, radius, inverse_sigma, first, last);
+    z.set (p.z, radius, inverse_sigma, table, first, last);
     if (z.size == 0)
       continue;
-    x.set (p.x, radius, inverse_sigma, 0, to.nx);
-    y.set (p.y, radius, inverse_sigma, 0, to.ny);
+    x.set (p.x, radius, inverse_sigma, table, 0, to.nx);
+    y.set (p.y, radius, inverse_sigma, table, 0, to.ny);
+    const bool in_lanes = x.size <= lanes && x.begin + lanes <= to.nx;
+    x.pad (lanes);
+    const RowOfLanes row_of_lanes (p, x);
     for (int k = 0; k < z.size; ++k)
       for (int j = 0; j < y.size; ++j)
       {
@@ -105,11 +169,8 @@ splat (const Splat* points, const int* order, int number, float sigma, const Tar
         float* weight = to.weight + row;
         float* target = to.weighted_target + row;
         float* count = to.count + row;
-        // Constant trip counts for the usual sigma of one voxel.
-        if (x.size == 6)
-          splatRow (p, x, across, offset, limit, 6, weight, target, count);
-        else if (x.size == 7)
-          splatRow (p, x, across, offset, limit, 7, weight, target, count);
+        if (in_lanes)
+          row_of_lanes.add (across, offset, limit, weight, target, count);
         else
           splatRow (p, x, across, offset, limit, x.size, weight, target, count);
       }

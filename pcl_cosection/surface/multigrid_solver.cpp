@@ -62,16 +62,15 @@ private:
   {
     const int nx = problem_.dims.x ();
     const int ny = problem_.dims.y ();
-    std::vector<kernels::DirectionProducts> rows (static_cast<std::size_t> (ny) * problem_.dims.z ());
+    std::vector<kernels::DirectionProducts> planes (problem_.dims.z ()); // a plane is one thread's, row after row
     preconditioner_.hessian ().forEachRow (z_.data (), [&] (int j, int k, const Real* h) {
-      const std::size_t row = static_cast<std::size_t> (k) * ny + j;
-      const std::size_t at = row * nx;
-      rows[row] = kernels::directionRow (problem_.weight.data () + at, weights_.data () + at, residual_.data () + at, h,
+      const std::size_t at = (static_cast<std::size_t> (k) * ny + j) * nx;
+      planes[k] += kernels::directionRow (problem_.weight.data () + at, weights_.data () + at, residual_.data () + at, h,
                                          z_.data () + at, direction_.data () + at, static_cast<Real> (problem_.alpha), nx);
     });
     kernels::DirectionProducts s;
-    for (const kernels::DirectionProducts& row : rows)
-      s += row;
+    for (const kernels::DirectionProducts& plane_products : planes)
+      s += plane_products;
     double factor = 0.0;
     if (curvature_ > 0.0)
     {

@@ -98,12 +98,14 @@ layoutObject (const std::vector<OrientedPoint>& points, const CoSectionOptions& 
 {
   Eigen::AlignedBox3d box;
   std::vector<float> values (points.size ());
+  if (points.empty ())
+    throw DegenerateInput ("no points with finite coordinates and a normal");
   for (int a = 0; a < 3; ++a)
   {
     for (std::size_t n = 0; n < points.size (); ++n)
       values[n] = points[n].position[a];
-    if (values.empty () || !std::all_of (values.begin (), values.end (), [] (float v) { return std::isfinite (v); }))
-      throw DegenerateInput ("no points with finite coordinates");
+    if (!std::all_of (values.begin (), values.end (), [] (float v) { return std::isfinite (v); }))
+      throw DegenerateInput ("some points have no finite coordinates");
     const auto cut = static_cast<std::ptrdiff_t> (outlier_share * static_cast<double> (values.size ()));
     std::nth_element (values.begin (), values.begin () + cut, values.end ());
     box.min ()[a] = values[cut];

@@ -180,9 +180,9 @@ struct PointXYZRGBNormal;
 struct PointXYZINormal;
 namespace cosection
 {
-extern template class HessianIMLS<pcl::PointNormal>;
-extern template class HessianIMLS<pcl::PointXYZRGBNormal>;
-extern template class HessianIMLS<pcl::PointXYZINormal>;
+extern template class PCL_COSECTION_EXPORT HessianIMLS<pcl::PointNormal>;
+extern template class PCL_COSECTION_EXPORT HessianIMLS<pcl::PointXYZRGBNormal>;
+extern template class PCL_COSECTION_EXPORT HessianIMLS<pcl::PointXYZINormal>;
 } // namespace cosection
 } // namespace pcl
 #endif
