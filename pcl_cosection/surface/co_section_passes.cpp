@@ -31,15 +31,16 @@ CoSectionRun::bounds (const Object& object) const
   IntersectionConstraint constraint (object.volume->grid (), options.max_bound_vox, options.threads);
   if (!options.use_intersection || options.beta_inter <= 0.0)
     return {};
+  const double beta_surroundings = options.beta_inter * object.beta_surroundings;
   for (const Eigen::Isometry3d& T_world_object : relativePoses (object, nullptr))
   {
     for (const Eigen::Vector4d& plane : object.planes)
-      constraint.addHalfSpace (transformPlane (plane, T_world_object), object.volume->freeSpace (), options.beta_inter);
+      constraint.addHalfSpace (transformPlane (plane, T_world_object), object.volume->freeSpace (), beta_surroundings);
     for (const SignedDistanceField& body : background_)
-      constraint.addBody (body, T_world_object, options.beta_inter);
+      constraint.addBody (body, T_world_object, beta_surroundings);
     for (const Obstacle& body : scene_.bodies)
       for (const Eigen::Isometry3d& T_field_world : body.T_field_world)
-        constraint.addBody (*body.field, T_field_world * T_world_object, options.beta_inter);
+        constraint.addBody (*body.field, T_field_world * T_world_object, beta_surroundings);
   }
   for (std::size_t p = 0; p < objects_.size (); ++p)
   {
@@ -84,10 +85,19 @@ CoSectionRun::solvePass (int pass)
       });
     });
   }
-  if (scene_.options.intersect_solved)
-    for (Object& object : objects_)
-      if (object.alive ())
-        object.field = object.volume->solvedField ();
+  if (!scene_.options.intersect_solved)
+    return;
+  for (Object& object : objects_)
+  {
+    if (!object.alive ())
+      continue;
+    SignedDistanceField field = object.volume->solvedField ();
+    // Two bodies that give way and spread by turns settle when each answers the mean of the other's last two.
+    if (pass > 0)
+      for (std::size_t n = 0; n < field.values.size (); ++n)
+        field.values[n] = 0.5f * (field.values[n] + object.field.values[n]);
+    object.field = std::move (field);
+  }
 }
 
 double
@@ -114,11 +124,23 @@ CoSectionRun::penetration (const Object& object, const SignedDistanceField& body
 }
 
 double
-CoSectionRun::penetration (const Object& object) const
+CoSectionRun::penetrationOfSurroundings (const Object& object) const
 {
   double deepest = 0.0;
+  const std::vector<Eigen::Isometry3d> poses = relativePoses (object, nullptr);
   for (const SignedDistanceField& body : background_)
-    deepest = std::max (deepest, penetration (object, body, relativePoses (object, nullptr)));
+    deepest = std::max (deepest, penetration (object, body, poses));
+  for (const Obstacle& body : scene_.bodies)
+    for (const Eigen::Isometry3d& T_field_world : body.T_field_world)
+      for (const Eigen::Isometry3d& T_world_object : poses)
+        deepest = std::max (deepest, penetration (object, *body.field, {T_field_world * T_world_object}));
+  return deepest;
+}
+
+double
+CoSectionRun::penetration (const Object& object) const
+{
+  double deepest = penetrationOfSurroundings (object);
   for (const Object& other : objects_)
     if (&other != &object && other.alive ())
       deepest = std::max (deepest, penetration (object, other.field, relativePoses (object, &other)));
@@ -129,6 +151,21 @@ bool
 CoSectionRun::growWeightsWherePenetrating ()
 {
   bool any = false;
+  const auto grow = [&] (double& beta) {
+    if (beta >= max_weight_growth)
+      return;
+    beta *= weight_growth;
+    any = true;
+  };
+  double coarsest = 0.0; // of the surroundings
+  for (const SignedDistanceField& body : background_)
+    coarsest = std::max (coarsest, body.grid.voxel_size_m);
+  for (const Obstacle& body : scene_.bodies)
+    coarsest = std::max (coarsest, body.field->grid.voxel_size_m);
+  for (Object& object : objects_)
+    if (object.alive () && penetrationOfSurroundings (object) >
+                               penetration_voxels * std::max (coarsest, object.volume->grid ().voxel_size_m))
+      grow (object.beta_surroundings);
   for (Object& object : objects_)
     for (std::size_t p = 0; object.alive () && p < objects_.size (); ++p)
     {
@@ -139,12 +176,7 @@ CoSectionRun::growWeightsWherePenetrating ()
           penetration_voxels * std::max (object.field.grid.voxel_size_m, other.field.grid.voxel_size_m);
       if (penetration (object, other.field, relativePoses (object, &other)) <= allowed)
         continue;
-      double& beta = object.beta.try_emplace (p, 1.0).first->second;
-      if (beta < max_weight_growth)
-      {
-        beta *= weight_growth;
-        any = true;
-      }
+      grow (object.beta.try_emplace (p, 1.0).first->second);
     }
   return any;
 }
@@ -152,12 +184,13 @@ CoSectionRun::growWeightsWherePenetrating ()
 void
 CoSectionRun::solveObjects ()
 {
-  const bool mutual = scene_.options.use_intersection && scene_.options.intersect_solved && objects_.size () > 1;
-  const int passes = mutual ? scene_.options.max_passes : 1;
+  const bool repeat = scene_.options.use_intersection && scene_.options.intersect_solved;
+  const int passes = repeat ? scene_.options.max_passes : 1;
+  const int needed = objects_.size () > 1 ? 2 : 1; // the first pass sees neighbours through their data alone
   for (int pass = 0; pass < passes; ++pass)
   {
     solvePass (pass);
-    if (pass > 0 && pass + 1 < passes && !growWeightsWherePenetrating ())
+    if (pass + 1 >= needed && pass + 1 < passes && !growWeightsWherePenetrating ())
       break;
   }
 }

@@ -67,7 +67,8 @@ private:
     std::unique_ptr<ShapeVolume> volume;
     std::vector<Eigen::Vector4d> planes;             // world
     SignedDistanceField field;                       // what it tells its neighbours
-    std::map<std::size_t, double> beta;              // grown weights of single neighbours
+    std::map<std::size_t, double> beta;              // growth of the weights of single neighbours
+    double beta_surroundings = 1.0;                  // growth of the weight of background, planes and bodies
 
     bool
     alive () const
@@ -103,6 +104,8 @@ private:
   growWeightsWherePenetrating ();
   double
   penetration (const Object& object, const SignedDistanceField& body, const std::vector<Eigen::Isometry3d>& poses) const;
+  double
+  penetrationOfSurroundings (const Object& object) const;
   double
   penetration (const Object& object) const;
   void

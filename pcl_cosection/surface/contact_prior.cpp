@@ -108,7 +108,7 @@ ContactPrior::patch (const VoxelGrid& grid, const Eigen::Vector4d& plane, const 
   const Eigen::Vector3d across = normal.cross (along);
   const auto flat = [&] (const Eigen::Vector3d& p) { return Eigen::Vector2d (across.dot (p), along.dot (p)); };
 
-  std::vector<double> contacts;
+  std::vector<double> contacts, depths;
   std::vector<Eigen::Vector2d> above;
   Eigen::Vector2d low = Eigen::Vector2d::Constant (1e30);
   Eigen::Vector2d high = Eigen::Vector2d::Constant (-1e30);
@@ -120,7 +120,10 @@ ContactPrior::patch (const VoxelGrid& grid, const Eigen::Vector4d& plane, const 
       continue;
     const double z = height (p);
     if (std::abs (z) <= contact_height_vox * h)
+    {
       contacts.push_back (across.dot (p));
+      depths.push_back (along.dot (p));
+    }
     if (z > 0.0)
     {
       above.push_back (flat (p));
@@ -134,6 +137,8 @@ ContactPrior::patch (const VoxelGrid& grid, const Eigen::Vector4d& plane, const 
   const auto cut = static_cast<std::size_t> (contact_outliers * static_cast<double> (contacts.size ()));
   const double left = contacts[cut];
   const double right = contacts[contacts.size () - 1 - cut];
+  std::sort (depths.begin (), depths.end ());
+  const double back = depths[depths.size () - 1 - cut] + depth_per_width * (right - left);
 
   PlaneMap covered (low, high, h);
   for (const Eigen::Vector2d& p : above)
@@ -150,7 +155,7 @@ ContactPrior::patch (const VoxelGrid& grid, const Eigen::Vector4d& plane, const 
         if (std::abs (height (p)) > reach_vox * h || free_space[n])
           continue;
         const Eigen::Vector2d q = flat (p);
-        patch[n] = q.x () >= left && q.x () <= right && covered.at (q);
+        patch[n] = q.x () >= left && q.x () <= right && q.y () <= back && covered.at (q);
       }
   return patch;
 }

@@ -16,6 +16,7 @@ namespace cosection
 namespace
 {
 
+constexpr double energy_rounding = 1e-6;
 constexpr double largest_eigenvalue = 3.5; // of D^-1 times half the Hessian of E, over any active set
 
 /** \brief Relaxation factors of a cycle, omega / (2 cos^2 (pi (2 i + 1) / (4 n + 2))), reordered so that
@@ -84,9 +85,11 @@ solveLevelFastJacobi (const EnergyProblem& problem, const SolverOptions& options
     for (std::size_t n = 0; n < u.size (); ++n)
       if (std::min (std::abs (before[n]), std::abs (u[n])) < static_cast<Real> (band))
         summary.change_vox = std::max (summary.change_vox, static_cast<double> (std::abs (u[n] - before[n])));
+    // A long cycle can blow up half way; that is no convergence, however little the zero band changes.
+    const bool rose = !(energy <= summary.energies.back () + energy_rounding * std::abs (summary.energies.back ()));
     summary.energies.push_back (energy);
     ++summary.iterations;
-    if (summary.change_vox < tolerance)
+    if (summary.change_vox < tolerance && !rose)
     {
       summary.termination = Termination::Converged;
       break;

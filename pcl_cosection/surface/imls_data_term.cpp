@@ -68,13 +68,17 @@ struct Reach
     const int end = std::min (high, static_cast<int> (std::floor (position + radius)) + 1);
     size = std::max (0, end - begin);
     const float s2 = inverse_sigma * inverse_sigma;
-    const float d = static_cast<float> (begin) - position;
+    const float d = static_cast<float> (first) - position;
     const float ratio = std::exp (-2.0f * s2 * d);
     float g = std::exp (-s2 * d * d);
-    for (int i = 0; i < size; ++i)
+    for (int n = 0; n < end - first; ++n)
     {
-      distance[i] = d + static_cast<float> (i);
-      gaussian[i] = g * table.values[i];
+      // Also through the part that is cut off, so that the values do not depend on where the cut is.
+      if (n >= begin - first)
+      {
+        distance[n - (begin - first)] = d + static_cast<float> (n);
+        gaussian[n - (begin - first)] = g * table.values[n];
+      }
       g *= ratio;
     }
   }

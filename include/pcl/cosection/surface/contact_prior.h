@@ -21,11 +21,13 @@ namespace cosection
  * Non-intersection says that an object does not enter the table; nothing in it says that the object
  * stands on it, and smoothness alone lifts hidden undersides off. If the observed surface comes down to
  * the plane, the hidden part of the plane straight below observed surface is taken as the object's
- * underside, as far to either side as the observed contact reaches. The result is a set of voxels next to
+ * underside, as far to either side as the observed contact reaches, and no farther behind it than it is
+ * wide. The result is a set of voxels next to
  * the plane at which u = -height is to be preferred, with a weight far below that of data. */
 struct PCL_COSECTION_EXPORT ContactPrior
 {
-  double contact_height_vox = 4.0; ///< points this near to the plane are contact
+  double contact_height_vox = 2.5; ///< points this near to the plane are contact
+  double depth_per_width = 1.0;    ///< depth of the hidden contact per width of the observed one
   int min_contacts = 10;           ///< points
   double reach_vox = 2.0;          ///< voxels up to this height above or below the plane are affected
 
