@@ -16,7 +16,7 @@ namespace cosection
 namespace
 {
 
-constexpr double energy_rounding = 1e-6;
+constexpr double energy_rounding = 1e-6; // relative
 constexpr double largest_eigenvalue = 3.5; // of D^-1 times half the Hessian of E, over any active set
 
 /** \brief Relaxation factors of a cycle, omega / (2 cos^2 (pi (2 i + 1) / (4 n + 2))), reordered so that
@@ -63,7 +63,8 @@ solveLevelFastJacobi (const EnergyProblem& problem, const SolverOptions& options
   std::vector<Real> residual (u.size ());
   std::vector<std::uint16_t> weights (u.size ());
   std::vector<Real> before (u.size ());
-  const std::vector<double> factors = relaxationFactors (options.cycle_length);
+  int cycle_length = options.cycle_length;
+  std::vector<double> factors = relaxationFactors (cycle_length);
   const std::size_t plane = static_cast<std::size_t> (problem.dims.x ()) * problem.dims.y ();
 
   summary.energies.push_back (evaluate (problem, hessian, u.data (), residual.data (), weights.data ()));
@@ -81,15 +82,24 @@ solveLevelFastJacobi (const EnergyProblem& problem, const SolverOptions& options
       });
       energy = evaluate (problem, hessian, u.data (), residual.data (), weights.data ());
     }
+    const double previous = summary.energies.back ();
+    if (!(energy <= previous + energy_rounding * std::abs (previous)) && cycle_length > 1)
+    {
+      // Long cycles amplify rounding, and the active set changes half way: go back, and take shorter ones.
+      u = before;
+      cycle_length /= 2;
+      factors = relaxationFactors (cycle_length);
+      summary.energies.push_back (evaluate (problem, hessian, u.data (), residual.data (), weights.data ()));
+      ++summary.iterations;
+      continue;
+    }
     summary.change_vox = 0.0;
     for (std::size_t n = 0; n < u.size (); ++n)
       if (std::min (std::abs (before[n]), std::abs (u[n])) < static_cast<Real> (band))
         summary.change_vox = std::max (summary.change_vox, static_cast<double> (std::abs (u[n] - before[n])));
-    // A long cycle can blow up half way; that is no convergence, however little the zero band changes.
-    const bool rose = !(energy <= summary.energies.back () + energy_rounding * std::abs (summary.energies.back ()));
     summary.energies.push_back (energy);
     ++summary.iterations;
-    if (summary.change_vox < tolerance && !rose)
+    if (summary.change_vox < tolerance)
     {
       summary.termination = Termination::Converged;
       break;

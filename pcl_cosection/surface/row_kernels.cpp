@@ -156,12 +156,12 @@ forLanes (int n, Body&& body)
     body (i, i % lanes);
 }
 
-PCL_COSECTION_INLINE double
-total (const double (&sums)[lanes])
+template <typename Real> PCL_COSECTION_INLINE double
+total (const Real (&sums)[lanes])
 {
   double sum = 0.0;
-  for (const double s : sums)
-    sum += s;
+  for (const Real s : sums)
+    sum += static_cast<double> (s);
   return sum;
 }
 
@@ -169,13 +169,13 @@ template <typename Real, bool has_exterior, bool has_intersection, bool outputs>
 evaluateTerms (const EnergyRow& row, const Real* __restrict h, const Real* __restrict u, Real alpha, int n,
                Real* __restrict residual, std::uint16_t* __restrict packed)
 {
-  double sums[lanes] = {};
+  Real sums[lanes] = {};
   forLanes (n, [&] (int i, int l) {
     const Real value = u[i];
     float weight = row.weight[i];
     const Real target = row.weighted_target[i];
     const Real smooth = alpha * h[i] + static_cast<Real> (weight) * value;
-    double sum = static_cast<double> (value) * (static_cast<double> (smooth) - 2.0 * static_cast<double> (target));
+    Real sum = value * (smooth - 2 * target);
     Real r = target - smooth;
     const auto addBound = [&] (const LowerBound& bound) {
       const Real violation = static_cast<Real> (bound.distance ()) - value;
@@ -183,7 +183,7 @@ evaluateTerms (const EnergyRow& row, const Real* __restrict h, const Real* __res
       weight += beta;
       const Real pull = static_cast<Real> (beta) * violation;
       r += pull;
-      sum += static_cast<double> (pull) * static_cast<double> (violation);
+      sum += pull * violation;
     };
     if (has_exterior)
       addBound (row.exterior[i]);
@@ -215,34 +215,40 @@ template <typename Real> PCL_COSECTION_INLINE void
 boundDerivatives (const LowerBound* __restrict bounds, const Real* __restrict u, const Real* __restrict p, Real t, int n,
                   double& slope, double& curvature)
 {
-  double slopes[lanes] = {};
-  double curvatures[lanes] = {};
-  forLanes (n, [&] (int i, int l) {
-    const Real violation = static_cast<Real> (bounds[i].distance ()) - u[i] - t * p[i];
-    const Real beta = violation > Real (0) ? static_cast<Real> (bounds[i].weight ()) : Real (0);
-    const Real pull = beta * p[i];
-    slopes[l] -= static_cast<double> (pull * violation);
-    curvatures[l] += static_cast<double> (pull * p[i]);
-  });
-  slope += total (slopes);
-  curvature += total (curvatures);
+  constexpr int block = 512; // short enough for sums in Real
+  for (int first = 0; first < n; first += block)
+  {
+    Real slopes[lanes] = {};
+    Real curvatures[lanes] = {};
+    const LowerBound* __restrict b = bounds + first;
+    const Real* __restrict at = u + first;
+    const Real* __restrict along = p + first;
+    forLanes (n - first < block ? n - first : block, [&] (int i, int l) {
+      const Real violation = static_cast<Real> (b[i].distance ()) - at[i] - t * along[i];
+      const Real pull = (violation > Real (0) ? static_cast<Real> (b[i].weight ()) : Real (0)) * along[i];
+      slopes[l] -= pull * violation;
+      curvatures[l] += pull * along[i];
+    });
+    slope += total (slopes);
+    curvature += total (curvatures);
+  }
 }
 
 template <typename Real> PCL_COSECTION_INLINE DirectionProducts
 directionProducts (const float* __restrict weight, const std::uint16_t* __restrict packed, const Real* __restrict residual,
                    const Real* __restrict h, const Real* __restrict z, const Real* __restrict p, Real alpha, int n)
 {
-  double sums[7][lanes] = {};
+  Real sums[7][lanes] = {};
   forLanes (n, [&] (int i, int l) {
     const Real product = alpha * h[i] + static_cast<Real> (weight[i]) * z[i];
     const Real active = static_cast<Real> (unpackWeight (packed[i]) - weight[i]);
-    sums[0][l] += static_cast<double> (product * z[i]);
-    sums[1][l] += static_cast<double> (product * p[i]);
-    sums[2][l] += static_cast<double> (active * z[i] * z[i]);
-    sums[3][l] += static_cast<double> (active * z[i] * p[i]);
-    sums[4][l] += static_cast<double> (active * p[i] * p[i]);
-    sums[5][l] += static_cast<double> (residual[i] * z[i]);
-    sums[6][l] += static_cast<double> (residual[i] * p[i]);
+    sums[0][l] += product * z[i];
+    sums[1][l] += product * p[i];
+    sums[2][l] += active * z[i] * z[i];
+    sums[3][l] += active * z[i] * p[i];
+    sums[4][l] += active * p[i] * p[i];
+    sums[5][l] += residual[i] * z[i];
+    sums[6][l] += residual[i] * p[i];
   });
   return {total (sums[0]), total (sums[1]), total (sums[2]), total (sums[3]), total (sums[4]), total (sums[5]), total (sums[6])};
 }

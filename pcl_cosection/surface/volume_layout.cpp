@@ -20,7 +20,7 @@ namespace
 
 constexpr double outlier_share = 0.005; // of the points, at either end of each axis
 constexpr int default_resolution = 64;
-constexpr double points_per_voxel = 2.0;
+constexpr double points_per_voxel = 3.0;
 constexpr double voxel_growth = 1.1;
 constexpr int min_axis = 8;      // voxels
 constexpr double max_axis = 8192; // voxels

@@ -18,7 +18,7 @@ namespace cosection
 /** \brief The grid for an object: its box without outliers, padded, at the voxel size of the options.
  *
  * If neither voxel size nor resolution is given, 64 voxels along the longest side, but voxels no smaller
- * than the points' spacing supports: at least two points in each occupied voxel on average.
+ * than the points' spacing supports: at least three points in each occupied voxel on average.
  * \throws DegenerateInput, MemoryLimitExceeded, InvalidArgument */
 VoxelGrid
 layoutObject (const std::vector<OrientedPoint>& points, const CoSectionOptions& options);

@@ -473,7 +473,7 @@ TEST (HessianImlsConstraints, KeepsOutOfABodyAtEveryPose)
 {
   // A ball below the object on one side, then on the other.
   constexpr double ball_radius = 0.04;
-  const Eigen::Vector3d positions[] = {{0.04, 0.0, -0.09}, {-0.04, 0.0, -0.09}};
+  const Eigen::Vector3d positions[] = {{0.04, 0.0, -0.088}, {-0.04, 0.0, -0.088}};
   std::vector<Eigen::Isometry3d> poses;
   for (const Eigen::Vector3d& p : positions)
     poses.emplace_back (Eigen::Translation3d (-p)); // T_body_object
@@ -507,9 +507,9 @@ TEST (HessianImlsConstraints, SignedDistanceServesTheNextObject)
   ASSERT_NE (nullptr, body);
   EXPECT_NEAR (0.0, body->sample ({0.0, 0.0, radius}).value (), 0.5 * voxel);
 
-  // The same ball again, one and a half radii farther up: it would reach into the first.
+  // The same ball again, less than one and a half radii farther up: it would reach into the first.
   Eigen::Isometry3d T_first_second = Eigen::Isometry3d::Identity ();
-  T_first_second.translation ().z () = 1.5 * radius;
+  T_first_second.translation ().z () = 1.45 * radius;
   Imls second;
   second.setInputCloud (sphereCloud (true));
   second.setVoxelSize (voxel);

@@ -37,7 +37,7 @@ struct PCL_COSECTION_EXPORT SolverOptions
 {
   SolverType type = SolverType::Multigrid;
   int max_iterations = 60;      ///< per level: multigrid cycles (Fast Jacobi: cycles of \a cycle_length sweeps)
-  double tolerance_vox = 0.01;  ///< stop when no value near the zero set changes by more in one iteration
+  double tolerance_vox = 0.03;  ///< stop when no value near the zero set changes by more in one iteration
   int cycle_length = 20;        ///< Fast Jacobi: sweeps in a cycle
   int smoothing_degree = 5;     ///< multigrid: degree of the Chebyshev polynomial before and after each coarse correction
   int threads = 0;              ///< 0: all
@@ -62,9 +62,9 @@ struct PCL_COSECTION_EXPORT CoSectionOptions
 
   double alpha = 0.005;     ///< weight of the Hessian, per voxel units: metric value times h^4
   double beta_hull = 0.01;  ///< weight of the hull constraint
-  double beta_inter = 0.01; ///< weight of the intersection constraint
+  double beta_inter = 0.04; ///< weight of the intersection constraint
   double beta_extent = 0.001; ///< weight of the pull that prevents swelling
-  double beta_contact = 0.02; ///< weight of the contact with a support plane
+  double beta_contact = 0.01; ///< weight of the contact with a support plane
   double sigma_vox = 1.0;   ///< width of a point's Gaussian; cut off at three times it
   double max_bound_vox = 5.0; ///< cap of the intersection distance, and reach of evidence behind data
   Weighting weighting = Weighting::Mean;

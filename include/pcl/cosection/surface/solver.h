@@ -30,7 +30,7 @@ struct PCL_COSECTION_EXPORT SolverSummary
   double energy = 0.0;     ///< E (u) at the end, voxel units
   double change_vox = 0.0; ///< largest change near the zero set in the last iteration
   double seconds = 0.0;
-  std::vector<double> energies; ///< E at the start and after every iteration on the finest level; multigrid's never rises
+  std::vector<double> energies; ///< E at the start and after every iteration on the finest level; never rises
 
   bool
   converged () const

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_cosection authors
+#include "completion_scene.h"
+
+#include <gtest/gtest.h>
+
+using namespace pcl::cosection;
+using namespace pcl::cosection::test;
+
+namespace
+{
+
+class Rotation : public testing::TestWithParam<Shape>
+{};
+
+} // namespace
+
+/** \brief The grid is aligned with the axes; what it cannot resolve is all that may depend on that. */
+TEST_P (Rotation, ChangesNoMoreThanDiscretisation)
+{
+  EXPECT_LE (effectOfMotion (GetParam (), 0.005, motion (1.1, {1.0, 2.0, -1.0}, {-0.3, 0.5, 1.1})), 0.5);
+}
+
+INSTANTIATE_TEST_SUITE_P (Table, Rotation, testing::Values (Shape::Sphere, Shape::Box, Shape::Torus, Shape::Cup),
+                          [] (const auto& info) { return nameOf (info.param); });
