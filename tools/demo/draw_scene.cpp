@@ -2,7 +2,8 @@
 // Copyright (c) 2026, the pcl_cosection authors
 
 // draw_scene VIEW.pcd MESHES OUTPUT.png: three pictures beside each other: the points of a view seen from the side, the
-// meshes in the folder MESHES from there, and the meshes from behind, coloured by provenance. The world's z axis is up.
+// meshes in the folder MESHES from there, and the meshes from behind, coloured by provenance. Up is where most of the
+// background faces.
 
 #include "look_at.h"
 
@@ -47,6 +48,7 @@ struct Scene
   Eigen::Vector3d sensor;
   Eigen::Vector3d middle; ///< of the objects' points
   double radius = 0.0;    ///< of the objects' points around it
+  Eigen::Vector3d up = Eigen::Vector3d::UnitZ ();
   TriangleMesh background;
   std::vector<TriangleMesh> objects;
 };
@@ -101,7 +103,14 @@ addMeshes (const std::string& folder, Scene& scene)
   for (const std::filesystem::path& file : files)
   {
     if (file.filename () == "background.ply")
+    {
       scene.background = loadPlyMesh (file.string ());
+      Eigen::Vector3f sum = Eigen::Vector3f::Zero ();
+      for (const Eigen::Vector3f& normal : scene.background.normals)
+        sum += normal;
+      if (sum.norm () > 0.0f)
+        scene.up = sum.normalized ().cast<double> ();
+    }
     else if (file.extension () == ".ply")
       scene.objects.push_back (loadPlyMesh (file.string ()));
   }
@@ -114,10 +123,10 @@ public:
   Panel (const Scene& scene, double turn_rad)
   {
     const Eigen::Vector3d offset =
-        Eigen::AngleAxisd (turn_rad, Eigen::Vector3d::UnitZ ()) * (scene.sensor - scene.middle);
+        Eigen::AngleAxisd (turn_rad, scene.up) * (scene.sensor - scene.middle);
     const double focal_length = 0.5 * std::min (width_px, height_px) * offset.norm () / (margin * scene.radius);
     camera_ = {width_px, height_px, focal_length, focal_length, 0.5 * (width_px - 1), 0.5 * (height_px - 1)};
-    T_world_camera_ = lookAt (scene.middle + offset, scene.middle);
+    T_world_camera_ = lookAt (scene.middle + offset, scene.middle, scene.up);
   }
 
   Rasterizer
