@@ -58,4 +58,6 @@ cmake -G Ninja -S . -B "$build" "${options[@]}"
 step "Build with $jobs jobs"
 cmake --build "$build" --parallel "$jobs"
 step "Test"
+# Several tests run at once: threads that wait by spinning would hold each other up.
+export OMP_WAIT_POLICY=passive
 ctest --test-dir "$build" --output-on-failure --no-tests=error --parallel "$jobs" "${labels[@]}"
