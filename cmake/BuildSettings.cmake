@@ -36,7 +36,10 @@ endif()
 if(PCL_COSECTION_SANITIZE)
   # Functions compiled for several processors are chosen by the loader before the sanitizers are
   # ready, so there is one version only.
-  target_compile_definitions(pcl_cosection_build_settings INTERFACE PCL_COSECTION_NO_MULTIVERSIONING)
+  # Eigen allocates otherwise when it sees a sanitizer, and PCL's libraries, which allocate what we free, do not.
+  target_compile_definitions(pcl_cosection_build_settings INTERFACE
+    PCL_COSECTION_NO_MULTIVERSIONING
+    EIGEN_MALLOC_ALREADY_ALIGNED=1)
   target_compile_options(pcl_cosection_build_settings INTERFACE
     -fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer -g1)
   target_link_options(pcl_cosection_build_settings INTERFACE -fsanitize=address,undefined)
