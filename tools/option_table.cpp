@@ -170,7 +170,7 @@ declareMethod (CLI::App& app, Given& given)
       ->check (wholeRange (1, 10000000))
       ->group (group);
   app.add_option ("--tolerance", given.tolerance,
-                  "Stop when the surface moves less in one iteration" + byDefault (defaults.solver.tolerance_vox))
+                  "Stop when the surface is this near to the solution" + byDefault (defaults.solver.tolerance_vox))
       ->option_text ("VOXELS")
       ->check (numberRange (0, unlimited, true))
       ->group (group);

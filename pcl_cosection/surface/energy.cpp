@@ -21,6 +21,19 @@ LowerBound::LowerBound (float distance_vox, float weight)
             static_cast<std::uint32_t> (std::lround (std::clamp (distance_vox, 0.0f, 255.0f) * 256.0f));
 }
 
+namespace
+{
+
+kernels::EnergyRow
+energyRow (const EnergyProblem& problem, std::size_t at)
+{
+  return {problem.weight.data () + at, problem.weighted_target.data () + at,
+          problem.exterior.empty () ? nullptr : problem.exterior.data () + at,
+          problem.intersection.empty () ? nullptr : problem.intersection.data () + at};
+}
+
+} // namespace
+
 template <typename Real> double
 evaluate (const EnergyProblem& problem, const HessianOperator<Real>& hessian, const Real* u, Real* residual,
           std::uint16_t* weights)
@@ -30,10 +43,7 @@ evaluate (const EnergyProblem& problem, const HessianOperator<Real>& hessian, co
   std::vector<double> planes (problem.dims.z (), 0.0); // a plane is one thread's, row after row
   hessian.forEachRow (u, [&] (int j, int k, const Real* product) {
     const std::size_t at = (static_cast<std::size_t> (k) * ny + j) * nx;
-    const kernels::EnergyRow terms{problem.weight.data () + at, problem.weighted_target.data () + at,
-                                   problem.exterior.empty () ? nullptr : problem.exterior.data () + at,
-                                   problem.intersection.empty () ? nullptr : problem.intersection.data () + at};
-    planes[k] += kernels::evaluateRow (terms, product, u + at, static_cast<Real> (problem.alpha), nx,
+    planes[k] += kernels::evaluateRow (energyRow (problem, at), product, u + at, static_cast<Real> (problem.alpha), nx,
                                       residual ? residual + at : nullptr, weights ? weights + at : nullptr);
   });
   double energy = 0.0;
@@ -42,24 +52,31 @@ evaluate (const EnergyProblem& problem, const HessianOperator<Real>& hessian, co
   return energy;
 }
 
-template <typename Real> LineDerivatives
-boundDerivatives (const EnergyProblem& problem, const Real* u, const Real* p, double t, int threads)
+template <typename Real> void
+predictActiveSet (const EnergyProblem& problem, const Real* u, const Real* p, Real* residual, std::uint16_t* weights,
+                  int threads)
 {
   const std::size_t plane = static_cast<std::size_t> (problem.dims.x ()) * problem.dims.y ();
-  std::vector<LineDerivatives> planes (problem.dims.z ());
   parallelFor (0, problem.dims.z (), threads, [&] (int k) {
-    for (const auto* bounds : {&problem.exterior, &problem.intersection})
-      if (!bounds->empty ())
-        kernels::boundsRow (bounds->data () + k * plane, u + k * plane, p + k * plane, static_cast<Real> (t),
-                            static_cast<int> (plane), planes[k].slope, planes[k].curvature);
+    const std::size_t at = k * plane;
+    kernels::predictRow (energyRow (problem, at), u + at, p + at, static_cast<int> (plane), residual + at, weights + at);
   });
-  LineDerivatives total;
-  for (const LineDerivatives& sum : planes)
-  {
-    total.slope += sum.slope;
-    total.curvature += sum.curvature;
-  }
-  return total;
+}
+
+template <typename Real> kernels::LinePair
+boundDerivatives (const EnergyProblem& problem, const Real* u, const Real* p, double t_1, double t_2, int threads)
+{
+  const std::size_t plane = static_cast<std::size_t> (problem.dims.x ()) * problem.dims.y ();
+  std::vector<kernels::LinePair> planes (problem.dims.z ());
+  parallelFor (0, problem.dims.z (), threads, [&] (int k) {
+    const std::size_t at = k * plane;
+    planes[k] = kernels::boundsRow (energyRow (problem, at), u + at, p + at, static_cast<Real> (t_1),
+                                    static_cast<Real> (t_2), static_cast<int> (plane));
+  });
+  kernels::LinePair all;
+  for (const kernels::LinePair& of_plane : planes)
+    all += of_plane;
+  return all;
 }
 
 template <typename Real> double
@@ -127,7 +144,9 @@ coarsen (const EnergyProblem& problem, bool bounds, int threads)
 #define PCL_COSECTION_INSTANTIATE(Real)                                                                              \
   template double evaluate<Real> (const EnergyProblem&, const HessianOperator<Real>&, const Real*, Real*,            \
                                   std::uint16_t*);                                                                   \
-  template LineDerivatives boundDerivatives<Real> (const EnergyProblem&, const Real*, const Real*, double, int);     \
+  template void predictActiveSet<Real> (const EnergyProblem&, const Real*, const Real*, Real*, std::uint16_t*, int); \
+  template kernels::LinePair boundDerivatives<Real> (const EnergyProblem&, const Real*, const Real*, double, double, \
+                                                     int);                                                           \
   template double evaluateEnergy<Real> (const EnergyProblem&, const std::vector<Real>&, std::vector<Real>*, int);
 
 PCL_COSECTION_INSTANTIATE (float)

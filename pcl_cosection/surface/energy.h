@@ -2,6 +2,8 @@
 // Copyright (c) 2026, the pcl_cosection authors
 #pragma once
 
+#include "row_kernels.h"
+
 #include <pcl/cosection/surface/energy_problem.h>
 #include <pcl/cosection/surface/hessian_operator.h>
 
@@ -21,16 +23,16 @@ template <typename Real> double
 evaluate (const EnergyProblem& problem, const HessianOperator<Real>& hessian, const Real* u, Real* residual,
           std::uint16_t* weights);
 
-/** \brief Derivatives of half the bounds' energy along a line. */
-struct LineDerivatives
-{
-  double slope = 0.0;
-  double curvature = 0.0;
-};
+/** \brief Exchange the active set at u for that at u + p: then \a residual and \a weights are those of the
+ * quadratic function of u that E is near u + p. \param[in] threads 0: all */
+template <typename Real> void
+predictActiveSet (const EnergyProblem& problem, const Real* u, const Real* p, Real* residual, std::uint16_t* weights,
+                  int threads);
 
-/** \brief At u + t p. \param[in] threads 0: all */
-template <typename Real> LineDerivatives
-boundDerivatives (const EnergyProblem& problem, const Real* u, const Real* p, double t, int threads);
+/** \brief Derivatives of half the bounds' energy at u + t_1 p and u + t_2 p, along p.
+ * \param[in] threads 0: all */
+template <typename Real> kernels::LinePair
+boundDerivatives (const EnergyProblem& problem, const Real* u, const Real* p, double t_1, double t_2, int threads);
 
 } // namespace cosection
 } // namespace pcl

@@ -93,10 +93,11 @@ solveLevelFastJacobi (const EnergyProblem& problem, const SolverOptions& options
       ++summary.iterations;
       continue;
     }
-    summary.change_vox = 0.0;
+    kernels::SquaredChange change;
     for (std::size_t n = 0; n < u.size (); ++n)
       if (std::min (std::abs (before[n]), std::abs (u[n])) < static_cast<Real> (band))
-        summary.change_vox = std::max (summary.change_vox, static_cast<double> (std::abs (u[n] - before[n])));
+        change += {std::pow (static_cast<double> (u[n] - before[n]), 2), 1.0};
+    summary.change_vox = change.rootMean ();
     summary.energies.push_back (energy);
     ++summary.iterations;
     if (summary.change_vox < tolerance)

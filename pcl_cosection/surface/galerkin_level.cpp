@@ -12,6 +12,8 @@ namespace cosection
 namespace
 {
 
+constexpr std::size_t work_per_voxel = 8; // of a pass, compared with one on the finest level
+
 template <typename Real> void
 fill (const Pentadiagonal& matrix, int i, double factor, Real (&row)[5])
 {
@@ -24,7 +26,7 @@ fill (const Pentadiagonal& matrix, int i, double factor, Real (&row)[5])
 template <typename Real>
 GalerkinLevel<Real>::GalerkinLevel (const std::array<GalerkinAxis, 3>& axes, double alpha, int threads)
 : dims_ (axes[0].size, axes[1].size, axes[2].size)
-, threads_ (threadsForVoxels (threads, size ()))
+, threads_ (threadsForVoxels (threads, work_per_voxel * size ()))
 {
   const std::array<const Pentadiagonal*, 3> along_x{&axes[0].mass, &axes[0].first, &axes[0].second};
   for (int field = 0; field < 3; ++field)
@@ -66,7 +68,7 @@ template <typename Real> double
 GalerkinLevel<Real>::estimateLargestEigenvalue () const
 {
   constexpr int iterations = 30;
-  std::vector<Real> v (size ());
+  GuardedField<Real> v (size ());
   std::vector<Real> next (size ());
   for (std::size_t n = 0; n < v.size (); ++n) // rough, and the same every time
     v[n] = static_cast<Real> ((n * 2654435761u >> 16) % 1024) - Real (511.5);
@@ -114,30 +116,28 @@ template <typename Real> void
 GalerkinLevel<Real>::smooth (const Real* rhs, Real* z, Real* d, int degree, bool from_zero) const
 {
   const ChebyshevSteps steps (degree, largest_eigenvalue_);
-  const std::size_t n = size ();
-  if (from_zero)
-    std::fill_n (z, n, Real (0));
+  const std::size_t plane = static_cast<std::size_t> (dims_.x ()) * dims_.y ();
   for (int s = 0; s < degree; ++s)
   {
-    const Real momentum = static_cast<Real> (steps.momentum (s));
+    const Real momentum = s == 0 ? Real (0) : static_cast<Real> (steps.momentum (s));
     const Real step = static_cast<Real> (steps.step (s));
     if (s == 0 && from_zero)
-      for (std::size_t i = 0; i < n; ++i)
-        d[i] = step * inverse_diagonal_[i] * rhs[i];
-    else
     {
-      if (s == 0)
-        std::fill_n (d, n, Real (0));
-      forEachRow (z, [&] (int j, int k, const Real* product) {
-        const std::size_t offset = (static_cast<std::size_t> (k) * dims_.y () + j) * dims_.x ();
-        kernels::chebyshevStepRow (rhs + offset, product, inverse_diagonal_.data () + offset, momentum, step, dims_.x (),
-                                   d + offset);
+      parallelFor (0, dims_.z (), threads_, [&] (int k) {
+        for (std::size_t i = k * plane; i < (k + 1) * plane; ++i)
+          z[i] = d[i] = step * inverse_diagonal_[i] * rhs[i];
       });
+      continue;
     }
-    parallelFor (0, dims_.z (), threads_, [&] (int k) {
-      const std::size_t plane = static_cast<std::size_t> (dims_.x ()) * dims_.y ();
-      kernels::addRow (d + k * plane, static_cast<int> (plane), z + k * plane);
+    if (s == 0)
+      std::fill_n (d, size (), Real (0)); // what it holds need not be a number
+    forEachRow (z, [&] (int j, int k, const Real* product) {
+      const std::size_t offset = (static_cast<std::size_t> (k) * dims_.y () + j) * dims_.x ();
+      kernels::chebyshevStepRow (rhs + offset, product, inverse_diagonal_.data () + offset, momentum, step, dims_.x (),
+                                 d + offset);
     });
+    parallelFor (0, dims_.z (), threads_,
+                 [&] (int k) { kernels::addRow (d + k * plane, static_cast<int> (plane), z + k * plane); });
   }
 }
 

@@ -42,11 +42,13 @@ public:
   void
   updateDiagonal ();
 
-  /** \brief Call \a row (j, k, values) with every row of the operator times \a v. */
+  /** \brief Call \a row (j, k, values) with every row of the operator times \a v, the values of a
+   * GuardedField. */
   template <typename RowFunction> void
   forEachRow (const Real* v, RowFunction&& row) const;
 
   /** \brief Improve z for operator * z = rhs by Chebyshev iterations of the fourth kind.
+   * \param[in,out] z the values of a GuardedField
    * \param[in] from_zero take z as zero on entry, whatever it holds
    * \param d scratch, one value per voxel */
   void
@@ -93,7 +95,7 @@ GalerkinLevel<Real>::forEachRow (const Real* v, RowFunction&& row) const
     std::vector<Real> ring (5 * 3 * plane); // mass, first and second of five planes, contracted along x and y
     std::vector<Real> along_x (3 * plane);
     std::vector<Real> padded (nx + 4, Real (0));
-    std::vector<Real> out (nx);
+    std::vector<Real> out (nx + GuardedField<Real>::guard);
     const auto slot = [&] (int k, int field) { return ring.data () + ((k + 5) % 5 * 3 + field) * plane; };
     const auto contractPlane = [&] (int k) {
       for (int j = 0; j < ny; ++j)

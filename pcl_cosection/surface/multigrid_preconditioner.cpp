@@ -16,6 +16,7 @@ namespace
 constexpr double largest_eigenvalue_finest = 144.0 / 42.0 * chebyshev_safety; // of D^-1 H^T H in the interior
 
 constexpr int coarsest_axis = 4; // axes are halved down to this many voxels
+constexpr std::size_t deep_levels = 6;
 
 /** \brief Largest eigenvalue of D^-1 R for the regulariser R of a coarse level. The border, where
  * interpolation extrapolates, decides it; a few voxels between the borders suffice. */
@@ -44,16 +45,17 @@ MultigridPreconditioner<Real>::MultigridPreconditioner (const Eigen::Vector3i& d
     const GridTransfer transfer (fine, coarsest_axis);
     for (int a = 0; a < 3; ++a)
       axes[a] = axes[a].coarsen (transfer.axes[a]);
-    levels_.push_back (Level{transfer, GalerkinLevel<Real> (axes, alpha, threads), {}, {}, {}});
+    levels_.push_back (Level{transfer, GalerkinLevel<Real> (axes, alpha, threads), {}, {}, GuardedField<Real> ()});
     Level& level = levels_.back ();
     level.op.weights.allocate (transfer, span);
     level.op.setLargestEigenvalue (chebyshev_safety * largestEigenvalue (axes));
     span = level.op.weights.span;
     level.rhs.resize (level.op.size ());
-    level.z.resize (level.op.size ());
+    level.z = GuardedField<Real> (level.op.size ());
     level.d.resize (level.op.size ());
     fine = transfer.coarseDims ();
   } while (fine.maxCoeff () > coarsest_axis);
+  visits_ = levels_.size () < deep_levels ? 2 : 3;
 }
 
 template <typename Real> void
@@ -80,7 +82,7 @@ MultigridPreconditioner<Real>::factorizeCoarsest ()
   const int nx = level.op.dims ().x ();
   const int ny = level.op.dims ().y ();
   coarsest_.resize (n, n);
-  std::vector<Real> unit (n, Real (0));
+  GuardedField<Real> unit (n);
   for (int column = 0; column < n; ++column)
   {
     unit[column] = Real (1);
@@ -142,7 +144,7 @@ MultigridPreconditioner<Real>::restrictResidual (const Real* rhs, const Real* z,
 }
 
 template <typename Real> void
-MultigridPreconditioner<Real>::cycle (std::size_t l)
+MultigridPreconditioner<Real>::cycle (std::size_t l, bool from_zero)
 {
   Level& level = levels_[l];
   if (l + 1 == levels_.size ())
@@ -154,14 +156,17 @@ MultigridPreconditioner<Real>::cycle (std::size_t l)
     return;
   }
   Level& coarse = levels_[l + 1];
-  level.op.smooth (level.rhs.data (), level.z.data (), level.d.data (), degree_, true);
+  level.op.smooth (level.rhs.data (), level.z.data (), level.d.data (), degree_, from_zero);
   level.op.forEachRow (level.z.data (), [&] (int j, int k, const Real* product) {
     const std::size_t offset = (static_cast<std::size_t> (k) * level.op.dims ().y () + j) * level.op.dims ().x ();
     for (int i = 0; i < level.op.dims ().x (); ++i)
       level.d[offset + i] = level.rhs[offset + i] - product[i];
   });
   coarse.transfer.restrict (level.d.data (), coarse.rhs.data (), level.op.threads ());
-  cycle (l + 1);
+  const bool solved_at_once = l + 2 == levels_.size ();
+  cycle (l + 1, true);
+  for (int visit = 1; !solved_at_once && visit < visits_; ++visit)
+    cycle (l + 1, false);
   coarse.transfer.prolongAdd (coarse.z.data (), level.z.data (), level.op.threads ());
   level.op.smooth (level.rhs.data (), level.z.data (), level.d.data (), degree_, false);
 }
@@ -171,7 +176,7 @@ MultigridPreconditioner<Real>::apply (const Real* rhs, Real* z, Real* d)
 {
   smoothFinest (rhs, z, d, true);
   restrictResidual (rhs, z, d);
-  cycle (0);
+  cycle (0, true);
   levels_[0].transfer.prolongAdd (levels_[0].z.data (), z, threads_);
   smoothFinest (rhs, z, d, false);
 }

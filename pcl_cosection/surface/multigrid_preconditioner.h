@@ -16,9 +16,14 @@ namespace pcl
 namespace cosection
 {
 
-/** \brief One symmetric V-cycle for (alpha H^T H + diag (w)) z = rhs: Chebyshev smoothing, linear
+/** \brief One symmetric multigrid cycle for (alpha H^T H + diag (w)) z = rhs: Chebyshev smoothing, linear
  * interpolation and its transpose, exact Galerkin operators on the coarse levels, a Cholesky
- * factorisation on the coarsest. */
+ * factorisation on the coarsest.
+ *
+ * It is a V-cycle on the finest level; below, each level visits the next two times (W-cycle), in deep
+ * hierarchies three. A thin band of large w, which the data are, holds the coarse functions near it: a
+ * coarse problem removes only part of what the level above cannot, the smaller the coarser it is, and
+ * visiting it again where that is cheap makes up for it. */
 template <typename Real> class MultigridPreconditioner
 {
 public:
@@ -43,15 +48,17 @@ private:
   {
     GridTransfer transfer; // from the level above
     GalerkinLevel<Real> op;
-    std::vector<Real> rhs, z, d;
+    std::vector<Real> rhs, d;
+    GuardedField<Real> z;
   };
 
   void
   smoothFinest (const Real* rhs, Real* z, Real* d, bool from_zero) const;
   void
   restrictResidual (const Real* rhs, const Real* z, Real* d);
+  /** \brief Improve z of a coarse level, which is taken as zero if \a from_zero. */
   void
-  cycle (std::size_t level);
+  cycle (std::size_t level, bool from_zero);
   void
   factorizeCoarsest ();
 
@@ -59,6 +66,7 @@ private:
   double alpha_;
   int degree_;
   int threads_;
+  int visits_ = 2; // of the next level, from a coarse one
   const std::uint16_t* weights_ = nullptr;
   std::vector<Level> levels_; // coarse ones, finer first
   Eigen::MatrixXd coarsest_;

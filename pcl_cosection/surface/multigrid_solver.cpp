@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace pcl
 {
@@ -15,6 +16,11 @@ namespace cosection
 
 namespace
 {
+
+constexpr double blocked_step = 0.3;     // a direction good for less than this part of its length was blocked
+constexpr double slope_reduction = 1e-3; // of the line search
+constexpr double expected_rate = 0.5;    // of the changes from step to step, while there is one only
+constexpr double largest_rate = 0.95;
 
 template <typename Real> class NewtonMultigrid
 {
@@ -38,18 +44,42 @@ public:
     return evaluate (problem_, preconditioner_.hessian (), u_.data (), residual_.data (), weights_.data ());
   }
 
-  /** \brief One iteration; returns the largest change where |u| < band. */
-  double
+  struct Step
+  {
+    double change = 0.0; ///< root mean square where |u| < band
+    bool blocked = false;
+  };
+
+  /** \brief One iteration. */
+  Step
   step (double band)
   {
     preconditioner_.setWeights (weights_.data ());
     preconditioner_.apply (residual_.data (), z_.data (), scratch_.data ());
     combine ();
-    const double t = lineSearch ();
-    return advance (t, band);
+    double t = lineSearch ();
+    const bool was_predicted = predicted_;
+    predicted_ = t < blocked_step && !was_predicted;
+    if (predicted_)
+      t = stepWithPredictedBounds ();
+    return {advance (t, band), t < blocked_step};
   }
 
 private:
+  /** \brief The direction ran into bounds that were not active: find one that takes those as active which it
+   * would violate, as a primal-dual active set method does. Returns the step along it. */
+  double
+  stepWithPredictedBounds ()
+  {
+    predictActiveSet (problem_, u_.data (), direction_.data (), residual_.data (), weights_.data (), threads_);
+    preconditioner_.setWeights (weights_.data ());
+    preconditioner_.apply (residual_.data (), z_.data (), scratch_.data ());
+    linearize ();
+    curvature_ = 0.0; // the direction is new
+    combine ();
+    return lineSearch ();
+  }
+
   std::size_t
   plane () const
   {
@@ -92,31 +122,62 @@ private:
     });
   }
 
-  /** \brief Minimiser of E (u + t direction): its derivative is piecewise linear and increasing. */
+  /** \brief Minimiser of E (u + t direction): its derivative is piecewise linear and increasing. Two places
+   * are tried in each pass over the bounds. */
   double
   lineSearch () const
   {
     if (!(descent_ > 0.0))
       return 0.0;
-    const double smooth_slope = -descent_ - boundDerivatives (problem_, u_.data (), direction_.data (), 0.0, threads_).slope;
+    constexpr int max_passes = 8;
     double low = 0.0;
+    double low_slope = -descent_;
     double high = 0.0; // 0: not bracketed yet
-    double t = 1.0;
-    constexpr int max_evaluations = 12;
-    constexpr double slope_reduction = 1e-3;
-    for (int i = 0; i < max_evaluations; ++i)
+    double high_slope = 0.0;
+    double t_1 = 0.0;
+    double t_2 = 1.0;
+    double smooth_slope = 0.0; // at u
+    for (int pass = 0; pass < max_passes; ++pass)
     {
-      const LineDerivatives bounds = boundDerivatives (problem_, u_.data (), direction_.data (), t, threads_);
-      const double slope = smooth_slope + t * curvature_ + bounds.slope;
-      if (std::abs (slope) <= slope_reduction * descent_)
-        return t;
-      (slope < 0.0 ? low : high) = t;
-      const double curvature = curvature_ + bounds.curvature;
-      const double newton = curvature > 0.0 ? t - slope / curvature : 2.0 * t;
-      if (high > 0.0)
-        t = newton > low && newton < high ? newton : 0.5 * (low + high);
-      else
-        t = std::min (newton, 8.0 * t);
+      const kernels::LinePair bounds = boundDerivatives (problem_, u_.data (), direction_.data (), t_1, t_2, threads_);
+      if (pass == 0)
+        smooth_slope = -descent_ - bounds.first.slope;
+      double nearest = 0.0; // of the two places to the minimum
+      double newton = 0.0;  // from there
+      double smallest = std::numeric_limits<double>::infinity ();
+      const auto look = [&] (double t, const kernels::LineDerivatives& of_bounds) {
+        const double slope = smooth_slope + t * curvature_ + of_bounds.slope;
+        const double curvature = curvature_ + of_bounds.curvature;
+        if (slope < 0.0 && t >= low)
+        {
+          low = t;
+          low_slope = slope;
+        }
+        if (slope >= 0.0 && (high == 0.0 || t <= high))
+        {
+          high = t;
+          high_slope = slope;
+        }
+        if (std::abs (slope) >= smallest)
+          return;
+        smallest = std::abs (slope);
+        nearest = t;
+        newton = curvature > 0.0 ? t - slope / curvature : 2.0 * t;
+      };
+      if (pass > 0)
+        look (t_1, bounds.first);
+      look (t_2, bounds.second);
+      if (smallest <= slope_reduction * descent_)
+        return nearest;
+      if (high == 0.0)
+      {
+        t_1 = std::min (newton, 8.0 * low);
+        t_2 = 2.0 * t_1;
+        continue;
+      }
+      const double secant = low - low_slope * (high - low) / (high_slope - low_slope);
+      t_1 = newton > low && newton < high ? newton : 0.5 * (low + high);
+      t_2 = secant != t_1 ? secant : 0.5 * (low + high);
     }
     return low; // E still falls up to here
   }
@@ -124,12 +185,15 @@ private:
   double
   advance (double t, double band)
   {
-    std::vector<double> largest (problem_.dims.z (), 0.0);
+    std::vector<kernels::SquaredChange> planes (problem_.dims.z ());
     parallelFor (0, problem_.dims.z (), threads_, [&] (int k) {
-      largest[k] = kernels::advanceRow (direction_.data () + k * plane (), static_cast<Real> (t), static_cast<Real> (band),
-                                        static_cast<int> (plane ()), u_.data () + k * plane ());
+      planes[k] = kernels::advanceRow (direction_.data () + k * plane (), static_cast<Real> (t), static_cast<Real> (band),
+                                       static_cast<int> (plane ()), u_.data () + k * plane ());
     });
-    return *std::max_element (largest.begin (), largest.end ());
+    kernels::SquaredChange all;
+    for (const kernels::SquaredChange& of_plane : planes)
+      all += of_plane;
+    return all.rootMean ();
   }
 
   const EnergyProblem& problem_;
@@ -138,6 +202,7 @@ private:
   std::vector<Real>& u_;
   std::vector<Real> residual_, direction_, z_, scratch_;
   std::vector<std::uint16_t> weights_;
+  bool predicted_ = false; // the last step was taken with predicted bounds
   double curvature_ = 0.0; // of half the smooth energy along the direction
   double descent_ = 0.0;   // residual . direction
 };
@@ -150,25 +215,24 @@ solveLevelMultigrid (const EnergyProblem& problem, const SolverOptions& options,
 {
   SolverSummary summary;
   NewtonMultigrid<Real> newton (problem, options, u);
-  constexpr double tiny_change = 0.2;
-  bool was_small = false;
   double energy = newton.linearize ();
   summary.energies.push_back (energy);
   for (int i = 0; i < options.max_iterations; ++i)
   {
     report (progress, static_cast<double> (i) / options.max_iterations);
-    summary.change_vox = newton.step (band);
+    const double last_change = summary.change_vox;
+    const auto step = newton.step (band);
     energy = newton.linearize ();
+    summary.change_vox = step.change;
     summary.energies.push_back (energy);
     ++summary.iterations;
-    // One small step may be a short one; two in a row, or a tiny one, are the end.
-    const bool small = summary.change_vox < tolerance;
-    if ((small && was_small) || summary.change_vox < tiny_change * tolerance)
+    // The changes fall geometrically; the sum of those to come is what is still wrong.
+    const double rate = i == 0 ? expected_rate : std::min (largest_rate, step.change / std::max (last_change, 1e-30));
+    if (!step.blocked && step.change * std::max (1.0, rate / (1.0 - rate)) < tolerance)
     {
       summary.termination = Termination::Converged;
       break;
     }
-    was_small = small;
   }
   summary.energy = energy;
   return summary;

@@ -69,39 +69,35 @@ pentadiagonal (const Real* __restrict in, const Real* const* coefficients, int n
     out[i] = c0[i] * in[i - 2] + c1[i] * in[i - 1] + c2[i] * in[i] + c3[i] * in[i + 1] + c4[i] * in[i + 2];
 }
 
-template <typename Real> PCL_COSECTION_INLINE void
-symmetric (const Real* __restrict v, const Real* __restrict diagonal, const Real* __restrict first,
-           const Real* __restrict second, int n, Real* __restrict out)
+template <typename Real, bool has_first, bool has_second> PCL_COSECTION_INLINE void
+symmetricRun (const SymmetricRun<Real>& run, Real* __restrict out)
 {
-  if (n >= 3 && first && !second)
-  {
-    out[0] += diagonal[0] * v[0] + first[0] * v[1];
-    for (int i = 1; i < n - 1; ++i)
-      out[i] += first[i - 1] * v[i - 1] + diagonal[i] * v[i] + first[i] * v[i + 1];
-    out[n - 1] += first[n - 2] * v[n - 2] + diagonal[n - 1] * v[n - 1];
-    return;
-  }
-  if (n < 5 || !first || !second)
-  {
-    for (int i = 0; i < n; ++i)
-      out[i] += diagonal[i] * v[i];
-    for (int i = 0; first && i + 1 < n; ++i)
-      out[i] += first[i] * v[i + 1];
-    for (int i = 1; first && i < n; ++i)
-      out[i] += first[i - 1] * v[i - 1];
-    for (int i = 0; second && i + 2 < n; ++i)
-      out[i] += second[i] * v[i + 2];
-    for (int i = 2; second && i < n; ++i)
-      out[i] += second[i - 2] * v[i - 2];
-    return;
-  }
-  out[0] += diagonal[0] * v[0] + first[0] * v[1] + second[0] * v[2];
-  out[1] += first[0] * v[0] + diagonal[1] * v[1] + first[1] * v[2] + second[1] * v[3];
-  for (int i = 2; i < n - 2; ++i)
-    out[i] += second[i - 2] * v[i - 2] + first[i - 1] * v[i - 1] + diagonal[i] * v[i] + first[i] * v[i + 1] +
-              second[i] * v[i + 2];
-  out[n - 2] += second[n - 4] * v[n - 4] + first[n - 3] * v[n - 3] + diagonal[n - 2] * v[n - 2] + first[n - 2] * v[n - 1];
-  out[n - 1] += second[n - 3] * v[n - 3] + first[n - 2] * v[n - 2] + diagonal[n - 1] * v[n - 1];
+  const Real* __restrict v = run.v;
+  const Real* __restrict diagonal = run.diagonal;
+  const Real* __restrict first = run.first;
+  const Real* __restrict second = run.second;
+  for (int block = run.begin; block < run.begin + run.blocks * run_block; block += run_block)
+    for (int i = block; i < block + run_block; ++i)
+    {
+      Real sum = diagonal[i] * v[i];
+      if (has_first)
+        sum += first[i - 1] * v[i - 1] + first[i] * v[i + 1];
+      if (has_second)
+        sum += second[i - 2] * v[i - 2] + second[i] * v[i + 2];
+      out[i] += sum;
+    }
+}
+
+template <typename Real> PCL_COSECTION_INLINE void
+symmetric (const SymmetricRun<Real>* runs, std::size_t count, Real* out)
+{
+  for (const SymmetricRun<Real>* run = runs; run != runs + count; ++run)
+    if (run->second)
+      symmetricRun<Real, true, true> (*run, out);
+    else if (run->first)
+      symmetricRun<Real, true, false> (*run, out);
+    else
+      symmetricRun<Real, false, false> (*run, out);
 }
 
 template <typename Real> PCL_COSECTION_INLINE void
@@ -199,6 +195,28 @@ evaluateTerms (const EnergyRow& row, const Real* __restrict h, const Real* __res
   return total (sums);
 }
 
+template <typename Real> PCL_COSECTION_INLINE void
+predict (const EnergyRow& row, const Real* __restrict u, const Real* __restrict p, int n, Real* __restrict residual,
+         std::uint16_t* __restrict packed)
+{
+  for (int i = 0; i < n; ++i)
+  {
+    float weight = row.weight[i];
+    Real r = residual[i];
+    for (const LowerBound* bounds : {row.exterior, row.intersection})
+      if (bounds)
+      {
+        const Real violation = static_cast<Real> (bounds[i].distance ()) - u[i];
+        const float before = violation > Real (0) ? bounds[i].weight () : 0.0f;
+        const float after = violation - p[i] > Real (0) ? bounds[i].weight () : 0.0f;
+        weight += after;
+        r += static_cast<Real> (after - before) * violation;
+      }
+    residual[i] = r;
+    packed[i] = packWeight (weight);
+  }
+}
+
 template <typename Real, bool outputs> PCL_COSECTION_INLINE double
 evaluateBounds (const EnergyRow& row, const Real* h, const Real* u, Real alpha, int n, Real* residual, std::uint16_t* packed)
 {
@@ -211,27 +229,50 @@ evaluateBounds (const EnergyRow& row, const Real* h, const Real* u, Real alpha, 
   return evaluateTerms<Real, false, false, outputs> (row, h, u, alpha, n, residual, packed);
 }
 
-template <typename Real> PCL_COSECTION_INLINE void
-boundDerivatives (const LowerBound* __restrict bounds, const Real* __restrict u, const Real* __restrict p, Real t, int n,
-                  double& slope, double& curvature)
+template <typename Real, bool has_exterior, bool has_intersection> PCL_COSECTION_INLINE LinePair
+boundTerms (const EnergyRow& row, const Real* __restrict u, const Real* __restrict p, Real t_1, Real t_2, int n)
 {
+  LinePair derivatives;
   constexpr int block = 512; // short enough for sums in Real
-  for (int first = 0; first < n; first += block)
+  for (int begin = 0; begin < n; begin += block)
   {
-    Real slopes[lanes] = {};
-    Real curvatures[lanes] = {};
-    const LowerBound* __restrict b = bounds + first;
-    const Real* __restrict at = u + first;
-    const Real* __restrict along = p + first;
-    forLanes (n - first < block ? n - first : block, [&] (int i, int l) {
-      const Real violation = static_cast<Real> (b[i].distance ()) - at[i] - t * along[i];
-      const Real pull = (violation > Real (0) ? static_cast<Real> (b[i].weight ()) : Real (0)) * along[i];
-      slopes[l] -= pull * violation;
-      curvatures[l] += pull * along[i];
+    Real slopes[2][lanes] = {};
+    Real curvatures[2][lanes] = {};
+    forLanes (n - begin < block ? n - begin : block, [&] (int at, int l) {
+      const int i = begin + at;
+      const Real along = p[i];
+      const auto addBound = [&] (const LowerBound& bound) {
+        const Real distance = static_cast<Real> (bound.distance ()) - u[i];
+        const Real weighted = static_cast<Real> (bound.weight ()) * along;
+        const auto addAt = [&] (Real t, Real& slope, Real& curvature) {
+          const Real violation = distance - t * along;
+          const Real pull = violation > Real (0) ? weighted : Real (0);
+          slope -= pull * violation;
+          curvature += pull * along;
+        };
+        addAt (t_1, slopes[0][l], curvatures[0][l]);
+        addAt (t_2, slopes[1][l], curvatures[1][l]);
+      };
+      if (has_exterior)
+        addBound (row.exterior[i]);
+      if (has_intersection)
+        addBound (row.intersection[i]);
     });
-    slope += total (slopes);
-    curvature += total (curvatures);
+    derivatives += {{total (slopes[0]), total (curvatures[0])}, {total (slopes[1]), total (curvatures[1])}};
   }
+  return derivatives;
+}
+
+template <typename Real> PCL_COSECTION_INLINE LinePair
+boundDerivatives (const EnergyRow& row, const Real* u, const Real* p, Real t_1, Real t_2, int n)
+{
+  if (row.exterior && row.intersection)
+    return boundTerms<Real, true, true> (row, u, p, t_1, t_2, n);
+  if (row.exterior)
+    return boundTerms<Real, true, false> (row, u, p, t_1, t_2, n);
+  if (row.intersection)
+    return boundTerms<Real, false, true> (row, u, p, t_1, t_2, n);
+  return {};
 }
 
 template <typename Real> PCL_COSECTION_INLINE DirectionProducts
@@ -253,24 +294,21 @@ directionProducts (const float* __restrict weight, const std::uint16_t* __restri
   return {total (sums[0]), total (sums[1]), total (sums[2]), total (sums[3]), total (sums[4]), total (sums[5]), total (sums[6])};
 }
 
-template <typename Real> PCL_COSECTION_INLINE Real
+template <typename Real> PCL_COSECTION_INLINE SquaredChange
 advance (const Real* __restrict p, Real t, Real band, int n, Real* __restrict u)
 {
-  Real largest[lanes] = {};
+  Real sums[lanes] = {};
+  Real counts[lanes] = {};
   forLanes (n, [&] (int i, int l) {
     const Real before = u[i];
     const Real change = t * p[i];
     const Real after = before + change;
     u[i] = after;
-    const Real size = change < Real (0) ? -change : change;
     const bool near = (before < band && before > -band) || (after < band && after > -band);
-    const Real counted = near ? size : Real (0);
-    largest[l] = counted > largest[l] ? counted : largest[l];
+    sums[l] += near ? change * change : Real (0);
+    counts[l] += near ? Real (1) : Real (0);
   });
-  Real all = 0;
-  for (const Real value : largest)
-    all = value > all ? value : all;
-  return all;
+  return {total (sums), total (counts)};
 }
 
 } // namespace
@@ -305,9 +343,8 @@ DirectionProducts::operator+= (const DirectionProducts& other)
   { for (int i = 0; i < n; ++i) out[i] += factor * a[i]; }                                                           \
   PCL_COSECTION_MULTIVERSION void scaleAddRow (const Real* __restrict a, Real factor, int n, Real* __restrict out)   \
   { for (int i = 0; i < n; ++i) out[i] = a[i] + factor * out[i]; }                                                   \
-  PCL_COSECTION_MULTIVERSION void symmetricRow (const Real* v, const Real* diagonal, const Real* first,              \
-    const Real* second, int n, Real* out)                                                                            \
-  { symmetric<Real> (v, diagonal, first, second, n, out); }                                                          \
+  PCL_COSECTION_MULTIVERSION void symmetricRuns (const SymmetricRun<Real>* runs, std::size_t count, Real* out)       \
+  { symmetric<Real> (runs, count, out); }                                                                            \
   PCL_COSECTION_MULTIVERSION void contractRows (const Real* const* mass, const Real* const* first,                   \
     const Real* const* second, const AxisCoefficients<Real>& c, int n, Real* out_mass, Real* out_first, Real* out_second)\
   { contractY<Real> (mass, first, second, c, n, out_mass, out_first, out_second); }                                  \
@@ -321,13 +358,16 @@ DirectionProducts::operator+= (const DirectionProducts& other)
     int n, Real* residual, std::uint16_t* packed)                                                                    \
   { return residual ? evaluateBounds<Real, true> (row, h, u, alpha, n, residual, packed)                             \
                     : evaluateBounds<Real, false> (row, h, u, alpha, n, residual, packed); }                         \
-  PCL_COSECTION_MULTIVERSION void boundsRow (const LowerBound* bounds, const Real* u, const Real* p, Real t, int n,  \
-    double& slope, double& curvature)                                                                                \
-  { boundDerivatives<Real> (bounds, u, p, t, n, slope, curvature); }                                                 \
+  PCL_COSECTION_MULTIVERSION void predictRow (const EnergyRow& row, const Real* u, const Real* p, int n,             \
+    Real* residual, std::uint16_t* packed)                                                                           \
+  { predict<Real> (row, u, p, n, residual, packed); }                                                                \
+  PCL_COSECTION_MULTIVERSION LinePair boundsRow (const EnergyRow& row, const Real* u, const Real* p, Real t_1,       \
+    Real t_2, int n)                                                                                                 \
+  { return boundDerivatives<Real> (row, u, p, t_1, t_2, n); }                                                        \
   PCL_COSECTION_MULTIVERSION DirectionProducts directionRow (const float* weight, const std::uint16_t* packed,       \
     const Real* residual, const Real* h, const Real* z, const Real* p, Real alpha, int n)                            \
   { return directionProducts<Real> (weight, packed, residual, h, z, p, alpha, n); }                                  \
-  PCL_COSECTION_MULTIVERSION Real advanceRow (const Real* p, Real t, Real band, int n, Real* u)                      \
+  PCL_COSECTION_MULTIVERSION SquaredChange advanceRow (const Real* p, Real t, Real band, int n, Real* u)             \
   { return advance<Real> (p, t, band, n, u); }                                                                       \
   PCL_COSECTION_MULTIVERSION void pentadiagonalRow (const Real* in, const Real* const* coefficients, int n, Real* out)\
   { pentadiagonal<Real> (in, coefficients, n, out); }

@@ -4,6 +4,7 @@
 
 #include <pcl/cosection/surface/energy_problem.h>
 
+#include <cmath>
 #include <cstdint>
 
 namespace pcl
@@ -82,12 +83,27 @@ scaleAddRow (const float* a, float factor, int n, float* out);
 void
 scaleAddRow (const double* a, double factor, int n, double* out);
 
-/** \brief out += T v for the symmetric matrix of diagonals T (i, i) = diagonal[i], T (i, i + 1) =
- * first[i] and T (i, i + 2) = second[i]; \a first and \a second may be null. */
+/** \brief Stretches of rows are taken in blocks of so many values. */
+constexpr int run_block = 8;
+
+/** \brief A stretch of a symmetric matrix with diagonals T (i, i) = diagonal[i], T (i, i + 1) = first[i] and
+ * T (i, i + 2) = second[i] (\a first and \a second may be null), times a row v. Two values before and
+ * behind the stretch must be readable everywhere; what would couple beyond the matrix must be zero. */
+template <typename Real> struct SymmetricRun
+{
+  const Real* v;
+  const Real* diagonal;
+  const Real* first;
+  const Real* second;
+  int begin;  ///< first row of T to take
+  int blocks; ///< of run_block rows
+};
+
+/** \brief out[i] += (T v)[i] for every row of every run, one after the other. */
 void
-symmetricRow (const float* v, const float* diagonal, const float* first, const float* second, int n, float* out);
+symmetricRuns (const SymmetricRun<float>* runs, std::size_t count, float* out);
 void
-symmetricRow (const double* v, const double* diagonal, const double* first, const double* second, int n, double* out);
+symmetricRuns (const SymmetricRun<double>* runs, std::size_t count, double* out);
 
 /** \brief Rows of the three one-dimensional factors along an axis, at offsets -2 ... 2. */
 template <typename Real> struct AxisCoefficients
@@ -150,12 +166,46 @@ double
 evaluateRow (const EnergyRow& row, const double* h, const double* u, double alpha, int n, double* residual,
              std::uint16_t* packed);
 
-/** \brief Slope and curvature at u + t p of half the energy of the bounds of a row, added to \a slope and
- * \a curvature. */
+/** \brief Exchange the active set at u for that at u + p: then \a residual and \a packed are those of the
+ * quadratic function of u that the energy is near u + p. */
 void
-boundsRow (const LowerBound* bounds, const float* u, const float* p, float t, int n, double& slope, double& curvature);
+predictRow (const EnergyRow& row, const float* u, const float* p, int n, float* residual, std::uint16_t* packed);
 void
-boundsRow (const LowerBound* bounds, const double* u, const double* p, double t, int n, double& slope, double& curvature);
+predictRow (const EnergyRow& row, const double* u, const double* p, int n, double* residual, std::uint16_t* packed);
+
+/** \brief Slope and curvature of half the energy of bounds along a line. */
+struct LineDerivatives
+{
+  double slope = 0.0;
+  double curvature = 0.0;
+
+  void
+  operator+= (const LineDerivatives& other)
+  {
+    slope += other.slope;
+    curvature += other.curvature;
+  }
+};
+
+/** \brief At two places of a line. */
+struct LinePair
+{
+  LineDerivatives first;
+  LineDerivatives second;
+
+  void
+  operator+= (const LinePair& other)
+  {
+    first += other.first;
+    second += other.second;
+  }
+};
+
+/** \brief The bounds of a row, at u + t_1 p and u + t_2 p. */
+LinePair
+boundsRow (const EnergyRow& row, const float* u, const float* p, float t_1, float t_2, int n);
+LinePair
+boundsRow (const EnergyRow& row, const double* u, const double* p, double t_1, double t_2, int n);
 
 /** \brief Inner products of a new direction z and the last one p, with the quadratic part S = W + alpha H^T H
  * of half the energy, with the active bounds A, and with the residual. */
@@ -181,10 +231,30 @@ DirectionProducts
 directionRow (const float* weight, const std::uint16_t* packed, const double* residual, const double* h, const double* z,
               const double* p, double alpha, int n);
 
-/** \brief u += t p; returns the largest change where |u| < band before or after. */
-float
+/** \brief A sum of squared changes, and of how many voxels. */
+struct SquaredChange
+{
+  double sum = 0.0;
+  double voxels = 0.0;
+
+  void
+  operator+= (const SquaredChange& other)
+  {
+    sum += other.sum;
+    voxels += other.voxels;
+  }
+
+  double
+  rootMean () const
+  {
+    return voxels > 0.0 ? std::sqrt (sum / voxels) : 0.0;
+  }
+};
+
+/** \brief u += t p; returns the changes where |u| < band before or after. */
+SquaredChange
 advanceRow (const float* p, float t, float band, int n, float* u);
-double
+SquaredChange
 advanceRow (const double* p, double t, double band, int n, double* u);
 
 /** \brief Weights are kept in the upper half of a float: they only steer the preconditioner. */

@@ -4,6 +4,8 @@
 #include "solver_detail.h"
 
 #include <chrono>
+#include <cstdlib>
+#include <cstdio>
 
 namespace pcl
 {
@@ -15,17 +17,22 @@ namespace
 
 constexpr int multigrid_coarsest = 8;    // longest axis of the first level
 constexpr int fast_jacobi_coarsest = 32; // as in the paper
-constexpr double coarse_tolerance = 3.0; // coarse levels only start the next one: this much looser
+constexpr int coarse_extra_degree = 1;   // of the smoother: constraints are stiffer on coarse levels
+constexpr double coarse_tolerance = 0.1; // tighter: what coarse levels leave undone is slow to mend on finer ones
 
 template <typename Real> SolverSummary
 solveLevel (const EnergyProblem& problem, const SolverOptions& options, double scale, bool finest, std::vector<Real>& u,
             const ProgressCallback& progress)
 {
   const double band = zero_band_vox * scale;
-  const double tolerance = options.tolerance_vox * scale * (finest ? 1.0 : coarse_tolerance);
-  return options.type == SolverType::Multigrid
-             ? solveLevelMultigrid (problem, options, band, tolerance, u, progress)
-             : solveLevelFastJacobi (problem, options, band, tolerance, u, progress);
+  const double tolerance = options.tolerance_vox * scale;
+  if (options.type == SolverType::FastJacobi)
+    return solveLevelFastJacobi (problem, options, band, tolerance, u, progress);
+  if (finest)
+    return solveLevelMultigrid (problem, options, band, tolerance, u, progress);
+  SolverOptions coarse = options;
+  coarse.smoothing_degree += coarse_extra_degree;
+  return solveLevelMultigrid (problem, coarse, band, coarse_tolerance * tolerance, u, progress);
 }
 
 } // namespace
@@ -56,8 +63,10 @@ solve (const EnergyProblem& problem, const SolverOptions& options, std::vector<R
     }
     u.swap (values);
   }
+  const auto fin = std::chrono::steady_clock::now ();
   SolverSummary summary = solveLevel (problem, options, 1.0, true, u, progress);
   summary.seconds = std::chrono::duration<double> (std::chrono::steady_clock::now () - start).count ();
+  if(getenv("KV"))fprintf(stderr,"DBG solve %dx%dx%d total %.3f finest %.3f it %d change %.3f\n",problem.dims.x(),problem.dims.y(),problem.dims.z(),summary.seconds,std::chrono::duration<double> (std::chrono::steady_clock::now () - fin).count (),summary.iterations,summary.change_vox);
   return summary;
 }
 

@@ -37,9 +37,9 @@ struct PCL_COSECTION_EXPORT SolverOptions
 {
   SolverType type = SolverType::Multigrid;
   int max_iterations = 60;      ///< per level: multigrid cycles (Fast Jacobi: cycles of \a cycle_length sweeps)
-  double tolerance_vox = 0.03;  ///< stop when no value near the zero set changes by more in one iteration
+  double tolerance_vox = 0.03;  ///< stop this close to the solution, root mean square near the zero set
   int cycle_length = 20;        ///< Fast Jacobi: sweeps in a cycle
-  int smoothing_degree = 5;     ///< multigrid: degree of the Chebyshev polynomial before and after each coarse correction
+  int smoothing_degree = 4;     ///< multigrid: degree of the Chebyshev polynomial before and after each coarse correction
   int threads = 0;              ///< 0: all
 };
 

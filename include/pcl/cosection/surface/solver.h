@@ -18,7 +18,7 @@ namespace cosection
 /** \brief Why a solver stopped. */
 enum class Termination
 {
-  Converged,     ///< the change near the zero set fell below the tolerance
+  Converged,     ///< within the tolerance of the solution, as far as the last changes tell
   MaxIterations, ///< the iterations were used up
 };
 
@@ -28,7 +28,7 @@ struct PCL_COSECTION_EXPORT SolverSummary
   Termination termination = Termination::MaxIterations;
   int iterations = 0;      ///< on the finest level
   double energy = 0.0;     ///< E (u) at the end, voxel units
-  double change_vox = 0.0; ///< largest change near the zero set in the last iteration
+  double change_vox = 0.0; ///< root mean square change near the zero set in the last iteration
   double seconds = 0.0;
   std::vector<double> energies; ///< E at the start and after every iteration on the finest level; never rises
 
