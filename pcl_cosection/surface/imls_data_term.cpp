@@ -9,6 +9,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
+#include <numeric>
 
 namespace pcl
 {
@@ -51,26 +53,66 @@ struct GaussianTable
   }
 };
 
+constexpr int lanes = 8; // a row at the usual sigma of one voxel, padded
+using Lanes = float __attribute__ ((vector_size (lanes * sizeof (float)), aligned (4), may_alias));
+using IntegerLanes = std::int32_t __attribute__ ((vector_size (lanes * sizeof (std::int32_t)), aligned (4), may_alias));
+
+/** \brief Replace x by exp (x), to about float precision; |x| is cut off at 87. With n the whole number next
+ * to x / log 2, exp (x) = 2^n exp (x - n log 2), the latter by its Taylor series. */
+PCL_COSECTION_INLINE void
+exponentiate (Lanes& x)
+{
+  constexpr float largest = 87.0f;
+  x = x < -largest ? x - x - largest : x;
+  x = x > largest ? x - x + largest : x;
+  constexpr float whole_bits = 12582912.0f; // 1.5 * 2^23: adding it leaves the whole part in the last bits
+  constexpr float log_2_high = 0.693359375f; // has few digits: its product with n is exact
+  constexpr float log_2_low = static_cast<float> (0.69314718055994530942 - 0.693359375);
+  const Lanes shifted = x * 1.44269504f + whole_bits;
+  const Lanes n = shifted - whole_bits;
+  const Lanes r = (x - n * log_2_high) - n * log_2_low;
+  Lanes sum = r * (1.0f / 5040.0f) + 1.0f / 720.0f;
+  sum = sum * r + 1.0f / 120.0f;
+  sum = sum * r + 1.0f / 24.0f;
+  sum = sum * r + 1.0f / 6.0f;
+  sum = sum * r + 0.5f;
+  sum = sum * r + 1.0f;
+  sum = sum * r + 1.0f;
+  const auto bits = reinterpret_cast<const IntegerLanes&> (shifted);
+  const IntegerLanes power = (bits - 0x4b400000 + 127) << 23; // the bits of 2^n
+  x = sum * reinterpret_cast<const Lanes&> (power);
+}
+
 /** \brief The part of an axis that a point reaches. */
 struct Reach
 {
+  float position = 0.0f;
+  int first = 0;
+  int last = -1;
   int begin = 0;
   int size = 0;
   std::array<float, max_reach> distance;
   std::array<float, max_reach> gaussian;
 
-  /** \brief With s = 1 / sigma, exp (-s^2 (d + n)^2) = exp (-s^2 d^2) exp (-2 s^2 d)^n exp (-s^2 n^2). */
+  /** \brief The voxels reached on an axis that is not cut off. */
   PCL_COSECTION_INLINE void
-  set (float position, float radius, float inverse_sigma, const GaussianTable& table, int low, int high)
+  find (float at, float radius)
   {
-    const int first = static_cast<int> (std::ceil (position - radius));
+    position = at;
+    first = static_cast<int> (std::ceil (position - radius));
+    last = static_cast<int> (std::floor (position + radius));
+  }
+
+  /** \brief Fill in the part in [low, high). With s = 1 / sigma,
+   *     exp (-s^2 (d + n)^2) = exp (-s^2 d^2) exp (-2 s^2 d)^n exp (-s^2 n^2);
+   * \a g and \a ratio are the first two exponentials for the first voxel. */
+  PCL_COSECTION_INLINE void
+  set (float g, float ratio, const GaussianTable& table, int low, int high)
+  {
     begin = std::max (low, first);
-    const int end = std::min (high, static_cast<int> (std::floor (position + radius)) + 1);
+    const int end = std::min (high, last + 1);
     size = std::max (0, end - begin);
-    const float s2 = inverse_sigma * inverse_sigma;
     const float d = static_cast<float> (first) - position;
-    const float ratio = std::exp (-2.0f * s2 * d);
-    float g = std::exp (-s2 * d * d);
     for (int n = 0; n < end - first; ++n)
     {
       // Also through the part that is cut off, so that the values do not depend on where the cut is.
@@ -110,9 +152,6 @@ splatRow (const Splat& p, const Reach& along_x, float across, float offset, floa
   }
 }
 
-constexpr int lanes = 8; // a row at the usual sigma of one voxel, padded
-using Lanes = float __attribute__ ((vector_size (lanes * sizeof (float)), aligned (4), may_alias));
-
 /** \brief splatRow () for rows of up to eight voxels, with the row's constants in registers. */
 struct RowOfLanes
 {
@@ -148,16 +187,25 @@ splat (const Splat* points, const int* order, int number, float sigma, const Tar
   const float inverse_sigma = 1.0f / sigma;
   const int first = std::max (0, to.first_plane);
   const int last = std::min (nz, to.last_plane);
+  const float s2 = inverse_sigma * inverse_sigma;
   const GaussianTable table (inverse_sigma);
   Reach x, y, z;
   for (int n = 0; n < number; ++n)
   {
     const Splat& p = points[order[n]];
-    z.set (p.z, radius, inverse_sigma, table, first, last);
-    if (z.size == 0)
+    x.find (p.x, radius);
+    y.find (p.y, radius);
+    z.find (p.z, radius);
+    if (z.last < first || z.first >= last)
       continue;
-    x.set (p.x, radius, inverse_sigma, table, 0, to.nx);
-    y.set (p.y, radius, inverse_sigma, table, 0, to.ny);
+    const Lanes d{static_cast<float> (x.first) - p.x, static_cast<float> (y.first) - p.y, static_cast<float> (z.first) - p.z};
+    Lanes g = -s2 * d * d;
+    Lanes ratio = -2.0f * s2 * d;
+    exponentiate (g);
+    exponentiate (ratio);
+    x.set (g[0], ratio[0], table, 0, to.nx);
+    y.set (g[1], ratio[1], table, 0, to.ny);
+    z.set (g[2], ratio[2], table, first, last);
     const bool in_lanes = x.size <= lanes && x.begin + lanes <= to.nx;
     x.pad (lanes);
     const RowOfLanes row_of_lanes (p, x);
@@ -190,15 +238,17 @@ ImlsDataTerm::add (const VoxelGrid& grid, const std::vector<OrientedPoint>& poin
   weighted_target.resize (grid.size (), 0.0f);
   count.resize (grid.size (), 0.0f);
 
-  // Points sorted by plane, stably: each voxel then sees them in one order whoever adds them.
+  // Points sorted by plane and row, stably: each voxel then sees them in one order whoever adds them, and
+  // points that touch the same voxels follow each other.
   const double radius = cutoff_sigmas * sigma_vox;
   const int reach = static_cast<int> (std::ceil (radius));
   const int planes = grid.dims.z () + 2 * reach;
+  const int rows = grid.dims.y () + 2 * reach;
   std::vector<Splat> splats;
-  std::vector<int> plane_of;
+  std::vector<std::size_t> row_of;
   splats.reserve (points.size ());
-  plane_of.reserve (points.size ());
-  std::vector<int> begin (planes + 1, 0);
+  row_of.reserve (points.size ());
+  std::vector<int> begin (static_cast<std::size_t> (planes) * rows + 1, 0);
   for (const OrientedPoint& point : points)
   {
     const Eigen::Vector3d p = grid.toVoxel (point.position.cast<double> ());
@@ -208,19 +258,21 @@ ImlsDataTerm::add (const VoxelGrid& grid, const std::vector<OrientedPoint>& poin
       continue;
     splats.push_back ({static_cast<float> (p.x ()), static_cast<float> (p.y ()), static_cast<float> (p.z ()),
                        point.normal.x (), point.normal.y (), point.normal.z (), point.weight});
-    plane_of.push_back (std::clamp (static_cast<int> (std::floor (p.z ())) + reach, 0, planes - 1));
-    ++begin[plane_of.back () + 1];
+    const auto binOf = [&] (double position, int bins) {
+      return static_cast<std::size_t> (std::clamp (static_cast<int> (std::floor (position)) + reach, 0, bins - 1));
+    };
+    row_of.push_back (binOf (p.z (), planes) * rows + binOf (p.y (), rows));
+    ++begin[row_of.back () + 1];
   }
-  for (int k = 0; k < planes; ++k)
-    begin[k + 1] += begin[k];
+  std::partial_sum (begin.begin (), begin.end (), begin.begin ());
   std::vector<int> order (splats.size ());
   std::vector<int> next (begin.begin (), begin.end () - 1);
   for (std::size_t n = 0; n < splats.size (); ++n)
-    order[next[plane_of[n]]++] = static_cast<int> (n);
+    order[next[row_of[n]]++] = static_cast<int> (n);
 
   parallelChunks (0, grid.dims.z (), threads, [&] (int first, int last) {
-    const int low = begin[std::max (0, first - 1)]; // floor (z) >= first - reach - 1
-    const int high = begin[std::min (planes, last + 2 * reach)];
+    const int low = begin[static_cast<std::size_t> (std::max (0, first - 1)) * rows]; // floor (z) >= first - reach - 1
+    const int high = begin[static_cast<std::size_t> (std::min (planes, last + 2 * reach)) * rows];
     const Target target{weight.data (), weighted_target.data (), count.data (), grid.dims.x (), grid.dims.y (), first, last};
     splat (splats.data (), order.data () + low, high - low, static_cast<float> (sigma_vox), target, grid.dims.z ());
   });
