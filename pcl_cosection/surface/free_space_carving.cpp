@@ -2,6 +2,8 @@
 // Copyright (c) 2026, the pcl_cosection authors
 #include <pcl/cosection/surface/free_space_carving.h>
 
+#include "projected_voxels.h"
+
 #include <pcl/cosection/common/parallel.h>
 
 #include <algorithm>
@@ -37,56 +39,41 @@ void
 FreeSpaceCarving::add (const FreeSpaceView& view, const Eigen::Isometry3d& T_grid_sensor)
 {
   const PinholeCamera& camera = view.view ().camera;
-  const Eigen::Isometry3d T_sensor_grid = T_grid_sensor.inverse ();
-  const Eigen::Vector3d step = T_sensor_grid.linear ().col (0) * grid_.voxel_size_m;
   const std::vector<float>& opened = view.openedDepth ();
   const std::vector<float> lowest = filterDepth (opened, camera, window, false);
   const std::vector<float> highest = filterDepth (opened, camera, window, true);
   const double focal = 0.5 * (camera.fx + camera.fy);
 
-  parallelFor (0, grid_.dims.z (), threads_, [&] (int k) {
-    for (int j = 0; j < grid_.dims.y (); ++j)
+  forEachProjectedVoxel (grid_, camera, T_grid_sensor, threads_, [&] (const ProjectedVoxel& voxel) {
+    const float reach = static_cast<float> (voxel.z + freeSpaceMargin (voxel.z, grid_.voxel_size_m));
+    if (highest[voxel.pixel] <= reach)
+      return; // nothing free near
+    const double voxels_per_pixel = voxel.z / focal / grid_.voxel_size_m;
+    const bool free_here = opened[voxel.pixel] > reach;
+    double squared_px = window * window; // to the nearest pixel of the other kind
+    if (!free_here || lowest[voxel.pixel] <= reach)
+      for (int v = std::max (0, voxel.row - window); v <= std::min (camera.height - 1, voxel.row + window); ++v)
+        for (int u = std::max (0, voxel.column - window); u <= std::min (camera.width - 1, voxel.column + window); ++u)
+          if ((opened[static_cast<std::size_t> (v) * camera.width + u] > reach) != free_here)
+          {
+            const double across = std::max (0.0, std::abs (voxel.u - u) - 0.5);
+            const double down = std::max (0.0, std::abs (voxel.v - v) - 0.5);
+            squared_px = std::min (squared_px, across * across + down * down);
+          }
+    const double distance_px = std::sqrt (squared_px);
+    const auto signed_vox = static_cast<float> (((free_here ? distance_px : -distance_px) + inset_px) * voxels_per_pixel);
+    const std::size_t n = voxel.index;
+    if (signed_vox > 0.0f)
     {
-      const Eigen::Vector3d start = T_sensor_grid * grid_.center (0, j, k);
-      std::size_t n = grid_.index (0, j, k);
-      for (int i = 0; i < grid_.dims.x (); ++i, ++n)
-      {
-        const Eigen::Vector3d p = start + i * step;
-        if (p.z () <= 0.0)
-          continue;
-        const Eigen::Vector2d pixel = camera.project (p);
-        if (!(pixel.x () >= -0.5 && pixel.y () >= -0.5 && pixel.x () < camera.width - 0.5 && pixel.y () < camera.height - 0.5))
-          continue;
-        const int column = static_cast<int> (pixel.x () + 0.5);
-        const int row = static_cast<int> (pixel.y () + 0.5);
-        const std::size_t at = static_cast<std::size_t> (row) * camera.width + column;
-        const float reach = static_cast<float> (p.z () + freeSpaceMargin (p.z (), grid_.voxel_size_m));
-        if (highest[at] <= reach)
-          continue; // nothing free near
-        const double voxels_per_pixel = p.z () / focal / grid_.voxel_size_m;
-        const bool free_here = opened[at] > reach;
-        double distance_px = window;
-        if (!free_here || lowest[at] <= reach)
-          for (int v = std::max (0, row - window); v <= std::min (camera.height - 1, row + window); ++v)
-            for (int u = std::max (0, column - window); u <= std::min (camera.width - 1, column + window); ++u)
-              if ((opened[static_cast<std::size_t> (v) * camera.width + u] > reach) != free_here)
-                distance_px = std::min (distance_px, std::hypot (std::max (0.0, std::abs (pixel.x () - u) - 0.5),
-                                                                 std::max (0.0, std::abs (pixel.y () - v) - 0.5)));
-        const auto signed_vox =
-            static_cast<float> (((free_here ? distance_px : -distance_px) + inset_px) * voxels_per_pixel);
-        if (signed_vox > 0.0f)
-        {
-          outside_vox_[n] = std::max (outside_vox_[n], signed_vox);
-          if (votes_for_[n] < 255)
-            ++votes_for_[n];
-        }
-        else
-          inside_vox_[n] = std::max (inside_vox_[n], signed_vox);
-        const float depth = view.view ().at (column, row);
-        if (!free_here && std::abs (depth - p.z ()) <= reach - p.z () && votes_against_[n] < 255)
-          ++votes_against_[n];
-      }
+      outside_vox_[n] = std::max (outside_vox_[n], signed_vox);
+      if (votes_for_[n] < 255)
+        ++votes_for_[n];
     }
+    else
+      inside_vox_[n] = std::max (inside_vox_[n], signed_vox);
+    const float depth = view.view ().depth[voxel.pixel];
+    if (!free_here && std::abs (depth - voxel.z) <= reach - voxel.z && votes_against_[n] < 255)
+      ++votes_against_[n];
   });
 }
 

@@ -2,6 +2,8 @@
 // Copyright (c) 2026, the pcl_cosection authors
 #include <pcl/cosection/surface/hull_constraint.h>
 
+#include "projected_voxels.h"
+
 #include <pcl/cosection/common/parallel.h>
 #include <pcl/cosection/volume/distance_transform.h>
 
@@ -105,7 +107,6 @@ HullConstraint::add (const FreeSpaceView& view, const Eigen::Isometry3d& T_grid_
 {
   const PinholeCamera& camera = view.view ().camera;
   const Eigen::Isometry3d T_sensor_grid = T_grid_sensor.inverse ();
-  const Eigen::Vector3d step = T_sensor_grid.linear ().col (0) * grid_.voxel_size_m;
 
   // The footprint at the nearest corner of the volume serves all its voxels.
   double nearest = std::numeric_limits<double>::infinity ();
@@ -126,37 +127,18 @@ HullConstraint::add (const FreeSpaceView& view, const Eigen::Isometry3d& T_grid_
     if (votes < 255)
       ++votes;
   };
-  parallelFor (0, grid_.dims.z (), threads_, [&] (int k) {
-    for (int j = 0; j < grid_.dims.y (); ++j)
-    {
-      const Eigen::Vector3d start = T_sensor_grid * grid_.center (0, j, k);
-      std::size_t n = grid_.index (0, j, k);
-      for (int i = 0; i < grid_.dims.x (); ++i, ++n)
-      {
-        const Eigen::Vector3d p = start + i * step;
-        if (p.z () <= 0.0)
-          continue;
-        const double inverse = 1.0 / p.z ();
-        const double u = camera.fx * p.x () * inverse + camera.cx + 0.5;
-        const double v = camera.fy * p.y () * inverse + camera.cy + 0.5;
-        if (!(u >= 0.0 && v >= 0.0 && u < camera.width && v < camera.height))
-          continue;
-        const int column = static_cast<int> (u);
-        const int row = static_cast<int> (v);
-        const float depth = view.view ().at (column, row);
-        if (!(depth > 0.0f) || !std::isfinite (depth))
-          continue;
-        const double margin = freeSpaceMargin (depth, grid_.voxel_size_m);
-        const double gap = depth - p.z ();
-        if (gap < -margin)
-          continue;
-        if (gap <= margin)
-          vote (votes_against_[n]);
-        else if (!view.atEdge (column, row) &&
-                 nearest_depth[static_cast<std::size_t> (row) * camera.width + column] - p.z () > margin)
-          vote (votes_for_[n]);
-      }
-    }
+  forEachProjectedVoxel (grid_, camera, T_grid_sensor, threads_, [&] (const ProjectedVoxel& voxel) {
+    const float depth = view.view ().depth[voxel.pixel];
+    if (!(depth > 0.0f) || !std::isfinite (depth))
+      return;
+    const double margin = freeSpaceMargin (depth, grid_.voxel_size_m);
+    const double gap = depth - voxel.z;
+    if (gap < -margin)
+      return;
+    if (gap <= margin)
+      vote (votes_against_[voxel.index]);
+    else if (!view.atEdge (voxel.column, voxel.row) && nearest_depth[voxel.pixel] - voxel.z > margin)
+      vote (votes_for_[voxel.index]);
   });
 }
 
