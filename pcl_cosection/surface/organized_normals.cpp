@@ -290,9 +290,11 @@ computeOrganizedNormals (const std::vector<Eigen::Vector3f>& points, int width, 
 
   const NormalEstimator estimator (points, width, height, labels, options);
   std::vector<Eigen::Vector3f> normals (points.size ());
-  parallelChunks (0, height, options.threads, [&] (int first, int last) {
+  // Threads take rows by turns: readings are not spread evenly over an image.
+  const int threads = std::min (height, resolveThreads (options.threads));
+  parallelFor (0, threads, threads, [&] (int thread) {
     Window window;
-    for (int v = first; v < last; ++v)
+    for (int v = thread; v < height; v += threads)
       for (int u = 0; u < width; ++u)
         normals[static_cast<std::size_t> (v) * width + u] = estimator.estimate (u, v, window);
   });
