@@ -22,26 +22,41 @@ constexpr double penetration_voxels = 0.5; // more is resolved by growing weight
 constexpr double weight_growth = 4.0;
 constexpr double max_weight_growth = 1024.0;
 
+// Progress when the background, the first pass and all passes are done.
+constexpr double background_fraction = 0.3;
+constexpr double first_pass_fraction = 0.8;
+constexpr double passes_fraction = 0.95;
+
 } // namespace
 
-std::vector<LowerBound>
-CoSectionRun::bounds (const Object& object) const
+IntersectionConstraint
+CoSectionRun::surroundings (const Object& object) const
 {
-  const CoSectionOptions& options = scene_.options;
-  IntersectionConstraint constraint (object.volume->grid (), options.max_bound_vox, options.threads);
-  if (!options.use_intersection || options.beta_inter <= 0.0)
-    return {};
-  const double beta_surroundings = options.beta_inter * object.beta_surroundings;
+  const double beta = scene_.options.beta_inter;
+  IntersectionConstraint constraint (object.volume->grid (), scene_.options.max_bound_vox, scene_.options.threads);
   for (const Eigen::Isometry3d& T_world_object : relativePoses (object, nullptr))
   {
     for (const Eigen::Vector4d& plane : object.planes)
-      constraint.addHalfSpace (transformPlane (plane, T_world_object), object.volume->freeSpace (), beta_surroundings);
+      constraint.addHalfSpace (transformPlane (plane, T_world_object), object.volume->freeSpace (), beta);
     for (const SignedDistanceField& body : background_)
-      constraint.addBody (body, T_world_object, beta_surroundings);
+      constraint.addBody (body, T_world_object, beta);
     for (const Obstacle& body : scene_.bodies)
       for (const Eigen::Isometry3d& T_field_world : body.T_field_world)
-        constraint.addBody (*body.field, T_field_world * T_world_object, beta_surroundings);
+        constraint.addBody (*body.field, T_field_world * T_world_object, beta);
   }
+  return constraint;
+}
+
+std::vector<LowerBound>
+CoSectionRun::bounds (Object& object) const
+{
+  const CoSectionOptions& options = scene_.options;
+  if (!options.use_intersection || options.beta_inter <= 0.0)
+    return {};
+  if (!object.surroundings)
+    object.surroundings = std::make_unique<IntersectionConstraint> (surroundings (object));
+  IntersectionConstraint constraint = *object.surroundings;
+  constraint.scaleWeights (object.beta_surroundings);
   for (std::size_t p = 0; p < objects_.size (); ++p)
   {
     const Object& other = objects_[p];
@@ -56,6 +71,19 @@ CoSectionRun::bounds (const Object& object) const
 }
 
 void
+CoSectionRun::solve (Object& object, double begin, double share)
+{
+  timed ("solve", [&] {
+    const int before = object.result->solver.iterations;
+    object.result->solver = object.volume->solve ([&] (const std::string&, double f) {
+      report ("object " + std::to_string (object.input->id), begin + share * f);
+      return true;
+    });
+    object.result->solver.iterations += before;
+  });
+}
+
+void
 CoSectionRun::solvePass (int pass)
 {
   // Simultaneous: all bounds are taken from the fields of the pass before.
@@ -65,24 +93,20 @@ CoSectionRun::solvePass (int pass)
       if (objects_[o].alive ())
         guarded (objects_[o], [&] { all[o] = bounds (objects_[o]); });
   });
+  const double begin = pass == 0 ? background_fraction : first_pass_fraction;
+  const double end = pass == 0 ? first_pass_fraction : passes_fraction;
+  const double share = (end - begin) / static_cast<double> (objects_.size ()) /
+                       (pass == 0 ? 1 : std::max (1, scene_.options.max_passes - 1));
   for (std::size_t o = 0; o < objects_.size (); ++o)
   {
     Object& object = objects_[o];
     if (!object.alive ())
       continue;
-    const auto fraction = [&] (double f) {
-      const double done = (static_cast<double> (o) + f) / static_cast<double> (objects_.size ());
-      return pass == 0 ? 0.3 + 0.5 * done : 0.8 + 0.15 * (pass - 1 + done) / std::max (1, scene_.options.max_passes - 1);
-    };
     guarded (object, [&] {
       if (!object.volume->setIntersection (std::move (all[o])) && object.volume->solved ())
         return;
-      timed ("solve", [&] {
-        object.result->solver = object.volume->solve ([&] (const std::string&, double f) {
-          report ("object " + std::to_string (object.input->id), fraction (f));
-          return true;
-        });
-      });
+      const double done = static_cast<double> (std::max (0, pass - 1) * objects_.size () + o);
+      solve (object, begin + share * done, share);
     });
   }
   if (!scene_.options.intersect_solved)

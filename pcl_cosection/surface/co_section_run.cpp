@@ -9,6 +9,7 @@
 #include <pcl/cosection/surface/support_plane.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -165,6 +166,14 @@ CoSectionRun::solveBackground ()
     for (const Eigen::Vector4d& plane : object.planes)
       planes.push_back ({plane, box});
   }
+  // Where planes of several objects overlap the last one counts; it must not depend on the objects' order.
+  std::sort (planes.begin (), planes.end (), [] (const PlaneContinuation& a, const PlaneContinuation& b) {
+    const auto key = [] (const PlaneContinuation& p) {
+      return std::array<double, 7>{p.plane[0], p.plane[1], p.plane[2], p.plane[3],
+                                   p.region.min ().x (), p.region.min ().y (), p.region.min ().z ()};
+    };
+    return key (a) < key (b);
+  });
   if (boxes.empty ())
   {
     Eigen::AlignedBox3d box;

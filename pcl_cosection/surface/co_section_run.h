@@ -67,6 +67,7 @@ private:
     std::unique_ptr<ShapeVolume> volume;
     std::vector<Eigen::Vector4d> planes;             // world
     SignedDistanceField field;                       // what it tells its neighbours
+    std::unique_ptr<IntersectionConstraint> surroundings; // background, planes and bodies, which stay as they are
     std::map<std::size_t, double> beta;              // growth of the weights of single neighbours
     double beta_surroundings = 1.0;                  // growth of the weight of background, planes and bodies
 
@@ -94,12 +95,18 @@ private:
   solveBackground ();
   void
   prepareObject (Object& object);
+  /** \brief The constraint of all that is no object. */
+  IntersectionConstraint
+  surroundings (const Object& object) const;
   std::vector<LowerBound>
-  bounds (const Object& object) const;
+  bounds (Object& object) const;
   void
   solveObjects ();
   void
   solvePass (int pass);
+  /** \brief Solve one object; of the whole progress it is \a share, from \a begin on. */
+  void
+  solve (Object& object, double begin, double share);
   bool
   growWeightsWherePenetrating ();
   double

@@ -73,14 +73,24 @@ IntersectionConstraint::addHalfSpace (const Eigen::Vector4d& plane, const std::v
   beta_.resize (grid_.size (), 0.0f);
   parallelFor (0, grid_.dims.z (), threads_, [&] (int k) {
     for (int j = 0; j < grid_.dims.y (); ++j)
+    {
+      const double height_of_row = (plane.head<3> ().dot (grid_.center (0, j, k)) + plane[3]) / grid_.voxel_size_m;
       for (int i = 0; i < grid_.dims.x (); ++i)
       {
         const std::size_t n = grid_.index (i, j, k);
-        const double depth = -(plane.head<3> ().dot (grid_.center (i, j, k)) + plane[3]) / grid_.voxel_size_m;
+        const double depth = -(height_of_row + plane[0] * i);
         if (depth > 0.0 && (free_space.empty () || !free_space[n]))
           raise (n, static_cast<float> (depth), static_cast<float> (beta));
       }
+    }
   });
+}
+
+void
+IntersectionConstraint::scaleWeights (double factor)
+{
+  for (float& beta : beta_)
+    beta *= static_cast<float> (factor);
 }
 
 std::vector<LowerBound>

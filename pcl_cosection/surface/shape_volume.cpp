@@ -29,7 +29,7 @@ constexpr double intersection_reach_vox = 1.0;
 constexpr double hull_reach_vox = 1.5;
 constexpr float carving_reach_vox = 1.5f; // from the boundary of free space into the hull
 constexpr double confidence_scale_vox = 5.0;
-constexpr std::size_t bytes_per_voxel = 72;
+constexpr std::size_t bytes_per_voxel = 80;
 constexpr float border_voxels = 2.0f; // a closed surface stays so far inside its volume
 
 /** \brief Raise a field near the border so that its zero set stays inside. */

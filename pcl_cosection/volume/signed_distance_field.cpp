@@ -15,46 +15,55 @@ namespace cosection
 std::optional<float>
 SignedDistanceField::sample (const Eigen::Vector3d& p) const
 {
-  const Eigen::Vector3d v = grid.toVoxel (p);
+  return sampleVoxel (grid.toVoxel (p));
+}
+
+std::optional<float>
+SignedDistanceField::sampleVoxel (const Eigen::Vector3d& v) const
+{
   std::array<int, 3> lower;
-  std::array<double, 3> fraction;
+  std::array<float, 3> fraction;
   for (int axis = 0; axis < 3; ++axis)
   {
     if (!(v[axis] >= 0.0 && v[axis] <= grid.dims[axis] - 1))
       return std::nullopt;
     lower[axis] = std::max (0, std::min (static_cast<int> (v[axis]), grid.dims[axis] - 2));
-    fraction[axis] = v[axis] - lower[axis];
+    fraction[axis] = static_cast<float> (v[axis] - lower[axis]);
   }
-  double sum = 0.0;
-  for (int corner = 0; corner < 8; ++corner)
-  {
-    double weight = 1.0;
-    std::array<int, 3> at = lower;
-    for (int axis = 0; axis < 3; ++axis)
-    {
-      const bool upper = ((corner >> axis) & 1) != 0;
-      weight *= (upper ? fraction[axis] : 1.0 - fraction[axis]);
-      at[axis] += upper;
-    }
-    if (weight > 0.0) // else the corner may lie outside the grid, or hold no number
-      sum += weight * values[grid.index (at[0], at[1], at[2])];
-  }
-  if (!std::isfinite (sum))
+  const float* corner = values.data () + grid.index (lower[0], lower[1], lower[2]);
+  // A corner without weight may lie outside the grid, or hold no number.
+  const auto mix = [] (float t, auto&& at_0, auto&& at_1) {
+    return t <= 0.0f ? at_0 () : t >= 1.0f ? at_1 () : (1.0f - t) * at_0 () + t * at_1 ();
+  };
+  const auto along_x = [&] (std::ptrdiff_t offset) {
+    return mix (fraction[0], [&] { return corner[offset]; }, [&] { return corner[offset + 1]; });
+  };
+  const std::ptrdiff_t row = grid.dims.x ();
+  const auto along_y = [&] (std::ptrdiff_t offset) {
+    return mix (fraction[1], [&] { return along_x (offset); }, [&] { return along_x (offset + row); });
+  };
+  const float value = mix (fraction[2], [&] { return along_y (0); }, [&] { return along_y (row * grid.dims.y ()); });
+  if (!std::isfinite (value))
     return std::nullopt;
-  return static_cast<float> (sum);
+  return value;
 }
 
 std::optional<float>
 SignedDistanceField::sampleSupported (const Eigen::Vector3d& p) const
 {
-  const auto value = sample (p);
-  if (!value || supported.empty ())
-    return value;
   const Eigen::Vector3d v = grid.toVoxel (p);
-  const auto nearest = [&] (int axis) { return static_cast<int> (std::floor (v[axis] + 0.5)); };
-  if (supported[grid.index (nearest (0), nearest (1), nearest (2))] == 0)
+  if (supported.empty ())
+    return sampleVoxel (v);
+  std::array<int, 3> nearest;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    if (!(v[axis] >= 0.0 && v[axis] <= grid.dims[axis] - 1))
+      return std::nullopt;
+    nearest[axis] = static_cast<int> (v[axis] + 0.5);
+  }
+  if (supported[grid.index (nearest[0], nearest[1], nearest[2])] == 0)
     return std::nullopt;
-  return value;
+  return sampleVoxel (v);
 }
 
 } // namespace cosection

@@ -81,6 +81,18 @@ TEST_P (IntersectionConstraintTest, IsTheDepthInsideTheBody)
   EXPECT_GT (deepest, 3.0);
 }
 
+TEST_P (IntersectionConstraintTest, ScalesTheWeightsOfWhatIsThere)
+{
+  IntersectionConstraint scaled (grid_, cap_vox);
+  scaled.addBody (body_, testPose (), beta);
+  scaled.scaleWeights (4.0);
+  scaled.addHalfSpace ({0.0, 0.0, 1.0, 0.02}, {}, beta);
+  IntersectionConstraint direct (grid_, cap_vox);
+  direct.addBody (body_, testPose (), 4.0 * beta);
+  direct.addHalfSpace ({0.0, 0.0, 1.0, 0.02}, {}, beta);
+  EXPECT_TRUE (scaled.bounds () == direct.bounds ());
+}
+
 TEST_P (IntersectionConstraintTest, HalfSpaceSparesFreeSpace)
 {
   const Eigen::Vector4d plane (0.36, 0.48, 0.8, -0.005);

@@ -36,7 +36,7 @@ struct PCL_COSECTION_EXPORT ObjectResult
   std::string error;     ///< empty, or why there is no mesh
   TriangleMesh mesh;     ///< closed, object frame
   SignedDistanceField::Ptr signed_distance; ///< object frame
-  SolverSummary solver;
+  SolverSummary solver;            ///< of the last pass; its iterations are those of all passes
   double penetration_m = 0.0; ///< deepest vertex inside supported parts of a neighbour or the background
 };
 

@@ -35,6 +35,10 @@ public:
   void
   addHalfSpace (const Eigen::Vector4d& plane, const std::vector<std::uint8_t>& free_space, double beta);
 
+  /** \brief Multiply the weights of all that was added so far. */
+  void
+  scaleWeights (double factor);
+
   /** \brief One bound per voxel; empty if no body reaches the volume. */
   std::vector<LowerBound>
   bounds () const;

@@ -33,6 +33,11 @@ struct PCL_COSECTION_EXPORT SignedDistanceField
   /** \brief As sample (), and nothing where the nearest voxel is not supported. */
   std::optional<float>
   sampleSupported (const Eigen::Vector3d& p) const;
+
+private:
+  /** \brief As sample (), at voxel coordinates. */
+  std::optional<float>
+  sampleVoxel (const Eigen::Vector3d& v) const;
 };
 
 } // namespace cosection
