@@ -59,10 +59,11 @@ public:
     combine ();
     double t = lineSearch ();
     const bool was_predicted = predicted_;
-    predicted_ = t < blocked_step && !was_predicted;
+    const bool descends = descent_ > 0.0; // else u is the minimiser, to rounding
+    predicted_ = descends && t < blocked_step && !was_predicted;
     if (predicted_)
       t = stepWithPredictedBounds ();
-    return {advance (t, band), t < blocked_step};
+    return {advance (t, band), descends && t < blocked_step};
   }
 
 private:

@@ -139,6 +139,19 @@ TEST_P (AnySolver, StopsAtOnceWhenStartedAtTheSolution)
   EXPECT_LE (meanDifference (before, u), 2.0 * options_.tolerance_vox);
 }
 
+TEST_P (AnySolver, HasNothingToDoWithoutData)
+{
+  EnergyProblem problem;
+  problem.dims = {12, 10, 11};
+  problem.weight.assign (problem.size (), 0.0f);
+  problem.weighted_target.assign (problem.size (), 0.0f);
+  SolverSummary summary;
+  const std::vector<float> u = solution<float> (problem, options_, &summary);
+  EXPECT_TRUE (summary.converged ());
+  EXPECT_LE (summary.iterations, 1);
+  EXPECT_TRUE (std::all_of (u.begin (), u.end (), [] (float value) { return value == 0.0f; }));
+}
+
 TEST_P (AnySolver, FindsTheMinimumFromAnyStart)
 {
   const EnergyProblem problem = makeProblem (ProblemKind::All, {10, 9, 11});
