@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 // What the tests of HessianIMLS share: a sphere of points, and what is asked of its mesh.
 
@@ -78,6 +79,25 @@ reconstruct (Imls& imls)
   pcl::PolygonMesh mesh;
   imls.reconstruct (mesh);
   return mesh;
+}
+
+/** \brief As after a failure: nothing at all. */
+inline void
+expectNothing (Imls& imls)
+{
+  pcl::PolygonMesh mesh;
+  mesh.polygons.resize (3); // remains of an earlier use
+  mesh.cloud.width = 7;
+  imls.reconstruct (mesh);
+  EXPECT_TRUE (mesh.polygons.empty ());
+  EXPECT_EQ (0u, mesh.cloud.width * mesh.cloud.height);
+  Cloud points (5, 1);
+  std::vector<pcl::Vertices> polygons (5);
+  imls.reconstruct (points, polygons);
+  EXPECT_TRUE (points.empty ());
+  EXPECT_TRUE (polygons.empty ());
+  EXPECT_EQ (nullptr, imls.getSignedDistance ());
+  EXPECT_TRUE (imls.getTriangleMesh ().empty ());
 }
 
 } // namespace test

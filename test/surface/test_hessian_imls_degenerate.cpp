@@ -15,25 +15,6 @@ namespace
 
 constexpr float not_a_number = std::numeric_limits<float>::quiet_NaN ();
 
-/** \brief As after a failure: nothing at all. */
-void
-expectNothing (Imls& imls)
-{
-  pcl::PolygonMesh mesh;
-  mesh.polygons.resize (3); // remains of an earlier use
-  mesh.cloud.width = 7;
-  imls.reconstruct (mesh);
-  EXPECT_TRUE (mesh.polygons.empty ());
-  EXPECT_EQ (0u, mesh.cloud.width * mesh.cloud.height);
-  Cloud points (5, 1);
-  std::vector<pcl::Vertices> polygons (5);
-  imls.reconstruct (points, polygons);
-  EXPECT_TRUE (points.empty ());
-  EXPECT_TRUE (polygons.empty ());
-  EXPECT_EQ (nullptr, imls.getSignedDistance ());
-  EXPECT_TRUE (imls.getTriangleMesh ().empty ());
-}
-
 } // namespace
 
 TEST (HessianImlsDegenerate, NoInputCloud)
