@@ -164,6 +164,7 @@ TEST_P (HullConstraintTest, NeverFreesABody)
 TEST_P (HullConstraintTest, FollowsTheFootprint)
 {
   const FreeSpaceView view (rendered (ballBeforeWall ()));
+  const PinholeCamera& camera = view.view ().camera;
   const std::vector<std::uint8_t> free_space = freeSpace (rim_, {view.view ()});
   std::size_t free_voxels = 0, wrongly_free = 0, clear = 0, wrongly_hull = 0;
   forEachVoxel (rim_, [&] (std::size_t n, const Eigen::Vector3d& p) {
@@ -208,11 +209,13 @@ TEST_P (HullConstraintTest, SaysNothingWhereDepthIsMissing)
 TEST_P (HullConstraintTest, SaysNothingAtDepthEdges)
 {
   const FreeSpaceView view (rendered (ballBeforeWall ()));
+  const PinholeCamera& camera = view.view ().camera;
   const std::vector<std::uint8_t> free_space = freeSpace (rim_, {view.view ()});
   std::size_t at_edge = 0, wrong = 0;
   forEachVoxel (rim_, [&] (std::size_t n, const Eigen::Vector3d& p) {
-    const Eigen::Vector2i pixel = (view.view ().camera.project (p).array () + 0.5).floor ().cast<int> ();
-    if (!view.atEdge (pixel.x (), pixel.y ()))
+    const Eigen::Vector2i pixel = (camera.project (p).array () + 0.5).floor ().cast<int> ();
+    const bool in_image = pixel.x () >= 0 && pixel.y () >= 0 && pixel.x () < camera.width && pixel.y () < camera.height;
+    if (!in_image || !view.atEdge (pixel.x (), pixel.y ()))
       return;
     ++at_edge;
     wrong += free_space[n] != 0;
