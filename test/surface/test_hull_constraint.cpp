@@ -164,7 +164,6 @@ TEST_P (HullConstraintTest, NeverFreesABody)
 TEST_P (HullConstraintTest, FollowsTheFootprint)
 {
   const FreeSpaceView view (rendered (ballBeforeWall ()));
-  const PinholeCamera& camera = view.view ().camera;
   const std::vector<std::uint8_t> free_space = freeSpace (rim_, {view.view ()});
   std::size_t free_voxels = 0, wrongly_free = 0, clear = 0, wrongly_hull = 0;
   forEachVoxel (rim_, [&] (std::size_t n, const Eigen::Vector3d& p) {
