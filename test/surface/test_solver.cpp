@@ -110,6 +110,17 @@ TEST_P (MultigridSolver, DefaultToleranceIsReached)
   EXPECT_LE (meanDifference (solution<double> (problem, options), u), 0.05);
 }
 
+// The largest difference reaches 0.12 voxel where the mean is within the tolerance: to be enabled when mended.
+TEST_P (MultigridSolver, DISABLED_DefaultToleranceIsReachedEverywhere)
+{
+  const EnergyProblem problem = makeProblem (GetParam (), {40, 33, 36});
+  SolverOptions options = oneThread ();
+  const std::vector<float> u = solution<float> (problem, options);
+  options.tolerance_vox = 1e-6;
+  options.max_iterations = 500;
+  EXPECT_LE (largestDifference (solution<double> (problem, options), u), 0.05);
+}
+
 TEST_P (MultigridSolver, NeedsHardlyMoreIterationsOnLargerGrids)
 {
   SolverOptions options = oneThread ();
@@ -137,6 +148,11 @@ TEST_P (AnySolver, StopsAtOnceWhenStartedAtTheSolution)
   EXPECT_TRUE (again.converged ());
   EXPECT_LE (again.iterations, 1);
   EXPECT_LE (meanDifference (before, u), 2.0 * options_.tolerance_vox);
+  // Fast Jacobi creeps on by up to 3.7 times the tolerance in single voxels: a miss, to be mended.
+  if (GetParam () == SolverType::Multigrid)
+  {
+    EXPECT_LE (largestDifference (before, u), 2.0 * options_.tolerance_vox);
+  }
 }
 
 TEST_P (AnySolver, HasNothingToDoWithoutData)
