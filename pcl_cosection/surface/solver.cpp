@@ -4,8 +4,6 @@
 #include "solver_detail.h"
 
 #include <chrono>
-#include <cstdlib>
-#include <cstdio>
 
 namespace pcl
 {
@@ -63,10 +61,8 @@ solve (const EnergyProblem& problem, const SolverOptions& options, std::vector<R
     }
     u.swap (values);
   }
-  const auto fin = std::chrono::steady_clock::now ();
   SolverSummary summary = solveLevel (problem, options, 1.0, true, u, progress);
   summary.seconds = std::chrono::duration<double> (std::chrono::steady_clock::now () - start).count ();
-  if(getenv("KV"))fprintf(stderr,"DBG solve %dx%dx%d total %.3f finest %.3f it %d change %.3f\n",problem.dims.x(),problem.dims.y(),problem.dims.z(),summary.seconds,std::chrono::duration<double> (std::chrono::steady_clock::now () - fin).count (),summary.iterations,summary.change_vox);
   return summary;
 }
 
