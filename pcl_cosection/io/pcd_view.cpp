@@ -9,6 +9,9 @@
 #include <pcl/cosection/common/parallel.h>
 #include <pcl/cosection/surface/organized_normals.h>
 
+// With its templates: loading libpcl_features for them costs every program a twentieth of a second.
+#include <pcl/features/impl/normal_3d.hpp>
+#include <pcl/features/impl/normal_3d_omp.hpp>
 #include <pcl/features/normal_3d_omp.h>
 #include <pcl/point_types.h>
 #include <pcl/search/kdtree.h>

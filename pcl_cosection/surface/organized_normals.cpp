@@ -2,6 +2,8 @@
 // Copyright (c) 2026, the pcl_cosection authors
 #include <pcl/cosection/surface/organized_normals.h>
 
+#include "../common/multiversion.h"
+
 #include <pcl/cosection/common/camera.h>
 #include <pcl/cosection/common/error.h>
 #include <pcl/cosection/common/parallel.h>
@@ -30,10 +32,12 @@ constexpr double planar_sigmas = 1.5; ///< thickness of a plane that noise expla
 constexpr double planar_ratio = 0.05; ///< ... plus this share of the second eigenvalue for curvature
 constexpr double line_ratio = 0.02;   ///< second over first eigenvalue: below, the support is a line
 
+constexpr int lanes = 8; ///< rows are read and written in pieces of so many pixels
+
 /** \brief Pixels of one window relative to its centre, as arrays for vectorised sums. */
 struct Window
 {
-  static constexpr int capacity = (2 * max_radius + 1) * (2 * max_radius + 1) + 1; // one slot for an unused write
+  static constexpr int capacity = (2 * max_radius + 1) * (2 * max_radius + 1) + lanes; // the last piece may be long
   alignas (32) std::array<float, capacity> x; // aligned, so that sums have one order at any address
   alignas (32) std::array<float, capacity> y;
   alignas (32) std::array<float, capacity> z;
@@ -48,17 +52,50 @@ struct Moments
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero ();
 };
 
+/** \brief Sums of x, y, z, xx, xy, xz, yy, yz and zz. */
+PCL_COSECTION_MULTIVERSION void
+sumProducts (const float* px, const float* py, const float* pz, int n, float* sums)
+{
+  float x = 0, y = 0, z = 0, xx = 0, xy = 0, xz = 0, yy = 0, yz = 0, zz = 0;
+#pragma omp simd reduction(+ : x, y, z, xx, xy, xz, yy, yz, zz) aligned(px, py, pz : 32)
+  for (int i = 0; i < n; ++i)
+  {
+    x += px[i];
+    y += py[i];
+    z += pz[i];
+    xx += px[i] * px[i];
+    xy += px[i] * py[i];
+    xz += px[i] * pz[i];
+    yy += py[i] * py[i];
+    yz += py[i] * pz[i];
+    zz += pz[i] * pz[i];
+  }
+  const std::array<float, 9> all{x, y, z, xx, xy, xz, yy, yz, zz};
+  std::copy (all.begin (), all.end (), sums);
+}
+
+/** \brief Largest |a x + b y + c z - offset|. */
+PCL_COSECTION_MULTIVERSION float
+farthestFromPlane (const float* px, const float* py, const float* pz, int n, const float* plane)
+{
+  const float a = plane[0], b = plane[1], c = plane[2], offset = plane[3];
+  float farthest = 0.0f;
+#pragma omp simd reduction(max : farthest) aligned(px, py, pz : 32)
+  for (int i = 0; i < n; ++i)
+    farthest = std::max (farthest, std::abs (a * px[i] + b * py[i] + c * pz[i] - offset));
+  return (farthest);
+}
+
 Moments
 computeMoments (const Window& w)
 {
-  using Row = Eigen::Map<const Eigen::VectorXf, Eigen::Aligned32>;
-  const Row x (w.x.data (), w.size), y (w.y.data (), w.size), z (w.z.data (), w.size);
+  std::array<float, 9> sum;
+  sumProducts (w.x.data (), w.y.data (), w.z.data (), w.size, sum.data ());
   Moments m;
   m.count = w.size;
   const double n = w.size;
-  const double xy = x.dot (y), xz = x.dot (z), yz = y.dot (z);
-  m.mean = Eigen::Vector3d (x.sum (), y.sum (), z.sum ()) / n;
-  m.covariance << x.squaredNorm (), xy, xz, xy, y.squaredNorm (), yz, xz, yz, z.squaredNorm ();
+  m.mean = Eigen::Vector3d (sum[0], sum[1], sum[2]) / n;
+  m.covariance << sum[3], sum[4], sum[5], sum[4], sum[6], sum[7], sum[5], sum[7], sum[8];
   m.covariance = m.covariance / n - m.mean * m.mean.transpose ();
   return (m);
 }
@@ -93,18 +130,29 @@ public:
       , height_ (height)
       , labels_ (labels)
       , options_ (options)
+      , x_ (points.size () + lanes)
+      , y_ (points.size () + lanes)
+      , z_ (points.size () + lanes)
       , range_ (points.size ())
+      , run_ (points.size ())
       , reach_ (points.size ())
       , min_cosine_ (std::cos (options.max_incidence_rad))
   {
     parallelFor (0, static_cast<int> (points.size ()), options.threads, [this] (int i) {
       const float range = points_[i].norm ();
       range_[i] = std::isfinite (range) ? range : 0.0f;
+      x_[i] = points_[i].x ();
+      y_[i] = points_[i].y ();
+      z_[i] = points_[i].z ();
     });
     pitch_ = estimatePitch (points, range_, width, height);
     parallelFor (0, height, options.threads, [this] (int v) {
       for (int u = 0; u < width_; ++u)
-        reach_[v * width_ + u] = rowReach (u, v);
+      {
+        const int i = v * width_ + u;
+        reach_[i] = rowReach (u, v);
+        run_[i] = u == 0 ? 0 : run_[i - 1] + (range_[i] <= 0.0f || !usable (i, i - 1));
+      }
     });
   }
 
@@ -202,6 +250,15 @@ private:
     return (reach);
   }
 
+  /** \brief to[i] = from[i] - origin for at least \a n elements, whole pieces at a time. */
+  static void
+  copyRelative (const float* from, float origin, int n, float* to)
+  {
+    for (int piece = 0; piece < n; piece += lanes)
+      for (int i = piece; i < piece + lanes; ++i)
+        to[i] = from[i] - origin;
+  }
+
   /** \brief Gather the pixels of the window that are reached from its centre: up and down the
    * centre's column, and from there along the rows. */
   void
@@ -209,15 +266,24 @@ private:
   {
     const int centre = v * width_ + u;
     const Eigen::Vector3f origin = points_[centre];
-    const Eigen::Vector3f* points = points_.data ();
     int size = 0;
     const auto addRow = [&] (int, int row) {
+      const int first = row - std::min<int> (radius, reach_[row].before);
       const int last = row + std::min<int> (radius, reach_[row].after);
-      for (int i = row - std::min<int> (radius, reach_[row].before); i <= last; ++i)
+      if (run_[first] == run_[last])
       {
-        window.x[size] = points[i].x () - origin.x ();
-        window.y[size] = points[i].y () - origin.y ();
-        window.z[size] = points[i].z () - origin.z ();
+        const int n = last - first + 1;
+        copyRelative (x_.data () + first, origin.x (), n, window.x.data () + size);
+        copyRelative (y_.data () + first, origin.y (), n, window.y.data () + size);
+        copyRelative (z_.data () + first, origin.z (), n, window.z.data () + size);
+        size += n;
+        return;
+      }
+      for (int i = first; i <= last; ++i)
+      {
+        window.x[size] = x_[i] - origin.x ();
+        window.y[size] = y_[i] - origin.y ();
+        window.z[size] = z_[i] - origin.z ();
         size += usable (centre, i);
       }
     };
@@ -233,6 +299,10 @@ private:
   {
     const Eigen::Vector3f n = normal.cast<float> ();
     const auto offset = static_cast<float> (normal.dot (mean));
+    const std::array<float, 4> plane{n.x (), n.y (), n.z (), offset};
+    if (farthestFromPlane (window.x.data (), window.y.data (), window.z.data (), window.size, plane.data ()) <=
+        static_cast<float> (limit))
+      return (false);
     int kept = 0;
     for (int i = 0; i < window.size; ++i)
     {
@@ -252,7 +322,9 @@ private:
   const int height_;
   const std::vector<std::uint32_t>& labels_;
   const OrganizedNormalsOptions& options_;
-  std::vector<float> range_; ///< 0: no reading
+  std::vector<float> x_, y_, z_; ///< coordinates, and room for a whole piece behind the last
+  std::vector<float> range_;     ///< 0: no reading
+  std::vector<int> run_;         ///< equal in one row: usable together, like all pixels between them
   std::vector<Reach> reach_;
   const double min_cosine_;
   double pitch_ = 0.0;
