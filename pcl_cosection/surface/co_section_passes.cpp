@@ -5,6 +5,7 @@
 #include <pcl/cosection/common/parallel.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <string>
 
@@ -22,10 +23,16 @@ constexpr double penetration_voxels = 0.5; // more is resolved by growing weight
 constexpr double weight_growth = 4.0;
 constexpr double max_weight_growth = 1024.0;
 
-// Progress when the background, the first pass and all passes are done.
-constexpr double background_fraction = 0.3;
-constexpr double first_pass_fraction = 0.8;
-constexpr double passes_fraction = 0.95;
+/** \brief Progress when the passes of one resolution begin, when the first of them is done, and when all are. */
+struct PassProgress
+{
+  double begin;
+  double first;
+  double end;
+};
+
+constexpr PassProgress half_progress{0.3, 0.45, 0.5};
+constexpr PassProgress full_progress{0.5, 0.8, 0.95};
 
 } // namespace
 
@@ -65,17 +72,17 @@ CoSectionRun::bounds (Object& object) const
     const auto grown = object.beta.find (p);
     const double beta = options.beta_inter * (grown == object.beta.end () ? 1.0 : grown->second);
     for (const Eigen::Isometry3d& T : relativePoses (object, &other))
-      constraint.addBody (other.field, T, beta);
+      constraint.addBody (other.told, T, beta);
   }
   return constraint.bounds ();
 }
 
 void
-CoSectionRun::solve (Object& object, double begin, double share)
+CoSectionRun::solve (Object& object, Resolution resolution, double begin, double share)
 {
   timed ("solve", [&] {
     const int before = object.result->solver.iterations;
-    object.result->solver = object.volume->solve ([&] (const std::string&, double f) {
+    object.result->solver = object.volume->solve (resolution, [&] (const std::string&, double f) {
       report ("object " + std::to_string (object.input->id), begin + share * f);
       return true;
     });
@@ -84,7 +91,7 @@ CoSectionRun::solve (Object& object, double begin, double share)
 }
 
 void
-CoSectionRun::solvePass (int pass)
+CoSectionRun::solvePass (Resolution resolution, int pass)
 {
   // Simultaneous: all bounds are taken from the fields of the pass before.
   std::vector<std::vector<LowerBound>> all (objects_.size ());
@@ -93,8 +100,9 @@ CoSectionRun::solvePass (int pass)
       if (objects_[o].alive ())
         guarded (objects_[o], [&] { all[o] = bounds (objects_[o]); });
   });
-  const double begin = pass == 0 ? background_fraction : first_pass_fraction;
-  const double end = pass == 0 ? first_pass_fraction : passes_fraction;
+  const PassProgress& progress = resolution == Resolution::Half ? half_progress : full_progress;
+  const double begin = pass == 0 ? progress.begin : progress.first;
+  const double end = pass == 0 ? progress.first : progress.end;
   const double share = (end - begin) / static_cast<double> (objects_.size ()) /
                        (pass == 0 ? 1 : std::max (1, scene_.options.max_passes - 1));
   for (std::size_t o = 0; o < objects_.size (); ++o)
@@ -103,10 +111,10 @@ CoSectionRun::solvePass (int pass)
     if (!object.alive ())
       continue;
     guarded (object, [&] {
-      if (!object.volume->setIntersection (std::move (all[o])) && object.volume->solved ())
+      if (!object.volume->setIntersection (std::move (all[o])) && object.volume->solved (resolution))
         return;
       const double done = static_cast<double> (std::max (0, pass - 1) * objects_.size () + o);
-      solve (object, begin + share * done, share);
+      solve (object, resolution, begin + share * done, share);
     });
   }
   if (!scene_.options.intersect_solved)
@@ -115,12 +123,14 @@ CoSectionRun::solvePass (int pass)
   {
     if (!object.alive ())
       continue;
-    SignedDistanceField field = object.volume->solvedField ();
+    const bool first = object.field.values.empty (); // what was told until now are measurements
+    object.field = object.volume->solvedField ();
     // Two bodies that give way and spread by turns settle when each answers the mean of the other's last two.
-    if (pass > 0)
-      for (std::size_t n = 0; n < field.values.size (); ++n)
-        field.values[n] = 0.5f * (field.values[n] + object.field.values[n]);
-    object.field = std::move (field);
+    if (first)
+      object.told = object.field;
+    else
+      for (std::size_t n = 0; n < object.field.values.size (); ++n)
+        object.told.values[n] = 0.5f * (object.told.values[n] + object.field.values[n]);
   }
 }
 
@@ -128,21 +138,32 @@ double
 CoSectionRun::penetration (const Object& object, const SignedDistanceField& body,
                            const std::vector<Eigen::Isometry3d>& poses) const
 {
-  // Deepest voxel within half a voxel of the object's surface.
+  // Deepest of the places where the object's surface crosses an edge of its grid.
   const SignedDistanceField& own = object.field;
   const VoxelGrid& grid = own.grid;
-  const auto near = static_cast<float> (0.5 * grid.voxel_size_m);
+  const std::array<std::size_t, 3> strides{1, grid.index (0, 1, 0), grid.index (0, 0, 1)};
   std::vector<double> deepest (grid.dims.z (), 0.0);
   parallelFor (0, grid.dims.z (), scene_.options.threads, [&] (int k) {
     for (int j = 0; j < grid.dims.y (); ++j)
       for (int i = 0; i < grid.dims.x (); ++i)
-        if (std::abs (own.values[grid.index (i, j, k)]) <= near)
+        for (int axis = 0; axis < 3; ++axis)
+        {
+          if (Eigen::Vector3i (i, j, k)[axis] + 1 == grid.dims[axis])
+            continue;
+          const std::size_t n = grid.index (i, j, k);
+          const float here = own.values[n];
+          const float there = own.values[n + strides[axis]];
+          if ((here < 0.0f) == (there < 0.0f))
+            continue;
+          Eigen::Vector3d at = grid.center (i, j, k);
+          at[axis] += grid.voxel_size_m * here / (here - there);
           for (const Eigen::Isometry3d& T : poses)
           {
-            const auto u = body.sampleSupported (T * grid.center (i, j, k));
+            const auto u = body.sampleSupported (T * at);
             if (u)
               deepest[k] = std::max (deepest[k], static_cast<double> (-*u));
           }
+        }
   });
   return *std::max_element (deepest.begin (), deepest.end ());
 }
@@ -172,8 +193,9 @@ CoSectionRun::penetration (const Object& object) const
 }
 
 bool
-CoSectionRun::growWeightsWherePenetrating ()
+CoSectionRun::growWeightsWherePenetrating (Resolution resolution)
 {
+  const double allowed_voxels = penetration_voxels * (resolution == Resolution::Half ? 2.0 : 1.0);
   bool any = false;
   const auto grow = [&] (double& beta) {
     if (beta >= max_weight_growth)
@@ -188,7 +210,7 @@ CoSectionRun::growWeightsWherePenetrating ()
     coarsest = std::max (coarsest, body.field->grid.voxel_size_m);
   for (Object& object : objects_)
     if (object.alive () && penetrationOfSurroundings (object) >
-                               penetration_voxels * std::max (coarsest, object.volume->grid ().voxel_size_m))
+                               allowed_voxels * std::max (coarsest, object.volume->grid ().voxel_size_m))
       grow (object.beta_surroundings);
   for (Object& object : objects_)
     for (std::size_t p = 0; object.alive () && p < objects_.size (); ++p)
@@ -197,7 +219,7 @@ CoSectionRun::growWeightsWherePenetrating ()
       if (&other == &object || !other.alive ())
         continue;
       const double allowed =
-          penetration_voxels * std::max (object.field.grid.voxel_size_m, other.field.grid.voxel_size_m);
+          allowed_voxels * std::max (object.field.grid.voxel_size_m, other.field.grid.voxel_size_m);
       if (penetration (object, other.field, relativePoses (object, &other)) <= allowed)
         continue;
       grow (object.beta.try_emplace (p, 1.0).first->second);
@@ -206,17 +228,27 @@ CoSectionRun::growWeightsWherePenetrating ()
 }
 
 void
-CoSectionRun::solveObjects ()
+CoSectionRun::solveObjects (Resolution resolution, int min_passes)
 {
   const bool repeat = scene_.options.use_intersection && scene_.options.intersect_solved;
   const int passes = repeat ? scene_.options.max_passes : 1;
-  const int needed = objects_.size () > 1 ? 2 : 1; // the first pass sees neighbours through their data alone
   for (int pass = 0; pass < passes; ++pass)
   {
-    solvePass (pass);
-    if (pass + 1 >= needed && pass + 1 < passes && !growWeightsWherePenetrating ())
+    solvePass (resolution, pass);
+    if (pass + 1 >= min_passes && pass + 1 < passes && !growWeightsWherePenetrating (resolution))
       break;
   }
+}
+
+void
+CoSectionRun::solveObjects ()
+{
+  // The first pass of all sees neighbours through their data alone, so it is not the last.
+  const int needed = objects_.size () > 1 ? 2 : 1;
+  const bool half_first = scene_.options.solver.type == SolverType::Multigrid;
+  if (half_first)
+    solveObjects (Resolution::Half, needed);
+  solveObjects (Resolution::Full, half_first ? 1 : needed);
 }
 
 } // namespace cosection

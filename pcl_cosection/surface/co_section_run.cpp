@@ -199,7 +199,7 @@ CoSectionRun::solveBackground ()
       });
       if (!volume.hasData ())
         continue;
-      timed ("solve", [&] { volume.solve ([this] (const std::string&, double f) { report ("background", 0.3 * f); return true; }); });
+      timed ("solve", [&] { volume.solve (Resolution::Full, [this] (const std::string&, double f) { report ("background", 0.3 * f); return true; }); });
       timed ("mesh", [&] {
         TriangleMesh mesh = volume.trimmedMesh ();
         transferColours (scene_.background, volume.grid (), mesh);
@@ -250,7 +250,7 @@ CoSectionRun::prepareObject (Object& object)
           object.volume->addContactPrior (object.input->points, transformPlane (plane, T_world_object),
                                           views.front ().second.translation ());
   });
-  object.field = object.volume->measuredField ();
+  object.told = object.volume->measuredField ();
 }
 
 void

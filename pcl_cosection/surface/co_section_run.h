@@ -66,7 +66,8 @@ private:
     ObjectResult* result = nullptr;
     std::unique_ptr<ShapeVolume> volume;
     std::vector<Eigen::Vector4d> planes;             // world
-    SignedDistanceField field;                       // what it tells its neighbours
+    SignedDistanceField field;                       // its shape, as far as known
+    SignedDistanceField told;                        // what its neighbours are told of it
     std::unique_ptr<IntersectionConstraint> surroundings; // background, planes and bodies, which stay as they are
     std::map<std::size_t, double> beta;              // growth of the weights of single neighbours
     double beta_surroundings = 1.0;                  // growth of the weight of background, planes and bodies
@@ -102,13 +103,16 @@ private:
   bounds (Object& object) const;
   void
   solveObjects ();
+  /** \brief Passes over all objects until none is deeper in another than allowed. */
   void
-  solvePass (int pass);
+  solveObjects (Resolution resolution, int min_passes);
+  void
+  solvePass (Resolution resolution, int pass);
   /** \brief Solve one object; of the whole progress it is \a share, from \a begin on. */
   void
-  solve (Object& object, double begin, double share);
+  solve (Object& object, Resolution resolution, double begin, double share);
   bool
-  growWeightsWherePenetrating ();
+  growWeightsWherePenetrating (Resolution resolution);
   double
   penetration (const Object& object, const SignedDistanceField& body, const std::vector<Eigen::Isometry3d>& poses) const;
   double
@@ -147,7 +151,7 @@ CoSectionRun::guarded (Object& object, Function&& f)
   const auto fail = [&] (const std::string& what) {
     object.result->error = what;
     object.volume.reset ();
-    object.field = SignedDistanceField ();
+    object.field = object.told = SignedDistanceField ();
   };
   try
   {

@@ -2,6 +2,8 @@
 // Copyright (c) 2026, the pcl_cosection authors
 #include "shape_volume.h"
 
+#include "solver_detail.h"
+
 #include <pcl/cosection/common/parallel.h>
 #include <pcl/cosection/surface/contact_prior.h>
 #include <pcl/cosection/surface/extent_prior.h>
@@ -183,10 +185,14 @@ ShapeVolume::setIntersection (std::vector<LowerBound> bounds)
 }
 
 SolverSummary
-ShapeVolume::solve (const ProgressCallback& progress)
+ShapeVolume::solve (Resolution resolution, const ProgressCallback& progress)
 {
   SolverOptions solver = options_.solver;
   solver.threads = options_.threads;
+  if (resolution == Resolution::Half && solveAtHalfResolution (problem_, solver, half_u_, u_, progress))
+    return {};
+  std::vector<float> ().swap (half_u_);
+  solved_fully_ = true;
   return cosection::solve (problem_, solver, u_, progress);
 }
 

@@ -29,6 +29,13 @@ struct PlaneContinuation
   Eigen::AlignedBox3d region; // the grid's frame
 };
 
+/** \brief How finely a body is solved. */
+enum class Resolution
+{
+  Half, ///< a step on the way, eight times cheaper
+  Full,
+};
+
 /** \brief One body, an object or a piece of background, from measurements to a mesh: its energy on its
  * grid, and the field that minimises it. Everything is in the grid's frame.
  *
@@ -70,8 +77,9 @@ public:
   bool
   setIntersection (std::vector<LowerBound> bounds);
 
+  /** \brief Minimise, from the last solution if there is one. */
   SolverSummary
-  solve (const ProgressCallback& progress);
+  solve (Resolution resolution, const ProgressCallback& progress);
 
   /** \brief 1 where seen free. */
   const std::vector<std::uint8_t>&
@@ -86,10 +94,11 @@ public:
     return grid_;
   }
 
+  /** \brief Whether solve () has been called for this resolution, or a finer one. */
   bool
-  solved () const
+  solved (Resolution resolution) const
   {
-    return !u_.empty ();
+    return !u_.empty () && (resolution == Resolution::Half || solved_fully_);
   }
 
   bool
@@ -128,7 +137,9 @@ private:
   std::vector<std::uint8_t> data_;          // 1 where points are near
   std::vector<float> data_distance_vox_;
   std::vector<float> carved_;               // signed distance to free space, voxels; or empty
+  std::vector<float> half_u_;               // at half the resolution, voxels of grid_
   std::vector<float> u_;                    // voxels
+  bool solved_fully_ = false;
 };
 
 } // namespace cosection

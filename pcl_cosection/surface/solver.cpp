@@ -33,37 +33,64 @@ solveLevel (const EnergyProblem& problem, const SolverOptions& options, double s
   return solveLevelMultigrid (problem, coarse, band, coarse_tolerance * tolerance, u, progress);
 }
 
+template <typename Real> std::vector<Real>
+interpolate (const std::vector<Real>& coarse, const Eigen::Vector3i& dims, int threads)
+{
+  std::vector<Real> u (static_cast<std::size_t> (dims.x ()) * dims.y () * dims.z (), Real (0));
+  GridTransfer (dims, 1).prolongAdd (coarse.data (), u.data (), threads);
+  return u;
+}
+
+bool
+hasCoarserLevel (const EnergyProblem& problem, const SolverOptions& options)
+{
+  return problem.dims.maxCoeff () > (options.type == SolverType::Multigrid ? multigrid_coarsest : fast_jacobi_coarsest);
+}
+
+/** \brief The next coarser problem: the whole energy, or only data and regulariser for Fast Jacobi (paper). */
+EnergyProblem
+coarserProblem (const EnergyProblem& problem, const SolverOptions& options)
+{
+  return coarsen (problem, options.type == SolverType::Multigrid, options.threads);
+}
+
+/** \brief Nested iteration: unless there is a start in \a u, get one from the next coarser problem.
+ * \param[in] scale voxels of the problem, in those of the finest */
+template <typename Real> SolverSummary
+solveNested (const EnergyProblem& problem, const SolverOptions& options, int scale, std::vector<Real>& u,
+             const ProgressCallback& progress)
+{
+  if (u.size () != problem.size ())
+  {
+    u.clear ();
+    if (hasCoarserLevel (problem, options))
+      solveNested (coarserProblem (problem, options), options, 2 * scale, u,
+                   [&] (const std::string& stage, double) { return !progress || progress (stage, 0.0); });
+    u = u.empty () ? std::vector<Real> (problem.size (), Real (0)) : interpolate (u, problem.dims, options.threads);
+  }
+  return solveLevel (problem, options, scale, scale == 1, u, progress);
+}
+
 } // namespace
 
 template <typename Real> SolverSummary
 solve (const EnergyProblem& problem, const SolverOptions& options, std::vector<Real>& u, const ProgressCallback& progress)
 {
   const auto start = std::chrono::steady_clock::now ();
-  const bool multigrid = options.type == SolverType::Multigrid;
-  if (u.size () != problem.size ())
-  {
-    // Nested iteration: the whole energy on every level, or only data and regulariser (paper).
-    std::vector<EnergyProblem> coarse;
-    const int coarsest = multigrid ? multigrid_coarsest : fast_jacobi_coarsest;
-    for (const EnergyProblem* finer = &problem; finer->dims.maxCoeff () > coarsest; finer = &coarse.back ())
-      coarse.push_back (coarsen (*finer, multigrid, options.threads));
-    std::vector<Real> values (coarse.empty () ? problem.size () : coarse.back ().size (), Real (0));
-    for (std::size_t level = coarse.size (); level-- > 0;)
-    {
-      const EnergyProblem& at = coarse[level];
-      solveLevel (at, options, static_cast<double> (1 << (level + 1)), false, values,
-                  [&] (const std::string& stage, double) { return !progress || progress (stage, 0.0); });
-      const Eigen::Vector3i& finer = level > 0 ? coarse[level - 1].dims : problem.dims;
-      std::vector<Real> up (static_cast<std::size_t> (finer.x ()) * finer.y () * finer.z (), Real (0));
-      GridTransfer (finer, 1).prolongAdd (values.data (), up.data (), options.threads);
-      values.swap (up);
-      coarse.pop_back ();
-    }
-    u.swap (values);
-  }
-  SolverSummary summary = solveLevel (problem, options, 1.0, true, u, progress);
+  SolverSummary summary = solveNested (problem, options, 1, u, progress);
   summary.seconds = std::chrono::duration<double> (std::chrono::steady_clock::now () - start).count ();
   return summary;
+}
+
+bool
+solveAtHalfResolution (const EnergyProblem& problem, const SolverOptions& options, std::vector<float>& half,
+                       std::vector<float>& u, const ProgressCallback& progress)
+{
+  if (options.type != SolverType::Multigrid || !hasCoarserLevel (problem, options))
+    return false;
+  solveNested (coarserProblem (problem, options), options, 2, half, progress);
+  u = interpolate (half, problem.dims, options.threads);
+  return true;
 }
 
 template SolverSummary

@@ -22,6 +22,14 @@ template <typename Real> SolverSummary
 solveLevelFastJacobi (const EnergyProblem& problem, const SolverOptions& options, double band, double tolerance,
                       std::vector<Real>& u, const ProgressCallback& progress);
 
+/** \brief Minimise on voxels of twice the size, as all constraints allow but Fast Jacobi does not.
+ * \param[in,out] half the field there, voxels of \a problem; if its size is wrong, started coarse to fine
+ * \param[out] u \a half interpolated: a start for solve ()
+ * \return false, and nothing is done, if the solver has no such level */
+bool
+solveAtHalfResolution (const EnergyProblem& problem, const SolverOptions& options, std::vector<float>& half,
+                       std::vector<float>& u, const ProgressCallback& progress);
+
 inline void
 report (const ProgressCallback& progress, double fraction)
 {

@@ -36,8 +36,8 @@ struct PCL_COSECTION_EXPORT ObjectResult
   std::string error;     ///< empty, or why there is no mesh
   TriangleMesh mesh;     ///< closed, object frame
   SignedDistanceField::Ptr signed_distance; ///< object frame
-  SolverSummary solver;            ///< of the last pass; its iterations are those of all passes
-  double penetration_m = 0.0; ///< deepest vertex inside supported parts of a neighbour or the background
+  SolverSummary solver;            ///< of the last pass; its iterations are those of all passes at full resolution
+  double penetration_m = 0.0; ///< deepest place of its surface in supported parts of another body
 };
 
 /** \brief Everything CoSection::reconstruct () computes. */

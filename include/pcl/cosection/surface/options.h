@@ -70,7 +70,7 @@ struct PCL_COSECTION_EXPORT CoSectionOptions
   Weighting weighting = Weighting::Mean;
   HullDistance hull_distance = HullDistance::Exact;
 
-  int max_passes = 5;            ///< simultaneous passes over all objects
+  int max_passes = 5;            ///< simultaneous passes over all objects, at half and at full resolution each
   std::size_t max_memory_bytes = 0; ///< 0: no limit
   SolverOptions solver;
   int threads = 0;               ///< 0: all
