@@ -54,7 +54,7 @@ relaxationFactors (int cycle_length)
 } // namespace
 
 template <typename Real> SolverSummary
-solveLevelFastJacobi (const EnergyProblem& problem, const SolverOptions& options, double band, double tolerance,
+solveLevelFastJacobi (const EnergyProblem& problem, const SolverOptions& options, const LevelTolerance& tolerance,
                       std::vector<Real>& u, const ProgressCallback& progress)
 {
   SolverSummary summary;
@@ -95,12 +95,15 @@ solveLevelFastJacobi (const EnergyProblem& problem, const SolverOptions& options
     }
     kernels::SquaredChange change;
     for (std::size_t n = 0; n < u.size (); ++n)
-      if (std::min (std::abs (before[n]), std::abs (u[n])) < static_cast<Real> (band))
-        change += {std::pow (static_cast<double> (u[n] - before[n]), 2), 1.0};
+      if (std::min (std::abs (before[n]), std::abs (u[n])) < static_cast<Real> (tolerance.band))
+      {
+        const double squared = std::pow (static_cast<double> (u[n] - before[n]), 2);
+        change += {squared, 1.0, squared};
+      }
     summary.change_vox = change.rootMean ();
     summary.energies.push_back (energy);
     ++summary.iterations;
-    if (summary.change_vox < tolerance)
+    if (tolerance.met (change))
     {
       summary.termination = Termination::Converged;
       break;
@@ -111,10 +114,10 @@ solveLevelFastJacobi (const EnergyProblem& problem, const SolverOptions& options
 }
 
 template SolverSummary
-solveLevelFastJacobi<float> (const EnergyProblem&, const SolverOptions&, double, double, std::vector<float>&,
+solveLevelFastJacobi<float> (const EnergyProblem&, const SolverOptions&, const LevelTolerance&, std::vector<float>&,
                              const ProgressCallback&);
 template SolverSummary
-solveLevelFastJacobi<double> (const EnergyProblem&, const SolverOptions&, double, double, std::vector<double>&,
+solveLevelFastJacobi<double> (const EnergyProblem&, const SolverOptions&, const LevelTolerance&, std::vector<double>&,
                               const ProgressCallback&);
 
 } // namespace cosection

@@ -46,7 +46,7 @@ public:
 
   struct Step
   {
-    double change = 0.0; ///< root mean square where |u| < band
+    kernels::SquaredChange change; ///< where |u| < band
     bool blocked = false;
   };
 
@@ -183,7 +183,7 @@ private:
     return low; // E still falls up to here
   }
 
-  double
+  kernels::SquaredChange
   advance (double t, double band)
   {
     std::vector<kernels::SquaredChange> planes (problem_.dims.z ());
@@ -194,7 +194,7 @@ private:
     kernels::SquaredChange all;
     for (const kernels::SquaredChange& of_plane : planes)
       all += of_plane;
-    return all.rootMean ();
+    return all;
   }
 
   const EnergyProblem& problem_;
@@ -211,7 +211,7 @@ private:
 } // namespace
 
 template <typename Real> SolverSummary
-solveLevelMultigrid (const EnergyProblem& problem, const SolverOptions& options, double band, double tolerance,
+solveLevelMultigrid (const EnergyProblem& problem, const SolverOptions& options, const LevelTolerance& tolerance,
                      std::vector<Real>& u, const ProgressCallback& progress)
 {
   SolverSummary summary;
@@ -222,14 +222,14 @@ solveLevelMultigrid (const EnergyProblem& problem, const SolverOptions& options,
   {
     report (progress, static_cast<double> (i) / options.max_iterations);
     const double last_change = summary.change_vox;
-    const auto step = newton.step (band);
+    const auto step = newton.step (tolerance.band);
     energy = newton.linearize ();
-    summary.change_vox = step.change;
+    summary.change_vox = step.change.rootMean ();
     summary.energies.push_back (energy);
     ++summary.iterations;
     // The changes fall geometrically; the sum of those to come is what is still wrong.
-    const double rate = i == 0 ? expected_rate : std::min (largest_rate, step.change / std::max (last_change, 1e-30));
-    if (!step.blocked && step.change * std::max (1.0, rate / (1.0 - rate)) < tolerance)
+    const double rate = i == 0 ? expected_rate : std::min (largest_rate, summary.change_vox / std::max (last_change, 1e-30));
+    if (!step.blocked && tolerance.met (step.change, std::max (1.0, rate / (1.0 - rate))))
     {
       summary.termination = Termination::Converged;
       break;
@@ -240,10 +240,10 @@ solveLevelMultigrid (const EnergyProblem& problem, const SolverOptions& options,
 }
 
 template SolverSummary
-solveLevelMultigrid<float> (const EnergyProblem&, const SolverOptions&, double, double, std::vector<float>&,
+solveLevelMultigrid<float> (const EnergyProblem&, const SolverOptions&, const LevelTolerance&, std::vector<float>&,
                             const ProgressCallback&);
 template SolverSummary
-solveLevelMultigrid<double> (const EnergyProblem&, const SolverOptions&, double, double, std::vector<double>&,
+solveLevelMultigrid<double> (const EnergyProblem&, const SolverOptions&, const LevelTolerance&, std::vector<double>&,
                              const ProgressCallback&);
 
 } // namespace cosection

@@ -75,6 +75,8 @@ CoSectionOptions::validate () const
   require (solver.max_iterations >= 1, "number of iterations", solver.max_iterations, "at least 1");
   require (finite (solver.tolerance_vox) && solver.tolerance_vox > 0.0, "tolerance", solver.tolerance_vox,
            "positive, in voxels");
+  require (finite (solver.peak_tolerance_vox) && solver.peak_tolerance_vox >= 0.0, "peak tolerance",
+           solver.peak_tolerance_vox, "positive, in voxels, or 0");
   require (solver.cycle_length >= 1 && solver.cycle_length <= 1000, "cycle length", solver.cycle_length,
            "between 1 and 1000");
   require (solver.smoothing_degree >= 1 && solver.smoothing_degree <= 20, "smoothing degree", solver.smoothing_degree,

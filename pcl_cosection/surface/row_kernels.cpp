@@ -299,16 +299,19 @@ advance (const Real* __restrict p, Real t, Real band, int n, Real* __restrict u)
 {
   Real sums[lanes] = {};
   Real counts[lanes] = {};
+  Real largest[lanes] = {};
   forLanes (n, [&] (int i, int l) {
     const Real before = u[i];
     const Real change = t * p[i];
     const Real after = before + change;
     u[i] = after;
     const bool near = (before < band && before > -band) || (after < band && after > -band);
-    sums[l] += near ? change * change : Real (0);
+    const Real squared = near ? change * change : Real (0);
+    sums[l] += squared;
     counts[l] += near ? Real (1) : Real (0);
+    largest[l] = squared > largest[l] ? squared : largest[l];
   });
-  return {total (sums), total (counts)};
+  return {total (sums), total (counts), static_cast<double> (*std::max_element (largest, largest + lanes))};
 }
 
 } // namespace

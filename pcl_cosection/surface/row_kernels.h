@@ -4,6 +4,7 @@
 
 #include <pcl/cosection/surface/energy_problem.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 
@@ -231,17 +232,19 @@ DirectionProducts
 directionRow (const float* weight, const std::uint16_t* packed, const double* residual, const double* h, const double* z,
               const double* p, double alpha, int n);
 
-/** \brief A sum of squared changes, and of how many voxels. */
+/** \brief A sum of squared changes, of how many voxels, and the largest of them. */
 struct SquaredChange
 {
   double sum = 0.0;
   double voxels = 0.0;
+  double largest = 0.0;
 
   void
   operator+= (const SquaredChange& other)
   {
     sum += other.sum;
     voxels += other.voxels;
+    largest = other.largest > largest ? other.largest : largest;
   }
 
   double

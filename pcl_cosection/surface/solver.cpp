@@ -4,6 +4,7 @@
 #include "solver_detail.h"
 
 #include <chrono>
+#include <limits>
 
 namespace pcl
 {
@@ -22,15 +23,19 @@ template <typename Real> SolverSummary
 solveLevel (const EnergyProblem& problem, const SolverOptions& options, double scale, bool finest, std::vector<Real>& u,
             const ProgressCallback& progress)
 {
-  const double band = zero_band_vox * scale;
-  const double tolerance = options.tolerance_vox * scale;
+  LevelTolerance tolerance;
+  tolerance.band = zero_band_vox * scale;
+  tolerance.mean = options.tolerance_vox * scale;
+  tolerance.largest = finest && options.peak_tolerance_vox > 0.0 ? options.peak_tolerance_vox
+                                                                 : std::numeric_limits<double>::infinity ();
   if (options.type == SolverType::FastJacobi)
-    return solveLevelFastJacobi (problem, options, band, tolerance, u, progress);
+    return solveLevelFastJacobi (problem, options, tolerance, u, progress);
   if (finest)
-    return solveLevelMultigrid (problem, options, band, tolerance, u, progress);
+    return solveLevelMultigrid (problem, options, tolerance, u, progress);
   SolverOptions coarse = options;
   coarse.smoothing_degree += coarse_extra_degree;
-  return solveLevelMultigrid (problem, coarse, band, coarse_tolerance * tolerance, u, progress);
+  tolerance.mean *= coarse_tolerance;
+  return solveLevelMultigrid (problem, coarse, tolerance, u, progress);
 }
 
 template <typename Real> std::vector<Real>

@@ -2,8 +2,12 @@
 // Copyright (c) 2026, the pcl_cosection authors
 #pragma once
 
+#include "row_kernels.h"
+
 #include <pcl/cosection/common/error.h>
 #include <pcl/cosection/surface/solver.h>
+
+#include <cmath>
 
 namespace pcl
 {
@@ -13,13 +17,28 @@ namespace cosection
 /** \brief Values within this many voxels of zero count as near the zero set. */
 constexpr double zero_band_vox = 1.5;
 
-/** \brief One level of a solve: minimise from the given u. \a tolerance_vox in units of u. */
+/** \brief How much may be left to change where a level is solved, in units of u. */
+struct LevelTolerance
+{
+  double band;    ///< where |u| is less
+  double mean;    ///< root mean square
+  double largest; ///< of any voxel
+
+  /** \brief Whether \a factor times the last change is little enough. */
+  bool
+  met (const kernels::SquaredChange& change, double factor = 1.0) const
+  {
+    return factor * change.rootMean () < mean && factor * std::sqrt (change.largest) < largest;
+  }
+};
+
+/** \brief One level of a solve: minimise from the given u. */
 template <typename Real> SolverSummary
-solveLevelMultigrid (const EnergyProblem& problem, const SolverOptions& options, double band, double tolerance,
+solveLevelMultigrid (const EnergyProblem& problem, const SolverOptions& options, const LevelTolerance& tolerance,
                      std::vector<Real>& u, const ProgressCallback& progress);
 
 template <typename Real> SolverSummary
-solveLevelFastJacobi (const EnergyProblem& problem, const SolverOptions& options, double band, double tolerance,
+solveLevelFastJacobi (const EnergyProblem& problem, const SolverOptions& options, const LevelTolerance& tolerance,
                       std::vector<Real>& u, const ProgressCallback& progress);
 
 /** \brief Minimise on voxels of twice the size, as all constraints allow but Fast Jacobi does not.
