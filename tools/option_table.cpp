@@ -96,7 +96,6 @@ declareInput (CLI::App& app, Given& given)
 void
 declareVolume (CLI::App& app, Given& given)
 {
-  const CoSectionOptions defaults;
   const std::string group = "Volume";
   app.add_option ("--voxel-size", given.voxel_size, "Edge of an object's voxels")
       ->option_text ("METRES")
@@ -108,8 +107,8 @@ declareVolume (CLI::App& app, Given& given)
       ->check (wholeRange (4, 4096))
       ->group (group);
   app.add_option ("--padding", given.padding,
-                  "Volume beyond the observed box on each side, as a fraction\nof its longest side" +
-                      byDefault (defaults.padding))
+                  "Volume beyond the observed box on each side, as a fraction\nof its longest side "
+                  "(default: 0, as far as the shape may reach)")
       ->option_text ("FRACTION")
       ->check (numberRange (0, 10))
       ->group (group);

@@ -25,6 +25,7 @@ constexpr double background_voxels_per_object_voxel = 2.0;
 constexpr double background_only_resolution = 128.0; // voxels along the longest side, if there is no object
 constexpr double plane_inlier_voxels = 2.0;
 constexpr double min_plane_inlier_m = 0.004;
+constexpr double padding_without_views = 0.3; // of the longest side
 constexpr double same_pose_voxels = 0.5;
 constexpr double same_plane_cosine = 0.999;
 constexpr double same_plane_m = 0.005;
@@ -80,7 +81,7 @@ CoSectionRun::relativePoses (const Object& of, const Object* to) const
 }
 
 void
-CoSectionRun::createVolumes ()
+CoSectionRun::observeObjects ()
 {
   result_.objects.resize (scene_.objects.size ());
   objects_.resize (scene_.objects.size ());
@@ -90,13 +91,49 @@ CoSectionRun::createVolumes ()
     object.input = &scene_.objects[i];
     object.result = &result_.objects[i];
     object.result->id = object.input->id;
+  }
+  for (Object& object : objects_)
     guarded (object, [&] {
       if (!object.input->T_world_object.empty () && object.input->T_world_object.size () != scene_.views.size ())
         throw InvalidArgument ("there are " + std::to_string (object.input->T_world_object.size ()) + " poses for " +
                                std::to_string (scene_.views.size ()) + " views");
-      object.volume = std::make_unique<ShapeVolume> (layoutObject (object.input->points, scene_.options), scene_.options);
+      object.observed = observedBox (object.input->points);
+      object.voxel_size_m = objectVoxelSize (object.input->points, object.observed, scene_.options);
     });
+}
+
+Eigen::AlignedBox3d
+CoSectionRun::volumeBox (const Object& object) const
+{
+  const CoSectionOptions& options = scene_.options;
+  if (options.padding > 0.0 || !options.use_extent_prior || scene_.views.empty ())
+  {
+    const double fraction = options.padding > 0.0 ? options.padding : padding_without_views;
+    const Eigen::Vector3d pad =
+        Eigen::Vector3d::Constant (fraction * object.observed.sizes ().maxCoeff () + 2.0 * object.voxel_size_m);
+    return {object.observed.min () - pad, object.observed.max () + pad};
   }
+  std::vector<std::pair<const DepthView*, Eigen::Isometry3d>> views;
+  std::vector<Eigen::Vector4d> planes;
+  for (std::size_t v = 0; v < scene_.views.size (); ++v)
+  {
+    const DepthView& view = scene_.views[v].view ();
+    views.emplace_back (&view, pose (object, v).inverse () * view.T_world_sensor);
+    for (const Eigen::Vector4d& plane : object.planes)
+      planes.push_back (transformPlane (plane, pose (object, v)));
+  }
+  return possibleBox (object.input->points, object.observed, object.voxel_size_m, views, planes, options.threads);
+}
+
+void
+CoSectionRun::createVolumes ()
+{
+  for (Object& object : objects_)
+    if (object.alive ())
+      guarded (object, [&] {
+        const VoxelGrid grid = layoutBox (volumeBox (object), object.voxel_size_m, scene_.options);
+        object.volume = std::make_unique<ShapeVolume> (grid, scene_.options);
+      });
 }
 
 Eigen::Vector4d
@@ -127,11 +164,11 @@ CoSectionRun::findPlanes ()
         p.position = (pose (object, 0) * p.position.cast<double> ()).cast<float> ();
       SupportPlaneOptions options;
       options.inlier_distance_m =
-          std::max (min_plane_inlier_m, plane_inlier_voxels * object.volume->grid ().voxel_size_m);
+          std::max (min_plane_inlier_m, plane_inlier_voxels * object.voxel_size_m);
       for (const Eigen::Vector4d& plane : findSupportPlanes (scene_.background, points, options))
         object.planes.push_back (plane);
     }
-    const Eigen::Vector3d center = pose (object, 0) * boxOf (object.volume->grid ()).center ();
+    const Eigen::Vector3d center = pose (object, 0) * object.observed.center ();
     for (const Eigen::Vector4d& plane : object.planes)
     {
       const bool known = std::any_of (result_.planes.begin (), result_.planes.end (), [&] (const Eigen::Vector4d& other) {
@@ -268,8 +305,11 @@ SceneResult
 CoSectionRun::run ()
 {
   report ("measurements", 0.0);
-  createVolumes ();
-  timed ("constraints", [&] { findPlanes (); });
+  observeObjects ();
+  timed ("constraints", [&] {
+    findPlanes ();
+    createVolumes ();
+  });
   solveBackground ();
   for (Object& object : objects_)
     if (object.alive ())

@@ -64,6 +64,8 @@ private:
   {
     const ObjectInput* input = nullptr;
     ObjectResult* result = nullptr;
+    Eigen::AlignedBox3d observed;                    // of its points
+    double voxel_size_m = 0.0;
     std::unique_ptr<ShapeVolume> volume;
     std::vector<Eigen::Vector4d> planes;             // world
     SignedDistanceField field;                       // its shape, as far as known
@@ -75,7 +77,7 @@ private:
     bool
     alive () const
     {
-      return volume != nullptr;
+      return result->error.empty ();
     }
   };
 
@@ -86,7 +88,11 @@ private:
   pose (const Object& object, std::size_t view) const;
 
   void
+  observeObjects ();
+  void
   createVolumes ();
+  Eigen::AlignedBox3d
+  volumeBox (const Object& object) const;
   /** \brief The plane with its normal to the side of most of the object's points. */
   Eigen::Vector4d
   towards (const Object& object, const Eigen::Vector4d& plane) const;

@@ -123,6 +123,12 @@ observedExtents (const std::vector<OrientedPoint>& points)
   return extents;
 }
 
+double
+ExtentPrior::farthest (const std::vector<OrientedPoint>& points) const
+{
+  return std::max ({depth_factor, occluded_factor, side_factor}) * observedExtents (points)[1];
+}
+
 std::vector<float>
 ExtentPrior::bounds (const VoxelGrid& grid, const std::vector<float>& data_distance_vox,
                      const std::vector<OrientedPoint>& points,

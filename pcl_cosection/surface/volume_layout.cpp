@@ -5,6 +5,8 @@
 #include "shape_volume.h"
 
 #include <pcl/cosection/common/error.h>
+#include <pcl/cosection/surface/extent_prior.h>
+#include <pcl/cosection/volume/distance_transform.h>
 
 #include <algorithm>
 #include <cmath>
@@ -25,6 +27,9 @@ constexpr double voxel_growth = 1.1;
 constexpr int min_axis = 8;      // voxels
 constexpr double max_axis = 8192; // voxels
 constexpr double min_extent_m = 1e-6;
+constexpr double possible_cells = 20.6;     // along the longest side, to find where an object may be; no whole number, so
+                                            // that sides do not run along borders of cells
+constexpr double possible_margin_vox = 6.0; // around that
 
 /** \brief Voxels of edge \a h with a point in them. */
 std::size_t
@@ -53,6 +58,17 @@ supportedVoxelSize (const std::vector<OrientedPoint>& points, const Eigen::Align
          static_cast<double> (points.size ()) < points_per_voxel * static_cast<double> (occupiedVoxels (points, box, h)))
     h *= voxel_growth;
   return h;
+}
+
+/** \brief Whether a point in the sensor's frame lies before what was measured, by more than \a margin_m. */
+bool
+seenFree (const DepthView& view, const Eigen::Vector3d& p, double margin_m)
+{
+  if (!(p.z () > 0.0))
+    return false;
+  const Eigen::Vector2d pixel = view.camera.project (p) + Eigen::Vector2d::Constant (0.5);
+  return pixel.x () >= 0.0 && pixel.y () >= 0.0 && pixel.x () < view.camera.width && pixel.y () < view.camera.height &&
+         p.z () < view.at (static_cast<int> (pixel.x ()), static_cast<int> (pixel.y ())) - margin_m; // NaN: no reading
 }
 
 std::string
@@ -93,8 +109,8 @@ layoutBox (const Eigen::AlignedBox3d& box, double voxel_size_m, const CoSectionO
   return grid;
 }
 
-VoxelGrid
-layoutObject (const std::vector<OrientedPoint>& points, const CoSectionOptions& options)
+Eigen::AlignedBox3d
+observedBox (const std::vector<OrientedPoint>& points)
 {
   Eigen::AlignedBox3d box;
   std::vector<float> values (points.size ());
@@ -113,20 +129,73 @@ layoutObject (const std::vector<OrientedPoint>& points, const CoSectionOptions& 
     std::nth_element (values.begin (), values.begin () + high, values.end ());
     box.max ()[a] = values[high];
   }
-  const double longest = box.sizes ().maxCoeff ();
-  if (!(longest > min_extent_m))
+  if (!(box.sizes ().maxCoeff () > min_extent_m))
     throw DegenerateInput ("all points lie on one spot");
-  double h = options.voxel_size_m;
+  return box;
+}
+
+double
+objectVoxelSize (const std::vector<OrientedPoint>& points, const Eigen::AlignedBox3d& box, const CoSectionOptions& options)
+{
+  const double longest = box.sizes ().maxCoeff ();
+  const double h = options.voxel_size_m;
   if (h <= 0.0)
-    h = options.resolution > 0 ? longest / options.resolution : supportedVoxelSize (points, box);
-  else if (h > longest)
+    return options.resolution > 0 ? longest / options.resolution : supportedVoxelSize (points, box);
+  if (h > longest)
   {
     std::ostringstream message;
     message << "voxel size " << h << " m is larger than the object, which is " << longest << " m long";
     throw InvalidArgument (message.str ());
   }
-  const Eigen::Vector3d pad = Eigen::Vector3d::Constant (options.padding * longest + 2.0 * h);
-  return layoutBox ({box.min () - pad, box.max () + pad}, h, options);
+  return h;
+}
+
+Eigen::AlignedBox3d
+possibleBox (const std::vector<OrientedPoint>& points, const Eigen::AlignedBox3d& observed, double voxel_size_m,
+             const std::vector<std::pair<const DepthView*, Eigen::Isometry3d>>& views,
+             const std::vector<Eigen::Vector4d>& planes, int threads)
+{
+  const ExtentPrior prior;
+  VoxelGrid cells;
+  cells.voxel_size_m = observed.sizes ().maxCoeff () / possible_cells;
+  const double farthest = prior.farthest (points);
+  cells.dims = ((observed.sizes ().array () + 2.0 * farthest) / cells.voxel_size_m).ceil ().cast<int> () + 1;
+  cells.origin_m =
+      observed.center () - 0.5 * cells.voxel_size_m * (cells.dims.cast<double> () - Eigen::Vector3d::Ones ());
+  std::vector<std::uint8_t> data (cells.size (), 0);
+  for (const OrientedPoint& p : points)
+  {
+    const Eigen::Vector3i at = cells.toVoxel (p.position.cast<double> ()).array ().round ().cast<int> ();
+    if (observed.contains (p.position.cast<double> ()) && cells.contains (at.x (), at.y (), at.z ()))
+      data[cells.index (at.x (), at.y (), at.z ())] = 1;
+  }
+  const std::vector<float> bounds = prior.bounds (cells, distanceTransform (cells.dims, data, threads), points, views, threads);
+  const double margin = 0.5 * cells.voxel_size_m + possible_margin_vox * voxel_size_m;
+  const auto below = [&] (const Eigen::Vector3d& p) {
+    return std::any_of (planes.begin (), planes.end (), [&] (const Eigen::Vector4d& plane) {
+      return plane.head<3> ().dot (p) + plane[3] < 0.5 * cells.voxel_size_m;
+    });
+  };
+  const auto free = [&] (const Eigen::Vector3d& p) {
+    return std::any_of (views.begin (), views.end (), [&] (const auto& view) {
+      return seenFree (*view.first, view.second.inverse () * p, cells.voxel_size_m);
+    });
+  };
+  Eigen::AlignedBox3d box;
+  for (int k = 0; k < cells.dims.z (); ++k)
+    for (int j = 0; j < cells.dims.y (); ++j)
+      for (int i = 0; i < cells.dims.x (); ++i)
+      {
+        const Eigen::Vector3d p = cells.center (i, j, k);
+        if (bounds[cells.index (i, j, k)] <= 0.0f && !below (p) && !free (p))
+          box.extend (p);
+      }
+  box.extend (observed);
+  // Whole voxels from the observed box, so that the lattice depends on that alone.
+  const auto whole = [&] (const Eigen::Vector3d& beyond) {
+    return Eigen::Vector3d (voxel_size_m * ((beyond.array () + margin) / voxel_size_m).ceil ());
+  };
+  return {observed.min () - whole (observed.min () - box.min ()), observed.max () + whole (box.max () - observed.max ())};
 }
 
 Eigen::AlignedBox3d

@@ -2,12 +2,14 @@
 // Copyright (c) 2026, the pcl_cosection authors
 #pragma once
 
+#include <pcl/cosection/common/camera.h>
 #include <pcl/cosection/surface/options.h>
 #include <pcl/cosection/surface/oriented_point.h>
 #include <pcl/cosection/volume/voxel_grid.h>
 
 #include <Eigen/Geometry>
 
+#include <utility>
 #include <vector>
 
 namespace pcl
@@ -15,13 +17,24 @@ namespace pcl
 namespace cosection
 {
 
-/** \brief The grid for an object: its box without outliers, padded, at the voxel size of the options.
- *
- * If neither voxel size nor resolution is given, 64 voxels along the longest side, but voxels no smaller
- * than the points' spacing supports: at least three points in each occupied voxel on average.
- * \throws DegenerateInput, MemoryLimitExceeded, InvalidArgument */
-VoxelGrid
-layoutObject (const std::vector<OrientedPoint>& points, const CoSectionOptions& options);
+/** \brief Box of an object's points without outliers. \throws DegenerateInput */
+Eigen::AlignedBox3d
+observedBox (const std::vector<OrientedPoint>& points);
+
+/** \brief The voxel size of the options. If neither it nor a resolution is given, 64 voxels along the longest side,
+ * but voxels no smaller than the points' spacing supports: at least three points in each occupied voxel on average.
+ * \throws InvalidArgument */
+double
+objectVoxelSize (const std::vector<OrientedPoint>& points, const Eigen::AlignedBox3d& observed,
+                 const CoSectionOptions& options);
+
+/** \brief Box of where an object may be, with a margin: where ExtentPrior asks for no distance, on the upper
+ * side of all \a planes.
+ * \param[in] views depth views and their sensors' poses in the points' frame */
+Eigen::AlignedBox3d
+possibleBox (const std::vector<OrientedPoint>& points, const Eigen::AlignedBox3d& observed, double voxel_size_m,
+             const std::vector<std::pair<const DepthView*, Eigen::Isometry3d>>& views,
+             const std::vector<Eigen::Vector4d>& planes, int threads);
 
 /** \brief A grid of voxels of the given size over a box. \throws MemoryLimitExceeded, InvalidArgument */
 VoxelGrid

@@ -98,8 +98,10 @@ hessianImls64Volume (benchmark::State& state)
   HessianIMLS<pcl::PointNormal> imls;
   // The volume is the object, less its outermost points, with the padding and two voxels more on each
   // side; values lie on its borders, too.
-  const double padded = 1.0 + 2.0 * imls.getOptions ().padding;
-  imls.setVoxelSize (static_cast<float> (padded * longestSide () / 60.0));
+  CoSectionOptions options = imls.getOptions ();
+  options.padding = 0.3;
+  options.voxel_size_m = (1.0 + 2.0 * options.padding) * longestSide () / 60.0;
+  imls.setOptions (options);
   reconstruct (state, imls);
 }
 

@@ -40,6 +40,10 @@ struct PCL_COSECTION_EXPORT ExtentPrior
   double occluded_factor = 0.5; ///< of the middle observed extent
   double side_factor = 0.15;    ///< of the middle observed extent
 
+  /** \brief Largest distance from its data that an object may have, metres. */
+  double
+  farthest (const std::vector<OrientedPoint>& points) const;
+
   /** \brief Bounds in voxels, 0 where there is none.
    * \param[in] data_distance_vox distance to the nearest voxel with data
    * \param[in] points the object's, the grid's frame

@@ -49,7 +49,9 @@ struct PCL_COSECTION_EXPORT CoSectionOptions
 {
   double voxel_size_m = 0.0; ///< h; 0: from \a resolution
   int resolution = 0;        ///< voxels along the longest observed side; 0: 64, but no finer than the points' spacing allows
-  double padding = 0.3;      ///< volume beyond the observed box on each side, as a fraction of its longest side
+  /** \brief Volume beyond the observed box on each side, as a fraction of its longest side; 0: as far as the
+   * extent prior lets the shape reach, or 0.3 without views or that prior. */
+  double padding = 0.0;
   double background_voxel_size_m = 0.0; ///< 0: twice the smallest object voxel; never more
 
   bool use_hull = true;         ///< E_hull, equation (3)
@@ -65,7 +67,7 @@ struct PCL_COSECTION_EXPORT CoSectionOptions
   double beta_hull = 0.01;  ///< weight of the hull constraint
   double beta_inter = 0.04; ///< weight of the intersection constraint
   double beta_extent = 0.001; ///< weight of the pull that prevents swelling
-  double beta_contact = 0.01; ///< weight of the contact with a support plane
+  double beta_contact = 0.007; ///< weight of the contact with a support plane
   double sigma_vox = 1.0;   ///< width of a point's Gaussian; cut off at three times it
   double max_bound_vox = 5.0; ///< cap of the intersection distance, and reach of evidence behind data
   Weighting weighting = Weighting::Mean;
