@@ -3,6 +3,7 @@
 #include <pcl/cosection/surface/imls_data_term.h>
 
 #include "../common/multiversion.h"
+#include "splat_tile.h"
 
 #include <pcl/cosection/common/parallel.h>
 
@@ -22,16 +23,6 @@ namespace
 
 constexpr double cutoff_sigmas = 3.0;
 constexpr int max_reach = 64; // values of the Gaussian along one axis: 2 * 3 sigma + 1, sigma <= 10
-
-/** \brief Where the sums go, and the planes that the calling thread may touch. */
-struct Target
-{
-  float* weight;
-  float* weighted_target;
-  float* count;
-  int nx, ny;
-  int first_plane, last_plane;
-};
 
 /** \brief A point in voxel coordinates. */
 struct Splat
@@ -180,24 +171,27 @@ struct RowOfLanes
   }
 };
 
+/** \brief Add the points of one strip of the volume, in order of their planes. */
 PCL_COSECTION_MULTIVERSION void
-splat (const Splat* points, const int* order, int number, float sigma, const Target& to, int nz)
+splat (const Splat* points, int number, float sigma, const SplatTarget& to, SplatTile& tile)
 {
   const float radius = static_cast<float> (cutoff_sigmas) * sigma;
   const float inverse_sigma = 1.0f / sigma;
-  const int first = std::max (0, to.first_plane);
-  const int last = std::min (nz, to.last_plane);
   const float s2 = inverse_sigma * inverse_sigma;
+  const int reach = static_cast<int> (std::ceil (radius));
   const GaussianTable table (inverse_sigma);
+  const std::size_t row_stride = tile.rowStride ();
+  const std::size_t array_stride = tile.arrayStride ();
   Reach x, y, z;
   for (int n = 0; n < number; ++n)
   {
-    const Splat& p = points[order[n]];
+    const Splat& p = points[n];
     x.find (p.x, radius);
     y.find (p.y, radius);
     z.find (p.z, radius);
-    if (z.last < first || z.first >= last)
+    if (z.last < to.first_plane || z.first >= to.last_plane)
       continue;
+    tile.finishBefore (static_cast<int> (std::floor (p.z)) - reach);
     const Lanes d{static_cast<float> (x.first) - p.x, static_cast<float> (y.first) - p.y, static_cast<float> (z.first) - p.z};
     Lanes g = -s2 * d * d;
     Lanes ratio = -2.0f * s2 * d;
@@ -205,28 +199,32 @@ splat (const Splat* points, const int* order, int number, float sigma, const Tar
     exponentiate (ratio);
     x.set (g[0], ratio[0], table, 0, to.nx);
     y.set (g[1], ratio[1], table, 0, to.ny);
-    z.set (g[2], ratio[2], table, first, last);
-    const bool in_lanes = x.size <= lanes && x.begin + lanes <= to.nx;
+    z.set (g[2], ratio[2], table, to.first_plane, to.last_plane);
+    if (x.size == 0 || y.size == 0)
+      continue;
+    const bool in_lanes = x.size <= lanes;
     x.pad (lanes);
     const RowOfLanes row_of_lanes (p, x);
+    const std::uint16_t blocks = tile.blocks (x.begin, x.size);
     for (int k = 0; k < z.size; ++k)
-      for (int j = 0; j < y.size; ++j)
+    {
+      tile.touch (z.begin + k, y.begin, y.size, blocks);
+      float* weight = tile.plane (x.begin, z.begin + k) + y.begin * row_stride;
+      for (int j = 0; j < y.size; ++j, weight += row_stride)
       {
         const float limit = radius * radius - z.distance[k] * z.distance[k] - y.distance[j] * y.distance[j];
         if (limit < 0.0f)
           continue;
         const float across = p.weight * z.gaussian[k] * y.gaussian[j];
         const float offset = p.ny * y.distance[j] + p.nz * z.distance[k];
-        const std::size_t row = (static_cast<std::size_t> (z.begin + k) * to.ny + (y.begin + j)) * to.nx + x.begin;
-        float* weight = to.weight + row;
-        float* target = to.weighted_target + row;
-        float* count = to.count + row;
         if (in_lanes)
-          row_of_lanes.add (across, offset, limit, weight, target, count);
+          row_of_lanes.add (across, offset, limit, weight, weight + array_stride, weight + 2 * array_stride);
         else
-          splatRow (p, x, across, offset, limit, x.size, weight, target, count);
+          splatRow (p, x, across, offset, limit, x.size, weight, weight + array_stride, weight + 2 * array_stride);
       }
+    }
   }
+  tile.finishBefore (to.last_plane);
 }
 
 } // namespace
@@ -238,17 +236,21 @@ ImlsDataTerm::add (const VoxelGrid& grid, const std::vector<OrientedPoint>& poin
   weighted_target.resize (grid.size (), 0.0f);
   count.resize (grid.size (), 0.0f);
 
-  // Points sorted by plane and row, stably: each voxel then sees them in one order whoever adds them, and
+  // Points sorted by strip, plane and row, stably: each voxel then sees them in one order whoever adds them, and
   // points that touch the same voxels follow each other.
   const double radius = cutoff_sigmas * sigma_vox;
   const int reach = static_cast<int> (std::ceil (radius));
   const int planes = grid.dims.z () + 2 * reach;
   const int rows = grid.dims.y () + 2 * reach;
+  const int strips = (grid.dims.x () + 2 * reach - 1) / SplatTile::width + 1;
   std::vector<Splat> splats;
-  std::vector<std::size_t> row_of;
+  std::vector<std::size_t> bin_of;
   splats.reserve (points.size ());
-  row_of.reserve (points.size ());
-  std::vector<int> begin (static_cast<std::size_t> (planes) * rows + 1, 0);
+  bin_of.reserve (points.size ());
+  const auto bin = [&] (int strip, int plane, int row) {
+    return (static_cast<std::size_t> (strip) * planes + plane) * rows + row;
+  };
+  std::vector<int> begin (bin (strips, 0, 0) + 1, 0);
   for (const OrientedPoint& point : points)
   {
     const Eigen::Vector3d p = grid.toVoxel (point.position.cast<double> ());
@@ -258,23 +260,32 @@ ImlsDataTerm::add (const VoxelGrid& grid, const std::vector<OrientedPoint>& poin
       continue;
     splats.push_back ({static_cast<float> (p.x ()), static_cast<float> (p.y ()), static_cast<float> (p.z ()),
                        point.normal.x (), point.normal.y (), point.normal.z (), point.weight});
-    const auto binOf = [&] (double position, int bins) {
-      return static_cast<std::size_t> (std::clamp (static_cast<int> (std::floor (position)) + reach, 0, bins - 1));
+    const auto place = [&] (float position, int places) {
+      return std::clamp (static_cast<int> (std::floor (position)) + reach, 0, places - 1);
     };
-    row_of.push_back (binOf (p.z (), planes) * rows + binOf (p.y (), rows));
-    ++begin[row_of.back () + 1];
+    const Splat& s = splats.back ();
+    bin_of.push_back (bin (place (s.x, grid.dims.x () + 2 * reach) / SplatTile::width, place (s.z, planes), place (s.y, rows)));
+    ++begin[bin_of.back () + 1];
   }
   std::partial_sum (begin.begin (), begin.end (), begin.begin ());
-  std::vector<int> order (splats.size ());
+  std::vector<Splat> sorted (splats.size ());
   std::vector<int> next (begin.begin (), begin.end () - 1);
   for (std::size_t n = 0; n < splats.size (); ++n)
-    order[next[row_of[n]]++] = static_cast<int> (n);
+    sorted[next[bin_of[n]]++] = splats[n];
 
   parallelChunks (0, grid.dims.z (), threads, [&] (int first, int last) {
-    const int low = begin[static_cast<std::size_t> (std::max (0, first - 1)) * rows]; // floor (z) >= first - reach - 1
-    const int high = begin[static_cast<std::size_t> (std::min (planes, last + 2 * reach)) * rows];
-    const Target target{weight.data (), weighted_target.data (), count.data (), grid.dims.x (), grid.dims.y (), first, last};
-    splat (splats.data (), order.data () + low, high - low, static_cast<float> (sigma_vox), target, grid.dims.z ());
+    const SplatTarget target{weight.data (),  weighted_target.data (), count.data (), grid.dims.x (),
+                             grid.dims.y (), first,                   last};
+    SplatTile tile (target, reach);
+    for (int strip = 0; strip < strips; ++strip)
+    {
+      const int low = begin[bin (strip, std::max (0, first - 1), 0)]; // floor (z) >= first - reach - 1
+      const int high = begin[bin (strip, std::min (planes, last + 2 * reach), 0)];
+      if (low == high)
+        continue;
+      tile.start (strip);
+      splat (sorted.data () + low, high - low, static_cast<float> (sigma_vox), target, tile);
+    }
   });
 }
 

@@ -47,7 +47,7 @@ constexpr double free_margin_m = 0.03;
 constexpr double most_free_share = 0.01;
 constexpr double most_below_table_m = 0.015;
 constexpr double most_diagonal_ratio = 1.5;
-constexpr double least_border_vox = 0.25;
+constexpr double least_border_vox = 3.0; // cut flat otherwise
 
 constexpr double table_reach_m = 0.4;
 constexpr double table_tolerance_m = 0.01;
