@@ -25,7 +25,7 @@ constexpr double background_voxels_per_object_voxel = 2.0;
 constexpr double background_only_resolution = 128.0; // voxels along the longest side, if there is no object
 constexpr double plane_inlier_voxels = 2.0;
 constexpr double min_plane_inlier_m = 0.004;
-constexpr double padding_without_views = 0.3; // of the longest side
+constexpr double default_padding = 0.3; // of the longest side, where views and prior do not say how far a shape reaches
 constexpr double same_pose_voxels = 0.5;
 constexpr double same_plane_cosine = 0.999;
 constexpr double same_plane_m = 0.005;
@@ -106,9 +106,9 @@ Eigen::AlignedBox3d
 CoSectionRun::volumeBox (const Object& object) const
 {
   const CoSectionOptions& options = scene_.options;
-  if (options.padding > 0.0 || !options.use_extent_prior || scene_.views.empty ())
+  if (options.padding > 0.0 || !options.use_extent_prior || !options.use_hull || scene_.views.empty ())
   {
-    const double fraction = options.padding > 0.0 ? options.padding : padding_without_views;
+    const double fraction = options.padding > 0.0 ? options.padding : default_padding;
     const Eigen::Vector3d pad =
         Eigen::Vector3d::Constant (fraction * object.observed.sizes ().maxCoeff () + 2.0 * object.voxel_size_m);
     return {object.observed.min () - pad, object.observed.max () + pad};
@@ -236,7 +236,12 @@ CoSectionRun::solveBackground ()
       });
       if (!volume.hasData ())
         continue;
-      timed ("solve", [&] { volume.solve (Resolution::Full, [this] (const std::string&, double f) { report ("background", 0.3 * f); return true; }); });
+      timed ("solve", [&] {
+        volume.solve (Resolution::Full, [this] (const std::string&, double f) {
+          report ("background", 0.3 * f);
+          return true;
+        });
+      });
       timed ("mesh", [&] {
         TriangleMesh mesh = volume.trimmedMesh ();
         transferColours (scene_.background, volume.grid (), mesh);

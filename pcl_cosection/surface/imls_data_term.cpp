@@ -264,7 +264,8 @@ ImlsDataTerm::add (const VoxelGrid& grid, const std::vector<OrientedPoint>& poin
       return std::clamp (static_cast<int> (std::floor (position)) + reach, 0, places - 1);
     };
     const Splat& s = splats.back ();
-    bin_of.push_back (bin (place (s.x, grid.dims.x () + 2 * reach) / SplatTile::width, place (s.z, planes), place (s.y, rows)));
+    const int strip = place (s.x, grid.dims.x () + 2 * reach) / SplatTile::width;
+    bin_of.push_back (bin (strip, place (s.z, planes), place (s.y, rows)));
     ++begin[bin_of.back () + 1];
   }
   std::partial_sum (begin.begin (), begin.end (), begin.begin ());

@@ -228,7 +228,8 @@ solveLevelMultigrid (const EnergyProblem& problem, const SolverOptions& options,
     summary.energies.push_back (energy);
     ++summary.iterations;
     // The changes fall geometrically; the sum of those to come is what is still wrong.
-    const double rate = i == 0 ? expected_rate : std::min (largest_rate, summary.change_vox / std::max (last_change, 1e-30));
+    const double rate =
+        i == 0 ? expected_rate : std::min (largest_rate, summary.change_vox / std::max (last_change, 1e-30));
     if (!step.blocked && tolerance.met (step.change, std::max (1.0, rate / (1.0 - rate))))
     {
       summary.termination = Termination::Converged;

@@ -35,7 +35,7 @@ public:
   SplatTile (const SplatTarget& to, int reach)
   : to_ (to)
   , reach_ (reach)
-  , stride_ ((width + 2 * reach) / block * block + 2 * block) // whole blocks, and as many values as are read behind a row
+  , stride_ ((width + 2 * reach) / block * block + 2 * block) // whole blocks, and what is read behind a row
   {
     while (slots_ < static_cast<std::size_t> (2 * reach + 1))
       slots_ *= 2;
@@ -51,8 +51,8 @@ public:
     next_ = to_.first_plane;
   }
 
-  /** \brief The weights of plane \a k from voxel \a i on; those of row j begin rowStride () * j behind them, the weighted
-   * targets and counts arrayStride () behind each other. */
+  /** \brief The weights of plane \a k from voxel \a i on; those of row j begin rowStride () * j behind them, the
+   * weighted targets and counts arrayStride () behind each other. */
   float*
   plane (int i, int k)
   {

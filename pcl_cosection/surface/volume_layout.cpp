@@ -27,8 +27,9 @@ constexpr double voxel_growth = 1.1;
 constexpr int min_axis = 8;      // voxels
 constexpr double max_axis = 8192; // voxels
 constexpr double min_extent_m = 1e-6;
-constexpr double possible_cells = 20.6;     // along the longest side, to find where an object may be; no whole number, so
-                                            // that sides do not run along borders of cells
+// Where an object may be is found on cells, so many along its longest side; no whole number, lest sides run along the
+// borders of cells.
+constexpr double possible_cells = 20.6;
 constexpr double possible_margin_vox = 6.0; // around that
 
 /** \brief Voxels of edge \a h with a point in them. */
@@ -135,7 +136,8 @@ observedBox (const std::vector<OrientedPoint>& points)
 }
 
 double
-objectVoxelSize (const std::vector<OrientedPoint>& points, const Eigen::AlignedBox3d& box, const CoSectionOptions& options)
+objectVoxelSize (const std::vector<OrientedPoint>& points, const Eigen::AlignedBox3d& box,
+                 const CoSectionOptions& options)
 {
   const double longest = box.sizes ().maxCoeff ();
   const double h = options.voxel_size_m;
@@ -169,7 +171,8 @@ possibleBox (const std::vector<OrientedPoint>& points, const Eigen::AlignedBox3d
     if (observed.contains (p.position.cast<double> ()) && cells.contains (at.x (), at.y (), at.z ()))
       data[cells.index (at.x (), at.y (), at.z ())] = 1;
   }
-  const std::vector<float> bounds = prior.bounds (cells, distanceTransform (cells.dims, data, threads), points, views, threads);
+  const std::vector<float> distance = distanceTransform (cells.dims, data, threads);
+  const std::vector<float> bounds = prior.bounds (cells, distance, points, views, threads);
   const double margin = 0.5 * cells.voxel_size_m + possible_margin_vox * voxel_size_m;
   const auto below = [&] (const Eigen::Vector3d& p) {
     return std::any_of (planes.begin (), planes.end (), [&] (const Eigen::Vector4d& plane) {
@@ -195,7 +198,8 @@ possibleBox (const std::vector<OrientedPoint>& points, const Eigen::AlignedBox3d
   const auto whole = [&] (const Eigen::Vector3d& beyond) {
     return Eigen::Vector3d (voxel_size_m * ((beyond.array () + margin) / voxel_size_m).ceil ());
   };
-  return {observed.min () - whole (observed.min () - box.min ()), observed.max () + whole (box.max () - observed.max ())};
+  return {observed.min () - whole (observed.min () - box.min ()),
+          observed.max () + whole (box.max () - observed.max ())};
 }
 
 Eigen::AlignedBox3d
