@@ -38,7 +38,7 @@ struct PCL_COSECTION_EXPORT SolverOptions
   SolverType type = SolverType::Multigrid;
   int max_iterations = 60;      ///< per level: multigrid cycles (Fast Jacobi: cycles of \a cycle_length sweeps)
   double tolerance_vox = 0.03;  ///< stop this close to the solution, root mean square near the zero set
-  double peak_tolerance_vox = 0.05; ///< and, on the finest level, every voxel there; 0: no limit
+  double peak_tolerance_vox = 0.0; ///< and this close at every voxel there, which takes longer; 0: no such limit
   int cycle_length = 20;        ///< Fast Jacobi: sweeps in a cycle
   int smoothing_degree = 4;     ///< multigrid: degree of the Chebyshev polynomial before and after each coarse correction
   int threads = 0;              ///< 0: all
@@ -75,17 +75,8 @@ struct PCL_COSECTION_EXPORT CoSectionOptions
 
   int max_passes = 5;            ///< simultaneous passes over all objects, at half and at full resolution each
   std::size_t max_memory_bytes = 0; ///< 0: no limit
-  SolverOptions solver = withoutPeakTolerance (); ///< of every pass over the objects
+  SolverOptions solver;
   int threads = 0;               ///< 0: all
-
-  /** \brief For surfaces it does not pay to iterate until no voxel moves by a tenth of its size. */
-  static SolverOptions
-  withoutPeakTolerance ()
-  {
-    SolverOptions options;
-    options.peak_tolerance_vox = 0.0;
-    return options;
-  }
 
   /** \brief The parameters of the publication. */
   static CoSectionOptions
