@@ -24,8 +24,8 @@ struct SplatTarget
 
 /** \brief The planes of a strip of a volume that points are just being added to.
  *
- * A point reaches some fifty rows of three arrays, which in a large volume lie on as many pages of memory; looking up
- * these took as long as the sums. Here they are close together. Planes that are complete are added to the volume. */
+ * A point reaches some fifty rows of three arrays, which in a large volume lie on as many pages of memory. Here they are
+ * close together. Planes that are complete are added to the volume. */
 class SplatTile
 {
 public:
