@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <cmath>
 #include <filesystem>
 #include <iostream>
 #include <memory>
@@ -116,6 +117,8 @@ methodOptions (const Given& given)
     options.weighting = given.weighting == "sum" ? Weighting::Sum : Weighting::Mean;
   if (!given.solver.empty ())
     options.solver.type = given.solver == "fast-jacobi" ? SolverType::FastJacobi : SolverType::Multigrid;
+  options.compute_hull = given.save_hull;
+  options.compute_bounds = given.save_bounds;
   options.max_memory_bytes = physicalMemory (); // rather than let the system end the program
   if (!given.max_memory.empty ())
   {
@@ -127,6 +130,24 @@ methodOptions (const Given& given)
   }
   options.validate ();
   return (options);
+}
+
+std::map<int, std::string>
+objectTrajectories (const Given& given)
+{
+  std::map<int, std::string> files;
+  for (const std::string& value : given.object_trajectories)
+  {
+    const std::size_t equals = value.find ('=');
+    const std::optional<double> id = parseNumber (value.substr (0, equals));
+    if (equals == std::string::npos || equals + 1 == value.size () || !id || !(*id >= 1.0 && *id <= 2147483647.0) ||
+        *id != std::floor (*id))
+      throw UsageError ("--object-trajectory must be ID=FILE with the label of an object, such as 2=cup.txt; it is \"" +
+                        value + "\"");
+    if (!files.emplace (static_cast<int> (*id), value.substr (equals + 1)).second)
+      throw UsageError ("--object-trajectory is given twice for object " + value.substr (0, equals));
+  }
+  return (files);
 }
 
 void
@@ -163,6 +184,10 @@ toSettings (const Given& given)
   setPaths (given, settings);
   settings.json = given.json;
   settings.save_sdf = given.save_sdf;
+  if (given.max_faces)
+    settings.max_faces = static_cast<std::size_t> (*given.max_faces);
+  settings.obstacles = given.obstacles;
+  settings.object_trajectories = objectTrajectories (given);
   settings.verbosity = given.quiet ? Verbosity::Quiet : given.verbose ? Verbosity::Verbose : Verbosity::Normal;
   settings.preset = given.preset;
   settings.method = methodOptions (given);

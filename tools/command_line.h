@@ -9,6 +9,8 @@
 
 #include <Eigen/Core>
 
+#include <cstddef>
+#include <map>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -29,10 +31,13 @@ struct Settings
   std::string format = "ply"; ///< extension of the meshes
   std::string json;           ///< empty: no summary
   bool save_sdf = false;
+  std::size_t max_faces = 0; ///< of each mesh; 0: as many as there are
   Verbosity verbosity = Verbosity::Normal;
   std::string preset;      ///< empty: our own defaults
   std::string constraints; ///< none, hull, intersection or all
   std::vector<Eigen::Vector4d> planes;
+  std::vector<std::string> obstacles;                    ///< mesh files
+  std::map<int, std::string> object_trajectories;        ///< files, by label
   pcl::cosection::PcdViewOptions reading;
   pcl::cosection::CoSectionOptions method;
 };

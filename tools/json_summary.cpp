@@ -65,6 +65,7 @@ toJson (const ObjectResult& object)
       Json::array ({toJson (mass.inertia.row (0)), toJson (mass.inertia.row (1)), toJson (mass.inertia.row (2))});
   result["provenance"] = provenanceShares (object.mesh);
   result["penetration_m"] = object.penetration_m;
+  result["stray_points"] = object.stray_points;
   result["solver"] = {{"iterations", object.solver.iterations},
                       {"converged", object.solver.converged ()},
                       {"energy", object.solver.energy}};

@@ -85,12 +85,31 @@ declareInput (CLI::App& app, Given& given)
       ->option_text ("FACTOR")
       ->check (numberRange (0, unlimited, true))
       ->group (group);
+  app.add_option ("--object-trajectory", given.object_trajectories,
+                  "Poses of object ID in the world, for views in which it moved:\n"
+                  "lines \"view tx ty tz qx qy qz qw\", views from 0; repeatable")
+      ->option_text ("ID=FILE")
+      ->allow_extra_args (false)
+      ->group (group);
+}
+
+void
+declareSurroundings (CLI::App& app, Given& given)
+{
+  const std::string group = "Surroundings";
   app.add_option ("--plane", given.planes,
-                  "Plane a x + b y + c z + d = 0 of the world that objects stand\n"
-                  "on, (a,b,c) pointing to the objects; may be repeated")
+                  "Plane a x + b y + c z + d = 0 (world, metres) that no object\n"
+                  "crosses: a table, a wall; repeatable")
       ->option_text ("A,B,C,D")
       ->allow_extra_args (false)
       ->group (group);
+  app.add_option ("--obstacle", given.obstacles,
+                  "Mesh (world, metres) that no object enters: .ply, .stl,\n"
+                  ".obj, .off, .vtk or .vtp; repeatable")
+      ->option_text ("MESH")
+      ->allow_extra_args (false)
+      ->group (group);
+  app.add_flag ("--no-planes", given.no_planes, "Do not look for support planes in the background")->group (group);
 }
 
 void
@@ -138,7 +157,6 @@ declareMethod (CLI::App& app, Given& given)
       ->option_text ("none|hull|intersection|all")
       ->check (oneOf ({"none", "hull", "intersection", "all"}))
       ->group (group);
-  app.add_flag ("--no-planes", given.no_planes, "Do not look for support planes in the background")->group (group);
   app.add_option ("--alpha", given.alpha, "Weight of smoothness, relative to the voxel" + byDefault (defaults.alpha))
       ->option_text ("WEIGHT")
       ->check (numberRange (0, unlimited, true))
@@ -183,6 +201,15 @@ declareOutput (CLI::App& app, Given& given)
       ->option_text ("ply|stl|obj")
       ->check (oneOf ({"ply", "stl", "obj"}))
       ->group (output);
+  app.add_option ("--max-faces", given.max_faces, "Simplify each mesh to at most so many triangles, still closed")
+      ->option_text ("N")
+      ->check (wholeRange (4, 2147483647))
+      ->group (output);
+  app.add_flag ("--save-hull", given.save_hull,
+                "Write what no view saw free around each object (_hull)")->group (output);
+  app.add_flag ("--save-bounds", given.save_bounds,
+                "Write bounds for collision checks: matter surely there\n"
+                "(_inner), and all that may be the object (_outer)")->group (output);
   app.add_flag ("--save-sdf", given.save_sdf, "Write each object's signed distance beside its mesh (.vti)")
       ->group (output);
   app.add_option ("--json", given.json, "Write a summary for programs")->option_text ("FILE")->group (output);
@@ -211,6 +238,7 @@ declareOptions (CLI::App& app, Given& given)
   app.formatter (formatter);
   app.footer (examples);
   declareInput (app, given);
+  declareSurroundings (app, given);
   declareVolume (app, given);
   declareMethod (app, given);
   declareOutput (app, given);

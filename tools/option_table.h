@@ -15,9 +15,10 @@ struct Given
   std::optional<double> voxel_size, padding, background_voxel_size, alpha, beta_hull, beta_inter, sigma, tolerance,
       scale;
   std::optional<int> resolution, max_iterations, threads;
+  std::optional<long> max_faces;
   std::string constraints, weighting, solver, preset, max_memory, format, json;
-  std::vector<std::string> planes, intrinsics;
-  bool no_planes = false, save_sdf = false, world_points = false, verbose = false, quiet = false;
+  std::vector<std::string> planes, intrinsics, obstacles, object_trajectories;
+  bool no_planes = false, save_sdf = false, save_hull = false, save_bounds = false, world_points = false, verbose = false, quiet = false;
 };
 
 /** \brief Declare every option of the program, and where the help screen shows it. */

@@ -98,6 +98,10 @@ OutputTarget::write (const SceneResult& result) const
       all = object.mesh;
     else
       appendMesh (all, object.mesh);
+    for (const auto& [mesh, name] : {std::pair{&object.hull, "_hull"}, std::pair{&object.inner_bound, "_inner"},
+                                     std::pair{&object.outer_bound, "_outer"}})
+      if (!mesh->empty ())
+        save (*mesh, objectPath (object, format_, only, name));
     if (save_sdf_ && object.signed_distance)
     {
       saveSignedDistance (*object.signed_distance, objectPath (object, "vti", only));
@@ -112,12 +116,13 @@ OutputTarget::write (const SceneResult& result) const
 }
 
 std::string
-OutputTarget::objectPath (const ObjectResult& object, const std::string& extension, bool only) const
+OutputTarget::objectPath (const ObjectResult& object, const std::string& extension, bool only,
+                          const std::string& suffix) const
 {
-  const std::string name = "object_" + std::to_string (object.id);
+  const std::string name = "object_" + std::to_string (object.id) + suffix;
   if (!single_file_)
     return ((fs::path (output_) / (name + "." + extension)).string ());
   fs::path path (output_);
   path.replace_extension ();
-  return (path.string () + (only ? "" : "_" + name) + "." + extension);
+  return (path.string () + (only ? suffix : "_" + name) + "." + extension);
 }

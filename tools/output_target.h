@@ -30,7 +30,8 @@ public:
 
 private:
   std::string
-  objectPath (const pcl::cosection::ObjectResult& object, const std::string& extension, bool only) const;
+  objectPath (const pcl::cosection::ObjectResult& object, const std::string& extension, bool only,
+              const std::string& suffix = "") const;
 
   const std::string output_;
   const std::string format_;

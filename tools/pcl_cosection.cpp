@@ -55,8 +55,8 @@ toScene (const Settings& settings, SceneInput input)
     scene.addView (std::move (view));
   if (!input.background.empty ())
     scene.setBackground (std::move (input.background));
-  for (auto& [label, points] : input.objects)
-    scene.addObject ({label, std::move (points), {}});
+  for (auto& [label, object] : input.objects)
+    scene.addObject (std::move (object));
   for (const Eigen::Vector4d& plane : settings.planes)
     scene.addSupportPlane (plane);
   return (scene);
@@ -89,7 +89,6 @@ run (const Settings& settings, Terminal& terminal)
   std::vector<std::string> warnings = input.warnings;
   for (const std::string& warning : warnings)
     terminal.warning (warning);
-  const bool has_colour = input.has_colour;
 
   SceneResult result =
       toScene (settings, std::move (input)).reconstruct ([&] (const std::string& stage, double fraction) {
@@ -105,8 +104,6 @@ run (const Settings& settings, Terminal& terminal)
   bool all_good = true;
   for (ObjectResult& object : result.objects)
   {
-    if (!has_colour)
-      object.mesh.colours.clear ();
     if (object.error.empty ())
     {
       terminal.result (describe (object));
@@ -116,8 +113,6 @@ run (const Settings& settings, Terminal& terminal)
     warnings.push_back ("object " + std::to_string (object.id) + ": " + object.error);
     terminal.error (warnings.back ());
   }
-  if (!has_colour)
-    result.background.colours.clear ();
   for (const std::string& file : target.write (result))
     terminal.result ("wrote " + file);
 

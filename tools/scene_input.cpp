@@ -2,12 +2,15 @@
 // Copyright (c) 2026, the pcl_cosection authors
 #include "scene_input.h"
 
+#include "object_poses.h"
+
 #include <pcl/cosection/common/error.h>
 #include <pcl/cosection/io/pcd_view.h>
 
 #include <cstdint>
 #include <filesystem>
 #include <iterator>
+#include <limits>
 #include <utility>
 
 using namespace pcl::cosection;
@@ -29,38 +32,87 @@ tooFew (std::uint32_t label, const LabelledView::Points& object)
   return (text + ", at least " + std::to_string (min_points) + " are needed");
 }
 
+/** \brief A view that says nothing, in the place of a file without rays. */
+DepthView
+silentView ()
+{
+  DepthView view;
+  view.camera = {1, 1, 1.0, 1.0, 0.0, 0.0};
+  view.depth.assign (1, std::numeric_limits<float>::quiet_NaN ());
+  return (view);
+}
+
+/** \brief Take points to the frame of their object. */
+void
+transform (const Eigen::Isometry3d& T_object_world, std::vector<OrientedPoint>& points)
+{
+  for (OrientedPoint& point : points)
+  {
+    point.position = (T_object_world * point.position.cast<double> ()).cast<float> ();
+    point.normal = (T_object_world.linear () * point.normal.cast<double> ()).cast<float> ();
+  }
+}
+
+using Labels = std::map<std::uint32_t, LabelledView::Points>;
+
+/** \brief Add what a view has of each label, in the frame of the object. */
+void
+merge (const std::string& path, std::size_t index, LabelledView& view, const ObjectPoses& poses, Labels& labels,
+       std::vector<std::string>& warnings)
+{
+  for (auto& [label, object] : view.objects)
+  {
+    const std::vector<Eigen::Isometry3d>& T_world_object = poses.of (static_cast<int> (label));
+    if (!T_world_object.empty () && !T_world_object[index].matrix ().allFinite ())
+    {
+      warnings.push_back (path + ": its points of label " + std::to_string (label) +
+                          " are left out, the object's trajectory has no pose for view " + std::to_string (index));
+      continue;
+    }
+    if (!T_world_object.empty ())
+      transform (T_world_object[index].inverse (), object.points);
+    LabelledView::Points& merged = labels[label];
+    merged.readings += object.readings;
+    std::move (object.points.begin (), object.points.end (), std::back_inserter (merged.points));
+  }
+}
+
 } // namespace
 
 SceneInput
 readScene (const Settings& settings, const ProgressCallback& progress)
 {
+  const ObjectPoses poses (settings.object_trajectories, settings.inputs.size ());
   SceneInput scene;
-  std::map<std::uint32_t, LabelledView::Points> labels;
+  Labels labels;
   for (std::size_t i = 0; i < settings.inputs.size (); ++i)
   {
     if (!progress ("reading " + std::filesystem::path (settings.inputs[i]).filename ().string (),
                    static_cast<double> (i) / static_cast<double> (settings.inputs.size ())))
       throw Cancelled ("interrupted");
     LabelledView view = readPcdView (settings.inputs[i], settings.reading);
-    for (auto& [label, object] : view.objects)
-    {
-      LabelledView::Points& merged = labels[label];
-      merged.readings += object.readings;
-      std::move (object.points.begin (), object.points.end (), std::back_inserter (merged.points));
-    }
+    std::move (view.warnings.begin (), view.warnings.end (), std::back_inserter (scene.warnings));
+    merge (settings.inputs[i], i, view, poses, labels, scene.warnings);
     if (view.view)
       scene.views.push_back (std::move (*view.view));
-    scene.has_colour = scene.has_colour || view.has_colour;
-    std::move (view.warnings.begin (), view.warnings.end (), std::back_inserter (scene.warnings));
+    else if (!poses.empty ()) // they come one per view
+      scene.views.push_back (silentView ());
   }
 
+  std::vector<int> found;
   for (auto& [label, object] : labels)
+  {
+    const int id = static_cast<int> (label);
+    found.push_back (id);
     if (object.points.size () < min_points)
       scene.warnings.push_back (tooFew (label, object));
     else if (label == 0)
       scene.background = std::move (object.points);
     else
-      scene.objects[static_cast<int> (label)] = std::move (object.points);
+      scene.objects[id] = {id, std::move (object.points), poses.of (id)};
+  }
+  for (const std::string& warning : poses.unused (found))
+    scene.warnings.push_back (warning);
   if (scene.objects.empty ())
   {
     std::string reason = "no object to complete";

@@ -6,7 +6,7 @@
 
 #include <pcl/cosection/common/camera.h>
 #include <pcl/cosection/common/progress.h>
-#include <pcl/cosection/surface/oriented_point.h>
+#include <pcl/cosection/surface/co_section.h>
 
 #include <map>
 #include <string>
@@ -15,10 +15,9 @@
 /** \brief What all input files together say. */
 struct SceneInput
 {
-  std::map<int, std::vector<pcl::cosection::OrientedPoint>> objects; ///< by label
+  std::map<int, pcl::cosection::ObjectInput> objects; ///< by label
   std::vector<pcl::cosection::OrientedPoint> background;
   std::vector<pcl::cosection::DepthView> views;
-  bool has_colour = false;
   std::vector<std::string> warnings;
 };
 

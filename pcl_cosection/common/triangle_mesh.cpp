@@ -66,6 +66,7 @@ extractTriangles (const TriangleMesh& mesh, const std::vector<bool>& keep)
   result.vertices = select (mesh.vertices, kept);
   result.normals = select (mesh.normals, kept);
   result.colours = select (mesh.colours, kept);
+  result.intensity = select (mesh.intensity, kept);
   result.confidence = select (mesh.confidence, kept);
   result.provenance = select (mesh.provenance, kept);
   for (std::size_t t = 0; t < keep.size (); ++t)
@@ -93,6 +94,7 @@ appendMesh (TriangleMesh& mesh, const TriangleMesh& other)
     throw InvalidArgument ("appendMesh: the union has more vertices than a 32-bit index can count");
   appendProperty (mesh.normals, offset, other.normals, added);
   appendProperty (mesh.colours, offset, other.colours, added);
+  appendProperty (mesh.intensity, offset, other.intensity, added);
   appendProperty (mesh.confidence, offset, other.confidence, added);
   appendProperty (mesh.provenance, offset, other.provenance, added);
   mesh.vertices.insert (mesh.vertices.end (), other.vertices.begin (), other.vertices.end ());

@@ -181,6 +181,8 @@ readSensorCloud (const std::string& path, const PcdViewOptions& options)
   const auto& v = header.viewpoint;
   result.T_world_sensor.linear () = Eigen::Quaterniond (v[3], v[4], v[5], v[6]).normalized ().toRotationMatrix ();
   result.T_world_sensor.translation () = options.scale * Eigen::Vector3d (v[0], v[1], v[2]);
+  result.has_viewpoint =
+      !result.T_world_sensor.translation ().isZero (0.0) || !result.T_world_sensor.linear ().isIdentity (0.0);
   const Eigen::Isometry3d T_sensor_points =
       options.world_points ? result.T_world_sensor.inverse () : Eigen::Isometry3d::Identity ();
 
@@ -206,6 +208,17 @@ readSensorCloud (const std::string& path, const PcdViewOptions& options)
       const std::uint32_t bits = column.bits (i); // 0xAARRGGBB, whether the field is declared F or U
       result.colours[i] = {static_cast<std::uint8_t> (bits >> 16), static_cast<std::uint8_t> (bits >> 8),
                            static_cast<std::uint8_t> (bits)};
+    }
+  }
+  const PcdField* intensity = header.find ("intensity");
+  if (intensity && intensity->count == 1)
+  {
+    const Column column (path, cloud, *intensity);
+    result.intensities.resize (header.points);
+    for (std::size_t i = 0; i < result.intensities.size (); ++i)
+    {
+      const double value = intensity->type == 'F' ? column.real (i) : static_cast<double> (column.integer (i));
+      result.intensities[i] = std::isfinite (static_cast<float> (value)) ? static_cast<float> (value) : 0.0f;
     }
   }
   return (result);

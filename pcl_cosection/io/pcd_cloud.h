@@ -25,8 +25,10 @@ struct SensorCloud
   std::vector<Eigen::Vector3f> positions; ///< NaN: no reading
   std::vector<Eigen::Vector3f> normals;   ///< empty if the file has none
   std::vector<std::uint32_t> labels;
-  std::vector<std::array<std::uint8_t, 3>> colours;
+  std::vector<std::array<std::uint8_t, 3>> colours; ///< empty if the file has none
+  std::vector<float> intensities;                   ///< empty if the file has none
   Eigen::Isometry3d T_world_sensor = Eigen::Isometry3d::Identity ();
+  bool has_viewpoint = false; ///< the file's is not the default one
   bool has_labels = false;
   std::size_t ignored = 0; ///< points of a negative label
 };

@@ -3,18 +3,10 @@
 #include <pcl/cosection/io/pcd_view.h>
 
 #include "pcd_cloud.h"
-#include "quiet_console.h"
+#include "unorganized_view.h"
 
 #include <pcl/cosection/common/error.h>
-#include <pcl/cosection/common/parallel.h>
 #include <pcl/cosection/surface/organized_normals.h>
-
-// With its templates: loading libpcl_features for them costs every program a twentieth of a second.
-#include <pcl/features/impl/normal_3d.hpp>
-#include <pcl/features/impl/normal_3d_omp.hpp>
-#include <pcl/features/normal_3d_omp.h>
-#include <pcl/point_types.h>
-#include <pcl/search/kdtree.h>
 
 #include <algorithm>
 #include <cmath>
@@ -85,48 +77,6 @@ addRays (const std::string& path, const PcdViewOptions& options, const SensorClo
   result.view = std::move (view);
 }
 
-/** \brief Normals of the points of one label, towards the sensor. */
-void
-estimateNormals (const PcdViewOptions& options, const std::vector<std::size_t>& members, SensorCloud& cloud)
-{
-  if (members.size () < 3)
-    return;
-  auto points = pcl::make_shared<PointCloud<PointXYZ>> ();
-  for (const std::size_t i : members)
-    points->emplace_back (cloud.positions[i].x (), cloud.positions[i].y (), cloud.positions[i].z ());
-  const QuietConsole quiet;
-  NormalEstimationOMP<PointXYZ, Normal> estimation (static_cast<unsigned int> (resolveThreads (options.threads)));
-  estimation.setInputCloud (points);
-  estimation.setSearchMethod (pcl::make_shared<search::KdTree<PointXYZ>> ());
-  estimation.setKSearch (std::min (options.normal_neighbours, static_cast<int> (members.size ())));
-  estimation.setViewPoint (0.0f, 0.0f, 0.0f);
-  PointCloud<Normal> normals;
-  estimation.compute (normals);
-  for (std::size_t k = 0; k < members.size (); ++k)
-    cloud.normals[members[k]] = normals[k].getNormalVector3fMap ();
-}
-
-/** \brief Normals of an unorganised cloud without any. */
-void
-estimateNormals (const std::string& path, const PcdViewOptions& options, SensorCloud& cloud, LabelledView& result)
-{
-  cloud.normals.assign (cloud.positions.size (), Eigen::Vector3f::Constant (nan_value));
-  std::map<std::uint32_t, std::vector<std::size_t>> members;
-  Eigen::AlignedBox3f box;
-  for (std::size_t i = 0; i < cloud.positions.size (); ++i)
-    if (cloud.positions[i].allFinite ())
-    {
-      members[cloud.labels[i]].push_back (i);
-      box.extend (cloud.positions[i]);
-    }
-  for (const auto& [label, indices] : members)
-    estimateNormals (options, indices, cloud);
-  if (box.contains (Eigen::Vector3f::Zero ().eval ()))
-    result.warnings.push_back (path +
-                               ": normals are turned towards the VIEWPOINT, which lies among the points: set the " +
-                               "VIEWPOINT, or add fields normal_x normal_y normal_z");
-}
-
 /** \brief Sort the points by label, in the world frame. */
 void
 collectObjects (const SensorCloud& cloud, LabelledView& result)
@@ -146,6 +96,8 @@ collectObjects (const SensorCloud& cloud, LabelledView& result)
     point.normal = (T.linear () * normal.normalized ()).cast<float> ();
     if (result.has_colour)
       point.colour = cloud.colours[i];
+    if (result.has_intensity)
+      point.intensity = cloud.intensities[i];
     object.points.push_back (point);
   }
 }
@@ -195,6 +147,7 @@ readPcdView (const std::string& path, const PcdViewOptions& options)
   checkExtent (path, cloud, result);
   result.has_labels = cloud.has_labels;
   result.has_colour = !cloud.colours.empty ();
+  result.has_intensity = !cloud.intensities.empty ();
   if (cloud.ignored > 0)
     result.warnings.push_back (path + ": " + std::to_string (cloud.ignored) + " points of negative label are ignored");
   if (cloud.height > 1)
@@ -204,8 +157,8 @@ readPcdView (const std::string& path, const PcdViewOptions& options)
     normal_options.threads = options.threads;
     cloud.normals = computeOrganizedNormals (cloud.positions, cloud.width, cloud.height, cloud.labels, normal_options);
   }
-  else if (cloud.normals.empty ())
-    estimateNormals (path, options, cloud, result);
+  else
+    completeUnorganized (path, options, cloud, result);
   collectObjects (cloud, result);
   return (result);
 }

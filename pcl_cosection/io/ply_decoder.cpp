@@ -198,6 +198,8 @@ vertexSetter (const std::string& name)
     if (name == colours[axis])
       return [axis] (TriangleMesh& m, std::size_t v, double value) { m.colours[v][axis] = toByte (value); };
   }
+  if (name == "intensity")
+    return [] (TriangleMesh& m, std::size_t v, double value) { m.intensity[v] = static_cast<float> (value); };
   if (name == "confidence")
     return [] (TriangleMesh& m, std::size_t v, double value) { m.confidence[v] = static_cast<float> (value); };
   if (name == "provenance")
@@ -238,6 +240,8 @@ readVertices (const Element& element, Reader& reader, TriangleMesh& mesh)
     mesh.normals.resize (element.count, Eigen::Vector3f::Zero ());
   if (has ("red") || has ("green") || has ("blue"))
     mesh.colours.resize (element.count);
+  if (has ("intensity"))
+    mesh.intensity.resize (element.count);
   if (has ("confidence"))
     mesh.confidence.resize (element.count);
   if (has ("provenance"))

@@ -45,6 +45,8 @@ encodePly (const TriangleMesh& mesh)
     header << "property float nx\nproperty float ny\nproperty float nz\n";
   if (!mesh.colours.empty ())
     header << "property uchar red\nproperty uchar green\nproperty uchar blue\n";
+  if (!mesh.intensity.empty ())
+    header << "property float intensity\n";
   if (!mesh.confidence.empty ())
     header << "property float confidence\n";
   if (!mesh.provenance.empty ())
@@ -60,6 +62,8 @@ encodePly (const TriangleMesh& mesh)
       put (bytes, mesh.normals[v]);
     if (!mesh.colours.empty ())
       put (bytes, mesh.colours[v]);
+    if (!mesh.intensity.empty ())
+      put (bytes, mesh.intensity[v]);
     if (!mesh.confidence.empty ())
       put (bytes, mesh.confidence[v]);
     if (!mesh.provenance.empty ())

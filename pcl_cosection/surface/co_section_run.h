@@ -13,6 +13,7 @@
 #include <map>
 #include <memory>
 #include <new>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -64,8 +65,10 @@ private:
   {
     const ObjectInput* input = nullptr;
     ObjectResult* result = nullptr;
+    std::vector<OrientedPoint> kept;                 // its points, if some are stray; else empty
     Eigen::AlignedBox3d observed;                    // of its points
     double voxel_size_m = 0.0;
+    std::optional<DepthView> assumed;                // of its points, if the scene has no views; object frame
     std::unique_ptr<ShapeVolume> volume;
     std::vector<Eigen::Vector4d> planes;             // world
     SignedDistanceField field;                       // its shape, as far as known
@@ -73,6 +76,12 @@ private:
     std::unique_ptr<IntersectionConstraint> surroundings; // background, planes and bodies, which stay as they are
     std::map<std::size_t, double> beta;              // growth of the weights of single neighbours
     double beta_surroundings = 1.0;                  // growth of the weight of background, planes and bodies
+
+    const std::vector<OrientedPoint>&
+    points () const
+    {
+      return kept.empty () ? input->points : kept;
+    }
 
     bool
     alive () const
@@ -84,11 +93,21 @@ private:
   /** \brief Relative poses of two bodies over the views, thinned to motions of more than half a voxel. */
   std::vector<Eigen::Isometry3d>
   relativePoses (const Object& of, const Object* to) const;
+  /** \brief T_world_object at a view; not finite if it is not known. */
   Eigen::Isometry3d
   pose (const Object& object, std::size_t view) const;
+  /** \brief The first that is known. */
+  Eigen::Isometry3d
+  firstPose (const Object& object) const;
+  /** \brief The views that saw where the object is, or may be, and T_object_sensor. */
+  std::vector<std::pair<const DepthView*, Eigen::Isometry3d>>
+  viewsOf (const Object& object) const;
 
   void
   observeObjects ();
+  /** \brief A few points far from all others would become bodies of their own. */
+  void
+  leaveOutStrays (Object& object);
   void
   createVolumes ();
   Eigen::AlignedBox3d

@@ -43,6 +43,7 @@ toPolygonMesh (const TriangleMesh& mesh, pcl::PolygonMesh& output)
   const std::uint32_t position = floats ({"x", "y", "z"});
   const std::uint32_t normal = mesh.normals.empty () ? no_field : floats ({"normal_x", "normal_y", "normal_z"});
   const std::uint32_t colour = mesh.colours.empty () ? no_field : floats ({"rgb"});
+  const std::uint32_t intensity = mesh.intensity.empty () ? no_field : floats ({"intensity"});
   const std::uint32_t confidence = mesh.confidence.empty () ? no_field : floats ({"confidence"});
   const std::uint32_t provenance =
       mesh.provenance.empty () ? no_field : addField (cloud, "provenance", PCLPointField::UINT8, sizeof (std::uint8_t));
@@ -64,6 +65,8 @@ toPolygonMesh (const TriangleMesh& mesh, pcl::PolygonMesh& output)
       const std::uint32_t packed = std::uint32_t (c[0]) << 16 | std::uint32_t (c[1]) << 8 | c[2];
       std::memcpy (at + colour, &packed, sizeof (packed));
     }
+    if (intensity != no_field)
+      std::memcpy (at + intensity, &mesh.intensity[v], sizeof (float));
     if (confidence != no_field)
       std::memcpy (at + confidence, &mesh.confidence[v], sizeof (float));
     if (provenance != no_field)

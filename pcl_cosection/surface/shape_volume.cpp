@@ -30,6 +30,8 @@ constexpr double observed_reach_vox = 1.0;
 constexpr double intersection_reach_vox = 1.0;
 constexpr double hull_reach_vox = 1.5;
 constexpr float carving_reach_vox = 1.5f; // from the boundary of free space into the hull
+constexpr float vouched_depth_vox = 3.0f;  // behind a measured surface, where matter is sure: the reach of its points
+constexpr float least_free_vox = 0.25f;    // of a voxel seen free, from the surface of the hull
 constexpr double confidence_scale_vox = 5.0;
 constexpr std::size_t bytes_per_voxel = 80;
 constexpr float border_voxels = 2.0f; // a closed surface stays so far inside its volume
@@ -241,13 +243,25 @@ ShapeVolume::solvedField () const
   return field;
 }
 
-TriangleMesh
-ShapeVolume::closedMesh () const
+float
+ShapeVolume::hullValue (std::size_t n) const
+{
+  if (carved_.empty ())
+    return free_space_[n] ? 0.5f : -0.5f;
+  return free_space_[n] ? std::max (carved_[n], least_free_vox) : carved_[n];
+}
+
+template <typename Value> TriangleMesh
+ShapeVolume::closedMeshOf (Value&& value) const
 {
   IsoSurfaceOptions iso;
   iso.closed = true;
   iso.threads = options_.threads;
-  SignedDistanceField field = solvedField ();
+  SignedDistanceField field;
+  field.grid = grid_;
+  field.values.resize (grid_.size ());
+  for (std::size_t n = 0; n < grid_.size (); ++n)
+    field.values[n] = static_cast<float> (value (n) * grid_.voxel_size_m);
   keepOffBorder (field);
   TriangleMesh mesh = extractIsoSurface (field, iso);
   attachEvidence (mesh);
@@ -261,6 +275,30 @@ ShapeVolume::closedMesh () const
   for (std::size_t t = 0; t < keep.size (); ++t)
     keep[t] = observed[component[mesh.triangles[t][0]]];
   return extractTriangles (mesh, keep);
+}
+
+TriangleMesh
+ShapeVolume::closedMesh () const
+{
+  return closedMeshOf ([this] (std::size_t n) { return carvedValue (n); });
+}
+
+TriangleMesh
+ShapeVolume::hullMesh () const
+{
+  return closedMeshOf ([this] (std::size_t n) { return hullValue (n); });
+}
+
+TriangleMesh
+ShapeVolume::innerMesh () const
+{
+  return closedMeshOf ([this] (std::size_t n) { return std::max (carvedValue (n), data_distance_vox_[n] - vouched_depth_vox); });
+}
+
+TriangleMesh
+ShapeVolume::outerMesh () const
+{
+  return closedMeshOf ([this] (std::size_t n) { return std::min (carvedValue (n), hullValue (n)); });
 }
 
 TriangleMesh

@@ -116,6 +116,18 @@ public:
   TriangleMesh
   closedMesh () const;
 
+  /** \brief Closed mesh of what no view saw free, inside the volume. */
+  TriangleMesh
+  hullMesh () const;
+
+  /** \brief Closed mesh of the part of the minimiser's body that lies just behind data. */
+  TriangleMesh
+  innerMesh () const;
+
+  /** \brief Closed mesh of the minimiser's body and all else that no view saw free. */
+  TriangleMesh
+  outerMesh () const;
+
   /** \brief Open mesh of the minimiser where it is supported. */
   TriangleMesh
   trimmedMesh () const;
@@ -123,6 +135,12 @@ public:
 private:
   float
   carvedValue (std::size_t n) const;
+  /** \brief Signed distance to the space that was seen free, positive in it, within some voxels. */
+  float
+  hullValue (std::size_t n) const;
+  /** \brief Zero set of a field, value (n) in voxels; without parts that have no data. */
+  template <typename Value> TriangleMesh
+  closedMeshOf (Value&& value) const;
   std::vector<std::uint8_t>
   supported () const;
   void

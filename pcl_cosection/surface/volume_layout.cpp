@@ -22,7 +22,7 @@ namespace
 
 constexpr double outlier_share = 0.005; // of the points, at either end of each axis
 constexpr int default_resolution = 64;
-constexpr double points_per_voxel = 3.0;
+constexpr double points_per_voxel = 1.5;
 constexpr double voxel_growth = 1.1;
 constexpr int min_axis = 8;      // voxels
 constexpr double max_axis = 8192; // voxels
@@ -206,6 +206,15 @@ Eigen::AlignedBox3d
 boxOf (const VoxelGrid& grid)
 {
   return {grid.origin_m, grid.center (grid.dims.x () - 1, grid.dims.y () - 1, grid.dims.z () - 1)};
+}
+
+std::vector<Eigen::Vector3d>
+corners (const Eigen::AlignedBox3d& box)
+{
+  std::vector<Eigen::Vector3d> points;
+  for (int c = 0; c < 8; ++c)
+    points.push_back (box.corner (static_cast<Eigen::AlignedBox3d::CornerType> (c)));
+  return points;
 }
 
 std::vector<Eigen::AlignedBox3d>

@@ -44,6 +44,9 @@ layoutBox (const Eigen::AlignedBox3d& box, double voxel_size_m, const CoSectionO
 Eigen::AlignedBox3d
 boxOf (const VoxelGrid& grid);
 
+std::vector<Eigen::Vector3d>
+corners (const Eigen::AlignedBox3d& box);
+
 /** \brief Unite boxes that overlap until none do. */
 std::vector<Eigen::AlignedBox3d>
 uniteOverlapping (std::vector<Eigen::AlignedBox3d> boxes);

@@ -36,6 +36,7 @@ struct PCL_COSECTION_EXPORT TriangleMesh
   std::vector<Triangle> triangles;
   std::vector<Eigen::Vector3f> normals;   ///< unit, outward
   std::vector<Colour> colours;            ///< red, green, blue
+  std::vector<float> intensity;           ///< as the points'
   std::vector<float> confidence;          ///< exp (-d / 5), d: voxels to the nearest data
   std::vector<std::uint8_t> provenance;   ///< Provenance
 

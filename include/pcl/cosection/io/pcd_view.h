@@ -43,10 +43,11 @@ struct PCL_COSECTION_EXPORT LabelledView
     std::size_t readings = 0;          ///< finite points, with a normal or not
   };
 
-  std::optional<DepthView> view;           ///< only of an organised cloud from a pinhole camera
+  std::optional<DepthView> view; ///< of an organised cloud from a pinhole camera, or of points seen from the viewpoint
   std::map<std::uint32_t, Points> objects; ///< by label; 0: background
   bool has_labels = false;                 ///< without, everything is object 1
   bool has_colour = false;
+  bool has_intensity = false;
   std::vector<std::string> warnings; ///< one line each, naming the file
 };
 
@@ -54,9 +55,11 @@ struct PCL_COSECTION_EXPORT LabelledView
  *
  * The points are in the sensor frame; the VIEWPOINT of the header is the pose of the sensor in the
  * world. An organised cloud (HEIGHT > 1) gives a depth view and normals (computeOrganizedNormals ());
- * an unorganised one has its normals in the file, or gets them from pcl::NormalEstimationOMP, per
- * label and towards the viewpoint. Fields: x y z (floating point), label (integer; negative: ignored),
- * rgb or rgba, normal_x normal_y normal_z; others are skipped.
+ * an unorganised one has its normals in the file, or gets them from pcl::NormalEstimationOMP, per label.
+ * These are turned towards the viewpoint if the points were seen from there, which also gives a depth view
+ * (drawRangeImage ()), else so that neighbours agree and bodies are on their inner side. Fields: x y z
+ * (floating point), label (integer; negative: ignored), rgb or rgba, intensity (a number), normal_x normal_y
+ * normal_z; others are skipped.
  *
  * \throws IoError if the file is not a well formed PCD file with these fields
  * \throws DegenerateInput if it holds no finite point

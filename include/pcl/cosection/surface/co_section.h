@@ -11,6 +11,7 @@
 #include <pcl/cosection/surface/solver.h>
 #include <pcl/cosection/volume/signed_distance_field.h>
 
+#include <cstddef>
 #include <map>
 #include <memory>
 #include <string>
@@ -26,7 +27,9 @@ struct PCL_COSECTION_EXPORT ObjectInput
 {
   int id = 0;                        ///< unique, positive
   std::vector<OrientedPoint> points; ///< object frame
-  std::vector<Eigen::Isometry3d> T_world_object; ///< one per view of the scene, or empty: the object frame is the world frame
+  /** \brief One pose per view of the scene, not finite where it is not known: that view and the bodies in it then say
+   * nothing of this object. Empty: the object frame is the world frame. */
+  std::vector<Eigen::Isometry3d> T_world_object;
 };
 
 /** \brief A completed object. */
@@ -35,7 +38,12 @@ struct PCL_COSECTION_EXPORT ObjectResult
   int id = 0;
   std::string error;     ///< empty, or why there is no mesh
   TriangleMesh mesh;     ///< closed, object frame
+  /** \brief If asked for: closed, object frame, inside the object's volume. The hull is what no view saw free; the inner
+   * bound is where measured surfaces vouch for matter, a layer of three voxels behind them; the outer bound is all
+   * that was not seen free. Up to the mesh's accuracy, inner <= mesh <= outer. */
+  TriangleMesh hull, inner_bound, outer_bound;
   SignedDistanceField::Ptr signed_distance; ///< object frame
+  std::size_t stray_points = 0; ///< left out, because they are a few and far from the others
   SolverSummary solver;            ///< of the last pass; its iterations are those of all passes at full resolution
   double penetration_m = 0.0; ///< deepest place of its surface in supported parts of another body
 };

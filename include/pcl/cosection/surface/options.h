@@ -73,6 +73,9 @@ struct PCL_COSECTION_EXPORT CoSectionOptions
   Weighting weighting = Weighting::Mean;
   HullDistance hull_distance = HullDistance::Exact;
 
+  bool compute_hull = false;   ///< also give the hull of each object as a mesh
+  bool compute_bounds = false; ///< also give an inner and an outer bound of each object as meshes
+
   int max_passes = 5;            ///< simultaneous passes over all objects, at half and at full resolution each
   std::size_t max_memory_bytes = 0; ///< 0: no limit
   SolverOptions solver;

@@ -18,7 +18,8 @@ struct OrientedPoint
   Eigen::Vector3f position;                     ///< metres
   Eigen::Vector3f normal;                       ///< unit, outward
   float weight = 1.0f;                          ///< association likelihood a_i in [0, 1] of the paper's data term
-  std::array<std::uint8_t, 3> colour = {0, 0, 0}; ///< red, green, blue; used only if the input says it has colours
+  std::array<std::uint8_t, 3> colour = {0, 0, 0}; ///< red, green, blue; black throughout: unknown
+  float intensity = 0.0f;                         ///< any unit; 0 throughout: unknown
 };
 
 } // namespace cosection

@@ -12,7 +12,7 @@ namespace pcl
 namespace cosection
 {
 
-/** \brief As PCL's mesh: fields x y z, normal_x normal_y normal_z, rgb, confidence (float) and provenance
+/** \brief As PCL's mesh: fields x y z, normal_x normal_y normal_z, rgb, intensity, confidence (float) and provenance
  * (unsigned char), as far as \a mesh has them. The header is left alone. */
 PCL_COSECTION_EXPORT void
 toPolygonMesh (const TriangleMesh& mesh, pcl::PolygonMesh& output);

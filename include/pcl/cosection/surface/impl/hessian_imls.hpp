@@ -97,6 +97,8 @@ HessianIMLS<PointNT>::compute ()
     point.normal = normal / length;
     if constexpr (pcl::traits::has_color<PointNT>::value)
       point.colour = {p.r, p.g, p.b};
+    if constexpr (pcl::traits::has_intensity<PointNT>::value)
+      point.intensity = std::isfinite (p.intensity) ? p.intensity : 0.0f;
     object.points.push_back (point);
   }
   try
@@ -183,6 +185,9 @@ HessianIMLS<PointNT>::performReconstruction (pcl::PointCloud<PointNT>& points, s
         points[v].g = mesh.colours[v][1];
         points[v].b = mesh.colours[v][2];
       }
+    if constexpr (pcl::traits::has_intensity<PointNT>::value)
+      if (!mesh.intensity.empty ())
+        points[v].intensity = mesh.intensity[v];
   }
   polygons.resize (mesh.triangles.size ());
   for (std::size_t t = 0; t < mesh.triangles.size (); ++t)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_cosection authors
-#include "mesh_colours.h"
+#include "mesh_attributes.h"
 
 #include <algorithm>
 #include <cmath>
@@ -14,41 +14,52 @@ namespace cosection
 namespace
 {
 
-struct ColourSum
+constexpr TriangleMesh::Colour unknown_colour = {128, 128, 128};
+
+/** \brief Red, green, blue and intensity of some points. */
+struct AttributeSum
 {
-  Eigen::Vector3f sum = Eigen::Vector3f::Zero ();
+  Eigen::Vector4f sum = Eigen::Vector4f::Zero ();
   float count = 0.0f;
 };
 
 } // namespace
 
 void
-transferColours (const std::vector<OrientedPoint>& points, const VoxelGrid& grid, TriangleMesh& mesh)
+transferAttributes (const std::vector<OrientedPoint>& points, const VoxelGrid& grid, TriangleMesh& mesh)
 {
-  const auto coloured = [] (const OrientedPoint& p) { return p.colour != std::array<std::uint8_t, 3>{0, 0, 0}; };
-  if (std::none_of (points.begin (), points.end (), coloured))
+  const bool coloured = std::any_of (points.begin (), points.end (), [] (const OrientedPoint& p) {
+    return p.colour != TriangleMesh::Colour{0, 0, 0};
+  });
+  const bool measured = std::any_of (points.begin (), points.end (), [] (const OrientedPoint& p) {
+    return p.intensity != 0.0f;
+  });
+  if (!coloured && !measured)
     return;
   const auto voxelOf = [&] (const Eigen::Vector3f& p) -> Eigen::Vector3i {
     return grid.toVoxel (p.cast<double> ()).array ().round ().cast<int> ();
   };
-  std::unordered_map<std::size_t, ColourSum> voxels;
+  std::unordered_map<std::size_t, AttributeSum> voxels;
   for (const OrientedPoint& point : points)
   {
     const Eigen::Vector3i at = voxelOf (point.position);
     if (!grid.contains (at.x (), at.y (), at.z ()))
       continue;
-    ColourSum& voxel = voxels[grid.index (at.x (), at.y (), at.z ())];
-    voxel.sum += Eigen::Vector3f (point.colour[0], point.colour[1], point.colour[2]);
+    AttributeSum& voxel = voxels[grid.index (at.x (), at.y (), at.z ())];
+    voxel.sum += Eigen::Vector4f (point.colour[0], point.colour[1], point.colour[2], point.intensity);
     voxel.count += 1.0f;
   }
 
-  mesh.colours.assign (mesh.vertices.size (), {128, 128, 128});
+  if (coloured)
+    mesh.colours.assign (mesh.vertices.size (), unknown_colour);
+  if (measured)
+    mesh.intensity.assign (mesh.vertices.size (), 0.0f);
   std::vector<bool> done (mesh.vertices.size (), false);
   std::vector<std::uint32_t> front;
   for (std::size_t v = 0; v < mesh.vertices.size (); ++v)
   {
     const Eigen::Vector3i at = voxelOf (mesh.vertices[v]);
-    ColourSum total;
+    AttributeSum total;
     for (int dz = -1; dz <= 1; ++dz)
       for (int dy = -1; dy <= 1; ++dy)
         for (int dx = -1; dx <= 1; ++dx)
@@ -63,13 +74,15 @@ transferColours (const std::vector<OrientedPoint>& points, const VoxelGrid& grid
         }
     if (total.count == 0.0f)
       continue;
-    for (int c = 0; c < 3; ++c)
+    for (int c = 0; coloured && c < 3; ++c)
       mesh.colours[v][c] = static_cast<std::uint8_t> (std::lround (total.sum[c] / total.count));
+    if (measured)
+      mesh.intensity[v] = total.sum[3] / total.count;
     done[v] = true;
     front.push_back (static_cast<std::uint32_t> (v));
   }
 
-  // Breadth first along the edges from all coloured vertices at once.
+  // Breadth first along the edges from all vertices near points at once.
   std::vector<std::uint32_t> begin (mesh.vertices.size () + 1, 0);
   for (const auto& triangle : mesh.triangles)
     for (const std::uint32_t v : triangle)
@@ -91,7 +104,10 @@ transferColours (const std::vector<OrientedPoint>& points, const VoxelGrid& grid
       if (!done[neighbours[e]])
       {
         done[neighbours[e]] = true;
-        mesh.colours[neighbours[e]] = mesh.colours[v];
+        if (coloured)
+          mesh.colours[neighbours[e]] = mesh.colours[v];
+        if (measured)
+          mesh.intensity[neighbours[e]] = mesh.intensity[v];
         front.push_back (neighbours[e]);
       }
   }

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_cosection authors
+#pragma once
+
+#include <pcl/cosection/common/camera.h>
+#include <pcl/cosection/common/export.h>
+
+#include <Eigen/Core>
+
+#include <optional>
+#include <vector>
+
+namespace pcl
+{
+namespace cosection
+{
+
+/** \brief An unorganised cloud as it looks from where its sensor stood. */
+struct PCL_COSECTION_EXPORT RangeImage
+{
+  DepthView view;            ///< nearest point of each pixel; the optical axis passes through the middle of the points
+  double hidden_share = 0.0; ///< of the points, clearly behind others: large if the sensor cannot have stood there
+};
+
+/** \brief Draw an unorganised cloud as a depth image, so that the space in front of its points counts as seen free.
+ *
+ * The pixels are as large as the spacing of the points asks for: a few points fall into each pixel that has any.
+ * Pixels without a point have no reading. O (points).
+ * \param[in] points metres; not finite: left out
+ * \param[in] sensor where the sensor stood, in the points' frame, which is also the frame of the view's pose
+ * \return nothing for fewer than 50 points, or if they span more than 120 degrees as seen from the sensor */
+PCL_COSECTION_EXPORT std::optional<RangeImage>
+drawRangeImage (const std::vector<Eigen::Vector3f>& points, const Eigen::Vector3d& sensor);
+
+} // namespace cosection
+} // namespace pcl

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_cosection authors
+#include <pcl/cosection/io/trajectory.h>
+
+#include "../common/file_bytes.h"
+
+#include <pcl/cosection/common/error.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <locale>
+#include <sstream>
+
+namespace pcl
+{
+namespace cosection
+{
+
+namespace
+{
+
+constexpr double min_quaternion_norm = 1e-3;
+
+StampedPose
+parsePose (const std::string& line, const std::string& where)
+{
+  std::istringstream in (line);
+  in.imbue (std::locale::classic ());
+  std::array<double, 8> values;
+  for (double& value : values)
+    if (!(in >> value) || !std::isfinite (value))
+      throw IoError (where + "must be eight numbers: stamp tx ty tz qx qy qz qw");
+  std::string more;
+  if (in >> more)
+    throw IoError (where + "has more than the eight numbers stamp tx ty tz qx qy qz qw");
+  const Eigen::Quaterniond rotation (values[7], values[4], values[5], values[6]);
+  if (!(rotation.norm () > min_quaternion_norm))
+    throw IoError (where + "has a quaternion qx qy qz qw of length zero");
+  StampedPose stamped;
+  stamped.stamp = values[0];
+  stamped.pose.linear () = rotation.normalized ().toRotationMatrix ();
+  stamped.pose.translation () << values[1], values[2], values[3];
+  return stamped;
+}
+
+} // namespace
+
+std::vector<StampedPose>
+loadTrajectory (const std::string& path)
+{
+  std::istringstream lines (readBytes (path));
+  std::vector<StampedPose> poses;
+  std::string line;
+  for (int number = 1; std::getline (lines, line); ++number)
+  {
+    const std::size_t first = line.find_first_not_of (" \t\r");
+    if (first == std::string::npos || line[first] == '#')
+      continue;
+    poses.push_back (parsePose (line, path + ": line " + std::to_string (number) + " "));
+  }
+  if (poses.empty ())
+    throw IoError (path + ": has no poses (lines: stamp tx ty tz qx qy qz qw)");
+  const auto earlier = [] (const StampedPose& a, const StampedPose& b) { return a.stamp < b.stamp; };
+  std::stable_sort (poses.begin (), poses.end (), earlier);
+  const auto twice = std::adjacent_find (poses.begin (), poses.end (),
+                                         [] (const StampedPose& a, const StampedPose& b) { return a.stamp == b.stamp; });
+  if (twice != poses.end ())
+  {
+    std::ostringstream stamp;
+    stamp << twice->stamp;
+    throw IoError (path + ": has two poses of stamp " + stamp.str ());
+  }
+  return poses;
+}
+
+} // namespace cosection
+} // namespace pcl

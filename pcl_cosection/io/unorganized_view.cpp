@@ -1,0 +1,212 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_cosection authors
+#include "unorganized_view.h"
+
+#include "quiet_console.h"
+
+#include <pcl/cosection/common/parallel.h>
+#include <pcl/cosection/surface/normal_orientation.h>
+#include <pcl/cosection/surface/range_image.h>
+
+// With its templates: loading libpcl_features for them costs every program a twentieth of a second.
+#include <pcl/features/impl/normal_3d.hpp>
+#include <pcl/features/impl/normal_3d_omp.hpp>
+#include <pcl/features/normal_3d_omp.h>
+#include <pcl/point_types.h>
+#include <pcl/search/kdtree.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <sstream>
+
+namespace pcl
+{
+namespace cosection
+{
+
+namespace
+{
+
+constexpr float nan_value = std::numeric_limits<float>::quiet_NaN ();
+constexpr double max_hidden_share = 0.1;   // of the points, if the sensor stood at the viewpoint
+constexpr double max_default_slope = 1.7321; // of points before a camera whose pose was left at the default: 60 degrees
+constexpr float away_cosine = -0.2f;       // of a normal that clearly points away from the viewpoint
+constexpr double worth_saying = 0.02;      // share of the normals
+constexpr double surely_inward = 0.3;      // outward share of a body whose normals are flipped
+constexpr int least_neighbours = 8;        // for a normal; more where there are many points:
+constexpr int points_per_neighbour = 40;
+
+using Members = std::map<std::uint32_t, std::vector<std::size_t>>;
+
+std::string
+percent (double share)
+{
+  std::ostringstream text;
+  text.precision (2);
+  text << 100.0 * share << " %";
+  return text.str ();
+}
+
+/** \brief Estimated normals of any sign. */
+void
+estimateNormals (const PcdViewOptions& options, const std::vector<std::size_t>& members, SensorCloud& cloud)
+{
+  if (members.size () < 3)
+    return;
+  auto points = pcl::make_shared<PointCloud<PointXYZ>> ();
+  for (const std::size_t i : members)
+    points->emplace_back (cloud.positions[i].x (), cloud.positions[i].y (), cloud.positions[i].z ());
+  const QuietConsole quiet;
+  const auto count = static_cast<int> (std::min<std::size_t> (members.size (), std::numeric_limits<int>::max ()));
+  const int wanted = std::clamp (count / points_per_neighbour, std::min (least_neighbours, options.normal_neighbours),
+                                 options.normal_neighbours);
+  NormalEstimationOMP<PointXYZ, Normal> estimation (static_cast<unsigned int> (resolveThreads (options.threads)));
+  estimation.setInputCloud (points);
+  estimation.setSearchMethod (pcl::make_shared<search::KdTree<PointXYZ>> ());
+  estimation.setKSearch (std::min (wanted, count));
+  PointCloud<Normal> normals;
+  estimation.compute (normals);
+  for (std::size_t k = 0; k < members.size (); ++k)
+    cloud.normals[members[k]] = normals[k].getNormalVector3fMap ();
+}
+
+/** \brief The cloud as seen from the viewpoint, if that is where it was seen from. */
+std::optional<DepthView>
+viewFromViewpoint (const std::string& path, const PcdViewOptions& options, const SensorCloud& cloud,
+                   LabelledView& result)
+{
+  if (!cloud.has_viewpoint)
+  {
+    const bool as_before_a_camera = std::all_of (cloud.positions.begin (), cloud.positions.end (), [] (const auto& p) {
+      return !p.allFinite () || (p.z () > 0.0f && p.template head<2> ().norm () < max_default_slope * p.z ());
+    });
+    if (options.world_points || !as_before_a_camera)
+      return std::nullopt;
+  }
+  std::optional<RangeImage> image = drawRangeImage (cloud.positions, Eigen::Vector3d::Zero ());
+  if (image && image->hidden_share <= max_hidden_share)
+  {
+    image->view.T_world_sensor = cloud.T_world_sensor * image->view.T_world_sensor;
+    return std::move (image->view);
+  }
+  if (cloud.has_viewpoint)
+    result.warnings.push_back (path + ": its points were not seen from its VIEWPOINT alone (" +
+                               (image ? percent (image->hidden_share) + " of them are hidden from there"
+                                      : std::string ("they are few, or all around it")) +
+                               "): no free space is taken from it");
+  return std::nullopt;
+}
+
+std::vector<Eigen::Vector3f>
+pick (const std::vector<Eigen::Vector3f>& all, const std::vector<std::size_t>& members)
+{
+  std::vector<Eigen::Vector3f> picked;
+  picked.reserve (members.size ());
+  for (const std::size_t i : members)
+    picked.push_back (all[i]);
+  return picked;
+}
+
+/** \brief Consistently, bodies outward and the background towards them. */
+void
+orientWithoutViewpoint (const Members& members, SensorCloud& cloud)
+{
+  Eigen::Vector3d middle = Eigen::Vector3d::Zero ();
+  std::size_t count = 0;
+  for (const auto& [label, indices] : members)
+    for (const std::size_t i : indices)
+      if (label != 0)
+      {
+        middle += cloud.positions[i].cast<double> ();
+        ++count;
+      }
+  middle /= static_cast<double> (std::max<std::size_t> (1, count));
+  for (const auto& [label, indices] : members)
+  {
+    const std::vector<Eigen::Vector3f> points = pick (cloud.positions, indices);
+    std::vector<Eigen::Vector3f> normals = pick (cloud.normals, indices);
+    orientConsistently (points, normals);
+    double towards = 0.0;
+    for (std::size_t n = 0; label == 0 && n < points.size (); ++n)
+      if (normals[n].allFinite ())
+        towards += normals[n].cast<double> ().dot (middle - points[n].cast<double> ());
+    for (std::size_t n = 0; n < points.size (); ++n)
+      cloud.normals[indices[n]] = towards < 0.0 ? Eigen::Vector3f (-normals[n]) : normals[n];
+  }
+}
+
+/** \brief Turn normals that clearly point away from the viewpoint, which is the origin. \return their share */
+double
+turnTowardsViewpoint (float away, SensorCloud& cloud)
+{
+  std::size_t turned = 0;
+  std::size_t all = 0;
+  for (std::size_t i = 0; i < cloud.positions.size (); ++i)
+  {
+    Eigen::Vector3f& normal = cloud.normals[i];
+    if (!cloud.positions[i].allFinite () || !normal.allFinite ())
+      continue;
+    ++all;
+    if (-cloud.positions[i].normalized ().dot (normal) >= away * normal.norm ())
+      continue;
+    normal = -normal;
+    ++turned;
+  }
+  return all == 0 ? 0.0 : static_cast<double> (turned) / static_cast<double> (all);
+}
+
+/** \brief Check normals of the file against the shape, where no viewpoint tells their sign. */
+void
+checkWithoutViewpoint (const std::string& path, const Members& members, SensorCloud& cloud, LabelledView& result)
+{
+  for (const auto& [label, indices] : members)
+  {
+    if (label == 0)
+      continue;
+    const double outward = outwardShare (pick (cloud.positions, indices), pick (cloud.normals, indices));
+    if (outward >= surely_inward)
+      continue;
+    for (const std::size_t i : indices)
+      cloud.normals[i] = -cloud.normals[i];
+    result.warnings.push_back (path + ": the normals " +
+                               (result.has_labels ? "of label " + std::to_string (label) + " " : std::string ()) +
+                               "point inward; they were turned");
+  }
+}
+
+} // namespace
+
+void
+completeUnorganized (const std::string& path, const PcdViewOptions& options, SensorCloud& cloud, LabelledView& result)
+{
+  Members members;
+  for (std::size_t i = 0; i < cloud.positions.size (); ++i)
+    if (cloud.positions[i].allFinite ())
+      members[cloud.labels[i]].push_back (i);
+  result.view = viewFromViewpoint (path, options, cloud, result);
+  if (!cloud.normals.empty ())
+  {
+    if (!result.view)
+      checkWithoutViewpoint (path, members, cloud, result);
+    else if (const double turned = turnTowardsViewpoint (away_cosine, cloud); turned > worth_saying)
+      result.warnings.push_back (path + ": " + percent (turned) +
+                                 " of the normals point away from the VIEWPOINT; they were turned");
+    return;
+  }
+  cloud.normals.assign (cloud.positions.size (), Eigen::Vector3f::Constant (nan_value));
+  for (const auto& [label, indices] : members)
+    estimateNormals (options, indices, cloud);
+  if (result.view)
+  {
+    turnTowardsViewpoint (0.0f, cloud);
+    return;
+  }
+  orientWithoutViewpoint (members, cloud);
+  result.warnings.push_back (path + ": where its points were seen from is not known; their normals were turned so that " +
+                             "neighbours agree (better: set the VIEWPOINT, or add fields normal_x normal_y normal_z)");
+}
+
+} // namespace cosection
+} // namespace pcl

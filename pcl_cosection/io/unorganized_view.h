@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_cosection authors
+#pragma once
+
+#include "pcd_cloud.h"
+
+#include <pcl/cosection/io/pcd_view.h>
+
+#include <string>
+
+namespace pcl
+{
+namespace cosection
+{
+
+/** \brief Give an unorganised cloud normals and, if the points tell that the sensor stood at the viewpoint, rays.
+ *
+ * The viewpoint counts if all points are visible from there, and one that the file leaves at its default only if the
+ * points also lie before it as before a camera. Missing normals are estimated, and turned towards the viewpoint, or else
+ * consistently and outward. Given normals that the viewpoint or the shape contradict are turned. Whatever was done to
+ * the data is said in \a result.warnings. */
+void
+completeUnorganized (const std::string& path, const PcdViewOptions& options, SensorCloud& cloud, LabelledView& result);
+
+} // namespace cosection
+} // namespace pcl

@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_cosection authors
+#include "co_section_run.h"
+
+#include "mesh_attributes.h"
+#include "volume_layout.h"
+
+#include <pcl/cosection/common/error.h>
+#include <pcl/cosection/surface/support_plane.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+// The part of a run that learns what surrounds the objects: support planes and background.
+
+namespace pcl
+{
+namespace cosection
+{
+
+namespace
+{
+
+constexpr double background_voxels_per_object_voxel = 2.0;
+constexpr double background_only_resolution = 128.0; // voxels along the longest side, if there is no object
+constexpr double plane_inlier_voxels = 2.0;
+constexpr double min_plane_inlier_m = 0.004;
+constexpr double same_plane_cosine = 0.999;
+constexpr double same_plane_m = 0.005;
+
+} // namespace
+
+Eigen::Vector4d
+CoSectionRun::towards (const Object& object, const Eigen::Vector4d& plane) const
+{
+  const Eigen::Vector4d local = transformPlane (plane, firstPose (object));
+  std::ptrdiff_t above = 0;
+  for (const OrientedPoint& p : object.points ())
+    above += local.head<3> ().dot (p.position.cast<double> ()) + local[3] > 0.0 ? 1 : -1;
+  return above < 0 ? Eigen::Vector4d (-plane) : plane;
+}
+
+void
+CoSectionRun::findPlanes ()
+{
+  if (!scene_.options.use_intersection)
+    return;
+  for (Object& object : objects_)
+  {
+    if (!object.alive ())
+      continue;
+    for (const Eigen::Vector4d& plane : scene_.planes)
+      object.planes.push_back (towards (object, plane));
+    if (scene_.options.use_planes && !scene_.background.empty ())
+    {
+      std::vector<OrientedPoint> points = object.points ();
+      for (OrientedPoint& p : points)
+        p.position = (firstPose (object) * p.position.cast<double> ()).cast<float> ();
+      SupportPlaneOptions options;
+      options.inlier_distance_m =
+          std::max (min_plane_inlier_m, plane_inlier_voxels * object.voxel_size_m);
+      for (const Eigen::Vector4d& plane : findSupportPlanes (scene_.background, points, options))
+        object.planes.push_back (plane);
+    }
+    const Eigen::Vector3d center = firstPose (object) * object.observed.center ();
+    for (const Eigen::Vector4d& plane : object.planes)
+    {
+      const bool known = std::any_of (result_.planes.begin (), result_.planes.end (), [&] (const Eigen::Vector4d& other) {
+        return plane.head<3> ().dot (other.head<3> ()) > same_plane_cosine &&
+               std::abs ((plane - other).head<3> ().dot (center) + plane[3] - other[3]) < same_plane_m;
+      });
+      if (!known)
+        result_.planes.push_back (plane);
+    }
+  }
+}
+
+void
+CoSectionRun::solveBackground ()
+{
+  if (scene_.background.empty ())
+    return;
+  std::vector<Eigen::AlignedBox3d> boxes;
+  std::vector<PlaneContinuation> planes;
+  double voxel = scene_.options.background_voxel_size_m;
+  double smallest = std::numeric_limits<double>::infinity ();
+  for (const Object& object : objects_)
+  {
+    if (!object.alive ())
+      continue;
+    Eigen::AlignedBox3d box;
+    for (const Eigen::Isometry3d& T : relativePoses (object, nullptr))
+      for (const Eigen::Vector3d& corner : corners (boxOf (object.volume->grid ())))
+        box.extend (T * corner);
+    boxes.push_back (box);
+    smallest = std::min (smallest, object.volume->grid ().voxel_size_m);
+    for (const Eigen::Vector4d& plane : object.planes)
+      planes.push_back ({plane, box});
+  }
+  // Where planes of several objects overlap the last one counts; it must not depend on the objects' order.
+  std::sort (planes.begin (), planes.end (), [] (const PlaneContinuation& a, const PlaneContinuation& b) {
+    const auto key = [] (const PlaneContinuation& p) {
+      return std::array<double, 7>{p.plane[0], p.plane[1], p.plane[2], p.plane[3],
+                                   p.region.min ().x (), p.region.min ().y (), p.region.min ().z ()};
+    };
+    return key (a) < key (b);
+  });
+  if (boxes.empty ())
+  {
+    Eigen::AlignedBox3d box;
+    for (const OrientedPoint& p : scene_.background)
+      if (p.position.allFinite ())
+        box.extend (p.position.cast<double> ());
+    boxes.push_back (box);
+    smallest = box.sizes ().maxCoeff () / background_only_resolution / background_voxels_per_object_voxel;
+  }
+  if (voxel <= 0.0)
+    voxel = background_voxels_per_object_voxel * smallest;
+  boxes = uniteOverlapping (std::move (boxes));
+  for (const Eigen::AlignedBox3d& box : boxes)
+  {
+    try
+    {
+      ShapeVolume volume (layoutBox (box, voxel, scene_.options), scene_.options);
+      timed ("data_term", [&] { volume.addPoints (scene_.background); });
+      timed ("constraints", [&] {
+        for (const FreeSpaceView& view : scene_.views)
+          volume.addView (view, view.view ().T_world_sensor);
+        volume.prepare (planes);
+      });
+      if (!volume.hasData ())
+        continue;
+      timed ("solve", [&] {
+        volume.solve (Resolution::Full, [this] (const std::string&, double f) {
+          report ("background", 0.3 * f);
+          return true;
+        });
+      });
+      timed ("mesh", [&] {
+        TriangleMesh mesh = volume.trimmedMesh ();
+        transferAttributes (scene_.background, volume.grid (), mesh);
+        appendMesh (result_.background, mesh);
+      });
+      background_.push_back (volume.solvedField ());
+    }
+    catch (const Cancelled&)
+    {
+      throw;
+    }
+    catch (const Error& e)
+    {
+      result_.warnings.push_back (std::string ("the background was left out: ") + e.what ());
+    }
+  }
+}
+
+} // namespace cosection
+} // namespace pcl

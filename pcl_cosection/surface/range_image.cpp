@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_cosection authors
+#include <pcl/cosection/surface/range_image.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+
+namespace pcl
+{
+namespace cosection
+{
+
+namespace
+{
+
+constexpr std::size_t min_points = 50;
+constexpr double max_slope = 1.7321;      // tangent of half of 120 degrees
+constexpr int finest_px = 1024;           // pixels along the longer side ...
+constexpr int coarsest_px = 8;            // ... that are tried
+constexpr double coarsening = 1.2;
+constexpr double points_per_pixel = 2.5;
+constexpr double hidden_sigmas = 6.0;     // a point that lies so far behind its pixel's neighbourhood is hidden ...
+constexpr double hidden_pixels = 3.0;     // ... unless a steep surface explains it: in widths of a pixel there
+constexpr float nothing = std::numeric_limits<float>::infinity ();
+
+/** \brief Looking from \a eye to \a target; the roll does not matter. */
+Eigen::Isometry3d
+lookingAt (const Eigen::Vector3d& eye, const Eigen::Vector3d& target)
+{
+  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity ();
+  pose.linear () = Eigen::Quaterniond::FromTwoVectors (Eigen::Vector3d::UnitZ (), target - eye).toRotationMatrix ();
+  pose.translation () = eye;
+  return pose;
+}
+
+/** \brief Points before a camera: slopes x/z, y/z and depth z. */
+struct Projection
+{
+  std::vector<Eigen::Vector3f> points;
+  Eigen::AlignedBox2f slopes;
+};
+
+std::size_t
+pixelOf (const PinholeCamera& camera, const Eigen::Vector3f& p)
+{
+  const auto u = static_cast<int> (std::lround (camera.fx * p.x () + camera.cx));
+  const auto v = static_cast<int> (std::lround (camera.fy * p.y () + camera.cy));
+  return static_cast<std::size_t> (std::clamp (v, 0, camera.height - 1)) * camera.width +
+         std::clamp (u, 0, camera.width - 1);
+}
+
+/** \brief A camera for the given slopes with \a longest pixels along the longer side. */
+PinholeCamera
+cameraFor (const Eigen::AlignedBox2f& slopes, int longest)
+{
+  const Eigen::Vector2d size = slopes.sizes ().cast<double> ();
+  PinholeCamera camera;
+  camera.fx = camera.fy = (longest - 1) / std::max (size.maxCoeff (), 1e-9);
+  camera.width = static_cast<int> (std::lround (size.x () * camera.fx)) + 1;
+  camera.height = static_cast<int> (std::lround (size.y () * camera.fy)) + 1;
+  camera.cx = -slopes.min ().x () * camera.fx;
+  camera.cy = -slopes.min ().y () * camera.fy;
+  return camera;
+}
+
+std::size_t
+occupiedPixels (const PinholeCamera& camera, const std::vector<Eigen::Vector3f>& points)
+{
+  std::vector<std::uint8_t> occupied (static_cast<std::size_t> (camera.width) * camera.height, 0);
+  for (const Eigen::Vector3f& p : points)
+    occupied[pixelOf (camera, p)] = 1;
+  return static_cast<std::size_t> (std::count (occupied.begin (), occupied.end (), 1));
+}
+
+PinholeCamera
+supportedCamera (const Projection& projection)
+{
+  int longest = finest_px;
+  while (longest > coarsest_px &&
+         static_cast<double> (projection.points.size ()) <
+             points_per_pixel *
+                 static_cast<double> (occupiedPixels (cameraFor (projection.slopes, longest), projection.points)))
+    longest = static_cast<int> (longest / coarsening);
+  return cameraFor (projection.slopes, std::max (longest, coarsest_px));
+}
+
+double
+hiddenShare (const DepthView& view, const std::vector<Eigen::Vector3f>& points)
+{
+  std::size_t hidden = 0;
+  const int width = view.camera.width;
+  for (const Eigen::Vector3f& p : points)
+  {
+    const auto pixel = static_cast<int> (pixelOf (view.camera, p));
+    const int column = pixel % width;
+    const int row = pixel / width;
+    float farthest = 0.0f; // of the nearest readings around
+    for (int v = std::max (0, row - 1); v <= std::min (view.camera.height - 1, row + 1); ++v)
+      for (int u = std::max (0, column - 1); u <= std::min (width - 1, column + 1); ++u)
+        if (std::isfinite (view.at (u, v)))
+          farthest = std::max (farthest, view.at (u, v));
+    const double tolerance =
+        hidden_sigmas * depthNoiseSigma (farthest) + hidden_pixels * farthest / view.camera.fx;
+    hidden += p.z () > farthest + tolerance;
+  }
+  return static_cast<double> (hidden) / static_cast<double> (points.size ());
+}
+
+} // namespace
+
+std::optional<RangeImage>
+drawRangeImage (const std::vector<Eigen::Vector3f>& points, const Eigen::Vector3d& sensor)
+{
+  Eigen::AlignedBox3d box;
+  for (const Eigen::Vector3f& p : points)
+    if (p.allFinite ())
+      box.extend (p.cast<double> ());
+  if (box.isEmpty () || !sensor.allFinite () || box.contains (sensor))
+    return std::nullopt;
+  const Eigen::Isometry3d T_points_sensor = lookingAt (sensor, box.center ());
+  const Eigen::Isometry3d T_sensor_points = T_points_sensor.inverse ();
+
+  Projection projection;
+  for (const Eigen::Vector3f& point : points)
+  {
+    if (!point.allFinite ())
+      continue;
+    const Eigen::Vector3d p = T_sensor_points * point.cast<double> ();
+    const Eigen::Vector2d slope = p.head<2> () / p.z ();
+    if (!(p.z () > 0.0) || !(slope.norm () < max_slope))
+      return std::nullopt;
+    projection.slopes.extend (slope.cast<float> ());
+    projection.points.emplace_back (static_cast<float> (slope.x ()), static_cast<float> (slope.y ()),
+                                    static_cast<float> (p.z ()));
+  }
+  if (projection.points.size () < min_points)
+    return std::nullopt;
+
+  RangeImage image;
+  image.view.T_world_sensor = T_points_sensor;
+  image.view.camera = supportedCamera (projection);
+  image.view.depth.assign (static_cast<std::size_t> (image.view.camera.width) * image.view.camera.height, nothing);
+  for (const Eigen::Vector3f& p : projection.points)
+  {
+    float& depth = image.view.depth[pixelOf (image.view.camera, p)];
+    depth = std::min (depth, p.z ());
+  }
+  image.hidden_share = hiddenShare (image.view, projection.points);
+  for (float& depth : image.view.depth)
+    if (depth == nothing)
+      depth = std::numeric_limits<float>::quiet_NaN ();
+  return image;
+}
+
+} // namespace cosection
+} // namespace pcl

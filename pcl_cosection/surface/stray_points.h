@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_cosection authors
+#pragma once
+
+#include <pcl/cosection/surface/oriented_point.h>
+
+#include <vector>
+
+namespace pcl
+{
+namespace cosection
+{
+
+/** \brief Which points belong to no patch of some size: a few points far from all others, as wrong readings and wrong
+ * labels leave, which would each become a body of its own. Points count as near if they are within about
+ * \a reach_m of each other.
+ * \return one value per point */
+std::vector<bool>
+findStrayPoints (const std::vector<OrientedPoint>& points, double reach_m);
+
+} // namespace cosection
+} // namespace pcl
