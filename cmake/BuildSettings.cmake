@@ -30,7 +30,11 @@ endif()
 add_library(pcl_cosection_build_settings INTERFACE)
 target_compile_options(pcl_cosection_build_settings INTERFACE -Wall -Wextra)
 if(UNIX AND NOT APPLE)
-  target_link_options(pcl_cosection_build_settings INTERFACE -Wl,--as-needed -Wl,--no-undefined)
+  target_link_options(pcl_cosection_build_settings INTERFACE -Wl,--as-needed)
+  # Clang links its sanitizers into programs only, so that they are undefined in a library.
+  if(NOT (PCL_COSECTION_SANITIZE AND CMAKE_CXX_COMPILER_ID MATCHES "Clang"))
+    target_link_options(pcl_cosection_build_settings INTERFACE -Wl,--no-undefined)
+  endif()
 endif()
 
 if(PCL_COSECTION_SANITIZE)
@@ -43,4 +47,11 @@ if(PCL_COSECTION_SANITIZE)
   target_compile_options(pcl_cosection_build_settings INTERFACE
     -fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer -g1)
   target_link_options(pcl_cosection_build_settings INTERFACE -fsanitize=address,undefined)
+endif()
+
+if(PCL_COSECTION_FUZZER)
+  if(NOT (PCL_COSECTION_SANITIZE AND CMAKE_CXX_COMPILER_ID MATCHES "Clang"))
+    message(FATAL_ERROR "PCL_COSECTION_FUZZER needs Clang (-DCMAKE_CXX_COMPILER=clang++) and PCL_COSECTION_SANITIZE=ON")
+  endif()
+  target_compile_options(pcl_cosection_build_settings INTERFACE -fsanitize=fuzzer-no-link) # counts what is reached
 endif()

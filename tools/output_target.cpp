@@ -2,12 +2,14 @@
 // Copyright (c) 2026, the pcl_cosection authors
 #include "output_target.h"
 
+#include <pcl/cosection/common/atomic_file.h>
 #include <pcl/cosection/common/error.h>
 #include <pcl/cosection/io/mesh_io.h>
 #include <pcl/cosection/io/sdf_io.h>
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
@@ -37,45 +39,129 @@ checkFolder (const std::string& path, const fs::path& folder)
 void
 checkFile (const std::string& path)
 {
+  const fs::path target = followLinks (path);
   std::error_code failure;
-  const fs::file_status status = fs::status (path, failure);
+  const fs::file_status status = fs::status (target, failure);
+  if (status.type () == fs::file_type::none)
+    throw IoError (path + ": cannot be written: " + failure.message ());
   if (fs::is_directory (status))
     throw IoError (path + ": cannot be written, it is a folder");
   if (fs::exists (status) && !fs::is_regular_file (status))
     throw IoError (path + ": cannot be written, it is not a regular file");
-  const fs::path parent = fs::path (path).parent_path ();
+  if (fs::exists (status) && access (target.c_str (), W_OK) != 0)
+    throw IoError (path + ": cannot be written: " + std::strerror (errno));
+  const fs::path parent = target.parent_path ();
   checkFolder (path, parent.empty () ? fs::path (".") : parent);
 }
 
+fs::path
+folderOf (const fs::path& path)
+{
+  return (path.has_parent_path () ? path.parent_path () : fs::path ("."));
+}
+
+/** \brief Whether both names stand for the same file, be it that there is none yet. */
+bool
+isSameFile (const fs::path& a, const fs::path& b)
+{
+  std::error_code failure;
+  if (fs::exists (a, failure) || fs::exists (b, failure))
+    return (fs::equivalent (a, b, failure) && !failure);
+  const fs::path behind_a = followLinks (a.string ()), behind_b = followLinks (b.string ());
+  return (behind_a.filename () == behind_b.filename () &&
+          fs::equivalent (folderOf (behind_a), folderOf (behind_b), failure) && !failure);
+}
+
 } // namespace
+
+OutputFolder::OutputFolder (const std::string& path)
+{
+  if (path.empty ())
+    return;
+  std::error_code failure;
+  if (fs::exists (path, failure) && !fs::is_directory (path, failure))
+    throw IoError (path + ": is a file; OUTPUT must be a folder, or a file ending in .ply, .stl or .obj");
+  fs::path folder = followLinks (path);
+  if (!folder.has_filename ()) // "a/b/" is "a/b"
+    folder = folder.parent_path ();
+  std::vector<fs::path> missing;
+  for (; !folder.empty () && !fs::exists (folder, failure); folder = folder.parent_path ())
+    missing.push_back (folder);
+  std::reverse (missing.begin (), missing.end ());
+  for (const fs::path& name : missing)
+  {
+    if (fs::create_directory (name, failure))
+      made_.push_back (name);
+    if (!failure)
+      continue;
+    removeMade ();
+    throw IoError (path + ": the folder cannot be made: " + failure.message ());
+  }
+}
+
+OutputFolder::~OutputFolder ()
+{
+  removeMade ();
+}
+
+void
+OutputFolder::removeMade () const
+{
+  std::error_code ignored;
+  for (auto name = made_.rbegin (); name != made_.rend (); ++name)
+    fs::remove (*name, ignored); // fails if it is not empty, as it should
+}
 
 OutputTarget::OutputTarget (const Settings& settings)
     : output_ (settings.output)
     , format_ (settings.format)
     , save_sdf_ (settings.save_sdf)
     , single_file_ (!meshExtension (settings.output).empty ())
+    , folder_ (single_file_ ? "" : settings.output)
 {
   if (!settings.json.empty ())
     checkFile (settings.json);
   if (single_file_)
-  {
     checkFile (output_);
-    return;
-  }
-  std::error_code failure;
-  if (fs::exists (output_, failure) && !fs::is_directory (output_, failure))
-    throw IoError (output_ + ": is a file; OUTPUT must be a folder, or a file ending in .ply, .stl or .obj");
-  made_folder_ = fs::create_directories (output_, failure);
-  if (failure)
-    throw IoError (output_ + ": the folder cannot be made: " + failure.message ());
-  checkFolder (output_, output_);
+  else
+    checkFolder (output_, output_);
+  refuseToOverwrite (settings);
 }
 
-OutputTarget::~OutputTarget ()
+bool
+OutputTarget::isOwnName (const fs::path& name) const
 {
-  std::error_code ignored;
-  if (made_folder_)
-    fs::remove (output_, ignored); // fails if it is not empty, as it should
+  const std::string stem = name.stem ().string (), extension = name.extension ().string ();
+  const bool is_sdf = save_sdf_ && extension == ".vti";
+  if (single_file_)
+    return (name == fs::path (output_).filename () || (is_sdf && stem.rfind (fs::path (output_).stem (), 0) == 0));
+  return ((is_sdf || extension == "." + format_) && (stem == "background" || stem.rfind ("object_", 0) == 0));
+}
+
+void
+OutputTarget::refuseToOverwrite (const Settings& settings) const
+{
+  const fs::path folder = single_file_ ? folderOf (output_) : fs::path (output_);
+  std::vector<fs::path> own; // what is there already, be it a link
+  std::error_code unreadable;
+  for (const auto& entry : fs::directory_iterator (folder, unreadable))
+    if (isOwnName (entry.path ().filename ()))
+      own.push_back (entry.path ());
+  const auto isOwn = [&] (const fs::path& path) {
+    const auto same = [&path] (const fs::path& file) { return (isSameFile (path, file)); };
+    const fs::path target = followLinks (path.string ()); // there may be no such file yet
+    return ((isOwnName (target.filename ()) && isSameFile (folderOf (target), folder)) ||
+            std::any_of (own.begin (), own.end (), same));
+  };
+  for (const std::string& input : settings.inputs)
+  {
+    if (isOwn (input))
+      throw UsageError (input + ": is an input that " + output_ + " would overwrite; give another OUTPUT");
+    if (!settings.json.empty () && isSameFile (input, settings.json))
+      throw UsageError (input + ": is an input that --json would overwrite; give another file");
+  }
+  if (!settings.json.empty () && isOwn (settings.json))
+    throw UsageError ("--json " + settings.json + ": is a file for a mesh; give another one");
 }
 
 std::vector<std::string>

@@ -6,22 +6,41 @@
 
 #include <pcl/cosection/surface/co_section.h>
 
+#include <filesystem>
 #include <string>
 #include <vector>
 
-/** \brief The files that a run writes. */
+/** \brief A folder, made with those above it if there is none. */
+class OutputFolder
+{
+public:
+  /** \param[in] path empty: none is needed \throws pcl::cosection::IoError */
+  explicit OutputFolder (const std::string& path);
+
+  /** \brief Removes the folders again that were made here, if nothing was written into them. */
+  ~OutputFolder ();
+  OutputFolder (const OutputFolder&) = delete;
+  OutputFolder&
+  operator= (const OutputFolder&) = delete;
+
+private:
+  void
+  removeMade () const;
+
+  std::vector<std::filesystem::path> made_; ///< the deepest one last
+};
+
+/** \brief The files that a run writes.
+ *
+ * Symbolic links stay: the file or folder that one points to is written, and made if there is none. */
 class OutputTarget
 {
 public:
-  /** \brief Check that everything can be written, before the work; makes the folder if there is none.
+  /** \brief Check that everything can be written, before the work; makes the folder if there is none
+   * (and removes it again if nothing is written into it).
+   * \throws UsageError if an input would be overwritten, or a mesh by the summary
    * \throws pcl::cosection::IoError */
   explicit OutputTarget (const Settings& settings);
-
-  /** \brief Removes the folder again if it was made here and nothing was written into it. */
-  ~OutputTarget ();
-  OutputTarget (const OutputTarget&) = delete;
-  OutputTarget&
-  operator= (const OutputTarget&) = delete;
 
   /** \brief Write what succeeded. \return the files, in the order written
    * \throws pcl::cosection::IoError */
@@ -29,6 +48,13 @@ public:
   write (const pcl::cosection::SceneResult& result) const;
 
 private:
+  /** \brief Whether a file of this name in the folder of the output may be written. */
+  bool
+  isOwnName (const std::filesystem::path& name) const;
+
+  void
+  refuseToOverwrite (const Settings& settings) const;
+
   std::string
   objectPath (const pcl::cosection::ObjectResult& object, const std::string& extension, bool only,
               const std::string& suffix = "") const;
@@ -37,5 +63,5 @@ private:
   const std::string format_;
   const bool save_sdf_;
   const bool single_file_;
-  bool made_folder_ = false;
+  const OutputFolder folder_;
 };

@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cstdio>
 #include <cstdlib>
 #include <iostream>
@@ -23,13 +24,16 @@ isTerminal ()
   return (isatty (STDERR_FILENO) != 0 && !(term && std::string (term) == "dumb"));
 }
 
+/** \brief One line that no name of a file can make the terminal misbehave with. */
 std::string
 oneLine (std::string text)
 {
   while (!text.empty () && (text.back () == '\n' || text.back () == '\r'))
     text.pop_back ();
   std::replace_if (
-      text.begin (), text.end (), [] (char c) { return (c == '\n' || c == '\r'); }, ' ');
+      text.begin (), text.end (), [] (char c) { return (c == '\n' || c == '\r' || c == '\t'); }, ' ');
+  std::replace_if (
+      text.begin (), text.end (), [] (char c) { return (std::iscntrl (static_cast<unsigned char> (c)) != 0); }, '?');
   return (text);
 }
 
@@ -94,7 +98,7 @@ Terminal::progress (const std::string& stage, double fraction)
   char percent[8];
   std::snprintf (percent, sizeof (percent), "%3d%%", static_cast<int> (100.0 * clamped));
   const std::string bar = "[" + std::string (filled, '#') + std::string (bar_width - filled, ' ') + "] " + percent +
-                          " " + stage.substr (0, stage_width);
+                          " " + oneLine (stage.substr (0, stage_width));
   if (bar == bar_)
     return;
   clearBar ();

@@ -20,11 +20,27 @@ namespace
 
 namespace fs = std::filesystem;
 
+constexpr int max_links = 40; ///< one after the other; as many as Linux follows
+
+fs::path
+behindLinks (fs::path path)
+{
+  for (int n = 0; n <= max_links; ++n)
+  {
+    std::error_code none;
+    if (!fs::is_symlink (fs::symlink_status (path, none)))
+      return path;
+    path = path.parent_path () / fs::read_symlink (path); // which is the second alone if it is absolute
+  }
+  throw std::system_error (ELOOP, std::generic_category ());
+}
+
 /** \brief The file that \a path stands for, behind symbolic links.
  * \throws std::system_error if it exists and is not a regular file that may be written */
 fs::path
-resolveTarget (const fs::path& path)
+resolveTarget (const fs::path& given)
 {
+  const fs::path path = behindLinks (given);
   const auto status = fs::status (path);
   if (!fs::exists (status))
   {
@@ -96,6 +112,19 @@ private:
 };
 
 } // namespace
+
+std::string
+followLinks (const std::string& path)
+{
+  try
+  {
+    return behindLinks (path).string ();
+  }
+  catch (const std::system_error& error)
+  {
+    throw IoError (path + ": " + error.code ().message ());
+  }
+}
 
 void
 writeAtomically (const std::string& path, const std::function<void (const std::string&)>& write)

@@ -3,12 +3,11 @@
 #include "pcd_cloud.h"
 
 #include "pcd_header.h"
-#include "quiet_console.h"
+#include "pcd_points.h"
 
 #include <pcl/cosection/common/error.h>
 
 #include <pcl/PCLPointCloud2.h>
-#include <pcl/io/pcd_io.h>
 
 #include <cmath>
 #include <cstring>
@@ -89,31 +88,6 @@ private:
   std::size_t size_;
 };
 
-PCLPointCloud2
-loadCloud (const std::string& path, const PcdHeader& header)
-{
-  const QuietConsole quiet;
-  PCLPointCloud2 cloud;
-  Eigen::Vector4f origin;
-  Eigen::Quaternionf orientation;
-  int version = 0, status = -1;
-  try
-  {
-    status = PCDReader ().read (path, cloud, origin, orientation, version);
-  }
-  catch (const std::bad_alloc&)
-  {
-    throw;
-  }
-  catch (const std::exception&)
-  {
-    status = -1;
-  }
-  if (status < 0 || cloud.data.size () < header.points * cloud.point_step)
-    throw IoError (path + ": its points cannot be decoded; the file is damaged");
-  return (cloud);
-}
-
 const PcdField&
 requireReal (const std::string& path, const PcdHeader& header, const std::string& name)
 {
@@ -173,7 +147,7 @@ readSensorCloud (const std::string& path, const PcdViewOptions& options)
   const PcdHeader header = readPcdHeader (path);
   for (const char* name : {"x", "y", "z"})
     requireReal (path, header, name);
-  const PCLPointCloud2 cloud = loadCloud (path, header);
+  const PCLPointCloud2 cloud = readPcdPoints (path, header);
 
   SensorCloud result;
   result.width = static_cast<int> (header.width);

@@ -11,6 +11,7 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <set>
 #include <sstream>
 
 namespace pcl
@@ -24,6 +25,7 @@ namespace
 constexpr std::size_t max_header_bytes = 1 << 16;
 constexpr std::size_t max_elements = 1 << 12; ///< in one field; descriptors have some hundreds
 constexpr std::uint64_t max_points = 0x7fffffff;
+constexpr double max_viewpoint = 1e15; ///< in any unit; beyond it sums of squares overflow a float
 constexpr std::uint64_t max_lzf_ratio = 264; ///< longest match of LZF; bounds what a compressed block can hold
 
 using Tokens = std::vector<std::string>;
@@ -32,16 +34,6 @@ using Tokens = std::vector<std::string>;
 fail (const std::string& path, const std::string& reason)
 {
   throw IoError (path + ": " + reason);
-}
-
-/** \brief Text fit for a message: short and printable. */
-std::string
-printable (const std::string& text)
-{
-  std::string result;
-  for (const char c : text.substr (0, 24))
-    result += (c >= ' ' && c <= '~') ? c : '?';
-  return (result);
 }
 
 Tokens
@@ -72,12 +64,6 @@ isNumber (const char* first, const char* last)
   char* end = nullptr;
   std::strtod (first, &end);
   return (end == last);
-}
-
-bool
-isWhite (char c)
-{
-  return (c == ' ' || c == '\t' || c == '\r');
 }
 
 class HeaderParser
@@ -115,6 +101,8 @@ private:
   parseLine (const Tokens& tokens)
   {
     const std::string& key = tokens[0];
+    if (!seen_.insert (key == "COLUMNS" ? "FIELDS" : key).second)
+      fail (path_, "the PCD header has two lines " + printable (key));
     if (key == "VERSION")
       ;
     else if (key == "FIELDS" || key == "COLUMNS")
@@ -164,7 +152,7 @@ private:
     {
       good = isNumber (tokens[i + 1].c_str (), tokens[i + 1].c_str () + tokens[i + 1].size ());
       header_.viewpoint[i] = std::strtod (tokens[i + 1].c_str (), nullptr);
-      good = good && std::isfinite (header_.viewpoint[i]);
+      good = good && std::abs (header_.viewpoint[i]) <= max_viewpoint;
     }
     const auto& v = header_.viewpoint;
     if (!good || !(std::hypot (std::hypot (v[3], v[4]), std::hypot (v[5], v[6])) > 1e-6))
@@ -213,17 +201,8 @@ private:
   const std::string path_;
   PcdHeader header_;
   int known_lines_ = 0;
+  std::set<std::string> seen_;
 };
-
-std::uint64_t
-pointBytes (const PcdHeader& header, bool with_padding)
-{
-  std::uint64_t bytes = 0;
-  for (const PcdField& field : header.fields)
-    if (with_padding || field.name != "_")
-      bytes += field.size * field.count;
-  return (bytes);
-}
 
 [[noreturn]] void
 failTruncated (const std::string& path, std::uint64_t needed, std::uint64_t found)
@@ -241,50 +220,16 @@ checkCompressed (const std::string& path, const PcdHeader& header, std::istream&
     failTruncated (path, sizeof (sizes), found);
   if (sizes[0] > found - sizeof (sizes))
     failTruncated (path, sizes[0], found - sizeof (sizes));
-  if (sizes[1] != header.points * pointBytes (header, false) || sizes[1] > sizes[0] * max_lzf_ratio)
+  if (sizes[1] != header.points * header.pointBytes (PcdPadding::Excluded) || sizes[1] > sizes[0] * max_lzf_ratio)
     fail (path, "its compressed points do not have the size that its header announces");
 }
 
 void
-checkAscii (const std::string& path, const PcdHeader& header, std::istream& file, std::uint64_t found)
+checkAscii (const std::string& path, const PcdHeader& header, std::uint64_t found)
 {
-  std::uint64_t values = 0;
-  for (const PcdField& field : header.fields)
-    values += field.count;
-  const std::uint64_t shortest = 2 * values * header.points - 1; // a digit and a separator each
+  const std::uint64_t shortest = 2 * header.pointValues () * header.points - 1; // a digit and a separator each
   if (found < shortest)
     failTruncated (path, shortest, found);
-  file.seekg (static_cast<std::streamoff> (header.data_offset));
-  std::uint64_t rows = 0;
-  for (std::string line; rows < header.points && std::getline (file, line);)
-  {
-    const char* p = line.c_str ();
-    const char* const end = p + line.size ();
-    std::uint64_t row_values = 0;
-    while (true)
-    {
-      while (p != end && isWhite (*p))
-        ++p;
-      if (p == end)
-        break;
-      const char* const token = p;
-      while (p != end && !isWhite (*p))
-        ++p;
-      if (!isNumber (token, p))
-        fail (path, "point " + std::to_string (rows) + " holds \"" + printable (std::string (token, p)) +
-                        "\", which is not a number");
-      ++row_values;
-    }
-    if (row_values == 0)
-      continue;
-    if (row_values != values)
-      fail (path, "point " + std::to_string (rows) + " has " + std::to_string (row_values) +
-                      " values, its header announces " + std::to_string (values));
-    ++rows;
-  }
-  if (rows < header.points)
-    fail (path, "is truncated: its header announces " + std::to_string (header.points) + " points, there are " +
-                    std::to_string (rows));
 }
 
 } // namespace
@@ -295,6 +240,34 @@ PcdHeader::find (const std::string& name) const
   const auto found =
       std::find_if (fields.begin (), fields.end (), [&] (const PcdField& f) { return (f.name == name); });
   return (found == fields.end () ? nullptr : &*found);
+}
+
+std::uint64_t
+PcdHeader::pointBytes (PcdPadding padding) const
+{
+  std::uint64_t bytes = 0;
+  for (const PcdField& field : fields)
+    if (padding == PcdPadding::Included || !field.isPadding ())
+      bytes += field.size * field.count;
+  return (bytes);
+}
+
+std::uint64_t
+PcdHeader::pointValues () const
+{
+  std::uint64_t values = 0;
+  for (const PcdField& field : fields)
+    values += field.count;
+  return (values);
+}
+
+std::string
+printable (const std::string& text)
+{
+  std::string result;
+  for (const char c : text.substr (0, 24))
+    result += (c >= ' ' && c <= '~') ? c : '?';
+  return (result);
 }
 
 PcdHeader
@@ -327,9 +300,9 @@ readPcdHeader (const std::string& path)
   if (header.encoding == PcdEncoding::BinaryCompressed)
     checkCompressed (path, header, file, found);
   else if (header.encoding == PcdEncoding::Ascii)
-    checkAscii (path, header, file, found);
-  else if (found < header.points * pointBytes (header, true))
-    failTruncated (path, header.points * pointBytes (header, true), found);
+    checkAscii (path, header, found);
+  else if (found < header.points * header.pointBytes ())
+    failTruncated (path, header.points * header.pointBytes (), found);
   return (header);
 }
 

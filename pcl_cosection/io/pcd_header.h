@@ -20,6 +20,13 @@ struct PcdField
   std::size_t size = 0;  ///< bytes of one element
   char type = 0;         ///< I: signed, U: unsigned, F: floating point
   std::size_t count = 1; ///< elements
+
+  /** \brief Bytes that mean nothing; binary_compressed leaves them out. */
+  bool
+  isPadding () const
+  {
+    return (name == "_");
+  }
 };
 
 enum class PcdEncoding
@@ -27,6 +34,12 @@ enum class PcdEncoding
   Ascii,
   Binary,
   BinaryCompressed,
+};
+
+enum class PcdPadding
+{
+  Included,
+  Excluded,
 };
 
 /** \brief The header of a PCD file. */
@@ -43,14 +56,25 @@ struct PcdHeader
   /** \brief The field of this name, or nullptr. */
   const PcdField*
   find (const std::string& name) const;
+
+  /** \brief Bytes of a point in a binary file. */
+  std::uint64_t
+  pointBytes (PcdPadding padding = PcdPadding::Included) const;
+
+  /** \brief Numbers of a point in an ASCII file. */
+  std::uint64_t
+  pointValues () const;
 };
 
 /** \brief Read the header of a PCD file and check it against the size of the file, so that a reader
  * that trusts the header neither leaves the file nor allocates more than a small multiple of it.
- * The text of ASCII points is checked as well.
  * \throws IoError for anything but a well formed file, DegenerateInput if it holds no points */
 PcdHeader
 readPcdHeader (const std::string& path);
+
+/** \brief Text of a file fit for a message: short, and without what is not printable. */
+std::string
+printable (const std::string& text);
 
 } // namespace cosection
 } // namespace pcl

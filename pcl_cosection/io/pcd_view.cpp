@@ -89,11 +89,12 @@ collectObjects (const SensorCloud& cloud, LabelledView& result)
     LabelledView::Points& object = result.objects[cloud.labels[i]];
     ++object.readings;
     const Eigen::Vector3d normal = cloud.normals[i].cast<double> ();
-    if (!(normal.squaredNorm () > 1e-6)) // NaN or zero
+    const double length = normal.norm ();
+    if (!(length > 1e-3) || !std::isfinite (length)) // none; infinite where points are absurdly far apart
       continue;
     OrientedPoint point;
     point.position = (T * cloud.positions[i].cast<double> ()).cast<float> ();
-    point.normal = (T.linear () * normal.normalized ()).cast<float> ();
+    point.normal = (T.linear () * (normal / length)).cast<float> ();
     if (result.has_colour)
       point.colour = cloud.colours[i];
     if (result.has_intensity)

@@ -88,3 +88,26 @@ TEST (WriteAtomically, FollowsSymbolicLinks)
   EXPECT_TRUE (fs::is_symlink (folder.file ("link")));
   EXPECT_EQ (readFile (folder.file ("target")), "new");
 }
+
+TEST (WriteAtomically, MakesTheFileThatALinkPointsTo)
+{
+  const TemporaryFolder folder;
+  fs::create_directory (folder.file ("elsewhere"));
+  fs::create_symlink ("elsewhere/target", folder.file ("link"));
+  fs::create_symlink ("link", folder.file ("link_to_link"));
+  EXPECT_EQ (followLinks (folder.file ("link_to_link")), folder.file ("elsewhere/target"));
+  writeAtomically (folder.file ("link_to_link"), [] (const std::string& temporary) { writeFile (temporary, "new"); });
+  EXPECT_TRUE (fs::is_symlink (folder.file ("link")));
+  EXPECT_TRUE (fs::is_symlink (folder.file ("link_to_link")));
+  EXPECT_EQ (readFile (folder.file ("elsewhere/target")), "new");
+  EXPECT_EQ (folder.entries (), 3u);
+}
+
+TEST (WriteAtomically, LinksInCirclesAreAnError)
+{
+  const TemporaryFolder folder;
+  fs::create_symlink ("b", folder.file ("a"));
+  fs::create_symlink ("a", folder.file ("b"));
+  EXPECT_THROW (writeAtomically (folder.file ("a"), [] (const std::string&) {}), IoError);
+  EXPECT_THROW (followLinks (folder.file ("a")), IoError);
+}

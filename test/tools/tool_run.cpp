@@ -37,7 +37,9 @@ readAll (const std::string& path)
 
 } // namespace
 
-ToolRun::ToolRun (const std::vector<std::string>& arguments, const std::string& folder) : folder_ (folder)
+ToolRun::ToolRun (const std::vector<std::string>& arguments, const std::string& folder,
+                  const std::function<void ()>& prepare)
+    : folder_ (folder)
 {
   std::vector<std::string> words = {PCL_COSECTION_TOOL};
   words.insert (words.end (), arguments.begin (), arguments.end ());
@@ -54,6 +56,8 @@ ToolRun::ToolRun (const std::vector<std::string>& arguments, const std::string& 
       _exit (126);
     redirect (output_name, STDOUT_FILENO);
     redirect (error_name, STDERR_FILENO);
+    if (prepare)
+      prepare ();
     execv (pointers[0], pointers.data ());
     _exit (127);
   }

@@ -4,6 +4,7 @@
 
 #include <sys/types.h>
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -11,8 +12,10 @@
 class ToolRun
 {
 public:
-  /** \param[in] folder its working directory; what it prints goes to files in there */
-  ToolRun (const std::vector<std::string>& arguments, const std::string& folder);
+  /** \param[in] folder its working directory; what it prints goes to files in there
+   * \param[in] prepare run in the new process, before the program takes its place */
+  ToolRun (const std::vector<std::string>& arguments, const std::string& folder,
+           const std::function<void ()>& prepare = {});
 
   /** \brief Kills the program if it is still running. */
   ~ToolRun ();

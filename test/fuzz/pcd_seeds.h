@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_cosection authors
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace fuzz
+{
+
+/** \brief Small PCD files of every kind: organised or not, ASCII, binary and compressed, with colours,
+ * labels, normals, doubles, fields of several elements, padding and comments. */
+std::vector<std::string>
+pcdSeeds ();
+
+} // namespace fuzz
