@@ -1,0 +1,437 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_cosection authors
+
+#include "analytic_fields.h"
+#include "brute_force_distance.h"
+#include "common/small_meshes.h"
+
+#include <pcl/cosection/common/error.h>
+#include <pcl/cosection/volume/mesh_distance.h>
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+
+#include <limits>
+#include <random>
+
+using namespace pcl::cosection;
+
+namespace
+{
+
+VoxelGrid
+cubicGrid (const Eigen::Vector3d& centre, int dim, double voxel_size_m)
+{
+  VoxelGrid grid;
+  grid.dims.setConstant (dim);
+  grid.voxel_size_m = voxel_size_m;
+  grid.origin_m = centre.array () - 0.5 * voxel_size_m * (dim - 1);
+  return grid;
+}
+
+template <typename Visit>
+void
+forEachVoxel (const SignedDistanceField& field, Visit&& visit)
+{
+  for (int k = 0; k < field.grid.dims.z (); ++k)
+    for (int j = 0; j < field.grid.dims.y (); ++j)
+      for (int i = 0; i < field.grid.dims.x (); ++i)
+        visit (field.grid.center (i, j, k), field.grid.index (i, j, k));
+}
+
+/** \brief Every value agrees with \a truth, clamped to the band, and every voxel is supported. */
+void
+expectField (const SignedDistanceField& field, const test::Distance& truth, double band_m, double tolerance_m)
+{
+  EXPECT_TRUE (field.supported.empty ());
+  ASSERT_EQ (field.values.size (), field.grid.size ());
+  double worst = 0.0;
+  Eigen::Vector3d where = Eigen::Vector3d::Zero ();
+  forEachVoxel (field, [&] (const Eigen::Vector3d& p, std::size_t n) {
+    const double error = std::abs (field.values[n] - std::clamp (truth (p), -band_m, band_m));
+    if (!(error <= worst))
+    {
+      worst = error;
+      where = p;
+    }
+  });
+  EXPECT_LE (worst, tolerance_m) << "at " << where.transpose () << ", where the truth is " << truth (where);
+}
+
+void
+expectBruteForce (const TriangleMesh& mesh, const VoxelGrid& grid, double band_m)
+{
+  expectField (sampleSignedDistance (mesh, grid, band_m),
+               [&] (const Eigen::Vector3d& p) { return test::bruteForceDistance (mesh, p); }, band_m, 1e-6);
+}
+
+TriangleMesh
+transformed (TriangleMesh mesh, const Eigen::Isometry3d& T)
+{
+  for (auto& v : mesh.vertices)
+    v = (T * v.cast<double> ()).cast<float> ();
+  mesh.normals.clear ();
+  return mesh;
+}
+
+Eigen::Isometry3d
+oblique ()
+{
+  return Eigen::Translation3d (0.013, -0.021, 0.008) *
+         Eigen::AngleAxisd (0.7, Eigen::Vector3d (1.0, 2.0, -0.5).normalized ());
+}
+
+TriangleMesh
+flipped (TriangleMesh mesh)
+{
+  for (auto& triangle : mesh.triangles)
+    std::swap (triangle[0], triangle[1]);
+  return mesh;
+}
+
+TriangleMesh
+united (TriangleMesh mesh, const TriangleMesh& other)
+{
+  appendMesh (mesh, other);
+  return mesh;
+}
+
+/** \brief Three vertices of its own for every triangle. */
+TriangleMesh
+soup (const TriangleMesh& mesh)
+{
+  TriangleMesh result;
+  for (const auto& triangle : mesh.triangles)
+  {
+    const auto first = static_cast<std::uint32_t> (result.vertices.size ());
+    for (const auto v : triangle)
+      result.vertices.push_back (mesh.vertices[v]);
+    result.triangles.push_back ({first, first + 1, first + 2});
+  }
+  return result;
+}
+
+/** \brief A quadrilateral of two triangles that faces where its corners are counter-clockwise. */
+TriangleMesh
+quad (const Eigen::Vector3f& a, const Eigen::Vector3f& b, const Eigen::Vector3f& c, const Eigen::Vector3f& d)
+{
+  TriangleMesh mesh;
+  mesh.vertices = {a, b, c, d};
+  mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
+  return mesh;
+}
+
+/** \brief The square |x|, |y| <= half of the plane z = 0, which faces up. */
+TriangleMesh
+square (float half)
+{
+  return quad ({-half, -half, 0}, {half, -half, 0}, {half, half, 0}, {-half, half, 0});
+}
+
+/** \brief The walls and the floor of a box, facing its inside; no lid. */
+TriangleMesh
+bin (const Eigen::Vector3f& half)
+{
+  TriangleMesh mesh = flipped (test::boxMesh (-half, half));
+  std::vector<bool> keep (mesh.triangles.size (), true);
+  keep[2] = keep[3] = false; // at the upper end of z
+  return extractTriangles (mesh, keep);
+}
+
+/** \brief A bent bar whose two ends are sharp and meet in a point, the origin: around it the nearest point is
+ * one where the surface is no manifold. */
+TriangleMesh
+horseshoe ()
+{
+  const std::vector<Eigen::Vector2d> path = {{0.0, 0.0},   {0.1, 0.05},  {0.2, 0.07},  {0.26, 0.0},
+                                             {0.2, -0.07}, {0.1, -0.05}, {0.0, 0.0}};
+  const double radius = 0.02;
+  TriangleMesh mesh;
+  mesh.vertices.emplace_back (0.0f, 0.0f, 0.0f);
+  const auto at = [] (std::size_t section, int corner) {
+    return static_cast<std::uint32_t> (3 * section - 2 + corner % 3);
+  };
+  for (std::size_t n = 1; n + 1 < path.size (); ++n)
+  {
+    const Eigen::Vector2d along = (path[n + 1] - path[n - 1]).normalized ();
+    for (int corner = 0; corner < 3; ++corner)
+    {
+      const double a = 2.0 * M_PI * corner / 3.0;
+      const Eigen::Vector3d across (-along.y () * std::cos (a), along.x () * std::cos (a), std::sin (a));
+      mesh.vertices.push_back ((Eigen::Vector3d (path[n].x (), path[n].y (), 0.0) + radius * across).cast<float> ());
+      const auto next = at (n, corner + 1);
+      if (n == 1)
+        mesh.triangles.push_back ({0, next, at (n, corner)});
+      if (n + 2 == path.size ())
+        mesh.triangles.push_back ({0, at (n, corner), next});
+      else
+      {
+        mesh.triangles.push_back ({at (n, corner), next, at (n + 1, corner)});
+        mesh.triangles.push_back ({next, at (n + 1, corner + 1), at (n + 1, corner)});
+      }
+    }
+  }
+  return mesh;
+}
+
+} // namespace
+
+TEST (MeshDistance, AgreesWithASphere)
+{
+  const double radius = 0.1;
+  const std::uint32_t n = 32;
+  const double sagitta = radius * (1.0 - std::pow (std::cos (0.5 * M_PI / n), 2));
+  const TriangleMesh mesh = test::sphereMesh (radius, n);
+  for (const double voxel_size : {0.005, 0.02})
+    for (const double band : {0.015, 1.0})
+      expectField (sampleSignedDistance (mesh, cubicGrid ({0.01, 0, 0}, 26, voxel_size), band), test::sphere (radius),
+                   band, sagitta);
+}
+
+TEST (MeshDistance, AgreesWithATorus)
+{
+  const TriangleMesh mesh = test::torusMesh (0.1, 0.04, 96, 48);
+  expectField (sampleSignedDistance (mesh, cubicGrid ({0, 0, 0}, 40, 0.008), 0.05), test::torus (0.1, 0.04), 0.05,
+               2e-4);
+}
+
+TEST (MeshDistance, IsExactForABoxWhereverTheGridIs)
+{
+  const Eigen::Vector3f half (0.1f, 0.06f, 0.25f);
+  const TriangleMesh mesh = test::boxMesh (-half, half);
+  const auto truth = test::box (half.cast<double> ());
+  const double band = 0.03;
+  for (const Eigen::Vector3d& centre : {Eigen::Vector3d (0, 0, 0), Eigen::Vector3d (0.1, 0.06, 0.25),  // the corner
+                                        Eigen::Vector3d (0.1, 0, 0), Eigen::Vector3d (0, 0, 0.1),
+                                        Eigen::Vector3d (0.5, 0.4, 0.3), Eigen::Vector3d (-30, 20, 1000)})
+    for (const double voxel_size : {0.0007, 0.011, 0.2})
+      expectField (sampleSignedDistance (mesh, cubicGrid (centre, 13, voxel_size), band), truth, band, 1e-6);
+  // Deep inside, out of sight of any triangle; and single voxels.
+  const TriangleMesh large = test::boxMesh ({-5, -5, -5}, {5, 5, 5});
+  for (const float value : sampleSignedDistance (large, cubicGrid ({1, 1, 1}, 20, 0.01), 0.02).values)
+    ASSERT_EQ (value, -0.02f);
+  EXPECT_EQ (sampleSignedDistance (large, cubicGrid ({0, 0, 0}, 1, 0.01), 0.02).values[0], -0.02f);
+  EXPECT_EQ (sampleSignedDistance (large, cubicGrid ({9, 0, 0}, 1, 0.01), 0.02).values[0], 0.02f);
+}
+
+TEST (MeshDistance, EqualsBruteForceOnRandomBumps)
+{
+  std::mt19937 random (7);
+  std::uniform_real_distribution<double> factor (0.5, 1.5);
+  for (int trial = 0; trial < 3; ++trial)
+  {
+    TriangleMesh mesh = test::sphereMesh (0.1, 6); // star-shaped, with saddles and spikes
+    for (auto& v : mesh.vertices)
+      v *= static_cast<float> (factor (random));
+    expectBruteForce (transformed (mesh, oblique ()), cubicGrid ({0, 0, 0}, 16, 0.02), 0.04);
+  }
+}
+
+TEST (MeshDistance, HasTheRightSignAtSharpEdgesVerticesAndSaddles)
+{
+  // A wedge of about one degree, seen from all around; its tip is an edge, with two vertices at the ends.
+  TriangleMesh wedge;
+  wedge.vertices = {{0, 0, 0},           {0, 0.1f, 0},        {0.2f, 0, 0.002f},
+                    {0.2f, 0.1f, 0.002f}, {0.2f, 0, -0.002f}, {0.2f, 0.1f, -0.002f}};
+  wedge.triangles = {{0, 2, 1}, {1, 2, 3}, {0, 1, 4}, {1, 5, 4}, {2, 4, 3}, {3, 4, 5}, {0, 4, 2}, {1, 3, 5}};
+  ASSERT_TRUE (computeTopology (wedge).closed_manifold);
+  // Few quadrilaterals: the vertices on the inner side of the ring are sharp saddles.
+  const TriangleMesh ring = test::torusMesh (0.1, 0.06, 5, 3);
+  for (const TriangleMesh& mesh : {wedge, ring, test::sphereMesh (0.1, 2)})
+    for (const auto& T : {Eigen::Isometry3d::Identity (), oblique ()})
+      for (const auto v : {0, 2, 4})
+        expectBruteForce (transformed (mesh, T), cubicGrid (T * mesh.vertices[v].cast<double> (), 14, 0.011), 0.05);
+}
+
+TEST (MeshDistance, TakesEqualVerticesAsOne)
+{
+  const TriangleMesh mesh = test::torusMesh (0.1, 0.06, 7, 5);
+  const VoxelGrid grid = cubicGrid ({0, 0, 0}, 20, 0.02);
+  const auto field = sampleSignedDistance (soup (mesh), grid, 0.05);
+  EXPECT_EQ (field.values, sampleSignedDistance (mesh, grid, 0.05).values);
+  EXPECT_TRUE (field.supported.empty ());
+}
+
+TEST (MeshDistance, TrianglesWithoutAreaLeaveNoGap)
+{
+  // A box whose upper front edge has a vertex in the middle on one side only; a flat triangle closes the gap.
+  TriangleMesh mesh = test::boxMesh ({0, 0, 0}, {0.25f, 0.25f, 0.25f});
+  mesh.vertices.emplace_back (0.125f, 0.0f, 0.25f);                        // 8, between 4 and 5
+  mesh.triangles[5] = {1, 5, 8};                                           // was {1, 5, 4}
+  mesh.triangles.push_back ({1, 8, 4});
+  mesh.triangles.push_back ({4, 8, 5});
+  ASSERT_TRUE (computeTopology (mesh).closed_manifold);
+  const auto truth = test::box ({0.125, 0.125, 0.125});
+  expectField (sampleSignedDistance (mesh, cubicGrid ({0.125, 0.125, 0.125}, 25, 0.013), 0.1),
+               [&] (const Eigen::Vector3d& p) { return truth (p - Eigen::Vector3d::Constant (0.125)); }, 0.1, 1e-6);
+}
+
+TEST (MeshDistance, OverlappingBodiesAreTheirUnion)
+{
+  const Eigen::Vector3d half (0.1, 0.1, 0.1);
+  const auto box = test::box (half);
+  const auto at = [&] (double x) {
+    return test::boxMesh ({float (x) - 0.1f, -0.1f, -0.1f}, {float (x) + 0.1f, 0.1f, 0.1f});
+  };
+  for (const double shift : {0.05, 0.17, 0.35}) // nearly all, a bit, not at all
+    expectField (sampleSignedDistance (united (at (0.0), at (shift)), cubicGrid ({0.1, 0, 0}, 25, 0.017), 0.06),
+                 [&] (const Eigen::Vector3d& p) {
+                   return std::min (box (p), box (p - Eigen::Vector3d (shift, 0, 0)));
+                 },
+                 0.06, 1e-6);
+  // Where two share a face, there is no surface between them.
+  expectField (sampleSignedDistance (united (at (0.0), at (0.2)), cubicGrid ({0.1, 0, 0}, 25, 0.017), 0.06),
+               [&] (const Eigen::Vector3d& p) { return test::box ({0.2, 0.1, 0.1}) (p - Eigen::Vector3d (0.1, 0, 0)); },
+               0.06, 1e-6);
+}
+
+TEST (MeshDistance, BodiesMayTouchAtAnEdgeOrAVertex)
+{
+  const auto box = test::box ({0.1, 0.1, 0.1});
+  const TriangleMesh one = test::boxMesh ({-0.1f, -0.1f, -0.1f}, {0.1f, 0.1f, 0.1f});
+  for (const Eigen::Vector3f& shift : {Eigen::Vector3f (0.2f, 0.2f, 0.0f), Eigen::Vector3f (0.2f, 0.2f, 0.2f)})
+  {
+    TriangleMesh two = one;
+    for (auto& v : two.vertices)
+      for (int axis = 0; axis < 3; ++axis) // the common corners are equal to the last bit
+        v[axis] = (shift[axis] == 0.0f ? v[axis] : v[axis] < 0.0f ? 0.1f : 0.3f);
+    expectField (sampleSignedDistance (united (one, two), cubicGrid ({0.1, 0.1, 0.05}, 25, 0.017), 0.06),
+                 [&] (const Eigen::Vector3d& p) { return std::min (box (p), box (p - shift.cast<double> ())); }, 0.06,
+                 1e-6);
+  }
+}
+
+TEST (MeshDistance, OneSurfaceMayTouchItself)
+{
+  const TriangleMesh mesh = horseshoe ();
+  ASSERT_EQ (computeTopology (mesh).non_manifold_vertices, 1);
+  ASSERT_EQ (computeTopology (mesh).boundary_edges, 0);
+  ASSERT_GT (computeMassProperties (mesh).volume_m3, 0.0);
+  for (const double voxel_size : {0.011, 0.002})
+    expectBruteForce (mesh, cubicGrid ({0, 0, 0}, 25, voxel_size), 0.05);
+}
+
+TEST (MeshDistance, InwardPartsAreCavitiesOrRooms)
+{
+  const Eigen::Vector3f outer_half (0.2f, 0.2f, 0.2f), inner_half (0.1f, 0.12f, 0.08f);
+  const TriangleMesh outer = test::boxMesh (-outer_half, outer_half);
+  const TriangleMesh inner = flipped (test::boxMesh (-inner_half, inner_half));
+  const auto outside = test::box (outer_half.cast<double> ());
+  const auto cavity = test::box (inner_half.cast<double> ());
+  const VoxelGrid grid = cubicGrid ({0.05, 0, 0}, 27, 0.019);
+  expectField (sampleSignedDistance (united (inner, outer), grid, 0.3),
+               [&] (const Eigen::Vector3d& p) { return std::max (outside (p), -cavity (p)); }, 0.3, 1e-6);
+  expectField (sampleSignedDistance (inner, grid, 0.05), [&] (const Eigen::Vector3d& p) { return -cavity (p); }, 0.05,
+               1e-6);
+}
+
+TEST (MeshDistance, AnOpenSheetSpeaksInFrontAndBehindOnly)
+{
+  const float half = 0.1f;
+  const double band = 0.035;
+  const auto field = sampleSignedDistance (square (half), cubicGrid ({0.004, 0.002, 0.001}, 41, 0.01), band);
+  ASSERT_EQ (field.supported.size (), field.grid.size ());
+  int supported = 0;
+  forEachVoxel (field, [&] (const Eigen::Vector3d& p, std::size_t n) {
+    const bool beside = p.head<2> ().cwiseAbs ().maxCoeff () > half;
+    EXPECT_EQ (field.supported[n] != 0, !beside && std::abs (p.z ()) <= band) << p.transpose ();
+    if (field.supported[n] != 0)
+    {
+      EXPECT_NEAR (field.values[n], p.z (), 1e-6);
+    }
+    supported += field.supported[n];
+  });
+  EXPECT_GT (supported, 20 * 20 * 6);
+  // Interpolation at the rim of what is supported invents nothing.
+  std::mt19937 random (1);
+  std::uniform_real_distribution<double> uniform (-0.15, 0.15);
+  for (int trial = 0; trial < 20000; ++trial)
+  {
+    const Eigen::Vector3d p (uniform (random), uniform (random), uniform (random));
+    const auto u = field.sampleSupported (p);
+    EXPECT_NEAR (u.value_or (static_cast<float> (p.z ())), p.z (), 0.01) << p.transpose ();
+  }
+}
+
+TEST (MeshDistance, ABinIsFreeInsideAndMatterBehindItsWalls)
+{
+  const Eigen::Vector3f half (0.1f, 0.15f, 0.08f);
+  const auto box = test::box (half.cast<double> ());
+  const double band = 0.04;
+  const auto field = sampleSignedDistance (bin (half), cubicGrid ({0, 0, 0}, 40, 0.0101), band);
+  ASSERT_EQ (field.supported.size (), field.grid.size ());
+  int free = 0, matter = 0;
+  forEachVoxel (field, [&] (const Eigen::Vector3d& p, std::size_t n) {
+    const bool below_rim = p.z () <= half.z ();
+    const double to_wall =
+        std::max ({std::abs (p.x ()) - half.x (), std::abs (p.y ()) - half.y (), -p.z () - half.z ()});
+    if (field.supported[n] == 0)
+    {
+      // Above the rim, or nearer to it than to all walls, or too far from everything.
+      EXPECT_TRUE (!below_rim || std::abs (to_wall) > band || std::abs (box (p)) > band) << p.transpose ();
+      return;
+    }
+    EXPECT_TRUE (below_rim) << p.transpose ();
+    EXPECT_NEAR (field.values[n], to_wall < 0.0 ? -to_wall : -box (p), 1e-6) << p.transpose ();
+    (to_wall < 0.0 ? free : matter) += 1;
+  });
+  EXPECT_GT (free, 1000);
+  EXPECT_GT (matter, 1000);
+}
+
+TEST (MeshDistance, AMeshOfClosedAndOpenPartsSaysWhatBothSay)
+{
+  const TriangleMesh box = test::boxMesh ({-0.05f, -0.05f, 0.05f}, {0.05f, 0.05f, 0.15f});
+  const auto distance = test::box ({0.05, 0.05, 0.05});
+  const double band = 0.03;
+  const auto field = sampleSignedDistance (united (square (0.1f), box), cubicGrid ({0, 0, 0.05}, 31, 0.0101), band);
+  ASSERT_EQ (field.supported.size (), field.grid.size ());
+  forEachVoxel (field, [&] (const Eigen::Vector3d& p, std::size_t n) {
+    const double to_box = distance (p - Eigen::Vector3d (0, 0, 0.1));
+    const bool sheet = p.head<2> ().cwiseAbs ().maxCoeff () <= 0.1 && std::abs (p.z ()) <= band;
+    EXPECT_EQ (field.supported[n] != 0, sheet || to_box < band) << p.transpose ();
+    const double truth = std::max (-band, sheet ? std::min (p.z (), to_box) : to_box);
+    EXPECT_NEAR (field.supported[n] != 0 ? field.values[n] : truth, truth, 1e-6) << p.transpose ();
+  });
+}
+
+TEST (MeshDistance, DoesNotDependOnTheNumberOfThreads)
+{
+  const TriangleMesh mesh = united (square (0.2f), transformed (test::torusMesh (0.1, 0.05, 24, 12), oblique ()));
+  const VoxelGrid grid = cubicGrid ({0, 0, 0}, 48, 0.01);
+  const auto one = sampleSignedDistance (mesh, grid, 0.05, 1);
+  for (const int threads : {2, 3, 7})
+  {
+    const auto several = sampleSignedDistance (mesh, grid, 0.05, threads);
+    EXPECT_EQ (one.values, several.values);
+    EXPECT_EQ (one.supported, several.supported);
+  }
+}
+
+TEST (MeshDistance, RefusesWhatHasNoDistance)
+{
+  const VoxelGrid grid = cubicGrid ({0, 0, 0}, 4, 0.1);
+  const TriangleMesh mesh = square (0.1f);
+  EXPECT_THROW (sampleSignedDistance (TriangleMesh (), grid, 0.1), InvalidArgument);
+  EXPECT_THROW (sampleSignedDistance (united (mesh, flipped (mesh)), grid, 0.1), InvalidArgument); // back to back
+  TriangleMesh line = mesh;
+  line.vertices[2] = 0.5f * (line.vertices[0] + line.vertices[1]);
+  line.triangles.resize (1);
+  EXPECT_THROW (sampleSignedDistance (line, grid, 0.1), InvalidArgument);
+  TriangleMesh broken = mesh;
+  broken.triangles[0][0] = 4;
+  EXPECT_THROW (sampleSignedDistance (broken, grid, 0.1), InvalidArgument);
+  broken = mesh;
+  broken.vertices[1].x () = std::numeric_limits<float>::quiet_NaN ();
+  EXPECT_THROW (sampleSignedDistance (broken, grid, 0.1), InvalidArgument);
+  broken = mesh;
+  broken.vertices.emplace_back (std::numeric_limits<float>::quiet_NaN (), 0.0f, 0.0f); // of no triangle
+  EXPECT_NO_THROW (sampleSignedDistance (broken, grid, 0.1));
+  for (const double band : {0.0, -1.0, std::numeric_limits<double>::infinity (), std::nan ("")})
+    EXPECT_THROW (sampleSignedDistance (mesh, grid, band), InvalidArgument);
+  EXPECT_THROW (sampleSignedDistance (mesh, VoxelGrid (), 0.1), InvalidArgument);
+  VoxelGrid flat = grid;
+  flat.voxel_size_m = 0.0;
+  EXPECT_THROW (sampleSignedDistance (mesh, flat, 0.1), InvalidArgument);
+}
