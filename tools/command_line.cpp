@@ -207,6 +207,7 @@ toSettings (const Given& given)
   }
   settings.reading.world_points = given.world_points;
   settings.reading.threads = settings.method.threads;
+  settings.reading.max_memory_bytes = settings.method.max_memory_bytes;
   override (settings.reading.scale, given.scale);
   if (!given.intrinsics.empty ())
   {

@@ -7,6 +7,7 @@
 #include <pcl/cosection/common/error.h>
 #include <pcl/cosection/io/pcd_view.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <filesystem>
 #include <iterator>
@@ -73,8 +74,23 @@ merge (const std::string& path, std::size_t index, LabelledView& view, const Obj
       transform (T_world_object[index].inverse (), object.points);
     LabelledView::Points& merged = labels[label];
     merged.readings += object.readings;
-    std::move (object.points.begin (), object.points.end (), std::back_inserter (merged.points));
+    if (merged.points.empty ())
+      merged.points = std::move (object.points);
+    else
+      merged.points.insert (merged.points.end (), object.points.begin (), object.points.end ());
   }
+}
+
+/** \brief The options, with the memory that the points of earlier views leave. */
+PcdViewOptions
+withMemoryLeft (PcdViewOptions options, const Labels& labels)
+{
+  std::size_t used = 0;
+  for (const auto& [label, object] : labels)
+    used += object.points.size () * sizeof (OrientedPoint);
+  if (options.max_memory_bytes > 0)
+    options.max_memory_bytes -= std::min (used, options.max_memory_bytes - 1);
+  return (options);
 }
 
 } // namespace
@@ -90,7 +106,7 @@ readScene (const Settings& settings, const ProgressCallback& progress)
     if (!progress ("reading " + std::filesystem::path (settings.inputs[i]).filename ().string (),
                    static_cast<double> (i) / static_cast<double> (settings.inputs.size ())))
       throw Cancelled ("interrupted");
-    LabelledView view = readPcdView (settings.inputs[i], settings.reading);
+    LabelledView view = readPcdView (settings.inputs[i], withMemoryLeft (settings.reading, labels));
     std::move (view.warnings.begin (), view.warnings.end (), std::back_inserter (scene.warnings));
     merge (settings.inputs[i], i, view, poses, labels, scene.warnings);
     if (view.view)

@@ -118,6 +118,25 @@ readVectors (const std::string& path, const PcdHeader& header, const PCLPointClo
   return (vectors);
 }
 
+/** \brief The file, its points as they stand in it, and as they are handed on. */
+void
+checkMemory (const std::string& path, const PcdHeader& header, std::size_t limit_bytes)
+{
+  std::size_t step = 0;
+  for (const PcdField& field : header.fields)
+    step += field.size * field.count;
+  const std::size_t per_point = 2 * step + 2 * sizeof (Eigen::Vector3f) + sizeof (std::uint32_t) + sizeof (OrientedPoint);
+  if (limit_bytes == 0 || header.points <= limit_bytes / per_point)
+    return;
+  constexpr std::size_t mebibyte = 1 << 20;
+  throw MemoryLimitExceeded (path + ": its " + std::to_string (header.points) + " points need " +
+                             std::to_string (static_cast<std::size_t> (static_cast<double> (header.points) *
+                                                                           static_cast<double> (per_point) / mebibyte)) +
+                             " MiB; " +
+                             std::to_string (limit_bytes / mebibyte) +
+                             " are left of what is allowed: thin the cloud (pcl_voxel_grid) or allow more memory");
+}
+
 void
 readLabels (const std::string& path, const PCLPointCloud2& cloud, const PcdField& field, SensorCloud& result)
 {
@@ -147,6 +166,7 @@ readSensorCloud (const std::string& path, const PcdViewOptions& options)
   const PcdHeader header = readPcdHeader (path);
   for (const char* name : {"x", "y", "z"})
     requireReal (path, header, name);
+  checkMemory (path, header, options.max_memory_bytes);
   const PCLPointCloud2 cloud = readPcdPoints (path, header);
 
   SensorCloud result;

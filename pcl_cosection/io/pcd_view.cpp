@@ -82,6 +82,12 @@ void
 collectObjects (const SensorCloud& cloud, LabelledView& result)
 {
   const Eigen::Isometry3d& T = cloud.T_world_sensor;
+  std::map<std::uint32_t, std::size_t> readings;
+  for (std::size_t i = 0; i < cloud.positions.size (); ++i)
+    if (cloud.positions[i].allFinite ())
+      ++readings[cloud.labels[i]];
+  for (const auto& [label, count] : readings)
+    result.objects[label].points.reserve (count);
   for (std::size_t i = 0; i < cloud.positions.size (); ++i)
   {
     if (!cloud.positions[i].allFinite ())

@@ -16,10 +16,13 @@
 #include <pcl/search/kdtree.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <optional>
 #include <sstream>
+#include <unordered_map>
 
 namespace pcl
 {
@@ -37,6 +40,9 @@ constexpr double worth_saying = 0.02;      // share of the normals
 constexpr double surely_inward = 0.3;      // outward share of a body whose normals are flipped
 constexpr int least_neighbours = 8;        // for a normal; more where there are many points:
 constexpr int points_per_neighbour = 40;
+constexpr std::size_t dense_points = 200000; // of one label
+constexpr float thinning_cells = 256.0f;     // along the longest side of what is denser
+constexpr std::size_t judged_points = 20000;
 
 using Members = std::map<std::uint32_t, std::vector<std::size_t>>;
 
@@ -49,17 +55,74 @@ percent (double share)
   return text.str ();
 }
 
-/** \brief Estimated normals of any sign. */
-void
-estimateNormals (const PcdViewOptions& options, const std::vector<std::size_t>& members, SensorCloud& cloud)
+/** \brief Some points that stand for many. */
+struct Thinned
 {
-  if (members.size () < 3)
-    return;
+  std::vector<Eigen::Vector3f> points;
+  std::vector<std::uint32_t> of; ///< which one stands for each point
+};
+
+/** \brief Means of points in cells, where points are so dense that the nearest ones would show noise alone; else the
+ * points themselves. */
+Thinned
+thin (const std::vector<Eigen::Vector3f>& points)
+{
+  Thinned thinned;
+  thinned.of.resize (points.size ());
+  if (points.size () <= dense_points)
+  {
+    thinned.points = points;
+    std::iota (thinned.of.begin (), thinned.of.end (), std::uint32_t{0});
+    return thinned;
+  }
+  std::array<std::vector<float>, 3> some;
+  for (std::size_t i = 0; i < points.size (); i += points.size () / judged_points)
+    for (int axis = 0; axis < 3; ++axis)
+      some[axis].push_back (points[i][axis]);
+  float longest = std::numeric_limits<float>::min ();
+  for (std::vector<float>& along : some)
+  {
+    std::sort (along.begin (), along.end ());
+    longest = std::max (longest, along[along.size () * 99 / 100] - along[along.size () / 100]);
+  }
+  const Eigen::Vector3f origin = points.front ();
+  std::unordered_map<std::uint64_t, std::uint32_t> cells;
+  std::vector<float> counts;
+  for (std::size_t i = 0; i < points.size (); ++i)
+  {
+    const Eigen::Matrix<std::int64_t, 3, 1> at =
+        ((points[i] - origin) * (thinning_cells / longest)).array ().floor ().cast<std::int64_t> ();
+    constexpr std::uint64_t mask = (1 << 21) - 1;
+    const std::uint64_t key = (static_cast<std::uint64_t> (at.x ()) & mask) << 42 |
+                              (static_cast<std::uint64_t> (at.y ()) & mask) << 21 |
+                              (static_cast<std::uint64_t> (at.z ()) & mask);
+    const auto [cell, fresh] = cells.emplace (key, static_cast<std::uint32_t> (thinned.points.size ()));
+    if (fresh)
+    {
+      thinned.points.emplace_back (Eigen::Vector3f::Zero ());
+      counts.push_back (0.0f);
+    }
+    thinned.of[i] = cell->second;
+    counts[cell->second] += 1.0f;
+    thinned.points[cell->second] += (points[i] - origin - thinned.points[cell->second]) / counts[cell->second];
+  }
+  for (Eigen::Vector3f& point : thinned.points)
+    point += origin;
+  return thinned;
+}
+
+/** \brief Estimated normals of any sign. */
+std::vector<Eigen::Vector3f>
+estimateNormals (const PcdViewOptions& options, const std::vector<Eigen::Vector3f>& positions)
+{
+  std::vector<Eigen::Vector3f> result (positions.size (), Eigen::Vector3f::Constant (nan_value));
+  if (positions.size () < 3)
+    return result;
   auto points = pcl::make_shared<PointCloud<PointXYZ>> ();
-  for (const std::size_t i : members)
-    points->emplace_back (cloud.positions[i].x (), cloud.positions[i].y (), cloud.positions[i].z ());
+  for (const Eigen::Vector3f& p : positions)
+    points->emplace_back (p.x (), p.y (), p.z ());
   const QuietConsole quiet;
-  const auto count = static_cast<int> (std::min<std::size_t> (members.size (), std::numeric_limits<int>::max ()));
+  const auto count = static_cast<int> (std::min<std::size_t> (positions.size (), std::numeric_limits<int>::max ()));
   const int wanted = std::clamp (count / points_per_neighbour, std::min (least_neighbours, options.normal_neighbours),
                                  options.normal_neighbours);
   NormalEstimationOMP<PointXYZ, Normal> estimation (static_cast<unsigned int> (resolveThreads (options.threads)));
@@ -68,8 +131,9 @@ estimateNormals (const PcdViewOptions& options, const std::vector<std::size_t>& 
   estimation.setKSearch (std::min (wanted, count));
   PointCloud<Normal> normals;
   estimation.compute (normals);
-  for (std::size_t k = 0; k < members.size (); ++k)
-    cloud.normals[members[k]] = normals[k].getNormalVector3fMap ();
+  for (std::size_t k = 0; k < positions.size (); ++k)
+    result[k] = normals[k].getNormalVector3fMap ();
+  return result;
 }
 
 /** \brief The cloud as seen from the viewpoint, if that is where it was seen from. */
@@ -109,32 +173,43 @@ pick (const std::vector<Eigen::Vector3f>& all, const std::vector<std::size_t>& m
   return picked;
 }
 
-/** \brief Consistently, bodies outward and the background towards them. */
-void
-orientWithoutViewpoint (const Members& members, SensorCloud& cloud)
+/** \brief Middle of all points that belong to objects. */
+Eigen::Vector3d
+middleOfObjects (const Members& members, const SensorCloud& cloud)
 {
-  Eigen::Vector3d middle = Eigen::Vector3d::Zero ();
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero ();
   std::size_t count = 0;
   for (const auto& [label, indices] : members)
     for (const std::size_t i : indices)
       if (label != 0)
       {
-        middle += cloud.positions[i].cast<double> ();
+        sum += cloud.positions[i].cast<double> ();
         ++count;
       }
-  middle /= static_cast<double> (std::max<std::size_t> (1, count));
-  for (const auto& [label, indices] : members)
+  return sum / static_cast<double> (std::max<std::size_t> (1, count));
+}
+
+/** \brief Estimate the normals of one label. Without a viewpoint they are turned consistently: those of bodies outward,
+ * those of the background to the side of \a middle. */
+void
+addNormals (const PcdViewOptions& options, std::uint32_t label, const std::vector<std::size_t>& members,
+            bool has_viewpoint, const Eigen::Vector3d& middle, SensorCloud& cloud)
+{
+  const Thinned thinned = thin (pick (cloud.positions, members));
+  std::vector<Eigen::Vector3f> normals = estimateNormals (options, thinned.points);
+  if (!has_viewpoint)
   {
-    const std::vector<Eigen::Vector3f> points = pick (cloud.positions, indices);
-    std::vector<Eigen::Vector3f> normals = pick (cloud.normals, indices);
-    orientConsistently (points, normals);
+    orientConsistently (thinned.points, normals);
     double towards = 0.0;
-    for (std::size_t n = 0; label == 0 && n < points.size (); ++n)
+    for (std::size_t n = 0; label == 0 && n < normals.size (); ++n)
       if (normals[n].allFinite ())
-        towards += normals[n].cast<double> ().dot (middle - points[n].cast<double> ());
-    for (std::size_t n = 0; n < points.size (); ++n)
-      cloud.normals[indices[n]] = towards < 0.0 ? Eigen::Vector3f (-normals[n]) : normals[n];
+        towards += normals[n].cast<double> ().dot (middle - thinned.points[n].cast<double> ());
+    if (towards < 0.0)
+      for (Eigen::Vector3f& normal : normals)
+        normal = -normal;
   }
+  for (std::size_t k = 0; k < members.size (); ++k)
+    cloud.normals[members[k]] = normals[thinned.of[k]];
 }
 
 /** \brief Turn normals that clearly point away from the viewpoint, which is the origin. \return their share */
@@ -196,14 +271,14 @@ completeUnorganized (const std::string& path, const PcdViewOptions& options, Sen
     return;
   }
   cloud.normals.assign (cloud.positions.size (), Eigen::Vector3f::Constant (nan_value));
+  const Eigen::Vector3d middle = middleOfObjects (members, cloud);
   for (const auto& [label, indices] : members)
-    estimateNormals (options, indices, cloud);
+    addNormals (options, label, indices, result.view.has_value (), middle, cloud);
   if (result.view)
   {
     turnTowardsViewpoint (0.0f, cloud);
     return;
   }
-  orientWithoutViewpoint (members, cloud);
   result.warnings.push_back (path + ": where its points were seen from is not known; their normals were turned so that " +
                              "neighbours agree (better: set the VIEWPOINT, or add fields normal_x normal_y normal_z)");
 }

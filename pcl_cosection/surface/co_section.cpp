@@ -5,6 +5,7 @@
 #include "co_section_run.h"
 
 #include <pcl/cosection/common/error.h>
+#include <pcl/cosection/volume/mesh_distance.h>
 
 #include <algorithm>
 #include <string>
@@ -68,6 +69,16 @@ CoSection::addIntersection (SignedDistanceField::ConstPtr body, const std::vecto
       (!body->supported.empty () && body->supported.size () != body->grid.size ()))
     throw InvalidArgument ("a signed distance field must have one value per voxel");
   impl_->bodies.push_back ({std::move (body), T_body_world});
+}
+
+void
+CoSection::addIntersection (TriangleMesh body, const std::vector<Eigen::Isometry3d>& T_body_world)
+{
+  VoxelGrid somewhere;
+  somewhere.dims.setConstant (2);
+  somewhere.voxel_size_m = 1.0;
+  sampleSignedDistance (body, somewhere, somewhere.voxel_size_m); // validates
+  impl_->meshes.push_back ({std::move (body), T_body_world});
 }
 
 SceneResult

@@ -47,7 +47,7 @@ CoSectionRun::surroundings (const Object& object) const
       constraint.addHalfSpace (transformPlane (plane, T_world_object), object.volume->freeSpace (), beta);
     for (const SignedDistanceField& body : background_)
       constraint.addBody (body, T_world_object, beta);
-    for (const Obstacle& body : scene_.bodies)
+    for (const Obstacle& body : bodies_)
       for (const Eigen::Isometry3d& T_field_world : body.T_field_world)
         constraint.addBody (*body.field, T_field_world * T_world_object, beta);
   }
@@ -175,7 +175,7 @@ CoSectionRun::penetrationOfSurroundings (const Object& object) const
   const std::vector<Eigen::Isometry3d> poses = relativePoses (object, nullptr);
   for (const SignedDistanceField& body : background_)
     deepest = std::max (deepest, penetration (object, body, poses));
-  for (const Obstacle& body : scene_.bodies)
+  for (const Obstacle& body : bodies_)
     for (const Eigen::Isometry3d& T_field_world : body.T_field_world)
       for (const Eigen::Isometry3d& T_world_object : poses)
         deepest = std::max (deepest, penetration (object, *body.field, {T_field_world * T_world_object}));
@@ -206,7 +206,7 @@ CoSectionRun::growWeightsWherePenetrating (Resolution resolution)
   double coarsest = 0.0; // of the surroundings
   for (const SignedDistanceField& body : background_)
     coarsest = std::max (coarsest, body.grid.voxel_size_m);
-  for (const Obstacle& body : scene_.bodies)
+  for (const Obstacle& body : bodies_)
     coarsest = std::max (coarsest, body.field->grid.voxel_size_m);
   for (Object& object : objects_)
     if (object.alive () && penetrationOfSurroundings (object) >

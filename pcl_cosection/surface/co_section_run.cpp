@@ -157,13 +157,30 @@ CoSectionRun::volumeBox (const Object& object) const
   return possibleBox (object.points (), object.observed, object.voxel_size_m, views, planes, options.threads);
 }
 
+std::size_t
+CoSectionRun::bytesInUse () const
+{
+  std::size_t points = scene_.background.size ();
+  std::size_t bytes = 0;
+  for (const Object& object : objects_)
+  {
+    points += object.input->points.size () + object.kept.size ();
+    if (object.volume)
+      bytes += ShapeVolume::estimateBytes (object.volume->grid ());
+  }
+  for (const FreeSpaceView& view : scene_.views)
+    bytes += view.view ().depth.size () * FreeSpaceView::bytes_per_pixel;
+  return bytes + points * sizeof (OrientedPoint);
+}
+
 void
 CoSectionRun::createVolumes ()
 {
   for (Object& object : objects_)
     if (object.alive ())
       guarded (object, [&] {
-        const VoxelGrid grid = layoutBox (volumeBox (object), object.voxel_size_m, scene_.options);
+        const VoxelGrid grid = layoutBox (volumeBox (object), object.voxel_size_m);
+        checkMemory (grid, scene_.options.max_memory_bytes, bytesInUse ());
         object.volume = std::make_unique<ShapeVolume> (grid, scene_.options);
       });
 }
@@ -224,10 +241,12 @@ SceneResult
 CoSectionRun::run ()
 {
   report ("measurements", 0.0);
+  bodies_ = scene_.bodies;
   observeObjects ();
   timed ("constraints", [&] {
     findPlanes ();
     createVolumes ();
+    sampleMeshes ();
   });
   solveBackground ();
   for (Object& object : objects_)

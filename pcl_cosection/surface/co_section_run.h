@@ -40,6 +40,13 @@ struct Obstacle
   std::vector<Eigen::Isometry3d> T_field_world;
 };
 
+/** \brief The same, given as a mesh. */
+struct MeshObstacle
+{
+  TriangleMesh mesh;
+  std::vector<Eigen::Isometry3d> T_mesh_world;
+};
+
 /** \brief What the user has told a CoSection. */
 struct CoSection::Impl
 {
@@ -49,6 +56,7 @@ struct CoSection::Impl
   std::vector<ObjectInput> objects;
   std::vector<Eigen::Vector4d> planes; // unit normals
   std::vector<Obstacle> bodies;
+  std::vector<MeshObstacle> meshes;
 };
 
 /** \brief One execution of CoSection::reconstruct (). */
@@ -112,11 +120,19 @@ private:
   createVolumes ();
   Eigen::AlignedBox3d
   volumeBox (const Object& object) const;
+  /** \brief Of points, views and volumes, about. */
+  std::size_t
+  bytesInUse () const;
   /** \brief The plane with its normal to the side of most of the object's points. */
   Eigen::Vector4d
   towards (const Object& object, const Eigen::Vector4d& plane) const;
   void
   findPlanes ();
+  /** \brief Turn bodies given as meshes into signed distances where the objects may be. */
+  void
+  sampleMeshes ();
+  void
+  sampleMesh (const MeshObstacle& obstacle, double voxel_size_m, double band_m);
   void
   solveBackground ();
   void
@@ -159,6 +175,7 @@ private:
   SceneResult result_;
   std::vector<Object> objects_;
   std::vector<SignedDistanceField> background_;
+  std::vector<Obstacle> bodies_; // that the user gave, as fields
 };
 
 template <typename Function> void

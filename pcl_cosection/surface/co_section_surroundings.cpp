@@ -7,13 +7,14 @@
 
 #include <pcl/cosection/common/error.h>
 #include <pcl/cosection/surface/support_plane.h>
+#include <pcl/cosection/volume/mesh_distance.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
 
-// The part of a run that learns what surrounds the objects: support planes and background.
+// The part of a run that learns what surrounds the objects: support planes, given bodies and the background.
 
 namespace pcl
 {
@@ -78,6 +79,62 @@ CoSectionRun::findPlanes ()
 }
 
 void
+CoSectionRun::sampleMesh (const MeshObstacle& obstacle, double voxel_size_m, double band_m)
+{
+  const Eigen::Vector3d margin = Eigen::Vector3d::Constant (2.0 * voxel_size_m);
+  std::vector<Eigen::AlignedBox3d> boxes;
+  for (const Object& object : objects_)
+  {
+    if (!object.alive ())
+      continue;
+    for (const Eigen::Isometry3d& T_world_object : relativePoses (object, nullptr))
+      for (const Eigen::Isometry3d& T_mesh_world : obstacle.T_mesh_world)
+      {
+        Eigen::AlignedBox3d box;
+        for (const Eigen::Vector3d& corner : corners (boxOf (object.volume->grid ())))
+          box.extend (T_mesh_world * T_world_object * corner);
+        boxes.emplace_back (box.min () - margin, box.max () + margin);
+      }
+  }
+  for (const Eigen::AlignedBox3d& box : uniteOverlapping (std::move (boxes)))
+  {
+    const VoxelGrid grid = layoutBox (box, voxel_size_m);
+    checkMemory (grid, scene_.options.max_memory_bytes, bytesInUse ());
+    bodies_.push_back ({std::make_shared<SignedDistanceField> (
+                            sampleSignedDistance (obstacle.mesh, grid, band_m, scene_.options.threads)),
+                        obstacle.T_mesh_world});
+  }
+}
+
+void
+CoSectionRun::sampleMeshes ()
+{
+  if (!scene_.options.use_intersection)
+    return;
+  double smallest = std::numeric_limits<double>::infinity ();
+  double largest = 0.0;
+  for (const Object& object : objects_)
+    if (object.alive ())
+    {
+      smallest = std::min (smallest, object.voxel_size_m);
+      largest = std::max (largest, object.voxel_size_m);
+    }
+  if (!(largest > 0.0))
+    return;
+  for (const MeshObstacle& obstacle : scene_.meshes)
+  {
+    try
+    {
+      sampleMesh (obstacle, smallest, scene_.options.max_bound_vox * largest + 2.0 * smallest);
+    }
+    catch (const Error& e)
+    {
+      result_.warnings.push_back (std::string ("a body given as a mesh was left out: ") + e.what ());
+    }
+  }
+}
+
+void
 CoSectionRun::solveBackground ()
 {
   if (scene_.background.empty ())
@@ -123,7 +180,9 @@ CoSectionRun::solveBackground ()
   {
     try
     {
-      ShapeVolume volume (layoutBox (box, voxel, scene_.options), scene_.options);
+      const VoxelGrid grid = layoutBox (box, voxel);
+      checkMemory (grid, scene_.options.max_memory_bytes, bytesInUse ());
+      ShapeVolume volume (grid, scene_.options);
       timed ("data_term", [&] { volume.addPoints (scene_.background); });
       timed ("constraints", [&] {
         for (const FreeSpaceView& view : scene_.views)

@@ -22,6 +22,7 @@ namespace
 {
 
 constexpr int directions = 64;
+constexpr std::size_t judged_points = 20000;
 constexpr double outermost_share = 0.005; // of the points, in each direction
 
 struct Edge
@@ -103,9 +104,10 @@ double
 outwardShare (const std::vector<Eigen::Vector3f>& points, const std::vector<Eigen::Vector3f>& normals)
 {
   std::vector<std::uint32_t> usable;
-  for (std::uint32_t n = 0; n < points.size (); ++n)
+  const std::size_t step = std::max<std::size_t> (1, points.size () / judged_points);
+  for (std::size_t n = 0; n < points.size (); n += step)
     if (points[n].allFinite () && normals[n].allFinite ())
-      usable.push_back (n);
+      usable.push_back (static_cast<std::uint32_t> (n));
   if (usable.empty ())
     return 0.5;
   const std::size_t count =

@@ -2,7 +2,12 @@
 // Copyright (c) 2026, the pcl_cosection authors
 #include <pcl/cosection/surface/polygon_mesh.h>
 
+#include <pcl/cosection/common/error.h>
+
+#include <algorithm>
+#include <array>
 #include <cstring>
+#include <string>
 
 namespace pcl
 {
@@ -76,6 +81,45 @@ toPolygonMesh (const TriangleMesh& mesh, pcl::PolygonMesh& output)
   output.polygons.resize (mesh.triangles.size ());
   for (std::size_t t = 0; t < mesh.triangles.size (); ++t)
     output.polygons[t].vertices.assign (mesh.triangles[t].begin (), mesh.triangles[t].end ());
+}
+
+TriangleMesh
+fromPolygonMesh (const pcl::PolygonMesh& mesh)
+{
+  const PCLPointCloud2& cloud = mesh.cloud;
+  const std::size_t count = static_cast<std::size_t> (cloud.width) * cloud.height;
+  std::array<std::size_t, 3> offsets{};
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    const std::string name (1, static_cast<char> ('x' + axis));
+    const auto field = std::find_if (cloud.fields.begin (), cloud.fields.end (),
+                                     [&] (const PCLPointField& f) { return f.name == name; });
+    if (field == cloud.fields.end () || field->datatype != PCLPointField::FLOAT32 ||
+        field->offset + sizeof (float) > cloud.point_step)
+      throw InvalidArgument ("the mesh has no field " + name + " of floats");
+    offsets[axis] = field->offset;
+  }
+  if (cloud.data.size () < count * cloud.point_step)
+    throw InvalidArgument ("the mesh has fewer vertices than it says");
+  TriangleMesh result;
+  result.vertices.resize (count);
+  for (std::size_t v = 0; v < count; ++v)
+    for (int axis = 0; axis < 3; ++axis)
+      std::memcpy (&result.vertices[v][axis], cloud.data.data () + v * cloud.point_step + offsets[axis], sizeof (float));
+  for (const pcl::Vertices& polygon : mesh.polygons)
+  {
+    if (polygon.vertices.size () < 3)
+      throw InvalidArgument ("a polygon of the mesh has fewer than three vertices");
+    for (const auto v : polygon.vertices)
+      if (static_cast<std::size_t> (v) >= count)
+        throw InvalidArgument ("a polygon of the mesh has a vertex " + std::to_string (v) + "; there are " +
+                               std::to_string (count));
+    for (std::size_t n = 2; n < polygon.vertices.size (); ++n)
+      result.triangles.push_back ({static_cast<std::uint32_t> (polygon.vertices[0]),
+                                   static_cast<std::uint32_t> (polygon.vertices[n - 1]),
+                                   static_cast<std::uint32_t> (polygon.vertices[n])});
+  }
+  return result;
 }
 
 } // namespace cosection

@@ -83,7 +83,7 @@ megabytes (std::size_t bytes)
 } // namespace
 
 VoxelGrid
-layoutBox (const Eigen::AlignedBox3d& box, double voxel_size_m, const CoSectionOptions& options)
+layoutBox (const Eigen::AlignedBox3d& box, double voxel_size_m)
 {
   VoxelGrid grid;
   grid.voxel_size_m = voxel_size_m;
@@ -98,16 +98,22 @@ layoutBox (const Eigen::AlignedBox3d& box, double voxel_size_m, const CoSectionO
   for (int a = 0; a < 3; ++a)
     grid.dims[a] = std::max (min_axis, static_cast<int> (std::ceil (cells[a])) + 1);
   grid.origin_m = box.center () - 0.5 * voxel_size_m * (grid.dims.cast<double> () - Eigen::Vector3d::Ones ());
-  const std::size_t bytes = ShapeVolume::estimateBytes (grid);
-  if (options.max_memory_bytes > 0 && bytes > options.max_memory_bytes)
-  {
-    std::ostringstream message;
-    message << "a volume of " << grid.dims.x () << " x " << grid.dims.y () << " x " << grid.dims.z () << " voxels needs "
-            << megabytes (bytes) << "; " << megabytes (options.max_memory_bytes)
-            << " are allowed: use larger voxels or allow more memory";
-    throw MemoryLimitExceeded (message.str ());
-  }
   return grid;
+}
+
+void
+checkMemory (const VoxelGrid& grid, std::size_t limit_bytes, std::size_t used_bytes)
+{
+  const std::size_t bytes = ShapeVolume::estimateBytes (grid);
+  if (limit_bytes == 0 || (used_bytes < limit_bytes && bytes <= limit_bytes - used_bytes))
+    return;
+  std::ostringstream message;
+  message << "a volume of " << grid.dims.x () << " x " << grid.dims.y () << " x " << grid.dims.z () << " voxels needs "
+          << megabytes (bytes) << "; " << megabytes (limit_bytes) << " are allowed";
+  if (megabytes (used_bytes) != megabytes (0))
+    message << ", of which points, views and other volumes take " << megabytes (used_bytes);
+  message << ": use larger voxels or allow more memory";
+  throw MemoryLimitExceeded (message.str ());
 }
 
 Eigen::AlignedBox3d

@@ -22,7 +22,7 @@ Eigen::AlignedBox3d
 observedBox (const std::vector<OrientedPoint>& points);
 
 /** \brief The voxel size of the options. If neither it nor a resolution is given, 64 voxels along the longest side,
- * but voxels no smaller than the points' spacing supports: at least three points in each occupied voxel on average.
+ * but voxels no smaller than the points' spacing supports: at least 1.5 points in each occupied voxel on average.
  * \throws InvalidArgument */
 double
 objectVoxelSize (const std::vector<OrientedPoint>& points, const Eigen::AlignedBox3d& observed,
@@ -36,9 +36,14 @@ possibleBox (const std::vector<OrientedPoint>& points, const Eigen::AlignedBox3d
              const std::vector<std::pair<const DepthView*, Eigen::Isometry3d>>& views,
              const std::vector<Eigen::Vector4d>& planes, int threads);
 
-/** \brief A grid of voxels of the given size over a box. \throws MemoryLimitExceeded, InvalidArgument */
+/** \brief A grid of voxels of the given size over a box. \throws InvalidArgument */
 VoxelGrid
-layoutBox (const Eigen::AlignedBox3d& box, double voxel_size_m, const CoSectionOptions& options);
+layoutBox (const Eigen::AlignedBox3d& box, double voxel_size_m);
+
+/** \brief \throws MemoryLimitExceeded if a volume needs more than is left
+ * \param[in] limit_bytes 0: no limit \param[in] used_bytes of it */
+void
+checkMemory (const VoxelGrid& grid, std::size_t limit_bytes, std::size_t used_bytes);
 
 /** \brief Box of the voxels' centres. */
 Eigen::AlignedBox3d

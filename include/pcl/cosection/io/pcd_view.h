@@ -26,6 +26,7 @@ struct PCL_COSECTION_EXPORT PcdViewOptions
   bool world_points = false; ///< the points are in the world frame, not in the sensor's
   std::optional<std::array<double, 4>> intrinsics; ///< fx, fy, cx, cy in pixels, where no pinhole fits the points
   int normal_neighbours = 20;                      ///< nearest points for the normals of an unorganised cloud
+  std::size_t max_memory_bytes = 0;                ///< refuse clouds that need more; 0: no limit
   int threads = 0;                                 ///< 0: all
 
   /** \brief \throws InvalidArgument naming the first parameter outside its domain. */
@@ -61,6 +62,7 @@ struct PCL_COSECTION_EXPORT LabelledView
  * (floating point), label (integer; negative: ignored), rgb or rgba, intensity (a number), normal_x normal_y
  * normal_z; others are skipped.
  *
+ * \throws MemoryLimitExceeded before reading the points
  * \throws IoError if the file is not a well formed PCD file with these fields
  * \throws DegenerateInput if it holds no finite point
  * \throws InvalidArgument if an option is outside its domain */

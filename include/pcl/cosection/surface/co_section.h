@@ -106,6 +106,12 @@ public:
   addIntersection (SignedDistanceField::ConstPtr body,
                    const std::vector<Eigen::Isometry3d>& T_body_world = {Eigen::Isometry3d::Identity ()});
 
+  /** \brief The same, given as a mesh: closed, or open as the boundary of what lies behind it (sampleSignedDistance ()).
+   * \throws InvalidArgument if the mesh bounds nothing */
+  void
+  addIntersection (TriangleMesh body,
+                   const std::vector<Eigen::Isometry3d>& T_body_world = {Eigen::Isometry3d::Identity ()});
+
   /** \brief Run. One failing object (degenerate, too large for the memory allowed ...) does not lose the
    * others: see ObjectResult::error; a background that fails is a warning.
    * \throws Cancelled */

@@ -94,6 +94,17 @@ public:
   addIntersection (const SignedDistanceField::ConstPtr& body, const std::vector<Eigen::Isometry3d>& T_body_object = {
                                                                   Eigen::Isometry3d::Identity ()});
 
+  /** \brief The same, given as a mesh: closed, or open as the boundary of what lies behind it.
+   * \throws InvalidArgument if the mesh bounds nothing */
+  void
+  addIntersection (const TriangleMesh& body, const std::vector<Eigen::Isometry3d>& T_body_object = {
+                                                 Eigen::Isometry3d::Identity ()});
+
+  /** \brief The same for PCL's meshes, of triangles or larger polygons. \throws InvalidArgument */
+  void
+  addIntersection (const pcl::PolygonMesh& body, const std::vector<Eigen::Isometry3d>& T_body_object = {
+                                                     Eigen::Isometry3d::Identity ()});
+
   /** \brief The plane that the object stands on or leans against: four coefficients a x + b y + c z + d = 0 of
    * either sign; the object is on the side of most of its points. Further calls add further planes.
    * \throws InvalidArgument */
@@ -151,7 +162,7 @@ protected:
   performReconstruction (pcl::PointCloud<PointNT>& points, std::vector<pcl::Vertices>& polygons) override;
 
 private:
-  using Body = std::pair<SignedDistanceField::ConstPtr, std::vector<Eigen::Isometry3d>>;
+  using Poses = std::vector<Eigen::Isometry3d>;
 
   /** \brief Fill result_; false, with a message, if that fails. */
   bool
@@ -159,7 +170,8 @@ private:
 
   CoSectionOptions options_;
   std::vector<DepthView> views_;
-  std::vector<Body> bodies_;
+  std::vector<std::pair<SignedDistanceField::ConstPtr, Poses>> bodies_;
+  std::vector<std::pair<TriangleMesh, Poses>> meshes_;
   std::vector<Eigen::Vector4d> planes_;
   ProgressCallback progress_;
   ObjectResult result_;

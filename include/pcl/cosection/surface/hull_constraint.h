@@ -6,6 +6,7 @@
 #include <pcl/cosection/common/export.h>
 #include <pcl/cosection/volume/voxel_grid.h>
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -27,6 +28,8 @@ filterDepth (const std::vector<float>& image, const PinholeCamera& camera, int r
 class PCL_COSECTION_EXPORT FreeSpaceView
 {
 public:
+  static constexpr std::size_t bytes_per_pixel = 2 * sizeof (float) + sizeof (std::uint8_t);
+
   explicit FreeSpaceView (DepthView view);
 
   const DepthView&

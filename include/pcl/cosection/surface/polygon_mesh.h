@@ -17,5 +17,11 @@ namespace cosection
 PCL_COSECTION_EXPORT void
 toPolygonMesh (const TriangleMesh& mesh, pcl::PolygonMesh& output);
 
+/** \brief Vertices and faces of PCL's mesh; polygons are split into triangles around their first vertex.
+ * \throws InvalidArgument if it has no fields x, y and z of floats, or a polygon of fewer than three vertices or of
+ * vertices that do not exist */
+PCL_COSECTION_EXPORT TriangleMesh
+fromPolygonMesh (const pcl::PolygonMesh& mesh);
+
 } // namespace cosection
 } // namespace pcl

@@ -61,6 +61,19 @@ HessianIMLS<PointNT>::addIntersection (const SignedDistanceField::ConstPtr& body
 }
 
 template <typename PointNT> void
+HessianIMLS<PointNT>::addIntersection (const TriangleMesh& body, const std::vector<Eigen::Isometry3d>& T_body_object)
+{
+  CoSection ().addIntersection (body, T_body_object); // validates
+  meshes_.emplace_back (body, T_body_object);
+}
+
+template <typename PointNT> void
+HessianIMLS<PointNT>::addIntersection (const pcl::PolygonMesh& body, const std::vector<Eigen::Isometry3d>& T_body_object)
+{
+  addIntersection (fromPolygonMesh (body), T_body_object);
+}
+
+template <typename PointNT> void
 HessianIMLS<PointNT>::setSupportPlane (const pcl::ModelCoefficients& coefficients)
 {
   const auto& c = coefficients.values;
@@ -76,6 +89,7 @@ HessianIMLS<PointNT>::clearConstraints ()
 {
   views_.clear ();
   bodies_.clear ();
+  meshes_.clear ();
   planes_.clear ();
 }
 
@@ -106,8 +120,10 @@ HessianIMLS<PointNT>::compute ()
     CoSection scene (options_);
     for (const DepthView& view : views_)
       scene.addView (view);
-    for (const Body& body : bodies_)
-      scene.addIntersection (body.first, body.second);
+    for (const auto& [body, poses] : bodies_)
+      scene.addIntersection (body, poses);
+    for (const auto& [body, poses] : meshes_)
+      scene.addIntersection (body, poses);
     for (const Eigen::Vector4d& plane : planes_)
       scene.addSupportPlane (plane);
     scene.addObject (std::move (object));
