@@ -86,6 +86,10 @@ parameters (const Settings& settings)
   result["planes"] = Json::array ();
   for (const Eigen::Vector4d& p : settings.planes)
     result["planes"].push_back ({p[0], p[1], p[2], p[3]});
+  result["obstacles"] = settings.obstacles;
+  result["object_trajectories"] = Json::object ();
+  for (const auto& [label, file] : settings.object_trajectories)
+    result["object_trajectories"][std::to_string (label)] = file;
   result["find_planes"] = method.use_planes;
   result["alpha"] = method.alpha;
   result["beta_hull"] = method.beta_hull;
@@ -97,6 +101,7 @@ parameters (const Settings& settings)
   result["tolerance_vox"] = method.solver.tolerance_vox;
   result["threads"] = method.threads;
   result["max_memory_bytes"] = method.max_memory_bytes;
+  result["max_faces"] = settings.max_faces;
   result["scale"] = settings.reading.scale;
   result["world_points"] = settings.reading.world_points;
   return (result);
@@ -115,6 +120,10 @@ writeJsonSummary (const Settings& settings, const SceneResult& result, const std
   for (const ObjectResult& object : result.objects)
     if (object.error.empty ())
       summary["objects"].push_back (toJson (object));
+  summary["failed"] = Json::array ();
+  for (const ObjectResult& object : result.objects)
+    if (!object.error.empty ())
+      summary["failed"].push_back ({{"id", object.id}, {"error", object.error}});
   summary["warnings"] = warnings;
   writeAtomically (settings.json, [&] (const std::string& path) {
     std::ofstream file (path);

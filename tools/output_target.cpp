@@ -116,6 +116,7 @@ OutputTarget::OutputTarget (const Settings& settings)
     : output_ (settings.output)
     , format_ (settings.format)
     , save_sdf_ (settings.save_sdf)
+    , save_more_ (settings.method.compute_hull || settings.method.compute_bounds)
     , single_file_ (!meshExtension (settings.output).empty ())
     , folder_ (single_file_ ? "" : settings.output)
 {
@@ -133,8 +134,9 @@ OutputTarget::isOwnName (const fs::path& name) const
 {
   const std::string stem = name.stem ().string (), extension = name.extension ().string ();
   const bool is_sdf = save_sdf_ && extension == ".vti";
+  const bool is_beside = is_sdf || (save_more_ && extension == fs::path (output_).extension ().string ());
   if (single_file_)
-    return (name == fs::path (output_).filename () || (is_sdf && stem.rfind (fs::path (output_).stem (), 0) == 0));
+    return (name == fs::path (output_).filename () || (is_beside && stem.rfind (fs::path (output_).stem (), 0) == 0));
   return ((is_sdf || extension == "." + format_) && (stem == "background" || stem.rfind ("object_", 0) == 0));
 }
 
@@ -153,7 +155,11 @@ OutputTarget::refuseToOverwrite (const Settings& settings) const
     return ((isOwnName (target.filename ()) && isSameFile (folderOf (target), folder)) ||
             std::any_of (own.begin (), own.end (), same));
   };
-  for (const std::string& input : settings.inputs)
+  std::vector<std::string> inputs = settings.inputs;
+  inputs.insert (inputs.end (), settings.obstacles.begin (), settings.obstacles.end ());
+  for (const auto& [label, file] : settings.object_trajectories)
+    inputs.push_back (file);
+  for (const std::string& input : inputs)
   {
     if (isOwn (input))
       throw UsageError (input + ": is an input that " + output_ + " would overwrite; give another OUTPUT");

@@ -62,6 +62,7 @@ private:
   const std::string output_;
   const std::string format_;
   const bool save_sdf_;
+  const bool save_more_; ///< hulls or bounds
   const bool single_file_;
   const OutputFolder folder_;
 };

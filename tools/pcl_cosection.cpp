@@ -11,6 +11,7 @@
 #include "terminal.h"
 
 #include <pcl/cosection/common/error.h>
+#include <pcl/cosection/common/mesh_decimation.h>
 #include <pcl/cosection/surface/co_section.h>
 
 #include <chrono>
@@ -59,7 +60,22 @@ toScene (const Settings& settings, SceneInput input)
     scene.addObject (std::move (object));
   for (const Eigen::Vector4d& plane : settings.planes)
     scene.addSupportPlane (plane);
+  for (TriangleMesh& obstacle : input.obstacles)
+    scene.addIntersection (std::move (obstacle));
   return (scene);
+}
+
+/** \brief Fewer triangles, if that is asked for. The bounds stay as they are, lest they bound no more. */
+void
+simplify (std::size_t max_faces, SceneResult& result)
+{
+  if (max_faces == 0)
+    return;
+  for (ObjectResult& object : result.objects)
+    if (!object.mesh.empty ())
+      object.mesh = decimate (object.mesh, max_faces);
+  if (!result.background.empty ())
+    result.background = decimate (result.background, max_faces);
 }
 
 std::string
@@ -101,6 +117,7 @@ run (const Settings& settings, Terminal& terminal)
   for (const std::string& warning : result.warnings)
     terminal.warning (warning);
   warnings.insert (warnings.end (), result.warnings.begin (), result.warnings.end ());
+  simplify (settings.max_faces, result);
   bool all_good = true;
   for (ObjectResult& object : result.objects)
   {

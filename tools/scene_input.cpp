@@ -5,6 +5,7 @@
 #include "object_poses.h"
 
 #include <pcl/cosection/common/error.h>
+#include <pcl/cosection/io/mesh_io.h>
 #include <pcl/cosection/io/pcd_view.h>
 
 #include <algorithm>
@@ -20,6 +21,7 @@ namespace
 {
 
 constexpr std::size_t min_points = 100;
+constexpr float large_extent = 100.0f; ///< metres; what is larger is probably not in metres
 
 std::string
 tooFew (std::uint32_t label, const LabelledView::Points& object)
@@ -81,6 +83,27 @@ merge (const std::string& path, std::size_t index, LabelledView& view, const Obj
   }
 }
 
+TriangleMesh
+readObstacle (const std::string& path, std::vector<std::string>& warnings)
+{
+  TriangleMesh mesh = loadMesh (path);
+  Eigen::AlignedBox3f box;
+  for (const Eigen::Vector3f& v : mesh.vertices)
+    box.extend (v);
+  if (box.sizes ().maxCoeff () > large_extent)
+    warnings.push_back (path + ": is larger than " + std::to_string (static_cast<int> (large_extent)) +
+                        " m; obstacles are in metres, in the world frame");
+  try
+  {
+    CoSection ().addIntersection (mesh); // refuses what bounds nothing
+  }
+  catch (const InvalidArgument& error)
+  {
+    throw InvalidArgument (path + ": " + error.what ());
+  }
+  return (mesh);
+}
+
 /** \brief The options, with the memory that the points of earlier views leave. */
 PcdViewOptions
 withMemoryLeft (PcdViewOptions options, const Labels& labels)
@@ -98,8 +121,10 @@ withMemoryLeft (PcdViewOptions options, const Labels& labels)
 SceneInput
 readScene (const Settings& settings, const ProgressCallback& progress)
 {
-  const ObjectPoses poses (settings.object_trajectories, settings.inputs.size ());
   SceneInput scene;
+  for (const std::string& file : settings.obstacles)
+    scene.obstacles.push_back (readObstacle (file, scene.warnings));
+  const ObjectPoses poses (settings.object_trajectories, settings.inputs.size ());
   Labels labels;
   for (std::size_t i = 0; i < settings.inputs.size (); ++i)
   {

@@ -18,6 +18,7 @@ struct SceneInput
   std::map<int, pcl::cosection::ObjectInput> objects; ///< by label
   std::vector<pcl::cosection::OrientedPoint> background;
   std::vector<pcl::cosection::DepthView> views;
+  std::vector<pcl::cosection::TriangleMesh> obstacles; ///< world frame
   std::vector<std::string> warnings;
 };
 

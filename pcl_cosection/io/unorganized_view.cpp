@@ -33,7 +33,6 @@ namespace
 {
 
 constexpr float nan_value = std::numeric_limits<float>::quiet_NaN ();
-constexpr double max_hidden_share = 0.1;   // of the points, if the sensor stood at the viewpoint
 constexpr double max_default_slope = 1.7321; // of points before a camera whose pose was left at the default: 60 degrees
 constexpr float away_cosine = -0.2f;       // of a normal that clearly points away from the viewpoint
 constexpr double worth_saying = 0.02;      // share of the normals
@@ -150,15 +149,15 @@ viewFromViewpoint (const std::string& path, const PcdViewOptions& options, const
       return std::nullopt;
   }
   std::optional<RangeImage> image = drawRangeImage (cloud.positions, Eigen::Vector3d::Zero ());
-  if (image && image->hidden_share <= max_hidden_share)
+  if (image && image->hidden_share <= RangeImage::max_hidden_share)
   {
     image->view.T_world_sensor = cloud.T_world_sensor * image->view.T_world_sensor;
     return std::move (image->view);
   }
-  if (cloud.has_viewpoint)
+  if (cloud.has_viewpoint && cloud.positions.size () >= RangeImage::min_points)
     result.warnings.push_back (path + ": its points were not seen from its VIEWPOINT alone (" +
                                (image ? percent (image->hidden_share) + " of them are hidden from there"
-                                      : std::string ("they are few, or all around it")) +
+                                      : std::string ("they are all around it")) +
                                "): no free space is taken from it");
   return std::nullopt;
 }

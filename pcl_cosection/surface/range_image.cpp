@@ -15,7 +15,6 @@ namespace cosection
 namespace
 {
 
-constexpr std::size_t min_points = 50;
 constexpr double max_slope = 1.7321;      // tangent of half of 120 degrees
 constexpr int finest_px = 1024;           // pixels along the longer side ...
 constexpr int coarsest_px = 8;            // ... that are tried
@@ -135,7 +134,7 @@ drawRangeImage (const std::vector<Eigen::Vector3f>& points, const Eigen::Vector3
     projection.points.emplace_back (static_cast<float> (slope.x ()), static_cast<float> (slope.y ()),
                                     static_cast<float> (p.z ()));
   }
-  if (projection.points.size () < min_points)
+  if (projection.points.size () < RangeImage::min_points)
     return std::nullopt;
 
   RangeImage image;

@@ -247,7 +247,7 @@ TEST_F (PcdView, UnorganizedGetsNormalsTowardsTheSensor)
 {
   pcl::io::savePCDFileBinary (path ("a.pcd"), hemisphere (3000));
   const LabelledView view = readPcdView (path ("a.pcd"));
-  EXPECT_FALSE (view.view);
+  EXPECT_TRUE (view.view);
   EXPECT_FALSE (view.has_labels);
   EXPECT_FALSE (view.has_colour);
   EXPECT_TRUE (view.warnings.empty ());

@@ -154,14 +154,15 @@ TEST_F (PclCosection, LabelledSceneGivesAMeshPerObject)
       names.insert (item.key ());
     return (names);
   };
-  EXPECT_EQ (keys (summary), (std::set<std::string>{"timings_s", "parameters", "objects", "warnings"}));
+  EXPECT_EQ (keys (summary), (std::set<std::string>{"timings_s", "parameters", "objects", "failed", "warnings"}));
   EXPECT_EQ (keys (summary["timings_s"]),
              (std::set<std::string>{"read", "data_term", "constraints", "solve", "mesh", "total"}));
   ASSERT_EQ (summary["objects"].size (), 2u);
   const nlohmann::json& object = summary["objects"][0];
   EXPECT_EQ (keys (object),
              (std::set<std::string>{"id", "label", "voxel_size_m", "dimensions", "vertices", "closed", "euler",
-                                    "volume_m3", "centroid_m", "inertia", "provenance", "penetration_m", "solver"}));
+                                    "volume_m3", "centroid_m", "inertia", "provenance", "penetration_m", "solver",
+                                    "stray_points"}));
   EXPECT_EQ (keys (object["solver"]), (std::set<std::string>{"iterations", "converged", "energy"}));
   EXPECT_EQ (object["label"], 1);
   EXPECT_EQ (object["closed"], true);

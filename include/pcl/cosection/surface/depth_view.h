@@ -3,11 +3,13 @@
 #pragma once
 
 #include <pcl/cosection/common/camera.h>
+#include <pcl/cosection/surface/range_image.h>
 
 #include <pcl/point_cloud.h>
 
 #include <limits>
 #include <optional>
+#include <utility>
 #include <vector>
 
 namespace pcl
@@ -15,15 +17,17 @@ namespace pcl
 namespace cosection
 {
 
-/** \brief The depth image that an organised cloud is.
- * \param[in] cloud in its sensor's frame (x right, y down, z forward), metres; not finite or z <= 0: no reading
+/** \brief The depth image that an organised cloud is, or that an unorganised one gives (drawRangeImage ()).
+ * \param[in] cloud in its sensor's frame (organised: x right, y down, z forward), metres; not finite, or z <= 0 of an
+ * organised one: no reading
  * \param[in] T_world_sensor pose of the sensor
- * \return nothing if the cloud is not the image of a pinhole camera (fitPinholeCamera ()) */
+ * \return nothing if an organised cloud is not the image of a pinhole camera (fitPinholeCamera ()), or if more than a
+ * tenth of the points of an unorganised one is hidden from the sensor */
 template <typename PointT> std::optional<DepthView>
 toDepthView (const pcl::PointCloud<PointT>& cloud,
              const Eigen::Isometry3d& T_world_sensor = Eigen::Isometry3d::Identity ())
 {
-  if (cloud.height <= 1 || cloud.size () != static_cast<std::size_t> (cloud.width) * cloud.height)
+  if (cloud.height > 1 && cloud.size () != static_cast<std::size_t> (cloud.width) * cloud.height)
     return std::nullopt;
   DepthView view;
   view.T_world_sensor = T_world_sensor;
@@ -34,6 +38,14 @@ toDepthView (const pcl::PointCloud<PointT>& cloud,
   {
     points.emplace_back (p.x, p.y, p.z);
     view.depth.push_back (p.z > 0.0f ? p.z : std::numeric_limits<float>::quiet_NaN ());
+  }
+  if (cloud.height <= 1)
+  {
+    std::optional<RangeImage> image = drawRangeImage (points, Eigen::Vector3d::Zero ());
+    if (!image || image->hidden_share > RangeImage::max_hidden_share)
+      return std::nullopt;
+    image->view.T_world_sensor = T_world_sensor * image->view.T_world_sensor;
+    return std::move (image->view);
   }
   const auto camera = fitPinholeCamera (points, static_cast<int> (cloud.width), static_cast<int> (cloud.height));
   if (!camera)

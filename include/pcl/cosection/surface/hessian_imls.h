@@ -78,9 +78,10 @@ public:
   setResolution (int resolution);
 
   /** \brief Add a view of the scene: what lies in front of its readings is free.
-   * \param[in] cloud organised, in its sensor's frame (x right, y down, z forward), as a pinhole sees it;
-   * not finite: no reading
-   * \return false, with a message, if the cloud is not the image of a pinhole camera */
+   * \param[in] cloud in its sensor's frame: organised (x right, y down, z forward), as a pinhole sees it, not finite:
+   * no reading; or unorganised, drawn as a range image
+   * \return false, with a message, if the cloud is not the image of a pinhole camera, or much of an unorganised one is
+   * hidden from the sensor */
   template <typename PointT> bool
   addView (const pcl::PointCloud<PointT>& cloud, const Eigen::Isometry3d& T_object_sensor = Eigen::Isometry3d::Identity ());
 

@@ -7,6 +7,7 @@
 
 #include <Eigen/Core>
 
+#include <cstddef>
 #include <optional>
 #include <vector>
 
@@ -18,6 +19,10 @@ namespace cosection
 /** \brief An unorganised cloud as it looks from where its sensor stood. */
 struct PCL_COSECTION_EXPORT RangeImage
 {
+  /** \brief Of the points that a sensor saw; more says that it stood elsewhere. */
+  static constexpr double max_hidden_share = 0.1;
+  static constexpr std::size_t min_points = 50; ///< that are worth a picture
+
   DepthView view;            ///< nearest point of each pixel; the optical axis passes through the middle of the points
   double hidden_share = 0.0; ///< of the points, clearly behind others: large if the sensor cannot have stood there
 };

@@ -18,8 +18,8 @@ pcl::cosection::HessianIMLS<PointNT>::addView (const pcl::PointCloud<PointT>& cl
   if (view)
     addView (*view);
   else
-    PCL_ERROR ("[pcl::%s::addView] The cloud is not the image of a pinhole camera in its sensor's frame; "
-               "it is left out.\n",
+    PCL_ERROR ("[pcl::%s::addView] The cloud is not the image of a pinhole camera, nor all visible from the "
+               "origin of its frame; it is left out.\n",
                getClassName ().c_str ());
   return view.has_value ();
 }

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_cosection authors
+#include "common/temporary_folder.h"
+
+#include <pcl/cosection/common/error.h>
+#include <pcl/cosection/io/trajectory.h>
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+using namespace pcl::cosection;
+using namespace pcl::cosection::test;
+
+namespace
+{
+
+class Trajectory : public testing::Test
+{
+protected:
+  std::vector<StampedPose>
+  load (const std::string& text) const
+  {
+    const std::string path = folder_.file ("poses.txt");
+    std::ofstream (path, std::ios::binary) << text;
+    return loadTrajectory (path);
+  }
+
+  std::string
+  failure (const std::string& text) const
+  {
+    try
+    {
+      load (text);
+    }
+    catch (const IoError& error)
+    {
+      return error.what ();
+    }
+    return "";
+  }
+
+  TemporaryFolder folder_;
+};
+
+} // namespace
+
+TEST_F (Trajectory, ReadsPosesByAscendingStamps)
+{
+  const auto poses = load ("# stamp tx ty tz qx qy qz qw\n\n2.5 1 2 3 0 0 0 1\r\n  1 -1e-1 0 0  0 0 2 2\n");
+  ASSERT_EQ (poses.size (), 2u);
+  EXPECT_EQ (poses[0].stamp, 1.0);
+  EXPECT_EQ (poses[1].stamp, 2.5);
+  EXPECT_LT ((poses[1].pose.translation () - Eigen::Vector3d (1, 2, 3)).norm (), 1e-12);
+  EXPECT_LT ((poses[0].pose * Eigen::Vector3d (1, 0, 0) - Eigen::Vector3d (-0.1, 1, 0)).norm (), 1e-9); // a quarter turn
+  EXPECT_LT ((poses[0].pose.linear () * poses[0].pose.linear ().transpose () - Eigen::Matrix3d::Identity ()).norm (), 1e-12);
+}
+
+TEST_F (Trajectory, NamesTheLineThatIsWrong)
+{
+  EXPECT_NE (failure ("0 0 0 0 0 0 0 1\n1 0 0 0 0 0 0\n").find ("line 2"), std::string::npos);
+  EXPECT_NE (failure ("0 0 0 0 0 0 0 1 5\n").find ("line 1"), std::string::npos);
+  EXPECT_NE (failure ("0 0 0 0 0 0 0 0\n").find ("quaternion"), std::string::npos);
+  EXPECT_NE (failure ("0 0 x 0 0 0 0 1\n").find ("line 1"), std::string::npos);
+  EXPECT_NE (failure ("0 0 nan 0 0 0 0 1\n").find ("line 1"), std::string::npos);
+  EXPECT_NE (failure ("0 0 1e999 0 0 0 0 1\n").find ("line 1"), std::string::npos);
+  EXPECT_NE (failure ("# nothing\n").find ("no poses"), std::string::npos);
+  EXPECT_NE (failure ("3 0 0 0 0 0 0 1\n3 0 0 0 0 0 0 1\n").find ("two poses of stamp 3"), std::string::npos);
+  EXPECT_THROW (loadTrajectory (folder_.file ("missing.txt")), IoError);
+}

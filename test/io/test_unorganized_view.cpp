@@ -1,0 +1,234 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_cosection authors
+
+// What is made of unorganised clouds: where they were seen from, and which way their normals point.
+
+#include "common/temporary_folder.h"
+
+#include <pcl/cosection/common/error.h>
+#include <pcl/cosection/io/pcd_view.h>
+
+#include <pcl/io/pcd_io.h>
+#include <pcl/point_types.h>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <random>
+
+using namespace pcl::cosection;
+using namespace pcl::cosection::test;
+
+namespace
+{
+
+constexpr float radius_m = 0.1f;
+const Eigen::Vector3f middle (0.02f, -0.01f, 0.8f);
+
+/** \brief Random points of a ball: of its near side only, as a sensor at the origin sees it, or of all of it. */
+pcl::PointCloud<pcl::PointNormal>
+ball (int count, bool near_side_only, float noise_m = 0.0f)
+{
+  std::mt19937 random (3);
+  std::normal_distribution<float> gauss;
+  pcl::PointCloud<pcl::PointNormal> cloud;
+  while (static_cast<int> (cloud.size ()) < count)
+  {
+    const Eigen::Vector3f n = Eigen::Vector3f (gauss (random), gauss (random), gauss (random)).normalized ();
+    const Eigen::Vector3f p = middle + (radius_m + noise_m * gauss (random)) * n;
+    if (!near_side_only || n.dot (-p.normalized ()) > 0.1f)
+      cloud.emplace_back (p.x (), p.y (), p.z (), n.x (), n.y (), n.z ());
+  }
+  return cloud;
+}
+
+class UnorganizedView : public testing::Test
+{
+protected:
+  template <typename PointT>
+  std::string
+  save (const pcl::PointCloud<PointT>& cloud) const
+  {
+    const std::string path = folder_.file ("cloud.pcd");
+    pcl::io::savePCDFileBinary (path, cloud);
+    return path;
+  }
+
+  template <typename PointT>
+  LabelledView
+  read (const pcl::PointCloud<PointT>& cloud, const PcdViewOptions& options = {}) const
+  {
+    return readPcdView (save (cloud), options);
+  }
+
+  /** \brief Share of points whose normals are within \a cosine of the ball's. */
+  static double
+  outward (const LabelledView& view, double cosine = 0.7, const Eigen::Vector3f& center = middle)
+  {
+    const auto& points = view.objects.at (1).points;
+    double good = 0.0;
+    for (const OrientedPoint& p : points)
+      good += p.normal.dot ((p.position - center).normalized ()) > cosine;
+    return good / static_cast<double> (points.size ());
+  }
+
+  static pcl::PointCloud<pcl::PointXYZ>
+  withoutNormals (const pcl::PointCloud<pcl::PointNormal>& cloud)
+  {
+    pcl::PointCloud<pcl::PointXYZ> bare;
+    for (const auto& p : cloud)
+      bare.emplace_back (p.x, p.y, p.z);
+    return bare;
+  }
+
+  TemporaryFolder folder_;
+};
+
+bool
+mentions (const LabelledView& view, const std::string& text)
+{
+  for (const std::string& warning : view.warnings)
+    if (warning.find (text) != std::string::npos)
+      return true;
+  return false;
+}
+
+} // namespace
+
+TEST_F (UnorganizedView, BeforeTheSensorGivesFreeSpace)
+{
+  const LabelledView view = read (withoutNormals (ball (4000, true)));
+  ASSERT_TRUE (view.view);
+  EXPECT_TRUE (view.warnings.empty ());
+  EXPECT_GT (outward (view), 0.99);
+  double nearest = std::numeric_limits<double>::infinity ();
+  for (const float z : view.view->depth)
+    if (std::isfinite (z))
+      nearest = std::min (nearest, static_cast<double> (z));
+  EXPECT_NEAR (nearest, middle.norm () - radius_m, 0.005);
+}
+
+TEST_F (UnorganizedView, ViewpointOfTheHeaderCounts)
+{
+  auto cloud = withoutNormals (ball (4000, true));
+  cloud.sensor_origin_ << 1.0f, 2.0f, 3.0f, 1.0f;
+  const LabelledView view = read (cloud);
+  ASSERT_TRUE (view.view);
+  EXPECT_LT ((view.view->T_world_sensor.translation () - Eigen::Vector3d (1, 2, 3)).norm (), 1e-6);
+  EXPECT_GT (outward (view, 0.7, middle + Eigen::Vector3f (1, 2, 3)), 0.99);
+}
+
+TEST_F (UnorganizedView, AllAroundNeighboursAgree)
+{
+  const LabelledView view = read (withoutNormals (ball (4000, false)));
+  EXPECT_FALSE (view.view); // the far side is hidden from the origin
+  EXPECT_TRUE (mentions (view, "is not known"));
+  EXPECT_GT (outward (view), 0.99);
+}
+
+TEST_F (UnorganizedView, WrongViewpointIsSaid)
+{
+  auto cloud = ball (4000, false);
+  cloud.sensor_origin_ << 0.0f, 0.0f, -0.5f, 1.0f;
+  const LabelledView view = read (cloud);
+  EXPECT_FALSE (view.view);
+  EXPECT_TRUE (mentions (view, "not seen from its VIEWPOINT"));
+  EXPECT_GT (view.objects.at (1).points.size (), 3900u);
+}
+
+TEST_F (UnorganizedView, FlippedNormalsAreTurned)
+{
+  auto cloud = ball (4000, false);
+  for (auto& p : cloud)
+    p.getNormalVector3fMap () *= -1.0f;
+  const LabelledView view = read (cloud);
+  EXPECT_TRUE (mentions (view, "point inward; they were turned"));
+  EXPECT_EQ (outward (view), 1.0);
+}
+
+TEST_F (UnorganizedView, NormalsAwayFromTheViewpointAreTurned)
+{
+  auto cloud = ball (4000, true);
+  for (std::size_t i = 0; i < cloud.size (); i += 4)
+    cloud[i].getNormalVector3fMap () *= -1.0f;
+  const LabelledView view = read (cloud);
+  ASSERT_TRUE (view.view);
+  EXPECT_TRUE (mentions (view, "point away from the VIEWPOINT"));
+  EXPECT_GT (outward (view), 0.95); // a few at the rim are not clearly away
+}
+
+TEST_F (UnorganizedView, GoodNormalsAreLeftAlone)
+{
+  for (const bool near_side_only : {true, false})
+  {
+    const auto cloud = ball (3000, near_side_only);
+    const LabelledView view = read (cloud);
+    EXPECT_TRUE (view.warnings.empty ()) << view.warnings[0];
+    ASSERT_EQ (view.objects.at (1).points.size (), cloud.size ());
+    for (std::size_t i = 0; i < cloud.size (); ++i)
+      ASSERT_GT (view.objects.at (1).points[i].normal.dot (cloud[i].getNormalVector3fMap ()), 0.999f);
+  }
+}
+
+TEST_F (UnorganizedView, TheBackgroundFacesTheObjects)
+{
+  pcl::PointCloud<pcl::PointXYZL> cloud;
+  for (const auto& p : ball (3000, false))
+  {
+    cloud.emplace_back ();
+    cloud.back ().getVector3fMap () = p.getVector3fMap ();
+    cloud.back ().label = 1;
+  }
+  for (int i = -30; i <= 30; ++i)
+    for (int j = -30; j <= 30; ++j)
+    {
+      cloud.emplace_back ();
+      cloud.back ().getVector3fMap () = middle + Eigen::Vector3f (0.01f * i, 0.01f * j, -radius_m);
+    }
+  const LabelledView view = read (cloud);
+  EXPECT_GT (outward (view), 0.99);
+  for (const OrientedPoint& p : view.objects.at (0).points)
+    ASSERT_GT (p.normal.z (), 0.9f);
+}
+
+/** \brief Nearest neighbours would show noise alone. */
+TEST_F (UnorganizedView, DenseAndNoisyCloudsGetGoodNormals)
+{
+  const LabelledView view = read (withoutNormals (ball (300000, true, 0.001f)));
+  EXPECT_EQ (view.objects.at (1).points.size (), 300000u);
+  EXPECT_GT (outward (view, 0.85), 0.97);
+}
+
+TEST_F (UnorganizedView, IntensityIsRead)
+{
+  pcl::PointCloud<pcl::PointXYZI> cloud;
+  for (const auto& p : ball (500, true))
+  {
+    cloud.emplace_back (static_cast<float> (cloud.size ()));
+    cloud.back ().getVector3fMap () = p.getVector3fMap ();
+  }
+  cloud[7].intensity = std::numeric_limits<float>::infinity ();
+  const LabelledView view = read (cloud);
+  EXPECT_TRUE (view.has_intensity);
+  EXPECT_EQ (view.objects.at (1).points[100].intensity, 100.0f);
+  EXPECT_EQ (view.objects.at (1).points[7].intensity, 0.0f);
+}
+
+TEST_F (UnorganizedView, MemoryIsLimited)
+{
+  PcdViewOptions options;
+  options.max_memory_bytes = 100000;
+  const std::string path = save (ball (4000, true));
+  try
+  {
+    readPcdView (path, options);
+    FAIL () << "4000 points do not fit into 100 kB";
+  }
+  catch (const MemoryLimitExceeded& error)
+  {
+    EXPECT_NE (std::string (error.what ()).find ("4000 points"), std::string::npos);
+  }
+  options.max_memory_bytes = 10000000;
+  EXPECT_EQ (readPcdView (path, options).objects.at (1).readings, 4000u);
+}

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_cosection authors
+
+// Objects whose table was cropped away before: a plane says where it was, or nothing does.
+
+#include "surrounding_views.h"
+
+#include <pcl/cosection/surface/range_image.h>
+
+#include <gtest/gtest.h>
+
+using namespace pcl::cosection;
+using namespace pcl::cosection::test;
+
+namespace
+{
+
+constexpr double voxel_m = 0.005;
+const Eigen::Vector4d table (0.0, 0.0, 1.0, 0.0);
+
+/** \brief What is left of a view when all but the object is set to no reading. */
+DepthView
+cropped (const RenderedView& seen)
+{
+  DepthView view = seen.view;
+  for (std::size_t i = 0; i < view.depth.size (); ++i)
+    if (seen.labels[i] != 1)
+      view.depth[i] = std::numeric_limits<float>::quiet_NaN ();
+  return view;
+}
+
+/** \brief The points alone, as an unorganised cloud with a viewpoint has them. */
+DepthView
+redrawn (const RenderedView& seen)
+{
+  std::vector<Eigen::Vector3f> points;
+  for (const OrientedPoint& p : seen.points.at (1))
+    points.push_back (p.position);
+  return drawRangeImage (points, seen.view.T_world_sensor.translation ())->view;
+}
+
+ObjectResult
+completeCropped (const RenderedView& seen, const DepthView* view, const Eigen::Vector4d* plane)
+{
+  CoSection task (optionsFor (voxel_m));
+  if (view)
+    task.addView (*view);
+  if (plane)
+    task.addSupportPlane (*plane);
+  task.addObject ({1, seen.points.at (1), {}});
+  return task.reconstruct ().objects.at (0);
+}
+
+double
+meanDifference (const TriangleMesh& a, const TriangleMesh& b)
+{
+  constexpr double reach_m = 0.04;
+  return std::max (meanDistance (a, b, reach_m), meanDistance (b, a, reach_m));
+}
+
+class CroppedObject : public testing::TestWithParam<Shape>
+{
+protected:
+  const AnalyticScene scene_ = tableScene (GetParam ());
+  const RenderedView seen_ = scene_.render (tableCamera (), fromAbove ());
+  const TriangleMesh with_table_ = complete (seen_, optionsFor (voxel_m)).objects.at (0).mesh;
+  const double truth_m3_ =
+      computeMassProperties (extractIsoSurface (sampleField (scene_.shape (1), 0.15, 0.003))).volume_m3;
+};
+
+} // namespace
+
+TEST_P (CroppedObject, WithAPlaneIsAsWithTheTable)
+{
+  const DepthView organized = cropped (seen_);
+  const DepthView unorganized = redrawn (seen_);
+  for (const DepthView* view : {&organized, &unorganized})
+  {
+    const ObjectResult object = completeCropped (seen_, view, &table);
+    ASSERT_EQ (object.error, "");
+    EXPECT_TRUE (computeTopology (object.mesh).closed_manifold);
+    EXPECT_LE (meanDifference (object.mesh, with_table_), voxel_m);
+    for (const Eigen::Vector3f& v : object.mesh.vertices)
+      EXPECT_GE (v.z (), -0.5 * voxel_m);
+  }
+}
+
+TEST_P (CroppedObject, AloneClosesWithoutSwelling)
+{
+  const DepthView unorganized = redrawn (seen_);
+  const DepthView* const views[] = {&unorganized, nullptr};
+  for (const DepthView* view : views)
+  {
+    const ObjectResult object = completeCropped (seen_, view, nullptr);
+    ASSERT_EQ (object.error, "");
+    EXPECT_TRUE (computeTopology (object.mesh).closed_manifold);
+    EXPECT_LE (computeMassProperties (object.mesh).volume_m3, 1.5 * truth_m3_);
+    EXPECT_GE (computeMassProperties (object.mesh).volume_m3, 0.4 * truth_m3_);
+    EXPECT_LE (meanError (object.mesh, scene_.shape (1)), 3.0 * voxel_m);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P (Shapes, CroppedObject, testing::Values (Shape::Sphere, Shape::Box, Shape::Torus, Shape::Cup),
+                          [] (const auto& info) { return nameOf (info.param); });

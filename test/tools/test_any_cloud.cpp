@@ -1,0 +1,254 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_cosection authors
+
+// The program with clouds that are no labelled views, with given surroundings, and with its further outputs.
+
+#include "common/temporary_folder.h"
+#include "scene_files.h"
+#include "tool_run.h"
+
+#include <pcl/cosection/common/triangle_mesh.h>
+#include <pcl/cosection/io/mesh_io.h>
+
+#include <pcl/io/pcd_io.h>
+#include <pcl/point_types.h>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+namespace fs = std::filesystem;
+using namespace pcl::cosection;
+
+namespace
+{
+
+constexpr double ball_m3 = 4.0 / 3.0 * M_PI * 0.001; ///< of writeSphere ()
+
+class AnyCloud : public testing::Test
+{
+protected:
+  std::string
+  path (const std::string& name) const
+  {
+    return (folder_.file (name));
+  }
+
+  void
+  write (const std::string& name, const std::string& content) const
+  {
+    std::ofstream (path (name), std::ios::binary) << content;
+  }
+
+  /** \brief Run in the folder. \return the exit status; what it printed is in output_ and errors_ */
+  int
+  run (const std::vector<std::string>& arguments)
+  {
+    ToolRun tool (arguments, folder_.file (""));
+    const int status = tool.wait ();
+    output_ = tool.output ();
+    errors_ = tool.errors ();
+    return (status);
+  }
+
+  nlohmann::json
+  summary () const
+  {
+    std::ifstream file (path ("s.json"));
+    return (nlohmann::json::parse (file));
+  }
+
+  double
+  volume (const std::string& name) const
+  {
+    const TriangleMesh mesh = loadMesh (path (name));
+    EXPECT_TRUE (computeTopology (mesh).closed_manifold) << name;
+    return (computeMassProperties (mesh).volume_m3);
+  }
+
+  /** \brief Every second point of the ball, moved by \a T. */
+  void
+  writeHalf (const std::string& name, std::size_t first, const Eigen::Isometry3f& T) const
+  {
+    writeSphere (path ("whole.pcd"), 4000);
+    pcl::PointCloud<pcl::PointNormal> whole, half;
+    pcl::io::loadPCDFile (path ("whole.pcd"), whole);
+    for (std::size_t i = first; i < whole.size (); i += 2)
+    {
+      half.push_back (whole[i]);
+      half.back ().getVector3fMap () = T * whole[i].getVector3fMap ();
+      half.back ().getNormalVector3fMap () = T.linear () * whole[i].getNormalVector3fMap ();
+    }
+    pcl::io::savePCDFileBinary (path (name), half);
+  }
+
+  const pcl::cosection::test::TemporaryFolder folder_;
+  std::string output_, errors_;
+};
+
+} // namespace
+
+TEST_F (AnyCloud, WholeBodyHasItsMassProperties)
+{
+  writeSphere (path ("ball.pcd"), 20000);
+  ASSERT_EQ (run ({"--json", "s.json", "ball.pcd", "ball.stl"}), 0) << errors_;
+  EXPECT_NEAR (volume ("ball.stl"), ball_m3, 0.01 * ball_m3);
+  const nlohmann::json object = summary ()["objects"][0];
+  EXPECT_NEAR (object["volume_m3"].get<double> (), ball_m3, 0.01 * ball_m3);
+  const double moment = 0.4 * ball_m3 * 0.01;
+  for (int a = 0; a < 3; ++a)
+    for (int b = 0; b < 3; ++b)
+      EXPECT_NEAR (object["inertia"][a][b].get<double> (), a == b ? moment : 0.0, 0.015 * moment);
+  EXPECT_NEAR (object["centroid_m"][2].get<double> (), 0.5, 0.001);
+}
+
+TEST_F (AnyCloud, TrajectoryPutsAMovedObjectTogether)
+{
+  Eigen::Isometry3f T = Eigen::Isometry3f::Identity ();
+  T.rotate (Eigen::AngleAxisf (M_PI / 2.0f, Eigen::Vector3f::UnitX ()));
+  T.pretranslate (Eigen::Vector3f (0.3f, 0.2f, 0.1f));
+  writeHalf ("a.pcd", 0, Eigen::Isometry3f::Identity ());
+  writeHalf ("b.pcd", 1, T);
+  write ("poses.txt", "# view tx ty tz qx qy qz qw\n0 0 0 0 0 0 0 1\n1 0.3 0.2 0.1 0.70710678 0 0 0.70710678\n");
+  ASSERT_EQ (run ({"--object-trajectory", "1=poses.txt", "--json", "s.json", "a.pcd", "b.pcd", "out.ply"}), 0) << errors_;
+  EXPECT_NEAR (volume ("out.ply"), ball_m3, 0.02 * ball_m3); // in the object's frame
+  EXPECT_NEAR (summary ()["objects"][0]["centroid_m"][2].get<double> (), 0.5, 0.002);
+
+  ASSERT_EQ (run ({"a.pcd", "b.pcd", "two.ply"}), 0) << errors_; // unmoved, they are two balls
+  EXPECT_GT (volume ("two.ply"), 1.5 * ball_m3);
+
+  write ("gap.txt", "0 0 0 0 0 0 0 1\n");
+  ASSERT_EQ (run ({"--object-trajectory", "1=gap.txt", "a.pcd", "b.pcd", "gap.ply"}), 0) << errors_;
+  EXPECT_NE (errors_.find ("b.pcd: its points of label 1 are left out"), std::string::npos) << errors_;
+  EXPECT_NEAR (volume ("gap.ply"), ball_m3, 0.05 * ball_m3);
+}
+
+TEST_F (AnyCloud, WrongTrajectoriesAreNamed)
+{
+  writeHalf ("a.pcd", 0, Eigen::Isometry3f::Identity ());
+  write ("late.txt", "7 0 0 0 0 0 0 1\n");
+  write ("broken.txt", "0 0 0 0 0 0 1\n");
+  write ("good.txt", "0 0 0 0 0 0 0 1\n");
+  const auto fails = [this] (const std::string& value, int status, const std::string& part) {
+    EXPECT_EQ (run ({"--object-trajectory", value, "a.pcd", "out.ply"}), status) << value;
+    EXPECT_NE (errors_.find (part), std::string::npos) << errors_;
+    EXPECT_FALSE (fs::exists (path ("out.ply")));
+  };
+  fails ("1=late.txt", 1, "late.txt: has no pose for any of the 1 views");
+  fails ("1=broken.txt", 1, "broken.txt: line 1");
+  fails ("1=missing.txt", 1, "missing.txt");
+  fails ("good.txt", 2, "ID=FILE");
+  fails ("0=good.txt", 2, "ID=FILE");
+  fails ("1.5=good.txt", 2, "ID=FILE");
+  fails ("1=", 2, "ID=FILE");
+  EXPECT_EQ (run ({"--object-trajectory", "5=good.txt", "a.pcd", "out.ply"}), 0);
+  EXPECT_NE (errors_.find ("good.txt: is not used, there is no object 5"), std::string::npos) << errors_;
+}
+
+TEST_F (AnyCloud, ObstaclesOfAnyFormatKeepObjectsOut)
+{
+  writeSphere (path ("ball.pcd"), 4000); // at z = 0.5
+  const std::string quad = "1 1 0.45\n-1 1 0.45\n-1 -1 0.45\n1 -1 0.45\n"; // crosses it; free above
+  write ("table.off", "OFF\n4 1 0\n" + quad + "4 0 1 2 3\n");
+  std::string obj;
+  std::istringstream lines (quad);
+  for (std::string line; std::getline (lines, line);)
+    obj += "v " + line + "\n";
+  write ("table.obj", obj + "f 1 2 3 4\n");
+  ASSERT_EQ (run ({"ball.pcd", "free.ply"}), 0) << errors_;
+  for (const char* table : {"table.off", "table.obj"})
+  {
+    ASSERT_EQ (run ({"--obstacle", table, "--json", "s.json", "ball.pcd", "out.ply"}), 0) << errors_;
+    EXPECT_EQ (summary ()["parameters"]["obstacles"][0], table);
+    EXPECT_LT (volume ("out.ply"), 0.98 * volume ("free.ply"));
+  }
+  EXPECT_EQ (run ({"--obstacle", "none.ply", "ball.pcd", "no.ply"}), 1);
+  EXPECT_NE (errors_.find ("none.ply"), std::string::npos);
+  write ("empty.obj", "# nothing\n");
+  EXPECT_EQ (run ({"--obstacle", "empty.obj", "ball.pcd", "no.ply"}), 1);
+  EXPECT_NE (errors_.find ("empty.obj"), std::string::npos);
+  EXPECT_FALSE (fs::exists (path ("no.ply")));
+}
+
+TEST_F (AnyCloud, FewFacesStayClosedInEveryFormat)
+{
+  writeTableScene (path ("scene.pcd"));
+  for (const std::string format : {"ply", "stl", "obj"})
+  {
+    ASSERT_EQ (run ({"--resolution", "32", "--max-faces", "500", "--format", format, "--json", "s.json", "scene.pcd", format}), 0) << errors_;
+    for (const std::string object : {"/object_1.", "/object_2."})
+    {
+      const TriangleMesh mesh = loadMesh (path (format + object + format));
+      EXPECT_TRUE (computeTopology (mesh).closed_manifold);
+      EXPECT_LE (mesh.triangles.size (), 500u);
+      EXPECT_GE (mesh.triangles.size (), 480u);
+    }
+    EXPECT_LE (loadMesh (path (format + "/background." + format)).triangles.size (), 500u);
+    EXPECT_EQ (summary ()["objects"][0]["closed"], true);
+  }
+}
+
+TEST_F (AnyCloud, HullAndBoundsAreWrittenBesideTheMesh)
+{
+  writeTableScene (path ("scene.pcd"));
+  ASSERT_EQ (run ({"--resolution", "32", "--save-hull", "--save-bounds", "scene.pcd", "out"}), 0) << errors_;
+  for (const std::string object : {"out/object_1", "out/object_2"})
+  {
+    EXPECT_LT (volume (object + "_inner.ply"), volume (object + ".ply"));
+    EXPECT_GT (volume (object + "_hull.ply"), volume (object + ".ply"));
+    EXPECT_GE (volume (object + "_outer.ply"), 0.999 * volume (object + "_hull.ply"));
+  }
+  writeSphere (path ("ball.pcd"), 4000);
+  ASSERT_EQ (run ({"--save-bounds", "ball.pcd", "ball.stl"}), 0) << errors_;
+  EXPECT_LT (volume ("ball_inner.stl"), volume ("ball.stl"));
+  EXPECT_GE (volume ("ball_outer.stl"), volume ("ball.stl"));
+}
+
+TEST_F (AnyCloud, AFailingObjectLosesNoOther)
+{
+  writeTableScene (path ("scene.pcd"));
+  pcl::PointCloud<pcl::PointXYZRGBL> cloud;
+  pcl::io::loadPCDFile (path ("scene.pcd"), cloud);
+  int moved = 0;
+  for (auto& p : cloud) // a third object that is a few centimetres of every line of sight: not of this world
+    if (p.label == 0 && moved++ % 7 == 0)
+      p.label = 3;
+  pcl::io::savePCDFileBinary (path ("scene.pcd"), cloud);
+  const int status = run ({"--resolution", "24", "--max-memory", "40M", "--json", "s.json", "scene.pcd", "out"});
+  const nlohmann::json result = summary ();
+  EXPECT_EQ (status, result["failed"].empty () ? 0 : 1) << errors_;
+  EXPECT_GE (result["objects"].size () + result["failed"].size (), 2u);
+  EXPECT_GT (volume ("out/object_1.ply"), 0.0);
+  EXPECT_GT (volume ("out/object_2.ply"), 0.0);
+  for (const auto& failed : result["failed"])
+    EXPECT_FALSE (failed["error"].get<std::string> ().empty ());
+}
+
+TEST_F (AnyCloud, IntensityReachesTheMesh)
+{
+  writeSphere (path ("ball.pcd"), 4000);
+  pcl::PointCloud<pcl::PointXYZINormal> cloud;
+  pcl::io::loadPCDFile (path ("ball.pcd"), cloud);
+  for (auto& p : cloud)
+    p.intensity = p.x > 0.0f ? 10.0f : 2.0f;
+  pcl::io::savePCDFileBinary (path ("grey.pcd"), cloud);
+  ASSERT_EQ (run ({"grey.pcd", "grey.ply"}), 0) << errors_;
+  const TriangleMesh mesh = loadPlyMesh (path ("grey.ply"));
+  ASSERT_EQ (mesh.intensity.size (), mesh.vertices.size ());
+  for (std::size_t v = 0; v < mesh.vertices.size (); ++v)
+    if (std::abs (mesh.vertices[v].x ()) > 0.02f)
+      ASSERT_NEAR (mesh.intensity[v], mesh.vertices[v].x () > 0.0f ? 10.0f : 2.0f, 1e-3f);
+}
+
+TEST_F (AnyCloud, PointsCountForTheMemoryAllowed)
+{
+  writeSphere (path ("ball.pcd"), 200000);
+  EXPECT_EQ (run ({"--max-memory", "10M", "ball.pcd", "out.ply"}), 1);
+  EXPECT_NE (errors_.find ("ball.pcd: its 200000 points need"), std::string::npos) << errors_;
+  EXPECT_FALSE (fs::exists (path ("out.ply")));
+  EXPECT_EQ (run ({"--max-memory", "500M", "ball.pcd", "out.ply"}), 0) << errors_;
+}
