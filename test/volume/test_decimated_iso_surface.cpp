@@ -10,6 +10,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <random>
 
 using namespace pcl::cosection;
@@ -120,4 +121,21 @@ TEST (DecimatedIsoSurface, OfABoxIsABoxAgain)
     for (int n = 0; n < 3; ++n)
       EXPECT_NEAR (distance (corners.col (n)), 0.0, 0.5 * h);
   }
+}
+
+TEST (DecimatedIsoSurface, AvoidsThinTrianglesWhereThatCostsNothing)
+{
+  const auto distance = test::box ({0.1, 0.06, 0.03});
+  const TriangleMesh mesh = extractIsoSurface (test::sampleField (distance, 0.13, 0.0037));
+  const auto thin = [&] (double min_quality) {
+    DecimationOptions options;
+    options.max_triangles = 1000;
+    options.min_quality = min_quality;
+    const TriangleMesh result = decimate (mesh, options);
+    EXPECT_NEAR (computeMassProperties (result).volume_m3 / computeMassProperties (mesh).volume_m3, 1.0, 1e-4);
+    return std::count_if (result.triangles.begin (), result.triangles.end (), [&] (const TriangleMesh::Triangle& t) {
+      return test::qualityOf (result, t) < DecimationOptions ().min_quality;
+    });
+  };
+  EXPECT_LT (3 * thin (DecimationOptions ().min_quality), thin (0.0));
 }
