@@ -2,6 +2,7 @@
 // Copyright (c) 2026, the pcl_cosection authors
 #include "command_line.h"
 
+#include "help_text.h"
 #include "option_table.h"
 #include "option_values.h"
 #include "suggestion.h"
@@ -235,10 +236,17 @@ std::optional<Settings>
 parseCommandLine (int argc, const char* const* argv)
 {
   Given given;
-  CLI::App app ("Completes the hidden surfaces of objects in point clouds: closed meshes that keep clear of\n"
-                "seen free space and of each other.",
-                "pcl_cosection");
+  CLI::App app ("", "pcl_cosection");
   declareOptions (app, given);
+  for (int i = 1; i + 1 < argc; ++i)
+    if (std::string (argv[i]) == "--help")
+    {
+      const std::vector<std::string> topics = helpTopics (app);
+      if (std::find (topics.begin (), topics.end (), argv[i + 1]) == topics.end ())
+        break;
+      std::cout << helpText (app, argv[i + 1]);
+      return (std::nullopt);
+    }
   const std::vector<std::string> names = optionNames (app);
   app.config_formatter (std::make_shared<ConfigurationFile> (names));
   refuseUnknownOptions (std::vector<std::string> (argv + 1, argv + argc), names);

@@ -18,43 +18,6 @@ namespace
 
 constexpr double unlimited = std::numeric_limits<double>::max ();
 
-const char* const examples = R"(Examples:
-  pcl_cosection table.pcd meshes
-      every labelled object of one organised view, and the table, into the folder meshes
-  pcl_cosection front.pcd left.pcd cup.ply
-      one object seen in two views (VIEWPOINT in each header), as one closed mesh
-  pcl_cosection --plane 0,0,1,0.72 --voxel-size 0.003 cup.pcd cup.stl
-      what stands on a known plane, z = -0.72 in the world, with voxels of 3 mm
-  pcl_cosection --preset paper --constraints hull --json summary.json scene.pcd out
-      the parameters of the publication, without the intersection constraint
-
-A configuration file has a line NAME = VALUE for each option, without the dashes:
-  voxel-size = 0.004
-  plane = [0, 0, 1, 0.72]
-
-Exit status: 0 all went well, 1 something failed, 2 wrong usage, 130 interrupted.)";
-
-class HelpFormatter : public CLI::Formatter
-{
-public:
-  std::string
-  make_usage (const CLI::App*, std::string) const override
-  {
-    return ("\nUsage: pcl_cosection [OPTIONS] INPUT.pcd [INPUT.pcd ...] OUTPUT\n");
-  }
-
-  std::string
-  make_positionals (const CLI::App*) const override
-  {
-    return ("\nINPUT is a view: points in the sensor frame, VIEWPOINT of the header = pose of the sensor.\n"
-            "  An integer field \"label\" says which object a point belongs to, 0 is the background; without\n"
-            "  it, everything is object 1. Organised clouds also tell which space is free.\n"
-            "OUTPUT ending in .ply, .stl or .obj is one file with the meshes of all objects, without the\n"
-            "  background; anything else is a folder for background.ply and object_LABEL.ply.\n"
-            "Meshes are in the world frame, in metres.\n");
-  }
-};
-
 /** \brief A default for the help screen. */
 template <typename Value>
 std::string
@@ -86,7 +49,7 @@ declareInput (CLI::App& app, Given& given)
       ->check (numberRange (0, unlimited, true))
       ->group (group);
   app.add_option ("--object-trajectory", given.object_trajectories,
-                  "Poses of object ID in the world, for views in which it moved:\n"
+                  "Poses of object ID in the world, for views in which it moved: "
                   "lines \"view tx ty tz qx qy qz qw\", views from 0; repeatable")
       ->option_text ("ID=FILE")
       ->allow_extra_args (false)
@@ -98,13 +61,13 @@ declareSurroundings (CLI::App& app, Given& given)
 {
   const std::string group = "Surroundings";
   app.add_option ("--plane", given.planes,
-                  "Plane a x + b y + c z + d = 0 (world, metres) that no object\n"
+                  "Plane a x + b y + c z + d = 0 (world, metres) that no object "
                   "crosses: a table, a wall; repeatable")
       ->option_text ("A,B,C,D")
       ->allow_extra_args (false)
       ->group (group);
   app.add_option ("--obstacle", given.obstacles,
-                  "Mesh (world, metres) that no object enters: .ply, .stl,\n"
+                  "Mesh (world, metres) that no object enters: .ply, .stl, "
                   ".obj, .off, .vtk or .vtp; repeatable")
       ->option_text ("MESH")
       ->allow_extra_args (false)
@@ -121,23 +84,23 @@ declareVolume (CLI::App& app, Given& given)
       ->check (numberRange (0, unlimited, true))
       ->group (group);
   app.add_option ("--resolution", given.resolution,
-                  "Voxels along an object's longest observed side\n(default: 64, fewer where points are sparse)")
+                  "Voxels along an object's longest observed side (default: 64, fewer where points are sparse)")
       ->option_text ("N")
       ->check (wholeRange (4, 4096))
       ->group (group);
   app.add_option ("--padding", given.padding,
-                  "Volume beyond the observed box on each side, as a fraction\nof its longest side "
+                  "Volume beyond the observed box on each side, as a fraction of its longest side "
                   "(default: 0, as far as the shape may reach)")
       ->option_text ("FRACTION")
       ->check (numberRange (0, 10))
       ->group (group);
   app.add_option ("--background-voxel-size", given.background_voxel_size,
-                  "Edge of the background's voxels\n(default: twice the smallest object's)")
+                  "Edge of the background's voxels (default: twice the smallest object's)")
       ->option_text ("METRES")
       ->check (numberRange (0, unlimited, true))
       ->group (group);
   app.add_option ("--max-memory", given.max_memory,
-                  "Refuse volumes that need more, for example 500M or 2G\n(default: this machine's memory)")
+                  "Refuse volumes that need more, for example 500M or 2G (default: this machine's memory)")
       ->option_text ("BYTES")
       ->group (group);
 }
@@ -152,7 +115,7 @@ declareMethod (CLI::App& app, Given& given)
       ->check (oneOf ({"paper"}))
       ->group (group);
   app.add_option ("--constraints", given.constraints,
-                  "What bounds hidden surfaces: seen free space (hull), other\nbodies (intersection)" +
+                  "What bounds hidden surfaces: seen free space (hull), other bodies (intersection)" +
                       byDefault ("all"))
       ->option_text ("none|hull|intersection|all")
       ->check (oneOf ({"none", "hull", "intersection", "all"}))
@@ -208,14 +171,14 @@ declareOutput (CLI::App& app, Given& given)
   app.add_flag ("--save-hull", given.save_hull,
                 "Write what no view saw free around each object (_hull)")->group (output);
   app.add_flag ("--save-bounds", given.save_bounds,
-                "Write bounds for collision checks: matter surely there\n"
-                "(_inner), and all that may be the object (_outer)")->group (output);
+                "Write bounds for collision checks: matter surely there "
+                  "(_inner), and all that may be the object (_outer)")->group (output);
   app.add_flag ("--save-sdf", given.save_sdf, "Write each object's signed distance beside its mesh (.vti)")
       ->group (output);
   app.add_option ("--json", given.json, "Write a summary for programs")->option_text ("FILE")->group (output);
 
   const std::string general = "General";
-  app.add_option ("--threads", given.threads, "Threads to use, without influence on results\n(default: all processors)")
+  app.add_option ("--threads", given.threads, "Threads to use, without influence on results (default: all processors)")
       ->option_text ("N")
       ->check (wholeRange (1, 1024))
       ->group (general);
@@ -233,22 +196,9 @@ declareOutput (CLI::App& app, Given& given)
 void
 declareOptions (CLI::App& app, Given& given)
 {
-  const auto formatter = std::make_shared<HelpFormatter> ();
-  formatter->column_width (34);
-  app.formatter (formatter);
-  app.footer (examples);
   declareInput (app, given);
   declareSurroundings (app, given);
   declareVolume (app, given);
   declareMethod (app, given);
   declareOutput (app, given);
-}
-
-std::string
-helpText (const CLI::App& app)
-{
-  std::string text = app.help (); // with two blank lines between groups
-  for (std::size_t i = text.find ("\n\n\n"); i != std::string::npos; i = text.find ("\n\n\n"))
-    text.erase (i, 1);
-  return (text);
 }

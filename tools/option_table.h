@@ -24,7 +24,3 @@ struct Given
 /** \brief Declare every option of the program, and where the help screen shows it. */
 void
 declareOptions (CLI::App& app, Given& given);
-
-/** \brief The help screen. */
-std::string
-helpText (const CLI::App& app);

@@ -181,29 +181,29 @@ OutputTarget::write (const SceneResult& result) const
   TriangleMesh all;
   const bool only = result.objects.size () == 1;
   for (const ObjectResult& object : result.objects)
-  {
     if (!object.error.empty ())
       continue;
-    if (!single_file_)
+    else if (!single_file_)
       save (object.mesh, objectPath (object, format_, only));
     else if (all.empty ())
       all = object.mesh;
     else
       appendMesh (all, object.mesh);
-    for (const auto& [mesh, name] : {std::pair{&object.hull, "_hull"}, std::pair{&object.inner_bound, "_inner"},
-                                     std::pair{&object.outer_bound, "_outer"}})
-      if (!mesh->empty ())
-        save (*mesh, objectPath (object, format_, only, name));
-    if (save_sdf_ && object.signed_distance)
-    {
-      saveSignedDistance (*object.signed_distance, objectPath (object, "vti", only));
-      files.push_back (objectPath (object, "vti", only));
-    }
-  }
   if (single_file_ && !all.empty ())
     save (all, output_);
   if (!single_file_ && !result.background.empty ())
     save (result.background, (fs::path (output_) / ("background." + format_)).string ());
+  for (const ObjectResult& object : result.objects)
+    for (const auto& [mesh, suffix] : {std::pair{&object.hull, "_hull"}, std::pair{&object.inner_bound, "_inner"},
+                                       std::pair{&object.outer_bound, "_outer"}})
+      if (!mesh->empty ())
+        save (*mesh, objectPath (object, format_, only, suffix));
+  for (const ObjectResult& object : result.objects) // last: they are large, and the disk may be full
+    if (save_sdf_ && object.error.empty () && object.signed_distance)
+    {
+      files.push_back (objectPath (object, "vti", only));
+      saveSignedDistance (*object.signed_distance, files.back ());
+    }
   return (files);
 }
 

@@ -66,6 +66,9 @@ fuzz::accepts (const std::string& input)
   file.set (input);
   PcdViewOptions options;
   options.threads = 1;
+  options.world_points = input.size () % 2 == 1; // any choice that the same input makes again
+  if (input.size () % 3 == 0)
+    options.intrinsics = {10.0, 10.0, 4.5, 3.5};
   LabelledView view;
   try
   {

@@ -28,6 +28,13 @@ __asan_default_options ()
 {
   return ("max_allocation_size_mb=1024:hard_rss_limit_mb=4096:detect_leaks=1");
 }
+
+// It ends the program without the callback of AddressSanitizer, but an abort is noticed.
+extern "C" __attribute__ ((visibility ("default"))) const char*
+__ubsan_default_options ()
+{
+  return ("abort_on_error=1:print_stacktrace=1");
+}
 #endif
 
 namespace fuzz

@@ -17,10 +17,10 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include <chrono>
+#include <csignal>
+#include <functional>
 #include <map>
 #include <sstream>
-#include <thread>
 
 namespace fs = std::filesystem;
 using namespace pcl::cosection;
@@ -169,8 +169,7 @@ TEST_F (HostileFiles, UnreadableInput)
   if (!canDropPrivileges ())
     GTEST_SKIP () << "the program cannot be started without rights";
   fs::permissions (path ("sphere.pcd"), fs::perms::none);
-  expectFailure ({"sphere.pcd", "../out"}, 1, "../out: the folder cannot be made: Permission denied", dropPrivileges);
-  fs::permissions (folder_.file ("work"), fs::perms (0777));
+  fs::permissions (folder_.file ("work"), fs::perms (0777)); // the output is not the problem
   expectFailure ({"sphere.pcd", "out"}, 1, "sphere.pcd: cannot be read: Permission denied", dropPrivileges);
   fs::permissions (path ("sphere.pcd"), fs::perms (0600)); // to be compared and removed
 }
@@ -183,8 +182,6 @@ TEST_F (HostileFiles, UnusualNames)
   {
     fs::copy_file (path ("sphere.pcd"), path (name + ".pcd"));
     expectSuccess ({"./" + name + ".pcd", "./" + name + ".ply"}, name + ".ply");
-    fs::remove (path (name + ".ply"));
-    expectSuccess ({"--", name + ".pcd", name + ".ply"}, name + ".ply");
     expectSuccess ({"--quiet", "--json=./" + name + ".json", "--", name + ".pcd", name}, name + "/object_1.ply");
     if (name == "..")
       fs::remove (folder_.file ("object_1.ply"));
@@ -319,24 +316,25 @@ TEST_F (HostileFiles, WithoutTheRightToWrite)
 TEST_F (HostileFiles, FullDisk)
 {
   test::writeFile (path ("old.ply"), "precious");
-  test::writeFile (path ("old.json"), "precious too");
   const std::string why = "File too large";
   expectFailure ({"sphere.pcd", "old.ply"}, 1, why, limitFiles (500));
   expectFailure ({"sphere.pcd", "new.stl"}, 1, why, limitFiles (500));
   expectFailure ({"sphere.pcd", "new.obj"}, 1, why, limitFiles (500));
   expectFailure ({"sphere.pcd", "out"}, 1, why, limitFiles (500));
-  // The summary is the last one and does not fit: the mesh is complete.
-  fs::permissions (folder_.file ("work"), fs::perms (0755));
+  // The mesh fits, but not its signed distance.
   ToolRun run (coarse ({"--save-sdf", "sphere.pcd", "new.ply"}), folder_.file ("work"), limitFiles (40000));
   EXPECT_EQ (run.wait (), 1);
   expectOneError (run.errors (), "new.vti");
   EXPECT_FALSE (fs::exists (path ("new.vti")));
+  EXPECT_TRUE (isMesh ("new.ply"));
 }
 
 TEST_F (HostileFiles, OutputFolderVanishes)
 {
   writeSphere (path ("large.pcd"), 5000);
-  ToolRun run ({"--verbose", "--resolution", "48", "large.pcd", "out"}, folder_.file ("work"));
+  ToolRun run ({"--verbose", "--resolution", "48", "--solver", "fast-jacobi", "--max-iterations", "1000", "--tolerance",
+                "1e-30", "large.pcd", "out"}, // which takes its time
+               folder_.file ("work"));
   ASSERT_TRUE (run.waitForError ("object 1")) << run.errors ();
   fs::remove_all (path ("out"));
   EXPECT_EQ (run.wait (), 1);
