@@ -78,6 +78,17 @@ PinholeCamera::validate () const
     throw InvalidArgument ("camera: the principal point must be finite");
 }
 
+void
+DepthView::validate () const
+{
+  camera.validate ();
+  if (depth.size () != static_cast<std::size_t> (camera.width) * camera.height)
+    throw InvalidArgument ("the depth of a view has " + std::to_string (depth.size ()) + " values; its camera has " +
+                           std::to_string (camera.width) + " x " + std::to_string (camera.height) + " pixels");
+  if (!T_world_sensor.matrix ().allFinite ())
+    throw InvalidArgument ("the pose of a view must be finite");
+}
+
 std::optional<PinholeCamera>
 fitPinholeCamera (const std::vector<Eigen::Vector3f>& points, int width, int height)
 {

@@ -28,10 +28,7 @@ CoSection::operator= (CoSection&&) noexcept = default;
 int
 CoSection::addView (DepthView view)
 {
-  view.camera.validate ();
-  if (view.depth.size () != static_cast<std::size_t> (view.camera.width) * view.camera.height)
-    throw InvalidArgument ("the depth of a view has " + std::to_string (view.depth.size ()) + " values; its camera has " +
-                           std::to_string (view.camera.width) + " x " + std::to_string (view.camera.height) + " pixels");
+  view.validate ();
   impl_->views.emplace_back (std::move (view));
   return static_cast<int> (impl_->views.size ()) - 1;
 }

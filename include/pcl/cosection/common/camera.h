@@ -56,6 +56,11 @@ struct PCL_COSECTION_EXPORT DepthView
   {
     return depth[static_cast<std::size_t> (v) * camera.width + u];
   }
+
+  /** \brief \throws InvalidArgument if the camera is not valid, there is not one depth per pixel, or the pose is not
+   * finite. */
+  void
+  validate () const;
 };
 
 /** \brief Standard deviation of the depth of a structured-light sensor at range \a z, metres

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_cosection authors
+#pragma once
+
+#include <pcl/cosection/common/camera.h>
+
+#include <pcl/point_cloud.h>
+
+#include <limits>
+#include <optional>
+#include <vector>
+
+namespace pcl
+{
+namespace cosection
+{
+
+/** \brief The depth image that an organised cloud is.
+ * \param[in] cloud in its sensor's frame (x right, y down, z forward), metres; not finite or z <= 0: no reading
+ * \param[in] T_world_sensor pose of the sensor
+ * \return nothing if the cloud is not the image of a pinhole camera (fitPinholeCamera ()) */
+template <typename PointT> std::optional<DepthView>
+toDepthView (const pcl::PointCloud<PointT>& cloud,
+             const Eigen::Isometry3d& T_world_sensor = Eigen::Isometry3d::Identity ())
+{
+  if (cloud.height <= 1 || cloud.size () != static_cast<std::size_t> (cloud.width) * cloud.height)
+    return std::nullopt;
+  DepthView view;
+  view.T_world_sensor = T_world_sensor;
+  std::vector<Eigen::Vector3f> points;
+  points.reserve (cloud.size ());
+  view.depth.reserve (cloud.size ());
+  for (const PointT& p : cloud)
+  {
+    points.emplace_back (p.x, p.y, p.z);
+    view.depth.push_back (p.z > 0.0f ? p.z : std::numeric_limits<float>::quiet_NaN ());
+  }
+  const auto camera = fitPinholeCamera (points, static_cast<int> (cloud.width), static_cast<int> (cloud.height));
+  if (!camera)
+    return std::nullopt;
+  view.camera = *camera;
+  return view;
+}
+
+} // namespace cosection
+} // namespace pcl
