@@ -24,7 +24,7 @@ run("${CMAKE_COMMAND}"
   "-DCMAKE_CXX_COMPILER_LAUNCHER=${CXX_LAUNCHER}"
   "-DCMAKE_BUILD_TYPE=${BUILD_TYPE}")
 run("${CMAKE_COMMAND}" --build "${WORK_DIR}/build")
-foreach(program IN ITEMS consumer reconstruct_sphere)
+foreach(program IN ITEMS consumer reconstruct_sphere remove_ghost)
   run("${WORK_DIR}/build/${program}")
   message(STATUS "${run_output}")
 endforeach()
