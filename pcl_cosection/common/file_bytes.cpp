@@ -5,6 +5,7 @@
 
 #include <pcl/cosection/common/error.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <memory>
@@ -59,12 +60,12 @@ readBytes (const std::string& path)
     if (!file)
       throwSystemError ();
     std::string bytes;
-    constexpr std::size_t block = 1 << 20;
-    for (std::size_t got = block; got == block;)
+    constexpr std::size_t smallest = 1 << 14;
+    for (std::size_t got = 1; got != 0;)
     {
       const std::size_t size = bytes.size ();
-      bytes.resize (size + block);
-      got = std::fread (&bytes[size], 1, block, file.get ());
+      bytes.resize (std::max (2 * size, smallest));
+      got = std::fread (&bytes[size], 1, bytes.size () - size, file.get ());
       bytes.resize (size + got);
     }
     if (std::ferror (file.get ()))

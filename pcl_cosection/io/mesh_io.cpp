@@ -2,9 +2,9 @@
 // Copyright (c) 2026, the pcl_cosection authors
 
 #include "../common/file_bytes.h"
-#include "ply_mesh.h"
-
 #include "../common/mesh_checks.h"
+#include "file_extension.h"
+#include "ply_mesh.h"
 
 #include <pcl/cosection/common/error.h>
 #include <pcl/cosection/common/atomic_file.h>
@@ -12,11 +12,9 @@
 
 #include <Eigen/Geometry>
 
-#include <algorithm>
-#include <cctype>
+#include <array>
 #include <charconv>
 #include <cstring>
-#include <filesystem>
 #include <limits>
 
 namespace pcl
@@ -25,15 +23,6 @@ namespace cosection
 {
 namespace
 {
-
-std::string
-lowerCaseExtension (const std::string& path)
-{
-  std::string extension = std::filesystem::path (path).extension ().string ();
-  std::transform (extension.begin (), extension.end (), extension.begin (),
-                  [] (unsigned char c) { return static_cast<char> (std::tolower (c)); });
-  return extension;
-}
 
 /** \brief Binary STL: 80 bytes of title, the number of triangles, and for each one its normal, its
  * corners and two bytes of nothing. */

@@ -1,16 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_cosection authors
 
+#include "mesh_decoders.h"
+#include "ply_header.h"
 #include "ply_mesh.h"
 
 #include <pcl/cosection/common/error.h>
 
 #include <algorithm>
 #include <array>
-#include <cstring>
 #include <functional>
-#include <limits>
-#include <sstream>
 
 namespace pcl
 {
@@ -18,160 +17,6 @@ namespace cosection
 {
 namespace
 {
-
-// ---- Header -------------------------------------------------------------------------------------
-
-struct Property
-{
-  std::string name;
-  std::string type;
-  std::string count_type; ///< of lists; else empty
-};
-
-struct Element
-{
-  std::string name;
-  std::uint64_t count = 0;
-  std::vector<Property> properties;
-};
-
-/** \brief Bytes of a scalar type; 0 if there is none of this name. */
-std::size_t
-scalarSize (const std::string& type)
-{
-  if (type == "char" || type == "int8" || type == "uchar" || type == "uint8")
-    return 1;
-  if (type == "short" || type == "int16" || type == "ushort" || type == "uint16")
-    return 2;
-  if (type == "int" || type == "int32" || type == "uint" || type == "uint32" || type == "float" || type == "float32")
-    return 4;
-  if (type == "double" || type == "float64")
-    return 8;
-  return 0;
-}
-
-template <typename T>
-double
-load (const char* data)
-{
-  T value;
-  std::memcpy (&value, data, sizeof (T));
-  return static_cast<double> (value);
-}
-
-using Loader = double (*) (const char*);
-
-Loader
-scalarLoader (const std::string& type)
-{
-  if (type == "char" || type == "int8")
-    return load<std::int8_t>;
-  if (type == "uchar" || type == "uint8")
-    return load<std::uint8_t>;
-  if (type == "short" || type == "int16")
-    return load<std::int16_t>;
-  if (type == "ushort" || type == "uint16")
-    return load<std::uint16_t>;
-  if (type == "int" || type == "int32")
-    return load<std::int32_t>;
-  if (type == "uint" || type == "uint32")
-    return load<std::uint32_t>;
-  if (type == "float" || type == "float32")
-    return load<float>;
-  return load<double>;
-}
-
-Property
-parseProperty (std::istringstream& words)
-{
-  Property property;
-  words >> property.type;
-  if (property.type == "list")
-    words >> property.count_type >> property.type;
-  words >> property.name;
-  if (!words || scalarSize (property.type) == 0 ||
-      (!property.count_type.empty () && scalarSize (property.count_type) == 0))
-    throw IoError ("a property of the PLY header has an unknown type");
-  return property;
-}
-
-/** \brief Reads the header and moves \a offset behind it. */
-std::vector<Element>
-parseHeader (const std::string& bytes, std::size_t& offset)
-{
-  std::vector<Element> elements;
-  bool binary = false;
-  for (int line_number = 0;; ++line_number)
-  {
-    const std::size_t end = bytes.find ('\n', offset);
-    if (end == std::string::npos)
-      throw IoError (line_number == 0 ? "not a PLY file" : "the PLY header does not end");
-    std::istringstream words (bytes.substr (offset, end - offset));
-    offset = end + 1;
-    std::string keyword;
-    words >> keyword;
-    if (line_number == 0)
-    {
-      if (keyword != "ply")
-        throw IoError ("not a PLY file");
-      continue;
-    }
-    if (keyword == "end_header")
-      break;
-    if (keyword == "format")
-    {
-      std::string format;
-      words >> format;
-      binary = (format == "binary_little_endian");
-      if (!binary)
-        throw IoError ("PLY format '" + format + "' is not supported, only binary_little_endian");
-    }
-    else if (keyword == "element")
-    {
-      Element element;
-      if (!(words >> element.name >> element.count))
-        throw IoError ("an element of the PLY header has no count");
-      elements.push_back (element);
-    }
-    else if (keyword == "property")
-    {
-      if (elements.empty ())
-        throw IoError ("a property of the PLY header belongs to no element");
-      elements.back ().properties.push_back (parseProperty (words));
-    }
-    else if (keyword != "comment" && keyword != "obj_info" && !keyword.empty ())
-      throw IoError ("unknown keyword in the PLY header");
-  }
-  if (!binary)
-    throw IoError ("the PLY header names no format");
-  return elements;
-}
-
-// ---- Data ---------------------------------------------------------------------------------------
-
-/** \brief The data behind the header; every access is checked. */
-class Reader
-{
-public:
-  Reader (const std::string& bytes, std::size_t offset) : data_ (bytes.data () + offset), left_ (bytes.size () - offset)
-  {}
-
-  /** \brief The next \a count * \a size bytes. */
-  const char*
-  take (std::uint64_t count, std::size_t size)
-  {
-    if (size != 0 && count > left_ / size)
-      throw IoError ("the PLY file is shorter than its header says");
-    const char* data = data_;
-    data_ += count * size;
-    left_ -= count * size;
-    return data;
-  }
-
-private:
-  const char* data_;
-  std::size_t left_;
-};
 
 /** \brief Where values of one vertex property go. */
 using Setter = std::function<void (TriangleMesh&, std::size_t, double)>;
@@ -207,109 +52,172 @@ vertexSetter (const std::string& name)
   return {};
 }
 
-void
-readVertices (const Element& element, Reader& reader, TriangleMesh& mesh)
+/** \brief The vertices, with their properties, and the faces as they are. */
+struct PlyContents
 {
-  struct Column
-  {
-    Setter set;
-    Loader load;
-    std::size_t offset;
-  };
-  std::size_t stride = 0;
-  std::vector<Column> columns;
-  std::string names = " ";
-  for (const Property& property : element.properties)
-  {
-    if (!property.count_type.empty ())
-      throw IoError ("a vertex property is a list");
-    if (const Setter set = vertexSetter (property.name))
-      columns.push_back ({set, scalarLoader (property.type), stride});
-    stride += scalarSize (property.type);
-    names += property.name + " ";
-  }
-  const auto has = [&names] (const char* name) {
-    return names.find (std::string (" ") + name + " ") != std::string::npos;
-  };
-  if (!has ("x") || !has ("y") || !has ("z"))
-    throw IoError ("the vertices have no x, y and z");
-
-  const char* data = reader.take (element.count, stride); // bounds the allocations below by the size of the file
-  mesh.vertices.resize (element.count);
-  if (has ("nx") || has ("ny") || has ("nz"))
-    mesh.normals.resize (element.count, Eigen::Vector3f::Zero ());
-  if (has ("red") || has ("green") || has ("blue"))
-    mesh.colours.resize (element.count);
-  if (has ("intensity"))
-    mesh.intensity.resize (element.count);
-  if (has ("confidence"))
-    mesh.confidence.resize (element.count);
-  if (has ("provenance"))
-    mesh.provenance.resize (element.count);
-  for (std::size_t v = 0; v < element.count; ++v, data += stride)
-    for (const Column& column : columns)
-      column.set (mesh, v, column.load (data + column.offset));
-}
-
-/** \brief A property of a face, ready to be read again and again. */
-struct FaceColumn
-{
-  explicit FaceColumn (const Property& property)
-      : is_list (!property.count_type.empty ())
-      , is_corners (is_list && (property.name == "vertex_indices" || property.name == "vertex_index"))
-      , size (scalarSize (property.type))
-      , count_size (scalarSize (property.count_type))
-      , load (scalarLoader (property.type))
-      , load_count (scalarLoader (property.count_type))
-  {}
-
-  bool is_list;
-  bool is_corners;
-  std::size_t size;
-  std::size_t count_size;
-  Loader load;
-  Loader load_count;
+  TriangleMesh mesh;
+  PolygonSoup faces;
 };
 
-TriangleMesh::Triangle
-readTriangle (const char* data, const FaceColumn& column, double vertex_count)
+/** \brief Reads the elements of a file one after the other. */
+class PlyReader
 {
-  TriangleMesh::Triangle triangle;
-  for (int n = 0; n < 3; ++n)
-  {
-    const double index = column.load (data + n * column.size);
-    if (!(index >= 0.0 && index < vertex_count))
-      throw IoError ("a face refers to a vertex that does not exist");
-    triangle[n] = static_cast<std::uint32_t> (index);
-  }
-  return triangle;
-}
+public:
+  PlyReader (TextScanner& scanner, Encoding encoding) : values_ (scanner, encoding, "PLY")
+  {}
 
-void
-readFaces (const Element& element, Reader& reader, TriangleMesh& mesh)
-{
-  const std::vector<FaceColumn> columns (element.properties.begin (), element.properties.end ());
-  if (std::none_of (columns.begin (), columns.end (), [] (const FaceColumn& column) { return column.is_corners; }))
-    throw IoError ("the faces have no vertex_indices");
-  const auto vertex_count = static_cast<double> (mesh.vertices.size ());
-  for (std::uint64_t f = 0; f < element.count; ++f)
-    for (const FaceColumn& column : columns)
+  void
+  readVertices (const PlyElement& element, TriangleMesh& mesh)
+  {
+    std::string names = " ";
+    std::vector<Setter> setters;
+    for (const PlyProperty& property : element.properties)
     {
-      if (!column.is_list)
-      {
-        reader.take (1, column.size);
-        continue;
-      }
-      const double count = column.load_count (reader.take (1, column.count_size));
-      if (!(count >= 0.0 && count <= std::numeric_limits<std::uint32_t>::max ()))
-        throw IoError ("a face has an impossible number of corners");
-      const char* data = reader.take (static_cast<std::uint64_t> (count), column.size);
-      if (!column.is_corners)
-        continue;
-      if (count != 3.0)
-        throw IoError ("a face is not a triangle");
-      mesh.triangles.push_back (readTriangle (data, column, vertex_count));
+      setters.push_back (property.count_type ? Setter () : vertexSetter (property.name));
+      names += (property.count_type ? "" : property.name) + " ";
     }
+    const auto has = [&names] (const char* name) {
+      return names.find (std::string (" ") + name + " ") != std::string::npos;
+    };
+    if (!has ("x") || !has ("y") || !has ("z"))
+      throw IoError ("the vertices have no x, y and z");
+
+    require (element);
+    mesh.vertices.resize (element.count);
+    if (has ("nx") || has ("ny") || has ("nz"))
+      mesh.normals.resize (element.count, Eigen::Vector3f::Zero ());
+    if (has ("red") || has ("green") || has ("blue"))
+      mesh.colours.resize (element.count);
+    if (has ("intensity"))
+      mesh.intensity.resize (element.count);
+    if (has ("confidence"))
+      mesh.confidence.resize (element.count);
+    if (has ("provenance"))
+      mesh.provenance.resize (element.count);
+    for (std::size_t v = 0; v < element.count; ++v)
+      for (std::size_t p = 0; p < setters.size (); ++p)
+      {
+        if (element.properties[p].count_type)
+          skip (element.properties[p]);
+        else if (const double value = values_.next (element.properties[p].type); setters[p])
+          setters[p](mesh, v, value);
+      }
+  }
+
+  /** \brief Faces, or strips of triangles one behind the other with a negative number between them. */
+  void
+  readFaces (const PlyElement& element, bool strips, PolygonSoup& faces)
+  {
+    const auto isCorners = [] (const PlyProperty& property) {
+      return property.count_type && (property.name == "vertex_indices" || property.name == "vertex_index");
+    };
+    if (std::none_of (element.properties.begin (), element.properties.end (), isCorners))
+      throw IoError ("the faces have no vertex_indices");
+    require (element);
+    std::vector<std::int64_t> corners;
+    for (std::uint64_t f = 0; f < element.count; ++f)
+      for (const PlyProperty& property : element.properties)
+      {
+        if (!isCorners (property))
+        {
+          skip (property);
+          continue;
+        }
+        corners.clear ();
+        for (std::uint64_t left = readCount (property); left > 0; --left)
+        {
+          corners.push_back (values_.nextIndex (property.type));
+          if (strips && corners.back () < 0)
+          {
+            corners.pop_back ();
+            faces.addStrip (corners);
+            corners.clear ();
+          }
+        }
+        if (strips)
+          faces.addStrip (corners);
+        else
+        {
+          faces.corners.insert (faces.corners.end (), corners.begin (), corners.end ());
+          faces.endPolygon ();
+        }
+      }
+  }
+
+  void
+  skipElement (const PlyElement& element)
+  {
+    require (element);
+    for (std::uint64_t n = 0; n < element.count && !element.properties.empty (); ++n)
+      for (const PlyProperty& property : element.properties)
+        skip (property);
+  }
+
+private:
+  /** \brief Bounds what is allocated, and how long it takes, by the size of the file. */
+  void
+  require (const PlyElement& element) const
+  {
+    std::size_t bytes = 0;
+    for (const PlyProperty& property : element.properties)
+      bytes += sizeOf (property.count_type.value_or (property.type));
+    values_.require (element.count, bytes, element.properties.size ());
+  }
+
+  std::uint64_t
+  readCount (const PlyProperty& property)
+  {
+    const std::int64_t count = values_.nextIndex (*property.count_type);
+    if (count < 0)
+      throw IoError ("a face has an impossible number of corners");
+    values_.require (static_cast<std::uint64_t> (count), sizeOf (property.type), 1);
+    return static_cast<std::uint64_t> (count);
+  }
+
+  void
+  skip (const PlyProperty& property)
+  {
+    for (std::uint64_t left = (property.count_type ? readCount (property) : 1); left > 0; --left)
+      values_.next (property.type);
+  }
+
+  ValueReader values_;
+};
+
+PlyContents
+decode (const std::string& bytes)
+{
+  TextScanner scanner (bytes);
+  const PlyHeader header = parsePlyHeader (scanner);
+  const auto isFaces = [] (const PlyElement& element) { return element.name == "face" || element.name == "tristrips"; };
+  const auto needed = std::count_if (header.elements.begin (), header.elements.end (), [&] (const PlyElement& element) {
+    return element.name == "vertex" || isFaces (element);
+  });
+  PlyReader reader (scanner, header.encoding);
+  PlyContents contents;
+  bool has_vertices = false;
+  bool has_faces = false;
+  auto left = needed;
+  for (const PlyElement& element : header.elements)
+  {
+    if (left == 0)
+      break; // whatever follows
+    const bool is_vertices = element.name == "vertex";
+    left -= is_vertices || isFaces (element);
+    if (is_vertices && !has_vertices)
+      reader.readVertices (element, contents.mesh);
+    else if (isFaces (element))
+      reader.readFaces (element, element.name == "tristrips", contents.faces);
+    else
+      reader.skipElement (element);
+    has_vertices = has_vertices || is_vertices;
+    has_faces = has_faces || isFaces (element);
+  }
+  if (!has_vertices)
+    throw IoError ("the PLY file has no vertices");
+  if (!has_faces)
+    throw IoError ("the PLY file has no faces");
+  return contents;
 }
 
 } // namespace
@@ -317,30 +225,34 @@ readFaces (const Element& element, Reader& reader, TriangleMesh& mesh)
 TriangleMesh
 decodePly (const std::string& bytes)
 {
-  std::size_t offset = 0;
-  const auto elements = parseHeader (bytes, offset);
-  Reader reader (bytes, offset);
-  TriangleMesh mesh;
-  bool has_vertices = false;
-  bool has_faces = false;
-  for (const Element& element : elements)
+  PlyContents contents = decode (bytes);
+  TriangleMesh& mesh = contents.mesh;
+  const auto count = static_cast<std::int64_t> (mesh.vertices.size ());
+  std::size_t begin = 0;
+  for (const std::size_t end : contents.faces.ends)
   {
-    if (element.name == "vertex" && !has_vertices)
+    if (end - begin != 3)
+      throw IoError ("a face is not a triangle");
+    TriangleMesh::Triangle triangle;
+    for (int n = 0; n < 3; ++n)
     {
-      readVertices (element, reader, mesh);
-      has_vertices = true;
+      const std::int64_t corner = contents.faces.corners[begin + n];
+      if (corner < 0 || corner >= count)
+        throw IoError ("a face refers to a vertex that does not exist");
+      triangle[n] = static_cast<std::uint32_t> (corner);
     }
-    else if (element.name == "face" && has_vertices && !has_faces)
-    {
-      readFaces (element, reader, mesh);
-      has_faces = true;
-    }
-    else if (!has_faces)
-      throw IoError ("the PLY file does not begin with one list of vertices and one of faces");
+    mesh.triangles.push_back (triangle);
+    begin = end;
   }
-  if (!has_faces)
-    throw IoError ("the PLY file has no faces");
-  return mesh;
+  return std::move (mesh);
+}
+
+PolygonSoup
+decodePlyPolygons (const std::string& bytes)
+{
+  PlyContents contents = decode (bytes);
+  contents.faces.points = std::move (contents.mesh.vertices);
+  return std::move (contents.faces);
 }
 
 } // namespace cosection

@@ -15,8 +15,8 @@ namespace cosection
 std::string
 encodePly (const TriangleMesh& mesh);
 
-/** \brief Inverse of encodePly (); also reads scalar properties of other types, skips those it does
- * not know, and takes any integer types for the indices.
+/** \brief Inverse of encodePly (); also reads text and the other byte order, properties of other types,
+ * skips those it does not know, and takes any integer types for the indices.
  * \throws IoError, whose message is only the reason */
 TriangleMesh
 decodePly (const std::string& bytes);

@@ -95,6 +95,7 @@ readFile (const std::string& path)
 inline void
 writeFile (const std::string& path, const std::string& bytes)
 {
+  std::filesystem::remove (path); // some file systems wait for the disk where a file is written over
   std::ofstream (path, std::ios::binary) << bytes;
 }
 

@@ -148,8 +148,8 @@ TEST (MeshIo, MalformedPlyIsRefused)
   EXPECT_EQ (reasonFor (smallPly ("3", "1", -1)), "a face refers to a vertex that does not exist");
   EXPECT_EQ (reasonFor (smallPly ("3", "1", 2, 2)), "a face is not a triangle");
   EXPECT_EQ (reasonFor (smallPly ("3", "1", 2, 255)), too_short);
-  EXPECT_EQ (reasonFor ("ply\nformat ascii 1.0\nend_header\n"),
-             "PLY format 'ascii' is not supported, only binary_little_endian");
+  EXPECT_EQ (reasonFor ("ply\nformat mixed 1.0\nend_header\n"),
+             "PLY format 'mixed' is not supported, only ascii, binary_little_endian and binary_big_endian");
   EXPECT_EQ (reasonFor ("ply\nformat binary_little_endian 1.0\nelement vertex 9\nend_header\n"),
              "the vertices have no x, y and z");
   EXPECT_EQ (reasonFor ("ply\nformat binary_little_endian 1.0\nelement vertex 0\nproperty float x\nproperty float y\n"

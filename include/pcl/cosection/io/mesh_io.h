@@ -20,10 +20,24 @@ namespace cosection
 PCL_COSECTION_EXPORT void
 saveMesh (const TriangleMesh& mesh, const std::string& path);
 
-/** \brief Read the PLY files that saveMesh () writes (binary little endian, triangles), with their
- * vertex properties. \throws IoError */
+/** \brief Read a PLY file of triangles with the vertex properties that saveMesh () writes, as it is.
+ * \throws IoError */
 PCL_COSECTION_EXPORT TriangleMesh
 loadPlyMesh (const std::string& path);
+
+/** \brief Read the surface of any mesh file: PLY, STL, OBJ, OFF, VTK's legacy format (`.vtk` of POLYDATA) and its
+ * XML format (`.vtp`), text or binary. What the file begins with decides on the format where it can, else the
+ * extension.
+ *
+ * The result is ready for sampleSignedDistance (): polygons and strips are triangulated, vertices of equal
+ * coordinates (an STL file has no others) are one, triangles that repeat others or have no area are gone, the
+ * triangles of one surface agree on their side (the fewest are turned), and what is closed faces outward, save
+ * cavities. Open surfaces face as most of their triangles do in the file. Only positions are kept, in the
+ * file's units; vertices without a triangle are dropped.
+ * \throws IoError if the file cannot be read, has no known format, is damaged or cut off, has no triangles of
+ * any area, or vertices of these that are not finite */
+PCL_COSECTION_EXPORT TriangleMesh
+loadMesh (const std::string& path);
 
 } // namespace cosection
 } // namespace pcl

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_cosection authors
+#pragma once
+
+#include <algorithm>
+#include <cctype>
+#include <filesystem>
+#include <string>
+
+namespace pcl
+{
+namespace cosection
+{
+
+inline std::string
+lowerCaseExtension (const std::string& path)
+{
+  std::string extension = std::filesystem::path (path).extension ().string ();
+  std::transform (extension.begin (), extension.end (), extension.begin (),
+                  [] (unsigned char c) { return static_cast<char> (std::tolower (c)); });
+  return extension;
+}
+
+} // namespace cosection
+} // namespace pcl

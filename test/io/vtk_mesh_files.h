@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_cosection authors
+#pragma once
+
+#include <pcl/cosection/common/triangle_mesh.h>
+
+#include <string>
+#include <vector>
+
+namespace pcl
+{
+namespace cosection
+{
+namespace test
+{
+
+/** \brief Polygons and strips for VTK to write. */
+struct Polygons
+{
+  std::vector<Eigen::Vector3f> points;
+  std::vector<std::vector<int>> polygons;
+  std::vector<std::vector<int>> strips;
+};
+
+enum class VtkFile
+{
+  PlyAscii,
+  PlyLittleEndian,
+  PlyBigEndian,
+  StlAscii,
+  StlBinary,
+  Obj,
+  LegacyAscii,
+  LegacyBinary,
+  OldLegacyAscii, ///< before VTK 9
+  OldLegacyBinary,
+  XmlAscii,
+  XmlBinary,
+  XmlAppended,
+};
+
+/** \brief All of them. */
+std::vector<VtkFile>
+vtkFiles ();
+
+/** \brief ".ply" ... */
+std::string
+extensionOf (VtkFile file);
+
+/** \brief Let VTK write a file. */
+void
+writeWithVtk (const Polygons& polygons, VtkFile file, const std::string& path);
+
+} // namespace test
+} // namespace cosection
+} // namespace pcl
