@@ -100,7 +100,7 @@ declareVolume (CLI::App& app, Given& given)
       ->check (numberRange (0, unlimited, true))
       ->group (group);
   app.add_option ("--max-memory", given.max_memory,
-                  "Refuse volumes that need more, for example 500M or 2G (default: this machine's memory)")
+                  "Refuse clouds and volumes that need more, for example 500M or 2G (default: this machine's memory)")
       ->option_text ("BYTES")
       ->group (group);
 }
@@ -188,7 +188,7 @@ declareOutput (CLI::App& app, Given& given)
       ->option_text ("FILE")
       ->group (general);
   app.set_version_flag ("--version", "pcl_cosection " PCL_COSECTION_VERSION, "Print the version")->group (general);
-  app.set_help_flag ("-h,--help", "Print this")->group (general);
+  app.set_help_flag ("-h,--help", "Print this, or only a TOPIC of it")->group (general);
 }
 
 } // namespace

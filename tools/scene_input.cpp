@@ -21,6 +21,7 @@ namespace
 {
 
 constexpr std::size_t min_points = 100;
+constexpr double whole_image_share = 0.5; ///< of the pixels; an object that was cut out has fewer
 constexpr float large_extent = 100.0f; ///< metres; what is larger is probably not in metres
 
 std::string
@@ -33,6 +34,16 @@ tooFew (std::uint32_t label, const LabelledView::Points& object)
   else
     text += "it has " + std::to_string (object.readings) + " valid points";
   return (text + ", at least " + std::to_string (min_points) + " are needed");
+}
+
+/** \brief Whether an image without labels shows more than an object that was cut out. */
+bool
+isWholeImage (const LabelledView& view)
+{
+  if (view.has_labels || !view.view || view.objects.empty ())
+    return (false);
+  const std::size_t readings = view.objects.begin ()->second.readings;
+  return (view.organized && static_cast<double> (readings) > whole_image_share * static_cast<double> (view.view->depth.size ()));
 }
 
 /** \brief A view that says nothing, in the place of a file without rays. */
@@ -133,6 +144,9 @@ readScene (const Settings& settings, const ProgressCallback& progress)
       throw Cancelled ("interrupted");
     LabelledView view = readPcdView (settings.inputs[i], withMemoryLeft (settings.reading, labels));
     std::move (view.warnings.begin (), view.warnings.end (), std::back_inserter (scene.warnings));
+    if (isWholeImage (view))
+      scene.warnings.push_back (settings.inputs[i] + ": has no field label, so all that the camera saw is taken as one " +
+                                "object; give the objects labels, or cut one out");
     merge (settings.inputs[i], i, view, poses, labels, scene.warnings);
     if (view.view)
       scene.views.push_back (std::move (*view.view));

@@ -152,6 +152,7 @@ readPcdView (const std::string& path, const PcdViewOptions& options)
         p.setConstant (nan_value);
   LabelledView result;
   checkExtent (path, cloud, result);
+  result.organized = cloud.height > 1;
   result.has_labels = cloud.has_labels;
   result.has_colour = !cloud.colours.empty ();
   result.has_intensity = !cloud.intensities.empty ();

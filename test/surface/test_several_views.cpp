@@ -7,6 +7,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdio>
+#include <limits>
+
 using namespace pcl::cosection;
 using namespace pcl::cosection::test;
 
@@ -38,13 +41,17 @@ TEST_P (SeveralViews, AreTogetherAtLeastAsAccurateAsEachAlone)
   {
     const ObjectResult alone = completeFrom (scene_, {n}, optionsFor (voxel_m));
     ASSERT_EQ (alone.error, "");
-    best_alone = std::min (best_alone, meanError (alone.mesh, scene_.shape (1)));
+    const double alone_m = meanError (alone.mesh, scene_.shape (1));
+    best_alone = std::min (best_alone, alone_m);
     sensors.push_back (n);
     const ObjectResult together = completeFrom (scene_, sensors, optionsFor (voxel_m));
     ASSERT_EQ (together.error, "");
     EXPECT_TRUE (computeTopology (together.mesh).closed_manifold);
+    const double together_m = meanError (together.mesh, scene_.shape (1));
+    std::printf ("%s: mean error of view %d alone %.2f mm, of views 1 to %d %.2f mm\n", nameOf (GetParam ()).c_str (), n + 1,
+                 1e3 * alone_m, n + 1, 1e3 * together_m);
     if (n > 0)
-      EXPECT_LE (meanError (together.mesh, scene_.shape (1)), best_alone) << n + 1 << " views";
+      EXPECT_LE (together_m, best_alone) << n + 1 << " views";
   }
 }
 
@@ -67,6 +74,8 @@ TEST_P (SeveralViews, ShrinkTheHull)
     ASSERT_EQ (object.error, "");
     EXPECT_TRUE (computeTopology (object.hull).closed_manifold);
     const double estimate = volume (object.mesh), hull = volume (object.hull);
+    std::printf ("%s, %d views: estimate %.3f litres, hull %.3f litres\n", nameOf (GetParam ()).c_str (), n + 1, 1e3 * estimate,
+                 1e3 * hull);
     EXPECT_GT (hull, estimate);
     EXPECT_LE (estimate, 1.002 * estimate_before) << n + 1 << " views";
     EXPECT_LT (hull, hull_before) << n + 1 << " views";

@@ -46,6 +46,7 @@ struct PCL_COSECTION_EXPORT LabelledView
 
   std::optional<DepthView> view; ///< of an organised cloud from a pinhole camera, or of points seen from the viewpoint
   std::map<std::uint32_t, Points> objects; ///< by label; 0: background
+  bool organized = false;
   bool has_labels = false;                 ///< without, everything is object 1
   bool has_colour = false;
   bool has_intensity = false;

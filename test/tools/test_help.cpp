@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_cosection authors
+
+// What the program says about itself: the help screen, the manual page and the document have every option, and the
+// examples work.
+
+#include "common/temporary_folder.h"
+#include "help_text.h"
+#include "option_table.h"
+#include "scene_files.h"
+#include "tool_run.h"
+
+#include <pcl/io/pcd_io.h>
+#include <pcl/point_types.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <fstream>
+#include <iterator>
+#include <sstream>
+
+namespace
+{
+
+class Help : public testing::Test
+{
+protected:
+  Help ()
+  {
+    declareOptions (app_, given_);
+  }
+
+  CLI::App app_;
+  Given given_;
+};
+
+std::vector<std::string>
+linesOf (const std::string& text)
+{
+  std::vector<std::string> lines;
+  std::istringstream in (text);
+  for (std::string line; std::getline (in, line);)
+    lines.push_back (line);
+  return (lines);
+}
+
+std::string
+withoutBackslashes (std::string text)
+{
+  text.erase (std::remove (text.begin (), text.end (), '\\'), text.end ());
+  return (text);
+}
+
+} // namespace
+
+TEST_F (Help, EachTopicFitsAScreen)
+{
+  const std::vector<std::string> topics = helpTopics (app_);
+  EXPECT_GE (topics.size (), 6u);
+  for (const std::string& topic : topics)
+  {
+    const std::vector<std::string> lines = linesOf (helpText (app_, topic));
+    EXPECT_LE (lines.size (), 24u) << topic;
+    EXPECT_GE (lines.size (), 3u) << topic;
+    for (const std::string& line : lines)
+      EXPECT_LE (line.size (), 80u) << line;
+  }
+  for (const std::string& line : linesOf (helpText (app_)))
+    EXPECT_LE (line.size (), 80u) << line;
+}
+
+TEST_F (Help, EveryOptionIsEverywhere)
+{
+  std::ifstream file (std::string (PCL_COSECTION_SOURCE_DIR) + "/doc/pcl_cosection.md");
+  const std::string document ((std::istreambuf_iterator<char> (file)), {});
+  ASSERT_FALSE (document.empty ());
+  const std::string page = withoutBackslashes (manPage (app_));
+  const std::string screen = helpText (app_);
+  int options = 0;
+  for (const CLI::Option* option : app_.get_options ())
+    for (const std::string& name : option->get_lnames ())
+    {
+      ++options;
+      EXPECT_NE (screen.find ("--" + name), std::string::npos) << name;
+      EXPECT_NE (page.find ("--" + name), std::string::npos) << name;
+      EXPECT_NE (document.find ("--" + name), std::string::npos) << name;
+      EXPECT_FALSE (option->get_description ().empty ()) << name;
+    }
+  EXPECT_GE (options, 30);
+}
+
+TEST_F (Help, TopicsAreGivenByTheProgram)
+{
+  const pcl::cosection::test::TemporaryFolder folder;
+  ToolRun topic ({"--help", "surroundings"}, folder.file (""));
+  EXPECT_EQ (topic.wait (), 0);
+  EXPECT_EQ (topic.output (), helpText (app_, "surroundings"));
+  ToolRun all ({"--help"}, folder.file (""));
+  EXPECT_EQ (all.wait (), 0);
+  EXPECT_EQ (all.output (), helpText (app_));
+}
+
+TEST_F (Help, ExamplesWork)
+{
+  const pcl::cosection::test::TemporaryFolder folder;
+  writeTableScene (folder.file ("table.pcd"));
+  for (const char* name : {"front.pcd", "left.pcd", "cropped.pcd"})
+    writeSphere (folder.file (name), 3000);
+  pcl::PointCloud<pcl::PointNormal> cloud;
+  pcl::io::loadPCDFile (folder.file ("front.pcd"), cloud);
+  for (auto& p : cloud)
+    p.getVector3fMap () *= 1000.0f;
+  pcl::io::savePCDFileBinary (folder.file ("scan_mm.pcd"), cloud);
+  std::ofstream (folder.file ("shelf.off")) << "OFF\n4 1 0\n-1 -1 0.38\n1 -1 0.38\n1 1 0.38\n-1 1 0.38\n4 0 1 2 3\n";
+  for (const UsageExample& example : usageExamples ())
+  {
+    std::istringstream in (example.command);
+    std::vector<std::string> words{std::istream_iterator<std::string> (in), {}};
+    ASSERT_EQ (words.front (), "pcl_cosection");
+    words.erase (words.begin ());
+    ToolRun run (words, folder.file (""));
+    EXPECT_EQ (run.wait (), 0) << example.command << "\n" << run.errors ();
+    EXPECT_EQ (run.errors (), "") << example.command;
+    EXPECT_TRUE (std::filesystem::exists (folder.file (words.back ()))) << example.command;
+  }
+}
