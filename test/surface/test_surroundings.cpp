@@ -5,6 +5,7 @@
 
 #include "surrounding_views.h"
 
+#include <pcl/cosection/common/error.h>
 #include <pcl/cosection/surface/hessian_imls.h>
 #include <pcl/cosection/surface/polygon_mesh.h>
 
