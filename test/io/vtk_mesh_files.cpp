@@ -68,6 +68,13 @@ extensionOf (VtkFile file)
   return file <= VtkFile::OldLegacyBinary ? ".vtk" : ".vtp";
 }
 
+std::string
+tetrahedronOff ()
+{
+  return "OFF # a tetrahedron\n\n4 4 6\n0 0 0\n1 0 0  0.5 0.5 0.5\n0 1 0\n# the top\n0 0 1\n3 0 2 1\n3 0 1 3 255 0 0\n"
+         "3 1 2 3\n3 0 3 2\n";
+}
+
 void
 writeWithVtk (const Polygons& polygons, VtkFile file, const std::string& path)
 {

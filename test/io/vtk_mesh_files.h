@@ -47,6 +47,10 @@ vtkFiles ();
 std::string
 extensionOf (VtkFile file);
 
+/** \brief An OFF file, which VTK does not write. */
+std::string
+tetrahedronOff ();
+
 /** \brief Let VTK write a file. */
 void
 writeWithVtk (const Polygons& polygons, VtkFile file, const std::string& path);

@@ -1,181 +1,26 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_cosection authors
 
-#include "analytic_fields.h"
-#include "brute_force_distance.h"
-#include "common/small_meshes.h"
+#include "distance_meshes.h"
 
 #include <pcl/cosection/common/error.h>
-#include <pcl/cosection/volume/mesh_distance.h>
 
 #include <gtest/gtest.h>
-
-#include <Eigen/Geometry>
 
 #include <limits>
 #include <random>
 
 using namespace pcl::cosection;
-
-namespace
-{
-
-VoxelGrid
-cubicGrid (const Eigen::Vector3d& centre, int dim, double voxel_size_m)
-{
-  VoxelGrid grid;
-  grid.dims.setConstant (dim);
-  grid.voxel_size_m = voxel_size_m;
-  grid.origin_m = centre.array () - 0.5 * voxel_size_m * (dim - 1);
-  return grid;
-}
-
-template <typename Visit>
-void
-forEachVoxel (const SignedDistanceField& field, Visit&& visit)
-{
-  for (int k = 0; k < field.grid.dims.z (); ++k)
-    for (int j = 0; j < field.grid.dims.y (); ++j)
-      for (int i = 0; i < field.grid.dims.x (); ++i)
-        visit (field.grid.center (i, j, k), field.grid.index (i, j, k));
-}
-
-/** \brief Every value agrees with \a truth, clamped to the band, and every voxel is supported. */
-void
-expectField (const SignedDistanceField& field, const test::Distance& truth, double band_m, double tolerance_m)
-{
-  EXPECT_TRUE (field.supported.empty ());
-  ASSERT_EQ (field.values.size (), field.grid.size ());
-  double worst = 0.0;
-  Eigen::Vector3d where = Eigen::Vector3d::Zero ();
-  forEachVoxel (field, [&] (const Eigen::Vector3d& p, std::size_t n) {
-    const double error = std::abs (field.values[n] - std::clamp (truth (p), -band_m, band_m));
-    if (!(error <= worst))
-    {
-      worst = error;
-      where = p;
-    }
-  });
-  EXPECT_LE (worst, tolerance_m) << "at " << where.transpose () << ", where the truth is " << truth (where);
-}
-
-void
-expectBruteForce (const TriangleMesh& mesh, const VoxelGrid& grid, double band_m)
-{
-  expectField (sampleSignedDistance (mesh, grid, band_m),
-               [&] (const Eigen::Vector3d& p) { return test::bruteForceDistance (mesh, p); }, band_m, 1e-6);
-}
-
-TriangleMesh
-transformed (TriangleMesh mesh, const Eigen::Isometry3d& T)
-{
-  for (auto& v : mesh.vertices)
-    v = (T * v.cast<double> ()).cast<float> ();
-  mesh.normals.clear ();
-  return mesh;
-}
-
-Eigen::Isometry3d
-oblique ()
-{
-  return Eigen::Translation3d (0.013, -0.021, 0.008) *
-         Eigen::AngleAxisd (0.7, Eigen::Vector3d (1.0, 2.0, -0.5).normalized ());
-}
-
-TriangleMesh
-flipped (TriangleMesh mesh)
-{
-  for (auto& triangle : mesh.triangles)
-    std::swap (triangle[0], triangle[1]);
-  return mesh;
-}
-
-TriangleMesh
-united (TriangleMesh mesh, const TriangleMesh& other)
-{
-  appendMesh (mesh, other);
-  return mesh;
-}
-
-/** \brief Three vertices of its own for every triangle. */
-TriangleMesh
-soup (const TriangleMesh& mesh)
-{
-  TriangleMesh result;
-  for (const auto& triangle : mesh.triangles)
-  {
-    const auto first = static_cast<std::uint32_t> (result.vertices.size ());
-    for (const auto v : triangle)
-      result.vertices.push_back (mesh.vertices[v]);
-    result.triangles.push_back ({first, first + 1, first + 2});
-  }
-  return result;
-}
-
-/** \brief A quadrilateral of two triangles that faces where its corners are counter-clockwise. */
-TriangleMesh
-quad (const Eigen::Vector3f& a, const Eigen::Vector3f& b, const Eigen::Vector3f& c, const Eigen::Vector3f& d)
-{
-  TriangleMesh mesh;
-  mesh.vertices = {a, b, c, d};
-  mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
-  return mesh;
-}
-
-/** \brief The square |x|, |y| <= half of the plane z = 0, which faces up. */
-TriangleMesh
-square (float half)
-{
-  return quad ({-half, -half, 0}, {half, -half, 0}, {half, half, 0}, {-half, half, 0});
-}
-
-/** \brief The walls and the floor of a box, facing its inside; no lid. */
-TriangleMesh
-bin (const Eigen::Vector3f& half)
-{
-  TriangleMesh mesh = flipped (test::boxMesh (-half, half));
-  std::vector<bool> keep (mesh.triangles.size (), true);
-  keep[2] = keep[3] = false; // at the upper end of z
-  return extractTriangles (mesh, keep);
-}
-
-/** \brief A bent bar whose two ends are sharp and meet in a point, the origin: around it the nearest point is
- * one where the surface is no manifold. */
-TriangleMesh
-horseshoe ()
-{
-  const std::vector<Eigen::Vector2d> path = {{0.0, 0.0},   {0.1, 0.05},  {0.2, 0.07},  {0.26, 0.0},
-                                             {0.2, -0.07}, {0.1, -0.05}, {0.0, 0.0}};
-  const double radius = 0.02;
-  TriangleMesh mesh;
-  mesh.vertices.emplace_back (0.0f, 0.0f, 0.0f);
-  const auto at = [] (std::size_t section, int corner) {
-    return static_cast<std::uint32_t> (3 * section - 2 + corner % 3);
-  };
-  for (std::size_t n = 1; n + 1 < path.size (); ++n)
-  {
-    const Eigen::Vector2d along = (path[n + 1] - path[n - 1]).normalized ();
-    for (int corner = 0; corner < 3; ++corner)
-    {
-      const double a = 2.0 * M_PI * corner / 3.0;
-      const Eigen::Vector3d across (-along.y () * std::cos (a), along.x () * std::cos (a), std::sin (a));
-      mesh.vertices.push_back ((Eigen::Vector3d (path[n].x (), path[n].y (), 0.0) + radius * across).cast<float> ());
-      const auto next = at (n, corner + 1);
-      if (n == 1)
-        mesh.triangles.push_back ({0, next, at (n, corner)});
-      if (n + 2 == path.size ())
-        mesh.triangles.push_back ({0, at (n, corner), next});
-      else
-      {
-        mesh.triangles.push_back ({at (n, corner), next, at (n + 1, corner)});
-        mesh.triangles.push_back ({next, at (n + 1, corner + 1), at (n + 1, corner)});
-      }
-    }
-  }
-  return mesh;
-}
-
-} // namespace
+using test::cubicGrid;
+using test::expectBruteForce;
+using test::expectField;
+using test::flipped;
+using test::horseshoe;
+using test::oblique;
+using test::soup;
+using test::square;
+using test::transformed;
+using test::united;
 
 TEST (MeshDistance, AgreesWithASphere)
 {
@@ -324,76 +169,6 @@ TEST (MeshDistance, InwardPartsAreCavitiesOrRooms)
                [&] (const Eigen::Vector3d& p) { return std::max (outside (p), -cavity (p)); }, 0.3, 1e-6);
   expectField (sampleSignedDistance (inner, grid, 0.05), [&] (const Eigen::Vector3d& p) { return -cavity (p); }, 0.05,
                1e-6);
-}
-
-TEST (MeshDistance, AnOpenSheetSpeaksInFrontAndBehindOnly)
-{
-  const float half = 0.1f;
-  const double band = 0.035;
-  const auto field = sampleSignedDistance (square (half), cubicGrid ({0.004, 0.002, 0.001}, 41, 0.01), band);
-  ASSERT_EQ (field.supported.size (), field.grid.size ());
-  int supported = 0;
-  forEachVoxel (field, [&] (const Eigen::Vector3d& p, std::size_t n) {
-    const bool beside = p.head<2> ().cwiseAbs ().maxCoeff () > half;
-    EXPECT_EQ (field.supported[n] != 0, !beside && std::abs (p.z ()) <= band) << p.transpose ();
-    if (field.supported[n] != 0)
-    {
-      EXPECT_NEAR (field.values[n], p.z (), 1e-6);
-    }
-    supported += field.supported[n];
-  });
-  EXPECT_GT (supported, 20 * 20 * 6);
-  // Interpolation at the rim of what is supported invents nothing.
-  std::mt19937 random (1);
-  std::uniform_real_distribution<double> uniform (-0.15, 0.15);
-  for (int trial = 0; trial < 20000; ++trial)
-  {
-    const Eigen::Vector3d p (uniform (random), uniform (random), uniform (random));
-    const auto u = field.sampleSupported (p);
-    EXPECT_NEAR (u.value_or (static_cast<float> (p.z ())), p.z (), 0.01) << p.transpose ();
-  }
-}
-
-TEST (MeshDistance, ABinIsFreeInsideAndMatterBehindItsWalls)
-{
-  const Eigen::Vector3f half (0.1f, 0.15f, 0.08f);
-  const auto box = test::box (half.cast<double> ());
-  const double band = 0.04;
-  const auto field = sampleSignedDistance (bin (half), cubicGrid ({0, 0, 0}, 40, 0.0101), band);
-  ASSERT_EQ (field.supported.size (), field.grid.size ());
-  int free = 0, matter = 0;
-  forEachVoxel (field, [&] (const Eigen::Vector3d& p, std::size_t n) {
-    const bool below_rim = p.z () <= half.z ();
-    const double to_wall =
-        std::max ({std::abs (p.x ()) - half.x (), std::abs (p.y ()) - half.y (), -p.z () - half.z ()});
-    if (field.supported[n] == 0)
-    {
-      // Above the rim, or nearer to it than to all walls, or too far from everything.
-      EXPECT_TRUE (!below_rim || std::abs (to_wall) > band || std::abs (box (p)) > band) << p.transpose ();
-      return;
-    }
-    EXPECT_TRUE (below_rim) << p.transpose ();
-    EXPECT_NEAR (field.values[n], to_wall < 0.0 ? -to_wall : -box (p), 1e-6) << p.transpose ();
-    (to_wall < 0.0 ? free : matter) += 1;
-  });
-  EXPECT_GT (free, 1000);
-  EXPECT_GT (matter, 1000);
-}
-
-TEST (MeshDistance, AMeshOfClosedAndOpenPartsSaysWhatBothSay)
-{
-  const TriangleMesh box = test::boxMesh ({-0.05f, -0.05f, 0.05f}, {0.05f, 0.05f, 0.15f});
-  const auto distance = test::box ({0.05, 0.05, 0.05});
-  const double band = 0.03;
-  const auto field = sampleSignedDistance (united (square (0.1f), box), cubicGrid ({0, 0, 0.05}, 31, 0.0101), band);
-  ASSERT_EQ (field.supported.size (), field.grid.size ());
-  forEachVoxel (field, [&] (const Eigen::Vector3d& p, std::size_t n) {
-    const double to_box = distance (p - Eigen::Vector3d (0, 0, 0.1));
-    const bool sheet = p.head<2> ().cwiseAbs ().maxCoeff () <= 0.1 && std::abs (p.z ()) <= band;
-    EXPECT_EQ (field.supported[n] != 0, sheet || to_box < band) << p.transpose ();
-    const double truth = std::max (-band, sheet ? std::min (p.z (), to_box) : to_box);
-    EXPECT_NEAR (field.supported[n] != 0 ? field.values[n] : truth, truth, 1e-6) << p.transpose ();
-  });
 }
 
 TEST (MeshDistance, DoesNotDependOnTheNumberOfThreads)

@@ -30,8 +30,8 @@ namespace cosection
  *   supported inside and within \a band_m of closed parts as well.
  *
  * Vertices of equal coordinates are taken as one. Triangles that lie back to back, as where two bodies share a
- * face, and closed parts without any volume bound nothing and are left out. One part that intersects itself has no defined sign near the
- * intersection. The result is the same for any number of threads.
+ * face, and closed parts without any volume bound nothing and are left out. One part that intersects itself
+ * has no defined sign near the intersection. The result is the same for any number of threads.
  * O (triangles log triangles + voxels near the surface * log triangles).
  *
  * \param[in] mesh triangles counter-clockwise from outside, in the grid's frame
