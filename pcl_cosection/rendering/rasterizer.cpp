@@ -147,7 +147,7 @@ Rasterizer::draw (const TriangleMesh& mesh, int id, const Eigen::Isometry3d& T_w
   for (const auto& triangle : mesh.triangles)
   {
     const auto& p = positions;
-    const auto [a, b, c] = triangle;
+    const std::uint32_t a = triangle[0], b = triangle[1], c = triangle[2];
     if (!p[a].allFinite () || !p[b].allFinite () || !p[c].allFinite ())
       continue;
     const TrianglePlane plane (p[a], p[b], p[c], near_m_);

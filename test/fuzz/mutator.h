@@ -17,8 +17,7 @@ class Mutator
 {
 public:
   /** \param[in] seeds inputs to begin with, at least one
-   * \param[in] dictionary words to put in
-   * \param[in] seed with \a run gives the same input again */
+   * \param[in] dictionary words to put in */
   Mutator (const std::vector<std::string>& seeds, const std::vector<std::string>& dictionary);
 
   /** \brief The input number \a run of the sequence \a seed: one of the seeds after one to eight changes. */
