@@ -39,8 +39,8 @@ constexpr double worth_saying = 0.02;      // share of the normals
 constexpr double surely_inward = 0.3;      // outward share of a body whose normals are flipped
 constexpr int least_neighbours = 8;        // for a normal; more where there are many points:
 constexpr int points_per_neighbour = 40;
-constexpr std::size_t dense_points = 200000; // of one label
-constexpr float thinning_cells = 256.0f;     // along the longest side of what is denser
+constexpr std::size_t dense_points = 20000;  // of one label
+constexpr float thinning_cells = 100.0f;     // along the longest side of what is denser
 constexpr std::size_t judged_points = 20000;
 
 using Members = std::map<std::uint32_t, std::vector<std::size_t>>;
@@ -237,7 +237,7 @@ checkWithoutViewpoint (const std::string& path, const Members& members, SensorCl
 {
   for (const auto& [label, indices] : members)
   {
-    if (label == 0)
+    if (label == 0 || indices.size () < RangeImage::min_points)
       continue;
     const double outward = outwardShare (pick (cloud.positions, indices), pick (cloud.normals, indices));
     if (outward >= surely_inward)

@@ -231,7 +231,7 @@ CoSectionRun::finishObject (Object& object)
     object.result->hull = object.volume->hullMesh ();
   if (scene_.options.compute_bounds)
   {
-    object.result->inner_bound = object.volume->innerMesh ();
+    object.result->inner_bound = object.volume->innerMesh (object.points ());
     object.result->outer_bound = object.volume->outerMesh ();
   }
   object.result->signed_distance = std::make_shared<SignedDistanceField> (object.field);

@@ -20,7 +20,7 @@ constexpr int finest_px = 1024;           // pixels along the longer side ...
 constexpr int coarsest_px = 8;            // ... that are tried
 constexpr double coarsening = 1.2;
 constexpr double points_per_pixel = 2.5;
-constexpr double hidden_sigmas = 6.0;     // a point that lies so far behind its pixel's neighbourhood is hidden ...
+constexpr double hidden_sigmas = 6.0;     // a point that lies so far behind another one of its pixel is hidden ...
 constexpr double hidden_pixels = 3.0;     // ... unless a steep surface explains it: in widths of a pixel there
 constexpr float nothing = std::numeric_limits<float>::infinity ();
 
@@ -89,20 +89,10 @@ double
 hiddenShare (const DepthView& view, const std::vector<Eigen::Vector3f>& points)
 {
   std::size_t hidden = 0;
-  const int width = view.camera.width;
   for (const Eigen::Vector3f& p : points)
   {
-    const auto pixel = static_cast<int> (pixelOf (view.camera, p));
-    const int column = pixel % width;
-    const int row = pixel / width;
-    float farthest = 0.0f; // of the nearest readings around
-    for (int v = std::max (0, row - 1); v <= std::min (view.camera.height - 1, row + 1); ++v)
-      for (int u = std::max (0, column - 1); u <= std::min (width - 1, column + 1); ++u)
-        if (std::isfinite (view.at (u, v)))
-          farthest = std::max (farthest, view.at (u, v));
-    const double tolerance =
-        hidden_sigmas * depthNoiseSigma (farthest) + hidden_pixels * farthest / view.camera.fx;
-    hidden += p.z () > farthest + tolerance;
+    const float nearest = view.depth[pixelOf (view.camera, p)];
+    hidden += p.z () > nearest + hidden_sigmas * depthNoiseSigma (nearest) + hidden_pixels * nearest / view.camera.fx;
   }
   return static_cast<double> (hidden) / static_cast<double> (points.size ());
 }

@@ -120,9 +120,9 @@ public:
   TriangleMesh
   hullMesh () const;
 
-  /** \brief Closed mesh of the part of the minimiser's body that lies just behind data. */
+  /** \brief Closed mesh of the part of the minimiser's body that lies just behind points. */
   TriangleMesh
-  innerMesh () const;
+  innerMesh (const std::vector<OrientedPoint>& points) const;
 
   /** \brief Closed mesh of the minimiser's body and all else that no view saw free. */
   TriangleMesh

@@ -22,7 +22,9 @@ namespace
 
 constexpr double outlier_share = 0.005; // of the points, at either end of each axis
 constexpr int default_resolution = 64;
-constexpr double points_per_voxel = 1.5;
+constexpr double points_per_voxel = 3.0;
+constexpr double least_points_per_voxel = 1.5; // where more would take the shape:
+constexpr int least_resolution = 16;           // voxels along the longest side
 constexpr double voxel_growth = 1.1;
 constexpr int min_axis = 8;      // voxels
 constexpr double max_axis = 8192; // voxels
@@ -55,8 +57,11 @@ supportedVoxelSize (const std::vector<OrientedPoint>& points, const Eigen::Align
 {
   const double longest = box.sizes ().maxCoeff ();
   double h = longest / default_resolution;
-  while (h < longest / min_axis &&
-         static_cast<double> (points.size ()) < points_per_voxel * static_cast<double> (occupiedVoxels (points, box, h)))
+  const auto supported = [&] {
+    const double wanted = h < longest / least_resolution ? points_per_voxel : least_points_per_voxel;
+    return static_cast<double> (points.size ()) >= wanted * static_cast<double> (occupiedVoxels (points, box, h));
+  };
+  while (h < longest / min_axis && !supported ())
     h *= voxel_growth;
   return h;
 }

@@ -22,7 +22,8 @@ Eigen::AlignedBox3d
 observedBox (const std::vector<OrientedPoint>& points);
 
 /** \brief The voxel size of the options. If neither it nor a resolution is given, 64 voxels along the longest side,
- * but voxels no smaller than the points' spacing supports: at least 1.5 points in each occupied voxel on average.
+ * but voxels no smaller than the points' spacing supports: at least three points in each occupied voxel on average,
+ * or 1.5 if voxels were larger than a 16th of the longest side.
  * \throws InvalidArgument */
 double
 objectVoxelSize (const std::vector<OrientedPoint>& points, const Eigen::AlignedBox3d& observed,

@@ -45,11 +45,13 @@ TEST_P (Bounds, EncloseTheEstimate)
   const VoxelGrid& grid = object.signed_distance->grid;
   for (const TriangleMesh* mesh : {&object.hull, &object.inner_bound, &object.outer_bound})
     EXPECT_TRUE (computeTopology (*mesh).closed_manifold);
-  EXPECT_LE (protrusion (object.inner_bound, object.mesh, grid), 0.1);
-  EXPECT_LE (protrusion (object.mesh, object.outer_bound, grid), 0.1);
-  EXPECT_LE (protrusion (object.hull, object.outer_bound, grid), 0.1);
-  for (const Eigen::Vector3f& v : object.inner_bound.vertices) // what is sure is true
-    EXPECT_LE (scene.shape (1) (v.cast<double> ()), 1.0 * voxel_m);
+  EXPECT_LE (protrusion (object.inner_bound, object.mesh, grid), 0.25);
+  EXPECT_LE (protrusion (object.mesh, object.outer_bound, grid), 0.25);
+  EXPECT_LE (protrusion (object.hull, object.outer_bound, grid), 0.25);
+  double outside = 0.0; // what is sure is true
+  for (const Eigen::Vector3f& v : object.inner_bound.vertices)
+    outside = std::max (outside, scene.shape (1) (v.cast<double> ()));
+  EXPECT_LE (outside, voxel_m);
   // What may be the object holds all of it, where the object's volume reaches.
   const TriangleMesh truth = extractIsoSurface (sampleField (scene.shape (1), 0.15, 0.004));
   EXPECT_LE (protrusion (truth, object.outer_bound, grid), 1.0);
