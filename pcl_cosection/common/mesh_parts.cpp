@@ -9,7 +9,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
+#include <set>
+#include <utility>
 
 namespace pcl
 {
@@ -41,6 +44,52 @@ openSets (const std::vector<Side>& sides, std::size_t begin, std::size_t end, Di
   return open;
 }
 
+/** \brief For each forward side of an edge the backward one that bounds the same matter between them, by the
+ * angles of their triangles about the edge; nothing if they do not all have one of their own. */
+std::vector<std::pair<const Side*, const Side*>>
+pairsAroundMatter (const TriangleMesh& mesh, const std::vector<Side>& sides, std::size_t begin, std::size_t end)
+{
+  const Side& first = sides[begin];
+  const auto corner = [&mesh] (const Side& side, int n) -> Eigen::Vector3d {
+    return mesh.vertices[mesh.triangles[side.triangle][(side.corner + n) % 3]].cast<double> ();
+  };
+  const Eigen::Vector3d origin = corner (first, 0);
+  const Eigen::Vector3d along = (corner (first, 1) - origin).normalized () * (first.forward ? 1.0 : -1.0);
+  const Eigen::Vector3d u = along.unitOrthogonal ();
+  const Eigen::Vector3d v = along.cross (u);
+  const auto angle = [&] (const Side& side) {
+    const Eigen::Vector3d w = corner (side, 2) - origin;
+    return std::atan2 (v.dot (w), u.dot (w));
+  };
+  std::vector<std::pair<const Side*, const Side*>> pairs;
+  std::set<const Side*> taken;
+  for (std::size_t f = begin; f < end; ++f)
+  {
+    if (!sides[f].forward)
+      continue;
+    const Side* nearest = nullptr;
+    double least = std::numeric_limits<double>::infinity ();
+    for (std::size_t b = begin; b < end; ++b)
+    {
+      constexpr double same = 1e-6; // at the same angle are those of two bodies back to back
+      double matter = angle (sides[f]) - angle (sides[b]);
+      while (matter < same)
+        matter += 2.0 * M_PI;
+      if (!sides[b].forward && matter < least)
+      {
+        least = matter;
+        nearest = &sides[b];
+      }
+    }
+    if (nearest == nullptr || !taken.insert (nearest).second)
+      return {};
+    pairs.emplace_back (&sides[f], nearest);
+  }
+  if (2 * pairs.size () != end - begin)
+    return {};
+  return pairs;
+}
+
 DisjointSets
 connectedTriangles (const TriangleMesh& mesh, const std::vector<Side>& sides)
 {
@@ -54,7 +103,12 @@ connectedTriangles (const TriangleMesh& mesh, const std::vector<Side>& sides)
     if (isManifoldEdge (sides, begin, end))
       return;
     const auto open = openSets (sides, begin, end, patches);
-    for (std::size_t n = 1; n < open.size (); ++n)
+    if (open.empty ())
+      return;
+    const auto pairs = pairsAroundMatter (mesh, sides, begin, end);
+    for (const auto& pair : pairs)
+      parts.unite (pair.first->triangle, pair.second->triangle);
+    for (std::size_t n = 1; n < open.size () && pairs.empty (); ++n)
       parts.unite (open[0], open[n]);
   });
   return parts;

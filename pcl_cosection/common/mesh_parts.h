@@ -23,8 +23,8 @@ struct MeshPart
 };
 
 /** \brief Divide a mesh, in the order of the parts' first triangles. Triangles belong together across an edge
- * of two; across edges of more only where one side alone would be open there, so bodies that merely touch
- * along an edge are parts of their own. */
+ * of two; across edges of more only where they would be open without each other, and then those that have
+ * matter between them. So bodies that merely touch, along an edge or with faces, are parts of their own. */
 std::vector<MeshPart>
 divideMesh (const TriangleMesh& mesh);
 

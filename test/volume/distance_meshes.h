@@ -116,6 +116,42 @@ soup (const TriangleMesh& mesh)
   return result;
 }
 
+/** \brief The same surface with \a count points along a side of a triangle, which it and its neighbour are
+ * divided to. */
+inline TriangleMesh
+withDividedEdge (TriangleMesh mesh, std::size_t triangle, std::uint32_t count)
+{
+  const std::uint32_t a = mesh.triangles[triangle][0], b = mesh.triangles[triangle][1];
+  const auto first = static_cast<std::uint32_t> (mesh.vertices.size ());
+  const auto at = [&] (std::uint32_t n) { return n == 0 ? a : n > count ? b : first + n - 1; };
+  for (std::uint32_t n = 1; n <= count; ++n)
+  {
+    const float t = static_cast<float> (n) / static_cast<float> (count + 1);
+    mesh.vertices.push_back ((1.0f - t) * mesh.vertices[a] + t * mesh.vertices[b]);
+  }
+  for (std::size_t k = 0, size = mesh.triangles.size (); k < size; ++k)
+    for (int n = 0; n < 3; ++n)
+    {
+      const TriangleMesh::Triangle corners = mesh.triangles[k];
+      const std::uint32_t from = corners[n], to = corners[(n + 1) % 3], opposite = corners[(n + 2) % 3];
+      if (!(from == a && to == b) && !(from == b && to == a))
+        continue;
+      for (std::uint32_t m = 0; m <= count; ++m)
+      {
+        TriangleMesh::Triangle part = {at (m), at (m + 1), opposite};
+        if (from == b)
+          std::swap (part[0], part[1]);
+        if (m == 0)
+          mesh.triangles[k] = part;
+        else
+          mesh.triangles.push_back (part);
+      }
+      break;
+    }
+  mesh.normals.clear ();
+  return mesh;
+}
+
 /** \brief A quadrilateral of two triangles that faces where its corners are counter-clockwise. */
 inline TriangleMesh
 quad (const Eigen::Vector3f& a, const Eigen::Vector3f& b, const Eigen::Vector3f& c, const Eigen::Vector3f& d)

@@ -70,6 +70,11 @@ TEST (MeshDistance, EqualsBruteForceOnRandomBumps)
     for (auto& v : mesh.vertices)
       v *= static_cast<float> (factor (random));
     expectBruteForce (transformed (mesh, oblique ()), cubicGrid ({0, 0, 0}, 16, 0.02), 0.04);
+    // Many narrow triangles at some vertices are the same surface, with the same signs.
+    for (int n = 0; n < 12; ++n)
+      mesh = test::withDividedEdge (mesh, random () % mesh.triangles.size (), 10);
+    ASSERT_TRUE (computeTopology (mesh).closed_manifold);
+    expectBruteForce (transformed (mesh, oblique ()), cubicGrid ({0, 0, 0}, 16, 0.02), 0.1);
   }
 }
 
@@ -125,6 +130,15 @@ TEST (MeshDistance, OverlappingBodiesAreTheirUnion)
                    return std::min (box (p), box (p - Eigen::Vector3d (shift, 0, 0)));
                  },
                  0.06, 1e-6);
+  // Touching with a face of other triangles.
+  TriangleMesh other = at (0.2);
+  other.triangles[8] = {0, 4, 6}; // were {0, 4, 2} and {2, 4, 6}
+  other.triangles[9] = {0, 6, 2};
+  for (auto& v : other.vertices)
+    v.x () = (v.x () < 0.2f ? 0.1f : 0.3f);
+  expectField (sampleSignedDistance (united (at (0.0), other), cubicGrid ({0.1, 0, 0}, 25, 0.017), 0.06),
+               [&] (const Eigen::Vector3d& p) { return std::min (box (p), box (p - Eigen::Vector3d (0.2, 0, 0))); },
+               0.06, 1e-6);
   // Where two share a face, there is no surface between them.
   expectField (sampleSignedDistance (united (at (0.0), at (0.2)), cubicGrid ({0.1, 0, 0}, 25, 0.017), 0.06),
                [&] (const Eigen::Vector3d& p) { return test::box ({0.2, 0.1, 0.1}) (p - Eigen::Vector3d (0.1, 0, 0)); },
