@@ -134,11 +134,9 @@ CoSectionRun::solvePass (Resolution resolution, int pass)
   }
 }
 
-double
-CoSectionRun::penetration (const Object& object, const SignedDistanceField& body,
-                           const std::vector<Eigen::Isometry3d>& poses) const
+template <typename DepthAt> double
+CoSectionRun::deepest (const Object& object, DepthAt&& depthAt) const
 {
-  // Deepest of the places where the object's surface crosses an edge of its grid.
   const SignedDistanceField& own = object.field;
   const VoxelGrid& grid = own.grid;
   const std::array<std::size_t, 3> strides{1, grid.index (0, 1, 0), grid.index (0, 0, 1)};
@@ -157,21 +155,46 @@ CoSectionRun::penetration (const Object& object, const SignedDistanceField& body
             continue;
           Eigen::Vector3d at = grid.center (i, j, k);
           at[axis] += grid.voxel_size_m * here / (here - there);
-          for (const Eigen::Isometry3d& T : poses)
-          {
-            const auto u = body.sampleSupported (T * at);
-            if (u)
-              deepest[k] = std::max (deepest[k], static_cast<double> (-*u));
-          }
+          deepest[k] = std::max (deepest[k], depthAt (at));
         }
   });
   return *std::max_element (deepest.begin (), deepest.end ());
 }
 
 double
+CoSectionRun::penetration (const Object& object, const SignedDistanceField& body,
+                           const std::vector<Eigen::Isometry3d>& poses) const
+{
+  return deepest (object, [&] (const Eigen::Vector3d& at) {
+    double depth = 0.0;
+    for (const Eigen::Isometry3d& T : poses)
+      if (const auto u = body.sampleSupported (T * at))
+        depth = std::max (depth, static_cast<double> (-*u));
+    return depth;
+  });
+}
+
+double
+CoSectionRun::penetrationOfGivenPlanes (const Object& object) const
+{
+  std::vector<Eigen::Vector4d> planes;
+  for (const Eigen::Vector4d& plane : scene_.planes)
+    for (const Eigen::Isometry3d& T_world_object : relativePoses (object, nullptr))
+      planes.push_back (transformPlane (towards (object, plane), T_world_object));
+  if (planes.empty ())
+    return 0.0;
+  return deepest (object, [&] (const Eigen::Vector3d& at) {
+    double depth = 0.0;
+    for (const Eigen::Vector4d& plane : planes)
+      depth = std::max (depth, -plane.head<3> ().dot (at) - plane[3]);
+    return depth;
+  });
+}
+
+double
 CoSectionRun::penetrationOfSurroundings (const Object& object) const
 {
-  double deepest = 0.0;
+  double deepest = penetrationOfGivenPlanes (object);
   const std::vector<Eigen::Isometry3d> poses = relativePoses (object, nullptr);
   for (const SignedDistanceField& body : background_)
     deepest = std::max (deepest, penetration (object, body, poses));

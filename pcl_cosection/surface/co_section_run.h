@@ -154,6 +154,11 @@ private:
   solve (Object& object, Resolution resolution, double begin, double share);
   bool
   growWeightsWherePenetrating (Resolution resolution);
+  /** \brief Deepest of the places where the object's surface crosses an edge of its grid; depthAt (place), 0 if outside. */
+  template <typename DepthAt> double
+  deepest (const Object& object, DepthAt&& depthAt) const;
+  double
+  penetrationOfGivenPlanes (const Object& object) const;
   double
   penetration (const Object& object, const SignedDistanceField& body, const std::vector<Eigen::Isometry3d>& poses) const;
   double

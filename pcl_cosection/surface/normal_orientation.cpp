@@ -22,8 +22,21 @@ namespace
 {
 
 constexpr int directions = 64;
+constexpr float crease_cosine = 0.5f; // of normals that differ more
 constexpr std::size_t judged_points = 20000;
 constexpr double outermost_share = 0.005; // of the points, in each direction
+
+/** \brief How well the normals of neighbours agree, in [-1, 1]; negative: one of them is flipped. Across a crease that is
+ * asked of the first normal reflected at the plane halfway between the points, as along an arc from one to the other. */
+float
+agreement (const Eigen::Vector3f& p, const Eigen::Vector3f& p_normal, const Eigen::Vector3f& q, const Eigen::Vector3f& q_normal)
+{
+  const float plain = p_normal.dot (q_normal);
+  if (std::abs (plain) >= crease_cosine)
+    return plain;
+  const Eigen::Vector3f d = (q - p).normalized ();
+  return crease_cosine * (p_normal - 2.0f * p_normal.dot (d) * d).dot (q_normal);
+}
 
 struct Edge
 {
@@ -59,7 +72,8 @@ neighbourGraph (const std::vector<Eigen::Vector3f>& points, const std::vector<Ei
     {
       const auto b = static_cast<std::uint32_t> (index);
       if (b != a && normals[b].allFinite ())
-        edges.push_back ({1.0f - std::abs (normals[a].dot (normals[b])), std::min (a, b), std::max (a, b)});
+        edges.push_back ({1.0f - std::abs (agreement (points[a], normals[a], points[b], normals[b])), std::min (a, b),
+                          std::max (a, b)});
     }
   }
   return edges;
@@ -157,7 +171,7 @@ orientConsistently (const std::vector<Eigen::Vector3f>& points, std::vector<Eige
         if (done[b])
           continue;
         done[b] = true;
-        if (normals[a].dot (normals[b]) < 0.0f)
+        if (agreement (points[a], normals[a], points[b], normals[b]) < 0.0f)
           normals[b] = -normals[b];
         piece.push_back (b);
       }

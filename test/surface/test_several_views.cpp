@@ -50,8 +50,7 @@ TEST_P (SeveralViews, AreTogetherAtLeastAsAccurateAsEachAlone)
     const double together_m = meanError (together.mesh, scene_.shape (1));
     std::printf ("%s: mean error of view %d alone %.2f mm, of views 1 to %d %.2f mm\n", nameOf (GetParam ()).c_str (), n + 1,
                  1e3 * alone_m, n + 1, 1e3 * together_m);
-    if (n > 0)
-      EXPECT_LE (together_m, best_alone) << n + 1 << " views";
+    EXPECT_TRUE (n == 0 || together_m <= best_alone) << n + 1 << " views";
   }
 }
 
@@ -60,6 +59,7 @@ TEST_P (SeveralViews, ShrinkTheHull)
 {
   CoSectionOptions options = optionsFor (voxel_m);
   options.use_intersection = false;
+  options.use_extent_prior = false; // it trusts in more when more is seen, so that shapes may grow to their true size
   options.compute_hull = true;
   options.padding = 0.5; // the same volume for all
   const RenderedView first = scene_.render (tableCamera (), around (0));

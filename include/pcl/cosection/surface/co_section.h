@@ -40,7 +40,8 @@ struct PCL_COSECTION_EXPORT ObjectResult
   TriangleMesh mesh;     ///< closed, object frame
   /** \brief If asked for: closed, object frame, inside the object's volume. The hull is what no view saw free; the inner
    * bound is where measured surfaces vouch for matter, a layer of three voxels behind them; the outer bound is all
-   * that was not seen free. Up to a quarter of a voxel, inner_bound lies inside mesh, and mesh inside outer_bound. */
+   * that was not seen free. Up to a quarter of a voxel, inner_bound lies inside mesh, and mesh inside outer_bound; both
+   * are right to about a voxel and a half at sharp edges. */
   TriangleMesh hull, inner_bound, outer_bound;
   SignedDistanceField::Ptr signed_distance; ///< object frame
   std::size_t stray_points = 0; ///< left out, because they are a few and far from the others
