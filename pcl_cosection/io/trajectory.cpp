@@ -21,6 +21,7 @@ namespace
 {
 
 constexpr double min_quaternion_norm = 1e-3;
+constexpr double max_quaternion_norm = 1e100; // the square of more is infinite, and no rotation comes of it
 
 StampedPose
 parsePose (const std::string& line, const std::string& where)
@@ -35,8 +36,9 @@ parsePose (const std::string& line, const std::string& where)
   if (in >> more)
     throw IoError (where + "has more than the eight numbers stamp tx ty tz qx qy qz qw");
   const Eigen::Quaterniond rotation (values[7], values[4], values[5], values[6]);
-  if (!(rotation.norm () > min_quaternion_norm))
-    throw IoError (where + "has a quaternion qx qy qz qw of length zero");
+  const double length = rotation.norm ();
+  if (!(length > min_quaternion_norm && length < max_quaternion_norm))
+    throw IoError (where + "has a quaternion qx qy qz qw of length " + (length > 1.0 ? "infinity" : "zero"));
   StampedPose stamped;
   stamped.stamp = values[0];
   stamped.pose.linear () = rotation.normalized ().toRotationMatrix ();

@@ -1,70 +1,24 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_cosection authors
 
-// Bytes as a file of a mesh.
+// Bytes as a file of a mesh: the first line is the extension of its name, the file follows.
 
 #include "fuzz_target.h"
 #include "memory_file.h"
+#include "mesh_seeds.h"
 
 #include <pcl/cosection/common/error.h>
 #include <pcl/cosection/io/mesh_io.h>
 
 #include <algorithm>
-#include <cstring>
+#include <array>
 
 using namespace pcl::cosection;
 
 namespace
 {
 
-template <typename T>
-void
-put (std::string& bytes, T value)
-{
-  bytes.append (reinterpret_cast<const char*> (&value), sizeof (value));
-}
-
-const float corners[4][3] = {{0.0f, 0.0f, 0.0f}, {1.0f, 0.0f, 0.0f}, {0.0f, 1.0f, 0.0f}, {0.0f, 0.0f, 1.0f}};
-constexpr int faces[4][3] = {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}};
-
-/** \brief A tetrahedron. \tparam Real of the positions \tparam Index of the corners */
-template <typename Real, typename Index>
-std::string
-tetrahedron (const std::string& real, const std::string& index, const std::string& corners_name, bool properties)
-{
-  std::string bytes = "ply\nformat binary_little_endian 1.0\ncomment a tetrahedron\nelement vertex 4\n";
-  for (const char* name : {"x", "y", "z"})
-    bytes += "property " + real + " " + name + "\n";
-  if (properties)
-    for (const char* name : {"float nx", "float ny", "float nz", "uchar red", "uchar green", "uchar blue",
-                             "float confidence", "uchar provenance", "int unknown"})
-      bytes += std::string ("property ") + name + "\n";
-  bytes += "element face 4\nproperty list uchar " + index + " " + corners_name + "\n";
-  if (properties)
-    bytes += "property short flags\nproperty list ushort float weights\n";
-  bytes += "end_header\n";
-  for (const auto& corner : corners)
-  {
-    for (const float value : corner)
-      put (bytes, static_cast<Real> (value));
-    if (properties)
-      bytes.append (3 * sizeof (float) + 3 + sizeof (float) + 1 + sizeof (int), '\1');
-  }
-  for (const auto& face : faces)
-  {
-    put (bytes, std::uint8_t{3});
-    for (const int corner : face)
-      put (bytes, static_cast<Index> (corner));
-    if (properties)
-    {
-      put (bytes, std::int16_t{5});
-      put (bytes, std::uint16_t{2});
-      put (bytes, 0.5f);
-      put (bytes, 0.25f);
-    }
-  }
-  return (bytes);
-}
+const std::array<std::string, 6> extensions = {".ply", ".stl", ".obj", ".off", ".vtk", ".vtp"};
 
 void
 check (const TriangleMesh& mesh)
@@ -78,40 +32,85 @@ check (const TriangleMesh& mesh)
   computeTopology (mesh);
 }
 
+/** \brief What loadMesh () promises beyond that. */
+void
+checkReady (const TriangleMesh& mesh)
+{
+  check (mesh);
+  fuzz::require (!mesh.empty (), "a mesh has triangles");
+  std::vector<bool> used (mesh.vertices.size (), false);
+  for (const TriangleMesh::Triangle& t : mesh.triangles)
+  {
+    fuzz::require (t[0] != t[1] && t[1] != t[2] && t[2] != t[0], "triangles have three corners");
+    for (const auto v : t)
+      used[v] = true;
+  }
+  fuzz::require (std::find (used.begin (), used.end (), false) == used.end (), "vertices are of triangles");
+  for (const Eigen::Vector3f& vertex : mesh.vertices)
+    fuzz::require (vertex.allFinite (), "vertices are finite");
+}
+
+/** \brief Calls \a load and \a check. \return whether the file was accepted */
+template <typename Load, typename Check>
+bool
+loads (const Load& load, const std::string& path, const Check& check)
+{
+  TriangleMesh mesh;
+  try
+  {
+    mesh = load (path);
+  }
+  catch (const Error& error)
+  {
+    fuzz::requireMessage (error.what ());
+    return (false);
+  }
+  check (mesh);
+  return (true);
+}
+
 } // namespace
 
 std::vector<std::string>
 fuzz::seeds ()
 {
-  return {tetrahedron<float, std::int32_t> ("float", "int", "vertex_indices", false),
-          tetrahedron<double, std::uint8_t> ("double", "uchar", "vertex_index", false),
-          tetrahedron<float, std::uint16_t> ("float32", "uint16", "vertex_indices", true)};
+  std::vector<std::string> result;
+  for (const MeshSeed& seed : meshSeeds ())
+    result.push_back (seed.extension + "\n" + seed.bytes);
+  return (result);
 }
 
 std::vector<std::string>
 fuzz::dictionary ()
 {
-  return {"ply",      "format",  "binary_little_endian", "ascii", "1.0",   "element", "vertex",     "face",
-          "property", "list",    "char",                 "uchar", "short", "ushort",  "int",        "uint",
-          "float",    "double",  "int8",                 "uint8", "x",     "y",       "z",          "nx",
-          "red",      "comment", "obj_info",             "vertex_indices", "confidence", "provenance", "end_header"};
+  std::vector<std::string> words (extensions.begin (), extensions.end ());
+  for (const char* word :
+       {"ply", "format", "binary_little_endian", "binary_big_endian", "ascii", "1.0", "element", "vertex", "face",
+        "tristrips", "property", "list", "char", "uchar", "short", "ushort", "int", "uint", "float", "double", "int8",
+        "x", "nx", "red", "comment", "obj_info", "vertex_indices", "confidence", "provenance", "end_header", // PLY
+        "solid", "facet", "outer", "loop", "endloop", "endfacet", "endsolid",                                 // STL
+        "v", "vn", "f", "fo", "l", "\\\n", "#", "1/2/3", "-1//-1", "OFF", "COFF", "nOFF", "BINARY", // OBJ, OFF
+        "# vtk DataFile Version 5.1", "ASCII", "DATASET", "POLYDATA", "POINTS", "POLYGONS", "TRIANGLE_STRIPS", "LINES",
+        "VERTICES", "OFFSETS", "CONNECTIVITY", "vtktypeint64", "FIELD", "METADATA", "POINT_DATA", "CELL_DATA", // VTK
+        "<?xml", "<VTKFile", "<Piece", "</Piece>", "<Polys>", "</Polys>", "<Strips>", "<DataArray", "</DataArray>",
+        "/>", "type", "Int64", "UInt8", "Float64", "String", "NumberOfPoints", "NumberOfPolys", "NumberOfComponents",
+        "NumberOfTuples", "Name", "offset", "offsets", "connectivity", "appended", "binary", "header_type", "UInt64",
+        "byte_order", "BigEndian", "compressor", "vtkZLibDataCompressor", "vtkLZ4DataCompressor", "<AppendedData",
+        "encoding", "raw", "base64", "\"", "_"})
+    words.push_back (word);
+  return (words);
 }
 
 bool
 fuzz::accepts (const std::string& input)
 {
-  static MemoryFile file;
-  file.set (input);
-  TriangleMesh mesh;
-  try
-  {
-    mesh = loadPlyMesh (file.path ());
-  }
-  catch (const Error& error)
-  {
-    requireMessage (error.what ());
-    return (false);
-  }
-  check (mesh);
-  return (true);
+  static NamedMemoryFile file;
+  const std::size_t end = std::min (input.find ('\n'), input.size ());
+  file.set (input.substr (std::min (end + 1, input.size ())));
+  const auto extension = std::find (extensions.begin (), extensions.end (), input.substr (0, end));
+  if (extension == extensions.end ()) // what the file begins with decides
+    return (loads (loadMesh, file.path (".any"), checkReady));
+  if (*extension == ".ply")
+    loads (loadPlyMesh, file.path (*extension), check);
+  return (loads (loadMesh, file.path (*extension), checkReady));
 }

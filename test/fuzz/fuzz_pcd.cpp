@@ -36,6 +36,8 @@ check (const LabelledView& view)
     fuzz::require (view.view->T_world_sensor.matrix ().allFinite (), "the pose of the sensor is finite");
     fuzz::require (view.view->depth.size () == std::size_t (view.view->camera.width) * view.view->camera.height,
                    "a depth for every pixel");
+    for (const float depth : view.view->depth)
+      fuzz::require (std::isnan (depth) || (depth > 0.0f && std::isfinite (depth)), "depths are positive or missing");
   }
   for (const std::string& warning : view.warnings)
     fuzz::requireMessage (warning);

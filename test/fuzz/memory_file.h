@@ -5,6 +5,8 @@
 #include <sys/mman.h>
 #include <unistd.h>
 
+#include <cstdlib>
+#include <filesystem>
 #include <stdexcept>
 #include <string>
 
@@ -49,6 +51,55 @@ public:
 private:
   const int descriptor_;
   const std::string path_;
+};
+
+/** \brief A new folder that lives as long as the object. */
+class TemporaryFolder
+{
+public:
+  TemporaryFolder ()
+  {
+    std::string pattern = (std::filesystem::temp_directory_path () / "fuzz_XXXXXX").string ();
+    if (mkdtemp (&pattern[0]) == nullptr)
+      throw std::runtime_error ("cannot create " + pattern);
+    path_ = pattern;
+  }
+  TemporaryFolder (const TemporaryFolder&) = delete;
+  TemporaryFolder&
+  operator= (const TemporaryFolder&) = delete;
+
+  ~TemporaryFolder ()
+  {
+    std::error_code ignored;
+    std::filesystem::remove_all (path_, ignored);
+  }
+
+  std::string
+  file (const std::string& name) const
+  {
+    return ((path_ / name).string ());
+  }
+
+private:
+  std::filesystem::path path_;
+};
+
+/** \brief A file in memory by names of any extension, for what is read by its name. */
+class NamedMemoryFile : public MemoryFile
+{
+public:
+  /** \param[in] extension ".ply" ... */
+  std::string
+  path (const std::string& extension) const
+  {
+    const std::string link = folder_.file ("fuzz" + extension);
+    if (!std::filesystem::is_symlink (link))
+      std::filesystem::create_symlink (MemoryFile::path (), link);
+    return (link);
+  }
+
+private:
+  TemporaryFolder folder_;
 };
 
 } // namespace fuzz

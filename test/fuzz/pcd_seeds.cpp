@@ -4,6 +4,7 @@
 
 #include <pcl/io/lzf.h>
 
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
@@ -30,6 +31,7 @@ struct Cloud
   int width, height;
   std::vector<Field> fields;
   std::vector<std::vector<double>> rows;
+  std::string viewpoint;
 };
 
 template <typename T>
@@ -74,8 +76,8 @@ header (const Cloud& cloud, const std::string& encoding)
   text << "\nCOUNT";
   for (const Field& f : cloud.fields)
     text << ' ' << f.count;
-  text << "\nWIDTH " << cloud.width << "\nHEIGHT " << cloud.height << "\nVIEWPOINT 0.1 -0.2 0.5 1 0 0 0\nPOINTS "
-       << cloud.rows.size () << "\nDATA " << encoding << "\n";
+  text << "\nWIDTH " << cloud.width << "\nHEIGHT " << cloud.height << "\nVIEWPOINT "
+       << cloud.viewpoint << "\nPOINTS " << cloud.rows.size () << "\nDATA " << encoding << "\n";
   return (text.str ());
 }
 
@@ -132,13 +134,15 @@ compressedFile (const Cloud& cloud)
   return (bytes + packed.substr (0, size));
 }
 
+const std::string seen_from = "0.1 -0.2 0.5 1 0 0 0";
+
 const Field x = {"x", 4, 'F', 1}, y = {"y", 4, 'F', 1}, z = {"z", 4, 'F', 1};
 
 /** \brief The image of a wall with a step, of a pinhole camera; labels 0 and 3, a few pixels without reading. */
 Cloud
 organised ()
 {
-  Cloud cloud = {10, 8, {x, y, z, {"rgb", 4, 'U', 1}, {"label", 4, 'U', 1}}, {}};
+  Cloud cloud = {10, 8, {x, y, z, {"rgb", 4, 'U', 1}, {"label", 4, 'U', 1}}, {}, seen_from};
   for (int v = 0; v < cloud.height; ++v)
     for (int u = 0; u < cloud.width; ++u)
     {
@@ -153,7 +157,7 @@ organised ()
 Cloud
 unorganised (const std::vector<Field>& extra, double value, int size = 4)
 {
-  Cloud cloud = {24, 1, {x, y, z}, {}};
+  Cloud cloud = {24, 1, {x, y, z}, {}, seen_from};
   for (Field& f : cloud.fields)
     f.size = size;
   cloud.fields.insert (cloud.fields.end (), extra.begin (), extra.end ());
@@ -168,6 +172,96 @@ unorganised (const std::vector<Field>& extra, double value, int size = 4)
   return (cloud);
 }
 
+const std::string default_viewpoint = "0 0 0 1 0 0 0";
+
+/** \brief Points of a ball of 0.5 m, all around it or only those that are seen from the sensor, which the middle is
+ * two metres before; or \a around the sensor. Their number decides on the code that they reach. */
+struct Ball
+{
+  int points = 60;
+  bool seen = false;
+  bool around = false;
+  double normal = 0.0;    ///< length of the normals, negative: inward; 0: there are none
+  bool intensity = false;
+  bool labels = false;    ///< 0 and 2, each a half
+  std::string viewpoint = default_viewpoint;
+};
+
+Cloud
+ball (const Ball& wanted)
+{
+  constexpr double radius = 0.5, distance = 2.0;
+  Cloud cloud = {0, 1, {x, y, z}, {}, wanted.viewpoint};
+  if (wanted.normal != 0.0)
+    for (const char* name : {"normal_x", "normal_y", "normal_z"})
+      cloud.fields.push_back ({name, 4, 'F', 1});
+  if (wanted.intensity)
+    cloud.fields.push_back ({"intensity", 4, 'F', 1});
+  if (wanted.labels)
+    cloud.fields.push_back ({"label", 4, 'U', 1});
+  const int all = (wanted.seen ? 3 * wanted.points : wanted.points);
+  for (int i = 0; i < all && static_cast<int> (cloud.rows.size ()) < wanted.points; ++i)
+  {
+    const double height = (2.0 * i + 1.0) / all - 1.0, r = std::sqrt (1.0 - height * height);
+    const std::array<double, 3> outward = {r * std::cos (2.4 * i), r * std::sin (2.4 * i), height}; // the nearest first
+    std::vector<double> row;
+    for (int axis = 0; axis < 3; ++axis)
+      row.push_back (radius * outward[axis] + (axis == 2 && !wanted.around ? distance : 0.0));
+    if (wanted.normal != 0.0)
+      for (const double component : outward)
+        row.push_back (wanted.normal * component);
+    if (wanted.intensity)
+      row.push_back (0.5 + 0.5 * height);
+    if (wanted.labels)
+      row.push_back (outward[0] < 0.0 ? 0.0 : 2.0);
+    cloud.rows.push_back (row);
+  }
+  cloud.width = static_cast<int> (cloud.rows.size ());
+  return (cloud);
+}
+
+std::vector<Cloud>
+balls ()
+{
+  const std::string viewpoint = "0.1 -0.2 0.5 0.9 0.1 -0.2 0.3";
+  std::vector<Ball> wanted (11);
+  wanted[0].points = 150; // from nowhere, no normals
+  wanted[0].around = true;
+  wanted[1].around = true; // from nowhere, inward normals
+  wanted[1].normal = -1.0;
+  wanted[1].labels = true;
+  wanted[2].points = 100; // before a camera at the origin
+  wanted[2].seen = true;
+  wanted[3].seen = true; // the same with a viewpoint
+  wanted[3].points = 300;
+  wanted[3].viewpoint = viewpoint;
+  wanted[4].seen = true;
+  wanted[4].normal = 2.0;
+  wanted[4].viewpoint = viewpoint;
+  wanted[5].seen = true; // normals away from the viewpoint
+  wanted[5].normal = -1.0;
+  wanted[5].intensity = true;
+  wanted[5].viewpoint = viewpoint;
+  wanted[6].seen = true;
+  wanted[6].labels = true;
+  wanted[6].intensity = true;
+  wanted[6].viewpoint = viewpoint;
+  wanted[7].points = 300; // half of it hidden from its viewpoint
+  wanted[7].viewpoint = viewpoint;
+  wanted[8].around = true; // all around its viewpoint
+  wanted[8].labels = true;
+  wanted[8].viewpoint = viewpoint;
+  wanted[9].points = 200;
+  wanted[9].labels = true;
+  wanted[10].points = 40; // too few for a picture
+  wanted[10].seen = true;
+  wanted[10].viewpoint = viewpoint;
+  std::vector<Cloud> clouds;
+  for (const Ball& b : wanted)
+    clouds.push_back (ball (b));
+  return (clouds);
+}
+
 std::string
 replaced (std::string text, const std::string& from, const std::string& to)
 {
@@ -179,7 +273,7 @@ replaced (std::string text, const std::string& from, const std::string& to)
 std::vector<std::string>
 pcdSeeds ()
 {
-  const std::vector<Cloud> clouds = {
+  std::vector<Cloud> clouds = {
       organised (),
       unorganised ({}, 0.0),
       unorganised ({}, 0.0, 8),
@@ -188,6 +282,8 @@ pcdSeeds ()
       unorganised ({{"intensity", 4, 'F', 1}, {"label", 1, 'I', 1}}, 7.0),
       unorganised ({{"label", 8, 'U', 1}, {"rgba", 4, 'U', 1}}, 12345.0),
       unorganised ({{"histogram", 4, 'F', 5}, {"label", 2, 'I', 1}, {"id", 2, 'U', 2}}, 2.0)};
+  for (const Cloud& cloud : balls ())
+    clouds.push_back (cloud);
   std::vector<std::string> seeds;
   for (const Cloud& cloud : clouds)
   {

@@ -61,6 +61,7 @@ TEST_F (Trajectory, NamesTheLineThatIsWrong)
   EXPECT_NE (failure ("0 0 0 0 0 0 0 1\n1 0 0 0 0 0 0\n").find ("line 2"), std::string::npos);
   EXPECT_NE (failure ("0 0 0 0 0 0 0 1 5\n").find ("line 1"), std::string::npos);
   EXPECT_NE (failure ("0 0 0 0 0 0 0 0\n").find ("quaternion"), std::string::npos);
+  EXPECT_NE (failure ("0 0 0 0 0 1e200 0 1\n").find ("quaternion"), std::string::npos); // its square is infinite
   EXPECT_NE (failure ("0 0 x 0 0 0 0 1\n").find ("line 1"), std::string::npos);
   EXPECT_NE (failure ("0 0 nan 0 0 0 0 1\n").find ("line 1"), std::string::npos);
   EXPECT_NE (failure ("0 0 1e999 0 0 0 0 1\n").find ("line 1"), std::string::npos);

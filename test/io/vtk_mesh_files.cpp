@@ -53,7 +53,7 @@ vtkFiles ()
   return {VtkFile::PlyAscii,     VtkFile::PlyLittleEndian, VtkFile::PlyBigEndian,   VtkFile::StlAscii,
           VtkFile::StlBinary,    VtkFile::Obj,             VtkFile::LegacyAscii,    VtkFile::LegacyBinary,
           VtkFile::OldLegacyAscii, VtkFile::OldLegacyBinary, VtkFile::XmlAscii,     VtkFile::XmlBinary,
-          VtkFile::XmlAppended};
+          VtkFile::XmlAppended,  VtkFile::XmlRaw};
 }
 
 std::string
@@ -131,6 +131,11 @@ writeWithVtk (const Polygons& polygons, VtkFile file, const std::string& path)
     writer->SetDataMode (file == VtkFile::XmlAscii    ? vtkXMLWriter::Ascii
                          : file == VtkFile::XmlBinary ? vtkXMLWriter::Binary
                                                       : vtkXMLWriter::Appended);
+    if (file == VtkFile::XmlRaw)
+    {
+      writer->SetCompressorTypeToNone ();
+      writer->EncodeAppendedDataOff ();
+    }
     write (*writer, *data, path);
   }
 }

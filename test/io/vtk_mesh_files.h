@@ -37,6 +37,7 @@ enum class VtkFile
   XmlAscii,
   XmlBinary,
   XmlAppended,
+  XmlRaw, ///< appended, neither compressed nor in base 64
 };
 
 /** \brief All of them. */

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_cosection authors
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace fuzz
+{
+
+struct MeshSeed
+{
+  std::string extension; ///< ".ply" ...
+  std::string bytes;
+};
+
+/** \brief Small mesh files of every format and encoding, as the library, VTK and others write them: polygons, strips,
+ * bodies in each other, repeated and flat triangles. */
+std::vector<MeshSeed>
+meshSeeds ();
+
+} // namespace fuzz
