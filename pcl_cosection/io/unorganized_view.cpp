@@ -41,6 +41,7 @@ constexpr int least_neighbours = 8;        // for a normal; more where there are
 constexpr int points_per_neighbour = 40;
 constexpr std::size_t dense_points = 20000;  // of one label
 constexpr float thinning_cells = 100.0f;     // along the longest side of what is denser
+constexpr int neighbours_of_means = 2;       // more than of points: noise spreads over several layers of cells
 constexpr std::size_t judged_points = 20000;
 
 using Members = std::map<std::uint32_t, std::vector<std::size_t>>;
@@ -112,7 +113,7 @@ thin (const std::vector<Eigen::Vector3f>& points)
 
 /** \brief Estimated normals of any sign. */
 std::vector<Eigen::Vector3f>
-estimateNormals (const PcdViewOptions& options, const std::vector<Eigen::Vector3f>& positions)
+estimateNormals (const PcdViewOptions& options, const std::vector<Eigen::Vector3f>& positions, int most_neighbours)
 {
   std::vector<Eigen::Vector3f> result (positions.size (), Eigen::Vector3f::Constant (nan_value));
   if (positions.size () < 3)
@@ -122,8 +123,8 @@ estimateNormals (const PcdViewOptions& options, const std::vector<Eigen::Vector3
     points->emplace_back (p.x (), p.y (), p.z ());
   const QuietConsole quiet;
   const auto count = static_cast<int> (std::min<std::size_t> (positions.size (), std::numeric_limits<int>::max ()));
-  const int wanted = std::clamp (count / points_per_neighbour, std::min (least_neighbours, options.normal_neighbours),
-                                 options.normal_neighbours);
+  const int wanted = std::clamp (count / points_per_neighbour, std::min (least_neighbours, most_neighbours),
+                                 most_neighbours);
   NormalEstimationOMP<PointXYZ, Normal> estimation (static_cast<unsigned int> (resolveThreads (options.threads)));
   estimation.setInputCloud (points);
   estimation.setSearchMethod (pcl::make_shared<search::KdTree<PointXYZ>> ());
@@ -195,7 +196,9 @@ addNormals (const PcdViewOptions& options, std::uint32_t label, const std::vecto
             bool has_viewpoint, const Eigen::Vector3d& middle, SensorCloud& cloud)
 {
   const Thinned thinned = thin (pick (cloud.positions, members));
-  std::vector<Eigen::Vector3f> normals = estimateNormals (options, thinned.points);
+  const bool dense = thinned.points.size () < members.size ();
+  std::vector<Eigen::Vector3f> normals = estimateNormals (
+      options, thinned.points, dense ? neighbours_of_means * options.normal_neighbours : options.normal_neighbours);
   if (!has_viewpoint)
   {
     orientConsistently (thinned.points, normals);

@@ -267,7 +267,12 @@ ShapeVolume::closedMeshOf (Value&& value) const
   keepOffBorder (field);
   TriangleMesh mesh = extractIsoSurface (field, iso);
   attachEvidence (mesh);
+  return mesh;
+}
 
+TriangleMesh
+ShapeVolume::observedParts (const TriangleMesh& mesh)
+{
   const std::vector<int> component = labelComponents (mesh);
   std::vector<bool> observed (component.empty () ? 0 : *std::max_element (component.begin (), component.end ()) + 1, false);
   for (std::size_t v = 0; v < mesh.vertices.size (); ++v)
@@ -282,7 +287,7 @@ ShapeVolume::closedMeshOf (Value&& value) const
 TriangleMesh
 ShapeVolume::closedMesh () const
 {
-  return closedMeshOf ([this] (std::size_t n) { return carvedValue (n); });
+  return observedParts (closedMeshOf ([this] (std::size_t n) { return carvedValue (n); }));
 }
 
 TriangleMesh
@@ -306,7 +311,8 @@ ShapeVolume::innerMesh (const std::vector<OrientedPoint>& points) const
         vouched[grid_.index (at.x (), at.y (), at.z ())] = 1;
     }
   const std::vector<float> distance = distanceTransform (grid_.dims, vouched, options_.threads);
-  return closedMeshOf ([&] (std::size_t n) { return std::max (carvedValue (n), distance[n] - vouched_radius_vox); });
+  return observedParts (
+      closedMeshOf ([&] (std::size_t n) { return std::max (carvedValue (n), distance[n] - vouched_radius_vox); }));
 }
 
 TriangleMesh

@@ -138,9 +138,12 @@ private:
   /** \brief Signed distance to the space that was seen free, positive in it, within some voxels. */
   float
   hullValue (std::size_t n) const;
-  /** \brief Zero set of a field, value (n) in voxels; without parts that have no data. */
+  /** \brief Zero set of a field, value (n) in voxels. */
   template <typename Value> TriangleMesh
   closedMeshOf (Value&& value) const;
+  /** \brief Without parts that have no data. */
+  static TriangleMesh
+  observedParts (const TriangleMesh& mesh);
   std::vector<std::uint8_t>
   supported () const;
   void

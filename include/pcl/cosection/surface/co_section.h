@@ -38,10 +38,10 @@ struct PCL_COSECTION_EXPORT ObjectResult
   int id = 0;
   std::string error;     ///< empty, or why there is no mesh
   TriangleMesh mesh;     ///< closed, object frame
-  /** \brief If asked for: closed, object frame, inside the object's volume. The hull is what no view saw free; the inner
-   * bound is where measured surfaces vouch for matter, a layer of three voxels behind them; the outer bound is all
-   * that was not seen free. Up to a quarter of a voxel, inner_bound lies inside mesh, and mesh inside outer_bound; both
-   * are right to about a voxel and a half at sharp edges. */
+  /** \brief If asked for: closed, object frame, inside the object's volume. The hull is what no view saw free (without
+   * views the whole volume); the inner bound is where measured surfaces vouch for matter, a layer of three voxels
+   * behind them; the outer bound is the mesh and all that was not seen free. Up to a quarter of a voxel, inner_bound
+   * lies inside mesh, and mesh inside outer_bound; both are right to about a voxel and a half at sharp edges. */
   TriangleMesh hull, inner_bound, outer_bound;
   SignedDistanceField::Ptr signed_distance; ///< object frame
   std::size_t stray_points = 0; ///< left out, because they are a few and far from the others

@@ -22,8 +22,8 @@ outwardShare (const std::vector<Eigen::Vector3f>& points, const std::vector<Eige
 
 /** \brief Turn normals of unknown sign so that neighbours agree, along the minimum spanning tree of the graph of nearest
  * neighbours, whose edges cost most where normals differ most (H. Hoppe, T. DeRose, T. Duchamp, J. McDonald, W. Stuetzle,
- * "Surface Reconstruction from Unorganized Points", SIGGRAPH 1992), also across creases; then each connected piece outward. Neighbours come
- * from pcl::search. O (points log points).
+ * "Surface Reconstruction from Unorganized Points", SIGGRAPH 1992), also across creases; then each connected piece
+ * outward. Neighbours come from pcl::search. O (points log points).
  * \param[in] points metres, finite
  * \param[in,out] normals one per point; those that are not finite stay as they are
  * \param[in] neighbours edges of the graph from each point */
