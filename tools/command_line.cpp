@@ -203,7 +203,7 @@ toSettings (const Given& given)
     {
       settings.planes.emplace_back (p[0], p[1], p[2], p[3]);
       if (!(settings.planes.back ().head<3> ().norm () > 0.0))
-        throw UsageError ("--plane has the normal 0,0,0; (a,b,c) must point from the plane to the objects");
+        throw UsageError ("--plane has the normal 0,0,0; its first three numbers must not all be zero");
     }
   }
   settings.reading.world_points = given.world_points;
@@ -243,7 +243,7 @@ parseCommandLine (int argc, const char* const* argv)
     {
       const std::vector<std::string> topics = helpTopics (app);
       if (std::find (topics.begin (), topics.end (), argv[i + 1]) == topics.end ())
-        break;
+        throw UsageError ("--help knows no topic " + std::string (argv[i + 1]) + "; --help alone names them");
       std::cout << helpText (app, argv[i + 1]);
       return (std::nullopt);
     }

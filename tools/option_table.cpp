@@ -86,7 +86,7 @@ declareVolume (CLI::App& app, Given& given)
   app.add_option ("--resolution", given.resolution,
                   "Voxels along an object's longest observed side (default: 64, fewer where points are sparse)")
       ->option_text ("N")
-      ->check (wholeRange (4, 4096))
+      ->check (wholeRange (4, 2048))
       ->group (group);
   app.add_option ("--padding", given.padding,
                   "Volume beyond the observed box on each side, as a fraction of its longest side "

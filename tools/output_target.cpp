@@ -134,7 +134,7 @@ OutputTarget::isOwnName (const fs::path& name) const
 {
   const std::string stem = name.stem ().string (), extension = name.extension ().string ();
   const bool is_sdf = save_sdf_ && extension == ".vti";
-  const bool is_beside = is_sdf || (save_more_ && extension == fs::path (output_).extension ().string ());
+  const bool is_beside = is_sdf || (save_more_ && extension == "." + format_);
   if (single_file_)
     return (name == fs::path (output_).filename () || (is_beside && stem.rfind (fs::path (output_).stem (), 0) == 0));
   return ((is_sdf || extension == "." + format_) && (stem == "background" || stem.rfind ("object_", 0) == 0));

@@ -9,6 +9,7 @@
 #include <pcl/cosection/io/pcd_view.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <filesystem>
 #include <iterator>
@@ -21,7 +22,7 @@ namespace
 {
 
 constexpr std::size_t min_points = 100;
-constexpr double whole_image_share = 0.5; ///< of the pixels; an object that was cut out has fewer
+constexpr double whole_image_share = 0.4; ///< of the pixels at the border; an object that was cut out has fewer
 constexpr float large_extent = 100.0f; ///< metres; what is larger is probably not in metres
 
 std::string
@@ -42,8 +43,13 @@ isWholeImage (const LabelledView& view)
 {
   if (view.has_labels || !view.view || view.objects.empty ())
     return (false);
-  const std::size_t readings = view.objects.begin ()->second.readings;
-  return (view.organized && static_cast<double> (readings) > whole_image_share * static_cast<double> (view.view->depth.size ()));
+  const PinholeCamera& camera = view.view->camera;
+  int border = 0;
+  for (int u = 0; u < camera.width; ++u)
+    border += std::isfinite (view.view->at (u, 0)) + std::isfinite (view.view->at (u, camera.height - 1));
+  for (int v = 0; v < camera.height; ++v)
+    border += std::isfinite (view.view->at (0, v)) + std::isfinite (view.view->at (camera.width - 1, v));
+  return (view.organized && border > whole_image_share * 2.0 * (camera.width + camera.height));
 }
 
 /** \brief A view that says nothing, in the place of a file without rays. */
@@ -166,8 +172,6 @@ readScene (const Settings& settings, const ProgressCallback& progress)
     else
       scene.objects[id] = {id, std::move (object.points), poses.of (id)};
   }
-  for (const std::string& warning : poses.unused (found))
-    scene.warnings.push_back (warning);
   if (scene.objects.empty ())
   {
     std::string reason = "no object to complete";
@@ -177,5 +181,7 @@ readScene (const Settings& settings, const ProgressCallback& progress)
       reason += ": " + scene.warnings.back ();
     throw DegenerateInput (reason);
   }
+  for (const std::string& warning : poses.unused (found))
+    scene.warnings.push_back (warning);
   return (scene);
 }

@@ -135,8 +135,8 @@ PcdViewOptions::validate () const
 {
   if (!(std::isfinite (scale) && scale > 0.0))
     throw InvalidArgument ("scale must be positive and finite");
-  if (normal_neighbours < 3)
-    throw InvalidArgument ("normal_neighbours must be at least 3");
+  if (normal_neighbours < 3 || normal_neighbours > 1000)
+    throw InvalidArgument ("normal_neighbours must be between 3 and 1000");
   if (intrinsics)
     PinholeCamera{1, 1, (*intrinsics)[0], (*intrinsics)[1], (*intrinsics)[2], (*intrinsics)[3]}.validate ();
 }

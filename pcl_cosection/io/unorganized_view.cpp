@@ -2,6 +2,7 @@
 // Copyright (c) 2026, the pcl_cosection authors
 #include "unorganized_view.h"
 
+#include "../common/cell_key.h"
 #include "quiet_console.h"
 
 #include <pcl/cosection/common/parallel.h>
@@ -21,7 +22,6 @@
 #include <limits>
 #include <numeric>
 #include <optional>
-#include <sstream>
 #include <unordered_map>
 
 namespace pcl
@@ -40,7 +40,8 @@ constexpr double surely_inward = 0.3;      // outward share of a body whose norm
 constexpr int least_neighbours = 8;        // for a normal; more where there are many points:
 constexpr int points_per_neighbour = 40;
 constexpr std::size_t dense_points = 20000;  // of one label
-constexpr float thinning_cells = 100.0f;     // along the longest side of what is denser
+constexpr std::uint64_t far_away = ~std::uint64_t (0); // key of the cell of all that is far from the others
+constexpr double thinning_cells = 100.0;     // along the longest side of what is denser
 constexpr int neighbours_of_means = 2;       // more than of points: noise spreads over several layers of cells
 constexpr std::size_t judged_points = 20000;
 
@@ -49,10 +50,7 @@ using Members = std::map<std::uint32_t, std::vector<std::size_t>>;
 std::string
 percent (double share)
 {
-  std::ostringstream text;
-  text.precision (2);
-  text << 100.0 * share << " %";
-  return text.str ();
+  return std::to_string (std::lround (100.0 * share)) + " %";
 }
 
 /** \brief Some points that stand for many. */
@@ -85,18 +83,14 @@ thin (const std::vector<Eigen::Vector3f>& points)
     std::sort (along.begin (), along.end ());
     longest = std::max (longest, along[along.size () * 99 / 100] - along[along.size () / 100]);
   }
-  const Eigen::Vector3f origin = points.front ();
+  const Eigen::Vector3f origin (some[0][some[0].size () / 2], some[1][some[1].size () / 2], some[2][some[2].size () / 2]);
   std::unordered_map<std::uint64_t, std::uint32_t> cells;
   std::vector<float> counts;
   for (std::size_t i = 0; i < points.size (); ++i)
   {
-    const Eigen::Matrix<std::int64_t, 3, 1> at =
-        ((points[i] - origin) * (thinning_cells / longest)).array ().floor ().cast<std::int64_t> ();
-    constexpr std::uint64_t mask = (1 << 21) - 1;
-    const std::uint64_t key = (static_cast<std::uint64_t> (at.x ()) & mask) << 42 |
-                              (static_cast<std::uint64_t> (at.y ()) & mask) << 21 |
-                              (static_cast<std::uint64_t> (at.z ()) & mask);
-    const auto [cell, fresh] = cells.emplace (key, static_cast<std::uint32_t> (thinned.points.size ()));
+    const auto at = cellOf ((points[i] - origin).cast<double> () * thinning_cells / longest);
+    const auto next = static_cast<std::uint32_t> (thinned.points.size ());
+    const auto [cell, fresh] = cells.emplace (at ? keyOf (*at) : far_away, next);
     if (fresh)
     {
       thinned.points.emplace_back (Eigen::Vector3f::Zero ());
@@ -158,7 +152,7 @@ viewFromViewpoint (const std::string& path, const PcdViewOptions& options, const
   if (cloud.has_viewpoint && cloud.positions.size () >= RangeImage::min_points)
     result.warnings.push_back (path + ": its points were not seen from its VIEWPOINT alone (" +
                                (image ? percent (image->hidden_share) + " of them are hidden from there"
-                                      : std::string ("they are all around it")) +
+                                      : std::string ("they span more than 120 degrees")) +
                                "): no free space is taken from it");
   return std::nullopt;
 }
@@ -220,12 +214,24 @@ turnTowardsViewpoint (float away, SensorCloud& cloud)
 {
   std::size_t turned = 0;
   std::size_t all = 0;
+  std::size_t opposed = 0;
+  for (std::size_t i = 0; i < cloud.positions.size (); ++i)
+    if (cloud.positions[i].allFinite () && cloud.normals[i].allFinite ())
+    {
+      ++all;
+      opposed += cloud.positions[i].dot (cloud.normals[i]) > 0.0f;
+    }
+  if (2 * opposed > all) // all are flipped, also those at grazing angles
+  {
+    for (Eigen::Vector3f& normal : cloud.normals)
+      normal = -normal;
+    return static_cast<double> (opposed) / static_cast<double> (all);
+  }
   for (std::size_t i = 0; i < cloud.positions.size (); ++i)
   {
     Eigen::Vector3f& normal = cloud.normals[i];
     if (!cloud.positions[i].allFinite () || !normal.allFinite ())
       continue;
-    ++all;
     if (-cloud.positions[i].normalized ().dot (normal) >= away * normal.norm ())
       continue;
     normal = -normal;

@@ -38,7 +38,10 @@ assumeView (const std::vector<OrientedPoint>& points)
     const Eigen::Vector3f d = sphereDirection (n, directions);
     cosines.clear ();
     for (std::size_t p = 0; p < points.size (); p += step)
-      cosines.push_back (d.dot (points[p].normal));
+      if (points[p].normal.allFinite ())
+        cosines.push_back (d.dot (points[p].normal));
+    if (cosines.empty ())
+      return std::nullopt;
     const auto low = cosines.begin () + static_cast<std::ptrdiff_t> (unsure_share * static_cast<double> (cosines.size ()));
     std::nth_element (cosines.begin (), low, cosines.end ());
     if (*low > best)

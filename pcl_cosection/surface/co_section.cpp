@@ -15,6 +15,18 @@ namespace pcl
 namespace cosection
 {
 
+namespace
+{
+
+void
+checkPoses (const std::vector<Eigen::Isometry3d>& poses)
+{
+  if (!std::all_of (poses.begin (), poses.end (), [] (const Eigen::Isometry3d& T) { return T.matrix ().allFinite (); }))
+    throw InvalidArgument ("the pose of a body is not finite");
+}
+
+} // namespace
+
 CoSection::CoSection (const CoSectionOptions& options) : impl_ (new Impl)
 {
   options.validate ();
@@ -53,7 +65,7 @@ CoSection::addObject (ObjectInput object)
 void
 CoSection::addSupportPlane (const Eigen::Vector4d& plane)
 {
-  const double norm = plane.head<3> ().norm ();
+  const double norm = plane.head<3> ().stableNorm ();
   if (!(norm > 0.0) || !plane.allFinite ())
     throw InvalidArgument ("the coefficients of a plane must be finite and its normal not zero");
   impl_->planes.push_back (plane / norm);
@@ -65,12 +77,14 @@ CoSection::addIntersection (SignedDistanceField::ConstPtr body, const std::vecto
   if (!body || body->values.size () != body->grid.size () ||
       (!body->supported.empty () && body->supported.size () != body->grid.size ()))
     throw InvalidArgument ("a signed distance field must have one value per voxel");
+  checkPoses (T_body_world);
   impl_->bodies.push_back ({std::move (body), T_body_world});
 }
 
 void
 CoSection::addIntersection (TriangleMesh body, const std::vector<Eigen::Isometry3d>& T_body_world)
 {
+  checkPoses (T_body_world);
   VoxelGrid somewhere;
   somewhere.dims.setConstant (2);
   somewhere.voxel_size_m = 1.0;

@@ -24,7 +24,9 @@ namespace
 
 constexpr double default_padding = 0.3; // of the longest side, where views and prior do not say how far a shape reaches
 constexpr double same_pose_voxels = 0.5;
+constexpr std::size_t bytes_per_field_voxel = sizeof (float) + sizeof (std::uint8_t);
 constexpr double stray_reach_voxels = 3.0; // of a point in the data term
+constexpr double max_stray_share = 0.2;    // more are no exception
 
 } // namespace
 
@@ -127,14 +129,19 @@ void
 CoSectionRun::leaveOutStrays (Object& object)
 {
   const std::vector<OrientedPoint>& all = object.input->points;
-  const std::vector<bool> stray = findStrayPoints (all, stray_reach_voxels * object.voxel_size_m);
-  object.result->stray_points = static_cast<std::size_t> (std::count (stray.begin (), stray.end (), true));
-  if (object.result->stray_points == 0)
+  // No nearer than the points' own spacing allows, however fine the voxels.
+  const double spacing_m = supportedVoxelSize (all, object.observed);
+  const std::vector<bool> stray = findStrayPoints (all, object.observed.center (),
+                                                   stray_reach_voxels * std::max (object.voxel_size_m, spacing_m));
+  const auto strays = static_cast<std::size_t> (std::count (stray.begin (), stray.end (), true));
+  if (strays == 0 || static_cast<double> (strays) > max_stray_share * static_cast<double> (all.size ()))
     return;
+  object.result->stray_points = strays;
   for (std::size_t p = 0; p < all.size (); ++p)
     if (!stray[p])
       object.kept.push_back (all[p]);
   object.observed = observedBox (object.points ());
+  object.voxel_size_m = objectVoxelSize (object.points (), object.observed, scene_.options);
 }
 
 Eigen::AlignedBox3d
@@ -168,6 +175,10 @@ CoSectionRun::bytesInUse () const
     if (object.volume)
       bytes += ShapeVolume::estimateBytes (object.volume->grid ());
   }
+  for (const SignedDistanceField& field : background_)
+    bytes += field.grid.size () * bytes_per_field_voxel;
+  for (const Obstacle& body : bodies_)
+    bytes += body.field->grid.size () * bytes_per_field_voxel;
   for (const FreeSpaceView& view : scene_.views)
     bytes += view.view ().depth.size () * FreeSpaceView::bytes_per_pixel;
   return bytes + points * sizeof (OrientedPoint);
@@ -225,7 +236,7 @@ CoSectionRun::finishObject (Object& object)
   object.field = object.volume->solvedField ();
   object.result->mesh = object.volume->closedMesh ();
   if (object.result->mesh.empty ())
-    throw DegenerateInput ("its measurements determine no closed surface");
+    throw DegenerateInput ("its measurements determine no closed surface, or lie inside another body");
   transferAttributes (object.points (), object.volume->grid (), object.result->mesh);
   if (scene_.options.compute_hull)
     object.result->hull = object.volume->hullMesh ();

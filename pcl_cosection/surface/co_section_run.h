@@ -127,6 +127,8 @@ private:
   Eigen::Vector4d
   towards (const Object& object, const Eigen::Vector4d& plane) const;
   void
+  warnIfCut (const Object& object, const Eigen::Vector4d& plane);
+  void
   findPlanes ();
   /** \brief Turn bodies given as meshes into signed distances where the objects may be. */
   void
@@ -196,6 +198,9 @@ template <typename Function> void
 CoSectionRun::guarded (Object& object, Function&& f)
 {
   const auto fail = [&] (const std::string& what) {
+    const int id = object.result->id;
+    *object.result = ObjectResult ();
+    object.result->id = id;
     object.result->error = what;
     object.volume.reset ();
     object.field = object.told = SignedDistanceField ();

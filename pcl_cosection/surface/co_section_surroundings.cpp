@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <limits>
 
 // The part of a run that learns what surrounds the objects: support planes, given bodies and the background.
@@ -30,6 +31,7 @@ constexpr double plane_inlier_voxels = 2.0;
 constexpr double min_plane_inlier_m = 0.004;
 constexpr double same_plane_cosine = 0.999;
 constexpr double same_plane_m = 0.005;
+constexpr double max_share_behind = 0.05; // of an object's points, behind a plane that the user gave
 
 } // namespace
 
@@ -44,6 +46,20 @@ CoSectionRun::towards (const Object& object, const Eigen::Vector4d& plane) const
 }
 
 void
+CoSectionRun::warnIfCut (const Object& object, const Eigen::Vector4d& plane)
+{
+  const Eigen::Vector4d local = transformPlane (plane, firstPose (object));
+  std::size_t behind = 0;
+  for (const OrientedPoint& p : object.points ())
+    behind += local.head<3> ().dot (p.position.cast<double> ()) + local[3] < -2.0 * object.voxel_size_m;
+  const double share = static_cast<double> (behind) / static_cast<double> (object.points ().size ());
+  if (share > max_share_behind)
+    result_.warnings.push_back ("object " + std::to_string (object.input->id) + ": " +
+                                std::to_string (std::lround (100.0 * share)) +
+                                " % of its points lie behind a plane that was given");
+}
+
+void
 CoSectionRun::findPlanes ()
 {
   if (!scene_.options.use_intersection)
@@ -53,7 +69,10 @@ CoSectionRun::findPlanes ()
     if (!object.alive ())
       continue;
     for (const Eigen::Vector4d& plane : scene_.planes)
+    {
       object.planes.push_back (towards (object, plane));
+      warnIfCut (object, object.planes.back ());
+    }
     if (scene_.options.use_planes && !scene_.background.empty ())
     {
       std::vector<OrientedPoint> points = object.points ();
@@ -96,14 +115,16 @@ CoSectionRun::sampleMesh (const MeshObstacle& obstacle, double voxel_size_m, dou
         boxes.emplace_back (box.min () - margin, box.max () + margin);
       }
   }
+  std::vector<Obstacle> sampled; // all or nothing
   for (const Eigen::AlignedBox3d& box : uniteOverlapping (std::move (boxes)))
   {
     const VoxelGrid grid = layoutBox (box, voxel_size_m);
     checkMemory (grid, scene_.options.max_memory_bytes, bytesInUse ());
-    bodies_.push_back ({std::make_shared<SignedDistanceField> (
+    sampled.push_back ({std::make_shared<SignedDistanceField> (
                             sampleSignedDistance (obstacle.mesh, grid, band_m, scene_.options.threads)),
                         obstacle.T_mesh_world});
   }
+  std::move (sampled.begin (), sampled.end (), std::back_inserter (bodies_));
 }
 
 void
@@ -130,6 +151,10 @@ CoSectionRun::sampleMeshes ()
     catch (const Error& e)
     {
       result_.warnings.push_back (std::string ("a body given as a mesh was left out: ") + e.what ());
+    }
+    catch (const std::bad_alloc&)
+    {
+      result_.warnings.push_back ("a body given as a mesh was left out: not enough memory");
     }
   }
 }
@@ -211,6 +236,10 @@ CoSectionRun::solveBackground ()
     catch (const Error& e)
     {
       result_.warnings.push_back (std::string ("the background was left out: ") + e.what ());
+    }
+    catch (const std::bad_alloc&)
+    {
+      result_.warnings.push_back ("the background was left out: not enough memory");
     }
   }
 }

@@ -19,8 +19,8 @@ constexpr TriangleMesh::Colour unknown_colour = {128, 128, 128};
 /** \brief Red, green, blue and intensity of some points. */
 struct AttributeSum
 {
-  Eigen::Vector4f sum = Eigen::Vector4f::Zero ();
-  float count = 0.0f;
+  Eigen::Vector4d sum = Eigen::Vector4d::Zero ();
+  double count = 0.0;
 };
 
 } // namespace
@@ -36,18 +36,16 @@ transferAttributes (const std::vector<OrientedPoint>& points, const VoxelGrid& g
   });
   if (!coloured && !measured)
     return;
-  const auto voxelOf = [&] (const Eigen::Vector3f& p) -> Eigen::Vector3i {
-    return grid.toVoxel (p.cast<double> ()).array ().round ().cast<int> ();
-  };
   std::unordered_map<std::size_t, AttributeSum> voxels;
   for (const OrientedPoint& point : points)
   {
-    const Eigen::Vector3i at = voxelOf (point.position);
-    if (!grid.contains (at.x (), at.y (), at.z ()))
+    const auto at = grid.nearest (point.position.cast<double> ());
+    if (!at)
       continue;
-    AttributeSum& voxel = voxels[grid.index (at.x (), at.y (), at.z ())];
-    voxel.sum += Eigen::Vector4f (point.colour[0], point.colour[1], point.colour[2], point.intensity);
-    voxel.count += 1.0f;
+    AttributeSum& voxel = voxels[grid.index (at->x (), at->y (), at->z ())];
+    voxel.sum += Eigen::Vector4d (point.colour[0], point.colour[1], point.colour[2],
+                                  std::isfinite (point.intensity) ? point.intensity : 0.0);
+    voxel.count += 1.0;
   }
 
   if (coloured)
@@ -58,7 +56,10 @@ transferAttributes (const std::vector<OrientedPoint>& points, const VoxelGrid& g
   std::vector<std::uint32_t> front;
   for (std::size_t v = 0; v < mesh.vertices.size (); ++v)
   {
-    const Eigen::Vector3i at = voxelOf (mesh.vertices[v]);
+    const auto nearest = grid.nearest (mesh.vertices[v].cast<double> ());
+    if (!nearest)
+      continue;
+    const Eigen::Vector3i at = *nearest;
     AttributeSum total;
     for (int dz = -1; dz <= 1; ++dz)
       for (int dy = -1; dy <= 1; ++dy)
@@ -72,12 +73,12 @@ transferAttributes (const std::vector<OrientedPoint>& points, const VoxelGrid& g
           total.sum += voxel->second.sum;
           total.count += voxel->second.count;
         }
-    if (total.count == 0.0f)
+    if (total.count == 0.0)
       continue;
     for (int c = 0; coloured && c < 3; ++c)
       mesh.colours[v][c] = static_cast<std::uint8_t> (std::lround (total.sum[c] / total.count));
     if (measured)
-      mesh.intensity[v] = total.sum[3] / total.count;
+      mesh.intensity[v] = static_cast<float> (total.sum[3] / total.count);
     done[v] = true;
     front.push_back (static_cast<std::uint32_t> (v));
   }

@@ -5,12 +5,15 @@
 #include "../common/disjoint_sets.h"
 #include "../common/sphere_directions.h"
 
+#include <pcl/cosection/common/error.h>
+
 #include <pcl/point_types.h>
 #include <pcl/search/kdtree.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <string>
 #include <tuple>
 
 namespace pcl
@@ -36,6 +39,14 @@ agreement (const Eigen::Vector3f& p, const Eigen::Vector3f& p_normal, const Eige
     return plain;
   const Eigen::Vector3f d = (q - p).normalized ();
   return crease_cosine * (p_normal - 2.0f * p_normal.dot (d) * d).dot (q_normal);
+}
+
+void
+checkSizes (const std::vector<Eigen::Vector3f>& points, const std::vector<Eigen::Vector3f>& normals)
+{
+  if (points.size () != normals.size ())
+    throw InvalidArgument ("there are " + std::to_string (normals.size ()) + " normals for " +
+                           std::to_string (points.size ()) + " points");
 }
 
 struct Edge
@@ -117,6 +128,7 @@ minimumSpanningForest (std::vector<Edge> edges, std::size_t size)
 double
 outwardShare (const std::vector<Eigen::Vector3f>& points, const std::vector<Eigen::Vector3f>& normals)
 {
+  checkSizes (points, normals);
   std::vector<std::uint32_t> usable;
   const std::size_t step = std::max<std::size_t> (1, points.size () / judged_points);
   for (std::size_t n = 0; n < points.size (); n += step)
@@ -151,6 +163,7 @@ outwardShare (const std::vector<Eigen::Vector3f>& points, const std::vector<Eige
 void
 orientConsistently (const std::vector<Eigen::Vector3f>& points, std::vector<Eigen::Vector3f>& normals, int neighbours)
 {
+  checkSizes (points, normals);
   if (points.size () < 2)
     return;
   const Forest forest = minimumSpanningForest (neighbourGraph (points, normals, neighbours), points.size ());

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cstring>
+#include <limits>
 #include <string>
 
 namespace pcl
@@ -53,6 +54,8 @@ toPolygonMesh (const TriangleMesh& mesh, pcl::PolygonMesh& output)
   const std::uint32_t provenance =
       mesh.provenance.empty () ? no_field : addField (cloud, "provenance", PCLPointField::UINT8, sizeof (std::uint8_t));
 
+  if (mesh.vertices.size () > std::numeric_limits<std::uint32_t>::max () / cloud.point_step)
+    throw InvalidArgument ("the mesh has too many vertices for a pcl::PolygonMesh: " + std::to_string (mesh.vertices.size ()));
   cloud.width = static_cast<std::uint32_t> (mesh.vertices.size ());
   cloud.height = 1;
   cloud.row_step = cloud.width * cloud.point_step;
@@ -99,7 +102,7 @@ fromPolygonMesh (const pcl::PolygonMesh& mesh)
       throw InvalidArgument ("the mesh has no field " + name + " of floats");
     offsets[axis] = field->offset;
   }
-  if (cloud.data.size () < count * cloud.point_step)
+  if (cloud.point_step == 0 || count > cloud.data.size () / cloud.point_step)
     throw InvalidArgument ("the mesh has fewer vertices than it says");
   TriangleMesh result;
   result.vertices.resize (count);

@@ -306,9 +306,8 @@ ShapeVolume::innerMesh (const std::vector<OrientedPoint>& points) const
     {
       const Eigen::Vector3d behind =
           point.position.cast<double> () - depth * grid_.voxel_size_m * point.normal.cast<double> ();
-      const Eigen::Vector3i at = grid_.toVoxel (behind).array ().round ().cast<int> ();
-      if (grid_.contains (at.x (), at.y (), at.z ()))
-        vouched[grid_.index (at.x (), at.y (), at.z ())] = 1;
+      if (const auto at = grid_.nearest (behind))
+        vouched[grid_.index (at->x (), at->y (), at->z ())] = 1;
     }
   const std::vector<float> distance = distanceTransform (grid_.dims, vouched, options_.threads);
   return observedParts (

@@ -52,20 +52,6 @@ occupiedVoxels (const std::vector<OrientedPoint>& points, const Eigen::AlignedBo
   return static_cast<std::size_t> (std::unique (keys.begin (), keys.end ()) - keys.begin ());
 }
 
-double
-supportedVoxelSize (const std::vector<OrientedPoint>& points, const Eigen::AlignedBox3d& box)
-{
-  const double longest = box.sizes ().maxCoeff ();
-  double h = longest / default_resolution;
-  const auto supported = [&] {
-    const double wanted = h < longest / least_resolution ? points_per_voxel : least_points_per_voxel;
-    return static_cast<double> (points.size ()) >= wanted * static_cast<double> (occupiedVoxels (points, box, h));
-  };
-  while (h < longest / min_axis && !supported ())
-    h *= voxel_growth;
-  return h;
-}
-
 /** \brief Whether a point in the sensor's frame lies before what was measured, by more than \a margin_m. */
 bool
 seenFree (const DepthView& view, const Eigen::Vector3d& p, double margin_m)
@@ -147,6 +133,20 @@ observedBox (const std::vector<OrientedPoint>& points)
 }
 
 double
+supportedVoxelSize (const std::vector<OrientedPoint>& points, const Eigen::AlignedBox3d& box)
+{
+  const double longest = box.sizes ().maxCoeff ();
+  double h = longest / default_resolution;
+  const auto supported = [&] {
+    const double wanted = h < longest / least_resolution ? points_per_voxel : least_points_per_voxel;
+    return static_cast<double> (points.size ()) >= wanted * static_cast<double> (occupiedVoxels (points, box, h));
+  };
+  while (h < longest / min_axis && !supported ())
+    h *= voxel_growth;
+  return h;
+}
+
+double
 objectVoxelSize (const std::vector<OrientedPoint>& points, const Eigen::AlignedBox3d& box,
                  const CoSectionOptions& options)
 {
@@ -178,9 +178,9 @@ possibleBox (const std::vector<OrientedPoint>& points, const Eigen::AlignedBox3d
   std::vector<std::uint8_t> data (cells.size (), 0);
   for (const OrientedPoint& p : points)
   {
-    const Eigen::Vector3i at = cells.toVoxel (p.position.cast<double> ()).array ().round ().cast<int> ();
-    if (observed.contains (p.position.cast<double> ()) && cells.contains (at.x (), at.y (), at.z ()))
-      data[cells.index (at.x (), at.y (), at.z ())] = 1;
+    const auto at = cells.nearest (p.position.cast<double> ());
+    if (at && observed.contains (p.position.cast<double> ()))
+      data[cells.index (at->x (), at->y (), at->z ())] = 1;
   }
   const std::vector<float> distance = distanceTransform (cells.dims, data, threads);
   const std::vector<float> bounds = prior.bounds (cells, distance, points, views, threads);

@@ -21,6 +21,11 @@ namespace cosection
 Eigen::AlignedBox3d
 observedBox (const std::vector<OrientedPoint>& points);
 
+/** \brief The smallest voxel size that the points' spacing supports, of those that give at most 64 voxels along the
+ * longest side; see objectVoxelSize (). */
+double
+supportedVoxelSize (const std::vector<OrientedPoint>& points, const Eigen::AlignedBox3d& observed);
+
 /** \brief The voxel size of the options. If neither it nor a resolution is given, 64 voxels along the longest side,
  * but voxels no smaller than the points' spacing supports: at least three points in each occupied voxel on average,
  * or 1.5 if voxels were larger than a 16th of the longest side.

@@ -102,7 +102,8 @@ public:
   addSupportPlane (const Eigen::Vector4d& plane);
 
   /** \brief Another body that objects cannot enter, at one or many poses relative to the world.
-   * \throws InvalidArgument if the field does not have one value per voxel */
+   * \param[in] T_body_world takes points of the world to the frame of the body: the inverse of the body's pose
+   * \throws InvalidArgument if the field does not have one value per voxel, or a pose is not finite */
   void
   addIntersection (SignedDistanceField::ConstPtr body,
                    const std::vector<Eigen::Isometry3d>& T_body_world = {Eigen::Isometry3d::Identity ()});

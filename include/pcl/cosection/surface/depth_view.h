@@ -27,7 +27,7 @@ template <typename PointT> std::optional<DepthView>
 toDepthView (const pcl::PointCloud<PointT>& cloud,
              const Eigen::Isometry3d& T_world_sensor = Eigen::Isometry3d::Identity ())
 {
-  if (cloud.height > 1 && cloud.size () != static_cast<std::size_t> (cloud.width) * cloud.height)
+  if (cloud.empty () || (cloud.height > 1 && cloud.size () != static_cast<std::size_t> (cloud.width) * cloud.height))
     return std::nullopt;
   DepthView view;
   view.T_world_sensor = T_world_sensor;

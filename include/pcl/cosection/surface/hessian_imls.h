@@ -90,6 +90,7 @@ public:
   addView (const DepthView& view);
 
   /** \brief Add a body that the object cannot enter, at one or many poses relative to the object.
+   * \param[in] T_body_object takes points of the object to the frame of the body
    * \throws InvalidArgument */
   void
   addIntersection (const SignedDistanceField::ConstPtr& body, const std::vector<Eigen::Isometry3d>& T_body_object = {

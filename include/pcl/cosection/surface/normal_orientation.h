@@ -16,7 +16,8 @@ namespace cosection
 /** \brief Share in [0, 1] of the directions of space in which the outermost points of a cloud have normals that point
  * outward, weighted by how clearly they do: near 1 for a body or a part of one, near 0 if its normals are flipped, about
  * one half where the points do not tell, as for a flat piece.
- * \param[in] points metres \param[in] normals one per point; those that are not finite are left out */
+ * \param[in] points metres \param[in] normals one per point; those that are not finite are left out
+ * \throws InvalidArgument if there is not one normal per point */
 PCL_COSECTION_EXPORT double
 outwardShare (const std::vector<Eigen::Vector3f>& points, const std::vector<Eigen::Vector3f>& normals);
 
@@ -26,7 +27,8 @@ outwardShare (const std::vector<Eigen::Vector3f>& points, const std::vector<Eige
  * outward. Neighbours come from pcl::search. O (points log points).
  * \param[in] points metres, finite
  * \param[in,out] normals one per point; those that are not finite stay as they are
- * \param[in] neighbours edges of the graph from each point */
+ * \param[in] neighbours edges of the graph from each point
+ * \throws InvalidArgument if there is not one normal per point */
 PCL_COSECTION_EXPORT void
 orientConsistently (const std::vector<Eigen::Vector3f>& points, std::vector<Eigen::Vector3f>& normals, int neighbours = 12);
 

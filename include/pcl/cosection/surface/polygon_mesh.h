@@ -13,7 +13,8 @@ namespace cosection
 {
 
 /** \brief As PCL's mesh: fields x y z, normal_x normal_y normal_z, rgb, intensity, confidence (float) and provenance
- * (unsigned char), as far as \a mesh has them. The header is left alone. */
+ * (unsigned char), as far as \a mesh has them. The header is left alone.
+ * \throws InvalidArgument if the vertices need more than 4 GiB, PCL's limit */
 PCL_COSECTION_EXPORT void
 toPolygonMesh (const TriangleMesh& mesh, pcl::PolygonMesh& output);
 

@@ -33,7 +33,8 @@ struct PCL_COSECTION_EXPORT RangeImage
  * Pixels without a point have no reading. O (points).
  * \param[in] points metres; not finite: left out
  * \param[in] sensor where the sensor stood, in the points' frame, which is also the frame of the view's pose
- * \return nothing for fewer than 50 points, or if they span more than 120 degrees as seen from the sensor */
+ * \return nothing for fewer than 50 points, if they span more than 120 degrees as seen from the sensor,
+ * about the middle of their box, or if the sensor lies in that box */
 PCL_COSECTION_EXPORT std::optional<RangeImage>
 drawRangeImage (const std::vector<Eigen::Vector3f>& points, const Eigen::Vector3d& sensor);
 

@@ -5,6 +5,7 @@
 #include <Eigen/Core>
 
 #include <cstddef>
+#include <optional>
 
 namespace pcl
 {
@@ -42,6 +43,16 @@ struct VoxelGrid
   toVoxel (const Eigen::Vector3d& p) const
   {
     return (p - origin_m) / voxel_size_m;
+  }
+
+  /** \brief The voxel with the nearest centre; nothing outside the grid, however far, and for NaN. */
+  std::optional<Eigen::Vector3i>
+  nearest (const Eigen::Vector3d& p) const
+  {
+    const Eigen::Array3d v = toVoxel (p).array ();
+    if (!((v >= -0.5).all () && (v < dims.cast<double> ().array () - 0.5).all ()))
+      return std::nullopt;
+    return Eigen::Vector3i (v.round ().cast<int> ().max (0).min (dims.array () - 1));
   }
 
   bool
