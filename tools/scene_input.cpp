@@ -9,7 +9,6 @@
 #include <pcl/cosection/io/pcd_view.h>
 
 #include <algorithm>
-#include <cmath>
 #include <cstdint>
 #include <filesystem>
 #include <iterator>
@@ -22,7 +21,8 @@ namespace
 {
 
 constexpr std::size_t min_points = 100;
-constexpr double whole_image_share = 0.4; ///< of the pixels at the border; an object that was cut out has fewer
+constexpr double whole_image_share = 0.5;   ///< of the pixels; an object that was cut out has fewer ...
+constexpr std::size_t image_pixels = 70000; ///< ... or is smaller than a camera's image
 constexpr float large_extent = 100.0f; ///< metres; what is larger is probably not in metres
 
 std::string
@@ -43,13 +43,10 @@ isWholeImage (const LabelledView& view)
 {
   if (view.has_labels || !view.view || view.objects.empty ())
     return (false);
-  const PinholeCamera& camera = view.view->camera;
-  int border = 0;
-  for (int u = 0; u < camera.width; ++u)
-    border += std::isfinite (view.view->at (u, 0)) + std::isfinite (view.view->at (u, camera.height - 1));
-  for (int v = 0; v < camera.height; ++v)
-    border += std::isfinite (view.view->at (0, v)) + std::isfinite (view.view->at (camera.width - 1, v));
-  return (view.organized && border > whole_image_share * 2.0 * (camera.width + camera.height));
+  const std::size_t pixels = view.view->depth.size ();
+  const std::size_t readings = view.objects.begin ()->second.readings;
+  return (view.organized && pixels >= image_pixels &&
+          static_cast<double> (readings) > whole_image_share * static_cast<double> (pixels));
 }
 
 /** \brief A view that says nothing, in the place of a file without rays. */
@@ -151,8 +148,8 @@ readScene (const Settings& settings, const ProgressCallback& progress)
     LabelledView view = readPcdView (settings.inputs[i], withMemoryLeft (settings.reading, labels));
     std::move (view.warnings.begin (), view.warnings.end (), std::back_inserter (scene.warnings));
     if (isWholeImage (view))
-      scene.warnings.push_back (settings.inputs[i] + ": has no field label, so all that the camera saw is taken as one " +
-                                "object; give the objects labels, or cut one out");
+      scene.warnings.push_back (settings.inputs[i] + ": has no field label, so all that it shows is taken as one object; " +
+                                "if it shows several, give them labels or cut one out");
     merge (settings.inputs[i], i, view, poses, labels, scene.warnings);
     if (view.view)
       scene.views.push_back (std::move (*view.view));
