@@ -20,6 +20,7 @@
 #include <filesystem>
 #include <fstream>
 #include <sstream>
+#include <tuple>
 
 namespace fs = std::filesystem;
 using namespace pcl::cosection;
@@ -92,18 +93,43 @@ protected:
 
 } // namespace
 
-TEST_F (AnyCloud, WholeBodyHasItsMassProperties)
+TEST_F (AnyCloud, WholeBodiesHaveTheirMassProperties)
 {
+  const Eigen::Array3d half (0.1, 0.07, 0.05); // of the box
+  pcl::PointCloud<pcl::PointNormal> box;
+  constexpr int steps = 60;
+  for (int axis = 0; axis < 3; ++axis)
+    for (int side = -1; side <= 1; side += 2)
+      for (int i = 0; i < steps; ++i)
+        for (int j = 0; j < steps; ++j)
+        {
+          Eigen::Array3d at;
+          at[axis] = side;
+          at[(axis + 1) % 3] = (2.0 * i + 1.0) / steps - 1.0;
+          at[(axis + 2) % 3] = (2.0 * j + 1.0) / steps - 1.0;
+          pcl::PointNormal p;
+          p.getVector3fMap () = (at * half).matrix ().cast<float> () + Eigen::Vector3f (0.0f, 0.0f, 0.5f);
+          p.getNormalVector3fMap () = static_cast<float> (side) * Eigen::Vector3f::Unit (axis);
+          box.push_back (p);
+        }
+  pcl::io::savePCDFileBinary (path ("box.pcd"), box);
   writeSphere (path ("ball.pcd"), 20000);
-  ASSERT_EQ (run ({"--json", "s.json", "ball.pcd", "ball.stl"}), 0) << errors_;
-  EXPECT_NEAR (volume ("ball.stl"), ball_m3, 0.01 * ball_m3);
-  const nlohmann::json object = summary ()["objects"][0];
-  EXPECT_NEAR (object["volume_m3"].get<double> (), ball_m3, 0.01 * ball_m3);
-  const double moment = 0.4 * ball_m3 * 0.01;
-  for (int a = 0; a < 3; ++a)
-    for (int b = 0; b < 3; ++b)
-      EXPECT_NEAR (object["inertia"][a][b].get<double> (), a == b ? moment : 0.0, 0.015 * moment);
-  EXPECT_NEAR (object["centroid_m"][2].get<double> (), 0.5, 0.001);
+  const double box_m3 = 8.0 * half.prod ();
+  const Eigen::Array3d squares = half.square ();
+  const std::tuple<std::string, double, Eigen::Array3d> bodies[] = {
+      {"ball", ball_m3, Eigen::Array3d::Constant (0.4 * ball_m3 * 0.01)},
+      {"box", box_m3, box_m3 / 3.0 * (squares.sum () - squares)}};
+  for (const auto& [name, volume_m3, moments] : bodies)
+  {
+    ASSERT_EQ (run ({"--json", "s.json", name + ".pcd", name + ".stl"}), 0) << errors_;
+    EXPECT_NEAR (volume (name + ".stl"), volume_m3, 0.01 * volume_m3);
+    const nlohmann::json object = summary ()["objects"][0];
+    EXPECT_NEAR (object["volume_m3"].get<double> (), volume_m3, 0.01 * volume_m3);
+    for (int a = 0; a < 3; ++a)
+      for (int b = 0; b < 3; ++b)
+        EXPECT_NEAR (object["inertia"][a][b].get<double> (), a == b ? moments[a] : 0.0, 0.01 * moments[a]) << name;
+    EXPECT_NEAR (object["centroid_m"][2].get<double> (), 0.5, 0.001);
+  }
 }
 
 TEST_F (AnyCloud, TrajectoryPutsAMovedObjectTogether)
@@ -245,7 +271,9 @@ TEST_F (AnyCloud, IntensityReachesTheMesh)
   ASSERT_EQ (mesh.intensity.size (), mesh.vertices.size ());
   for (std::size_t v = 0; v < mesh.vertices.size (); ++v)
     if (std::abs (mesh.vertices[v].x ()) > 0.02f)
+    {
       ASSERT_NEAR (mesh.intensity[v], mesh.vertices[v].x () > 0.0f ? 10.0f : 2.0f, 1e-3f);
+    }
 }
 
 TEST_F (AnyCloud, PointsCountForTheMemoryAllowed)
