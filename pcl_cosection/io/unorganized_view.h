@@ -17,8 +17,8 @@ namespace cosection
  *
  * The viewpoint counts if all points are visible from there, and one that the file leaves at its default only if the
  * points also lie before it as before a camera. Missing normals are estimated, and turned towards the viewpoint, or else
- * consistently and outward. Given normals that the viewpoint or the shape contradict are turned. Whatever was done to
- * the data is said in \a result.warnings. */
+ * consistently and outward. Given normals that the viewpoint or the shape contradict are turned. \a result.warnings
+ * tells what was turned, if it is more than a few. */
 void
 completeUnorganized (const std::string& path, const PcdViewOptions& options, SensorCloud& cloud, LabelledView& result);
 
