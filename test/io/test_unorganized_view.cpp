@@ -158,6 +158,18 @@ TEST_F (UnorganizedView, NormalsAwayFromTheViewpointAreTurned)
   EXPECT_GT (outward (view), 0.95); // a few at the rim are not clearly away
 }
 
+/** \brief Those at grazing angles too, of which each alone could be noise. */
+TEST_F (UnorganizedView, AllNormalsAreTurnedIfMostPointAway)
+{
+  auto cloud = ball (4000, true);
+  for (auto& p : cloud)
+    p.getNormalVector3fMap () *= -1.0f;
+  const LabelledView view = read (cloud);
+  ASSERT_TRUE (view.view);
+  EXPECT_TRUE (mentions (view, "point away from the VIEWPOINT"));
+  EXPECT_EQ (outward (view), 1.0);
+}
+
 TEST_F (UnorganizedView, GoodNormalsAreLeftAlone)
 {
   for (const bool near_side_only : {true, false})

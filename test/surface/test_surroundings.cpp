@@ -13,6 +13,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 using namespace pcl::cosection;
 using namespace pcl::cosection::test;
 
@@ -181,6 +183,23 @@ TEST (Surroundings, FarMeshesChangeNothing)
   const ObjectResult far =
       completeAmong (box, [] (CoSection& task) { task.addIntersection (block ({3.0f, 3.0f, 3.0f}, {4.0f, 4.0f, 4.0f})); });
   EXPECT_EQ (alone.mesh.vertices, far.mesh.vertices);
+}
+
+TEST (Surroundings, APlaneThroughTheObjectIsSaid)
+{
+  const Cropped ball (Shape::Sphere);
+  for (const double height_m : {0.0, 0.07})
+  {
+    CoSection task (optionsFor (voxel_m));
+    task.addView (ball.view);
+    task.addSupportPlane ({0.0, 0.0, 1.0, -height_m});
+    task.addObject ({1, ball.seen.points.at (1), {}});
+    const SceneResult result = task.reconstruct ();
+    const bool said = std::any_of (result.warnings.begin (), result.warnings.end (), [] (const std::string& warning) {
+      return warning.find ("behind a plane that was given") != std::string::npos;
+    });
+    EXPECT_EQ (said, height_m > 0.0) << height_m;
+  }
 }
 
 TEST (Surroundings, WhatBoundsNothingIsRefused)
