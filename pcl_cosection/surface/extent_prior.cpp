@@ -123,6 +123,14 @@ observedExtents (const std::vector<OrientedPoint>& points)
   return extents;
 }
 
+ExtentPrior
+ExtentPrior::withoutSurroundings ()
+{
+  ExtentPrior prior;
+  prior.side_factor = 0.05;
+  return prior;
+}
+
 double
 ExtentPrior::farthest (const std::vector<OrientedPoint>& points) const
 {

@@ -6,7 +6,6 @@
 
 #include <pcl/cosection/common/parallel.h>
 #include <pcl/cosection/surface/contact_prior.h>
-#include <pcl/cosection/surface/extent_prior.h>
 #include <pcl/cosection/surface/imls_data_term.h>
 #include <pcl/cosection/volume/distance_transform.h>
 #include <pcl/cosection/volume/iso_surface.h>
@@ -142,12 +141,12 @@ ShapeVolume::prepare (const std::vector<PlaneContinuation>& planes)
 }
 
 void
-ShapeVolume::addExtentPrior (const std::vector<OrientedPoint>& points,
+ShapeVolume::addExtentPrior (const ExtentPrior& prior, const std::vector<OrientedPoint>& points,
                              const std::vector<std::pair<const DepthView*, Eigen::Isometry3d>>& views)
 {
   if (options_.beta_extent <= 0.0)
     return;
-  const std::vector<float> bounds = ExtentPrior ().bounds (grid_, data_distance_vox_, points, views, options_.threads);
+  const std::vector<float> bounds = prior.bounds (grid_, data_distance_vox_, points, views, options_.threads);
   problem_.exterior.resize (grid_.size ());
   for (std::size_t n = 0; n < grid_.size (); ++n)
     if (bounds[n] > 0.0f && !problem_.exterior[n])

@@ -5,6 +5,7 @@
 #include <pcl/cosection/common/progress.h>
 #include <pcl/cosection/common/triangle_mesh.h>
 #include <pcl/cosection/surface/energy_problem.h>
+#include <pcl/cosection/surface/extent_prior.h>
 #include <pcl/cosection/surface/free_space_carving.h>
 #include <pcl/cosection/surface/hull_constraint.h>
 #include <pcl/cosection/surface/options.h>
@@ -62,7 +63,7 @@ public:
 
   /** \brief Add the pull that prevents swelling; after prepare (). */
   void
-  addExtentPrior (const std::vector<OrientedPoint>& points,
+  addExtentPrior (const ExtentPrior& prior, const std::vector<OrientedPoint>& points,
                   const std::vector<std::pair<const DepthView*, Eigen::Isometry3d>>& views);
 
   /** \brief Let the object rest on a support plane where that is hidden; after prepare (). */
