@@ -25,7 +25,7 @@ namespace
 std::string
 unknownOption (const std::string& given, const std::vector<std::string>& names)
 {
-  return ("unknown option " + given + "; did you mean " + nearestName (given, names) + "?");
+  return ("unknown option " + given + suggestion (given, names));
 }
 
 /** \brief Configuration files, with the same answer to unknown names as the command line. */
@@ -44,8 +44,10 @@ public:
       if (!item.parents.empty ())
         throw UsageError ("the configuration file has a section [" + item.parents[0] + "]; there are no sections");
       if (std::find (names_.begin (), names_.end (), "--" + item.name) == names_.end ())
-        throw UsageError ("unknown option in the configuration file: " + item.name + "; did you mean " +
-                          nearestName ("--" + item.name, names_).substr (2) + "?");
+        throw UsageError (item.name.find_first_of (" \t:") != std::string::npos
+                              ? "the configuration file has a line without \"=\": " + item.name
+                              : "unknown option in the configuration file: " + item.name +
+                                    suggestion ("--" + item.name, names_, true));
     }
     return (entries);
   }
@@ -62,6 +64,22 @@ optionNames (const CLI::App& app)
     for (const std::string& name : option->get_lnames ())
       names.push_back ("--" + name);
   return (names);
+}
+
+/** \brief What the command line says of the size of voxels replaces what the configuration file does. */
+void
+preferCommandLine (const std::vector<std::string>& arguments, Given& given)
+{
+  const auto isGiven = [&] (const std::string& name) {
+    return (std::any_of (arguments.begin (), arguments.end (), [&name] (const std::string& argument) {
+      return (argument.substr (0, argument.find ('=')) == name);
+    }));
+  };
+  const bool voxel_size = isGiven ("--voxel-size"), resolution = isGiven ("--resolution");
+  if (voxel_size && !resolution)
+    given.resolution.reset ();
+  if (resolution && !voxel_size)
+    given.voxel_size.reset ();
 }
 
 /** \brief CLI11 would take the value of an unknown option for an input. */
@@ -168,6 +186,11 @@ setPaths (const Given& given, Settings& settings)
   if (extension == ".pcd")
     throw UsageError ("OUTPUT is " + settings.output +
                       ", a point cloud; it must be a folder, or a file ending in .ply, .stl or .obj");
+  constexpr std::array<const char*, 10> unwritten{".off", ".vtk", ".vtp", ".dae", ".glb", ".gltf",
+                                                  ".fbx", ".3ds", ".3mf", ".wrl"};
+  if (std::find (unwritten.begin (), unwritten.end (), extension) != unwritten.end ())
+    throw UsageError ("OUTPUT is " + settings.output + ", a format that is not written; it must be a folder, or a file ending "
+                      "in .ply, .stl or .obj");
   const std::string mesh = meshExtension (settings.output);
   if (!mesh.empty () && !given.format.empty () && given.format != mesh)
     throw UsageError ("--format " + given.format + " contradicts OUTPUT " + settings.output);
@@ -249,10 +272,12 @@ parseCommandLine (int argc, const char* const* argv)
     }
   const std::vector<std::string> names = optionNames (app);
   app.config_formatter (std::make_shared<ConfigurationFile> (names));
-  refuseUnknownOptions (std::vector<std::string> (argv + 1, argv + argc), names);
+  const std::vector<std::string> arguments (argv + 1, argv + argc);
+  refuseUnknownOptions (arguments, names);
   try
   {
     app.parse (argc, argv);
+    preferCommandLine (arguments, given);
     return (toSettings (given));
   }
   catch (const CLI::CallForHelp&)

@@ -107,6 +107,18 @@ parameters (const Settings& settings)
   return (result);
 }
 
+void
+save (const Settings& settings, const Json& summary)
+{
+  writeAtomically (settings.json, [&] (const std::string& path) {
+    std::ofstream file (path);
+    // File names need not be UTF-8.
+    file << summary.dump (2, ' ', false, Json::error_handler_t::replace) << "\n";
+    if (!file.flush ())
+      throw IoError (settings.json + ": cannot be written");
+  });
+}
+
 } // namespace
 
 void
@@ -125,11 +137,23 @@ writeJsonSummary (const Settings& settings, const SceneResult& result, const std
     if (!object.error.empty ())
       summary["failed"].push_back ({{"id", object.id}, {"error", object.error}});
   summary["warnings"] = warnings;
-  writeAtomically (settings.json, [&] (const std::string& path) {
-    std::ofstream file (path);
-    // File names need not be UTF-8.
-    file << summary.dump (2, ' ', false, Json::error_handler_t::replace) << "\n";
-    if (!file.flush ())
-      throw IoError (settings.json + ": cannot be written");
-  });
+  save (settings, summary);
+}
+
+void
+writeJsonOfFailure (const Settings& settings, const std::string& error, const std::vector<std::string>& warnings)
+try
+{
+  Json summary;
+  summary["error"] = error;
+  summary["timings_s"] = Json::object ();
+  summary["parameters"] = parameters (settings);
+  summary["objects"] = Json::array ();
+  summary["failed"] = Json::array ();
+  summary["warnings"] = warnings;
+  save (settings, summary);
+}
+catch (const std::exception&)
+{
+  // the error itself is told
 }

@@ -91,18 +91,25 @@ describe (const ObjectResult& object)
   return (text.str ());
 }
 
+std::string
+describe (const std::exception& error)
+{
+  if (dynamic_cast<const std::bad_alloc*> (&error))
+    return ("out of memory; use larger voxels (--voxel-size, --background-voxel-size)");
+  return (error.what ());
+}
+
 /** \brief Read, complete, write. \return whether every object succeeded */
 bool
-run (const Settings& settings, Terminal& terminal)
+complete (const Settings& settings, const OutputTarget& target, std::vector<std::string>& warnings, Terminal& terminal)
 {
   const Stopwatch total;
-  const OutputTarget target (settings);
   SceneInput input = readScene (settings, [&] (const std::string& stage, double fraction) {
     terminal.progress (stage, read_share * fraction);
     return (!interrupted ());
   });
   const double read_s = total.seconds ();
-  std::vector<std::string> warnings = input.warnings;
+  warnings = input.warnings;
   for (const std::string& warning : warnings)
     terminal.warning (warning);
 
@@ -143,6 +150,27 @@ run (const Settings& settings, Terminal& terminal)
   return (all_good);
 }
 
+bool
+run (const Settings& settings, Terminal& terminal)
+{
+  const OutputTarget target (settings);
+  std::vector<std::string> warnings;
+  try
+  {
+    return (complete (settings, target, warnings, terminal));
+  }
+  catch (const Cancelled&)
+  {
+    throw;
+  }
+  catch (const std::exception& error)
+  {
+    if (!settings.json.empty ())
+      writeJsonOfFailure (settings, describe (error), warnings);
+    throw;
+  }
+}
+
 } // namespace
 
 int
@@ -168,13 +196,9 @@ main (int argc, char** argv)
     terminal.error ("interrupted, nothing was written");
     return (Interrupted);
   }
-  catch (const std::bad_alloc&)
-  {
-    terminal.error ("out of memory; use larger voxels (--voxel-size, --background-voxel-size)");
-  }
   catch (const std::exception& error)
   {
-    terminal.error (error.what ());
+    terminal.error (describe (error));
   }
   return (Failure);
 }

@@ -49,5 +49,16 @@ nearestName (const std::string& word, const std::vector<std::string>& names)
       smallest = distance;
     }
   }
-  return (nearest);
+  const std::size_t letters = word.size () - std::min (word.size (), word.find_first_not_of ('-'));
+  const std::size_t acceptable = 4 * (letters / 3) + 6; // a third of the letters, or the end missing
+  return (smallest <= acceptable ? nearest : "");
+}
+
+std::string
+suggestion (const std::string& word, const std::vector<std::string>& names, bool bare)
+{
+  const std::string name = nearestName (word, names);
+  if (name.empty ())
+    return ("");
+  return ("; did you mean " + (bare ? name.substr (name.find_first_not_of ('-')) : name) + "?");
 }

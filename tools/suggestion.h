@@ -6,6 +6,10 @@
 #include <vector>
 
 /** \brief Of \a names, the one with the smallest edit distance to \a word; the first if several
- * are as near, nothing if there are no names. */
+ * are as near, nothing if none is near. */
 std::string
 nearestName (const std::string& word, const std::vector<std::string>& names);
+
+/** \brief "; did you mean NAME?" of the nearest name, without dashes if \a bare; nothing if none is near. */
+std::string
+suggestion (const std::string& word, const std::vector<std::string>& names, bool bare = false);

@@ -123,14 +123,16 @@ CoSectionRun::solvePass (Resolution resolution, int pass)
   {
     if (!object.alive ())
       continue;
-    const bool first = object.field.values.empty (); // what was told until now are measurements
-    object.field = object.volume->solvedField ();
-    // Two bodies that give way and spread by turns settle when each answers the mean of the other's last two.
-    if (first)
-      object.told = object.field;
-    else
-      for (std::size_t n = 0; n < object.field.values.size (); ++n)
-        object.told.values[n] = 0.5f * (object.told.values[n] + object.field.values[n]);
+    guarded (object, [&] {
+      const bool first = object.field.values.empty (); // what was told until now are measurements
+      object.field = object.volume->solvedField ();
+      // Two bodies that give way and spread by turns settle when each answers the mean of the other's last two.
+      if (first)
+        object.told = object.field;
+      else
+        for (std::size_t n = 0; n < object.field.values.size (); ++n)
+          object.told.values[n] = 0.5f * (object.told.values[n] + object.field.values[n]);
+    });
   }
 }
 

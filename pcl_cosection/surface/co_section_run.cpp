@@ -271,7 +271,7 @@ CoSectionRun::run ()
         guarded (object, [&] { finishObject (object); });
     for (Object& object : objects_)
       if (object.alive () && scene_.options.use_intersection)
-        object.result->penetration_m = penetration (object);
+        guarded (object, [&] { object.result->penetration_m = penetration (object); });
   });
   report ("done", 1.0);
   return std::move (result_);

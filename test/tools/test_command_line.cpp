@@ -74,6 +74,10 @@ TEST (Suggestion, FindsTheNearestName)
   EXPECT_EQ (nearestName ("--resloution", names), "--resolution");
   EXPECT_EQ (nearestName ("--beta_hull", names), "--beta-hull");
   EXPECT_EQ (nearestName ("--anything", {}), "");
+  EXPECT_EQ (nearestName ("--cheesecake", names), "");
+  EXPECT_EQ (suggestion ("--cheesecake", names), "");
+  EXPECT_EQ (suggestion ("--voxelsize", names), "; did you mean --voxel-size?");
+  EXPECT_EQ (suggestion ("--voxelsize", names, true), "; did you mean voxel-size?");
 }
 
 TEST (OptionValues, Sizes)
@@ -213,4 +217,27 @@ TEST (CommandLine, WrongUsageIsNamed)
   expect ("--intrinsics 0,1,2,3 a.pcd out", "--intrinsics");
   expect ("--max-memory many a.pcd out", "--max-memory");
   expect ("--scale -1 a.pcd out", "--scale");
+}
+
+TEST (CommandLine, ConfigurationFileIsOverriddenAlsoByTheOtherWayToSayTheSizeOfVoxels)
+{
+  const ConfigFile file ("voxel-size = 0.01\n");
+  const Settings settings = parse ("--config " + file.path + " --resolution 32 a.pcd out");
+  EXPECT_EQ (settings.method.resolution, 32);
+  EXPECT_EQ (settings.method.voxel_size_m, 0.0);
+  EXPECT_NE (usageError ("--voxel-size 0.01 --resolution 32 a.pcd out"), "");
+}
+
+TEST (CommandLine, ConfigurationLineWithoutEqualsSign)
+{
+  const ConfigFile file ("resolution 64\n");
+  EXPECT_EQ (usageError ("--config " + file.path + " a.pcd out"),
+             "the configuration file has a line without \"=\": resolution 64");
+}
+
+TEST (CommandLine, FormatsThatAreNotWritten)
+{
+  for (const char* name : {"out.off", "out.VTP", "out.glb"})
+    EXPECT_NE (usageError (std::string ("a.pcd ") + name).find ("is not written"), std::string::npos);
+  EXPECT_EQ (parse ("a.pcd out.d").output, "out.d");
 }

@@ -259,6 +259,16 @@ TEST_F (PclCosection, LabelWithoutEnoughPointsIsSkipped)
   EXPECT_NE (summary["warnings"].dump ().find ("label 9"), std::string::npos);
 }
 
+TEST_F (PclCosection, SummaryOfARunThatFails)
+{
+  write ("broken.pcd", "no cloud");
+  expectFailure ({"--json", "s.json", "broken.pcd", "out"}, 1, "broken.pcd: is not a PCD file");
+  const nlohmann::json summary = nlohmann::json::parse (read ("s.json"));
+  EXPECT_EQ (summary["error"], "broken.pcd: is not a PCD file");
+  EXPECT_TRUE (summary["objects"].empty ());
+  EXPECT_EQ (summary["parameters"]["constraints"], "all");
+}
+
 TEST_F (PclCosection, CoplanarPointsDoNotCrash)
 {
   std::string lines;
