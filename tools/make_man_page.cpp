@@ -3,8 +3,8 @@
 
 // Prints the manual page of pcl_cosection, which says what --help says. Part of the build, not installed.
 
-#include "help_text.h"
 #include "option_table.h"
+#include "program_text.h"
 
 #include <iostream>
 
@@ -14,6 +14,6 @@ main ()
   CLI::App app;
   Given given;
   declareOptions (app, given);
-  std::cout << manPage (app) << std::flush;
+  std::cout << manPage (app, completionText ()) << std::flush;
   return (std::cout ? 0 : 1);
 }

@@ -5,8 +5,8 @@
 // examples work.
 
 #include "common/temporary_folder.h"
-#include "help_text.h"
 #include "option_table.h"
+#include "program_text.h"
 #include "scene_files.h"
 #include "tool_run.h"
 
@@ -60,13 +60,13 @@ TEST_F (Help, EachTopicFitsAScreen)
   EXPECT_GE (topics.size (), 6u);
   for (const std::string& topic : topics)
   {
-    const std::vector<std::string> lines = linesOf (helpText (app_, topic));
+    const std::vector<std::string> lines = linesOf (helpText (app_, completionText (), topic));
     EXPECT_LE (lines.size (), 24u) << topic;
     EXPECT_GE (lines.size (), 3u) << topic;
     for (const std::string& line : lines)
       EXPECT_LE (line.size (), 80u) << line;
   }
-  for (const std::string& line : linesOf (helpText (app_)))
+  for (const std::string& line : linesOf (helpText (app_, completionText ())))
     EXPECT_LE (line.size (), 80u) << line;
 }
 
@@ -75,8 +75,8 @@ TEST_F (Help, EveryOptionIsEverywhere)
   std::ifstream file (std::string (PCL_COSECTION_SOURCE_DIR) + "/doc/pcl_cosection.md");
   const std::string document ((std::istreambuf_iterator<char> (file)), {});
   ASSERT_FALSE (document.empty ());
-  const std::string page = withoutBackslashes (manPage (app_));
-  const std::string screen = helpText (app_);
+  const std::string page = withoutBackslashes (manPage (app_, completionText ()));
+  const std::string screen = helpText (app_, completionText ());
   int options = 0;
   for (const CLI::Option* option : app_.get_options ())
     for (const std::string& name : option->get_lnames ())
@@ -95,10 +95,10 @@ TEST_F (Help, TopicsAreGivenByTheProgram)
   const pcl::cosection::test::TemporaryFolder folder;
   ToolRun topic ({"--help", "surroundings"}, folder.file (""));
   EXPECT_EQ (topic.wait (), 0);
-  EXPECT_EQ (topic.output (), helpText (app_, "surroundings"));
+  EXPECT_EQ (topic.output (), helpText (app_, completionText (), "surroundings"));
   ToolRun all ({"--help"}, folder.file (""));
   EXPECT_EQ (all.wait (), 0);
-  EXPECT_EQ (all.output (), helpText (app_));
+  EXPECT_EQ (all.output (), helpText (app_, completionText ()));
 }
 
 TEST_F (Help, ExamplesWork)
@@ -113,7 +113,7 @@ TEST_F (Help, ExamplesWork)
     p.getVector3fMap () *= 1000.0f;
   pcl::io::savePCDFileBinary (folder.file ("scan_mm.pcd"), cloud);
   std::ofstream (folder.file ("shelf.off")) << "OFF\n4 1 0\n-1 -1 0.38\n1 -1 0.38\n1 1 0.38\n-1 1 0.38\n4 0 1 2 3\n";
-  for (const UsageExample& example : usageExamples ())
+  for (const UsageExample& example : completionText ().examples)
   {
     std::istringstream in (example.command);
     std::vector<std::string> words{std::istream_iterator<std::string> (in), {}};

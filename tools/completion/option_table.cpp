@@ -2,10 +2,10 @@
 // Copyright (c) 2026, the pcl_cosection authors
 #include "option_table.h"
 
+#include "arguments.h"
 #include "option_values.h"
 
 #include <pcl/cosection/surface/options.h>
-#include <pcl/cosection/version.h>
 
 #include <limits>
 #include <memory>
@@ -182,13 +182,7 @@ declareOutput (CLI::App& app, Given& given)
       ->option_text ("N")
       ->check (wholeRange (1, 1024))
       ->group (general);
-  app.add_flag ("--verbose", given.verbose, "Say what is being done")->group (general);
-  app.add_flag ("--quiet", given.quiet, "Print errors only")->group (general);
-  app.set_config ("--config", "", "Read options from a file; the command line overrides it")
-      ->option_text ("FILE")
-      ->group (general);
-  app.set_version_flag ("--version", "pcl_cosection " PCL_COSECTION_VERSION, "Print the version")->group (general);
-  app.set_help_flag ("-h,--help", "Print this, or only a TOPIC of it")->group (general);
+  declareGeneralOptions (app, "pcl_cosection", given.verbose, given.quiet);
 }
 
 } // namespace

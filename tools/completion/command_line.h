@@ -2,6 +2,7 @@
 // Copyright (c) 2026, the pcl_cosection authors
 #pragma once
 
+#include "arguments.h"
 #include "terminal.h"
 
 #include <pcl/cosection/io/pcd_view.h>
@@ -12,16 +13,8 @@
 #include <cstddef>
 #include <map>
 #include <optional>
-#include <stdexcept>
 #include <string>
 #include <vector>
-
-/** \brief The command line, or the configuration file, is not right; what () is one line. */
-class UsageError : public std::runtime_error
-{
-public:
-  using std::runtime_error::runtime_error;
-};
 
 /** \brief What the user asked for. */
 struct Settings

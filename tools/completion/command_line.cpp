@@ -2,10 +2,9 @@
 // Copyright (c) 2026, the pcl_cosection authors
 #include "command_line.h"
 
-#include "help_text.h"
 #include "option_table.h"
 #include "option_values.h"
-#include "suggestion.h"
+#include "program_text.h"
 
 #include <pcl/cosection/common/error.h>
 
@@ -14,57 +13,11 @@
 #include <cctype>
 #include <cmath>
 #include <filesystem>
-#include <iostream>
-#include <memory>
 
 using namespace pcl::cosection;
 
 namespace
 {
-
-std::string
-unknownOption (const std::string& given, const std::vector<std::string>& names)
-{
-  return ("unknown option " + given + suggestion (given, names));
-}
-
-/** \brief Configuration files, with the same answer to unknown names as the command line. */
-class ConfigurationFile : public CLI::ConfigBase
-{
-public:
-  explicit ConfigurationFile (std::vector<std::string> names) : names_ (std::move (names))
-  {}
-
-  std::vector<CLI::ConfigItem>
-  from_config (std::istream& input) const override
-  {
-    const std::vector<CLI::ConfigItem> entries = CLI::ConfigBase::from_config (input);
-    for (const CLI::ConfigItem& item : entries)
-    {
-      if (!item.parents.empty ())
-        throw UsageError ("the configuration file has a section [" + item.parents[0] + "]; there are no sections");
-      if (std::find (names_.begin (), names_.end (), "--" + item.name) == names_.end ())
-        throw UsageError (item.name.find_first_of (" \t:") != std::string::npos
-                              ? "the configuration file has a line without \"=\": " + item.name
-                              : "unknown option in the configuration file: " + item.name +
-                                    suggestion ("--" + item.name, names_, true));
-    }
-    return (entries);
-  }
-
-private:
-  const std::vector<std::string> names_;
-};
-
-std::vector<std::string>
-optionNames (const CLI::App& app)
-{
-  std::vector<std::string> names;
-  for (const CLI::Option* option : app.get_options ())
-    for (const std::string& name : option->get_lnames ())
-      names.push_back ("--" + name);
-  return (names);
-}
 
 /** \brief What the command line says of the size of voxels replaces what the configuration file does. */
 void
@@ -80,23 +33,6 @@ preferCommandLine (const std::vector<std::string>& arguments, Given& given)
     given.resolution.reset ();
   if (resolution && !voxel_size)
     given.voxel_size.reset ();
-}
-
-/** \brief CLI11 would take the value of an unknown option for an input. */
-void
-refuseUnknownOptions (const std::vector<std::string>& arguments, const std::vector<std::string>& names)
-{
-  for (const std::string& argument : arguments)
-  {
-    if (argument == "--")
-      return;
-    const std::string name = argument.substr (0, argument.find ('='));
-    const bool is_option =
-        name.size () > 1 && name[0] == '-' && !std::isdigit (static_cast<unsigned char> (name[1])) && name[1] != '.';
-    const bool is_value = name == "-nan" || name == "-inf"; // refused later, by the option that it was given to
-    if (is_option && !is_value && name != "-h" && std::find (names.begin (), names.end (), name) == names.end ())
-      throw UsageError (unknownOption (name, names));
-  }
 }
 
 template <typename Target, typename Value>
@@ -259,53 +195,17 @@ std::optional<Settings>
 parseCommandLine (int argc, const char* const* argv)
 {
   Given given;
-  CLI::App app ("", "pcl_cosection");
+  CLI::App app;
   declareOptions (app, given);
-  for (int i = 1; i + 1 < argc; ++i)
-    if (std::string (argv[i]) == "--help")
-    {
-      const std::vector<std::string> topics = helpTopics (app);
-      if (std::find (topics.begin (), topics.end (), argv[i + 1]) == topics.end ())
-        throw UsageError ("--help knows no topic " + std::string (argv[i + 1]) + "; --help alone names them");
-      std::cout << helpText (app, argv[i + 1]);
-      return (std::nullopt);
-    }
-  const std::vector<std::string> names = optionNames (app);
-  app.config_formatter (std::make_shared<ConfigurationFile> (names));
-  const std::vector<std::string> arguments (argv + 1, argv + argc);
-  refuseUnknownOptions (arguments, names);
+  if (!parseArguments (app, completionText (), argc, argv))
+    return (std::nullopt);
   try
   {
-    app.parse (argc, argv);
-    preferCommandLine (arguments, given);
+    preferCommandLine ({argv + 1, argv + argc}, given);
     return (toSettings (given));
-  }
-  catch (const CLI::CallForHelp&)
-  {
-    std::cout << helpText (app);
-  }
-  catch (const CLI::CallForVersion& version)
-  {
-    std::cout << version.what () << std::endl;
-  }
-  catch (const CLI::FileError&)
-  {
-    throw UsageError ("--config: the file cannot be read");
-  }
-  catch (const CLI::ArgumentMismatch& error)
-  {
-    const std::string message = error.what ();
-    const bool missing = message.find ("missing") != std::string::npos;
-    throw UsageError (message.substr (0, message.find (':')) +
-                      (missing ? " needs a value" : " is given more than once"));
-  }
-  catch (const CLI::ParseError& error)
-  {
-    throw UsageError (error.what ());
   }
   catch (const InvalidArgument& error)
   {
     throw UsageError (error.what ());
   }
-  return (std::nullopt);
 }

@@ -14,8 +14,17 @@ struct UsageExample
   std::string meaning;
 };
 
-const std::vector<UsageExample>&
-usageExamples ();
+/** \brief What a program, or a command of one, says about itself beside its options. */
+struct ProgramText
+{
+  std::string name;     ///< "pcl_cosection"
+  std::string summary;  ///< a few words, lower case, for the manual page
+  std::string synopsis; ///< how it is called
+  std::string purpose;
+  std::vector<std::string> paragraphs;
+  std::vector<UsageExample> examples;
+  std::vector<std::string> configuration; ///< lines of a configuration file, as examples
+};
 
 /** \brief What the parts of the help screen are called, in lower case: the groups of options, and "examples". */
 std::vector<std::string>
@@ -24,8 +33,8 @@ helpTopics (const CLI::App& app);
 /** \brief The help screen; of one topic only, unless \a topic is empty. Lines have at most 80 characters, topics at most
  * 24 lines. */
 std::string
-helpText (const CLI::App& app, const std::string& topic = "");
+helpText (const CLI::App& app, const ProgramText& program, const std::string& topic = "");
 
 /** \brief The same as a page for man (1). */
 std::string
-manPage (const CLI::App& app);
+manPage (const CLI::App& app, const ProgramText& program);

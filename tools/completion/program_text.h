@@ -1,0 +1,9 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_cosection authors
+#pragma once
+
+#include "help_text.h"
+
+/** \brief What pcl_cosection says about itself. */
+const ProgramText&
+completionText ();
