@@ -13,6 +13,7 @@ packages=(
   libpcl-dev
   libvtk9-dev
   libeigen3-dev
+  libopencv-dev
   # tools
   libcli11-dev
   nlohmann-json3-dev

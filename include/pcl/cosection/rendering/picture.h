@@ -3,6 +3,7 @@
 #pragma once
 
 #include <pcl/cosection/common/export.h>
+#include <pcl/cosection/common/image.h>
 #include <pcl/cosection/rendering/rasterizer.h>
 
 #include <array>
@@ -14,14 +15,6 @@ namespace pcl
 {
 namespace cosection
 {
-
-/** \brief An 8-bit colour picture, row by row. */
-struct PCL_COSECTION_EXPORT Picture
-{
-  int width = 0;
-  int height = 0;
-  std::vector<std::array<std::uint8_t, 3>> pixels;
-};
 
 /** \brief Light the surfaces of \a image with a head light and a little ambient light, on \a background. */
 PCL_COSECTION_EXPORT Picture

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_cosection authors
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace pcl
+{
+namespace cosection
+{
+
+/** \brief An image, row by row. */
+template <typename Pixel>
+struct Image
+{
+  Image () = default;
+  Image (int width, int height, const Pixel& value = Pixel ())
+  : width (width), height (height), pixels (static_cast<std::size_t> (width) * height, value)
+  {}
+
+  Pixel&
+  at (int u, int v)
+  {
+    return pixels[static_cast<std::size_t> (v) * width + u];
+  }
+
+  const Pixel&
+  at (int u, int v) const
+  {
+    return pixels[static_cast<std::size_t> (v) * width + u];
+  }
+
+  int width = 0;
+  int height = 0;
+  std::vector<Pixel> pixels;
+};
+
+/** \brief An 8-bit colour picture: red, green, blue. */
+using Picture = Image<std::array<std::uint8_t, 3>>;
+
+} // namespace cosection
+} // namespace pcl
