@@ -92,7 +92,8 @@ draw (const Item& item, const Eigen::Isometry3d& T_world_camera)
 Picture
 above (const Picture& upper, const Picture& lower)
 {
-  Picture both{upper.width, upper.height + lower.height, upper.pixels};
+  Picture both = upper;
+  both.height += lower.height;
   both.pixels.insert (both.pixels.end (), lower.pixels.begin (), lower.pixels.end ());
   return (both);
 }
