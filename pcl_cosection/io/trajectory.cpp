@@ -4,11 +4,13 @@
 
 #include "../common/file_bytes.h"
 
+#include <pcl/cosection/common/atomic_file.h>
 #include <pcl/cosection/common/error.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iomanip>
 #include <locale>
 #include <sstream>
 
@@ -74,6 +76,26 @@ loadTrajectory (const std::string& path)
     throw IoError (path + ": has two poses of stamp " + stamp.str ());
   }
   return poses;
+}
+
+void
+saveTrajectory (const std::vector<StampedPose>& poses, const std::string& path)
+{
+  std::ostringstream out;
+  out.imbue (std::locale::classic ());
+  for (const StampedPose& stamped : poses)
+  {
+    const bool whole = stamped.stamp == std::floor (stamped.stamp) && std::abs (stamped.stamp) < 1e15;
+    out << std::fixed << std::setprecision (whole ? 0 : 6) << stamped.stamp << std::setprecision (9);
+    const Eigen::Vector3d t = stamped.pose.translation ();
+    Eigen::Quaterniond q (stamped.pose.linear ());
+    if (q.w () < 0.0)
+      q.coeffs () = -q.coeffs ();
+    for (const double value : {t.x (), t.y (), t.z (), q.x (), q.y (), q.z (), q.w ()})
+      out << ' ' << (value == 0.0 ? 0.0 : value); // no -0
+    out << '\n';
+  }
+  writeAtomically (path, [&out] (const std::string& temporary) { writeBytes (temporary, out.str ()); });
 }
 
 } // namespace cosection

@@ -2,14 +2,14 @@
 // Copyright (c) 2026, the pcl_cosection authors
 #include "json_summary.h"
 
+#include "json_file.h"
+
 #include <pcl/cosection/common/error.h>
 #include <pcl/cosection/common/triangle_mesh.h>
-#include <pcl/cosection/common/atomic_file.h>
 
 #include <nlohmann/json.hpp>
 
 #include <array>
-#include <fstream>
 
 using namespace pcl::cosection;
 using Json = nlohmann::ordered_json;
@@ -107,18 +107,6 @@ parameters (const Settings& settings)
   return (result);
 }
 
-void
-save (const Settings& settings, const Json& summary)
-{
-  writeAtomically (settings.json, [&] (const std::string& path) {
-    std::ofstream file (path);
-    // File names need not be UTF-8.
-    file << summary.dump (2, ' ', false, Json::error_handler_t::replace) << "\n";
-    if (!file.flush ())
-      throw IoError (settings.json + ": cannot be written");
-  });
-}
-
 } // namespace
 
 void
@@ -137,7 +125,7 @@ writeJsonSummary (const Settings& settings, const SceneResult& result, const std
     if (!object.error.empty ())
       summary["failed"].push_back ({{"id", object.id}, {"error", object.error}});
   summary["warnings"] = warnings;
-  save (settings, summary);
+  writeJsonFile (summary, settings.json);
 }
 
 void
@@ -151,7 +139,7 @@ try
   summary["objects"] = Json::array ();
   summary["failed"] = Json::array ();
   summary["warnings"] = warnings;
-  save (settings, summary);
+  writeJsonFile (summary, settings.json);
 }
 catch (const std::exception&)
 {

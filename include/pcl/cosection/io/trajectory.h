@@ -29,5 +29,9 @@ struct StampedPose
 PCL_COSECTION_EXPORT std::vector<StampedPose>
 loadTrajectory (const std::string& path);
 
+/** \brief Write one in the same format; stamps that are whole numbers without a decimal point. \throws IoError */
+PCL_COSECTION_EXPORT void
+saveTrajectory (const std::vector<StampedPose>& poses, const std::string& path);
+
 } // namespace cosection
 } // namespace pcl

@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_cosection authors
+#include <pcl/cosection/io/image_io.h>
+
+#include "../common/file_bytes.h"
+#include "file_extension.h"
+
+#include <pcl/cosection/common/atomic_file.h>
+#include <pcl/cosection/common/error.h>
+
+#include <opencv2/core/mat.hpp>
+#include <opencv2/imgcodecs.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <limits>
+
+namespace pcl
+{
+namespace cosection
+{
+
+namespace
+{
+
+constexpr float largest_16_bit = 65535.0f;
+
+/** \brief OpenCV reads and writes EXR only if this is set before it is first asked to. */
+void
+allowExr ()
+{
+  static const bool allowed = setenv ("OPENCV_IO_ENABLE_OPENEXR", "1", 0) == 0; // once: threads may read images
+  static_cast<void> (allowed);
+}
+
+void
+encode (const cv::Mat& image, const std::string& path)
+{
+  allowExr ();
+  std::vector<unsigned char> bytes;
+  bool done = false;
+  try
+  {
+    done = cv::imencode (lowerCaseExtension (path), image, bytes);
+  }
+  catch (const cv::Exception&)
+  {
+    // told below
+  }
+  if (!done)
+    throw IoError (path + ": cannot be encoded as an image");
+  writeAtomically (path, [&bytes] (const std::string& temporary) {
+    writeBytes (temporary, std::string (bytes.begin (), bytes.end ()));
+  });
+}
+
+cv::Mat
+decode (const std::string& path, int flags)
+{
+  allowExr ();
+  const std::string bytes = readBytes (path);
+  cv::Mat image;
+  try
+  {
+    if (!bytes.empty ())
+      image = cv::imdecode (cv::Mat (1, static_cast<int> (bytes.size ()), CV_8U, const_cast<char*> (bytes.data ())), flags);
+  }
+  catch (const cv::Exception&)
+  {
+    // told below
+  }
+  if (image.empty ())
+    throw IoError (path + ": is not an image that can be read");
+  return image;
+}
+
+} // namespace
+
+void
+saveColourImage (const Picture& picture, const std::string& path)
+{
+  cv::Mat image (picture.height, picture.width, CV_8UC3);
+  for (int v = 0; v < picture.height; ++v)
+    for (int u = 0; u < picture.width; ++u)
+    {
+      const auto& c = picture.at (u, v);
+      image.at<cv::Vec3b> (v, u) = {c[2], c[1], c[0]};
+    }
+  encode (image, path);
+}
+
+void
+saveDepthImage (const Image<float>& depth, const std::string& path, double scale)
+{
+  const std::string extension = lowerCaseExtension (path);
+  if (extension == ".exr")
+  {
+    cv::Mat image (depth.height, depth.width, CV_32F);
+    std::transform (depth.pixels.begin (), depth.pixels.end (), image.begin<float> (),
+                    [] (float z) { return std::isfinite (z) ? z : 0.0f; });
+    encode (image, path);
+    return;
+  }
+  if (extension != ".png")
+    throw InvalidArgument (path + ": depth is written as .png or .exr");
+  cv::Mat image (depth.height, depth.width, CV_16U);
+  std::transform (depth.pixels.begin (), depth.pixels.end (), image.begin<std::uint16_t> (), [scale] (float z) {
+    const double units = std::round (scale * z);
+    return static_cast<std::uint16_t> (units > 0.0 && units <= largest_16_bit ? units : 0.0);
+  });
+  encode (image, path);
+}
+
+Image<float>
+loadDepthImage (const std::string& path, double scale)
+{
+  const cv::Mat image = decode (path, cv::IMREAD_UNCHANGED);
+  const bool whole = image.type () == CV_16U;
+  if (!whole && image.type () != CV_32F)
+    throw IoError (path + ": is not a depth image: it must have one channel of 16 bits, or of 32-bit floating point");
+  Image<float> depth (image.cols, image.rows, std::numeric_limits<float>::quiet_NaN ());
+  for (int v = 0; v < image.rows; ++v)
+    for (int u = 0; u < image.cols; ++u)
+    {
+      const double z = whole ? image.at<std::uint16_t> (v, u) / scale : image.at<float> (v, u);
+      if (std::isfinite (z) && z > 0.0)
+        depth.at (u, v) = static_cast<float> (z);
+    }
+  return depth;
+}
+
+void
+saveMaskImage (const Image<std::uint16_t>& mask, const std::string& path, bool wide)
+{
+  const std::uint16_t highest = mask.pixels.empty () ? 0 : *std::max_element (mask.pixels.begin (), mask.pixels.end ());
+  if (!wide && highest > 255)
+    throw InvalidArgument (path + ": the id " + std::to_string (highest) + " needs 16 bits");
+  cv::Mat image (mask.height, mask.width, wide ? CV_16U : CV_8U);
+  if (wide)
+    std::copy (mask.pixels.begin (), mask.pixels.end (), image.begin<std::uint16_t> ());
+  else
+    std::transform (mask.pixels.begin (), mask.pixels.end (), image.begin<std::uint8_t> (),
+                    [] (std::uint16_t id) { return static_cast<std::uint8_t> (id); });
+  encode (image, path);
+}
+
+Image<std::uint16_t>
+loadMaskImage (const std::string& path)
+{
+  const cv::Mat image = decode (path, cv::IMREAD_UNCHANGED);
+  if (image.type () != CV_16U && image.type () != CV_8U)
+    throw IoError (path + ": is not a mask: it must have one channel of 8 or 16 bits");
+  Image<std::uint16_t> mask (image.cols, image.rows);
+  for (int v = 0; v < image.rows; ++v)
+    for (int u = 0; u < image.cols; ++u)
+      mask.at (u, v) = image.type () == CV_16U ? image.at<std::uint16_t> (v, u) : image.at<std::uint8_t> (v, u);
+  return mask;
+}
+
+Picture
+loadColourImage (const std::string& path)
+{
+  const cv::Mat image = decode (path, cv::IMREAD_COLOR);
+  Picture picture (image.cols, image.rows);
+  for (int v = 0; v < image.rows; ++v)
+    for (int u = 0; u < image.cols; ++u)
+    {
+      const cv::Vec3b& c = image.at<cv::Vec3b> (v, u);
+      picture.at (u, v) = {c[2], c[1], c[0]};
+    }
+  return picture;
+}
+
+} // namespace cosection
+} // namespace pcl

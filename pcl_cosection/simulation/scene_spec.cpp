@@ -1,0 +1,246 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_cosection authors
+#include <pcl/cosection/simulation/scene_spec.h>
+
+#include "spec_shapes.h"
+
+#include "../common/file_bytes.h"
+
+#include <pcl/cosection/common/error.h>
+
+#include <cmath>
+#include <filesystem>
+
+namespace pcl
+{
+namespace cosection
+{
+
+namespace
+{
+
+constexpr int largest_image = 8192;
+constexpr int most_frames = 1000000;
+const TriangleMesh::Colour background_colour{190, 185, 175};
+const TriangleMesh::Colour object_colours[] = {{205, 75, 60}, {60, 120, 190}, {80, 160, 95}, {215, 170, 60},
+                                               {150, 95, 170}, {70, 165, 170}};
+
+double
+radians (double degrees)
+{
+  return degrees * M_PI / 180.0;
+}
+
+/** \brief The keys of a motion; those of a camera may look at something. */
+KeyedMotion
+parseKeys (const SpecNode& list, bool is_camera)
+{
+  std::vector<double> times;
+  std::vector<Eigen::Vector3d> positions, targets;
+  std::vector<Eigen::Quaterniond> rotations;
+  Eigen::Vector3d up = Eigen::Vector3d::UnitZ ();
+  for (SpecNode key : list.elements (1))
+  {
+    key.requireObject ();
+    times.push_back (key.number ("time", 0.0));
+    positions.push_back (key.field ("position").vector<3> ());
+    if (is_camera && key.has ("look_at"))
+    {
+      targets.push_back (key.field ("look_at").vector<3> ());
+      if (key.has ("up"))
+        up = key.field ("up").vector<3> ();
+      if (key.has ("rpy_deg") || key.has ("quaternion"))
+        key.refuse ("has both look_at and a rotation");
+    }
+    else
+      rotations.push_back (parseRotation (key));
+    key.finish ();
+  }
+  if (!targets.empty () && !rotations.empty ())
+    list.refuse ("must either all have look_at, or none");
+  try
+  {
+    KeyedVector position (times, positions);
+    KeyedMotion motion = targets.empty () ? KeyedMotion (position, KeyedRotation (times, rotations))
+                                          : KeyedMotion (position, KeyedVector (times, targets), up);
+    for (const double time : times)
+      motion.at (time); // looks somewhere
+    return motion;
+  }
+  catch (const InvalidArgument& error)
+  {
+    list.refuse ("are not right: " + std::string (error.what ()));
+  }
+}
+
+void
+parseCamera (SpecNode node, SimulatedScene& scene)
+{
+  node.requireObject ();
+  PinholeCamera& camera = scene.camera;
+  camera.width = node.whole ("width", 640, 1, largest_image);
+  camera.height = node.whole ("height", 480, 1, largest_image);
+  camera.fx = node.number ("fx", 525.0 * camera.width / 640.0);
+  camera.fy = node.number ("fy", camera.fx);
+  camera.cx = node.number ("cx", 0.5 * (camera.width - 1));
+  camera.cy = node.number ("cy", 0.5 * (camera.height - 1));
+  const std::pair<const char*, double> lengths[] = {{"fx", camera.fx}, {"fy", camera.fy}};
+  for (const auto& [name, value] : lengths)
+    if (!(value >= 1.0 && value <= 1e6))
+      node.refuse (std::string ("has an impossible ") + name + ": a focal length must be from 1 to 1000000 pixels");
+  if (!(camera.cx >= -camera.width && camera.cx <= 2 * camera.width && camera.cy >= -camera.height &&
+        camera.cy <= 2 * camera.height))
+    node.refuse ("has a principal point cx, cy far outside the image");
+  scene.camera_motion = parseKeys (node.field ("keys"), true);
+  node.finish ();
+}
+
+DepthNoise
+parseNoise (SpecNode node)
+{
+  node.requireObject ();
+  DepthNoise noise;
+  noise.baseline_m = node.number ("baseline", noise.baseline_m);
+  noise.disparity_sigma_px = node.number ("disparity_sigma", noise.disparity_sigma_px);
+  noise.disparity_step_px = node.number ("disparity_step", noise.disparity_step_px);
+  noise.lateral_sigma_px = node.number ("lateral_sigma", noise.lateral_sigma_px);
+  noise.grazing_begin_rad = radians (node.number ("grazing_begin_deg", noise.grazing_begin_rad * 180.0 / M_PI));
+  noise.grazing_end_rad = radians (node.number ("grazing_end_deg", noise.grazing_end_rad * 180.0 / M_PI));
+  noise.edge_dropout = node.number ("edge_dropout", noise.edge_dropout);
+  noise.edge_step = node.number ("edge_step", noise.edge_step);
+  noise.dropout = node.number ("dropout", noise.dropout);
+  noise.shadows = node.flag ("shadows", noise.shadows);
+  if (node.has ("range"))
+  {
+    const Eigen::Vector2d range = node.field ("range").vector<2> ();
+    noise.min_m = range[0];
+    noise.max_m = range[1];
+  }
+  node.finish ();
+  try
+  {
+    noise.validate ();
+  }
+  catch (const InvalidArgument& error)
+  {
+    node.refuse ("is not right: " + std::string (error.what ()));
+  }
+  return noise;
+}
+
+void
+parseDepth (SpecNode node, SimulatedScene& scene)
+{
+  node.requireObject ();
+  if (node.has ("format"))
+    scene.depth_format = node.field ("format").word ({"png", "exr"}) == "exr" ? DepthFormat::Exr : DepthFormat::Png;
+  scene.depth_scale = node.number ("scale", scene.depth_scale);
+  if (!(scene.depth_scale > 0.0 && scene.depth_scale <= 1e6))
+    node.field ("scale").refuse ("must be a positive number of units per metre");
+  scene.exact_depth = node.flag ("exact", scene.exact_depth);
+  if (node.has ("noise"))
+  {
+    const SpecNode noise = node.field ("noise");
+    if (noise.isFalse ())
+      scene.noise.reset ();
+    else if (!noise.isTrue ())
+      scene.noise = parseNoise (noise);
+  }
+  node.finish ();
+}
+
+SceneBody
+parseBody (SpecNode node, int number, const std::string& folder)
+{
+  node.requireObject ();
+  SceneBody body;
+  body.id = number == 0 ? 0 : node.whole ("id", number, 1, 65535);
+  body.name = node.has ("name") ? node.field ("name").text () : number == 0 ? "room" : "object";
+  body.pattern_size_m = node.number ("pattern_size", 0.0);
+  const TriangleMesh::Colour colour = parseColour (
+      node, number == 0 ? background_colour : object_colours[(number - 1) % std::size (object_colours)]);
+  if (number > 0 && node.has ("shape"))
+    body.parts.push_back (parsePart (node.field ("shape"), colour, folder));
+  else
+    for (const SpecNode& part : node.field ("parts").elements (number == 0 ? 0 : 1))
+      body.parts.push_back (parsePart (part, colour, folder));
+  if (number > 0)
+    body.motion = parseKeys (node.field ("keys"), false);
+  node.finish ();
+  return body;
+}
+
+SimulatedScene
+parseScene (SpecNode node, const std::string& folder)
+{
+  node.requireObject ();
+  SimulatedScene scene;
+  scene.noise.emplace ();
+  for (const char* remark : {"name", "description"})
+    if (node.has (remark))
+      node.field (remark).text ();
+  parseCamera (node.field ("camera"), scene);
+  scene.frames = node.whole ("frames", 1, 1, most_frames);
+  scene.rate = node.number ("rate", scene.rate);
+  scene.seed = static_cast<std::uint64_t> (node.whole ("seed", 1, 0, 2147483647));
+  if (node.has ("depth"))
+    parseDepth (node.field ("depth"), scene);
+  if (node.has ("views"))
+  {
+    SpecNode views = node.field ("views");
+    views.requireObject ();
+    scene.views_every = views.field ("every").whole (1, most_frames);
+    views.finish ();
+  }
+  if (node.has ("background"))
+    scene.bodies.push_back (parseBody (node.field ("background"), 0, folder));
+  else
+    scene.bodies.push_back ({"room", 0, {}, KeyedMotion (), 0.0});
+  int number = 0;
+  for (const SpecNode& object : node.field ("objects").elements ())
+    scene.bodies.push_back (parseBody (object, ++number, folder));
+  node.finish ();
+  return scene;
+}
+
+} // namespace
+
+SimulatedScene
+parseSceneSpec (const std::string& text, const std::string& name, const std::string& folder)
+{
+  nlohmann::json json;
+  try
+  {
+    json = nlohmann::json::parse (text, nullptr, true, true);
+  }
+  catch (const nlohmann::json::exception& error)
+  {
+    std::string why = error.what ();
+    if (why.find ("] ") != std::string::npos)
+      why = why.substr (why.find ("] ") + 2);
+    for (char& c : why)
+      c = c == '\n' || c == '\r' ? ' ' : c;
+    throw InvalidArgument (name + ": is not well-formed JSON: " + why);
+  }
+  try
+  {
+    SimulatedScene scene = parseScene (SpecNode (json, name + ": "), folder);
+    scene.validate ();
+    scene.spec = json.dump (2) + "\n";
+    return scene;
+  }
+  catch (const InvalidArgument& error)
+  {
+    const std::string what = error.what ();
+    throw InvalidArgument (what.rfind (name + ": ", 0) == 0 ? what : name + ": " + what);
+  }
+}
+
+SimulatedScene
+loadSceneSpec (const std::string& path)
+{
+  return parseSceneSpec (readBytes (path), path, std::filesystem::path (path).parent_path ().string ());
+}
+
+} // namespace cosection
+} // namespace pcl

@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_cosection authors
+#include <pcl/cosection/simulation/simulated_scene.h>
+
+#include <pcl/cosection/common/error.h>
+#include <pcl/cosection/common/parallel.h>
+#include <pcl/cosection/volume/iso_surface.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <set>
+
+namespace pcl
+{
+namespace cosection
+{
+
+namespace
+{
+
+constexpr int union_resolution = 200; // voxels along the longest side
+constexpr int union_margin = 3;       // voxels around it
+constexpr int projection_steps = 4;
+constexpr double max_projection_vox = 0.9;
+
+TriangleMesh
+transformed (TriangleMesh mesh, const Eigen::Isometry3d& T)
+{
+  for (Eigen::Vector3f& v : mesh.vertices)
+    v = (T * v.cast<double> ()).cast<float> ();
+  return mesh;
+}
+
+Eigen::Vector3d
+gradient (const SceneBody& body, const Eigen::Vector3d& p, double step)
+{
+  Eigen::Vector3d g;
+  for (int a = 0; a < 3; ++a)
+  {
+    const Eigen::Vector3d d = step * Eigen::Vector3d::Unit (a);
+    g[a] = (body.distance (p + d) - body.distance (p - d)) / (2.0 * step);
+  }
+  return g;
+}
+
+/** \brief The zero set of a body's distance, its vertices moved onto it. */
+TriangleMesh
+unionSurface (const SceneBody& body, const Eigen::AlignedBox3d& box)
+{
+  SignedDistanceField field;
+  field.grid.voxel_size_m = box.sizes ().maxCoeff () / union_resolution;
+  field.grid.origin_m = box.min () - Eigen::Vector3d::Constant (union_margin * field.grid.voxel_size_m);
+  field.grid.dims =
+      ((box.sizes () / field.grid.voxel_size_m).array ().ceil ().cast<int> () + 2 * union_margin + 1).matrix ();
+  field.values.resize (field.grid.size ());
+  const VoxelGrid& grid = field.grid;
+  parallelFor (0, grid.dims.z (), 0, [&] (int k) {
+    for (int j = 0; j < grid.dims.y (); ++j)
+      for (int i = 0; i < grid.dims.x (); ++i)
+        field.values[grid.index (i, j, k)] = static_cast<float> (body.distance (grid.center (i, j, k)));
+  });
+  TriangleMesh mesh = extractIsoSurface (field);
+  mesh.normals.clear ();
+  const double farthest = max_projection_vox * grid.voxel_size_m;
+  parallelFor (0, static_cast<int> (mesh.vertices.size ()), 0, [&] (int v) {
+    const Eigen::Vector3d start = mesh.vertices[v].cast<double> ();
+    Eigen::Vector3d p = start;
+    for (int n = 0; n < projection_steps; ++n)
+    {
+      const Eigen::Vector3d g = gradient (body, p, 1e-3 * grid.voxel_size_m);
+      if (!(g.squaredNorm () > 0.25))
+        break;
+      p -= body.distance (p) / g.squaredNorm () * g;
+    }
+    if ((p - start).norm () <= farthest && std::abs (body.distance (p)) < std::abs (body.distance (start)))
+      mesh.vertices[v] = p.cast<float> ();
+  });
+  return mesh;
+}
+
+} // namespace
+
+double
+SceneBody::distance (const Eigen::Vector3d& p) const
+{
+  double nearest = std::numeric_limits<double>::infinity ();
+  for (const BodyPart& part : parts)
+    nearest = std::min (nearest, part.shape->distance (part.T_body_part.inverse () * p));
+  return nearest;
+}
+
+bool
+SceneBody::isSupported (const Eigen::Vector3d& p) const
+{
+  return std::all_of (parts.begin (), parts.end (), [&] (const BodyPart& part) {
+    return part.shape->isSupported (part.T_body_part.inverse () * p);
+  });
+}
+
+TriangleMesh
+SceneBody::surface (double chord_m) const
+{
+  TriangleMesh all;
+  for (const BodyPart& part : parts)
+    appendMesh (all, transformed (part.shape->tessellate (chord_m), part.T_body_part));
+  const bool analytic =
+      std::all_of (parts.begin (), parts.end (), [] (const BodyPart& part) { return part.shape->isAnalytic (); });
+  if (id == 0 || parts.size () == 1 || !analytic)
+    return all;
+  Eigen::AlignedBox3d box;
+  for (const Eigen::Vector3f& v : all.vertices)
+    box.extend (v.cast<double> ());
+  return unionSurface (*this, box);
+}
+
+void
+SimulatedScene::validate () const
+{
+  camera.validate ();
+  if (noise)
+    noise->validate ();
+  if (frames < 1)
+    throw InvalidArgument ("frames must be a positive number");
+  if (!(std::isfinite (rate) && rate > 0.0))
+    throw InvalidArgument ("rate must be a positive number of frames per second");
+  if (!(std::isfinite (depth_scale) && depth_scale > 0.0))
+    throw InvalidArgument ("depth.scale must be a positive number of units per metre");
+  if (views_every < 0)
+    throw InvalidArgument ("views.every must not be negative");
+  if (bodies.empty () || bodies.front ().id != 0)
+    throw InvalidArgument ("the first body must be the background");
+  std::set<int> ids;
+  std::set<std::string> names;
+  for (const SceneBody& body : bodies)
+  {
+    const bool clean = !body.name.empty () && body.name.find_first_of ("/\\ \t\n") == std::string::npos;
+    if (!clean)
+      throw InvalidArgument ("\"" + body.name + "\" is no name for an object: it becomes part of file names");
+    if (body.id < 0 || body.id > 65535 || !ids.insert (body.id).second)
+      throw InvalidArgument ("the id " + std::to_string (body.id) + " of " + body.name +
+                             " is used twice, or not from 1 to 65535");
+    if (!names.insert (body.name).second)
+      throw InvalidArgument ("two objects are called " + body.name);
+    if (body.parts.empty () && body.id != 0)
+      throw InvalidArgument (body.name + " has no shape");
+    for (const BodyPart& part : body.parts)
+      if (!part.shape || !part.T_body_part.matrix ().allFinite ())
+        throw InvalidArgument (body.name + " has a part without shape or pose");
+    if (!(std::isfinite (body.pattern_size_m) && body.pattern_size_m >= 0.0))
+      throw InvalidArgument ("pattern_size of " + body.name + " must not be negative");
+  }
+}
+
+} // namespace cosection
+} // namespace pcl

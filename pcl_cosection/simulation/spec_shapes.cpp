@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_cosection authors
+#include "spec_shapes.h"
+
+#include <pcl/cosection/common/error.h>
+#include <pcl/cosection/io/mesh_io.h>
+
+#include <cmath>
+#include <filesystem>
+
+namespace pcl
+{
+namespace cosection
+{
+
+namespace
+{
+
+Polygon2d
+parsePolygon (const SpecNode& node)
+{
+  Polygon2d polygon;
+  for (const SpecNode& point : node.elements (3))
+    polygon.push_back (point.vector<2> ());
+  return polygon;
+}
+
+Shape::ConstPtr
+parseShape (SpecNode& node, const std::string& folder)
+{
+  const std::string type = node.field ("type").word (
+      {"sphere", "box", "room", "cylinder", "cone", "capsule", "torus", "revolution", "extrusion", "plane", "mesh"});
+  const auto length = [&node] (const char* name) { return node.field (name).number (); };
+  if (type == "sphere")
+    return makeSphere (length ("radius"));
+  if (type == "box")
+    return makeBox (node.field ("size").vector<3> (), node.number ("rounding", 0.0));
+  if (type == "room")
+    return makeRoom (node.field ("size").vector<3> ());
+  if (type == "cylinder")
+    return makeCylinder (length ("radius"), length ("height"));
+  if (type == "cone")
+    return makeCone (length ("bottom_radius"), length ("top_radius"), length ("height"));
+  if (type == "capsule")
+    return makeCapsule (length ("radius"), length ("length"));
+  if (type == "torus")
+    return makeTorus (length ("radius"), length ("tube_radius"));
+  if (type == "revolution")
+    return makeRevolution (parsePolygon (node.field ("profile")));
+  if (type == "extrusion")
+    return makeExtrusion (parsePolygon (node.field ("outline")), length ("height"));
+  if (type == "plane")
+    return makeHalfSpace (node.number ("extent", 20.0));
+  const std::filesystem::path file (node.field ("file").text ());
+  const double scale = node.number ("scale", 1.0);
+  return makeMeshShape (loadMesh ((file.is_absolute () ? file : std::filesystem::path (folder) / file).string ()), scale);
+}
+
+} // namespace
+
+Eigen::Quaterniond
+parseRotation (SpecNode& node)
+{
+  const bool has_angles = node.has ("rpy_deg"), has_quaternion = node.has ("quaternion");
+  if (has_angles && has_quaternion)
+    node.refuse ("has both rpy_deg and quaternion");
+  if (has_quaternion)
+  {
+    const Eigen::Vector4d q = node.field ("quaternion").vector<4> ();
+    if (!(std::abs (q.norm () - 1.0) < 0.01))
+      node.field ("quaternion").refuse ("must have the length 1; it is x, y, z, w");
+    return Eigen::Quaterniond (q[3], q[0], q[1], q[2]).normalized ();
+  }
+  if (!has_angles)
+    return Eigen::Quaterniond::Identity ();
+  const Eigen::Vector3d a = node.field ("rpy_deg").vector<3> () * M_PI / 180.0;
+  return Eigen::AngleAxisd (a[2], Eigen::Vector3d::UnitZ ()) * Eigen::AngleAxisd (a[1], Eigen::Vector3d::UnitY ()) *
+         Eigen::AngleAxisd (a[0], Eigen::Vector3d::UnitX ());
+}
+
+TriangleMesh::Colour
+parseColour (SpecNode& node, const TriangleMesh::Colour& otherwise)
+{
+  if (!node.has ("colour"))
+    return otherwise;
+  TriangleMesh::Colour colour;
+  const std::vector<SpecNode> numbers = node.field ("colour").elements ();
+  if (numbers.size () != colour.size ())
+    node.field ("colour").refuse ("must be 3 numbers: red, green, blue");
+  for (std::size_t n = 0; n < colour.size (); ++n)
+    colour[n] = static_cast<std::uint8_t> (numbers[n].whole (0, 255));
+  return colour;
+}
+
+BodyPart
+parsePart (SpecNode node, const TriangleMesh::Colour& colour, const std::string& folder)
+{
+  node.requireObject ();
+  BodyPart part;
+  part.colour = parseColour (node, colour);
+  if (node.has ("position"))
+    part.T_body_part.translation () = node.field ("position").vector<3> ();
+  part.T_body_part.linear () = parseRotation (node).toRotationMatrix ();
+  try
+  {
+    part.shape = parseShape (node, folder);
+  }
+  catch (const InvalidArgument& error)
+  {
+    const std::string what = error.what ();
+    if (what.rfind (node.path (), 0) == 0)
+      throw;
+    node.refuse ("is not right: " + what); // from the shape itself
+  }
+  node.finish ();
+  return part;
+}
+
+} // namespace cosection
+} // namespace pcl

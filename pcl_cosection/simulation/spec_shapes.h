@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_cosection authors
+#pragma once
+
+#include "spec_node.h"
+
+#include <pcl/cosection/simulation/simulated_scene.h>
+
+#include <string>
+
+namespace pcl
+{
+namespace cosection
+{
+
+/** \brief A rotation from the fields rpy_deg or quaternion; none is none. */
+Eigen::Quaterniond
+parseRotation (SpecNode& node);
+
+/** \brief A part of a body: shape, place and colour. */
+BodyPart
+parsePart (SpecNode node, const TriangleMesh::Colour& colour, const std::string& folder);
+
+TriangleMesh::Colour
+parseColour (SpecNode& node, const TriangleMesh::Colour& otherwise);
+
+} // namespace cosection
+} // namespace pcl

@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_cosection authors
+
+// Renders known scenes, with the truth; see pcl_cosection_simulate --help.
+
+#include "interruption.h"
+#include "json_file.h"
+#include "simulate_command_line.h"
+#include "terminal.h"
+
+#include <pcl/cosection/common/error.h>
+#include <pcl/cosection/simulation/penetration_check.h>
+#include <pcl/cosection/simulation/scene_spec.h>
+#include <pcl/cosection/simulation/sequence_writer.h>
+
+#include <algorithm>
+#include <chrono>
+#include <iostream>
+#include <sstream>
+
+using namespace pcl::cosection;
+
+namespace
+{
+
+enum ExitStatus
+{
+  Success = 0,
+  Failure = 1,
+  WrongUsage = 2,
+  Interrupted = 130,
+};
+
+const ScenePreset&
+presetOf (const std::string& name)
+{
+  return (*std::find_if (scenePresets ().begin (), scenePresets ().end (),
+                         [&name] (const ScenePreset& preset) { return (preset.name == name); }));
+}
+
+SimulatedScene
+sceneOf (const SimulateSettings& settings)
+{
+  SimulatedScene scene = settings.preset.empty () ? loadSceneSpec (settings.spec)
+                                                  : parseSceneSpec (presetOf (settings.preset).spec, settings.preset);
+  if (settings.seed)
+    scene.seed = static_cast<std::uint64_t> (*settings.seed);
+  if (settings.views_every)
+    scene.views_every = *settings.views_every;
+  if (settings.no_noise)
+    scene.noise.reset ();
+  return (scene);
+}
+
+std::vector<std::string>
+warningsOf (const SimulatedScene& scene, int threads)
+{
+  std::vector<std::string> warnings;
+  for (const ScenePenetration& p : findPenetrations (scene, 0.001, threads))
+  {
+    std::ostringstream text;
+    text.precision (2);
+    text << p.second << " is inside " << p.first << ", by " << 1000.0 * p.depth_m << " mm at frame " << p.frame << " (in "
+         << p.frames << " of " << scene.frames << " frames)";
+    warnings.push_back (text.str ());
+  }
+  return (warnings);
+}
+
+void
+run (const SimulateSettings& settings, Terminal& terminal)
+{
+  const auto start = std::chrono::steady_clock::now ();
+  const auto seconds = [&start] {
+    return (std::chrono::duration<double> (std::chrono::steady_clock::now () - start).count ());
+  };
+  const SimulatedScene scene = sceneOf (settings);
+  const double read_s = seconds ();
+  const std::vector<std::string> warnings = warningsOf (scene, settings.threads);
+  for (const std::string& warning : warnings)
+    terminal.warning (warning);
+  const double check_s = seconds () - read_s;
+
+  SequenceOptions options;
+  options.first = settings.first_frame;
+  options.last = settings.last_frame;
+  options.threads = settings.threads;
+  writeSequence (scene, settings.output, options, [&] (const std::string& stage, double fraction) {
+    terminal.progress (stage, fraction);
+    return (!interrupted ());
+  });
+  const double total_s = seconds ();
+  const int frames = (options.last < 0 ? scene.frames : options.last) - options.first;
+  const double render_s = total_s - read_s - check_s;
+  std::ostringstream text;
+  text.precision (3);
+  text << "wrote " << settings.output << ": " << frames << (frames == 1 ? " frame" : " frames") << " of " << scene.camera.width
+       << " x " << scene.camera.height << ", " << scene.bodies.size () - 1
+       << (scene.bodies.size () == 2 ? " object, " : " objects, ") << frames / render_s << " frames/s";
+  terminal.result (text.str ());
+  if (settings.json.empty ())
+    return;
+  nlohmann::ordered_json summary;
+  summary["timings_s"] = {{"read", read_s}, {"check", check_s}, {"render", render_s}, {"total", total_s}};
+  summary["frames"] = frames;
+  summary["frames_per_second"] = frames / render_s;
+  summary["parameters"] = {{"spec", settings.spec},   {"preset", settings.preset},          {"seed", scene.seed},
+                           {"noise", !!scene.noise},  {"views_every", scene.views_every},   {"threads", settings.threads},
+                           {"first_frame", options.first}};
+  summary["objects"] = nlohmann::ordered_json::array ();
+  for (const SceneBody& body : scene.bodies)
+    if (body.id > 0)
+      summary["objects"].push_back ({{"id", body.id}, {"name", body.name}});
+  summary["warnings"] = warnings;
+  writeJsonFile (summary, settings.json);
+}
+
+} // namespace
+
+int
+main (int argc, char** argv)
+{
+  Terminal terminal ("pcl_cosection_simulate");
+  try
+  {
+    const std::optional<SimulateSettings> settings = parseSimulateCommandLine (argc, argv);
+    if (!settings)
+      return (Success);
+    if (settings->list_presets)
+      for (const ScenePreset& preset : scenePresets ())
+        std::cout << preset.name << std::string (8 - std::min<std::size_t> (7, preset.name.size ()), ' ') << preset.meaning
+                  << "\n";
+    else if (!settings->print_preset.empty ())
+      std::cout << presetOf (settings->print_preset).spec;
+    else
+    {
+      terminal.setVerbosity (settings->verbosity);
+      catchInterruptions ();
+      run (*settings, terminal);
+    }
+    return (Success);
+  }
+  catch (const UsageError& error)
+  {
+    terminal.error (error.what ());
+    return (WrongUsage);
+  }
+  catch (const Cancelled&)
+  {
+    terminal.error ("interrupted, nothing was written");
+    return (Interrupted);
+  }
+  catch (const std::bad_alloc&)
+  {
+    terminal.error ("out of memory");
+  }
+  catch (const std::exception& error)
+  {
+    terminal.error (error.what ());
+  }
+  return (Failure);
+}
