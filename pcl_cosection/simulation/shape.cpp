@@ -22,6 +22,7 @@ namespace
 
 constexpr int grid_resolution = 96; // voxels along the longest side of a mesh
 constexpr int grid_margin = 4;      // voxels around it
+constexpr double band_voxels = 12;  // up to which its distance is exact
 
 class MeshShape : public Shape
 {
@@ -51,7 +52,7 @@ public:
     grid.dims = ((box.sizes () / grid.voxel_size_m).array ().ceil ().cast<int> () + 2 * grid_margin + 1).matrix ();
     try
     {
-      field_ = sampleSignedDistance (mesh_, grid, 3.0 * grid.voxel_size_m);
+      field_ = sampleSignedDistance (mesh_, grid, band_voxels * grid.voxel_size_m);
     }
     catch (const InvalidArgument&)
     {

@@ -21,6 +21,7 @@ namespace
 
 constexpr int union_resolution = 200; // voxels along the longest side
 constexpr int union_margin = 3;       // voxels around it
+constexpr int block = 8;              // voxels along its sides
 constexpr int projection_steps = 4;
 constexpr double max_projection_vox = 0.9;
 
@@ -55,10 +56,22 @@ unionSurface (const SceneBody& body, const Eigen::AlignedBox3d& box)
       ((box.sizes () / field.grid.voxel_size_m).array ().ceil ().cast<int> () + 2 * union_margin + 1).matrix ();
   field.values.resize (field.grid.size ());
   const VoxelGrid& grid = field.grid;
-  parallelFor (0, grid.dims.z (), 0, [&] (int k) {
-    for (int j = 0; j < grid.dims.y (); ++j)
-      for (int i = 0; i < grid.dims.x (); ++i)
-        field.values[grid.index (i, j, k)] = static_cast<float> (body.distance (grid.center (i, j, k)));
+  // The distance at the middle of a block bounds that in all of it.
+  const double half_block_m = 0.5 * std::sqrt (3.0) * (block - 1) * grid.voxel_size_m;
+  const Eigen::Vector3i blocks = (grid.dims.array () + block - 1) / block;
+  parallelFor (0, blocks.prod (), 0, [&] (int b) {
+    const Eigen::Vector3i first =
+        block * Eigen::Vector3i (b % blocks.x (), b / blocks.x () % blocks.y (), b / blocks.x () / blocks.y ());
+    const Eigen::Vector3i last = (first.array () + block).min (grid.dims.array ());
+    const Eigen::Vector3d middle =
+        grid.origin_m + grid.voxel_size_m * (first.cast<double> () + Eigen::Vector3d::Constant (0.5 * (block - 1)));
+    const double at_middle = body.distance (middle);
+    const bool far = std::abs (at_middle) > half_block_m + 2.0 * grid.voxel_size_m;
+    for (int k = first.z (); k < last.z (); ++k)
+      for (int j = first.y (); j < last.y (); ++j)
+        for (int i = first.x (); i < last.x (); ++i)
+          field.values[grid.index (i, j, k)] =
+              static_cast<float> (far ? at_middle : body.distance (grid.center (i, j, k)));
   });
   TriangleMesh mesh = extractIsoSurface (field);
   mesh.normals.clear ();

@@ -34,6 +34,7 @@ public:
   TriangleMesh
   tessellate (double chord_m) const override
   {
+    chord_m *= 0.5; // curved both ways
     Polygon2d profile = arc ({0.0, 0.0}, radius_, -M_PI_2, M_PI_2, chord_m);
     profile.front ().x () = profile.back ().x () = 0.0;
     return turnedProfile (profile, false, chord_m);
@@ -58,6 +59,7 @@ public:
   TriangleMesh
   tessellate (double chord_m) const override
   {
+    chord_m *= 0.5; // curved both ways
     Polygon2d profile = arc ({0.0, 0.0}, radius_, -M_PI_2, 0.0, chord_m);
     const Polygon2d upper = arc ({0.0, length_}, radius_, 0.0, M_PI_2, chord_m);
     profile.insert (profile.end (), upper.begin (), upper.end ());
@@ -89,6 +91,7 @@ public:
   TriangleMesh
   tessellate (double chord_m) const override
   {
+    chord_m *= 0.5; // curved both ways
     Polygon2d profile = arc ({radius_, 0.0}, tube_radius_, 0.0, 2.0 * M_PI, chord_m);
     profile.pop_back ();
     return turnedProfile (profile, true, chord_m);

@@ -69,3 +69,25 @@ TEST_F (Trajectory, NamesTheLineThatIsWrong)
   EXPECT_NE (failure ("3 0 0 0 0 0 0 1\n3 0 0 0 0 0 0 1\n").find ("two poses of stamp 3"), std::string::npos);
   EXPECT_THROW (loadTrajectory (folder_.file ("missing.txt")), IoError);
 }
+
+TEST_F (Trajectory, WhatIsSavedIsLoaded)
+{
+  const TemporaryFolder folder;
+  std::vector<StampedPose> poses (3);
+  poses[1].stamp = 1.25;
+  poses[1].pose = Eigen::Translation3d (0.1, -2.0, 1e-5) * Eigen::AngleAxisd (2.5, Eigen::Vector3d (1, -2, 0.5).normalized ());
+  poses[2].stamp = 1305031102.175304;
+  saveTrajectory (poses, folder.file ("t.txt"));
+  const std::vector<StampedPose> read = loadTrajectory (folder.file ("t.txt"));
+  ASSERT_EQ (read.size (), 3u);
+  for (std::size_t n = 0; n < 3; ++n)
+  {
+    EXPECT_NEAR (read[n].stamp, poses[n].stamp, 1e-6);
+    EXPECT_TRUE (read[n].pose.isApprox (poses[n].pose, 1e-8));
+  }
+  std::ifstream in (folder.file ("t.txt"));
+  std::string line;
+  std::getline (in, line);
+  EXPECT_EQ (line.rfind ("0 0.0", 0), 0u) << line;
+  EXPECT_THROW (saveTrajectory (poses, folder.file ("no/t.txt")), IoError);
+}

@@ -28,7 +28,7 @@ public:
   distance (const Eigen::Vector3d& p) const = 0;
 
   /** \brief Whether distance () is computed from a formula, to rounding errors; else the shape is its mesh, and the
-   * distance is interpolated in a grid. */
+   * distance is interpolated in a grid, up to an eighth of its size and with the right sign beyond. */
   virtual bool
   isAnalytic () const = 0;
 
