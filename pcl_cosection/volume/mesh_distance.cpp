@@ -4,8 +4,7 @@
 #include "../common/mesh_checks.h"
 #include "../common/mesh_cleaning.h"
 #include "../common/mesh_parts.h"
-#include "pseudonormals.h"
-#include "triangle_tree.h"
+#include "mesh_bodies.h"
 
 #include <pcl/cosection/common/parallel.h>
 #include <pcl/cosection/volume/mesh_distance.h>
@@ -15,7 +14,6 @@
 #include <limits>
 #include <numeric>
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace pcl
@@ -24,63 +22,6 @@ namespace cosection
 {
 namespace
 {
-
-// ---- Bodies and sheets --------------------------------------------------------------------------
-
-/** \brief The triangles of each closed body, cavities with what is around them, and those of all open parts. */
-struct Division
-{
-  std::vector<std::vector<std::uint32_t>> bodies;
-  std::vector<std::uint32_t> sheets;
-};
-
-bool
-isFlat (const MeshPart& part)
-{
-  constexpr double flat = 1e-12; // of the cube over the diagonal; rounding is far below, a foil far above
-  return std::abs (part.volume_m3) <= flat * std::pow (part.box.diagonal ().cast<double> ().norm (), 3);
-}
-
-Division
-divide (const TriangleMesh& mesh)
-{
-  const auto parts = divideMesh (mesh);
-  Division division;
-  std::vector<std::vector<std::uint32_t>> bodies (parts.size ());
-  for (std::size_t n = 0; n < parts.size (); ++n)
-  {
-    const auto& triangles = parts[n].triangles;
-    if (!parts[n].closed)
-    {
-      division.sheets.insert (division.sheets.end (), triangles.begin (), triangles.end ());
-      continue;
-    }
-    if (isFlat (parts[n]))
-      continue;
-    const std::size_t body = (parts[n].volume_m3 < 0.0 ? enclosingPart (mesh, parts, n).value_or (n) : n);
-    bodies[body].insert (bodies[body].end (), triangles.begin (), triangles.end ());
-  }
-  for (auto& body : bodies)
-    if (!body.empty ())
-      division.bodies.push_back (std::move (body));
-  return division;
-}
-
-/** \brief Triangles with what answers questions about them. */
-struct Surface
-{
-  Surface (const TriangleMesh& whole, const std::vector<std::uint32_t>& triangles)
-  : mesh (selectTriangles (whole, triangles)), tree (mesh), normals (mesh)
-  {
-    for (const Eigen::Vector3f& v : mesh.vertices)
-      box.extend (v.cast<double> ());
-  }
-
-  TriangleMesh mesh;
-  TriangleTree tree;
-  Pseudonormals normals;
-  Eigen::AlignedBox3d box;
-};
 
 // ---- Rows of voxels -----------------------------------------------------------------------------
 
@@ -175,7 +116,7 @@ struct KnownVoxel
 class InsideTest
 {
 public:
-  InsideTest (const Surface& body, const VoxelGrid& grid, bool is_room)
+  InsideTest (const SearchableSurface& body, const VoxelGrid& grid, bool is_room)
   : body_ (body), grid_ (grid), matter_above_ (is_room ? -0.5 : 0.5), all_ (body.mesh.triangles.size ())
   {
     std::iota (all_.begin (), all_.end (), 0u);
@@ -206,7 +147,7 @@ private:
     return tells ? body_.normals.side (nearest) : 0.0;
   }
 
-  const Surface& body_;
+  const SearchableSurface& body_;
   const VoxelGrid& grid_;
   double matter_above_; // winding numbers are 1 inside a body and 0 outside, -1 in a room and 0 in its matter
   std::vector<std::uint32_t> all_;
@@ -214,7 +155,7 @@ private:
 
 /** \brief Lower the values to the signed distance of a closed surface. */
 void
-addBody (const Surface& body, double band_m, int threads, SignedDistanceField& field)
+addBody (const SearchableSurface& body, double band_m, int threads, SignedDistanceField& field)
 {
   const bool is_room = computeMassProperties (body.mesh).volume_m3 < 0.0;
   const VoxelGrid& grid = field.grid;
@@ -246,7 +187,7 @@ addBody (const Surface& body, double band_m, int threads, SignedDistanceField& f
 
 /** \brief Lower the values to those of open surfaces where these say something, and fill in \a supported. */
 void
-addSheets (const Surface& sheets, double band_m, int threads, SignedDistanceField& field)
+addSheets (const SearchableSurface& sheets, double band_m, int threads, SignedDistanceField& field)
 {
   const VoxelGrid& grid = field.grid;
   const auto band = static_cast<float> (band_m);
@@ -299,7 +240,7 @@ sampleSignedDistance (const TriangleMesh& mesh, const VoxelGrid& grid, double ba
 {
   check (mesh, grid, band_m);
   const TriangleMesh clean = dropBackToBack (cleanMesh (mesh));
-  const Division division = divide (clean);
+  const MeshBodies division = divideBodies (clean);
   if (division.bodies.empty () && division.sheets.empty ())
     throw InvalidArgument ("sampleSignedDistance: the mesh bounds nothing, all its triangles are without area or "
                            "lie back to back");
@@ -307,9 +248,9 @@ sampleSignedDistance (const TriangleMesh& mesh, const VoxelGrid& grid, double ba
   field.grid = grid;
   field.values.assign (grid.size (), static_cast<float> (band_m));
   for (const auto& triangles : division.bodies)
-    addBody (Surface (clean, triangles), band_m, threads, field);
+    addBody (SearchableSurface (clean, triangles), band_m, threads, field);
   if (!division.sheets.empty ())
-    addSheets (Surface (clean, division.sheets), band_m, threads, field);
+    addSheets (SearchableSurface (clean, division.sheets), band_m, threads, field);
   return field;
 }
 

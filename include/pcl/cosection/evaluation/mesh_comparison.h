@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_cosection authors
+#pragma once
+
+#include <pcl/cosection/common/export.h>
+#include <pcl/cosection/common/triangle_mesh.h>
+
+#include <Eigen/Geometry>
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace pcl
+{
+namespace cosection
+{
+
+/** \brief How to compare meshes. */
+struct PCL_COSECTION_EXPORT MeshComparisonOptions
+{
+  std::size_t samples = 10000; ///< on each mesh
+  std::uint64_t seed = 0;      ///< of the samples
+  double f_threshold_m = 0.01; ///< of precision, recall and F-score
+  int threads = 0;             ///< 0: all
+
+  /** \brief \throws InvalidArgument naming the first parameter outside its domain. */
+  void
+  validate () const;
+};
+
+/** \brief What distances, or angles, of a set are like; of none, all are 0. */
+struct PCL_COSECTION_EXPORT ErrorStatistics
+{
+  double mean = 0.0;
+  double rmse = 0.0;   ///< root of the mean square
+  double median = 0.0;
+  double p95 = 0.0;    ///< 95 % are at most this large
+  double max = 0.0;
+};
+
+/** \brief Quantiles are interpolated linearly between the sorted values. */
+PCL_COSECTION_EXPORT ErrorStatistics
+errorStatistics (std::vector<double> values);
+
+/** \brief How near two surfaces are to each other, metres. */
+struct PCL_COSECTION_EXPORT MeshComparison
+{
+  ErrorStatistics accuracy;     ///< from samples of the reconstruction to the truth
+  ErrorStatistics completeness; ///< from samples of the truth to the reconstruction
+  double precision = 0.0;       ///< share of the reconstruction's samples nearer than the threshold
+  double recall = 0.0;          ///< share of the truth's samples nearer than the threshold
+  double f_score = 0.0;         ///< harmonic mean of the two
+};
+
+/** \brief Accuracy and completeness of a reconstruction: the mean exact distances of area-uniform samples of one mesh
+ * to the triangles of the other (D. Stutz, A. Geiger, "Learning 3D Shape Completion Under Weak Supervision", IJCV
+ * 2020), and the F-score (A. Knapitsch et al., "Tanks and Temples", TOG 2017), which has samples within the threshold,
+ * it included.
+ *
+ * Both meshes are in one frame; they may be open. The result is the same for any number of threads.
+ * \throws InvalidArgument, DegenerateInput as requireSurface (), and for options outside their domain */
+PCL_COSECTION_EXPORT MeshComparison
+compareMeshes (const TriangleMesh& truth, const TriangleMesh& reconstruction, const MeshComparisonOptions& options = {});
+
+/** \brief What a mesh is like by itself. */
+struct PCL_COSECTION_EXPORT MeshSummary
+{
+  std::size_t vertices = 0; ///< that triangles refer to
+  std::size_t triangles = 0;
+  MeshTopology topology;
+  double area_m2 = 0.0;
+  std::optional<double> volume_m3; ///< of a closed manifold only
+  Eigen::AlignedBox3d box;         ///< metres
+};
+
+/** \throws InvalidArgument, DegenerateInput as requireSurface () */
+PCL_COSECTION_EXPORT MeshSummary
+summarizeMesh (const TriangleMesh& mesh);
+
+/** \brief Lines that say why a comparison may mean nothing: the boxes do not overlap, or one mesh is about a thousand
+ * times as large as the other (metres and millimetres). Empty if all is well. */
+PCL_COSECTION_EXPORT std::vector<std::string>
+frameWarnings (const MeshSummary& truth, const MeshSummary& reconstruction);
+
+/** \brief The mesh in another frame: vertices and normals. */
+PCL_COSECTION_EXPORT TriangleMesh
+transformMesh (TriangleMesh mesh, const Eigen::Isometry3d& T_target_mesh);
+
+} // namespace cosection
+} // namespace pcl

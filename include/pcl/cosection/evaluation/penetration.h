@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_cosection authors
+#pragma once
+
+#include <pcl/cosection/common/export.h>
+#include <pcl/cosection/common/triangle_mesh.h>
+
+#include <Eigen/Geometry>
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+
+namespace pcl
+{
+namespace cosection
+{
+
+/** \brief How to measure penetration. */
+struct PCL_COSECTION_EXPORT PenetrationOptions
+{
+  std::size_t samples = 10000; ///< on the surface, beside its vertices
+  std::uint64_t seed = 0;      ///< of the samples
+  double voxel_size_m = 0.0;   ///< of the volume; 0: 1/128 of the longest side of the smaller box
+  double band_m = 0.05;        ///< how far behind open parts of a mesh there is matter
+  int threads = 0;             ///< 0: all
+
+  /** \brief \throws InvalidArgument naming the first parameter outside its domain. */
+  void
+  validate () const;
+};
+
+class SolidDepth;
+
+/** \brief A mesh that others may penetrate, and that may penetrate others.
+ *
+ * What is inside is what sampleSignedDistance () says: closed parts are solid, cavities are not; behind open parts
+ * there is matter within a band, where the nearest point is not on their rim. */
+class PCL_COSECTION_EXPORT PenetrationBody
+{
+public:
+  /** \throws InvalidArgument, DegenerateInput as requireSurface (), and for options outside their domain */
+  explicit PenetrationBody (const TriangleMesh& mesh, const PenetrationOptions& options = {});
+  ~PenetrationBody ();
+  PenetrationBody (PenetrationBody&&) noexcept;
+  PenetrationBody&
+  operator= (PenetrationBody&&) noexcept;
+
+  /** \brief Whether some of the mesh is open: it has no inside, only a band behind it. */
+  bool
+  isOpen () const;
+
+  /** \brief How deep the surface of \a other, by its vertices and area-uniform samples of it, lies inside this: the
+   * greatest distance to this surface, metres; 0: it does not.
+   * \param[in] T_this_other pose of \a other in the frame of this mesh */
+  double
+  depthOf (const PenetrationBody& other, const Eigen::Isometry3d& T_this_other = Eigen::Isometry3d::Identity ()) const;
+
+  /** \brief The volume that both bodies fill, cubic metres, by counting the centres of voxels.
+   * \return nothing if this or \a other has no closed part, for then it has no volume; nothing for two rooms
+   * \throws InvalidArgument if the voxels are so small that there are more than 2e8 */
+  std::optional<double>
+  sharedVolume (const PenetrationBody& other,
+                const Eigen::Isometry3d& T_this_other = Eigen::Isometry3d::Identity ()) const;
+
+private:
+  TriangleMesh mesh_;
+  PenetrationOptions options_;
+  Eigen::AlignedBox3d box_;
+  std::vector<Eigen::Vector3d> points_; ///< vertices and samples
+  std::unique_ptr<SolidDepth> solid_;
+};
+
+} // namespace cosection
+} // namespace pcl

@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_cosection authors
+#pragma once
+
+#include <pcl/cosection/common/camera.h>
+#include <pcl/cosection/common/export.h>
+#include <pcl/cosection/common/triangle_mesh.h>
+#include <pcl/cosection/evaluation/mesh_comparison.h>
+#include <pcl/cosection/evaluation/penetration.h>
+#include <pcl/cosection/evaluation/rigid_alignment.h>
+#include <pcl/cosection/evaluation/trajectory_error.h>
+#include <pcl/cosection/io/trajectory.h>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace pcl
+{
+namespace cosection
+{
+
+/** \brief A scene of moving objects before a moving camera, true or estimated. */
+struct PCL_COSECTION_EXPORT SceneRecord
+{
+  struct Object
+  {
+    int id = 0;
+    std::string name;               ///< for messages
+    std::vector<StampedPose> poses; ///< T_world_object, by ascending stamps
+    TriangleMesh mesh;              ///< the object's frame; empty: none
+  };
+
+  std::vector<StampedPose> camera; ///< T_world_camera, by ascending stamps
+  std::optional<PinholeCamera> intrinsics;
+  std::vector<Object> objects;
+  TriangleMesh background; ///< world frame; empty: none
+};
+
+/** \brief How to evaluate a run. */
+struct PCL_COSECTION_EXPORT RunOptions
+{
+  MeshComparisonOptions comparison;
+  TrajectoryOptions trajectory; ///< the alignment is that of the camera
+  PenetrationOptions penetration = {2000};
+  RefinementOptions refinement;
+  bool refine = true;      ///< refine the alignment of each object on its observed surface
+  int volume_frames = 5;   ///< at most so many frames for the volume of each penetration
+  int threads = 0;         ///< 0: all
+
+  /** \brief \throws InvalidArgument naming the first parameter outside its domain. */
+  void
+  validate () const;
+};
+
+/** \brief How a mesh was brought into the frame of the truth. */
+struct PCL_COSECTION_EXPORT FrameAlignment
+{
+  Eigen::Isometry3d T_truth_estimate = Eigen::Isometry3d::Identity ();
+  Refinement refinement; ///< contained in the pose
+  std::size_t frames = 0; ///< with poses of both, of which the median is the start
+};
+
+/** \brief An estimated mesh beside the true one. */
+struct PCL_COSECTION_EXPORT MeshEvaluation
+{
+  FrameAlignment alignment;
+  MeshSummary truth, estimate;
+  MeshComparison comparison;
+  std::optional<double> volume_error; ///< relative; if both are closed
+};
+
+struct PCL_COSECTION_EXPORT ObjectEvaluation
+{
+  int id = 0; ///< of the estimate
+  int truth_id = 0;
+  std::string truth_name;
+  double overlap = 0.0; ///< of the match, in [0, 1]
+  MeshEvaluation mesh;
+  TrajectoryError trajectory; ///< in the camera's frame; the alignment is that of the mesh
+  std::size_t frames_tracked = 0;
+  std::size_t frames_visible = 0;         ///< of the truth's frames
+  std::size_t frames_tracked_visible = 0; ///< visible ones that were tracked
+  double penetration_m = 0.0;             ///< deepest of all its pairs
+  std::optional<double> penetration_m3;   ///< largest volume of all its pairs
+};
+
+/** \brief Two estimated bodies. */
+struct PCL_COSECTION_EXPORT PairPenetration
+{
+  static constexpr int background = -1;
+
+  int first = 0;
+  int second = background;
+  double depth_m = 0.0; ///< greatest over all frames of both
+  double stamp = 0.0;   ///< when it was
+  std::optional<double> volume_m3;
+  std::size_t frames = 0;
+};
+
+struct PCL_COSECTION_EXPORT RunEvaluation
+{
+  TrajectoryError camera;
+  std::vector<ObjectEvaluation> objects; ///< in the order of the estimate
+  std::optional<MeshEvaluation> background;
+  std::vector<PairPenetration> penetrations;
+  std::vector<int> unmatched; ///< estimated objects that are none of the truth's
+  std::vector<int> missed;    ///< true objects that are none of the estimate's
+  std::vector<std::string> warnings;
+};
+
+/** \brief Evaluate estimated poses and meshes of a scene against the true ones.
+ *
+ * The world and the objects' frames of the estimate may be any. Objects are matched one to one by how much of their
+ * surfaces coincides in the camera's frame (median over frames that have both, best pairs first). The pose of an estimated mesh in
+ * the true object's frame is the median over these frames, refined on what was observed (vertices of
+ * Provenance::Observed; all if the mesh has none). Objects' trajectories are compared in the camera's frame with this
+ * pose as alignment, so that their error is none of the camera's. Penetration is that of the estimate with itself.
+ * \throws InvalidArgument if an option is outside its domain
+ * \throws DegenerateInput if the cameras' trajectories do not match */
+PCL_COSECTION_EXPORT RunEvaluation
+evaluateRun (const SceneRecord& truth, const SceneRecord& estimate, const RunOptions& options = {});
+
+} // namespace cosection
+} // namespace pcl

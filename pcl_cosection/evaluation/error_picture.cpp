@@ -1,0 +1,222 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_cosection authors
+#include <pcl/cosection/evaluation/error_picture.h>
+
+#include "creased_normals.h"
+
+#include <pcl/cosection/common/error.h>
+#include <pcl/cosection/evaluation/mesh_comparison.h>
+#include <pcl/cosection/evaluation/surface_distance.h>
+#include <pcl/cosection/rendering/picture.h>
+#include <pcl/cosection/rendering/rasterizer.h>
+
+#include <opencv2/core.hpp>
+#include <opencv2/imgproc.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <string>
+
+namespace pcl
+{
+namespace cosection
+{
+
+namespace
+{
+
+constexpr int oversampling = 2;       ///< everything is drawn larger, for smooth edges and letters
+constexpr double distance_radii = 4.0; ///< of the camera
+constexpr double margin = 1.12;
+constexpr double turn_rad = 2.6;      ///< between the columns
+constexpr int title_px = 46;
+constexpr int scale_px = 150;         ///< width of the column of the scale
+const cv::Scalar ink (45, 45, 45);
+const cv::Scalar faint (120, 120, 120);
+
+using PictureMat = cv::Mat_<cv::Vec3b>; ///< red, green, blue, as in Picture
+
+void
+write (PictureMat& canvas, const std::string& text, int x, int y, double size, const cv::Scalar& colour)
+{
+  cv::putText (canvas, text, cv::Point (x * oversampling, y * oversampling), cv::FONT_HERSHEY_SIMPLEX,
+               size * oversampling, colour, 2, cv::LINE_AA);
+}
+
+std::string
+millimetres (double metres)
+{
+  char text[32];
+  std::snprintf (text, sizeof (text), "%.3g", 1000.0 * metres);
+  return text;
+}
+
+Eigen::Isometry3d
+cameraAt (const Eigen::Vector3d& eye, const Eigen::Vector3d& target, const Eigen::Vector3d& up)
+{
+  const Eigen::Vector3d forward = (target - eye).normalized ();
+  const Eigen::Vector3d right = forward.cross (up).normalized ();
+  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity ();
+  pose.linear () << right, forward.cross (right), forward;
+  pose.translation () = eye;
+  return pose;
+}
+
+/** \brief A mesh in the colours of its distance to a surface. */
+PictureMat
+drawPanel (const TriangleMesh& mesh, const SurfaceDistance& other, const Eigen::Isometry3d& T_world_camera,
+           const ErrorPictureOptions& options)
+{
+  const int size = options.panel_px * oversampling;
+  const double focal_length = 0.5 * size * distance_radii / margin;
+  const PinholeCamera camera{size, size, focal_length, focal_length, 0.5 * (size - 1), 0.5 * (size - 1)};
+  Rasterizer rasterizer (camera, T_world_camera, 1e-6);
+  rasterizer.draw (mesh, 1);
+  RasterImage image = rasterizer.image ();
+
+  std::vector<Eigen::Vector3d> points;
+  std::vector<std::size_t> pixels;
+  for (int v = 0; v < size; ++v)
+    for (int u = 0; u < size; ++u)
+    {
+      const std::size_t pixel = static_cast<std::size_t> (v) * size + u;
+      if (!std::isfinite (image.depth[pixel]))
+        continue;
+      points.push_back (T_world_camera * camera.unproject (u, v, image.depth[pixel]));
+      pixels.push_back (pixel);
+    }
+  const std::vector<double> errors_m = other.of (points, options.threads);
+  for (std::size_t n = 0; n < pixels.size (); ++n)
+    image.colours[pixels[n]] = errorColour (errors_m[n] / options.error_max_m);
+
+  const Picture picture = shade (image, camera);
+  PictureMat result (size, size);
+  for (int v = 0; v < size; ++v)
+    for (int u = 0; u < size; ++u)
+      result (v, u) = cv::Vec3b (picture.at (u, v).data ());
+  return result;
+}
+
+void
+drawScale (PictureMat& canvas, const cv::Rect& box, double error_max_m)
+{
+  for (int v = 0; v < box.height * oversampling; ++v)
+  {
+    const auto colour = errorColour (1.0 - static_cast<double> (v) / (box.height * oversampling - 1));
+    cv::line (canvas, cv::Point (box.x * oversampling, box.y * oversampling + v),
+              cv::Point ((box.x + box.width) * oversampling, box.y * oversampling + v),
+              cv::Scalar (colour[0], colour[1], colour[2]));
+  }
+  write (canvas, "error", box.x, box.y - 36, 0.5, ink);
+  write (canvas, "in mm", box.x, box.y - 16, 0.5, ink);
+  constexpr int steps = 4;
+  for (int n = 0; n <= steps; ++n)
+  {
+    const int y = box.y + box.height - box.height * n / steps;
+    cv::line (canvas, cv::Point ((box.x + box.width) * oversampling, y * oversampling),
+              cv::Point ((box.x + box.width + 6) * oversampling, y * oversampling), ink, 2, cv::LINE_AA);
+    write (canvas, millimetres (error_max_m * n / steps) + (n == steps ? " +" : ""), box.x + box.width + 12, y + 5, 0.5, ink);
+  }
+}
+
+} // namespace
+
+TriangleMesh::Colour
+errorColour (double share)
+{
+  static constexpr std::array<std::array<double, 3>, 6> stops = {
+      {{52, 98, 184}, {45, 161, 178}, {118, 196, 104}, {246, 214, 82}, {238, 131, 48}, {196, 30, 44}}};
+  const double place = std::clamp (std::isfinite (share) ? share : 1.0, 0.0, 1.0) * (stops.size () - 1);
+  const std::size_t below = std::min (static_cast<std::size_t> (place), stops.size () - 2);
+  const double part = place - static_cast<double> (below);
+  TriangleMesh::Colour colour;
+  for (std::size_t n = 0; n < 3; ++n)
+    colour[n] = static_cast<std::uint8_t> (std::lround ((1.0 - part) * stops[below][n] + part * stops[below + 1][n]));
+  return colour;
+}
+
+std::vector<TriangleMesh::Colour>
+errorColours (const std::vector<double>& errors_m, double error_max_m)
+{
+  if (!(error_max_m > 0.0))
+    throw InvalidArgument ("error_max_m must be positive");
+  std::vector<TriangleMesh::Colour> colours;
+  colours.reserve (errors_m.size ());
+  for (const double error_m : errors_m)
+    colours.push_back (errorColour (error_m / error_max_m));
+  return colours;
+}
+
+double
+roundErrorUp (double error_m)
+{
+  constexpr double least_m = 0.001;
+  if (!(error_m > least_m))
+    return least_m;
+  const double power = std::pow (10.0, std::floor (std::log10 (error_m)));
+  constexpr double rounding = 1e-9;
+  for (const double factor : {1.0, 2.0, 5.0})
+    if (factor * power >= error_m * (1.0 - rounding))
+      return factor * power;
+  return 10.0 * power;
+}
+
+void
+ErrorPictureOptions::validate () const
+{
+  constexpr int least_px = 64, most_px = 4096;
+  if (panel_px < least_px || panel_px > most_px)
+    throw InvalidArgument ("panel_px must be from 64 to 4096");
+  if (!(error_max_m > 0.0 && std::isfinite (error_max_m)))
+    throw InvalidArgument ("error_max_m must be a positive number of metres");
+  if (!(up.cross (front).norm () > 1e-6 * up.norm () * front.norm ()))
+    throw InvalidArgument ("up and front must be different directions");
+  if (threads < 0)
+    throw InvalidArgument ("threads must not be negative");
+}
+
+Picture
+drawErrorPicture (const TriangleMesh& truth, const TriangleMesh& reconstruction, const ErrorPictureOptions& options)
+{
+  options.validate ();
+  const Eigen::AlignedBox3d box = summarizeMesh (truth).box.merged (summarizeMesh (reconstruction).box);
+  const double radius_m = 0.5 * box.diagonal ().norm ();
+  const Eigen::Vector3d up = options.up.normalized (), front = options.front.normalized ();
+  const int panel = options.panel_px;
+  const int width = 2 * panel + scale_px, height = 2 * (panel + title_px);
+  PictureMat canvas (height * oversampling, width * oversampling, cv::Vec3b (255, 255, 255));
+
+  const SurfaceDistance to_truth (truth), to_reconstruction (reconstruction);
+  const std::array<TriangleMesh, 2> meshes = {withCreasedNormals (reconstruction), withCreasedNormals (truth)};
+  const std::array<const SurfaceDistance*, 2> others = {&to_truth, &to_reconstruction};
+  const std::array<std::string, 2> titles = {"Reconstruction: how far it is from the truth",
+                                             "Truth: how far it is from the reconstruction"};
+  for (int row = 0; row < 2; ++row)
+  {
+    const int top = row * (panel + title_px);
+    for (int column = 0; column < 2; ++column)
+    {
+      const Eigen::Vector3d eye = box.center () + distance_radii * radius_m *
+                                                      (Eigen::AngleAxisd (column * turn_rad, up) * front);
+      drawPanel (meshes[row], *others[row], cameraAt (eye, box.center (), up), options)
+          .copyTo (canvas (cv::Rect (column * panel * oversampling, (top + title_px) * oversampling,
+                                     panel * oversampling, panel * oversampling)));
+    }
+    write (canvas, titles[row], 20, top + 32, 0.62, ink);
+    write (canvas, "from behind", panel + 20, top + 32, 0.5, faint);
+  }
+  drawScale (canvas, cv::Rect (2 * panel + 20, title_px + 60, 26, height - 2 * title_px - 120), options.error_max_m);
+
+  PictureMat small;
+  cv::resize (canvas, small, cv::Size (width, height), 0.0, 0.0, cv::INTER_AREA);
+  Picture picture (width, height);
+  for (int v = 0; v < height; ++v)
+    for (int u = 0; u < width; ++u)
+      picture.at (u, v) = {small (v, u)[0], small (v, u)[1], small (v, u)[2]};
+  return picture;
+}
+
+} // namespace cosection
+} // namespace pcl

@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_cosection authors
+#include <pcl/cosection/evaluation/mesh_comparison.h>
+
+#include <pcl/cosection/common/error.h>
+#include <pcl/cosection/evaluation/surface_distance.h>
+#include <pcl/cosection/evaluation/surface_samples.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <sstream>
+
+namespace pcl
+{
+namespace cosection
+{
+
+namespace
+{
+
+double
+shareWithin (const std::vector<double>& distances_m, double threshold_m)
+{
+  const auto within = std::count_if (distances_m.begin (), distances_m.end (),
+                                     [threshold_m] (double d) { return d <= threshold_m; });
+  return static_cast<double> (within) / static_cast<double> (distances_m.size ());
+}
+
+/** \brief Of sorted values. */
+double
+quantile (const std::vector<double>& sorted, double share)
+{
+  const double place = share * static_cast<double> (sorted.size () - 1);
+  const auto below = static_cast<std::size_t> (place);
+  const std::size_t above = std::min (below + 1, sorted.size () - 1);
+  return sorted[below] + (place - static_cast<double> (below)) * (sorted[above] - sorted[below]);
+}
+
+} // namespace
+
+void
+MeshComparisonOptions::validate () const
+{
+  if (samples < 1 || samples > static_cast<std::size_t> (std::numeric_limits<int>::max ()))
+    throw InvalidArgument ("samples must be at least 1 and fit into 31 bits, but is " + std::to_string (samples));
+  if (!(f_threshold_m > 0.0 && std::isfinite (f_threshold_m)))
+    throw InvalidArgument ("f_threshold_m must be a positive number of metres");
+  if (threads < 0)
+    throw InvalidArgument ("threads must not be negative");
+}
+
+ErrorStatistics
+errorStatistics (std::vector<double> values)
+{
+  ErrorStatistics result;
+  if (values.empty ())
+    return result;
+  std::sort (values.begin (), values.end ());
+  double sum = 0.0, squares = 0.0;
+  for (const double value : values)
+  {
+    sum += value;
+    squares += value * value;
+  }
+  const auto count = static_cast<double> (values.size ());
+  result.mean = sum / count;
+  result.rmse = std::sqrt (squares / count);
+  result.median = quantile (values, 0.5);
+  result.p95 = quantile (values, 0.95);
+  result.max = values.back ();
+  return result;
+}
+
+MeshComparison
+compareMeshes (const TriangleMesh& truth, const TriangleMesh& reconstruction, const MeshComparisonOptions& options)
+{
+  options.validate ();
+  requireSurface (truth, "truth");
+  requireSurface (reconstruction, "reconstruction");
+  const auto to_truth = SurfaceDistance (truth).of (
+      sampleSurface (reconstruction, options.samples, options.seed), options.threads);
+  const auto to_reconstruction = SurfaceDistance (reconstruction).of (
+      sampleSurface (truth, options.samples, options.seed), options.threads);
+
+  MeshComparison result;
+  result.accuracy = errorStatistics (to_truth);
+  result.completeness = errorStatistics (to_reconstruction);
+  result.precision = shareWithin (to_truth, options.f_threshold_m);
+  result.recall = shareWithin (to_reconstruction, options.f_threshold_m);
+  if (result.precision + result.recall > 0.0)
+    result.f_score = 2.0 * result.precision * result.recall / (result.precision + result.recall);
+  return result;
+}
+
+MeshSummary
+summarizeMesh (const TriangleMesh& mesh)
+{
+  requireSurface (mesh, "summarizeMesh");
+  MeshSummary summary;
+  summary.triangles = mesh.triangles.size ();
+  summary.topology = computeTopology (mesh);
+  summary.area_m2 = surfaceArea (mesh);
+  if (summary.topology.closed_manifold)
+    summary.volume_m3 = computeMassProperties (mesh).volume_m3;
+  std::vector<bool> used (mesh.vertices.size (), false);
+  for (const auto& triangle : mesh.triangles)
+    for (const std::uint32_t v : triangle)
+      used[v] = true;
+  for (std::size_t v = 0; v < used.size (); ++v)
+    if (used[v])
+    {
+      ++summary.vertices;
+      summary.box.extend (mesh.vertices[v].cast<double> ());
+    }
+  return summary;
+}
+
+std::vector<std::string>
+frameWarnings (const MeshSummary& truth, const MeshSummary& reconstruction)
+{
+  std::vector<std::string> warnings;
+  const double ratio = reconstruction.box.diagonal ().norm () / truth.box.diagonal ().norm ();
+  constexpr double least = 200.0, most = 5000.0; // around the factor of metres and millimetres
+  if (std::max (ratio, 1.0 / ratio) > least && std::max (ratio, 1.0 / ratio) < most)
+  {
+    std::ostringstream text;
+    text.precision (3);
+    text << "the reconstruction is " << (ratio > 1.0 ? ratio : 1.0 / ratio) << " times as " << (ratio > 1.0 ? "large" : "small")
+         << " as the truth: one is in millimetres, the other in metres?";
+    warnings.push_back (text.str ());
+  }
+  if (!truth.box.intersects (reconstruction.box))
+    warnings.emplace_back ("the boxes of truth and reconstruction do not overlap: frames or units differ?");
+  return warnings;
+}
+
+TriangleMesh
+transformMesh (TriangleMesh mesh, const Eigen::Isometry3d& T_target_mesh)
+{
+  for (Eigen::Vector3f& v : mesh.vertices)
+    v = (T_target_mesh * v.cast<double> ()).cast<float> ();
+  for (Eigen::Vector3f& n : mesh.normals)
+    n = (T_target_mesh.linear () * n.cast<double> ()).cast<float> ();
+  return mesh;
+}
+
+} // namespace cosection
+} // namespace pcl

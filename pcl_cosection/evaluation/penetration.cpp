@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_cosection authors
+#include <pcl/cosection/evaluation/penetration.h>
+
+#include "solid_depth.h"
+
+#include <pcl/cosection/common/error.h>
+#include <pcl/cosection/common/parallel.h>
+#include <pcl/cosection/evaluation/mesh_comparison.h>
+#include <pcl/cosection/evaluation/surface_samples.h>
+#include <pcl/cosection/volume/mesh_distance.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace pcl
+{
+namespace cosection
+{
+
+namespace
+{
+
+constexpr double voxels_of_side = 128.0; ///< where no voxel size is given
+constexpr double max_voxels = 2e8;
+
+} // namespace
+
+void
+PenetrationOptions::validate () const
+{
+  if (samples > static_cast<std::size_t> (std::numeric_limits<int>::max ()))
+    throw InvalidArgument ("samples must fit into 31 bits, but is " + std::to_string (samples));
+  if (!(voxel_size_m >= 0.0 && std::isfinite (voxel_size_m)))
+    throw InvalidArgument ("voxel_size_m must be a number of metres, 0 or more");
+  if (!(band_m > 0.0 && std::isfinite (band_m)))
+    throw InvalidArgument ("band_m must be a positive number of metres");
+  if (threads < 0)
+    throw InvalidArgument ("threads must not be negative");
+}
+
+PenetrationBody::PenetrationBody (const TriangleMesh& mesh, const PenetrationOptions& options)
+: mesh_ (mesh), options_ (options)
+{
+  options.validate ();
+  box_ = summarizeMesh (mesh).box;
+  points_ = sampleSurface (mesh, options.samples, options.seed);
+  for (const auto& triangle : mesh.triangles)
+    for (const std::uint32_t v : triangle)
+      points_.push_back (mesh.vertices[v].cast<double> ());
+  const auto less = [] (const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
+    return std::lexicographical_compare (a.data (), a.data () + 3, b.data (), b.data () + 3);
+  };
+  std::sort (points_.begin (), points_.end (), less);
+  points_.erase (std::unique (points_.begin (), points_.end ()), points_.end ());
+  solid_ = std::make_unique<SolidDepth> (mesh, options.band_m);
+}
+
+PenetrationBody::~PenetrationBody () = default;
+PenetrationBody::PenetrationBody (PenetrationBody&&) noexcept = default;
+PenetrationBody&
+PenetrationBody::operator= (PenetrationBody&&) noexcept = default;
+
+bool
+PenetrationBody::isOpen () const
+{
+  return solid_->hasSheets () || !solid_->hasBodies ();
+}
+
+double
+PenetrationBody::depthOf (const PenetrationBody& other, const Eigen::Isometry3d& T_this_other) const
+{
+  std::vector<double> depths (other.points_.size ());
+  parallelFor (0, static_cast<int> (depths.size ()), options_.threads,
+               [&] (int n) { depths[n] = solid_->at (T_this_other * other.points_[n]); });
+  return *std::max_element (depths.begin (), depths.end ());
+}
+
+std::optional<double>
+PenetrationBody::sharedVolume (const PenetrationBody& other, const Eigen::Isometry3d& T_this_other) const
+{
+  if (!solid_->hasBodies () || !other.solid_->hasBodies ())
+    return std::nullopt;
+  Eigen::AlignedBox3d common = other.box_.transformed (T_this_other);
+  const double voxel_m = options_.voxel_size_m > 0.0
+                             ? options_.voxel_size_m
+                             : std::min (box_.sizes ().maxCoeff (), common.sizes ().maxCoeff ()) / voxels_of_side;
+  // Matter around a room has no box; that of another body has.
+  if (solid_->hasRoom () && other.solid_->hasRoom ())
+    return std::nullopt;
+  if (other.solid_->hasRoom ())
+    common = box_;
+  else if (!solid_->hasRoom ())
+    common = common.intersection (box_);
+  if (common.isEmpty ())
+    return 0.0;
+  const Eigen::Array3d size = (common.sizes ().array () / voxel_m).ceil ().max (1.0);
+  if (size.prod () > max_voxels)
+    throw InvalidArgument ("voxel_size_m is too small: the common box has more than 2e8 voxels");
+  VoxelGrid grid;
+  grid.dims = size.cast<int> ();
+  grid.voxel_size_m = voxel_m;
+  grid.origin_m = common.center ().array () - 0.5 * voxel_m * (size - 1.0);
+
+  const auto distanceOf = [&] (const TriangleMesh& mesh, const SolidDepth& solid) {
+    return sampleSignedDistance (mesh, grid, solid.hasSheets () ? options_.band_m : voxel_m, options_.threads);
+  };
+  const SignedDistanceField a = distanceOf (mesh_, *solid_);
+  const SignedDistanceField b = distanceOf (transformMesh (other.mesh_, T_this_other), *other.solid_);
+  const auto isInside = [] (const SignedDistanceField& field, std::size_t n) {
+    return field.values[n] < 0.0f && (field.supported.empty () || field.supported[n] != 0);
+  };
+  std::size_t count = 0;
+  for (std::size_t n = 0; n < grid.size (); ++n)
+    count += isInside (a, n) && isInside (b, n);
+  return static_cast<double> (count) * voxel_m * voxel_m * voxel_m;
+}
+
+} // namespace cosection
+} // namespace pcl

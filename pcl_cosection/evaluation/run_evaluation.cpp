@@ -1,0 +1,214 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_cosection authors
+#include <pcl/cosection/evaluation/run_evaluation.h>
+
+#include "object_matching.h"
+#include "run_penetration.h"
+#include "scene_visibility.h"
+
+#include <pcl/cosection/common/error.h>
+#include <pcl/cosection/evaluation/surface_distance.h>
+
+#include <algorithm>
+
+namespace pcl
+{
+namespace cosection
+{
+
+namespace
+{
+
+constexpr std::size_t refinement_points = 5000;
+constexpr std::size_t median_frames = 400;
+
+/** \brief At most \a count of \a values, evenly spread. */
+template <typename Value>
+std::vector<Value>
+thinned (const std::vector<Value>& values, std::size_t count)
+{
+  if (values.size () <= count)
+    return values;
+  std::vector<Value> result;
+  for (std::size_t n = 0; n < count; ++n)
+    result.push_back (values[n * values.size () / count]);
+  return result;
+}
+
+/** \brief The vertices that were measured; all if nothing is known of that. */
+std::vector<Eigen::Vector3d>
+observedPoints (const TriangleMesh& mesh)
+{
+  std::vector<Eigen::Vector3d> points;
+  const bool is_known = mesh.provenance.size () == mesh.vertices.size ();
+  for (std::size_t v = 0; v < mesh.vertices.size (); ++v)
+    if (!is_known || mesh.provenance[v] == static_cast<std::uint8_t> (Provenance::Observed))
+      points.push_back (mesh.vertices[v].cast<double> ());
+  return thinned (points, refinement_points);
+}
+
+/** \brief Bring a mesh into the frame of the truth by the median of poses, and refine that on its surface. */
+MeshEvaluation
+evaluateMesh (const TriangleMesh& truth, const TriangleMesh& estimate,
+              const std::vector<Eigen::Isometry3d>& T_truth_estimate, const Eigen::Vector3d& centre,
+              const RunOptions& options)
+{
+  MeshEvaluation result;
+  FrameAlignment& alignment = result.alignment;
+  alignment.frames = T_truth_estimate.size ();
+  alignment.T_truth_estimate = medianPose (thinned (T_truth_estimate, median_frames), centre);
+  std::vector<Eigen::Vector3d> points = observedPoints (estimate);
+  for (Eigen::Vector3d& p : points)
+    p = alignment.T_truth_estimate * p;
+  if (options.refine && !points.empty ())
+  {
+    RefinementOptions refinement = options.refinement;
+    refinement.threads = options.threads;
+    alignment.refinement = refineAlignment (points, SurfaceDistance (truth), refinement);
+    alignment.T_truth_estimate = alignment.refinement.correction * alignment.T_truth_estimate;
+  }
+  const TriangleMesh moved = transformMesh (estimate, alignment.T_truth_estimate);
+  MeshComparisonOptions comparison = options.comparison;
+  comparison.threads = options.threads;
+  result.comparison = compareMeshes (truth, moved, comparison);
+  result.truth = summarizeMesh (truth);
+  result.estimate = summarizeMesh (moved);
+  if (result.truth.volume_m3 && result.estimate.volume_m3 && *result.truth.volume_m3 != 0.0)
+    result.volume_error = *result.estimate.volume_m3 / *result.truth.volume_m3 - 1.0;
+  return result;
+}
+
+ObjectEvaluation
+evaluateObject (const ViewedObject& truth, const ViewedObject& estimate, double max_difference_s,
+                const RunOptions& options)
+{
+  ObjectEvaluation result;
+  result.id = estimate.object->id;
+  result.truth_id = truth.object->id;
+  result.truth_name = truth.object->name;
+  std::vector<Eigen::Isometry3d> poses;
+  for (const PosePair& pair : associatePoses (truth.poses, estimate.poses, max_difference_s))
+    poses.push_back (truth.poses[pair.truth].pose.inverse () * estimate.poses[pair.estimate].pose);
+  result.mesh = evaluateMesh (truth.object->mesh, estimate.object->mesh, poses,
+                              summarizeMesh (estimate.object->mesh).box.center (), options);
+
+  std::vector<StampedPose> in_true_frame = estimate.poses;
+  for (StampedPose& pose : in_true_frame)
+    pose.pose = pose.pose * result.mesh.alignment.T_truth_estimate.inverse ();
+  TrajectoryOptions trajectory = options.trajectory;
+  trajectory.max_difference_s = max_difference_s;
+  trajectory.alignment = TrajectoryAlignment::None;
+  result.trajectory = compareTrajectories (truth.poses, in_true_frame, trajectory);
+  result.frames_tracked = estimate.object->poses.size ();
+  return result;
+}
+
+/** \brief How many of \a stamps have a pose. */
+std::size_t
+countTracked (const std::vector<double>& stamps, const std::vector<StampedPose>& poses, double max_difference_s)
+{
+  std::vector<StampedPose> wanted;
+  for (const double stamp : stamps)
+    wanted.push_back ({stamp, Eigen::Isometry3d::Identity ()});
+  return associatePoses (wanted, poses, max_difference_s).size ();
+}
+
+void
+addPenetration (const std::vector<PairPenetration>& pairs, ObjectEvaluation& object)
+{
+  for (const PairPenetration& pair : pairs)
+    if (pair.first == object.id || pair.second == object.id)
+    {
+      object.penetration_m = std::max (object.penetration_m, pair.depth_m);
+      if (pair.volume_m3)
+        object.penetration_m3 = std::max (object.penetration_m3.value_or (0.0), *pair.volume_m3);
+    }
+}
+
+void
+evaluateBackground (const SceneRecord& truth, const SceneRecord& estimate, double max_difference_s,
+                    const RunOptions& options, RunEvaluation& result)
+{
+  if (estimate.background.empty ())
+    result.warnings.emplace_back ("the estimate has no background: it is left out");
+  else if (truth.background.empty ())
+    result.warnings.emplace_back ("the truth has no background: that of the estimate is not compared");
+  if (estimate.background.empty () || truth.background.empty ())
+    return;
+  std::vector<Eigen::Isometry3d> poses;
+  Eigen::Vector3d centre = Eigen::Vector3d::Zero ();
+  for (const PosePair& pair : associatePoses (truth.camera, estimate.camera, max_difference_s))
+  {
+    poses.push_back (truth.camera[pair.truth].pose * estimate.camera[pair.estimate].pose.inverse ());
+    centre += estimate.camera[pair.estimate].pose.translation ();
+  }
+  result.background = evaluateMesh (truth.background, estimate.background, poses,
+                                    centre / static_cast<double> (poses.size ()), options);
+}
+
+void
+warnOfRefinement (const std::string& name, const FrameAlignment& alignment, std::vector<std::string>& warnings)
+{
+  if (alignment.refinement.limited)
+    warnings.push_back (name + ": the refinement of its alignment wants to go beyond its limits; poses and mesh may not fit together");
+}
+
+} // namespace
+
+void
+RunOptions::validate () const
+{
+  comparison.validate ();
+  trajectory.validate ();
+  penetration.validate ();
+  refinement.validate ();
+  if (volume_frames < 1)
+    throw InvalidArgument ("volume_frames must be at least 1");
+  if (threads < 0)
+    throw InvalidArgument ("threads must not be negative");
+}
+
+RunEvaluation
+evaluateRun (const SceneRecord& truth, const SceneRecord& estimate, const RunOptions& options)
+{
+  options.validate ();
+  RunEvaluation result;
+  result.camera = compareTrajectories (truth.camera, estimate.camera, options.trajectory);
+  const double max_difference_s = result.camera.max_difference_s;
+
+  const auto true_objects = viewObjects (truth, max_difference_s, "true object", result.warnings);
+  const auto objects = viewObjects (estimate, max_difference_s, "estimated object", result.warnings);
+  const auto matches = matchObjects (true_objects, objects, max_difference_s, options.threads);
+  result.penetrations = measurePenetrations (estimate, max_difference_s, options);
+  const auto visible = visibleStamps (truth, max_difference_s);
+  if (!truth.intrinsics)
+    result.warnings.emplace_back ("the truth has no calibration: objects count as visible whenever they have a pose");
+  for (const ObjectMatch& match : matches)
+  {
+    const ViewedObject& of_truth = true_objects[match.truth];
+    const ViewedObject& of_estimate = objects[match.estimate];
+    ObjectEvaluation object = evaluateObject (of_truth, of_estimate, max_difference_s, options);
+    object.overlap = match.overlap;
+    const auto& stamps = visible[static_cast<std::size_t> (of_truth.object - truth.objects.data ())];
+    object.frames_visible = stamps.size ();
+    object.frames_tracked_visible = countTracked (stamps, of_estimate.object->poses, max_difference_s);
+    addPenetration (result.penetrations, object);
+    warnOfRefinement ("object " + of_estimate.object->name, object.mesh.alignment, result.warnings);
+    result.objects.push_back (std::move (object));
+  }
+  for (const SceneRecord::Object& object : estimate.objects)
+    if (std::none_of (result.objects.begin (), result.objects.end (),
+                      [&] (const ObjectEvaluation& o) { return o.id == object.id; }))
+      result.unmatched.push_back (object.id);
+  for (const SceneRecord::Object& object : truth.objects)
+    if (std::none_of (result.objects.begin (), result.objects.end (),
+                      [&] (const ObjectEvaluation& o) { return o.truth_id == object.id; }))
+      result.missed.push_back (object.id);
+  evaluateBackground (truth, estimate, max_difference_s, options, result);
+  if (result.background)
+    warnOfRefinement ("background", result.background->alignment, result.warnings);
+  return result;
+}
+
+} // namespace cosection
+} // namespace pcl
