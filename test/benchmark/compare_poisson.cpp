@@ -4,15 +4,12 @@
 // compare_poisson CLOUD.pcd POISSON.ply [MESH.ply ...]: surface of one object by pcl::Poisson (depth 6, its defaults) from
 // the same oriented points that pcl_cosection reads, and a row of a table for it and for each mesh given.
 
+#include "rivals.h"
 #include "surface/mesh_distance.h"
 
 #include <pcl/cosection/common/error.h>
 #include <pcl/cosection/io/mesh_io.h>
 #include <pcl/cosection/io/pcd_view.h>
-#include <pcl/cosection/surface/polygon_mesh.h>
-
-#include <pcl/point_types.h>
-#include <pcl/surface/poisson.h>
 
 #include <algorithm>
 #include <cstdio>
@@ -26,7 +23,6 @@ using namespace pcl::cosection;
 namespace
 {
 
-constexpr int depth = 6;
 constexpr double reach_m = 0.1;
 
 std::vector<OrientedPoint>
@@ -38,20 +34,6 @@ readPoints (const std::string& path)
   if (view.objects.size () != 1)
     throw DegenerateInput (path + " has several labels");
   return view.objects.begin ()->second.points;
-}
-
-TriangleMesh
-poisson (const std::vector<OrientedPoint>& points)
-{
-  auto cloud = pcl::make_shared<pcl::PointCloud<pcl::PointNormal>> ();
-  for (const OrientedPoint& p : points)
-    cloud->emplace_back (p.position.x (), p.position.y (), p.position.z (), p.normal.x (), p.normal.y (), p.normal.z ());
-  pcl::Poisson<pcl::PointNormal> method;
-  method.setDepth (depth);
-  method.setInputCloud (cloud);
-  pcl::PolygonMesh mesh;
-  method.reconstruct (mesh);
-  return fromPolygonMesh (mesh);
 }
 
 /** \brief Farthest that \a mesh reaches beyond the box of the points, metres. */
@@ -98,7 +80,7 @@ main (int argc, char** argv)
   try
   {
     const std::vector<OrientedPoint> points = readPoints (argv[1]);
-    const TriangleMesh surface = poisson (points);
+    const TriangleMesh surface = test::poissonSurface (points);
     saveMesh (surface, argv[2]);
     std::printf ("| mesh | triangles | closed | parts | volume, litres | points to mesh, mean mm | 95 %%, mm | reach beyond the points, mm |\n"
                  "|---|---|---|---|---|---|---|---|\n");

@@ -39,9 +39,14 @@ readAll (const std::string& path)
 
 ToolRun::ToolRun (const std::vector<std::string>& arguments, const std::string& folder,
                   const std::function<void ()>& prepare)
+    : ToolRun (arguments, folder, std::string (PCL_COSECTION_TOOL), prepare)
+{}
+
+ToolRun::ToolRun (const std::vector<std::string>& arguments, const std::string& folder, const std::string& program,
+                  const std::function<void ()>& prepare)
     : folder_ (folder)
 {
-  std::vector<std::string> words = {PCL_COSECTION_TOOL};
+  std::vector<std::string> words = {program};
   words.insert (words.end (), arguments.begin (), arguments.end ());
   std::vector<char*> pointers;
   for (std::string& word : words)

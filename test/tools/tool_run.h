@@ -8,13 +8,17 @@
 #include <string>
 #include <vector>
 
-/** \brief A started pcl_cosection. */
+/** \brief A started program. */
 class ToolRun
 {
 public:
-  /** \param[in] folder its working directory; what it prints goes to files in there
+  /** \brief pcl_cosection. \param[in] folder its working directory; what it prints goes to files in there
    * \param[in] prepare run in the new process, before the program takes its place */
   ToolRun (const std::vector<std::string>& arguments, const std::string& folder,
+           const std::function<void ()>& prepare = {});
+
+  /** \brief Another program. \param[in] program path of its file */
+  ToolRun (const std::vector<std::string>& arguments, const std::string& folder, const std::string& program,
            const std::function<void ()>& prepare = {});
 
   /** \brief Kills the program if it is still running. */

@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_cosection authors
+
+// pcl_cosection_simulate as a user calls it.
+
+#include "common/temporary_folder.h"
+#include "simulate_command_line.h"
+#include "tool_run.h"
+
+#include <pcl/cosection/io/mesh_io.h>
+
+#include <nlohmann/json.hpp>
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
+namespace fs = std::filesystem;
+using namespace pcl::cosection;
+
+namespace
+{
+
+const std::string tool = PCL_COSECTION_SIMULATE_TOOL;
+
+const char* const small = R"({
+  "frames": 4,
+  "camera": {"width": 64, "height": 48, "keys": [{"position": [0, -1, 0.5], "look_at": [0, 0, 0]}]},
+  "background": {"parts": [{"type": "plane"}]},
+  "objects": [{"name": "ball", "shape": {"type": "sphere", "radius": 0.1}, "keys": [{"position": [0, 0, HEIGHT]}]}]
+})";
+
+class Simulate : public testing::Test
+{
+protected:
+  void
+  writeScene (const std::string& height = "0.1") const
+  {
+    std::string text = small;
+    text.replace (text.find ("HEIGHT"), 6, height);
+    std::ofstream (folder_.file ("scene.json")) << text;
+  }
+
+  std::string
+  failure (const std::vector<std::string>& arguments, int status) const
+  {
+    ToolRun run (arguments, folder_.file (""), tool);
+    EXPECT_EQ (run.wait (), status);
+    const std::string errors = run.errors ();
+    EXPECT_EQ (errors.rfind ("pcl_cosection_simulate: error: ", 0), 0u) << errors;
+    EXPECT_EQ (errors.find ('\n'), errors.size () - 1) << errors;
+    return errors;
+  }
+
+  const test::TemporaryFolder folder_;
+};
+
+} // namespace
+
+TEST_F (Simulate, WritesASceneAndASummary)
+{
+  writeScene ();
+  ToolRun run ({"scene.json", "out", "--json", "s.json", "--views-every", "2"}, folder_.file (""), tool);
+  EXPECT_EQ (run.wait (), 0) << run.errors ();
+  EXPECT_EQ (run.errors (), "");
+  EXPECT_EQ (run.output ().rfind ("wrote out: 4 frames of 64 x 48, 1 object, ", 0), 0u) << run.output ();
+  EXPECT_TRUE (fs::exists (folder_.file ("out/views/View0001.pcd")));
+  EXPECT_TRUE (fs::exists (folder_.file ("out/scene.json")));
+  std::ifstream file (folder_.file ("s.json"));
+  const nlohmann::json summary = nlohmann::json::parse (file);
+  EXPECT_EQ (summary["frames"], 4);
+  EXPECT_EQ (summary["objects"][0]["name"], "ball");
+  EXPECT_TRUE (summary["warnings"].empty ());
+  EXPECT_GT (summary["timings_s"]["total"], 0.0);
+}
+
+TEST_F (Simulate, SaysWhatPenetrates)
+{
+  writeScene ("0.08");
+  ToolRun run ({"scene.json", "out"}, folder_.file (""), tool);
+  EXPECT_EQ (run.wait (), 0);
+  EXPECT_EQ (run.errors (), "pcl_cosection_simulate: warning: ball is inside room, by 20 mm at frame 0 (in 4 of 4 frames)\n");
+}
+
+TEST_F (Simulate, PresetsAreListedPrintedAndRendered)
+{
+  ToolRun list ({"--list-presets"}, folder_.file (""), tool);
+  EXPECT_EQ (list.wait (), 0);
+  for (const char* name : {"table", "toys", "stack"})
+    EXPECT_NE (list.output ().find (std::string (name) + " "), std::string::npos);
+  ToolRun print ({"--print-preset", "stack"}, folder_.file (""), tool);
+  EXPECT_EQ (print.wait (), 0);
+  std::ofstream (folder_.file ("mine.json")) << print.output ();
+  ToolRun mine ({"--frames", "50:51", "mine.json", "mine"}, folder_.file (""), tool);
+  EXPECT_EQ (mine.wait (), 0) << mine.errors ();
+  ToolRun preset ({"--frames", "50:51", "--preset", "stack", "preset"}, folder_.file (""), tool);
+  EXPECT_EQ (preset.wait (), 0) << preset.errors ();
+  const auto bytes = [&] (const std::string& name) {
+    std::ifstream in (folder_.file (name), std::ios::binary);
+    return std::string (std::istreambuf_iterator<char> (in), {});
+  };
+  EXPECT_EQ (bytes ("mine/depth_noise/Depth0050.png"), bytes ("preset/depth_noise/Depth0050.png"));
+  EXPECT_GT (bytes ("mine/depth_noise/Depth0050.png").size (), 10000u);
+}
+
+TEST_F (Simulate, WrongUsageIsOneLine)
+{
+  writeScene ();
+  EXPECT_NE (failure ({}, 2).find ("SPEC.json and OUTPUT are missing"), std::string::npos);
+  EXPECT_NE (failure ({"scene.json"}, 2).find ("OUTPUT is missing after scene.json"), std::string::npos);
+  EXPECT_NE (failure ({"--preset", "table"}, 2).find ("OUTPUT is missing"), std::string::npos);
+  EXPECT_NE (failure ({"--preset", "tabel", "out"}, 2).find ("no preset tabel; did you mean table?"), std::string::npos);
+  EXPECT_NE (failure ({"--preset", "table", "scene.json", "out"}, 2).find ("one argument too many: out"), std::string::npos);
+  EXPECT_NE (failure ({"--sead", "3", "scene.json", "out"}, 2).find ("did you mean --seed?"), std::string::npos);
+  for (const char* frames : {"3", "a:b", "3:2", "-1:2", "1:2:3", "1.5:2"})
+    EXPECT_NE (failure ({"--frames", frames, "scene.json", "out"}, 2).find ("--frames"), std::string::npos) << frames;
+  EXPECT_NE (failure ({"--seed", "-1", "scene.json", "out"}, 2).find ("--seed"), std::string::npos);
+  EXPECT_FALSE (fs::exists (folder_.file ("out")));
+}
+
+TEST_F (Simulate, BadInputIsOneLineAndWritesNothing)
+{
+  writeScene ();
+  EXPECT_NE (failure ({"nowhere.json", "out"}, 1).find ("nowhere.json"), std::string::npos);
+  std::ofstream (folder_.file ("bad.json")) << "{\"frames\": }";
+  EXPECT_NE (failure ({"bad.json", "out"}, 1).find ("bad.json: is not well-formed JSON"), std::string::npos);
+  std::ofstream (folder_.file ("unknown.json")) << "{\"camera\": {\"keys\": [{\"position\": [0,0,0]}]}, \"objects\": [], \"fps\": 3}";
+  EXPECT_NE (failure ({"unknown.json", "out"}, 1).find ("unknown.json: has the unknown field \"fps\""), std::string::npos);
+  EXPECT_NE (failure ({"--frames", "2:9", "scene.json", "out"}, 1).find ("frames 2:9 are not there; the scene has 0:4"), std::string::npos);
+  EXPECT_FALSE (fs::exists (folder_.file ("out")));
+  fs::create_directory (folder_.file ("full"));
+  std::ofstream (folder_.file ("full/mine.txt")) << "mine";
+  EXPECT_NE (failure ({"scene.json", "full"}, 1).find ("full: is there already"), std::string::npos);
+  EXPECT_NE (failure ({"scene.json", "scene.json"}, 1).find ("scene.json: is there already"), std::string::npos);
+  EXPECT_EQ (folder_.entries (), 6u); // three descriptions, a folder, and what the last run printed
+}
