@@ -60,7 +60,8 @@ Oriented
 seenPart (Shape shape)
 {
   Oriented part;
-  for (const OrientedPoint& p : tableScene (shape).render (tableCamera (), fromAbove ()).points.at (1))
+  const RenderedView seen = tableScene (shape).render (tableCamera (), fromAbove ());
+  for (const OrientedPoint& p : seen.points.at (1))
   {
     part.points.push_back (p.position);
     part.normals.push_back (p.normal);
