@@ -2,6 +2,8 @@
 // Copyright (c) 2026, the pcl_cosection authors
 #include <pcl/cosection/simulation/depth_noise.h>
 
+#include "sine_table.h"
+
 #include <pcl/cosection/common/error.h>
 
 #include <algorithm>
@@ -41,8 +43,8 @@ public:
   normal ()
   {
     const double radius = std::sqrt (-2.0 * std::log (uniform ()));
-    const double angle = 2.0 * M_PI * uniform ();
-    return {radius * std::cos (angle), radius * std::sin (angle)};
+    const double turns = uniform ();
+    return {radius * sineTable ().cosine (turns), radius * sineTable ().sine (turns)};
   }
 
 private:
@@ -63,7 +65,7 @@ findShadows (const Image<float>& depth, int v, double disparity_m_px, std::vecto
 {
   const int width = depth.width;
   lit.assign (width, std::numeric_limits<float>::infinity ()); // nearest depth in each column of the projector's picture
-  const auto column = [&] (int u) { return static_cast<int> (std::lround (u - disparity_m_px / depth.at (u, v))); };
+  const auto column = [&] (int u) { return static_cast<int> (std::floor (u - disparity_m_px / depth.at (u, v) + 0.5)); };
   const auto spread = [&] (int from, int to, float z) {
     for (int c = std::max (0, from); c <= std::min (width - 1, to); ++c)
       lit[c] = std::min (lit[c], z);
@@ -152,6 +154,7 @@ measureDepth (const Image<float>& depth, const std::vector<Eigen::Vector3f>& nor
   if (depth.width != camera.width || depth.height != camera.height || normals.size () != depth.pixels.size ())
     throw InvalidArgument ("depth and normals must have the camera's size");
   const double disparity_m_px = camera.fx * noise.baseline_m;
+  const double surely_read = std::cos (noise.grazing_begin_rad);
   Image<float> measured (depth.width, depth.height, missing);
   std::vector<float> lit;
   std::vector<bool> shadow (depth.width, false);
@@ -169,9 +172,9 @@ measureDepth (const Image<float>& depth, const std::vector<Eigen::Vector3f>& nor
       if (shadow[u] || any < noise.dropout || !std::isfinite (depth.pixels[pixel]))
         continue;
       const Eigen::Vector3d ray = camera.unproject (u, v, 1.0);
-      const double incidence =
-          std::acos (std::clamp (-ray.normalized ().dot (normals[pixel].cast<double> ()), 0.0, 1.0));
-      if (incidence > noise.grazing_begin_rad + grazing * (noise.grazing_end_rad - noise.grazing_begin_rad))
+      const double cosine = -ray.dot (normals[pixel].cast<double> ()) / ray.norm ();
+      if (cosine < surely_read && // at flatter angles it depends
+          cosine < std::cos (noise.grazing_begin_rad + grazing * (noise.grazing_end_rad - noise.grazing_begin_rad)))
         continue;
       if (edge < noise.edge_dropout && isEdge (depth, u, v, noise.edge_step))
         continue;

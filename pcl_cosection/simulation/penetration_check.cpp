@@ -16,8 +16,8 @@ namespace
 {
 
 constexpr double chord_m = 5e-4;
-constexpr std::size_t least_points = 4000; // on a surface, where it is larger than its vertices are dense
-constexpr std::size_t most_points = 20000;
+constexpr std::size_t least_points = 2000; // on a part's surface, where it is larger than its vertices are dense
+constexpr std::size_t most_vertices = 2000; // of a part
 constexpr double mesh_tolerance = 0.012;   // of the size of a mesh: a voxel of its distance
 constexpr double same_pose = 1e-9;
 
@@ -48,7 +48,7 @@ probeOf (const SceneBody& body, double tolerance_m)
     }
     if (!part.shape->isAnalytic ())
       probe.tolerance_m = std::max (probe.tolerance_m, mesh_tolerance * box.sizes ().maxCoeff ());
-    const std::size_t step = std::max<std::size_t> (1, mesh.vertices.size () / most_points);
+    const std::size_t step = std::max<std::size_t> (1, mesh.vertices.size () / most_vertices);
     for (std::size_t v = 0; v < mesh.vertices.size (); v += step)
       probe.points.push_back (at (static_cast<std::uint32_t> (v)));
     const double spacing = std::sqrt (area / least_points);
@@ -74,12 +74,16 @@ depthIn (const SceneBody& body, const Probe& own, const Probe& probe, const Eige
   Eigen::AlignedBox3d box = own.box;
   const bool finite = body.id != 0;
   double deepest = 0.0;
+  if (!probe.points.empty () && body.distance (T_body_probe * probe.box.center ()) > 0.5 * probe.box.diagonal ().norm ())
+    return 0.0; // too far away
   for (const Eigen::Vector3d& q : probe.points)
   {
     const Eigen::Vector3d p = T_body_probe * q;
-    if ((finite && !box.contains (p)) || !body.isSupported (p))
+    if (finite && !box.contains (p))
       continue;
-    deepest = std::max (deepest, -body.distance (p));
+    const double depth = -body.distance (p);
+    if (depth > deepest && body.isSupported (p))
+      deepest = depth;
   }
   return deepest > std::max (own.tolerance_m, probe.tolerance_m) ? deepest : 0.0;
 }

@@ -2,6 +2,8 @@
 // Copyright (c) 2026, the pcl_cosection authors
 #include <pcl/cosection/simulation/scene_renderer.h>
 
+#include "sine_table.h"
+
 #include <pcl/cosection/rendering/rasterizer.h>
 
 #include <algorithm>
@@ -18,6 +20,7 @@ namespace
 constexpr double chord_m = 2e-5;      // between triangles and an analytic surface
 constexpr double search_chords = 5.0; // a ray meets the surface where it meets the triangles, or so far from there
 constexpr double precision_m = 1e-7;
+constexpr double flat_m = 1e-6; // triangles so near to the surface are the surface: flat sides
 constexpr int max_steps = 20;
 constexpr double least_cosine = 0.02; // between ray and normal, where the search is widest
 
@@ -29,9 +32,11 @@ constexpr double pattern_contrast = 0.2;
 double
 pattern (const Eigen::Vector3d& p, double period)
 {
-  const Eigen::Array3d s = (2.0 * M_PI / period * p).array ().sin ();
-  const Eigen::Array3d c = (2.0 * M_PI / period * p).array ().cos ();
-  return (s.x () * c.y () + s.y () * c.z () + s.z () * c.x ()) / 1.5;
+  const SineTable& table = sineTable ();
+  const Eigen::Vector3d turns = p / period;
+  return (table.sine (turns.x ()) * table.cosine (turns.y ()) + table.sine (turns.y ()) * table.cosine (turns.z ()) +
+          table.sine (turns.z ()) * table.cosine (turns.x ())) /
+         1.5;
 }
 
 TriangleMesh::Colour
@@ -65,6 +70,8 @@ SceneRenderer::refined (const Shape& shape, const Eigen::Vector3d& origin, const
   const double length = ray.norm ();
   const auto distance = [&] (double at) { return shape.distance (origin + at * ray); };
   const double here = distance (z);
+  if (std::abs (here) < flat_m)
+    return z;
   const double reach = std::max (search_chords * chord_m, 2.0 * std::abs (here)) / least_cosine / length;
   double step = std::max (2.0 * std::abs (here), precision_m) / length;
   double a = z, fa = here, b = z, fb = here;

@@ -34,6 +34,12 @@ transformed (TriangleMesh mesh, const Eigen::Isometry3d& T)
 }
 
 Eigen::Vector3d
+toPart (const BodyPart& part, const Eigen::Vector3d& p)
+{
+  return part.T_body_part.linear ().transpose () * (p - part.T_body_part.translation ());
+}
+
+Eigen::Vector3d
 gradient (const SceneBody& body, const Eigen::Vector3d& p, double step)
 {
   Eigen::Vector3d g;
@@ -99,7 +105,7 @@ SceneBody::distance (const Eigen::Vector3d& p) const
 {
   double nearest = std::numeric_limits<double>::infinity ();
   for (const BodyPart& part : parts)
-    nearest = std::min (nearest, part.shape->distance (part.T_body_part.inverse () * p));
+    nearest = std::min (nearest, part.shape->distance (toPart (part, p)));
   return nearest;
 }
 
@@ -107,7 +113,7 @@ bool
 SceneBody::isSupported (const Eigen::Vector3d& p) const
 {
   return std::all_of (parts.begin (), parts.end (), [&] (const BodyPart& part) {
-    return part.shape->isSupported (part.T_body_part.inverse () * p);
+    return part.shape->isSupported (toPart (part, p));
   });
 }
 
