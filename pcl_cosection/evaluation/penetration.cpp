@@ -68,6 +68,12 @@ PenetrationBody::isOpen () const
   return solid_->hasSheets () || !solid_->hasBodies ();
 }
 
+bool
+PenetrationBody::hasVolume () const
+{
+  return solid_->hasBodies ();
+}
+
 double
 PenetrationBody::depthOf (const PenetrationBody& other, const Eigen::Isometry3d& T_this_other) const
 {
@@ -80,7 +86,7 @@ PenetrationBody::depthOf (const PenetrationBody& other, const Eigen::Isometry3d&
 std::optional<double>
 PenetrationBody::sharedVolume (const PenetrationBody& other, const Eigen::Isometry3d& T_this_other) const
 {
-  if (!solid_->hasBodies () || !other.solid_->hasBodies ())
+  if (!hasVolume () || !other.hasVolume ())
     return std::nullopt;
   Eigen::AlignedBox3d common = other.box_.transformed (T_this_other);
   const double voxel_m = options_.voxel_size_m > 0.0

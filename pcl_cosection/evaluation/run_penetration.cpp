@@ -49,8 +49,8 @@ measure (const PenetrationBody& first, const PenetrationBody& second, const Rela
   }
   // The deepest frame, and others all the way down to the least deep.
   const std::size_t count = std::min<std::size_t> (deep.size (), static_cast<std::size_t> (volume_frames));
-  if (count == 0 && !poses.empty ())
-    result.volume_m3 = first.sharedVolume (second, poses.front ().pose) ? std::optional<double> (0.0) : std::nullopt;
+  if (!poses.empty () && first.hasVolume () && second.hasVolume ())
+    result.volume_m3 = 0.0;
   for (std::size_t n = 0; n < count; ++n)
   {
     const std::size_t place = count > 1 ? n * (deep.size () - 1) / (count - 1) : 0;

@@ -51,6 +51,10 @@ public:
   bool
   isOpen () const;
 
+  /** \brief Whether some of the mesh is closed: only then it has a volume. */
+  bool
+  hasVolume () const;
+
   /** \brief How deep the surface of \a other, by its vertices and area-uniform samples of it, lies inside this: the
    * greatest distance to this surface, metres; 0: it does not.
    * \param[in] T_this_other pose of \a other in the frame of this mesh */
