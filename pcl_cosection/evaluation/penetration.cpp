@@ -24,6 +24,7 @@ namespace
 
 constexpr double voxels_of_side = 128.0; ///< where no voxel size is given
 constexpr double max_voxels = 2e8;
+constexpr double touching_m = 1e-7; ///< rounding of coordinates, no penetration
 
 } // namespace
 
@@ -80,7 +81,8 @@ PenetrationBody::depthOf (const PenetrationBody& other, const Eigen::Isometry3d&
   std::vector<double> depths (other.points_.size ());
   parallelFor (0, static_cast<int> (depths.size ()), options_.threads,
                [&] (int n) { depths[n] = solid_->at (T_this_other * other.points_[n]); });
-  return *std::max_element (depths.begin (), depths.end ());
+  const double depth_m = *std::max_element (depths.begin (), depths.end ());
+  return depth_m > touching_m ? depth_m : 0.0;
 }
 
 std::optional<double>

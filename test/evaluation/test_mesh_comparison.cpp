@@ -85,17 +85,19 @@ TEST (MeshComparison, OfShiftedPlanesIsTheShift)
   for (auto& v : reconstruction.vertices)
     v += Eigen::Vector3f (0.5f, 0.5f, 0.0f);
   MeshComparisonOptions options;
-  options.f_threshold_m = 0.25;
+  options.f_threshold_m = 0.25 + 1e-9;
   const MeshComparison result = compareMeshes (truth, reconstruction, options);
   EXPECT_NEAR (result.accuracy.mean, 0.25, 1e-12);
   EXPECT_NEAR (result.accuracy.median, 0.25, 1e-12);
   EXPECT_NEAR (result.accuracy.max, 0.25, 1e-12);
-  EXPECT_EQ (result.precision, 1.0); // the threshold itself counts
+  EXPECT_EQ (result.precision, 1.0);
   EXPECT_NEAR (result.recall, 0.25, 0.025);
   EXPECT_NEAR (result.f_score, 2.0 * result.recall / (1.0 + result.recall), 1e-12);
   // The farthest points of the truth are its corners.
   EXPECT_NEAR (result.completeness.max, std::sqrt (0.5 * 0.5 * 2.0 + 0.25 * 0.25), 0.02);
   EXPECT_LE (result.completeness.max, std::sqrt (0.5 * 0.5 * 2.0 + 0.25 * 0.25));
+  options.f_threshold_m = 0.25 - 1e-9;
+  EXPECT_EQ (compareMeshes (truth, reconstruction, options).f_score, 0.0);
 }
 
 TEST (MeshComparison, OfSpheresIsTheDifferenceOfRadii)

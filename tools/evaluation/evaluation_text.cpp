@@ -35,11 +35,11 @@ meshText ()
      ".stl, .obj, .off, .vtk or .vtp. They may be open; the volume is that of closed meshes."},
     {
      {"pcl_cosection_evaluate mesh truth.ply cup.ply", "the table on the terminal"},
-     {"pcl_cosection_evaluate mesh --json cup.json --error-picture cup.png truth.ply cup.ply",
-      "all numbers for programs, and a picture of where the errors are"},
-     {"pcl_cosection_evaluate mesh --obstacle table.ply --free-space view.pcd truth.ply cup.ply",
-      "also how deep the cup is in the table, and in space that a view saw free"},
-     {"pcl_cosection_evaluate mesh --pose 0.1,0,0,0,0,0,1 --align icp truth.ply cup.ply",
+     {"pcl_cosection_evaluate mesh --error-picture cup.png truth.ply cup.ply",
+      "also a picture of where the errors are"},
+     {"pcl_cosection_evaluate mesh --obstacle table.ply truth.ply cup.ply",
+      "also how deep the cup is in the table"},
+     {"pcl_cosection_evaluate mesh --pose 1,0,0,0,0,0,1 --align icp truth.ply cup.ply",
       "a mesh in another frame, whose pose is known roughly"},
     },
     {"samples = 100000", "obstacle = table.ply"},
@@ -60,8 +60,8 @@ trajectoryText ()
      "poses."},
     {
      {"pcl_cosection_evaluate trajectory groundtruth.txt camera.txt", "the table on the terminal"},
-     {"pcl_cosection_evaluate trajectory --delta 30 --align first --json e.json groundtruth.txt camera.txt",
-      "drift over 30 poses, and how far off the end is if the beginning is right"},
+     {"pcl_cosection_evaluate trajectory --delta 30 groundtruth.txt camera.txt",
+      "with the drift over 30 poses"},
     },
     {"max-difference = 0.02", "delta = 30"},
   };
@@ -82,7 +82,7 @@ runText ()
      "by the median of their poses, refined on the observed surface. What is missing is said, the rest is evaluated."},
     {
      {"pcl_cosection_evaluate run output dataset", "the table on the terminal"},
-     {"pcl_cosection_evaluate run --json run.json --csv run.csv output dataset", "all numbers for programs"},
+     {"pcl_cosection_evaluate run --json run.json output dataset", "all numbers for programs"},
     },
     {"refine = none", "json = run.json"},
   };

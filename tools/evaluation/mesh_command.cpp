@@ -96,7 +96,7 @@ struct MeshReport
   std::optional<Refinement> refinement;
   Eigen::Isometry3d T_truth_reconstruction = Eigen::Isometry3d::Identity ();
   Surroundings surroundings;
-  std::vector<std::string> warnings;
+  std::vector<std::string> warnings, notes;
   double read_s = 0.0, compare_s = 0.0, total_s = 0.0;
 };
 
@@ -105,8 +105,8 @@ noteVolumes (MeshReport& report)
 {
   for (const auto& [name, summary] : {std::pair{"truth", &report.truth}, std::pair{"reconstruction", &report.reconstruction}})
     if (!summary->volume_m3)
-      report.warnings.push_back (std::string ("the ") + name + " is " +
-                                 (summary->topology.boundary_edges > 0 ? "open" : "not a manifold") + ": it has no volume");
+      report.notes.push_back (std::string ("the ") + name + " is " +
+                              (summary->topology.boundary_edges > 0 ? "open" : "not a manifold") + " and has no volume");
   if (report.truth.volume_m3 && report.reconstruction.volume_m3 && *report.truth.volume_m3 != 0.0)
     report.volume_error = *report.reconstruction.volume_m3 / *report.truth.volume_m3 - 1.0;
 }
@@ -137,6 +137,8 @@ print (const MeshSettings& settings, const MeshReport& report, Terminal& termina
                    toText (report.comparison.recall) + ")");
   if (report.volume_error)
     terminal.result ("volume: " + std::string (*report.volume_error >= 0.0 ? "+" : "") + inPercent (*report.volume_error));
+  for (const std::string& note : report.notes)
+    terminal.result ("note: " + note);
   print (report.surroundings, terminal);
 }
 
@@ -158,6 +160,7 @@ toJson (const MeshSettings& settings, const MeshReport& report)
                         {"align", settings.align},
                         {"free_space_tolerance_m", settings.free_space_tolerance_m}};
   json["timings_s"] = {{"read", report.read_s}, {"compare", report.compare_s}, {"total", report.total_s}};
+  json["notes"] = report.notes;
   json["warnings"] = report.warnings;
   return (json);
 }
@@ -191,6 +194,8 @@ writeErrors (const MeshSettings& settings, const MeshReport& report, const Trian
     options.error_max_m = error_max_m;
     options.up = upOf (settings.up);
     options.front = frontFor (options.up);
+    options.reconstruction_caption += ", " + inMillimetres (report.comparison.accuracy.mean) + " mm on average";
+    options.truth_caption += ", " + inMillimetres (report.comparison.completeness.mean) + " mm on average";
     options.threads = settings.common.threads.value_or (0);
     writePng (drawErrorPicture (truth, reconstruction, options), settings.error_picture);
     terminal.result ("wrote " + settings.error_picture);
