@@ -16,6 +16,7 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <limits>
 #include <string>
 
 namespace pcl
@@ -86,16 +87,26 @@ drawPanel (const TriangleMesh& mesh, const SurfaceDistance& other, const Pinhole
   Rasterizer rasterizer (camera, T_world_camera, 1e-6);
   rasterizer.draw (mesh, 1);
   const RasterImage& image = rasterizer.image ();
+
+  // The distance of one point for the pixels that become one.
+  constexpr std::size_t none = std::numeric_limits<std::size_t>::max ();
+  const int blocks = size / oversampling;
   std::vector<Eigen::Vector3d> points;
-  std::vector<std::size_t> pixels;
+  std::vector<std::size_t> point_of_block (static_cast<std::size_t> (blocks) * blocks, none), pixels, point_of_pixel;
   for (int v = 0; v < size; ++v)
     for (int u = 0; u < size; ++u)
     {
       const std::size_t pixel = static_cast<std::size_t> (v) * size + u;
       if (!std::isfinite (image.depth[pixel]))
         continue;
-      points.push_back (T_world_camera * camera.unproject (u, v, image.depth[pixel]));
+      std::size_t& point = point_of_block[static_cast<std::size_t> (v / oversampling) * blocks + u / oversampling];
+      if (point == none)
+      {
+        point = points.size ();
+        points.push_back (T_world_camera * camera.unproject (u, v, image.depth[pixel]));
+      }
       pixels.push_back (pixel);
+      point_of_pixel.push_back (point);
     }
   const std::vector<double> errors_m = other.of (points, options.threads);
   PictureMat result (size, size, cv::Vec3b (255, 255, 255));
@@ -105,7 +116,7 @@ drawPanel (const TriangleMesh& mesh, const SurfaceDistance& other, const Pinhole
     const Eigen::Vector3d to_camera = -camera.unproject (u, v, 1.0).normalized ();
     const double cosine = std::max (0.0, to_camera.dot (image.normals[pixels[n]].cast<double> ()));
     const double light = ambient_light + (1.0 - ambient_light) * cosine;
-    const auto colour = errorColour (errors_m[n] / options.error_max_m);
+    const auto colour = errorColour (errors_m[point_of_pixel[n]] / options.error_max_m);
     for (int channel = 0; channel < 3; ++channel)
       result (v, u)[channel] = static_cast<std::uint8_t> (std::lround (light * colour[channel]));
   }
@@ -140,7 +151,7 @@ TriangleMesh::Colour
 errorColour (double share)
 {
   static constexpr std::array<std::array<double, 3>, 6> stops = {
-      {{52, 98, 184}, {45, 161, 178}, {118, 196, 104}, {246, 214, 82}, {238, 131, 48}, {196, 30, 44}}};
+      {{62, 112, 200}, {48, 168, 186}, {118, 196, 104}, {246, 214, 82}, {238, 131, 48}, {196, 30, 44}}};
   const double place = std::clamp (std::isfinite (share) ? share : 1.0, 0.0, 1.0) * (stops.size () - 1);
   const std::size_t below = std::min (static_cast<std::size_t> (place), stops.size () - 2);
   const double part = place - static_cast<double> (below);
@@ -170,7 +181,7 @@ roundErrorUp (double error_m)
     return least_m;
   const double power = std::pow (10.0, std::floor (std::log10 (error_m)));
   constexpr double rounding = 1e-9;
-  for (const double factor : {1.0, 2.0, 5.0})
+  for (const double factor : {1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 8.0})
     if (factor * power >= error_m * (1.0 - rounding))
       return factor * power;
   return 10.0 * power;

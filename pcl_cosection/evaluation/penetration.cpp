@@ -47,15 +47,16 @@ PenetrationBody::PenetrationBody (const TriangleMesh& mesh, const PenetrationOpt
   options.validate ();
   box_ = summarizeMesh (mesh).box;
   points_ = sampleSurface (mesh, options.samples, options.seed);
+  std::vector<bool> used (mesh.vertices.size (), false);
   for (const auto& triangle : mesh.triangles)
     for (const std::uint32_t v : triangle)
+      used[v] = true;
+  const std::size_t limit = options.max_vertices > 0 ? options.max_vertices : used.size ();
+  const std::size_t step = std::max<std::size_t> (1, (used.size () + limit - 1) / limit);
+  for (std::size_t v = 0; v < used.size (); v += step)
+    if (used[v])
       points_.push_back (mesh.vertices[v].cast<double> ());
-  const auto less = [] (const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
-    return std::lexicographical_compare (a.data (), a.data () + 3, b.data (), b.data () + 3);
-  };
-  std::sort (points_.begin (), points_.end (), less);
-  points_.erase (std::unique (points_.begin (), points_.end ()), points_.end ());
-  solid_ = std::make_unique<SolidDepth> (mesh, options.band_m);
+  solid_ = std::make_unique<SolidDepth> (mesh, options.open_parts ? options.band_m : 0.0);
 }
 
 PenetrationBody::~PenetrationBody () = default;
@@ -111,11 +112,13 @@ PenetrationBody::sharedVolume (const PenetrationBody& other, const Eigen::Isomet
   grid.voxel_size_m = voxel_m;
   grid.origin_m = common.center ().array () - 0.5 * voxel_m * (size - 1.0);
 
-  const auto distanceOf = [&] (const TriangleMesh& mesh, const SolidDepth& solid) {
-    return sampleSignedDistance (mesh, grid, solid.hasSheets () ? options_.band_m : voxel_m, options_.threads);
+  const auto distanceOf = [&] (const PenetrationBody& body, const Eigen::Isometry3d& pose) {
+    const SolidDepth& solid = *body.solid_;
+    return sampleSignedDistance (transformMesh (body.options_.open_parts ? body.mesh_ : solid.closedParts (), pose), grid,
+                                 solid.hasSheets () ? body.options_.band_m : voxel_m, options_.threads);
   };
-  const SignedDistanceField a = distanceOf (mesh_, *solid_);
-  const SignedDistanceField b = distanceOf (transformMesh (other.mesh_, T_this_other), *other.solid_);
+  const SignedDistanceField a = distanceOf (*this, Eigen::Isometry3d::Identity ());
+  const SignedDistanceField b = distanceOf (other, T_this_other);
   const auto isInside = [] (const SignedDistanceField& field, std::size_t n) {
     return field.values[n] < 0.0f && (field.supported.empty () || field.supported[n] != 0);
   };

@@ -65,8 +65,11 @@ measure (const PenetrationBody& first, const PenetrationBody& second, const Rela
 std::vector<PairPenetration>
 measurePenetrations (const SceneRecord& scene, double max_difference_s, const RunOptions& options)
 {
-  PenetrationOptions body_options = options.penetration;
-  body_options.threads = options.threads;
+  // An open object has no inside: a shell is not filled for a band behind it. The background is open, and is matter.
+  PenetrationOptions background_options = options.penetration;
+  background_options.threads = options.threads;
+  PenetrationOptions body_options = background_options;
+  body_options.open_parts = false;
   std::vector<const SceneRecord::Object*> objects;
   std::vector<PenetrationBody> bodies;
   for (const SceneRecord::Object& object : scene.objects)
@@ -93,7 +96,7 @@ measurePenetrations (const SceneRecord& scene, double max_difference_s, const Ru
     }
   if (!scene.background.empty ())
   {
-    const PenetrationBody background (scene.background, body_options);
+    const PenetrationBody background (scene.background, background_options);
     for (std::size_t n = 0; n < objects.size (); ++n)
     {
       RelativePoses poses;

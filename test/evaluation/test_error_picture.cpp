@@ -43,14 +43,15 @@ TEST (ErrorColour, RunsFromBlueToRed)
   EXPECT_THROW (errorColours ({0.0}, 0.0), InvalidArgument);
 }
 
-TEST (RoundErrorUp, IsOneTwoOrFive)
+TEST (RoundErrorUp, IsARoundNumberThatIsNotLess)
 {
   EXPECT_DOUBLE_EQ (roundErrorUp (0.0), 0.001);
   EXPECT_DOUBLE_EQ (roundErrorUp (0.0011), 0.002);
   EXPECT_DOUBLE_EQ (roundErrorUp (0.002), 0.002);
   EXPECT_DOUBLE_EQ (roundErrorUp (0.0123), 0.02);
-  EXPECT_DOUBLE_EQ (roundErrorUp (0.049), 0.05);
-  EXPECT_DOUBLE_EQ (roundErrorUp (0.7), 1.0);
+  EXPECT_DOUBLE_EQ (roundErrorUp (0.0275), 0.03);
+  EXPECT_DOUBLE_EQ (roundErrorUp (0.07), 0.08);
+  EXPECT_DOUBLE_EQ (roundErrorUp (0.9), 1.0);
 }
 
 TEST (ErrorPicture, ShowsWhatIsMissingOnTheTruthOnly)

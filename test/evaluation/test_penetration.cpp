@@ -90,6 +90,22 @@ TEST (Penetration, OpenMeshesHaveABandBehindThem)
   EXPECT_FALSE (floor.sharedVolume (box ({0.4f, 0.4f, -0.02f}, {0.6f, 0.6f, 0.2f})));
 }
 
+TEST (Penetration, OpenPartsCanBeLeftOut)
+{
+  TriangleMesh mesh = planeMesh (1.0, 4);
+  appendMesh (mesh, boxMesh ({0.4f, 0.4f, 0.5f}, {0.6f, 0.6f, 0.7f}));
+  PenetrationOptions options;
+  options.open_parts = false;
+  const PenetrationBody closed (mesh, options), all (mesh);
+  const PenetrationBody below = box ({0.4f, 0.4f, -0.02f}, {0.6f, 0.6f, 0.1f});
+  const PenetrationBody above = box ({0.4f, 0.4f, 0.68f}, {0.6f, 0.6f, 0.9f});
+  EXPECT_NEAR (all.depthOf (below), 0.02, 1e-7);
+  EXPECT_EQ (closed.depthOf (below), 0.0);
+  EXPECT_EQ (*closed.sharedVolume (below), 0.0);
+  EXPECT_NEAR (closed.depthOf (above), 0.02, 1e-6);
+  EXPECT_NEAR (*closed.sharedVolume (above), 0.02 * 0.2 * 0.2, 0.1 * 0.02 * 0.2 * 0.2);
+}
+
 TEST (Penetration, ARoomIsSolidAround)
 {
   TriangleMesh room = boxMesh ({0.0f, 0.0f, 0.0f}, {1.0f, 1.0f, 1.0f});

@@ -132,7 +132,7 @@ print (const MeshSettings& settings, const MeshReport& report, Terminal& termina
   row ("completeness", report.comparison.completeness);
   for (const std::string& text : table.lines ())
     terminal.result (text);
-  terminal.result ("F-score at " + inMillimetres (settings.f_threshold_m) + " mm: " + toText (report.comparison.f_score) +
+  terminal.result ("F-score at " + toShortText (1000.0 * settings.f_threshold_m) + " mm: " + toText (report.comparison.f_score) +
                    " (precision " + toText (report.comparison.precision) + ", recall " +
                    toText (report.comparison.recall) + ")");
   if (report.volume_error)

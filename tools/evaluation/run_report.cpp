@@ -69,7 +69,7 @@ addMesh (const MeshEvaluation& mesh, double f_threshold_m, Json& json)
 void
 printObjects (const RunEvaluation& run, const RunSettings& settings, Terminal& terminal)
 {
-  TextTable table ({"object", "accuracy", "complete", "F@" + inMillimetres (settings.f_threshold_m), "closed", "volume",
+  TextTable table ({"object", "accuracy", "complete", "F@" + toShortText (1000.0 * settings.f_threshold_m), "closed", "volume",
                     "inside others", "ATE", "RPE", "RPE deg", "tracked/visible"});
   for (const ObjectEvaluation& o : run.objects)
     table.add ({std::to_string (o.id) + " " + o.truth_name, inMillimetres (o.mesh.comparison.accuracy.mean),
@@ -106,7 +106,7 @@ print (const RunEvaluation& run, const SceneRecord& truth, const RunSettings& se
   for (const PairPenetration& pair : run.penetrations)
     if (pair.depth_m > 0.0)
       terminal.result (nameOf (pair.first) + " and " + nameOf (pair.second) + ": " + inMillimetres (pair.depth_m) +
-                       " mm inside each other at " + toText (pair.stamp, 6) +
+                       " mm inside each other at " + toShortText (pair.stamp) +
                        (pair.volume_m3 ? ", " + inMillilitres (*pair.volume_m3) + " ml" : ""));
   for (const int id : run.unmatched)
     terminal.result ("object " + std::to_string (id) + " is none of the true objects");

@@ -73,6 +73,14 @@ inPercent (double share)
 }
 
 std::string
+toShortText (double value)
+{
+  char text[32];
+  std::snprintf (text, sizeof (text), "%.14g", value);
+  return (text);
+}
+
+std::string
 toField (double value)
 {
   char text[32];

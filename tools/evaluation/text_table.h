@@ -37,6 +37,10 @@ inPercent (double share);
 std::string
 toText (double value, int digits = 3);
 
+/** \brief A stamp or a parameter, without zeros at its end: "0.01", "99", "1305031102.175". */
+std::string
+toShortText (double value);
+
 /** \brief For CSV files: as many digits as a number has. */
 std::string
 toField (double value);

@@ -26,8 +26,8 @@ constexpr double degrees = 180.0 / M_PI;
 std::string
 spanText (std::size_t poses, double begin, double end)
 {
-  return (std::to_string (poses) + (poses == 1 ? " pose, stamp " : " poses, stamps ") + toText (begin, 6) +
-          (poses == 1 ? "" : " to " + toText (end, 6)));
+  return (std::to_string (poses) + (poses == 1 ? " pose, stamp " : " poses, stamps ") + toShortText (begin) +
+          (poses == 1 ? "" : " to " + toShortText (end)));
 }
 
 void
@@ -39,7 +39,7 @@ print (const TrajectoryError& error, int delta, Terminal& terminal)
     return (inPercent (static_cast<double> (error.matched) / static_cast<double> (poses)));
   };
   terminal.result ("matched:  " + std::to_string (error.matched) + ", " + share (error.truth_poses) + " of the truth and " +
-                   share (error.estimate_poses) + " of the estimate; largest gap " + toText (error.largest_gap_s) +
+                   share (error.estimate_poses) + " of the estimate; largest gap " + toShortText (error.largest_gap_s) +
                    ", path " + toText (error.path_m) + " m");
   terminal.result ("");
   TextTable table ({"", "rmse", "mean", "median", "max"});

@@ -24,7 +24,7 @@ errorColour (double share);
 PCL_COSECTION_EXPORT std::vector<TriangleMesh::Colour>
 errorColours (const std::vector<double>& errors_m, double error_max_m);
 
-/** \brief A round number that is not less: 1, 2 or 5 times a power of ten, metres, at least a millimetre. */
+/** \brief A round number that is not less: 1, 2, 3, 4, 5, 6 or 8 times a power of ten, metres, at least a millimetre. */
 PCL_COSECTION_EXPORT double
 roundErrorUp (double error_m);
 
