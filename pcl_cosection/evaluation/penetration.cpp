@@ -22,7 +22,6 @@ namespace cosection
 namespace
 {
 
-constexpr double voxels_of_side = 128.0; ///< where no voxel size is given
 constexpr double max_voxels = 2e8;
 constexpr double touching_m = 1e-7; ///< rounding of coordinates, no penetration
 
@@ -35,6 +34,8 @@ PenetrationOptions::validate () const
     throw InvalidArgument ("samples must fit into 31 bits, but is " + std::to_string (samples));
   if (!(voxel_size_m >= 0.0 && std::isfinite (voxel_size_m)))
     throw InvalidArgument ("voxel_size_m must be a number of metres, 0 or more");
+  if (voxels < 1)
+    throw InvalidArgument ("voxels must be at least 1");
   if (!(band_m > 0.0 && std::isfinite (band_m)))
     throw InvalidArgument ("band_m must be a positive number of metres");
   if (threads < 0)
@@ -94,7 +95,7 @@ PenetrationBody::sharedVolume (const PenetrationBody& other, const Eigen::Isomet
   Eigen::AlignedBox3d common = other.box_.transformed (T_this_other);
   const double voxel_m = options_.voxel_size_m > 0.0
                              ? options_.voxel_size_m
-                             : std::min (box_.sizes ().maxCoeff (), common.sizes ().maxCoeff ()) / voxels_of_side;
+                             : std::min (box_.sizes ().maxCoeff (), common.sizes ().maxCoeff ()) / options_.voxels;
   // Matter around a room has no box; that of another body has.
   if (solid_->hasRoom () && other.solid_->hasRoom ())
     return std::nullopt;

@@ -79,7 +79,7 @@ declareRunOptions (CLI::App& app, RunSettings& settings)
       ->check (CLI::IsMember (std::vector<std::string>{"observed", "none"}))
       ->group (group);
   app.add_option ("--penetration-voxel", settings.penetration_voxel_m,
-                  "Voxels of the volume of penetration (default: 1/128 of the smaller box)")
+                  "Voxels of the volume of penetration (default: 1/64 of the smaller box)")
       ->option_text ("METRES")
       ->check (numberRange (0, unlimited, true))
       ->group (group);

@@ -23,7 +23,8 @@ struct PCL_COSECTION_EXPORT PenetrationOptions
   std::size_t samples = 10000; ///< on the surface, beside its vertices
   std::size_t max_vertices = 0; ///< of so many, evenly chosen; 0: all
   std::uint64_t seed = 0;      ///< of the samples
-  double voxel_size_m = 0.0;   ///< of the volume; 0: 1/128 of the longest side of the smaller box
+  double voxel_size_m = 0.0;   ///< of the volume; 0: by \a voxels
+  int voxels = 128;            ///< along the longest side of the smaller box
   bool open_parts = true;      ///< whether there is matter behind open parts
   double band_m = 0.05;        ///< how far behind them
   int threads = 0;             ///< 0: all

@@ -42,7 +42,7 @@ struct PCL_COSECTION_EXPORT RunOptions
 {
   MeshComparisonOptions comparison;
   TrajectoryOptions trajectory; ///< the alignment is that of the camera
-  PenetrationOptions penetration = {2000, 3000};
+  PenetrationOptions penetration = {2000, 3000, 0, 0.0, 64};
   RefinementOptions refinement;
   bool refine = true;      ///< refine the alignment of each object on its observed surface
   int volume_frames = 5;   ///< at most so many frames for the volume of each penetration
