@@ -1,19 +1,36 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_cosection authors
 
-// Prints the manual page of pcl_cosection, which says what --help says. Part of the build, not installed.
+// make_man_page PROGRAM: prints the manual page of a program, which says what --help says. Part of the build, not installed.
 
+#include "evaluation_commands.h"
 #include "option_table.h"
 #include "program_text.h"
+#include "simulate_command_line.h"
 
 #include <iostream>
 
 int
-main ()
+main (int argc, char** argv)
 {
-  CLI::App app;
-  Given given;
-  declareOptions (app, given);
-  std::cout << manPage (app, completionText ()) << std::flush;
+  const std::string program = argc == 2 ? argv[1] : "";
+  if (program == "pcl_cosection")
+  {
+    CLI::App app;
+    Given given;
+    declareOptions (app, given);
+    std::cout << manPage (app, completionText ()) << std::flush;
+  }
+  else if (program == "pcl_cosection_evaluate")
+    std::cout << evaluationManPage () << std::flush;
+  else if (program == "pcl_cosection_simulate")
+  {
+    CLI::App app;
+    GivenSimulation given;
+    declareSimulationOptions (app, given);
+    std::cout << manPage (app, simulationText ()) << std::flush;
+  }
+  else
+    return (2);
   return (std::cout ? 0 : 1);
 }

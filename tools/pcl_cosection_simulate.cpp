@@ -4,9 +4,11 @@
 // Renders known scenes, with the truth; see pcl_cosection_simulate --help.
 
 #include "interruption.h"
-#include "json_file.h"
+#include "output_files.h"
 #include "simulate_command_line.h"
 #include "terminal.h"
+
+#include <nlohmann/json.hpp>
 
 #include <pcl/cosection/common/error.h>
 #include <pcl/cosection/simulation/penetration_check.h>
@@ -112,7 +114,7 @@ run (const SimulateSettings& settings, Terminal& terminal)
     if (body.id > 0)
       summary["objects"].push_back ({{"id", body.id}, {"name", body.name}});
   summary["warnings"] = warnings;
-  writeJsonFile (summary, settings.json);
+  saveJson (summary, settings.json);
 }
 
 } // namespace

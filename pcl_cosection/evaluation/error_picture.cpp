@@ -7,7 +7,6 @@
 #include <pcl/cosection/common/error.h>
 #include <pcl/cosection/evaluation/mesh_comparison.h>
 #include <pcl/cosection/evaluation/surface_distance.h>
-#include <pcl/cosection/rendering/picture.h>
 #include <pcl/cosection/rendering/rasterizer.h>
 
 #include <opencv2/core.hpp>
@@ -17,6 +16,7 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <limits>
 #include <string>
 
 namespace pcl
@@ -29,20 +29,20 @@ namespace
 
 constexpr int oversampling = 2;       ///< everything is drawn larger, for smooth edges and letters
 constexpr double distance_radii = 4.0; ///< of the camera
-constexpr double margin = 1.12;
+constexpr double filled = 0.92;       ///< of a panel, by the meshes
+constexpr double ambient_light = 0.55; ///< much, for colours that can be told from each other
 constexpr double turn_rad = 2.6;      ///< between the columns
-constexpr int title_px = 46;
+constexpr int title_px = 48;
 constexpr int scale_px = 150;         ///< width of the column of the scale
 const cv::Scalar ink (45, 45, 45);
-const cv::Scalar faint (120, 120, 120);
 
 using PictureMat = cv::Mat_<cv::Vec3b>; ///< red, green, blue, as in Picture
 
 void
-write (PictureMat& canvas, const std::string& text, int x, int y, double size, const cv::Scalar& colour)
+write (PictureMat& canvas, const std::string& text, int x, int y, double size)
 {
   cv::putText (canvas, text, cv::Point (x * oversampling, y * oversampling), cv::FONT_HERSHEY_SIMPLEX,
-               size * oversampling, colour, 2, cv::LINE_AA);
+               size * oversampling, ink, 2, cv::LINE_AA);
 }
 
 std::string
@@ -64,38 +64,62 @@ cameraAt (const Eigen::Vector3d& eye, const Eigen::Vector3d& target, const Eigen
   return pose;
 }
 
+/** \brief A camera of a square picture that all vertices of the meshes fill. */
+PinholeCamera
+fittingCamera (const std::array<TriangleMesh, 2>& meshes, const Eigen::Isometry3d& T_world_camera, int size)
+{
+  const Eigen::Isometry3d T_camera_world = T_world_camera.inverse ();
+  Eigen::AlignedBox2d box;
+  for (const TriangleMesh& mesh : meshes)
+    for (const Eigen::Vector3f& v : mesh.vertices)
+      box.extend ((T_camera_world * v.cast<double> ()).hnormalized ());
+  const double focal_length = filled * size / std::max (box.sizes ().maxCoeff (), 1e-9);
+  const Eigen::Vector2d middle = Eigen::Vector2d::Constant (0.5 * (size - 1)) - focal_length * box.center ();
+  return {size, size, focal_length, focal_length, middle.x (), middle.y ()};
+}
+
 /** \brief A mesh in the colours of its distance to a surface. */
 PictureMat
-drawPanel (const TriangleMesh& mesh, const SurfaceDistance& other, const Eigen::Isometry3d& T_world_camera,
-           const ErrorPictureOptions& options)
+drawPanel (const TriangleMesh& mesh, const SurfaceDistance& other, const PinholeCamera& camera,
+           const Eigen::Isometry3d& T_world_camera, const ErrorPictureOptions& options)
 {
-  const int size = options.panel_px * oversampling;
-  const double focal_length = 0.5 * size * distance_radii / margin;
-  const PinholeCamera camera{size, size, focal_length, focal_length, 0.5 * (size - 1), 0.5 * (size - 1)};
+  const int size = camera.width;
   Rasterizer rasterizer (camera, T_world_camera, 1e-6);
   rasterizer.draw (mesh, 1);
-  RasterImage image = rasterizer.image ();
+  const RasterImage& image = rasterizer.image ();
 
+  // The distance of one point for the pixels that become one.
+  constexpr std::size_t none = std::numeric_limits<std::size_t>::max ();
+  const int blocks = size / oversampling;
   std::vector<Eigen::Vector3d> points;
-  std::vector<std::size_t> pixels;
+  std::vector<std::size_t> point_of_block (static_cast<std::size_t> (blocks) * blocks, none), pixels, point_of_pixel;
   for (int v = 0; v < size; ++v)
     for (int u = 0; u < size; ++u)
     {
       const std::size_t pixel = static_cast<std::size_t> (v) * size + u;
       if (!std::isfinite (image.depth[pixel]))
         continue;
-      points.push_back (T_world_camera * camera.unproject (u, v, image.depth[pixel]));
+      std::size_t& point = point_of_block[static_cast<std::size_t> (v / oversampling) * blocks + u / oversampling];
+      if (point == none)
+      {
+        point = points.size ();
+        points.push_back (T_world_camera * camera.unproject (u, v, image.depth[pixel]));
+      }
       pixels.push_back (pixel);
+      point_of_pixel.push_back (point);
     }
   const std::vector<double> errors_m = other.of (points, options.threads);
+  PictureMat result (size, size, cv::Vec3b (255, 255, 255));
   for (std::size_t n = 0; n < pixels.size (); ++n)
-    image.colours[pixels[n]] = errorColour (errors_m[n] / options.error_max_m);
-
-  const Picture picture = shade (image, camera);
-  PictureMat result (size, size);
-  for (int v = 0; v < size; ++v)
-    for (int u = 0; u < size; ++u)
-      result (v, u) = cv::Vec3b (picture.at (u, v).data ());
+  {
+    const int u = static_cast<int> (pixels[n] % size), v = static_cast<int> (pixels[n] / size);
+    const Eigen::Vector3d to_camera = -camera.unproject (u, v, 1.0).normalized ();
+    const double cosine = std::max (0.0, to_camera.dot (image.normals[pixels[n]].cast<double> ()));
+    const double light = ambient_light + (1.0 - ambient_light) * cosine;
+    const auto colour = errorColour (errors_m[point_of_pixel[n]] / options.error_max_m);
+    for (int channel = 0; channel < 3; ++channel)
+      result (v, u)[channel] = static_cast<std::uint8_t> (std::lround (light * colour[channel]));
+  }
   return result;
 }
 
@@ -109,15 +133,15 @@ drawScale (PictureMat& canvas, const cv::Rect& box, double error_max_m)
               cv::Point ((box.x + box.width) * oversampling, box.y * oversampling + v),
               cv::Scalar (colour[0], colour[1], colour[2]));
   }
-  write (canvas, "error", box.x, box.y - 36, 0.5, ink);
-  write (canvas, "in mm", box.x, box.y - 16, 0.5, ink);
+  write (canvas, "error", box.x, box.y - 36, 0.5);
+  write (canvas, "in mm", box.x, box.y - 16, 0.5);
   constexpr int steps = 4;
   for (int n = 0; n <= steps; ++n)
   {
     const int y = box.y + box.height - box.height * n / steps;
     cv::line (canvas, cv::Point ((box.x + box.width) * oversampling, y * oversampling),
               cv::Point ((box.x + box.width + 6) * oversampling, y * oversampling), ink, 2, cv::LINE_AA);
-    write (canvas, millimetres (error_max_m * n / steps) + (n == steps ? " +" : ""), box.x + box.width + 12, y + 5, 0.5, ink);
+    write (canvas, millimetres (error_max_m * n / steps) + (n == steps ? " +" : ""), box.x + box.width + 12, y + 5, 0.5);
   }
 }
 
@@ -127,7 +151,7 @@ TriangleMesh::Colour
 errorColour (double share)
 {
   static constexpr std::array<std::array<double, 3>, 6> stops = {
-      {{52, 98, 184}, {45, 161, 178}, {118, 196, 104}, {246, 214, 82}, {238, 131, 48}, {196, 30, 44}}};
+      {{62, 112, 200}, {48, 168, 186}, {118, 196, 104}, {246, 214, 82}, {238, 131, 48}, {196, 30, 44}}};
   const double place = std::clamp (std::isfinite (share) ? share : 1.0, 0.0, 1.0) * (stops.size () - 1);
   const std::size_t below = std::min (static_cast<std::size_t> (place), stops.size () - 2);
   const double part = place - static_cast<double> (below);
@@ -157,7 +181,7 @@ roundErrorUp (double error_m)
     return least_m;
   const double power = std::pow (10.0, std::floor (std::log10 (error_m)));
   constexpr double rounding = 1e-9;
-  for (const double factor : {1.0, 2.0, 5.0})
+  for (const double factor : {1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 8.0})
     if (factor * power >= error_m * (1.0 - rounding))
       return factor * power;
   return 10.0 * power;
@@ -191,23 +215,23 @@ drawErrorPicture (const TriangleMesh& truth, const TriangleMesh& reconstruction,
   const SurfaceDistance to_truth (truth), to_reconstruction (reconstruction);
   const std::array<TriangleMesh, 2> meshes = {withCreasedNormals (reconstruction), withCreasedNormals (truth)};
   const std::array<const SurfaceDistance*, 2> others = {&to_truth, &to_reconstruction};
-  const std::array<std::string, 2> titles = {"Reconstruction: how far it is from the truth",
-                                             "Truth: how far it is from the reconstruction"};
-  for (int row = 0; row < 2; ++row)
+  const std::array<std::string, 2> captions = {options.reconstruction_caption, options.truth_caption};
+  for (int column = 0; column < 2; ++column)
   {
-    const int top = row * (panel + title_px);
-    for (int column = 0; column < 2; ++column)
-    {
-      const Eigen::Vector3d eye = box.center () + distance_radii * radius_m *
-                                                      (Eigen::AngleAxisd (column * turn_rad, up) * front);
-      drawPanel (meshes[row], *others[row], cameraAt (eye, box.center (), up), options)
-          .copyTo (canvas (cv::Rect (column * panel * oversampling, (top + title_px) * oversampling,
-                                     panel * oversampling, panel * oversampling)));
-    }
-    write (canvas, titles[row], 20, top + 32, 0.62, ink);
-    write (canvas, "from behind", panel + 20, top + 32, 0.5, faint);
+    const Eigen::Vector3d eye = box.center () + distance_radii * radius_m *
+                                                    (Eigen::AngleAxisd (column * turn_rad, up) * front);
+    const Eigen::Isometry3d T_world_camera = cameraAt (eye, box.center (), up);
+    const PinholeCamera camera = fittingCamera (meshes, T_world_camera, panel * oversampling);
+    for (int row = 0; row < 2; ++row)
+      drawPanel (meshes[row], *others[row], camera, T_world_camera, options)
+          .copyTo (canvas (cv::Rect (column * panel * oversampling,
+                                     (row * (panel + title_px) + title_px) * oversampling, panel * oversampling,
+                                     panel * oversampling)));
   }
-  drawScale (canvas, cv::Rect (2 * panel + 20, title_px + 60, 26, height - 2 * title_px - 120), options.error_max_m);
+  for (int row = 0; row < 2; ++row)
+    write (canvas, captions[row], 20, row * (panel + title_px) + 32, 0.62);
+  const int scale_height = std::min (360, height / 2);
+  drawScale (canvas, cv::Rect (2 * panel + 20, (height - scale_height) / 2, 26, scale_height), options.error_max_m);
 
   PictureMat small;
   cv::resize (canvas, small, cv::Size (width, height), 0.0, 0.0, cv::INTER_AREA);

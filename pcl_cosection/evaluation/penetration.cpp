@@ -22,8 +22,8 @@ namespace cosection
 namespace
 {
 
-constexpr double voxels_of_side = 128.0; ///< where no voxel size is given
 constexpr double max_voxels = 2e8;
+constexpr double touching_m = 1e-7; ///< rounding of coordinates, no penetration
 
 } // namespace
 
@@ -34,6 +34,8 @@ PenetrationOptions::validate () const
     throw InvalidArgument ("samples must fit into 31 bits, but is " + std::to_string (samples));
   if (!(voxel_size_m >= 0.0 && std::isfinite (voxel_size_m)))
     throw InvalidArgument ("voxel_size_m must be a number of metres, 0 or more");
+  if (voxels < 1)
+    throw InvalidArgument ("voxels must be at least 1");
   if (!(band_m > 0.0 && std::isfinite (band_m)))
     throw InvalidArgument ("band_m must be a positive number of metres");
   if (threads < 0)
@@ -46,15 +48,16 @@ PenetrationBody::PenetrationBody (const TriangleMesh& mesh, const PenetrationOpt
   options.validate ();
   box_ = summarizeMesh (mesh).box;
   points_ = sampleSurface (mesh, options.samples, options.seed);
+  std::vector<bool> used (mesh.vertices.size (), false);
   for (const auto& triangle : mesh.triangles)
     for (const std::uint32_t v : triangle)
+      used[v] = true;
+  const std::size_t limit = options.max_vertices > 0 ? options.max_vertices : used.size ();
+  const std::size_t step = std::max<std::size_t> (1, (used.size () + limit - 1) / limit);
+  for (std::size_t v = 0; v < used.size (); v += step)
+    if (used[v])
       points_.push_back (mesh.vertices[v].cast<double> ());
-  const auto less = [] (const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
-    return std::lexicographical_compare (a.data (), a.data () + 3, b.data (), b.data () + 3);
-  };
-  std::sort (points_.begin (), points_.end (), less);
-  points_.erase (std::unique (points_.begin (), points_.end ()), points_.end ());
-  solid_ = std::make_unique<SolidDepth> (mesh, options.band_m);
+  solid_ = std::make_unique<SolidDepth> (mesh, options.open_parts ? options.band_m : 0.0);
 }
 
 PenetrationBody::~PenetrationBody () = default;
@@ -68,24 +71,31 @@ PenetrationBody::isOpen () const
   return solid_->hasSheets () || !solid_->hasBodies ();
 }
 
+bool
+PenetrationBody::hasVolume () const
+{
+  return solid_->hasBodies ();
+}
+
 double
 PenetrationBody::depthOf (const PenetrationBody& other, const Eigen::Isometry3d& T_this_other) const
 {
   std::vector<double> depths (other.points_.size ());
   parallelFor (0, static_cast<int> (depths.size ()), options_.threads,
                [&] (int n) { depths[n] = solid_->at (T_this_other * other.points_[n]); });
-  return *std::max_element (depths.begin (), depths.end ());
+  const double depth_m = *std::max_element (depths.begin (), depths.end ());
+  return depth_m > touching_m ? depth_m : 0.0;
 }
 
 std::optional<double>
 PenetrationBody::sharedVolume (const PenetrationBody& other, const Eigen::Isometry3d& T_this_other) const
 {
-  if (!solid_->hasBodies () || !other.solid_->hasBodies ())
+  if (!hasVolume () || !other.hasVolume ())
     return std::nullopt;
   Eigen::AlignedBox3d common = other.box_.transformed (T_this_other);
   const double voxel_m = options_.voxel_size_m > 0.0
                              ? options_.voxel_size_m
-                             : std::min (box_.sizes ().maxCoeff (), common.sizes ().maxCoeff ()) / voxels_of_side;
+                             : std::min (box_.sizes ().maxCoeff (), common.sizes ().maxCoeff ()) / options_.voxels;
   // Matter around a room has no box; that of another body has.
   if (solid_->hasRoom () && other.solid_->hasRoom ())
     return std::nullopt;
@@ -103,11 +113,13 @@ PenetrationBody::sharedVolume (const PenetrationBody& other, const Eigen::Isomet
   grid.voxel_size_m = voxel_m;
   grid.origin_m = common.center ().array () - 0.5 * voxel_m * (size - 1.0);
 
-  const auto distanceOf = [&] (const TriangleMesh& mesh, const SolidDepth& solid) {
-    return sampleSignedDistance (mesh, grid, solid.hasSheets () ? options_.band_m : voxel_m, options_.threads);
+  const auto distanceOf = [&] (const PenetrationBody& body, const Eigen::Isometry3d& pose) {
+    const SolidDepth& solid = *body.solid_;
+    return sampleSignedDistance (transformMesh (body.options_.open_parts ? body.mesh_ : solid.closedParts (), pose), grid,
+                                 solid.hasSheets () ? body.options_.band_m : voxel_m, options_.threads);
   };
-  const SignedDistanceField a = distanceOf (mesh_, *solid_);
-  const SignedDistanceField b = distanceOf (transformMesh (other.mesh_, T_this_other), *other.solid_);
+  const SignedDistanceField a = distanceOf (*this, Eigen::Isometry3d::Identity ());
+  const SignedDistanceField b = distanceOf (other, T_this_other);
   const auto isInside = [] (const SignedDistanceField& field, std::size_t n) {
     return field.values[n] < 0.0f && (field.supported.empty () || field.supported[n] != 0);
   };

@@ -116,13 +116,18 @@ countTracked (const std::vector<double>& stamps, const std::vector<StampedPose>&
 void
 addPenetration (const std::vector<PairPenetration>& pairs, ObjectEvaluation& object)
 {
+  bool is_known = true;
   for (const PairPenetration& pair : pairs)
     if (pair.first == object.id || pair.second == object.id)
     {
       object.penetration_m = std::max (object.penetration_m, pair.depth_m);
       if (pair.volume_m3)
         object.penetration_m3 = std::max (object.penetration_m3.value_or (0.0), *pair.volume_m3);
+      else if (pair.depth_m > 0.0)
+        is_known = false;
     }
+  if (!is_known)
+    object.penetration_m3.reset ();
 }
 
 void

@@ -49,8 +49,8 @@ measure (const PenetrationBody& first, const PenetrationBody& second, const Rela
   }
   // The deepest frame, and others all the way down to the least deep.
   const std::size_t count = std::min<std::size_t> (deep.size (), static_cast<std::size_t> (volume_frames));
-  if (count == 0 && !poses.empty ())
-    result.volume_m3 = first.sharedVolume (second, poses.front ().pose) ? std::optional<double> (0.0) : std::nullopt;
+  if (!poses.empty () && first.hasVolume () && second.hasVolume ())
+    result.volume_m3 = 0.0;
   for (std::size_t n = 0; n < count; ++n)
   {
     const std::size_t place = count > 1 ? n * (deep.size () - 1) / (count - 1) : 0;
@@ -65,8 +65,11 @@ measure (const PenetrationBody& first, const PenetrationBody& second, const Rela
 std::vector<PairPenetration>
 measurePenetrations (const SceneRecord& scene, double max_difference_s, const RunOptions& options)
 {
-  PenetrationOptions body_options = options.penetration;
-  body_options.threads = options.threads;
+  // An open object has no inside: a shell is not filled for a band behind it. The background is open, and is matter.
+  PenetrationOptions background_options = options.penetration;
+  background_options.threads = options.threads;
+  PenetrationOptions body_options = background_options;
+  body_options.open_parts = false;
   std::vector<const SceneRecord::Object*> objects;
   std::vector<PenetrationBody> bodies;
   for (const SceneRecord::Object& object : scene.objects)
@@ -93,7 +96,7 @@ measurePenetrations (const SceneRecord& scene, double max_difference_s, const Ru
     }
   if (!scene.background.empty ())
   {
-    const PenetrationBody background (scene.background, body_options);
+    const PenetrationBody background (scene.background, background_options);
     for (std::size_t n = 0; n < objects.size (); ++n)
     {
       RelativePoses poses;

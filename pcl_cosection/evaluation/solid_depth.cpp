@@ -37,6 +37,15 @@ SolidDepth::hasRoom () const
   return std::any_of (bodies_.begin (), bodies_.end (), [] (const Body& body) { return body.is_room; });
 }
 
+TriangleMesh
+SolidDepth::closedParts () const
+{
+  TriangleMesh mesh;
+  for (const Body& body : bodies_)
+    appendMesh (mesh, body.surface->mesh);
+  return mesh;
+}
+
 double
 SolidDepth::depthIn (const Body& body, const Eigen::Vector3d& p) const
 {
@@ -56,7 +65,7 @@ SolidDepth::at (const Eigen::Vector3d& p) const
   double depth_m = 0.0;
   for (const Body& body : bodies_)
     depth_m = std::max (depth_m, depthIn (body, p));
-  if (sheets_ && sheets_->box.squaredExteriorDistance (p) <= band_m_ * band_m_)
+  if (sheets_ && band_m_ > 0.0 && sheets_->box.squaredExteriorDistance (p) <= band_m_ * band_m_)
   {
     const NearestPoint nearest = sheets_->tree.nearest (p, band_m_);
     if (std::isfinite (nearest.squared_m2) && sheets_->normals.isRegular (nearest) &&

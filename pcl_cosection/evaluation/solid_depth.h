@@ -21,7 +21,7 @@ namespace cosection
 class SolidDepth
 {
 public:
-  /** \param[in] band_m how far behind open parts there is matter */
+  /** \param[in] band_m how far behind open parts there is matter; 0: there is none */
   SolidDepth (const TriangleMesh& mesh, double band_m);
 
   /** \brief Metres to the surface of the body that \a p lies deepest in, or to the open part that it lies behind; 0 outside. */
@@ -37,6 +37,10 @@ public:
   /** \brief Whether a closed part faces inward, with matter all around it. */
   bool
   hasRoom () const;
+
+  /** \brief The mesh without its open parts. */
+  TriangleMesh
+  closedParts () const;
 
   /** \brief Whether some of the mesh is open. */
   bool

@@ -10,6 +10,7 @@
 #include "ablation_table.h"
 #include "rivals.h"
 
+#include "output_files.h"
 #include "scene_input.h"
 
 #include <pcl/cosection/common/error.h>

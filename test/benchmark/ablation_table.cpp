@@ -2,13 +2,7 @@
 // Copyright (c) 2026, the pcl_cosection authors
 #include "ablation_table.h"
 
-#include <pcl/cosection/common/atomic_file.h>
-#include <pcl/cosection/common/error.h>
-
 #include <cstdio>
-#include <fstream>
-
-using namespace pcl::cosection;
 
 namespace
 {
@@ -85,15 +79,4 @@ csv (const std::vector<AblationScene>& scenes)
         text += values;
       }
   return text;
-}
-
-void
-saveText (const std::string& text, const std::string& path)
-{
-  writeAtomically (path, [&] (const std::string& temporary) {
-    std::ofstream file (temporary);
-    file << text;
-    if (!file.flush ())
-      throw IoError (path + ": cannot be written");
-  });
 }

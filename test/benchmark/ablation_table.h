@@ -37,7 +37,3 @@ markdown (const std::vector<AblationScene>& scenes);
 /** \brief A line for each scene, method and object. */
 std::string
 csv (const std::vector<AblationScene>& scenes);
-
-/** \throws pcl::cosection::IoError */
-void
-saveText (const std::string& text, const std::string& path);

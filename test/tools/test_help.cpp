@@ -5,9 +5,11 @@
 // examples work.
 
 #include "common/temporary_folder.h"
+#include "evaluation_commands.h"
 #include "option_table.h"
 #include "program_text.h"
 #include "scene_files.h"
+#include "simulate_command_line.h"
 #include "tool_run.h"
 
 #include <pcl/io/pcd_io.h>
@@ -52,6 +54,26 @@ withoutBackslashes (std::string text)
   return (text);
 }
 
+/** \brief Every option is on the help screen, the manual page and in the document, and is described. \return how many there are */
+int
+expectEverywhere (const CLI::App& app, const std::string& screen, const std::string& man_page, const std::string& document_name)
+{
+  std::ifstream file (std::string (PCL_COSECTION_SOURCE_DIR) + "/doc/" + document_name);
+  const std::string document ((std::istreambuf_iterator<char> (file)), {});
+  const std::string page = withoutBackslashes (man_page);
+  int options = 0;
+  for (const CLI::Option* option : app.get_options ())
+    for (const std::string& name : option->get_lnames ())
+    {
+      ++options;
+      EXPECT_NE (screen.find ("--" + name), std::string::npos) << name;
+      EXPECT_NE (page.find ("--" + name), std::string::npos) << name;
+      EXPECT_NE (document.find ("--" + name), std::string::npos) << name;
+      EXPECT_FALSE (option->get_description ().empty ()) << name;
+    }
+  return (options);
+}
+
 } // namespace
 
 TEST_F (Help, EachTopicFitsAScreen)
@@ -72,22 +94,37 @@ TEST_F (Help, EachTopicFitsAScreen)
 
 TEST_F (Help, EveryOptionIsEverywhere)
 {
-  std::ifstream file (std::string (PCL_COSECTION_SOURCE_DIR) + "/doc/pcl_cosection.md");
-  const std::string document ((std::istreambuf_iterator<char> (file)), {});
-  ASSERT_FALSE (document.empty ());
-  const std::string page = withoutBackslashes (manPage (app_, completionText ()));
-  const std::string screen = helpText (app_, completionText ());
-  int options = 0;
-  for (const CLI::Option* option : app_.get_options ())
-    for (const std::string& name : option->get_lnames ())
+  EXPECT_GE (expectEverywhere (app_, helpText (app_, completionText ()), manPage (app_, completionText ()), "pcl_cosection.md"), 30);
+}
+
+TEST_F (Help, SimulationIsExplained)
+{
+  CLI::App app;
+  GivenSimulation given;
+  declareSimulationOptions (app, given);
+  const std::string screen = helpText (app, simulationText ());
+  EXPECT_GE (expectEverywhere (app, screen, manPage (app, simulationText ()), "pcl_cosection_simulate.md"), 12);
+  for (const std::string& line : linesOf (screen))
+    EXPECT_LE (line.size (), 80u) << line;
+}
+
+TEST_F (Help, EveryOptionOfEveryCommandIsEverywhere)
+{
+  for (const EvaluationCommand& command : evaluationCommands ())
+  {
+    CLI::App app;
+    command.declare (app);
+    const std::string screen = helpText (app, *command.text);
+    EXPECT_GE (expectEverywhere (app, screen, evaluationManPage (), "pcl_cosection_evaluate.md"), 10) << command.word;
+    for (const std::string& topic : helpTopics (app))
     {
-      ++options;
-      EXPECT_NE (screen.find ("--" + name), std::string::npos) << name;
-      EXPECT_NE (page.find ("--" + name), std::string::npos) << name;
-      EXPECT_NE (document.find ("--" + name), std::string::npos) << name;
-      EXPECT_FALSE (option->get_description ().empty ()) << name;
+      const std::vector<std::string> lines = linesOf (helpText (app, *command.text, topic));
+      EXPECT_LE (lines.size (), 24u) << command.word << ' ' << topic;
+      for (const std::string& line : lines)
+        EXPECT_LE (line.size (), 80u) << line;
     }
-  EXPECT_GE (options, 30);
+    EXPECT_NE (evaluationHelp ().find ("  " + command.word), std::string::npos);
+  }
 }
 
 TEST_F (Help, TopicsAreGivenByTheProgram)

@@ -38,15 +38,10 @@ readAll (const std::string& path)
 } // namespace
 
 ToolRun::ToolRun (const std::vector<std::string>& arguments, const std::string& folder,
-                  const std::function<void ()>& prepare)
-    : ToolRun (arguments, folder, std::string (PCL_COSECTION_TOOL), prepare)
-{}
-
-ToolRun::ToolRun (const std::vector<std::string>& arguments, const std::string& folder, const std::string& program,
-                  const std::function<void ()>& prepare)
+                  const std::function<void ()>& prepare, const std::string& program)
     : folder_ (folder)
 {
-  std::vector<std::string> words = {program};
+  std::vector<std::string> words = {program.empty () ? PCL_COSECTION_TOOL : program};
   words.insert (words.end (), arguments.begin (), arguments.end ());
   std::vector<char*> pointers;
   for (std::string& word : words)

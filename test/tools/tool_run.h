@@ -8,18 +8,15 @@
 #include <string>
 #include <vector>
 
-/** \brief A started program. */
+/** \brief A started pcl_cosection, or another program. */
 class ToolRun
 {
 public:
-  /** \brief pcl_cosection. \param[in] folder its working directory; what it prints goes to files in there
-   * \param[in] prepare run in the new process, before the program takes its place */
+  /** \param[in] folder its working directory; what it prints goes to files in there
+   * \param[in] prepare run in the new process, before the program takes its place
+   * \param[in] program path of another program */
   ToolRun (const std::vector<std::string>& arguments, const std::string& folder,
-           const std::function<void ()>& prepare = {});
-
-  /** \brief Another program. \param[in] program path of its file */
-  ToolRun (const std::vector<std::string>& arguments, const std::string& folder, const std::string& program,
-           const std::function<void ()>& prepare = {});
+           const std::function<void ()>& prepare = {}, const std::string& program = "");
 
   /** \brief Kills the program if it is still running. */
   ~ToolRun ();

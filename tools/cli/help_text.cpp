@@ -119,6 +119,55 @@ escaped (const std::string& text)
   return (result.empty () || (result[0] != '.' && result[0] != '\'') ? result : "\\&" + result);
 }
 
+std::string
+manHeader (const ProgramText& program)
+{
+  std::string title = program.name;
+  std::transform (title.begin (), title.end (), title.begin (), [] (unsigned char c) { return (std::toupper (c)); });
+  return (".TH " + title + " 1 \"\" \"pcl_cosection " PCL_COSECTION_VERSION "\" \"User Commands\"\n.SH NAME\n" +
+          escaped (program.name) + " \\- " + escaped (program.summary) + "\n.SH SYNOPSIS\n");
+}
+
+std::string
+manDescription (const ProgramText& program)
+{
+  std::string text = escaped (program.purpose);
+  for (const std::string& paragraph : program.paragraphs)
+    text += "\n.PP\n" + escaped (paragraph);
+  return (text + "\n");
+}
+
+std::string
+manOptions (const CLI::App& app)
+{
+  std::string text;
+  for (const std::string& group : groupsOf (app))
+  {
+    text += ".SS " + group + "\n";
+    for (const CLI::Option* option : optionsOf (app, group))
+      text += ".TP\n.B " + escaped (nameOf (*option)) + "\n" + escaped (option->get_description ()) + "\n";
+  }
+  return (text);
+}
+
+std::string
+manExamples (const ProgramText& program)
+{
+  std::string text;
+  for (const UsageExample& example : program.examples)
+    text += ".TP\n.B " + escaped (example.command) + "\n" + escaped (example.meaning) + "\n";
+  return (text);
+}
+
+std::string
+manEnd (const ProgramText& program)
+{
+  std::string text = ".SH FILES\n" + escaped (configuration_text) + "\n.PP\n.nf\n";
+  for (const std::string& line : program.configuration)
+    text += escaped (line) + "\n";
+  return (text + ".fi\n.SH EXIT STATUS\n" + escaped (status_text) + "\n");
+}
+
 } // namespace
 
 std::vector<std::string>
@@ -157,25 +206,37 @@ helpText (const CLI::App& app, const ProgramText& program, const std::string& to
 std::string
 manPage (const CLI::App& app, const ProgramText& program)
 {
-  std::string title = program.name;
-  std::transform (title.begin (), title.end (), title.begin (), [] (unsigned char c) { return (std::toupper (c)); });
-  std::string text = ".TH " + title + " 1 \"\" \"pcl_cosection " PCL_COSECTION_VERSION "\" \"User Commands\"\n.SH NAME\n" +
-                     escaped (program.name) + " \\- " + escaped (program.summary) + "\n.SH SYNOPSIS\n.B " +
-                     escaped (program.synopsis) + "\n.SH DESCRIPTION\n" + escaped (program.purpose);
+  return (manHeader (program) + ".B " + escaped (program.synopsis) + "\n.SH DESCRIPTION\n" + manDescription (program) +
+          ".SH OPTIONS\n" + manOptions (app) + ".SH EXAMPLES\n" + manExamples (program) + manEnd (program));
+}
+
+std::string
+helpText (const ProgramText& program, const std::vector<CommandHelp>& commands)
+{
+  constexpr std::size_t indent = 14;
+  std::string text = wrapped (program.purpose, 0) + "\nUsage: " + program.synopsis + "\n\nCommands:\n";
+  for (const CommandHelp& command : commands)
+    text += "  " + command.word + std::string (indent - 2 - command.word.size (), ' ') +
+            wrapped (command.text->summary, indent);
+  text += "\n";
   for (const std::string& paragraph : program.paragraphs)
-    text += "\n.PP\n" + escaped (paragraph);
-  text += "\n.SH OPTIONS\n";
-  for (const std::string& group : groupsOf (app))
-  {
-    text += ".SS " + group + "\n";
-    for (const CLI::Option* option : optionsOf (app, group))
-      text += ".TP\n.B " + escaped (nameOf (*option)) + "\n" + escaped (option->get_description ()) + "\n";
-  }
+    text += wrapped (paragraph, 2);
+  text += "\n" + wrapped ("For the options of a command: " + program.name + " COMMAND --help.", 0);
+  return (text + "\n" + exampleText (program) + "\n" + wrapped (status_text, 0));
+}
+
+std::string
+manPage (const ProgramText& program, const std::vector<CommandHelp>& commands)
+{
+  std::string text = manHeader (program);
+  for (const CommandHelp& command : commands)
+    text += ".B " + escaped (command.text->synopsis) + "\n.br\n";
+  text += ".SH DESCRIPTION\n" + manDescription (program);
+  for (const CommandHelp& command : commands)
+    text += ".SH COMMAND " + escaped (command.word) + "\n.B " + escaped (command.text->synopsis) + "\n.PP\n" +
+            manDescription (*command.text) + manOptions (*command.app);
   text += ".SH EXAMPLES\n";
-  for (const UsageExample& example : program.examples)
-    text += ".TP\n.B " + escaped (example.command) + "\n" + escaped (example.meaning) + "\n";
-  text += ".SH FILES\n" + escaped (configuration_text) + "\n.PP\n.nf\n";
-  for (const std::string& line : program.configuration)
-    text += escaped (line) + "\n";
-  return (text + ".fi\n.SH EXIT STATUS\n" + escaped (status_text) + "\n");
+  for (const CommandHelp& command : commands)
+    text += manExamples (*command.text);
+  return (text + manEnd (program));
 }

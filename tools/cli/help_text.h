@@ -38,3 +38,19 @@ helpText (const CLI::App& app, const ProgramText& program, const std::string& to
 /** \brief The same as a page for man (1). */
 std::string
 manPage (const CLI::App& app, const ProgramText& program);
+
+/** \brief A command of a program that has several, each with options of its own. */
+struct CommandHelp
+{
+  std::string word; ///< "mesh"
+  const CLI::App* app = nullptr;
+  const ProgramText* text = nullptr;
+};
+
+/** \brief The help screen of a program that has commands: what they are, without their options. */
+std::string
+helpText (const ProgramText& program, const std::vector<CommandHelp>& commands);
+
+/** \brief All commands as one page for man (1). */
+std::string
+manPage (const ProgramText& program, const std::vector<CommandHelp>& commands);

@@ -93,6 +93,26 @@ parseQuadruples (const std::vector<std::string>& values)
   return (quadruples);
 }
 
+std::optional<std::vector<double>>
+parseNumbers (const std::vector<std::string>& values)
+{
+  std::vector<double> numbers;
+  for (const std::string& value : values)
+  {
+    if (!value.empty () && value.back () == ',')
+      return (std::nullopt);
+    std::istringstream stream (value);
+    for (std::string part; std::getline (stream, part, ',');)
+    {
+      const std::optional<double> number = parseNumber (part);
+      if (!number)
+        return (std::nullopt);
+      numbers.push_back (*number);
+    }
+  }
+  return (numbers);
+}
+
 CLI::Validator
 numberRange (double least, double most, bool open)
 {

@@ -28,6 +28,11 @@ physicalMemory ();
 std::optional<std::vector<std::array<double, 4>>>
 parseQuadruples (const std::vector<std::string>& values);
 
+/** \brief The numbers of values "a,b,c", or of values of one number (a list in a configuration file). Nothing if one of
+ * them is no number. */
+std::optional<std::vector<double>>
+parseNumbers (const std::vector<std::string>& values);
+
 /** \brief Accepts a finite number in [\a least, \a most]; in (\a least, \a most] if \a open. */
 CLI::Validator
 numberRange (double least, double most, bool open = false);

@@ -2,7 +2,7 @@
 // Copyright (c) 2026, the pcl_cosection authors
 #include "json_summary.h"
 
-#include "json_file.h"
+#include "output_files.h"
 
 #include <pcl/cosection/common/error.h>
 #include <pcl/cosection/common/triangle_mesh.h>
@@ -125,7 +125,7 @@ writeJsonSummary (const Settings& settings, const SceneResult& result, const std
     if (!object.error.empty ())
       summary["failed"].push_back ({{"id", object.id}, {"error", object.error}});
   summary["warnings"] = warnings;
-  writeJsonFile (summary, settings.json);
+  saveJson (summary, settings.json);
 }
 
 void
@@ -139,7 +139,7 @@ try
   summary["objects"] = Json::array ();
   summary["failed"] = Json::array ();
   summary["warnings"] = warnings;
-  writeJsonFile (summary, settings.json);
+  saveJson (summary, settings.json);
 }
 catch (const std::exception&)
 {

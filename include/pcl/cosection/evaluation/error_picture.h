@@ -8,6 +8,7 @@
 
 #include <Eigen/Core>
 
+#include <string>
 #include <vector>
 
 namespace pcl
@@ -23,7 +24,7 @@ errorColour (double share);
 PCL_COSECTION_EXPORT std::vector<TriangleMesh::Colour>
 errorColours (const std::vector<double>& errors_m, double error_max_m);
 
-/** \brief A round number that is not less: 1, 2 or 5 times a power of ten, metres, at least a millimetre. */
+/** \brief A round number that is not less: 1, 2, 3, 4, 5, 6 or 8 times a power of ten, metres, at least a millimetre. */
 PCL_COSECTION_EXPORT double
 roundErrorUp (double error_m);
 
@@ -34,6 +35,8 @@ struct PCL_COSECTION_EXPORT ErrorPictureOptions
   double error_max_m = 0.01; ///< at the red end of the scale
   Eigen::Vector3d up = Eigen::Vector3d::UnitZ ();     ///< points up in the picture
   Eigen::Vector3d front = {0.8, -1.0, 0.75};          ///< from the meshes to the first camera; not along \a up
+  std::string reconstruction_caption = "Reconstruction: distance to the truth";
+  std::string truth_caption = "Truth: distance to the reconstruction";
   int threads = 0;           ///< 0: all
 
   /** \brief \throws InvalidArgument naming the first parameter outside its domain. */
@@ -42,8 +45,8 @@ struct PCL_COSECTION_EXPORT ErrorPictureOptions
 };
 
 /** \brief Draw a reconstruction in the colours of its distance to the truth, in the upper row, and the truth in those of
- * its distance to the reconstruction below it; each from two sides, with a scale in millimetres. Distances are
- * exact at each pixel.
+ * its distance to the reconstruction below it; each from two sides, the second turned about \a up, with a scale in
+ * millimetres. Distances are exact at each pixel.
  * \throws InvalidArgument, DegenerateInput as requireSurface (), and for options outside their domain */
 PCL_COSECTION_EXPORT Picture
 drawErrorPicture (const TriangleMesh& truth, const TriangleMesh& reconstruction, const ErrorPictureOptions& options = {});

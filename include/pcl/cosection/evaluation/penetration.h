@@ -21,9 +21,12 @@ namespace cosection
 struct PCL_COSECTION_EXPORT PenetrationOptions
 {
   std::size_t samples = 10000; ///< on the surface, beside its vertices
+  std::size_t max_vertices = 0; ///< of so many, evenly chosen; 0: all
   std::uint64_t seed = 0;      ///< of the samples
-  double voxel_size_m = 0.0;   ///< of the volume; 0: 1/128 of the longest side of the smaller box
-  double band_m = 0.05;        ///< how far behind open parts of a mesh there is matter
+  double voxel_size_m = 0.0;   ///< of the volume; 0: by \a voxels
+  int voxels = 128;            ///< along the longest side of the smaller box
+  bool open_parts = true;      ///< whether there is matter behind open parts
+  double band_m = 0.05;        ///< how far behind them
   int threads = 0;             ///< 0: all
 
   /** \brief \throws InvalidArgument naming the first parameter outside its domain. */
@@ -50,6 +53,10 @@ public:
   /** \brief Whether some of the mesh is open: it has no inside, only a band behind it. */
   bool
   isOpen () const;
+
+  /** \brief Whether some of the mesh is closed: only then it has a volume. */
+  bool
+  hasVolume () const;
 
   /** \brief How deep the surface of \a other, by its vertices and area-uniform samples of it, lies inside this: the
    * greatest distance to this surface, metres; 0: it does not.

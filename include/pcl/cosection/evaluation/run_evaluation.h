@@ -42,7 +42,7 @@ struct PCL_COSECTION_EXPORT RunOptions
 {
   MeshComparisonOptions comparison;
   TrajectoryOptions trajectory; ///< the alignment is that of the camera
-  PenetrationOptions penetration = {2000};
+  PenetrationOptions penetration = {2000, 3000, 0, 0.0, 64};
   RefinementOptions refinement;
   bool refine = true;      ///< refine the alignment of each object on its observed surface
   int volume_frames = 5;   ///< at most so many frames for the volume of each penetration
@@ -82,7 +82,7 @@ struct PCL_COSECTION_EXPORT ObjectEvaluation
   std::size_t frames_visible = 0;         ///< of the truth's frames
   std::size_t frames_tracked_visible = 0; ///< visible ones that were tracked
   double penetration_m = 0.0;             ///< deepest of all its pairs
-  std::optional<double> penetration_m3;   ///< largest volume of all its pairs
+  std::optional<double> penetration_m3;   ///< largest of all its pairs; nothing if it is not known of one that penetrates
 };
 
 /** \brief Two estimated bodies. */

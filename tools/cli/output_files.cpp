@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_cosection authors
+#include "output_files.h"
+
+#include "arguments.h"
+
+#include <pcl/cosection/common/atomic_file.h>
+#include <pcl/cosection/common/error.h>
+
+#include <nlohmann/json.hpp>
+
+#include <filesystem>
+#include <fstream>
+
+namespace fs = std::filesystem;
+using namespace pcl::cosection;
+
+namespace
+{
+
+bool
+isSameFile (const std::string& a, const std::string& b)
+{
+  std::error_code error;
+  if (fs::equivalent (a, b, error))
+    return (true);
+  return (fs::weakly_canonical (fs::absolute (a), error) == fs::weakly_canonical (fs::absolute (b), error));
+}
+
+} // namespace
+
+void
+refuseToOverwrite (const std::vector<std::string>& inputs, const std::vector<std::string>& outputs)
+{
+  for (std::size_t n = 0; n < outputs.size (); ++n)
+  {
+    if (outputs[n].empty ())
+      continue;
+    for (const std::string& input : inputs)
+      if (isSameFile (outputs[n], input))
+        throw UsageError (outputs[n] + " would be overwritten: it is an input");
+    for (std::size_t other = 0; other < n; ++other)
+      if (!outputs[other].empty () && isSameFile (outputs[n], outputs[other]))
+        throw UsageError (outputs[n] + " would be written twice");
+  }
+}
+
+void
+saveText (const std::string& text, const std::string& path)
+{
+  writeAtomically (path, [&] (const std::string& temporary) {
+    std::ofstream file (temporary, std::ios::binary);
+    file << text;
+    if (!file.flush ())
+      throw IoError (path + ": cannot be written");
+  });
+}
+
+void
+saveJson (const nlohmann::ordered_json& json, const std::string& path)
+{
+  // File names need not be UTF-8.
+  saveText (json.dump (2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n", path);
+}
+
+std::string
+csvRow (const std::vector<std::string>& fields)
+{
+  std::string row;
+  for (std::size_t n = 0; n < fields.size (); ++n)
+  {
+    row += n == 0 ? "" : ",";
+    if (fields[n].find_first_of (",\"\r\n") == std::string::npos)
+    {
+      row += fields[n];
+      continue;
+    }
+    row += '"';
+    for (const char c : fields[n])
+      row += c == '"' ? std::string ("\"\"") : std::string (1, c);
+    row += '"';
+  }
+  return (row + "\n");
+}

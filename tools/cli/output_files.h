@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_cosection authors
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+
+#include <string>
+#include <vector>
+
+/** \brief \throws UsageError if one of \a outputs is one of \a inputs, or two of them are the same; empty names are none. */
+void
+refuseToOverwrite (const std::vector<std::string>& inputs, const std::vector<std::string>& outputs);
+
+/** \brief Write text, through a temporary name. \throws pcl::cosection::IoError */
+void
+saveText (const std::string& text, const std::string& path);
+
+/** \brief Write JSON, through a temporary name. \throws pcl::cosection::IoError */
+void
+saveJson (const nlohmann::ordered_json& json, const std::string& path);
+
+/** \brief A row of a CSV file: fields with commas, quotes or line breaks are quoted (RFC 4180). */
+std::string
+csvRow (const std::vector<std::string>& fields);

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_cosection authors
+#pragma once
+
+#include "terminal.h"
+
+#include <CLI/CLI.hpp>
+
+#include <functional>
+#include <string>
+#include <vector>
+
+struct ProgramText;
+
+/** \brief A command of pcl_cosection_evaluate. */
+struct EvaluationCommand
+{
+  std::string word;
+  const ProgramText* text;
+  std::function<void (CLI::App& app)> declare; ///< its options, for help only: their values go nowhere
+  void (*run) (int argc, const char* const* argv, Terminal& terminal);
+};
+
+const std::vector<EvaluationCommand>&
+evaluationCommands ();
+
+/** \brief What --help shows; see helpText (). */
+std::string
+evaluationHelp ();
+
+/** \brief The manual page of all commands. */
+std::string
+evaluationManPage ();

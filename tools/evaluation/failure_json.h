@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_cosection authors
+#pragma once
+
+#include "evaluation_json.h"
+#include "output_files.h"
+
+#include <exception>
+#include <string>
+
+/** \brief What is to be said of an error that ended a command. */
+std::string
+describe (const std::exception& error);
+
+/** \brief Run \a work; if it throws, leave {"error": ...} in the file \a json, unless that is empty, and throw on. */
+template <typename Work>
+void
+withFailureJson (const std::string& json, Work&& work)
+{
+  try
+  {
+    work ();
+  }
+  catch (const std::exception& error)
+  {
+    if (!json.empty ())
+      try
+      {
+        saveJson (Json{{"error", describe (error)}}, json);
+      }
+      catch (const std::exception&)
+      {
+        // the error itself is told
+      }
+    throw;
+  }
+}

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_cosection authors
+#pragma once
+
+#include "evaluation_json.h"
+#include "mesh_command.h"
+#include "terminal.h"
+
+#include <pcl/cosection/evaluation/free_space_violation.h>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+/** \brief How a reconstruction fits into what is around it. */
+struct Surroundings
+{
+  struct Obstacle
+  {
+    std::string file;
+    bool is_open = false;
+    double depth_m = 0.0;
+    std::optional<double> volume_m3;
+  };
+
+  std::vector<Obstacle> obstacles;
+  std::optional<pcl::cosection::FreeSpaceViolation> free_space;
+
+  /** \brief The deepest of all obstacles. */
+  double
+  penetration_m () const;
+};
+
+/** \brief Read obstacles and views, and measure them. \throws pcl::cosection::Error */
+Surroundings
+measureSurroundings (const MeshSettings& settings, const pcl::cosection::TriangleMesh& reconstruction,
+                     std::vector<std::string>& warnings);
+
+void
+print (const Surroundings& surroundings, Terminal& terminal);
+
+/** \brief Set penetration_m and so on of \a json. */
+void
+addSurroundings (const Surroundings& surroundings, Json& json);

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_cosection authors
+#pragma once
+
+#include <pcl/cosection/evaluation/run_evaluation.h>
+
+#include <string>
+#include <vector>
+
+/** \brief Read what a run wrote: trajectory/camera.txt, trajectory/object_ID.txt, mesh/object_ID.ply, mesh/background.ply.
+ * \param[out] warnings what is missing or cannot be read, beside the camera
+ * \throws pcl::cosection::IoError if there is no such folder, or the camera cannot be read */
+pcl::cosection::SceneRecord
+readRun (const std::string& folder, std::vector<std::string>& warnings);
+
+/** \brief Read the truth of a dataset: gt-cam-0.txt, gt-NAME-ID.txt, gt-mesh/NAME.ply, gt-mesh/room.ply or
+ * background.ply, calibration.txt.
+ * \param[out] warnings what is missing or cannot be read, beside the camera
+ * \throws pcl::cosection::IoError if there is no such folder, or the camera cannot be read */
+pcl::cosection::SceneRecord
+readTruth (const std::string& folder, std::vector<std::string>& warnings);

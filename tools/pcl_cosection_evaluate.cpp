@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_cosection authors
+// Compares reconstructed meshes, trajectories and whole runs with the truth; see pcl_cosection_evaluate --help.
+
+#include "arguments.h"
+#include "evaluation_commands.h"
+#include "failure_json.h"
+#include "suggestion.h"
+#include "terminal.h"
+
+#include <pcl/cosection/version.h>
+
+#include <iostream>
+
+namespace
+{
+
+enum ExitStatus
+{
+  Success = 0,
+  Failure = 1,
+  WrongUsage = 2,
+};
+
+void
+run (int argc, const char* const* argv, Terminal& terminal)
+{
+  const std::string word = argc > 1 ? argv[1] : "--help";
+  if (word == "--help" || word == "-h")
+  {
+    std::cout << evaluationHelp () << std::flush;
+    if (argc == 1)
+      throw UsageError ("a command is missing: mesh, trajectory or run");
+    return;
+  }
+  if (word == "--version")
+  {
+    std::cout << "pcl_cosection_evaluate " PCL_COSECTION_VERSION << std::endl;
+    return;
+  }
+  std::vector<std::string> words;
+  for (const EvaluationCommand& command : evaluationCommands ())
+  {
+    if (command.word == word)
+      return (command.run (argc - 1, argv + 1, terminal));
+    words.push_back (command.word);
+  }
+  if (word[0] == '-')
+    throw UsageError ("the command must come first: mesh, trajectory or run; it is " + word);
+  throw UsageError ("unknown command " + word + (nearestName (word, words).empty () ? "; known are mesh, trajectory and run"
+                                                                                     : suggestion (word, words)));
+}
+
+} // namespace
+
+int
+main (int argc, char** argv)
+{
+  Terminal terminal ("pcl_cosection_evaluate");
+  try
+  {
+    run (argc, argv, terminal);
+    return (Success);
+  }
+  catch (const UsageError& error)
+  {
+    terminal.error (error.what ());
+    return (WrongUsage);
+  }
+  catch (const std::exception& error)
+  {
+    terminal.error (describe (error));
+  }
+  return (Failure);
+}
