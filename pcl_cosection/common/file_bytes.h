@@ -2,6 +2,8 @@
 // Copyright (c) 2026, the pcl_cosection authors
 #pragma once
 
+#include <pcl/cosection/common/export.h>
+
 #include <string>
 
 namespace pcl
@@ -11,11 +13,11 @@ namespace cosection
 
 /** \brief Replace the contents of a file. \throws std::system_error with the system's reason, which
  * writeAtomically () turns into an IoError that names the final path. */
-void
+PCL_COSECTION_EXPORT void
 writeBytes (const std::string& path, const std::string& bytes);
 
 /** \brief \throws IoError naming \a path and the system's reason */
-std::string
+PCL_COSECTION_EXPORT std::string
 readBytes (const std::string& path);
 
 } // namespace cosection

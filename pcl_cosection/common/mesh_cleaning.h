@@ -2,6 +2,7 @@
 // Copyright (c) 2026, the pcl_cosection authors
 #pragma once
 
+#include <pcl/cosection/common/export.h>
 #include <pcl/cosection/common/triangle_mesh.h>
 
 namespace pcl
@@ -13,12 +14,12 @@ namespace cosection
  * coordinates are one, triangles of two equal corners are gone, repeated ones are there once, and those of
  * three corners on a line are gone without opening a gap: the triangle at their longest side is divided.
  * Vertices keep their order; those without a triangle, and all vertex properties, are dropped. */
-TriangleMesh
+PCL_COSECTION_EXPORT TriangleMesh
 cleanMesh (const TriangleMesh& mesh);
 
 /** \brief Drop all triangles that lie back to back (the same corners in opposite order): they bound
  * nothing. */
-TriangleMesh
+PCL_COSECTION_EXPORT TriangleMesh
 dropBackToBack (const TriangleMesh& mesh);
 
 } // namespace cosection

@@ -2,6 +2,7 @@
 // Copyright (c) 2026, the pcl_cosection authors
 #pragma once
 
+#include <pcl/cosection/common/export.h>
 #include <pcl/cosection/common/triangle_mesh.h>
 
 #include <Eigen/Geometry>
@@ -25,21 +26,21 @@ struct MeshPart
 /** \brief Divide a mesh, in the order of the parts' first triangles. Triangles belong together across an edge
  * of two; across edges of more only where they would be open without each other, and then those that have
  * matter between them. So bodies that merely touch, along an edge or with faces, are parts of their own. */
-std::vector<MeshPart>
+PCL_COSECTION_EXPORT std::vector<MeshPart>
 divideMesh (const TriangleMesh& mesh);
 
 /** \brief Some triangles of a mesh, in the given order, with the vertices they use. */
-TriangleMesh
+PCL_COSECTION_EXPORT TriangleMesh
 selectTriangles (const TriangleMesh& mesh, const std::vector<std::uint32_t>& triangles);
 
 /** \brief The smallest closed part of positive volume around part \a inner; none if it lies in no other. */
-std::optional<std::size_t>
+PCL_COSECTION_EXPORT std::optional<std::size_t>
 enclosingPart (const TriangleMesh& mesh, const std::vector<MeshPart>& parts, std::size_t inner);
 
 /** \brief The generalised winding number of some triangles about \a p, as a sum of solid angles: 1 inside
  * and 0 outside of a closed outward surface (A. Jacobson, L. Kavan, O. Sorkine-Hornung, "Robust Inside-Outside
  * Segmentation using Generalized Winding Numbers", SIGGRAPH 2013). */
-double
+PCL_COSECTION_EXPORT double
 windingNumber (const TriangleMesh& mesh, const std::vector<std::uint32_t>& triangles, const Eigen::Vector3d& p);
 
 } // namespace cosection

@@ -2,6 +2,8 @@
 // Copyright (c) 2026, the pcl_cosection authors
 #pragma once
 
+#include <pcl/cosection/common/export.h>
+
 #include "pseudonormals.h"
 #include "triangle_tree.h"
 
@@ -18,7 +20,7 @@ namespace cosection
 {
 
 /** \brief The triangles of each closed body, cavities with what is around them, and those of all open parts. */
-struct MeshBodies
+struct PCL_COSECTION_EXPORT MeshBodies
 {
   std::vector<std::vector<std::uint32_t>> bodies;
   std::vector<std::uint32_t> sheets;
@@ -27,11 +29,11 @@ struct MeshBodies
 /** \brief Divide a mesh into what sampleSignedDistance () takes for solid, and open sheets. Closed parts without any
  * volume are in neither.
  * \param[in] mesh cleaned (cleanMesh (), dropBackToBack ()) */
-MeshBodies
+PCL_COSECTION_EXPORT MeshBodies
 divideBodies (const TriangleMesh& mesh);
 
 /** \brief Triangles with what answers questions about them. */
-struct SearchableSurface
+struct PCL_COSECTION_EXPORT SearchableSurface
 {
   SearchableSurface (const TriangleMesh& whole, const std::vector<std::uint32_t>& triangles);
 

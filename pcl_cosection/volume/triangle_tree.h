@@ -2,6 +2,7 @@
 // Copyright (c) 2026, the pcl_cosection authors
 #pragma once
 
+#include <pcl/cosection/common/export.h>
 #include <pcl/cosection/common/triangle_mesh.h>
 
 #include <Eigen/Geometry>
@@ -35,7 +36,7 @@ struct NearestPoint
 };
 
 /** \brief A bounding volume hierarchy that finds the nearest point of a mesh. */
-class TriangleTree
+class PCL_COSECTION_EXPORT TriangleTree
 {
 public:
   /** \brief \a mesh must have triangles, none of them without area. */
