@@ -220,7 +220,7 @@ CoSectionRun::prepareObject (Object& object)
       throw DegenerateInput ("no usable measurements: all of its points lie in space that was seen free");
     const auto views = viewsOf (object);
     if (scene_.options.use_extent_prior)
-      object.volume->addExtentPrior (scene_.hasSurroundings () ? ExtentPrior () : ExtentPrior::withoutSurroundings (),
+      object.volume->addExtentPrior (scene_.background.empty () ? ExtentPrior::cutOut () : ExtentPrior (),
                                      object.points (), views);
     if (scene_.options.use_contact_prior && !views.empty ())
       for (const Eigen::Isometry3d& T_world_object : relativePoses (object, nullptr))

@@ -57,12 +57,6 @@ struct CoSection::Impl
   std::vector<Eigen::Vector4d> planes; // unit normals
   std::vector<Obstacle> bodies;
   std::vector<MeshObstacle> meshes;
-
-  bool
-  hasSurroundings () const
-  {
-    return !background.empty () || !planes.empty () || !bodies.empty () || !meshes.empty ();
-  }
 };
 
 /** \brief One execution of CoSection::reconstruct (). */

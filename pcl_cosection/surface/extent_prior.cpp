@@ -124,7 +124,7 @@ observedExtents (const std::vector<OrientedPoint>& points)
 }
 
 ExtentPrior
-ExtentPrior::withoutSurroundings ()
+ExtentPrior::cutOut ()
 {
   ExtentPrior prior;
   prior.side_factor = 0.05;

@@ -124,7 +124,7 @@ TEST (HessianImlsConstraints, KeepsOutOfABodyAtEveryPose)
 {
   // A ball below the object on one side, then on the other.
   constexpr double ball_radius = 0.04;
-  const Eigen::Vector3d positions[] = {{0.04, 0.0, -0.088}, {-0.04, 0.0, -0.088}};
+  const Eigen::Vector3d positions[] = {{0.04, 0.0, -0.08}, {-0.04, 0.0, -0.08}};
   std::vector<Eigen::Isometry3d> poses;
   for (const Eigen::Vector3d& p : positions)
     poses.emplace_back (Eigen::Translation3d (-p)); // T_body_object

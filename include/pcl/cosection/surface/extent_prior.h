@@ -40,10 +40,10 @@ struct PCL_COSECTION_EXPORT ExtentPrior
   double occluded_factor = 0.5; ///< of the middle observed extent
   double side_factor = 0.15;    ///< of the middle observed extent
 
-  /** \brief For an object of which nothing but its points is known: where they were cut out of a scene, what they stood on is
-   * gone, and a missing reading beside them suggests no matter. */
+  /** \brief For an object whose points were cut out of a scene: what they stood on is gone, and a missing reading beside them
+   * suggests no matter. */
   static ExtentPrior
-  withoutSurroundings ();
+  cutOut ();
 
   /** \brief Largest distance from its data that an object may have, metres. */
   double
