@@ -55,18 +55,39 @@ sceneOf (const SimulateSettings& settings)
 }
 
 std::vector<std::string>
-warningsOf (const SimulatedScene& scene, int threads)
+warningsOf (const SimulatedScene& scene, const SequenceOptions& frames, const ProgressCallback& progress)
 {
+  PenetrationCheckOptions options;
+  options.first = frames.first;
+  options.last = frames.last;
+  options.threads = frames.threads;
   std::vector<std::string> warnings;
-  for (const ScenePenetration& p : findPenetrations (scene, 0.001, threads))
+  for (const ScenePenetration& p : findPenetrations (scene, options, progress))
   {
     std::ostringstream text;
     text.precision (2);
     text << p.second << " is inside " << p.first << ", by " << 1000.0 * p.depth_m << " mm at frame " << p.frame << " (in "
-         << p.frames << " of " << scene.frames << " frames)";
+         << p.frames << (p.frames == 1 ? " frame)" : " frames)");
     warnings.push_back (text.str ());
   }
   return (warnings);
+}
+
+/** \brief Neither the description nor a mesh may be replaced by the summary, and that must be possible to write. */
+void
+checkOutputs (const SimulateSettings& settings, const SimulatedScene& scene)
+{
+  if (settings.json.empty ())
+    return;
+  std::vector<std::string> inputs;
+  if (!settings.spec.empty ())
+    inputs.push_back (settings.spec);
+  for (const SceneBody& body : scene.bodies)
+    for (const BodyPart& part : body.parts)
+      if (!part.file.empty ())
+        inputs.push_back (part.file);
+  refuseToOverwrite (inputs, {settings.json});
+  requireWritable (settings.json);
 }
 
 void
@@ -78,22 +99,29 @@ run (const SimulateSettings& settings, Terminal& terminal)
   };
   const SimulatedScene scene = sceneOf (settings);
   const double read_s = seconds ();
-  const std::vector<std::string> warnings = warningsOf (scene, settings.threads);
-  for (const std::string& warning : warnings)
-    terminal.warning (warning);
-  const double check_s = seconds () - read_s;
-
+  checkOutputs (settings, scene);
   SequenceOptions options;
   options.first = settings.first_frame;
   options.last = settings.last_frame;
   options.threads = settings.threads;
-  writeSequence (scene, settings.output, options, [&] (const std::string& stage, double fraction) {
+  const auto report = [&] (const std::string& stage, double fraction) {
     terminal.progress (stage, fraction);
     return (!interrupted ());
+  };
+  const std::vector<std::string> warnings = warningsOf (scene, options, report);
+  for (const std::string& warning : warnings)
+    terminal.warning (warning);
+  const double check_s = seconds () - read_s;
+
+  double truth_s = 0.0; // until the first frame
+  writeSequence (scene, settings.output, options, [&] (const std::string& stage, double fraction) {
+    if (stage == "frames" && truth_s == 0.0)
+      truth_s = seconds () - read_s - check_s;
+    return (report (stage, fraction));
   });
   const double total_s = seconds ();
   const int frames = (options.last < 0 ? scene.frames : options.last) - options.first;
-  const double render_s = total_s - read_s - check_s;
+  const double render_s = total_s - read_s - check_s - truth_s;
   std::ostringstream text;
   text.precision (3);
   text << "wrote " << settings.output << ": " << frames << (frames == 1 ? " frame" : " frames") << " of " << scene.camera.width
@@ -103,7 +131,7 @@ run (const SimulateSettings& settings, Terminal& terminal)
   if (settings.json.empty ())
     return;
   nlohmann::ordered_json summary;
-  summary["timings_s"] = {{"read", read_s}, {"check", check_s}, {"render", render_s}, {"total", total_s}};
+  summary["timings_s"] = {{"read", read_s}, {"check", check_s}, {"truth", truth_s}, {"render", render_s}, {"total", total_s}};
   summary["frames"] = frames;
   summary["frames_per_second"] = frames / render_s;
   summary["parameters"] = {{"spec", settings.spec},   {"preset", settings.preset},          {"seed", scene.seed},

@@ -20,6 +20,7 @@ namespace cosection
 namespace
 {
 
+constexpr double rpe_span_share = 0.02; // by which the spans of pairs may differ
 constexpr double rounding = 1e-9; ///< relative, of stamps in text files
 
 std::string
@@ -152,12 +153,17 @@ computeRpe (const Matches& matches, const TrajectoryOptions& options, Trajectory
     error.notes.emplace_back ("RPE needs more than " + std::to_string (delta) + " matching poses");
     return;
   }
-  const double period = *medianPeriod (matches.truth);
+  // Truth of another rate makes the stamps of matches uneven: what delta matches span usually tells what a gap is.
+  std::vector<double> spans;
+  for (std::size_t i = 0, j = delta; j < matches.size (); ++i, ++j)
+    spans.push_back (matches.truth[j].stamp - matches.truth[i].stamp);
+  const double usual = medianOf (std::move (spans));
+  const double tolerance = std::max (0.5 * *medianPeriod (matches.truth), rpe_span_share * usual) * (1.0 + rounding);
   std::vector<double> translations, rotations;
   for (std::size_t i = 0, j = delta; j < matches.size (); ++i, ++j)
   {
     const double span = matches.truth[j].stamp - matches.truth[i].stamp;
-    if (std::abs (span - options.delta * period) > 0.5 * period * (1.0 + rounding))
+    if (std::abs (span - usual) > tolerance)
     {
       ++error.rpe_left_out;
       continue;

@@ -65,7 +65,9 @@ findShadows (const Image<float>& depth, int v, double disparity_m_px, std::vecto
 {
   const int width = depth.width;
   lit.assign (width, std::numeric_limits<float>::infinity ()); // nearest depth in each column of the projector's picture
-  const auto column = [&] (int u) { return static_cast<int> (std::floor (u - disparity_m_px / depth.at (u, v) + 0.5)); };
+  const auto column = [&] (int u) {
+    return static_cast<int> (std::max (std::floor (u - disparity_m_px / depth.at (u, v) + 0.5), -2.0));
+  };
   const auto spread = [&] (int from, int to, float z) {
     for (int c = std::max (0, from); c <= std::min (width - 1, to); ++c)
       lit[c] = std::min (lit[c], z);
@@ -134,7 +136,7 @@ DepthNoise::validate () const
   };
   const auto length = [] (double x) { return std::isfinite (x) && x >= 0.0; };
   const auto probability = [] (double x) { return x >= 0.0 && x <= 1.0; };
-  require (length (baseline_m) && baseline_m > 0.0, "baseline", "a positive number of metres");
+  require (length (baseline_m) && baseline_m > 0.0 && baseline_m <= 10.0, "baseline", "a positive number of metres, 10 at most");
   require (length (disparity_sigma_px), "disparity_sigma", "a number of pixels, not negative");
   require (length (disparity_step_px), "disparity_step", "a number of pixels, not negative");
   require (length (lateral_sigma_px) && lateral_sigma_px <= 10.0, "lateral_sigma", "a number of pixels, 0 to 10");

@@ -10,6 +10,8 @@
 
 #include <cmath>
 #include <filesystem>
+#include <optional>
+#include <set>
 
 namespace pcl
 {
@@ -38,7 +40,7 @@ parseKeys (const SpecNode& list, bool is_camera)
   std::vector<double> times;
   std::vector<Eigen::Vector3d> positions, targets;
   std::vector<Eigen::Quaterniond> rotations;
-  Eigen::Vector3d up = Eigen::Vector3d::UnitZ ();
+  std::optional<Eigen::Vector3d> up;
   for (SpecNode key : list.elements (1))
   {
     key.requireObject ();
@@ -48,7 +50,12 @@ parseKeys (const SpecNode& list, bool is_camera)
     {
       targets.push_back (key.field ("look_at").vector<3> ());
       if (key.has ("up"))
-        up = key.field ("up").vector<3> ();
+      {
+        const Eigen::Vector3d given = key.field ("up").vector<3> ();
+        if (up && *up != given)
+          key.field ("up").refuse ("must be the same in all keys");
+        up = given;
+      }
       if (key.has ("rpy_deg") || key.has ("quaternion"))
         key.refuse ("has both look_at and a rotation");
     }
@@ -62,7 +69,8 @@ parseKeys (const SpecNode& list, bool is_camera)
   {
     KeyedVector position (times, positions);
     KeyedMotion motion = targets.empty () ? KeyedMotion (position, KeyedRotation (times, rotations))
-                                          : KeyedMotion (position, KeyedVector (times, targets), up);
+                                          : KeyedMotion (position, KeyedVector (times, targets),
+                                                          up.value_or (Eigen::Vector3d::UnitZ ()));
     for (const double time : times)
       motion.at (time); // looks somewhere
     return motion;
@@ -93,6 +101,21 @@ parseCamera (SpecNode node, SimulatedScene& scene)
     node.refuse ("has a principal point cx, cy far outside the image");
   scene.camera_motion = parseKeys (node.field ("keys"), true);
   node.finish ();
+}
+
+/** \brief It must look somewhere in every frame, not only at its keys. */
+void
+checkCamera (const SpecNode& keys, const SimulatedScene& scene)
+{
+  for (int frame = 0; frame < scene.frames; ++frame)
+    try
+    {
+      scene.camera_motion.at (scene.timeOf (frame));
+    }
+    catch (const InvalidArgument& error)
+    {
+      keys.refuse ("are not right: at frame " + std::to_string (frame) + ", " + error.what ());
+    }
 }
 
 DepthNoise
@@ -155,7 +178,7 @@ parseBody (SpecNode node, int number, const std::string& folder)
   node.requireObject ();
   SceneBody body;
   body.id = number == 0 ? 0 : node.whole ("id", number, 1, 65535);
-  body.name = node.has ("name") ? node.field ("name").text () : number == 0 ? "room" : "object";
+  body.name = node.has ("name") ? node.field ("name").text () : number == 0 ? "room" : "object_" + std::to_string (body.id);
   body.pattern_size_m = node.number ("pattern_size", 0.0);
   const TriangleMesh::Colour colour = parseColour (
       node, number == 0 ? background_colour : object_colours[(number - 1) % std::size (object_colours)]);
@@ -196,6 +219,7 @@ parseScene (SpecNode node, const std::string& folder)
     scene.bodies.push_back (parseBody (node.field ("background"), 0, folder));
   else
     scene.bodies.push_back ({"room", 0, {}, KeyedMotion (), 0.0});
+  checkCamera (node.field ("camera").field ("keys"), scene);
   int number = 0;
   for (const SpecNode& object : node.field ("objects").elements ())
     scene.bodies.push_back (parseBody (object, ++number, folder));
@@ -205,13 +229,60 @@ parseScene (SpecNode node, const std::string& folder)
 
 } // namespace
 
+namespace
+{
+
+/** \brief Let the names of mesh files begin at the root, so that the description may be read from anywhere. */
+void
+nameMeshFiles (nlohmann::ordered_json& node, const std::string& folder)
+{
+  for (auto& child : node)
+    if (child.is_structured ())
+      nameMeshFiles (child, folder);
+  if (node.is_object () && node.contains ("file") && node["file"].is_string ())
+  {
+    const std::filesystem::path file (node["file"].get<std::string> ());
+    if (file.is_relative ())
+      node["file"] = std::filesystem::absolute (std::filesystem::path (folder) / file).lexically_normal ().string ();
+  }
+}
+
+} // namespace
+
+std::string
+effectiveSpec (const SimulatedScene& scene)
+{
+  if (scene.spec.empty ())
+    return "";
+  nlohmann::ordered_json json = nlohmann::ordered_json::parse (scene.spec);
+  json["seed"] = scene.seed;
+  if (!scene.noise)
+    json["depth"]["noise"] = false;
+  if (scene.views_every > 0)
+    json["views"]["every"] = scene.views_every;
+  else
+    json.erase ("views");
+  return json.dump (2) + "\n";
+}
+
 SimulatedScene
 parseSceneSpec (const std::string& text, const std::string& name, const std::string& folder)
 {
-  nlohmann::json json;
+  nlohmann::ordered_json json;
+  std::vector<std::set<std::string>> fields; // of the objects that are being read
+  const auto watch = [&] (int, nlohmann::ordered_json::parse_event_t event, nlohmann::ordered_json& value) {
+    using Event = nlohmann::ordered_json::parse_event_t;
+    if (event == Event::object_start)
+      fields.emplace_back ();
+    else if (event == Event::object_end)
+      fields.pop_back ();
+    else if (event == Event::key && !fields.back ().insert (value.get<std::string> ()).second)
+      throw InvalidArgument (name + ": has the field \"" + value.get<std::string> () + "\" twice in one object");
+    return true;
+  };
   try
   {
-    json = nlohmann::json::parse (text, nullptr, true, true);
+    json = nlohmann::ordered_json::parse (text, watch, true, true);
   }
   catch (const nlohmann::json::exception& error)
   {
@@ -226,6 +297,7 @@ parseSceneSpec (const std::string& text, const std::string& name, const std::str
   {
     SimulatedScene scene = parseScene (SpecNode (json, name + ": "), folder);
     scene.validate ();
+    nameMeshFiles (json, folder);
     scene.spec = json.dump (2) + "\n";
     return scene;
   }

@@ -11,6 +11,7 @@
 #include <pcl/cosection/io/mesh_io.h>
 #include <pcl/cosection/io/trajectory.h>
 #include <pcl/cosection/simulation/scene_renderer.h>
+#include <pcl/cosection/simulation/scene_spec.h>
 
 #include <algorithm>
 #include <cerrno>
@@ -44,6 +45,8 @@ public:
     if (!path_.has_filename ())
       path_ = path_.parent_path ();
     std::error_code failure;
+    if (path_.filename () == "." || path_.filename () == ".." || path_.empty ())
+      throw IoError (path + ": cannot be replaced; give the name of a new folder");
     if (fs::exists (fs::symlink_status (path_, failure)))
     {
       if (!fs::is_directory (path_, failure) || !fs::is_empty (path_, failure))
@@ -183,7 +186,7 @@ private:
     out << c.fx << ' ' << c.fy << ' ' << c.cx << ' ' << c.cy << ' ' << c.width << ' ' << c.height << '\n';
     writeText ("calibration.txt", out.str ());
     if (!scene_.spec.empty ())
-      writeText ("scene.json", scene_.spec);
+      writeText ("scene.json", effectiveSpec (scene_));
   }
 
   void

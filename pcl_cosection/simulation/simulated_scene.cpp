@@ -25,6 +25,22 @@ constexpr int block = 8;              // voxels along its sides
 constexpr int projection_steps = 4;
 constexpr double max_projection_vox = 0.9;
 
+bool
+isFileName (const std::string& name)
+{
+  return !name.empty () && name[0] != '.' && std::none_of (name.begin (), name.end (), [] (unsigned char c) {
+    return c <= ' ' || c == 0x7f || c == '/' || c == '\\';
+  });
+}
+
+std::string
+printable (std::string text)
+{
+  for (char& c : text)
+    c = static_cast<unsigned char> (c) < ' ' || c == 0x7f ? '?' : c;
+  return text;
+}
+
 TriangleMesh
 transformed (TriangleMesh mesh, const Eigen::Isometry3d& T)
 {
@@ -153,9 +169,13 @@ SimulatedScene::validate () const
   std::set<std::string> names;
   for (const SceneBody& body : bodies)
   {
-    const bool clean = !body.name.empty () && body.name.find_first_of ("/\\ \t\n") == std::string::npos;
-    if (!clean)
-      throw InvalidArgument ("\"" + body.name + "\" is no name for an object: it becomes part of file names");
+    if (!isFileName (body.name))
+      throw InvalidArgument ("\"" + printable (body.name) + "\" is no name for an object: it becomes part of file names");
+    const bool is_background_name = body.name == "room" || body.name == "background";
+    if (body.id == 0 && !is_background_name)
+      throw InvalidArgument ("the background is called " + body.name + "; it must be room or background");
+    if (body.id != 0 && (is_background_name || body.name == "cam"))
+      throw InvalidArgument ("an object must not be called " + body.name + ": the files of the truth would be mistaken");
     if (body.id < 0 || body.id > 65535 || !ids.insert (body.id).second)
       throw InvalidArgument ("the id " + std::to_string (body.id) + " of " + body.name +
                              " is used twice, or not from 1 to 65535");

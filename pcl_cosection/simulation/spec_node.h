@@ -24,7 +24,7 @@ namespace cosection
 class SpecNode
 {
 public:
-  SpecNode (const nlohmann::json& value, std::string path) : value_ (value), path_ (std::move (path))
+  SpecNode (const nlohmann::ordered_json& value, std::string path) : value_ (value), path_ (std::move (path))
   {}
 
   [[noreturn]] void
@@ -102,7 +102,7 @@ public:
   }
 
 private:
-  const nlohmann::json& value_;
+  const nlohmann::ordered_json& value_;
   std::string path_;
   std::set<std::string> known_;
 };

@@ -25,8 +25,9 @@ parsePolygon (const SpecNode& node)
   return polygon;
 }
 
+/** \param[out] mesh_file if the shape comes from one */
 Shape::ConstPtr
-parseShape (SpecNode& node, const std::string& folder)
+parseShape (SpecNode& node, const std::string& folder, std::string& mesh_file)
 {
   const std::string type = node.field ("type").word (
       {"sphere", "box", "room", "cylinder", "cone", "capsule", "torus", "revolution", "extrusion", "plane", "mesh"});
@@ -53,7 +54,8 @@ parseShape (SpecNode& node, const std::string& folder)
     return makeHalfSpace (node.number ("extent", 20.0));
   const std::filesystem::path file (node.field ("file").text ());
   const double scale = node.number ("scale", 1.0);
-  return makeMeshShape (loadMesh ((file.is_absolute () ? file : std::filesystem::path (folder) / file).string ()), scale);
+  mesh_file = (file.is_absolute () ? file : std::filesystem::path (folder) / file).string ();
+  return makeMeshShape (loadMesh (mesh_file), scale);
 }
 
 } // namespace
@@ -103,7 +105,7 @@ parsePart (SpecNode node, const TriangleMesh::Colour& colour, const std::string&
   part.T_body_part.linear () = parseRotation (node).toRotationMatrix ();
   try
   {
-    part.shape = parseShape (node, folder);
+    part.shape = parseShape (node, folder, part.file);
   }
   catch (const InvalidArgument& error)
   {

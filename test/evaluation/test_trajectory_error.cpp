@@ -293,3 +293,24 @@ TEST (RefineAlignment, StopsAtItsLimits)
   EXPECT_TRUE (result.limited);
   EXPECT_LE (result.translation_m, 0.01);
 }
+
+TEST (TrajectoryError, TruthMayBeOfAnotherRate)
+{
+  // Motion capture at 100 Hz, an estimate at 30 Hz with one gap of a second.
+  Trajectory truth, estimate;
+  const auto at = [] (double t) { return motion (0.2 * t, Eigen::Vector3d::UnitZ (), {0.1 * t, 0.0, 0.0}); };
+  for (int n = 0; n < 1000; ++n)
+    truth.push_back ({0.01 * n, at (0.01 * n)});
+  for (int n = 0; n < 290; ++n)
+    if (n < 100 || n >= 130)
+      estimate.push_back ({n / 30.0, at (n / 30.0)});
+  for (const int delta : {1, 5, 10, 30})
+  {
+    TrajectoryOptions options;
+    options.delta = delta;
+    const TrajectoryError error = compareTrajectories (truth, estimate, options);
+    EXPECT_EQ (error.matched, 260u);
+    EXPECT_EQ (error.rpe_left_out, static_cast<std::size_t> (delta)) << delta;
+    EXPECT_EQ (error.rpe_pairs, 260u - 2 * delta) << delta;
+  }
+}

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_cosection authors
+#include <pcl/cosection/common/error.h>
 #include <pcl/cosection/simulation/penetration_check.h>
 #include <pcl/cosection/simulation/scene_renderer.h>
 #include <pcl/cosection/simulation/scene_spec.h>
@@ -16,7 +17,7 @@ namespace
 SceneBody
 bodyOf (int id, std::vector<BodyPart> parts, const Eigen::Isometry3d& T = Eigen::Isometry3d::Identity ())
 {
-  return {"body" + std::to_string (id), id, std::move (parts), KeyedMotion (T), 0.0};
+  return {id == 0 ? "room" : "body" + std::to_string (id), id, std::move (parts), KeyedMotion (T), 0.0};
 }
 
 Eigen::Isometry3d
@@ -151,6 +152,23 @@ TEST (PenetrationCheck, FindsHowDeepAndWhen)
   EXPECT_EQ (found[0].frame, 10);
   EXPECT_GE (found[0].frames, 1);
   EXPECT_LE (found[0].frames, 4);
+}
+
+TEST (PenetrationCheck, FindsThinBoardsThatCross)
+{
+  SimulatedScene scene;
+  scene.bodies = {bodyOf (0, {}), bodyOf (1, {{makeBox ({2.0, 2.0, 0.003})}}), bodyOf (2, {{makeBox ({2.0, 0.003, 2.0})}})};
+  EXPECT_EQ (findPenetrations (scene).size (), 1u);
+}
+
+TEST (PenetrationCheck, LongThinTrianglesAreNoWorkMore)
+{
+  SimulatedScene scene;
+  const Shape::ConstPtr pipe = makeCylinder (0.025, 1.0);
+  scene.bodies = {bodyOf (0, {}), bodyOf (1, {{makeMeshShape (pipe->tessellate (1e-9))}}), bodyOf (2, {{makeSphere (0.02)}}, at (0.1, 0, 0))};
+  EXPECT_TRUE (findPenetrations (scene).empty ());
+  const ProgressCallback stop = [] (const std::string&, double) { return false; };
+  EXPECT_THROW (findPenetrations (scene, {}, stop), Cancelled);
 }
 
 TEST (PenetrationCheck, FindsWhatSinksIntoTheFloor)

@@ -91,7 +91,12 @@ TEST (SceneSpec, EveryMistakeIsNamed)
       {"[0, 0, 0]", "[0, -1, 0.5]", "camera.keys are not right: look_at is where the camera is"},
       {"\"look_at\": [0, 0, 0]", "\"look_at\": [0, 0, 0], \"rpy_deg\": [0, 0, 0]", "camera.keys[0] has both look_at and a rotation"},
       {"\"name\": \"ball\"", "\"name\": \"a/b\"", "\"a/b\" is no name for an object"},
-      {"\"name\": \"ball\"", "\"name\": \"room\"", "two objects are called room"},
+      {"\"name\": \"ball\"", "\"name\": \"room\"", "an object must not be called room"},
+      {"\"name\": \"ball\"", "\"name\": \"cam\"", "an object must not be called cam"},
+      {"\"name\": \"ball\"", "\"name\": \"..\"", "\"..\" is no name for an object"},
+      {"\"name\": \"ball\"", "\"name\": \"a\\u0000b\"", "\"a?b\" is no name for an object"},
+      {"\"name\": \"ball\"", "\"name\": \"a\", \"name\": \"b\"", "has the field \"name\" twice in one object"},
+      {"\"objects\"", "\"background\": {\"name\": \"wall\", \"parts\": []}, \"objects\"", "the background is called wall"},
       {"\"name\": \"ball\"", "\"id\": 0", "objects[0].id must be a whole number from 1 to 65535"},
       {"\"name\": \"ball\"", "\"colour\": [1, 2, 300]", "objects[0].colour[2] must be a whole number from 0 to 255"},
       {"{\"position\": [0, 0, 0.1]}", "", "objects[0].keys must have at least 1 element"},
@@ -114,6 +119,31 @@ TEST (SceneSpec, EveryMistakeIsNamed)
   EXPECT_EQ (errorOf ("[]").rfind ("must be an object", 0), 0u);
 }
 
+TEST (SceneSpec, ACameraThatPassesWhatItLooksAtIsSaid)
+{
+  const std::string keys = "\"look_at\": [0, 0, 0]}, {\"time\": 1, \"position\": [0, 1, -0.5], \"look_at\": [0, 0, 0]}";
+  std::string text = spec ("\"look_at\": [0, 0, 0]}", keys);
+  text.replace (text.find ("\"objects\""), 9, "\"frames\": 3, \"rate\": 2, \"objects\"");
+  EXPECT_NE (errorOf (text).find ("camera.keys are not right: at frame 1, look_at is where the camera is"), std::string::npos) << errorOf (text);
+}
+
+TEST (SceneSpec, NamesHaveADefault)
+{
+  EXPECT_EQ (parseSceneSpec (spec ("\"name\": \"ball\"", "\"id\": 7"), "a.json").bodies[1].name, "object_7");
+}
+
+TEST (SceneSpec, WhatIsChangedIsInTheDescription)
+{
+  SimulatedScene scene = parseSceneSpec (spec (), "a.json");
+  scene.seed = 9;
+  scene.noise.reset ();
+  scene.views_every = 4;
+  const SimulatedScene again = parseSceneSpec (effectiveSpec (scene), "again");
+  EXPECT_EQ (again.seed, 9u);
+  EXPECT_FALSE (again.noise);
+  EXPECT_EQ (again.views_every, 4);
+}
+
 TEST (SceneSpec, MeshesAreFoundBesideTheFile)
 {
   const test::TemporaryFolder folder;
@@ -123,6 +153,8 @@ TEST (SceneSpec, MeshesAreFoundBesideTheFile)
   const SimulatedScene scene = loadSceneSpec (folder.file ("a.json"));
   EXPECT_NEAR (scene.bodies[1].distance ({0.0, 0.0, 0.105}), 0.005, 5e-4);
   EXPECT_THROW (loadSceneSpec (folder.file ("b.json")), IoError);
+  EXPECT_EQ (scene.bodies[1].parts[0].file, folder.file ("ball.ply"));
+  EXPECT_NO_THROW (parseSceneSpec (effectiveSpec (scene), "from elsewhere", "/"));
 }
 
 TEST (SceneSpec, WhatWasReadCanBeReadAgain)

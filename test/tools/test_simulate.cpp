@@ -81,7 +81,7 @@ TEST_F (Simulate, SaysWhatPenetrates)
   writeScene ("0.08");
   ToolRun run ({"scene.json", "out"}, folder_.file (""), {}, tool);
   EXPECT_EQ (run.wait (), 0);
-  EXPECT_EQ (run.errors (), "pcl_cosection_simulate: warning: ball is inside room, by 20 mm at frame 0 (in 4 of 4 frames)\n");
+  EXPECT_EQ (run.errors (), "pcl_cosection_simulate: warning: ball is inside room, by 20 mm at frame 0 (in 4 frames)\n");
 }
 
 TEST_F (Simulate, PresetsAreListedPrintedAndRendered)
@@ -129,6 +129,9 @@ TEST_F (Simulate, BadInputIsOneLineAndWritesNothing)
   std::ofstream (folder_.file ("unknown.json")) << "{\"camera\": {\"keys\": [{\"position\": [0,0,0]}]}, \"objects\": [], \"fps\": 3}";
   EXPECT_NE (failure ({"unknown.json", "out"}, 1).find ("unknown.json: has the unknown field \"fps\""), std::string::npos);
   EXPECT_NE (failure ({"--frames", "2:9", "scene.json", "out"}, 1).find ("frames 2:9 are not there; the scene has 0:4"), std::string::npos);
+  EXPECT_NE (failure ({"scene.json", "out", "--json", "scene.json"}, 2).find ("scene.json would be overwritten"), std::string::npos);
+  EXPECT_NE (failure ({"scene.json", "out", "--json", "no/s.json"}, 1).find ("no/s.json"), std::string::npos);
+  EXPECT_NE (failure ({"scene.json", "."}, 1).find ("give the name of a new folder"), std::string::npos);
   EXPECT_FALSE (fs::exists (folder_.file ("out")));
   fs::create_directory (folder_.file ("full"));
   std::ofstream (folder_.file ("full/mine.txt")) << "mine";

@@ -9,6 +9,11 @@
 
 #include <nlohmann/json.hpp>
 
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 
@@ -43,6 +48,39 @@ refuseToOverwrite (const std::vector<std::string>& inputs, const std::vector<std
       if (!outputs[other].empty () && isSameFile (outputs[n], outputs[other]))
         throw UsageError (outputs[n] + " would be written twice");
   }
+}
+
+void
+requireWritableFolder (const std::string& path, const std::string& folder_name)
+{
+  const fs::path folder (folder_name);
+  std::error_code failure;
+  if (!fs::is_directory (folder, failure))
+    throw IoError (path + ": cannot be written, there is no folder " + folder.string ());
+  std::string probe = (folder / ".pcl_cosection_XXXXXX").string ();
+  const int file = mkstemp (probe.data ());
+  if (file < 0)
+    throw IoError (path + ": cannot be written: " + std::strerror (errno));
+  close (file);
+  unlink (probe.c_str ());
+}
+
+void
+requireWritable (const std::string& path)
+{
+  const fs::path target = followLinks (path);
+  std::error_code failure;
+  const fs::file_status status = fs::status (target, failure);
+  if (status.type () == fs::file_type::none)
+    throw IoError (path + ": cannot be written: " + failure.message ());
+  if (fs::is_directory (status))
+    throw IoError (path + ": cannot be written, it is a folder");
+  if (fs::exists (status) && !fs::is_regular_file (status))
+    throw IoError (path + ": cannot be written, it is not a regular file");
+  if (fs::exists (status) && access (target.c_str (), W_OK) != 0)
+    throw IoError (path + ": cannot be written: " + std::strerror (errno));
+  const fs::path parent = target.parent_path ();
+  requireWritableFolder (path, parent.empty () ? "." : parent.string ());
 }
 
 void

@@ -11,6 +11,14 @@
 void
 refuseToOverwrite (const std::vector<std::string>& inputs, const std::vector<std::string>& outputs);
 
+/** \brief Prove by doing it that a file can be made in a folder. \param[in] path what the message names \throws pcl::cosection::IoError */
+void
+requireWritableFolder (const std::string& path, const std::string& folder);
+
+/** \brief Find out, before the work, whether a file can be written. \throws pcl::cosection::IoError */
+void
+requireWritable (const std::string& path);
+
 /** \brief Write text, through a temporary name. \throws pcl::cosection::IoError */
 void
 saveText (const std::string& text, const std::string& path);

@@ -2,6 +2,8 @@
 // Copyright (c) 2026, the pcl_cosection authors
 #include "output_target.h"
 
+#include "output_files.h"
+
 #include <pcl/cosection/common/atomic_file.h>
 #include <pcl/cosection/common/error.h>
 #include <pcl/cosection/io/mesh_io.h>
@@ -20,39 +22,6 @@ using namespace pcl::cosection;
 
 namespace
 {
-
-/** \brief Prove by doing it that a file can be made in \a folder. */
-void
-checkFolder (const std::string& path, const fs::path& folder)
-{
-  std::error_code failure;
-  if (!fs::is_directory (folder, failure))
-    throw IoError (path + ": cannot be written, there is no folder " + folder.string ());
-  std::string probe = (folder / ".pcl_cosection_XXXXXX").string ();
-  const int file = mkstemp (probe.data ());
-  if (file < 0)
-    throw IoError (path + ": cannot be written: " + std::strerror (errno));
-  close (file);
-  unlink (probe.c_str ());
-}
-
-void
-checkFile (const std::string& path)
-{
-  const fs::path target = followLinks (path);
-  std::error_code failure;
-  const fs::file_status status = fs::status (target, failure);
-  if (status.type () == fs::file_type::none)
-    throw IoError (path + ": cannot be written: " + failure.message ());
-  if (fs::is_directory (status))
-    throw IoError (path + ": cannot be written, it is a folder");
-  if (fs::exists (status) && !fs::is_regular_file (status))
-    throw IoError (path + ": cannot be written, it is not a regular file");
-  if (fs::exists (status) && access (target.c_str (), W_OK) != 0)
-    throw IoError (path + ": cannot be written: " + std::strerror (errno));
-  const fs::path parent = target.parent_path ();
-  checkFolder (path, parent.empty () ? fs::path (".") : parent);
-}
 
 fs::path
 folderOf (const fs::path& path)
@@ -121,11 +90,11 @@ OutputTarget::OutputTarget (const Settings& settings)
     , folder_ (single_file_ ? "" : settings.output)
 {
   if (!settings.json.empty ())
-    checkFile (settings.json);
+    requireWritable (settings.json);
   if (single_file_)
-    checkFile (output_);
+    requireWritable (output_);
   else
-    checkFolder (output_, output_);
+    requireWritableFolder (output_, output_);
   refuseToOverwrite (settings);
 }
 

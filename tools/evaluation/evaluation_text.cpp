@@ -8,7 +8,7 @@ evaluationText ()
   static const ProgramText text = {
     "pcl_cosection_evaluate",
     "compare reconstructed meshes and trajectories with the truth",
-    "pcl_cosection_evaluate COMMAND [OPTIONS] TRUTH ESTIMATE",
+    "pcl_cosection_evaluate mesh|trajectory [OPTIONS] TRUTH ESTIMATE\n       pcl_cosection_evaluate run [OPTIONS] OUTPUT DATASET",
     "Compares reconstructed meshes, trajectories and whole runs with the truth.",
     {"Lengths are in metres in options, JSON and CSV, and in millimetres on the terminal. An unknown command, file or "
      "option is refused; what cannot be measured is said."},

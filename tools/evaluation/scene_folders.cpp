@@ -175,7 +175,7 @@ readTruth (const std::string& folder, std::vector<std::string>& warnings)
   std::vector<std::string> names;
   for (const auto& [path, match] : matchingFiles (folder, std::regex ("gt-(.+)-([0-9]{1,9})\\.txt"), names))
   {
-    if (match[1] == "cam")
+    if (match[1] == "cam" && match[2] == "0")
       continue;
     SceneRecord::Object object;
     object.id = std::stoi (match[2]);

@@ -83,8 +83,8 @@ struct PCL_COSECTION_EXPORT TrajectoryError
 /** \brief Compare an estimated trajectory with the true one.
  *
  * ATE: |t_i - (S e_i)| for the positions t_i and e_i of matches and the alignment S. RPE: translation and angle of
- * (T_i^-1 T_j)^-1 (E_i^-1 E_j) for matches i and j = i + delta whose stamps differ by delta median periods, give or take
- * half a period: a motion over a gap is left out and counted.
+ * (T_i^-1 T_j)^-1 (E_i^-1 E_j) for matches i and j = i + delta whose stamps differ by as much as those of most such pairs, give or take
+ * half a period or 2 %: a motion over a gap is left out and counted.
  * \param[in] truth, estimate by ascending stamps
  * \throws InvalidArgument if an option is outside its domain
  * \throws DegenerateInput if a trajectory is empty, or no stamps match; the message has the spans of both */

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <pcl/cosection/common/export.h>
+#include <pcl/cosection/common/progress.h>
 #include <pcl/cosection/simulation/simulated_scene.h>
 
 #include <string>
@@ -22,12 +23,21 @@ struct PCL_COSECTION_EXPORT ScenePenetration
   int frames = 0;       ///< in how many
 };
 
-/** \brief Find bodies that penetrate each other: points of the surface of each are looked up in the distance of the other, in
- * every frame in which their relative pose changed.
- * \param[in] tolerance_m what is still a contact; for meshes, whose distance is interpolated, at least a voxel of that
- * \param[in] threads 0: all */
+/** \brief How to look for bodies that penetrate each other. */
+struct PCL_COSECTION_EXPORT PenetrationCheckOptions
+{
+  double tolerance_m = 0.001; ///< what is still a contact; for meshes, whose distance is interpolated, at least a voxel of that
+  int first = 0;              ///< frame
+  int last = -1;              ///< frame, not looked at itself; -1: all from first on
+  int threads = 0;            ///< 0: all
+};
+
+/** \brief Find bodies that penetrate each other: some thousand points on the surface of each, and its sharp edges all along, are
+ * looked up in the distance of the other, in every frame in which their relative pose changed. A thing thinner than the points
+ * are apart (a fiftieth of the size of a large flat body) may pass through a round one unnoticed.
+ * \throws Cancelled */
 PCL_COSECTION_EXPORT std::vector<ScenePenetration>
-findPenetrations (const SimulatedScene& scene, double tolerance_m = 0.001, int threads = 0);
+findPenetrations (const SimulatedScene& scene, const PenetrationCheckOptions& options = {}, const ProgressCallback& progress = {});
 
 } // namespace cosection
 } // namespace pcl

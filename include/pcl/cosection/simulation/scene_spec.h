@@ -26,6 +26,11 @@ parseSceneSpec (const std::string& text, const std::string& name, const std::str
 PCL_COSECTION_EXPORT SimulatedScene
 loadSceneSpec (const std::string& path);
 
+/** \brief What the scene was read from, with its present seed, noise and views, and the full names of its mesh files; empty if
+ * it was not read from anything. */
+PCL_COSECTION_EXPORT std::string
+effectiveSpec (const SimulatedScene& scene);
+
 /** \brief A scene that comes with the library. */
 struct PCL_COSECTION_EXPORT ScenePreset
 {

@@ -24,12 +24,13 @@ struct PCL_COSECTION_EXPORT BodyPart
   Shape::ConstPtr shape;
   Eigen::Isometry3d T_body_part = Eigen::Isometry3d::Identity ();
   TriangleMesh::Colour colour{180, 180, 180};
+  std::string file{}; ///< of a mesh; empty: the shape comes from none
 };
 
 /** \brief A rigid thing of a scene. */
 struct PCL_COSECTION_EXPORT SceneBody
 {
-  std::string name;
+  std::string name; ///< part of file names; of the background: room or background
   int id = 0; ///< in the masks; 0: the background
   std::vector<BodyPart> parts;
   KeyedMotion motion;         ///< T_world_body
