@@ -320,8 +320,9 @@ TEST_F (Evaluate, EvaluatesARun)
 
   // A mesh that cannot be read does not lose the others.
   writeFile (folder_.file ("run/mesh/object_7.ply"), "ply\nnonsense\n");
-  EXPECT_EQ (run ({"run", "run", "dataset", "--json", "r.json"}), 0);
+  EXPECT_EQ (run ({"run", "run", "dataset", "--json", "r.json"}), 1);
   EXPECT_NE (errors_.find ("object_7.ply"), std::string::npos) << errors_;
+  EXPECT_NE (errors_.find ("the rest was evaluated"), std::string::npos) << errors_;
   EXPECT_EQ (json ("r.json")["objects"].size (), 1u);
   EXPECT_EQ (json ("r.json")["missed"][0]["truth"], "box");
 
@@ -330,4 +331,6 @@ TEST_F (Evaluate, EvaluatesARun)
   expectOneLine ("camera.txt");
   EXPECT_EQ (run ({"run", "nowhere", "dataset"}), 1);
   expectOneLine ("nowhere: is no folder");
+  EXPECT_EQ (run ({"run", "dataset", "run"}), 1);
+  expectOneLine ("is a dataset, not what a run wrote");
 }

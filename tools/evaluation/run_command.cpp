@@ -34,15 +34,16 @@ runOptions (const RunSettings& settings)
   return (options);
 }
 
-void
+/** \return whether every file that is there could be read */
+bool
 evaluate (const RunSettings& settings, Terminal& terminal)
 {
   const CommonOptions& common = settings.trajectory.common;
-  std::vector<std::string> warnings;
-  const SceneRecord estimate = readRun (common.paths[0], warnings);
-  const SceneRecord truth = readTruth (common.paths[1], warnings);
+  ReadingNotes notes;
+  const SceneRecord estimate = readRun (common.paths[0], notes);
+  const SceneRecord truth = readTruth (common.paths[1], notes);
   RunEvaluation result = evaluateRun (truth, estimate, runOptions (settings));
-  result.warnings.insert (result.warnings.begin (), warnings.begin (), warnings.end ());
+  result.warnings.insert (result.warnings.begin (), notes.warnings.begin (), notes.warnings.end ());
   for (const std::string& warning : result.warnings)
     terminal.warning (warning);
   print (result, truth, settings, terminal);
@@ -50,6 +51,7 @@ evaluate (const RunSettings& settings, Terminal& terminal)
     saveJson (runJson (result, truth, settings), common.json);
   if (!common.csv.empty ())
     saveText (runCsv (result), common.csv);
+  return (notes.whole);
 }
 
 } // namespace
@@ -99,5 +101,8 @@ runRunCommand (int argc, const char* const* argv, Terminal& terminal)
   checkCommonOptions (common, "OUTPUT", "DATASET");
   refuseToOverwrite (common.paths, {common.json, common.csv});
   terminal.setVerbosity (verbosityOf (common));
-  withFailureJson (common.json, [&] { evaluate (settings, terminal); });
+  bool whole = true;
+  withFailureJson (common.json, [&] { whole = evaluate (settings, terminal); });
+  if (!whole)
+    throw IoError ("a file could not be read, see the warnings; the rest was evaluated");
 }

@@ -18,6 +18,8 @@ using namespace pcl::cosection;
 namespace
 {
 
+constexpr int largest_image = 8192;
+
 void
 requireFolder (const std::string& folder, const std::string& what)
 {
@@ -52,7 +54,7 @@ matchingFiles (const std::string& folder, const std::regex& pattern, std::vector
 
 /** \brief A mesh with its provenance if it has one; empty, and a warning, if it cannot be read. */
 TriangleMesh
-readMesh (const std::string& path, std::vector<std::string>& warnings)
+readMesh (const std::string& path, ReadingNotes& notes)
 {
   try
   {
@@ -70,13 +72,14 @@ readMesh (const std::string& path, std::vector<std::string>& warnings)
   }
   catch (const Error& error)
   {
-    warnings.emplace_back (error.what ());
+    notes.warnings.emplace_back (error.what ());
+    notes.whole = false;
     return (TriangleMesh ());
   }
 }
 
 TriangleMesh
-readTrueMesh (const std::string& path, std::vector<std::string>& warnings)
+readTrueMesh (const std::string& path, ReadingNotes& notes)
 {
   try
   {
@@ -84,14 +87,15 @@ readTrueMesh (const std::string& path, std::vector<std::string>& warnings)
   }
   catch (const Error& error)
   {
-    warnings.emplace_back (error.what ());
+    notes.warnings.emplace_back (error.what ());
+    notes.whole = false;
     return (TriangleMesh ());
   }
 }
 
 /** \brief The pose of each time; none, and a warning, if the file cannot be read. */
 std::vector<StampedPose>
-readPoses (const std::string& path, std::vector<std::string>& warnings)
+readPoses (const std::string& path, ReadingNotes& notes)
 {
   try
   {
@@ -99,13 +103,14 @@ readPoses (const std::string& path, std::vector<std::string>& warnings)
   }
   catch (const Error& error)
   {
-    warnings.emplace_back (error.what ());
+    notes.warnings.emplace_back (error.what ());
+    notes.whole = false;
     return (std::vector<StampedPose> ());
   }
 }
 
 std::optional<PinholeCamera>
-readCalibration (const std::string& path, std::vector<std::string>& warnings)
+readCalibration (const std::string& path, ReadingNotes& notes)
 {
   if (!fs::exists (path))
     return (std::nullopt);
@@ -120,6 +125,8 @@ readCalibration (const std::string& path, std::vector<std::string>& warnings)
     int width = 0, height = 0;
     if (file >> width >> height)
     {
+      if (width < 1 || height < 1 || width > largest_image || height > largest_image)
+        throw IoError ("has an image of " + std::to_string (width) + " x " + std::to_string (height) + " pixels");
       camera.width = width;
       camera.height = height;
     }
@@ -128,7 +135,8 @@ readCalibration (const std::string& path, std::vector<std::string>& warnings)
   }
   catch (const Error& error)
   {
-    warnings.push_back (path + ": " + error.what ());
+    notes.warnings.push_back (path + ": " + error.what ());
+    notes.whole = false;
     return (std::nullopt);
   }
 }
@@ -136,9 +144,12 @@ readCalibration (const std::string& path, std::vector<std::string>& warnings)
 } // namespace
 
 SceneRecord
-readRun (const std::string& folder, std::vector<std::string>& warnings)
+readRun (const std::string& folder, ReadingNotes& notes)
 {
   requireFolder (folder, "what a run wrote, with trajectory/camera.txt and mesh/object_ID.ply");
+  std::error_code ignored;
+  if (!fs::exists (inFolder (folder, "trajectory"), ignored) && fs::exists (inFolder (folder, "gt-cam-0.txt"), ignored))
+    throw IoError (folder + ": is a dataset, not what a run wrote; the run comes first, then the dataset");
   SceneRecord run;
   run.camera = loadTrajectory (inFolder (folder, "trajectory/camera.txt"));
   std::vector<std::string> names;
@@ -148,30 +159,30 @@ readRun (const std::string& folder, std::vector<std::string>& warnings)
     SceneRecord::Object object;
     object.id = std::stoi (match[1]);
     object.name = std::to_string (object.id);
-    object.poses = readPoses (path, warnings);
+    object.poses = readPoses (path, notes);
     const std::string mesh = inFolder (folder, "mesh/object_" + match[1].str () + ".ply");
     if (fs::exists (mesh))
-      object.mesh = readMesh (mesh, warnings);
+      object.mesh = readMesh (mesh, notes);
     run.objects.push_back (std::move (object));
   }
   std::sort (run.objects.begin (), run.objects.end (), [] (const auto& a, const auto& b) { return (a.id < b.id); });
   std::vector<std::string> mesh_names;
   for (const auto& [path, match] : matchingFiles (inFolder (folder, "mesh"), std::regex ("object_([0-9]{1,9})\\.ply"), mesh_names))
     if (!fs::exists (inFolder (folder, "trajectory/object_" + match[1].str () + ".txt")))
-      warnings.push_back (path + ": has no trajectory/object_" + match[1].str () + ".txt; it is left out");
+      notes.warnings.push_back (path + ": has no trajectory/object_" + match[1].str () + ".txt; it is left out");
   const std::string background = inFolder (folder, "mesh/background.ply");
   if (fs::exists (background))
-    run.background = readMesh (background, warnings);
+    run.background = readMesh (background, notes);
   return (run);
 }
 
 SceneRecord
-readTruth (const std::string& folder, std::vector<std::string>& warnings)
+readTruth (const std::string& folder, ReadingNotes& notes)
 {
   requireFolder (folder, "a dataset with truth: gt-cam-0.txt, gt-NAME-ID.txt and gt-mesh/NAME.ply");
   SceneRecord truth;
   truth.camera = loadTrajectory (inFolder (folder, "gt-cam-0.txt"));
-  truth.intrinsics = readCalibration (inFolder (folder, "calibration.txt"), warnings);
+  truth.intrinsics = readCalibration (inFolder (folder, "calibration.txt"), notes);
   std::vector<std::string> names;
   for (const auto& [path, match] : matchingFiles (folder, std::regex ("gt-(.+)-([0-9]{1,9})\\.txt"), names))
   {
@@ -180,14 +191,14 @@ readTruth (const std::string& folder, std::vector<std::string>& warnings)
     SceneRecord::Object object;
     object.id = std::stoi (match[2]);
     object.name = match[1];
-    object.poses = readPoses (path, warnings);
+    object.poses = readPoses (path, notes);
     const std::string mesh = inFolder (folder, "gt-mesh/" + object.name + ".ply");
     if (fs::exists (mesh))
-      object.mesh = readTrueMesh (mesh, warnings);
+      object.mesh = readTrueMesh (mesh, notes);
     truth.objects.push_back (std::move (object));
   }
   for (const char* name : {"gt-mesh/room.ply", "gt-mesh/background.ply"})
     if (truth.background.empty () && fs::exists (inFolder (folder, name)))
-      truth.background = readTrueMesh (inFolder (folder, name), warnings);
+      truth.background = readTrueMesh (inFolder (folder, name), notes);
   return (truth);
 }

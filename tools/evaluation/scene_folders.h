@@ -7,15 +7,22 @@
 #include <string>
 #include <vector>
 
+/** \brief What was odd about the files. */
+struct ReadingNotes
+{
+  std::vector<std::string> warnings;
+  bool whole = true; ///< every file that is there could be read
+};
+
 /** \brief Read what a run wrote: trajectory/camera.txt, trajectory/object_ID.txt, mesh/object_ID.ply, mesh/background.ply.
- * \param[out] warnings what is missing or cannot be read, beside the camera
+ * \param[out] notes what is missing or cannot be read, beside the camera
  * \throws pcl::cosection::IoError if there is no such folder, or the camera cannot be read */
 pcl::cosection::SceneRecord
-readRun (const std::string& folder, std::vector<std::string>& warnings);
+readRun (const std::string& folder, ReadingNotes& notes);
 
 /** \brief Read the truth of a dataset: gt-cam-0.txt, gt-NAME-ID.txt, gt-mesh/NAME.ply, gt-mesh/room.ply or
  * background.ply, calibration.txt.
- * \param[out] warnings what is missing or cannot be read, beside the camera
+ * \param[out] notes what is missing or cannot be read, beside the camera
  * \throws pcl::cosection::IoError if there is no such folder, or the camera cannot be read */
 pcl::cosection::SceneRecord
-readTruth (const std::string& folder, std::vector<std::string>& warnings);
+readTruth (const std::string& folder, ReadingNotes& notes);
