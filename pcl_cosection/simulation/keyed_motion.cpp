@@ -17,6 +17,9 @@ namespace
 {
 
 constexpr double largest_turn_rad = 0.99 * M_PI;
+constexpr double farthest_m = 1e6; // of a position, from the origin
+constexpr double longest_s = 1e9;  // of a time, from zero
+constexpr double shortest_s = 1e-6; // from key to key
 constexpr double steepest = 3.0; // of a tangent, in slopes of the chord, for a monotone cubic
 
 void
@@ -26,9 +29,9 @@ checkTimes (const std::vector<double>& times, std::size_t values)
     throw InvalidArgument ("keys: there must be one at least");
   for (std::size_t n = 0; n < times.size (); ++n)
   {
-    if (!std::isfinite (times[n]))
-      throw InvalidArgument ("keys: the time of key " + std::to_string (n) + " is not a finite number");
-    if (n > 0 && !(times[n] > times[n - 1]))
+    if (!(std::abs (times[n]) <= longest_s))
+      throw InvalidArgument ("keys: the time of key " + std::to_string (n) + " is not within a billion seconds");
+    if (n > 0 && !(times[n] - times[n - 1] >= shortest_s))
       throw InvalidArgument ("keys: the time of key " + std::to_string (n) + " is not after that of the key before");
   }
 }
@@ -124,8 +127,8 @@ KeyedVector::KeyedVector (std::vector<double> times, std::vector<Eigen::Vector3d
 {
   checkTimes (times_, values_.size ());
   for (const Eigen::Vector3d& v : values_)
-    if (!v.allFinite ())
-      throw InvalidArgument ("keys: a position is not finite");
+    if (!(v.cwiseAbs ().maxCoeff () <= farthest_m))
+      throw InvalidArgument ("keys: a position is not within a million metres");
   for (std::size_t n = 1; n + 1 < values_.size (); ++n)
   {
     const double da = times_[n] - times_[n - 1], db = times_[n + 1] - times_[n];
@@ -201,8 +204,8 @@ lookAt (const Eigen::Vector3d& eye, const Eigen::Vector3d& target, const Eigen::
   if (!(up.allFinite () && up.norm () > 1e-9))
     throw InvalidArgument ("up must be a direction");
   axes.col (2).normalize ();
-  axes.col (0) = axes.col (2).cross (up);
-  if (!(axes.col (0).norm () > 1e-6 * up.norm ())) // straight up or down
+  axes.col (0) = axes.col (2).cross (up.stableNormalized ());
+  if (!(axes.col (0).norm () > 1e-6)) // straight up or down
     axes.col (0) = axes.col (2).unitOrthogonal ();
   axes.col (0).normalize ();
   axes.col (1) = axes.col (2).cross (axes.col (0));

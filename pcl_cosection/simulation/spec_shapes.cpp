@@ -16,6 +16,8 @@ namespace cosection
 namespace
 {
 
+constexpr double farthest_m = 1e6; // of a part, from the origin of its object
+
 Polygon2d
 parsePolygon (const SpecNode& node)
 {
@@ -101,7 +103,11 @@ parsePart (SpecNode node, const TriangleMesh::Colour& colour, const std::string&
   BodyPart part;
   part.colour = parseColour (node, colour);
   if (node.has ("position"))
+  {
     part.T_body_part.translation () = node.field ("position").vector<3> ();
+    if (part.T_body_part.translation ().cwiseAbs ().maxCoeff () > farthest_m)
+      node.field ("position").refuse ("must be within a million metres");
+  }
   part.T_body_part.linear () = parseRotation (node).toRotationMatrix ();
   try
   {

@@ -23,7 +23,8 @@ namespace cosection
 class PCL_COSECTION_EXPORT KeyedVector
 {
 public:
-  /** \throws InvalidArgument if there is no key, a number is not finite, or the times do not grow. */
+  /** \throws InvalidArgument if there is no key, a position is not within a million metres, a time not within a billion seconds, or
+   * the times do not grow by a microsecond at least. */
   KeyedVector (std::vector<double> times, std::vector<Eigen::Vector3d> values);
 
   Eigen::Vector3d
