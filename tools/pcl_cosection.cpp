@@ -4,6 +4,7 @@
 // Completes the hidden surfaces of the objects in PCD views; see pcl_cosection --help.
 
 #include "command_line.h"
+#include "exit_status.h"
 #include "interruption.h"
 #include "json_summary.h"
 #include "output_target.h"
@@ -24,14 +25,6 @@ using namespace pcl::cosection;
 
 namespace
 {
-
-enum ExitStatus
-{
-  Success = 0,
-  Failure = 1,
-  WrongUsage = 2,
-  Interrupted = 130,
-};
 
 constexpr double read_share = 0.1; ///< of the progress bar
 

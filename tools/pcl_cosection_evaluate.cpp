@@ -4,6 +4,7 @@
 
 #include "arguments.h"
 #include "evaluation_commands.h"
+#include "exit_status.h"
 #include "failure_json.h"
 #include "suggestion.h"
 #include "terminal.h"
@@ -14,13 +15,6 @@
 
 namespace
 {
-
-enum ExitStatus
-{
-  Success = 0,
-  Failure = 1,
-  WrongUsage = 2,
-};
 
 void
 run (int argc, const char* const* argv, Terminal& terminal)

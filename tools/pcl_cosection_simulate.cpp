@@ -3,6 +3,7 @@
 
 // Renders known scenes, with the truth; see pcl_cosection_simulate --help.
 
+#include "exit_status.h"
 #include "interruption.h"
 #include "output_files.h"
 #include "simulate_command_line.h"
@@ -24,14 +25,6 @@ using namespace pcl::cosection;
 
 namespace
 {
-
-enum ExitStatus
-{
-  Success = 0,
-  Failure = 1,
-  WrongUsage = 2,
-  Interrupted = 130,
-};
 
 const ScenePreset&
 presetOf (const std::string& name)

@@ -20,19 +20,23 @@
 namespace fs = std::filesystem;
 using namespace pcl::cosection;
 
-namespace
+fs::path
+folderOf (const fs::path& path)
 {
-
-bool
-isSameFile (const std::string& a, const std::string& b)
-{
-  std::error_code error;
-  if (fs::equivalent (a, b, error))
-    return (true);
-  return (fs::weakly_canonical (fs::absolute (a), error) == fs::weakly_canonical (fs::absolute (b), error));
+  return (path.has_parent_path () ? path.parent_path () : fs::path ("."));
 }
 
-} // namespace
+bool
+isSameFile (const std::string& first, const std::string& second)
+{
+  const fs::path a (first), b (second);
+  std::error_code failure;
+  if (fs::exists (a, failure) || fs::exists (b, failure))
+    return (fs::equivalent (a, b, failure) && !failure);
+  const fs::path behind_a = followLinks (a.string ()), behind_b = followLinks (b.string ());
+  return (behind_a.filename () == behind_b.filename () &&
+          fs::equivalent (folderOf (behind_a), folderOf (behind_b), failure) && !failure);
+}
 
 void
 refuseToOverwrite (const std::vector<std::string>& inputs, const std::vector<std::string>& outputs)

@@ -4,8 +4,17 @@
 
 #include <nlohmann/json_fwd.hpp>
 
+#include <filesystem>
 #include <string>
 #include <vector>
+
+/** \brief The folder that a file is in; "." for a name without one. */
+std::filesystem::path
+folderOf (const std::filesystem::path& path);
+
+/** \brief Whether both names stand for the same file, be it that there is none yet, or that links lead to it. */
+bool
+isSameFile (const std::string& first, const std::string& second);
 
 /** \brief \throws UsageError if one of \a outputs is one of \a inputs, or two of them are the same; empty names are none. */
 void

@@ -20,29 +20,6 @@
 namespace fs = std::filesystem;
 using namespace pcl::cosection;
 
-namespace
-{
-
-fs::path
-folderOf (const fs::path& path)
-{
-  return (path.has_parent_path () ? path.parent_path () : fs::path ("."));
-}
-
-/** \brief Whether both names stand for the same file, be it that there is none yet. */
-bool
-isSameFile (const fs::path& a, const fs::path& b)
-{
-  std::error_code failure;
-  if (fs::exists (a, failure) || fs::exists (b, failure))
-    return (fs::equivalent (a, b, failure) && !failure);
-  const fs::path behind_a = followLinks (a.string ()), behind_b = followLinks (b.string ());
-  return (behind_a.filename () == behind_b.filename () &&
-          fs::equivalent (folderOf (behind_a), folderOf (behind_b), failure) && !failure);
-}
-
-} // namespace
-
 OutputFolder::OutputFolder (const std::string& path)
 {
   if (path.empty ())
@@ -119,9 +96,9 @@ OutputTarget::refuseToOverwrite (const Settings& settings) const
     if (isOwnName (entry.path ().filename ()))
       own.push_back (entry.path ());
   const auto isOwn = [&] (const fs::path& path) {
-    const auto same = [&path] (const fs::path& file) { return (isSameFile (path, file)); };
+    const auto same = [&path] (const fs::path& file) { return (isSameFile (path.string (), file.string ())); };
     const fs::path target = followLinks (path.string ()); // there may be no such file yet
-    return ((isOwnName (target.filename ()) && isSameFile (folderOf (target), folder)) ||
+    return ((isOwnName (target.filename ()) && isSameFile (folderOf (target).string (), folder.string ())) ||
             std::any_of (own.begin (), own.end (), same));
   };
   std::vector<std::string> inputs = settings.inputs;

@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_cosection authors
+#pragma once
+
+/** \brief What all programs return. */
+enum ExitStatus
+{
+  Success = 0,
+  Failure = 1,
+  WrongUsage = 2,
+  Interrupted = 130,
+};
