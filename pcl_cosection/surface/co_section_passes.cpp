@@ -40,11 +40,11 @@ IntersectionConstraint
 CoSectionRun::surroundings (const Object& object) const
 {
   const double beta = scene_.options.beta_inter;
-  IntersectionConstraint constraint (object.volume->grid (), scene_.options.max_bound_vox, scene_.options.threads);
+  IntersectionConstraint constraint (object.volume ().grid (), scene_.options.max_bound_vox, scene_.options.threads);
   for (const Eigen::Isometry3d& T_world_object : relativePoses (object, nullptr))
   {
     for (const Eigen::Vector4d& plane : object.planes)
-      constraint.addHalfSpace (transformPlane (plane, T_world_object), object.volume->freeSpace (), beta);
+      constraint.addHalfSpace (transformPlane (plane, T_world_object), object.volume ().freeSpace (), beta);
     for (const SignedDistanceField& body : background_)
       constraint.addBody (body, T_world_object, beta);
     for (const Obstacle& body : bodies_)
@@ -82,7 +82,7 @@ CoSectionRun::solve (Object& object, Resolution resolution, double begin, double
 {
   timed ("solve", [&] {
     const int before = object.result->solver.iterations;
-    object.result->solver = object.volume->solve (resolution, [&] (const std::string&, double f) {
+    object.result->solver = object.volume ().solve (resolution, [&] (const std::string&, double f) {
       report ("object " + std::to_string (object.input->id), begin + share * f);
       return true;
     });
@@ -111,7 +111,10 @@ CoSectionRun::solvePass (Resolution resolution, int pass)
     if (!object.alive ())
       continue;
     guarded (object, [&] {
-      if (!object.volume->setIntersection (std::move (all[o])) && object.volume->solved (resolution))
+      ShapeVolume& volume = object.volume ();
+      volume.setIntersection (std::move (all[o]));
+      if ((resolution == Resolution::Half && volume.solved (Resolution::Full)) ||
+          (!volume.changed () && volume.solved (resolution)))
         return;
       const double done = static_cast<double> (std::max (0, pass - 1) * objects_.size () + o);
       solve (object, resolution, begin + share * done, share);
@@ -125,7 +128,7 @@ CoSectionRun::solvePass (Resolution resolution, int pass)
       continue;
     guarded (object, [&] {
       const bool first = object.field.values.empty (); // what was told until now are measurements
-      object.field = object.volume->solvedField ();
+      object.field = object.volume ().solvedField ();
       // Two bodies that give way and spread by turns settle when each answers the mean of the other's last two.
       if (first)
         object.told = object.field;
@@ -235,7 +238,7 @@ CoSectionRun::growWeightsWherePenetrating (Resolution resolution)
     coarsest = std::max (coarsest, body.field->grid.voxel_size_m);
   for (Object& object : objects_)
     if (object.alive () && penetrationOfSurroundings (object) >
-                               allowed_voxels * std::max (coarsest, object.volume->grid ().voxel_size_m))
+                               allowed_voxels * std::max (coarsest, object.volume ().grid ().voxel_size_m))
       grow (object.beta_surroundings);
   for (Object& object : objects_)
     for (std::size_t p = 0; object.alive () && p < objects_.size (); ++p)

@@ -27,11 +27,14 @@ constexpr double same_pose_voxels = 0.5;
 constexpr std::size_t bytes_per_field_voxel = sizeof (float) + sizeof (std::uint8_t);
 constexpr double stray_reach_voxels = 3.0; // of a point in the data term
 constexpr double max_stray_share = 0.2;    // more are no exception
+constexpr double max_voxel_size_change = 1.2; // until a body that is followed gets other voxels
+constexpr double max_empty_share = 0.5;       // of a volume that was large enough for what was known before
 
 } // namespace
 
-CoSectionRun::CoSectionRun (const CoSection::Impl& scene, const ProgressCallback& progress)
-: scene_ (scene), progress_ (progress)
+CoSectionRun::CoSectionRun (const CoSection::Impl& scene, CoSectionMemory& memory, const ProgressCallback& progress,
+                            Mode mode)
+: scene_ (scene), memory_ (memory), progress_ (progress), mode_ (mode)
 {}
 
 void
@@ -64,7 +67,9 @@ CoSectionRun::viewsOf (const Object& object) const
   std::vector<std::pair<const DepthView*, Eigen::Isometry3d>> views;
   for (std::size_t v = 0; v < scene_.views.size (); ++v)
   {
-    const DepthView& view = scene_.views[v].view ();
+    if (scene_.views[v].use == ViewUse::FreeSpace)
+      continue;
+    const DepthView& view = scene_.views[v].depth;
     const Eigen::Isometry3d T_object_sensor = pose (object, v).inverse () * view.T_world_sensor;
     const bool silent = std::none_of (view.depth.begin (), view.depth.end (), [] (float z) { return std::isfinite (z); });
     if (T_object_sensor.matrix ().allFinite () && !silent)
@@ -80,8 +85,8 @@ CoSectionRun::relativePoses (const Object& of, const Object* to) const
 {
   const std::size_t times =
       std::max<std::size_t> (1, std::max (of.input->T_world_object.size (), to ? to->input->T_world_object.size () : 0));
-  const std::vector<Eigen::Vector3d> probes = corners (boxOf (of.volume->grid ()));
-  const double same = same_pose_voxels * of.volume->grid ().voxel_size_m;
+  const std::vector<Eigen::Vector3d> probes = corners (boxOf (of.volume ().grid ()));
+  const double same = same_pose_voxels * of.volume ().grid ().voxel_size_m;
   std::vector<Eigen::Isometry3d> poses;
   for (std::size_t t = 0; t < times; ++t)
   {
@@ -109,6 +114,7 @@ CoSectionRun::observeObjects ()
     object.input = &scene_.objects[i];
     object.result = &result_.objects[i];
     object.result->id = object.input->id;
+    object.body = &memory_.objects[object.input->id];
   }
   for (Object& object : objects_)
     guarded (object, [&] {
@@ -117,9 +123,14 @@ CoSectionRun::observeObjects ()
                                std::to_string (scene_.views.size ()) + " views");
       if (!firstPose (object).matrix ().allFinite ())
         throw InvalidArgument ("none of its poses is known");
+      if (object.input->points.size () < scene_.options.min_points)
+        throw DegenerateInput ("it has " + std::to_string (object.input->points.size ()) + " points with a normal, at least " +
+                               std::to_string (scene_.options.min_points) + " are needed");
       object.observed = observedBox (object.points ());
       object.voxel_size_m = objectVoxelSize (object.points (), object.observed, scene_.options);
       leaveOutStrays (object);
+      if (mode_ == Mode::Follow)
+        keepVoxelSize (object);
       if (scene_.options.use_extent_prior && viewsOf (object).empty ())
         object.assumed = assumeView (object.points ());
     });
@@ -137,11 +148,22 @@ CoSectionRun::leaveOutStrays (Object& object)
   if (strays == 0 || static_cast<double> (strays) > max_stray_share * static_cast<double> (all.size ()))
     return;
   object.result->stray_points = strays;
+  object.stray = stray;
   for (std::size_t p = 0; p < all.size (); ++p)
     if (!stray[p])
       object.kept.push_back (all[p]);
   object.observed = observedBox (object.points ());
   object.voxel_size_m = objectVoxelSize (object.points (), object.observed, scene_.options);
+}
+
+void
+CoSectionRun::keepVoxelSize (Object& object) const
+{
+  double& kept = object.body->voxel_size_m;
+  const double ratio = kept / object.voxel_size_m;
+  if (ratio > 1.0 / max_voxel_size_change && ratio < max_voxel_size_change)
+    object.voxel_size_m = kept;
+  kept = object.voxel_size_m;
 }
 
 Eigen::AlignedBox3d
@@ -172,85 +194,160 @@ CoSectionRun::bytesInUse () const
   for (const Object& object : objects_)
   {
     points += object.input->points.size () + object.kept.size ();
-    if (object.volume)
-      bytes += ShapeVolume::estimateBytes (object.volume->grid ());
+    if (object.body->volume)
+      bytes += ShapeVolume::estimateBytes (object.body->grid ());
   }
   for (const SignedDistanceField& field : background_)
     bytes += field.grid.size () * bytes_per_field_voxel;
   for (const Obstacle& body : bodies_)
     bytes += body.field->grid.size () * bytes_per_field_voxel;
-  for (const FreeSpaceView& view : scene_.views)
-    bytes += view.view ().depth.size () * FreeSpaceView::bytes_per_pixel;
+  std::size_t largest_view = 0;
+  for (const SceneView& view : scene_.views)
+  {
+    bytes += view.depth.depth.size () * sizeof (float);
+    largest_view = std::max (largest_view, view.depth.depth.size ());
+  }
+  bytes += largest_view * FreeSpaceView::bytes_per_pixel;
+  if (memory_.background.volume)
+    bytes += ShapeVolume::estimateBytes (memory_.background.grid ());
   return bytes + points * sizeof (OrientedPoint);
+}
+
+void
+CoSectionRun::place (FollowedBody& body, const Eigen::AlignedBox3d& box, double voxel_size_m, bool carve)
+{
+  VoxelGrid grid = layoutBox (box, voxel_size_m);
+  if (body.volume)
+  {
+    const VoxelGrid& old = body.grid ();
+    if (old.voxel_size_m == voxel_size_m)
+    {
+      // On the old lattice.
+      const Eigen::Vector3d first = old.toVoxel (box.min ()).array ().floor ();
+      const Eigen::Vector3d last = old.toVoxel (box.max ()).array ().ceil ();
+      if ((first.array () >= 0.0).all () && (last.array () <= old.dims.cast<double> ().array () - 1.0).all () &&
+          (last - first + Eigen::Vector3d::Ones ()).prod () > max_empty_share * static_cast<double> (old.size ()))
+        return;
+      grid.origin_m = old.origin_m + voxel_size_m * first;
+      grid.dims = (last - first).cast<int> ().array () + 1;
+    }
+  }
+  checkMemory (grid, scene_.options.max_memory_bytes, bytesInUse () - (body.volume ? ShapeVolume::estimateBytes (body.grid ()) : 0));
+  body.restart (grid, scene_.options, carve);
 }
 
 void
 CoSectionRun::createVolumes ()
 {
+  const bool carve = scene_.options.use_hull && scene_.options.carve_free_space && !scene_.views.empty ();
   for (Object& object : objects_)
     if (object.alive ())
-      guarded (object, [&] {
-        const VoxelGrid grid = layoutBox (volumeBox (object), object.voxel_size_m);
-        checkMemory (grid, scene_.options.max_memory_bytes, bytesInUse ());
-        object.volume = std::make_unique<ShapeVolume> (grid, scene_.options);
-      });
+      guarded (object, [&] { place (*object.body, volumeBox (object), object.voxel_size_m, carve); });
+}
+
+void
+CoSectionRun::readPoints (Object& object)
+{
+  FollowedBody& body = *object.body;
+  const std::vector<OrientedPoint>& all = object.input->points;
+  std::vector<bool> stray = object.stray;
+  stray.resize (all.size (), false);
+  if (!std::equal (body.stray.begin (), body.stray.end (), stray.begin ()))
+    body.readAgain (scene_.options);
+  std::vector<OrientedPoint> fresh;
+  fresh.reserve (all.size () - body.stray.size ());
+  for (std::size_t p = body.stray.size (); p < all.size (); ++p)
+    if (!stray[p])
+      fresh.push_back (all[p]);
+  if (!fresh.empty ())
+    body.evidence->addPoints (fresh);
+  body.stray = std::move (stray);
+}
+
+void
+CoSectionRun::gatherEvidence ()
+{
+  timed ("data_term", [&] {
+    for (Object& object : objects_)
+      if (object.alive ())
+        guarded (object, [&] { readPoints (object); });
+    for (FollowedBody* body : backgroundBodies ())
+    {
+      body->evidence->addPoints ({scene_.background.begin () + static_cast<std::ptrdiff_t> (body->points_read),
+                                  scene_.background.end ()});
+      body->points_read = scene_.background.size ();
+    }
+  });
+  timed ("constraints", [&] {
+    for (std::size_t v = 0; v < scene_.views.size (); ++v)
+    {
+      const DepthView& depth = scene_.views[v].depth;
+      std::optional<FreeSpaceView> view; // prepared once, for the first that asks
+      const auto show = [&] (FollowedBody& body, const Eigen::Isometry3d& T_body_sensor) {
+        if (body.views_read > v)
+          return;
+        body.views_read = v + 1;
+        if (!T_body_sensor.matrix ().allFinite ())
+          return;
+        if (!view)
+          view.emplace (depth);
+        body.evidence->addView (*view, T_body_sensor);
+      };
+      for (FollowedBody* body : backgroundBodies ())
+        if (scene_.views[v].use != ViewUse::FreeSpace)
+          show (*body, depth.T_world_sensor);
+      for (Object& object : objects_)
+        if (object.alive () && scene_.options.use_hull)
+          guarded (object, [&] { show (*object.body, pose (object, v).inverse () * depth.T_world_sensor); });
+      report ("free space", 0.05 * static_cast<double> (v + 1) / static_cast<double> (scene_.views.size ()));
+    }
+  });
 }
 
 void
 CoSectionRun::prepareObject (Object& object)
 {
-  timed ("data_term", [&] { object.volume->addPoints (object.points ()); });
+  ShapeVolume& volume = object.volume ();
   timed ("constraints", [&] {
-    FreeSpaceCarving carving (object.volume->grid (), scene_.options.revise_votes, scene_.options.threads);
-    const bool carve = scene_.options.use_hull && scene_.options.carve_free_space;
-    for (std::size_t v = 0; v < scene_.views.size (); ++v)
-    {
-      const Eigen::Isometry3d T_object_sensor = pose (object, v).inverse () * scene_.views[v].view ().T_world_sensor;
-      if (!T_object_sensor.matrix ().allFinite ())
-        continue;
-      if (scene_.options.use_hull)
-        object.volume->addView (scene_.views[v], T_object_sensor);
-      if (carve)
-        carving.add (scene_.views[v], T_object_sensor);
-    }
-    if (carve && !scene_.views.empty ())
-      object.volume->setCarving (carving);
-    object.volume->prepare ();
-    if (!object.volume->hasData ())
+    volume.prepare (*object.body->evidence);
+    if (mode_ == Mode::Once)
+      object.body->evidence.reset ();
+    if (!volume.hasData ())
       throw DegenerateInput ("no usable measurements: all of its points lie in space that was seen free");
     const auto views = viewsOf (object);
     if (scene_.options.use_extent_prior)
-      object.volume->addExtentPrior (scene_.background.empty () ? ExtentPrior::cutOut () : ExtentPrior (),
-                                     object.points (), views);
+      volume.addExtentPrior (scene_.background.empty () ? ExtentPrior::cutOut () : ExtentPrior (), object.points (), views);
     if (scene_.options.use_contact_prior && !views.empty ())
       for (const Eigen::Isometry3d& T_world_object : relativePoses (object, nullptr))
         for (const Eigen::Vector4d& plane : object.planes)
-          object.volume->addContactPrior (object.points (), transformPlane (plane, T_world_object),
-                                          views.front ().second.translation ());
+          volume.addContactPrior (object.points (), transformPlane (plane, T_world_object),
+                                  views.front ().second.translation ());
   });
-  object.told = object.volume->measuredField ();
+  object.told = volume.measuredField ();
 }
 
 void
-CoSectionRun::finishObject (Object& object)
+CoSectionRun::finishObject (Object& object, UpdateOutput output)
 {
-  object.field = object.volume->solvedField ();
-  object.result->mesh = object.volume->closedMesh ();
+  object.field = object.volume ().solvedField ();
+  object.result->signed_distance = std::make_shared<SignedDistanceField> (object.field);
+  if (output == UpdateOutput::Fields)
+    return;
+  object.result->mesh = object.volume ().closedMesh ();
   if (object.result->mesh.empty ())
     throw DegenerateInput ("its measurements determine no closed surface, or lie inside another body");
-  transferAttributes (object.points (), object.volume->grid (), object.result->mesh);
+  transferAttributes (object.points (), object.volume ().grid (), object.result->mesh);
   if (scene_.options.compute_hull)
-    object.result->hull = object.volume->hullMesh ();
+    object.result->hull = object.volume ().hullMesh ();
   if (scene_.options.compute_bounds)
   {
-    object.result->inner_bound = object.volume->innerMesh (object.points ());
-    object.result->outer_bound = object.volume->outerMesh ();
+    object.result->inner_bound = object.volume ().innerMesh (object.points ());
+    object.result->outer_bound = object.volume ().outerMesh ();
   }
-  object.result->signed_distance = std::make_shared<SignedDistanceField> (object.field);
 }
 
 SceneResult
-CoSectionRun::run ()
+CoSectionRun::run (UpdateOutput output)
 {
   report ("measurements", 0.0);
   bodies_ = scene_.bodies;
@@ -259,8 +356,10 @@ CoSectionRun::run ()
     findPlanes ();
     createVolumes ();
     sampleMeshes ();
+    createBackground ();
   });
-  solveBackground ();
+  gatherEvidence ();
+  solveBackground (output);
   for (Object& object : objects_)
     if (object.alive ())
       guarded (object, [&] { prepareObject (object); });
@@ -268,7 +367,7 @@ CoSectionRun::run ()
   timed ("mesh", [&] {
     for (Object& object : objects_)
       if (object.alive ())
-        guarded (object, [&] { finishObject (object); });
+        guarded (object, [&] { finishObject (object, output); });
     for (Object& object : objects_)
       if (object.alive () && scene_.options.use_intersection)
         guarded (object, [&] { object.result->penetration_m = penetration (object); });

@@ -2,7 +2,7 @@
 // Copyright (c) 2026, the pcl_cosection authors
 #pragma once
 
-#include "shape_volume.h"
+#include "co_section_state.h"
 
 #include <pcl/cosection/surface/co_section.h>
 #include <pcl/cosection/surface/intersection_constraint.h>
@@ -33,40 +33,20 @@ transformPlane (const Eigen::Vector4d& plane, const Eigen::Isometry3d& T_plane_t
   return out;
 }
 
-/** \brief A body that objects cannot enter. */
-struct Obstacle
-{
-  SignedDistanceField::ConstPtr field;
-  std::vector<Eigen::Isometry3d> T_field_world;
-};
-
-/** \brief The same, given as a mesh. */
-struct MeshObstacle
-{
-  TriangleMesh mesh;
-  std::vector<Eigen::Isometry3d> T_mesh_world;
-};
-
-/** \brief What the user has told a CoSection. */
-struct CoSection::Impl
-{
-  CoSectionOptions options;
-  std::vector<FreeSpaceView> views;
-  std::vector<OrientedPoint> background;
-  std::vector<ObjectInput> objects;
-  std::vector<Eigen::Vector4d> planes; // unit normals
-  std::vector<Obstacle> bodies;
-  std::vector<MeshObstacle> meshes;
-};
-
-/** \brief One execution of CoSection::reconstruct (). */
+/** \brief One execution of CoSection::reconstruct () or CoSection::update (). */
 class CoSectionRun
 {
 public:
-  CoSectionRun (const CoSection::Impl& scene, const ProgressCallback& progress);
+  enum class Mode
+  {
+    Once,   ///< evidence is given up once it has been used
+    Follow, ///< \a memory is for the next time
+  };
+
+  CoSectionRun (const CoSection::Impl& scene, CoSectionMemory& memory, const ProgressCallback& progress, Mode mode = Mode::Once);
 
   SceneResult
-  run ();
+  run (UpdateOutput output = UpdateOutput::Meshes);
 
 private:
   struct Object
@@ -77,7 +57,8 @@ private:
     Eigen::AlignedBox3d observed;                    // of its points
     double voxel_size_m = 0.0;
     std::optional<DepthView> assumed;                // of its points, if the scene has no views; object frame
-    std::unique_ptr<ShapeVolume> volume;
+    FollowedBody* body = nullptr;
+    std::vector<bool> stray;                         // which of its points; empty: none
     std::vector<Eigen::Vector4d> planes;             // world
     SignedDistanceField field;                       // its shape, as far as known
     SignedDistanceField told;                        // what its neighbours are told of it
@@ -96,7 +77,14 @@ private:
     {
       return result->error.empty ();
     }
+
+    ShapeVolume&
+    volume () const
+    {
+      return *body->volume;
+    }
   };
+
 
   /** \brief Relative poses of two bodies over the views, thinned to motions of more than half a voxel. */
   std::vector<Eigen::Isometry3d>
@@ -107,7 +95,7 @@ private:
   /** \brief The first that is known. */
   Eigen::Isometry3d
   firstPose (const Object& object) const;
-  /** \brief The views that saw where the object is, or may be, and T_object_sensor. */
+  /** \brief The views that saw where the object is, or may be, and T_object_sensor; not those for free space only. */
   std::vector<std::pair<const DepthView*, Eigen::Isometry3d>>
   viewsOf (const Object& object) const;
 
@@ -116,6 +104,9 @@ private:
   /** \brief A few points far from all others would become bodies of their own. */
   void
   leaveOutStrays (Object& object);
+  /** \brief Keep the size of the voxels of a body that is followed, unless it is very wrong. */
+  void
+  keepVoxelSize (Object& object) const;
   void
   createVolumes ();
   Eigen::AlignedBox3d
@@ -135,8 +126,29 @@ private:
   sampleMeshes ();
   void
   sampleMesh (const MeshObstacle& obstacle, double voxel_size_m, double band_m);
+  /** \brief Boxes of the background that are to be solved. */
+  std::vector<Eigen::AlignedBox3d>
+  backgroundBoxes () const;
+  double
+  backgroundVoxelSize (const std::vector<Eigen::AlignedBox3d>& boxes) const;
+  std::vector<PlaneContinuation>
+  continuedPlanes () const;
   void
-  solveBackground ();
+  createBackground ();
+  std::vector<FollowedBody*>
+  backgroundBodies ();
+  void
+  solveBackground (UpdateOutput output);
+  void
+  solveBackground (FollowedBody& body, const std::vector<PlaneContinuation>& planes, UpdateOutput output);
+  /** \brief Give a body a volume that covers \a box, keeping the one it has where that does. */
+  void
+  place (FollowedBody& body, const Eigen::AlignedBox3d& box, double voxel_size_m, bool carve);
+  /** \brief Let all bodies read what is new in the scene. */
+  void
+  gatherEvidence ();
+  void
+  readPoints (Object& object);
   void
   prepareObject (Object& object);
   /** \brief The constraint of all that is no object. */
@@ -168,19 +180,24 @@ private:
   double
   penetration (const Object& object) const;
   void
-  finishObject (Object& object);
+  finishObject (Object& object, UpdateOutput output);
 
   template <typename Function> void
   timed (const char* stage, Function&& f);
   template <typename Function> void
   guarded (Object& object, Function&& f);
+  template <typename Function> void
+  guardedBackground (Function&& f);
   void
   report (const std::string& stage, double fraction) const;
 
   const CoSection::Impl& scene_;
+  CoSectionMemory& memory_;
   const ProgressCallback& progress_;
+  const Mode mode_;
   SceneResult result_;
   std::vector<Object> objects_;
+  std::vector<std::unique_ptr<FollowedBody>> pieces_; // of the background, if only parts of it are solved
   std::vector<SignedDistanceField> background_;
   std::vector<Obstacle> bodies_; // that the user gave, as fields
 };
@@ -202,7 +219,7 @@ CoSectionRun::guarded (Object& object, Function&& f)
     *object.result = ObjectResult ();
     object.result->id = id;
     object.result->error = what;
-    object.volume.reset ();
+    *object.body = FollowedBody ();
     object.field = object.told = SignedDistanceField ();
   };
   try

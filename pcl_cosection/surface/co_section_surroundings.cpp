@@ -2,7 +2,6 @@
 // Copyright (c) 2026, the pcl_cosection authors
 #include "co_section_run.h"
 
-#include "mesh_attributes.h"
 #include "volume_layout.h"
 
 #include <pcl/cosection/common/error.h>
@@ -10,12 +9,11 @@
 #include <pcl/cosection/volume/mesh_distance.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <iterator>
 #include <limits>
 
-// The part of a run that learns what surrounds the objects: support planes, given bodies and the background.
+// The part of a run that learns what else surrounds the objects: support planes and given bodies.
 
 namespace pcl
 {
@@ -25,8 +23,6 @@ namespace cosection
 namespace
 {
 
-constexpr double background_voxels_per_object_voxel = 2.0;
-constexpr double background_only_resolution = 128.0; // voxels along the longest side, if there is no object
 constexpr double plane_inlier_voxels = 2.0;
 constexpr double min_plane_inlier_m = 0.004;
 constexpr double same_plane_cosine = 0.999;
@@ -110,7 +106,7 @@ CoSectionRun::sampleMesh (const MeshObstacle& obstacle, double voxel_size_m, dou
       for (const Eigen::Isometry3d& T_mesh_world : obstacle.T_mesh_world)
       {
         Eigen::AlignedBox3d box;
-        for (const Eigen::Vector3d& corner : corners (boxOf (object.volume->grid ())))
+        for (const Eigen::Vector3d& corner : corners (boxOf (object.volume ().grid ())))
           box.extend (T_mesh_world * T_world_object * corner);
         boxes.emplace_back (box.min () - margin, box.max () + margin);
       }
@@ -155,91 +151,6 @@ CoSectionRun::sampleMeshes ()
     catch (const std::bad_alloc&)
     {
       result_.warnings.push_back ("a body given as a mesh was left out: not enough memory");
-    }
-  }
-}
-
-void
-CoSectionRun::solveBackground ()
-{
-  if (scene_.background.empty ())
-    return;
-  std::vector<Eigen::AlignedBox3d> boxes;
-  std::vector<PlaneContinuation> planes;
-  double voxel = scene_.options.background_voxel_size_m;
-  double smallest = std::numeric_limits<double>::infinity ();
-  for (const Object& object : objects_)
-  {
-    if (!object.alive ())
-      continue;
-    Eigen::AlignedBox3d box;
-    for (const Eigen::Isometry3d& T : relativePoses (object, nullptr))
-      for (const Eigen::Vector3d& corner : corners (boxOf (object.volume->grid ())))
-        box.extend (T * corner);
-    boxes.push_back (box);
-    smallest = std::min (smallest, object.volume->grid ().voxel_size_m);
-    for (const Eigen::Vector4d& plane : object.planes)
-      planes.push_back ({plane, box});
-  }
-  // Where planes of several objects overlap the last one counts; it must not depend on the objects' order.
-  std::sort (planes.begin (), planes.end (), [] (const PlaneContinuation& a, const PlaneContinuation& b) {
-    const auto key = [] (const PlaneContinuation& p) {
-      return std::array<double, 7>{p.plane[0], p.plane[1], p.plane[2], p.plane[3],
-                                   p.region.min ().x (), p.region.min ().y (), p.region.min ().z ()};
-    };
-    return key (a) < key (b);
-  });
-  if (boxes.empty ())
-  {
-    Eigen::AlignedBox3d box;
-    for (const OrientedPoint& p : scene_.background)
-      if (p.position.allFinite ())
-        box.extend (p.position.cast<double> ());
-    boxes.push_back (box);
-    smallest = box.sizes ().maxCoeff () / background_only_resolution / background_voxels_per_object_voxel;
-  }
-  if (voxel <= 0.0)
-    voxel = background_voxels_per_object_voxel * smallest;
-  boxes = uniteOverlapping (std::move (boxes));
-  for (const Eigen::AlignedBox3d& box : boxes)
-  {
-    try
-    {
-      const VoxelGrid grid = layoutBox (box, voxel);
-      checkMemory (grid, scene_.options.max_memory_bytes, bytesInUse ());
-      ShapeVolume volume (grid, scene_.options);
-      timed ("data_term", [&] { volume.addPoints (scene_.background); });
-      timed ("constraints", [&] {
-        for (const FreeSpaceView& view : scene_.views)
-          volume.addView (view, view.view ().T_world_sensor);
-        volume.prepare (planes);
-      });
-      if (!volume.hasData ())
-        continue;
-      timed ("solve", [&] {
-        volume.solve (Resolution::Full, [this] (const std::string&, double f) {
-          report ("background", 0.3 * f);
-          return true;
-        });
-      });
-      timed ("mesh", [&] {
-        TriangleMesh mesh = volume.trimmedMesh ();
-        transferAttributes (scene_.background, volume.grid (), mesh);
-        appendMesh (result_.background, mesh);
-      });
-      background_.push_back (volume.solvedField ());
-    }
-    catch (const Cancelled&)
-    {
-      throw;
-    }
-    catch (const Error& e)
-    {
-      result_.warnings.push_back (std::string ("the background was left out: ") + e.what ());
-    }
-    catch (const std::bad_alloc&)
-    {
-      result_.warnings.push_back ("the background was left out: not enough memory");
     }
   }
 }

@@ -291,16 +291,24 @@ ImlsDataTerm::add (const VoxelGrid& grid, const std::vector<OrientedPoint>& poin
 }
 
 void
-ImlsDataTerm::finish (Weighting weighting)
+ImlsDataTerm::average (Weighting weighting, std::vector<float>& averaged_weight, std::vector<float>& averaged_target) const
 {
+  averaged_weight = weight;
+  averaged_target = weighted_target;
   if (weighting == Weighting::Mean)
     for (std::size_t n = 0; n < count.size (); ++n)
       if (count[n] > 0.0f)
       {
         const float scale = 1.0f / count[n];
-        weight[n] *= scale;
-        weighted_target[n] *= scale;
+        averaged_weight[n] *= scale;
+        averaged_target[n] *= scale;
       }
+}
+
+void
+ImlsDataTerm::finish (Weighting weighting)
+{
+  average (weighting, weight, weighted_target);
   count.clear ();
   count.shrink_to_fit ();
 }

@@ -6,7 +6,6 @@
 
 #include <pcl/cosection/common/parallel.h>
 #include <pcl/cosection/surface/contact_prior.h>
-#include <pcl/cosection/surface/imls_data_term.h>
 #include <pcl/cosection/volume/distance_transform.h>
 #include <pcl/cosection/volume/iso_surface.h>
 
@@ -56,7 +55,7 @@ keepOffBorder (SignedDistanceField& field)
 } // namespace
 
 ShapeVolume::ShapeVolume (const VoxelGrid& grid, const CoSectionOptions& options)
-: grid_ (grid), options_ (options), hull_ (grid, options.threads)
+: grid_ (grid), options_ (options)
 {
   problem_.dims = grid.dims;
   problem_.alpha = options.alpha;
@@ -69,20 +68,24 @@ ShapeVolume::estimateBytes (const VoxelGrid& grid)
 }
 
 void
-ShapeVolume::addPoints (const std::vector<OrientedPoint>& points)
+ShapeVolume::startFrom (const ShapeVolume& other)
 {
-  ImlsDataTerm data;
-  data.add (grid_, points, options_.sigma_vox, options_.threads);
-  point_weight_ = data.weight;
-  data.finish (options_.weighting);
-  problem_.weight = std::move (data.weight);
-  problem_.weighted_target = std::move (data.weighted_target);
-}
-
-void
-ShapeVolume::addView (const FreeSpaceView& view, const Eigen::Isometry3d& T_grid_sensor)
-{
-  hull_.add (view, T_grid_sensor);
+  if (other.u_.empty () || !other.solved_fully_)
+    return;
+  const Eigen::Vector3i shift =
+      ((grid_.origin_m - other.grid_.origin_m) / grid_.voxel_size_m).array ().round ().cast<int> ();
+  u_.resize (grid_.size ());
+  for (int k = 0; k < grid_.dims.z (); ++k)
+    for (int j = 0; j < grid_.dims.y (); ++j)
+      for (int i = 0; i < grid_.dims.x (); ++i)
+      {
+        // Beyond the other volume it is as far outside as its border is, and the way to there.
+        const Eigen::Vector3i at = Eigen::Vector3i (i, j, k) + shift;
+        const Eigen::Vector3i inside = at.cwiseMax (0).cwiseMin (other.grid_.dims - Eigen::Vector3i::Ones ());
+        u_[grid_.index (i, j, k)] = other.u_[other.grid_.index (inside.x (), inside.y (), inside.z ())] +
+                                    static_cast<float> ((at - inside).cast<double> ().norm ());
+      }
+  solved_fully_ = true;
 }
 
 bool
@@ -92,19 +95,20 @@ ShapeVolume::hasData () const
 }
 
 void
-ShapeVolume::prepare (const std::vector<PlaneContinuation>& planes)
+ShapeVolume::prepare (const ShapeEvidence& evidence, const std::vector<PlaneContinuation>& planes)
 {
-  free_space_ = hull_.freeSpace (options_.revise_votes);
-  hull_ = HullConstraint (VoxelGrid{}); // its votes are counted
+  changed_ = true;
+  free_space_ = evidence.freeSpace ();
+  carved_ = evidence.carvedBounds ();
+  evidence.data ().average (options_.weighting, problem_.weight, problem_.weighted_target);
   data_.assign (grid_.size (), 0);
   for (std::size_t n = 0; n < grid_.size (); ++n)
   {
     if (free_space_[n])
       problem_.weight[n] = problem_.weighted_target[n] = 0.0f;
     else
-      data_[n] = point_weight_[n] >= observed_weight;
+      data_[n] = evidence.data ().weight[n] >= observed_weight;
   }
-  std::vector<float> ().swap (point_weight_);
   data_distance_vox_ = distanceTransform (grid_.dims, data_, options_.threads);
 
   for (const PlaneContinuation& continuation : planes)
@@ -132,7 +136,7 @@ ShapeVolume::prepare (const std::vector<PlaneContinuation>& planes)
   if (options_.use_hull && options_.beta_hull > 0.0)
   {
     const std::vector<float> distance = hullDistance (grid_.dims, free_space_, options_.threads);
-    problem_.exterior.resize (grid_.size ());
+    problem_.exterior.assign (grid_.size (), LowerBound ());
     for (std::size_t n = 0; n < grid_.size (); ++n)
       if (free_space_[n])
         problem_.exterior[n] = LowerBound (options_.hull_distance == HullDistance::Exact ? distance[n] : 1.0f,
@@ -174,17 +178,10 @@ ShapeVolume::addContactPrior (const std::vector<OrientedPoint>& points, const Ei
 }
 
 void
-ShapeVolume::setCarving (const FreeSpaceCarving& carving)
-{
-  carved_ = carving.lowerBounds ();
-}
-
-bool
 ShapeVolume::setIntersection (std::vector<LowerBound> bounds)
 {
-  const bool changed = bounds != problem_.intersection;
+  changed_ |= bounds != problem_.intersection;
   problem_.intersection = std::move (bounds);
-  return changed;
 }
 
 SolverSummary
@@ -192,6 +189,7 @@ ShapeVolume::solve (Resolution resolution, const ProgressCallback& progress)
 {
   SolverOptions solver = options_.solver;
   solver.threads = options_.threads;
+  changed_ = false;
   if (resolution == Resolution::Half && solveAtHalfResolution (problem_, solver, half_u_, u_, progress))
     return {};
   std::vector<float> ().swap (half_u_);

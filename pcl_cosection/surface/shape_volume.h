@@ -2,12 +2,12 @@
 // Copyright (c) 2026, the pcl_cosection authors
 #pragma once
 
+#include "shape_evidence.h"
+
 #include <pcl/cosection/common/progress.h>
 #include <pcl/cosection/common/triangle_mesh.h>
 #include <pcl/cosection/surface/energy_problem.h>
 #include <pcl/cosection/surface/extent_prior.h>
-#include <pcl/cosection/surface/free_space_carving.h>
-#include <pcl/cosection/surface/hull_constraint.h>
 #include <pcl/cosection/surface/options.h>
 #include <pcl/cosection/surface/oriented_point.h>
 #include <pcl/cosection/surface/solver.h>
@@ -37,11 +37,11 @@ enum class Resolution
   Full,
 };
 
-/** \brief One body, an object or a piece of background, from measurements to a mesh: its energy on its
+/** \brief One body, an object or a piece of background, from what was measured of it to a mesh: its energy on its
  * grid, and the field that minimises it. Everything is in the grid's frame.
  *
- * Use: addPoints () and addView (), then prepare (); then any number of setIntersection () and solve (),
- * each warm-started from the last; then mesh (). */
+ * Use: prepare (); then any number of setIntersection () and solve (), each warm-started from the last; then
+ * closedMesh (). All of it again when there is more evidence. */
 class ShapeVolume
 {
 public:
@@ -51,15 +51,13 @@ public:
   static std::size_t
   estimateBytes (const VoxelGrid& grid);
 
+  /** \brief Start from the shape of another volume, whose lattice is the same. */
   void
-  addPoints (const std::vector<OrientedPoint>& points);
+  startFrom (const ShapeVolume& other);
 
+  /** \brief Turn the measurements into the energy's terms, instead of earlier ones. */
   void
-  addView (const FreeSpaceView& view, const Eigen::Isometry3d& T_grid_sensor);
-
-  /** \brief Turn the measurements into the energy's terms. */
-  void
-  prepare (const std::vector<PlaneContinuation>& planes = {});
+  prepare (const ShapeEvidence& evidence, const std::vector<PlaneContinuation>& planes = {});
 
   /** \brief Add the pull that prevents swelling; after prepare (). */
   void
@@ -70,12 +68,7 @@ public:
   void
   addContactPrior (const std::vector<OrientedPoint>& points, const Eigen::Vector4d& plane, const Eigen::Vector3d& sensor_m);
 
-  /** \brief Keep the result out of what the views saw free, finer than a voxel; before solvedField (). */
   void
-  setCarving (const FreeSpaceCarving& carving);
-
-  /** \return whether they differ from those before */
-  bool
   setIntersection (std::vector<LowerBound> bounds);
 
   /** \brief Minimise, from the last solution if there is one. */
@@ -100,6 +93,13 @@ public:
   solved (Resolution resolution) const
   {
     return !u_.empty () && (resolution == Resolution::Half || solved_fully_);
+  }
+
+  /** \brief Whether the energy has changed since solve (). */
+  bool
+  changed () const
+  {
+    return changed_;
   }
 
   bool
@@ -152,9 +152,7 @@ private:
 
   VoxelGrid grid_;
   CoSectionOptions options_;
-  HullConstraint hull_;
   EnergyProblem problem_;
-  std::vector<float> point_weight_;         // sum of the points' weights before averaging
   std::vector<std::uint8_t> free_space_;
   std::vector<std::uint8_t> data_;          // 1 where points are near
   std::vector<float> data_distance_vox_;
@@ -162,6 +160,7 @@ private:
   std::vector<float> half_u_;               // at half the resolution, voxels of grid_
   std::vector<float> u_;                    // voxels
   bool solved_fully_ = false;
+  bool changed_ = true;
 };
 
 } // namespace cosection

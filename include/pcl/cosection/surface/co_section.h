@@ -59,6 +59,20 @@ struct PCL_COSECTION_EXPORT SceneResult
   std::vector<std::string> warnings;
 };
 
+/** \brief What a view is used for. */
+enum class ViewUse
+{
+  Full,      ///< free space, and where hidden parts of objects may be
+  FreeSpace, ///< free space only, which is all that a view between two similar ones adds
+};
+
+/** \brief What CoSection::update () computes. */
+enum class UpdateOutput
+{
+  Fields, ///< signed distances only
+  Meshes, ///< meshes as well
+};
+
 /** \brief Co-Section: joint completion of several objects and the background they stand on, from
  * oriented points and the free space seen by depth views, under the constraint that bodies do not
  * intersect (M. Strecke, J. Stueckler, "Where Does It End? Reasoning About Hidden Surfaces by Object
@@ -87,13 +101,36 @@ public:
   int
   addView (DepthView view);
 
+  /** \brief The same, with the poses at this view of objects that move: of those that were added, and of those that will be.
+   * Objects that are not named are where they have been if they have no poses, and unknown at this view if they have.
+   * \param[in] T_world_object by id */
+  int
+  addView (DepthView view, const std::map<int, Eigen::Isometry3d>& T_world_object, ViewUse use = ViewUse::Full);
+
+  /** \brief Give up views, and the points that were added since each of them and before the next. Those that remain are
+   * numbered anew, in their order.
+   * \param[in] remove one per view
+   * \throws InvalidArgument if there is not one per view */
+  void
+  removeViews (const std::vector<bool>& remove);
+
   /** \brief Points of everything that is not an object, world frame; replaces earlier ones. */
   void
   setBackground (std::vector<OrientedPoint> points);
 
+  /** \brief More of them. */
+  void
+  addBackground (const std::vector<OrientedPoint>& points);
+
   /** \throws InvalidArgument if the id is not positive or already there */
   void
   addObject (ObjectInput object);
+
+  /** \brief More points of an object, object frame. An object that is not there yet is added; if views named its pose, it has
+   * those, else the object frame is the world frame.
+   * \throws InvalidArgument if the id is not positive */
+  void
+  addPoints (int id, const std::vector<OrientedPoint>& points);
 
   /** \brief A plane a x + b y + c z + d = 0 that no object crosses, world frame; coefficients (a, b, c, d) of
    * any scale and either sign: each object is on the side of most of its points.
@@ -119,6 +156,13 @@ public:
    * \throws Cancelled */
   SceneResult
   reconstruct (const ProgressCallback& progress = {}) const;
+
+  /** \brief Run on what was added since the last time: measurements are gathered once, and every shape starts from the last
+   * one. The minimum is that of reconstruct (), within the solver's tolerance. Volumes grow (or shrink) with what is
+   * observed; their voxels keep their places unless the points ask for a size that differs by more than a fifth.
+   * \throws Cancelled; the next call then goes on from what was gathered */
+  SceneResult
+  update (UpdateOutput output = UpdateOutput::Meshes, const ProgressCallback& progress = {});
 
 private:
   friend class CoSectionRun;

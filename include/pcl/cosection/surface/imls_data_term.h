@@ -32,6 +32,10 @@ struct PCL_COSECTION_EXPORT ImlsDataTerm
   /** \brief Divide by the count (Weighting::Mean) or leave as it is, in place. The count is given up. */
   void
   finish (Weighting weighting);
+
+  /** \brief The same, leaving the sums for more to be added. */
+  void
+  average (Weighting weighting, std::vector<float>& averaged_weight, std::vector<float>& averaged_target) const;
 };
 
 } // namespace cosection

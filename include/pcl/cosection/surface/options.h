@@ -52,7 +52,7 @@ struct PCL_COSECTION_EXPORT CoSectionOptions
   /** \brief Volume beyond the observed box on each side, as a fraction of its longest side; 0: as far as the
    * extent prior lets the shape reach, or 0.3 without views, hull constraint or that prior. */
   double padding = 0.0;
-  double background_voxel_size_m = 0.0; ///< 0: twice the smallest object voxel
+  double background_voxel_size_m = 0.0; ///< 0: twice the smallest object voxel; see also \a whole_background
 
   bool use_hull = true;         ///< E_hull, equation (3)
   bool use_intersection = true; ///< E_inter, equation (5)
@@ -73,9 +73,13 @@ struct PCL_COSECTION_EXPORT CoSectionOptions
   Weighting weighting = Weighting::Mean;
   HullDistance hull_distance = HullDistance::Exact;
 
+  /** \brief Complete all of the background, not only what is near objects: with voxels of 2 cm unless given, smaller in small
+   * scenes and larger where there would be more than 256^3. */
+  bool whole_background = false;
   bool compute_hull = false;   ///< also give the hull of each object as a mesh
   bool compute_bounds = false; ///< also give an inner and an outer bound of each object as meshes
 
+  std::size_t min_points = 1;    ///< objects with fewer are not completed
   int max_passes = 5;            ///< simultaneous passes over all objects, at half and at full resolution each
   std::size_t max_memory_bytes = 0; ///< 0: no limit
   SolverOptions solver;

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_cosection authors
+#pragma once
+
+#include <pcl/cosection/common/export.h>
+#include <pcl/cosection/fusion/keyframe.h>
+#include <pcl/cosection/surface/co_section.h>
+
+#include <Eigen/Geometry>
+
+#include <cstddef>
+#include <map>
+#include <vector>
+
+namespace pcl
+{
+namespace cosection
+{
+
+/** \brief How much of a sequence CoSectionBackend keeps. */
+struct PCL_COSECTION_EXPORT BackendOptions
+{
+  CoSectionOptions method;
+  std::size_t max_views = 100;    ///< depth images that are kept, keyframes among them; at least 4
+  std::size_t max_keyframes = 40; ///< at least 2
+
+  /** \brief \throws InvalidArgument naming the first parameter outside its domain. */
+  void
+  validate () const;
+};
+
+/** \brief The back end of a sequence: drives CoSection with keyframes as they come.
+ *
+ * Keyframes give oriented points and free space, frames between them free space. What is kept is bounded: when there are too
+ * many views, those whose poses relative to everything in the scene are nearest to another's are given up with
+ * their points, half of all; from then on, a view as near as that to a kept one is not taken.
+ *
+ * \code
+ * CoSectionBackend backend;
+ * for (const Keyframe& keyframe : keyframes)
+ * {
+ *   backend.addKeyframe (keyframe, poses.at (keyframe.stamp));
+ *   const SceneResult so_far = backend.update (UpdateOutput::Meshes);
+ * }
+ * const SceneResult result = backend.solve ();
+ * \endcode */
+class PCL_COSECTION_EXPORT CoSectionBackend
+{
+public:
+  using Poses = std::map<int, Eigen::Isometry3d>; ///< T_world_object by id, of the objects whose pose is known
+
+  /** \brief \throws InvalidArgument */
+  explicit CoSectionBackend (const BackendOptions& options = {});
+
+  /** \brief Add the points and the free space of a keyframe. Points of objects without a pose in \a T_world_object are left out;
+   * for objects that never move, give the identity.
+   * \return whether it was kept \throws InvalidArgument if the view is not valid or a pose not finite */
+  bool
+  addKeyframe (const Keyframe& keyframe, const Poses& T_world_object);
+
+  /** \brief Add the free space of a frame. \return whether it was kept \throws InvalidArgument as addKeyframe () */
+  bool
+  addFrame (DepthView view, const Poses& T_world_object);
+
+  /** \brief Complete everything, from the last solution on: CoSection::update (). \throws Cancelled */
+  SceneResult
+  update (UpdateOutput output, const ProgressCallback& progress = {});
+
+  /** \brief Complete everything from the start, from all that is kept. The result does not depend on earlier updates.
+   * \throws Cancelled */
+  SceneResult
+  solve (const ProgressCallback& progress = {}) const;
+
+  /** \brief Views that are kept, keyframes among them. */
+  std::size_t
+  views () const
+  {
+    return kept_.size ();
+  }
+
+  std::size_t
+  keyframes () const;
+
+private:
+  /** \brief Where the sensor was, relative to the world (id 0) and to the objects. */
+  struct KeptView
+  {
+    std::map<int, Eigen::Isometry3d> T_body_sensor;
+    bool keyframe;
+  };
+
+  static double
+  gap (const KeptView& a, const KeptView& b);
+  /** \brief Take the view's place, if it is not too near to another and there is room or can be made. */
+  bool
+  reserve (KeptView view);
+  /** \brief Give up half of the keyframes, or of the other views. */
+  void
+  thin (bool keyframes);
+
+  BackendOptions options_;
+  CoSection scene_;
+  std::vector<KeptView> kept_; // as in scene_
+  double least_gap_m_ = -1.0;  // from a new view to all others; negative: none is asked for
+};
+
+} // namespace cosection
+} // namespace pcl

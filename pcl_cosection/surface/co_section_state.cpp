@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_cosection authors
+#include "co_section_state.h"
+
+namespace pcl
+{
+namespace cosection
+{
+
+void
+FollowedBody::restart (const VoxelGrid& grid, const CoSectionOptions& options, bool carve)
+{
+  auto shape = std::make_unique<ShapeVolume> (grid, options);
+  if (volume && volume->grid ().voxel_size_m == grid.voxel_size_m)
+    shape->startFrom (*volume);
+  volume = std::move (shape);
+  evidence = std::make_unique<ShapeEvidence> (grid, options, carve);
+  points_read = 0;
+  views_read = 0;
+  stray.clear ();
+}
+
+void
+FollowedBody::readAgain (const CoSectionOptions& options)
+{
+  if (volume)
+    restart (VoxelGrid (volume->grid ()), options, evidence && evidence->carves ());
+}
+
+} // namespace cosection
+} // namespace pcl
