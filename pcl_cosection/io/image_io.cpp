@@ -4,6 +4,7 @@
 
 #include "../common/file_bytes.h"
 #include "file_extension.h"
+#include "image_damage.h"
 
 #include <pcl/cosection/common/atomic_file.h>
 #include <pcl/cosection/common/error.h>
@@ -60,11 +61,17 @@ decode (const std::string& path, int flags)
 {
   allowExr ();
   const std::string bytes = readBytes (path);
+  if (bytes.empty ())
+    throw IoError (path + ": is empty; it should be an image");
+  if (bytes.size () > static_cast<std::size_t> (std::numeric_limits<int>::max ()))
+    throw IoError (path + ": is too large for an image");
+  const std::string damage = imageDamage (bytes);
+  if (!damage.empty ())
+    throw IoError (path + ": " + damage);
   cv::Mat image;
   try
   {
-    if (!bytes.empty ())
-      image = cv::imdecode (cv::Mat (1, static_cast<int> (bytes.size ()), CV_8U, const_cast<char*> (bytes.data ())), flags);
+    image = cv::imdecode (cv::Mat (1, static_cast<int> (bytes.size ()), CV_8U, const_cast<char*> (bytes.data ())), flags);
   }
   catch (const cv::Exception&)
   {
@@ -73,6 +80,25 @@ decode (const std::string& path, int flags)
   if (image.empty ())
     throw IoError (path + ": is not an image that can be read");
   return image;
+}
+
+/** \brief Some renderers write depth as three equal channels: one of them. Other images are returned as they are. */
+cv::Mat
+withoutEqualChannels (const cv::Mat& image)
+{
+  if (image.depth () != CV_32F || image.channels () != 3)
+    return image;
+  cv::Mat single (image.rows, image.cols, CV_32F);
+  for (int v = 0; v < image.rows; ++v)
+    for (int u = 0; u < image.cols; ++u)
+    {
+      const cv::Vec3f& z = image.at<cv::Vec3f> (v, u);
+      const bool finite = std::isfinite (z[0]) || std::isfinite (z[1]) || std::isfinite (z[2]);
+      if (finite && (z[0] != z[1] || z[0] != z[2]))
+        return image;
+      single.at<float> (v, u) = z[0];
+    }
+  return single;
 }
 
 } // namespace
@@ -115,7 +141,7 @@ saveDepthImage (const Image<float>& depth, const std::string& path, double scale
 Image<float>
 loadDepthImage (const std::string& path, double scale)
 {
-  const cv::Mat image = decode (path, cv::IMREAD_UNCHANGED);
+  const cv::Mat image = withoutEqualChannels (decode (path, cv::IMREAD_UNCHANGED));
   const bool whole = image.type () == CV_16U;
   if (!whole && image.type () != CV_32F)
     throw IoError (path + ": is not a depth image: it must have one channel of 16 bits, or of 32-bit floating point");

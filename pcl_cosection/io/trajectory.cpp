@@ -33,7 +33,7 @@ parsePose (const std::string& line, const std::string& where)
   std::array<double, 8> values;
   for (double& value : values)
     if (!(in >> value) || !std::isfinite (value))
-      throw IoError (where + "must be eight numbers: stamp tx ty tz qx qy qz qw");
+      throw IoError (where + "must be eight finite numbers: stamp tx ty tz qx qy qz qw");
   std::string more;
   if (in >> more)
     throw IoError (where + "has more than the eight numbers stamp tx ty tz qx qy qz qw");

@@ -7,9 +7,12 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
+#include <cstring>
 #include <fstream>
 #include <limits>
+#include <vector>
 
 using namespace pcl::cosection;
 
@@ -17,6 +20,51 @@ namespace
 {
 
 const float none = std::numeric_limits<float>::quiet_NaN ();
+
+/** \brief The bytes of a number, least significant first. */
+template <typename Number>
+std::string
+bytesOf (Number number)
+{
+  std::string bytes (sizeof number, '\0');
+  std::memcpy (&bytes[0], &number, sizeof number);
+  return bytes;
+}
+
+std::string
+exrAttribute (const std::string& name, const std::string& type, const std::string& value)
+{
+  return name + '\0' + type + '\0' + bytesOf (static_cast<std::int32_t> (value.size ())) + value;
+}
+
+/** \brief An EXR without compression, one pixel wide: blue, green and red of each row. */
+std::string
+plainExr (const std::vector<std::array<float, 3>>& rows)
+{
+  const auto height = static_cast<std::int32_t> (rows.size ());
+  std::string channels;
+  for (const char* name : {"B", "G", "R"})
+    channels += name + std::string (1, '\0') + bytesOf (std::int32_t (2)) + std::string (4, '\0') + bytesOf (1) + bytesOf (1);
+  const std::string window = bytesOf (0) + bytesOf (0) + bytesOf (0) + bytesOf (height - 1);
+  std::string bytes = "\x76\x2f\x31\x01" + bytesOf (2);
+  bytes += exrAttribute ("channels", "chlist", channels + '\0');
+  bytes += exrAttribute ("compression", "compression", std::string (1, '\0'));
+  bytes += exrAttribute ("dataWindow", "box2i", window) + exrAttribute ("displayWindow", "box2i", window);
+  bytes += exrAttribute ("lineOrder", "lineOrder", std::string (1, '\0'));
+  bytes += exrAttribute ("pixelAspectRatio", "float", bytesOf (1.0f));
+  bytes += exrAttribute ("screenWindowCenter", "v2f", bytesOf (0.0f) + bytesOf (0.0f));
+  bytes += exrAttribute ("screenWindowWidth", "float", bytesOf (1.0f)) + '\0';
+  constexpr std::size_t block = 8 + 12;
+  for (std::size_t n = 0; n < rows.size (); ++n)
+    bytes += bytesOf (std::uint64_t (bytes.size () + 8 * (rows.size () - n) + block * n));
+  for (std::int32_t n = 0; n < height; ++n)
+  {
+    bytes += bytesOf (n) + bytesOf (12);
+    for (const float value : rows[static_cast<std::size_t> (n)])
+      bytes += bytesOf (value);
+  }
+  return bytes;
+}
 
 } // namespace
 
@@ -60,6 +108,75 @@ TEST (ImageIo, MaskAndColourRoundTrip)
   EXPECT_EQ (loadColourImage (folder.file ("c.png")).pixels, picture.pixels);
   EXPECT_THROW (loadMaskImage (folder.file ("c.png")), IoError);
   EXPECT_THROW (loadDepthImage (folder.file ("c.png")), IoError);
+}
+
+TEST (ImageIo, DamageIsSaidInOneLineAndOnlyThere)
+{
+  const test::TemporaryFolder folder;
+  Image<float> depth (40, 50);
+  Picture colour (40, 50);
+  for (std::size_t n = 0; n < depth.pixels.size (); ++n)
+  {
+    depth.pixels[n] = 1.0f + 0.001f * static_cast<float> (n * 7919 % 1013);
+    colour.pixels[n][1] = static_cast<std::uint8_t> (n * 7919 % 251);
+  }
+  saveDepthImage (depth, folder.file ("whole.png"));
+  saveDepthImage (depth, folder.file ("whole.exr"));
+  saveColourImage (colour, folder.file ("whole.jpg"));
+  testing::internal::CaptureStderr (); // the libraries that decode images write to it
+  for (const std::string extension : {".png", ".exr", ".jpg"})
+  {
+    const std::string bytes = test::readFile (folder.file ("whole" + extension));
+    const std::string path = folder.file ("cut" + extension);
+    const auto load = [&] {
+      if (extension == ".jpg")
+        loadColourImage (path);
+      else
+        loadDepthImage (path);
+    };
+    for (std::size_t size = 0; size < bytes.size (); size += 1 + size / 16)
+    {
+      test::writeFile (path, bytes.substr (0, size));
+      EXPECT_NE (test::messageOf<IoError> (load).find (path), std::string::npos);
+    }
+    test::writeFile (path, bytes.substr (0, bytes.size () - 1));
+    EXPECT_THROW (load (), IoError) << path;
+  }
+  std::string bytes = test::readFile (folder.file ("whole.png"));
+  for (std::size_t at = 8; at < bytes.size (); at += 37)
+  {
+    std::string damaged = bytes;
+    damaged[at] ^= 0x10;
+    test::writeFile (folder.file ("flipped.png"), damaged);
+    EXPECT_THROW (loadDepthImage (folder.file ("flipped.png")), IoError) << at;
+  }
+  EXPECT_EQ (testing::internal::GetCapturedStderr (), "");
+}
+
+TEST (ImageIo, DepthMayBeInThreeEqualChannels)
+{
+  const test::TemporaryFolder folder;
+  test::writeFile (folder.file ("equal.exr"), plainExr ({{1.5f, 1.5f, 1.5f}, {0.0f, 0.0f, 0.0f}, {2.5f, 2.5f, 2.5f}}));
+  const Image<float> depth = loadDepthImage (folder.file ("equal.exr"));
+  ASSERT_EQ (depth.width, 1);
+  ASSERT_EQ (depth.height, 3);
+  EXPECT_EQ (depth.pixels[0], 1.5f);
+  EXPECT_TRUE (std::isnan (depth.pixels[1]));
+  EXPECT_EQ (depth.pixels[2], 2.5f);
+  test::writeFile (folder.file ("colour.exr"), plainExr ({{1.5f, 1.5f, 1.0f}}));
+  EXPECT_THROW (loadDepthImage (folder.file ("colour.exr")), IoError);
+}
+
+TEST (ImageIo, ImagesThatAreWholeAreNotCalledDamaged)
+{
+  const test::TemporaryFolder folder;
+  for (const int height : {1, 15, 16, 17, 240}) // blocks of an EXR have 16 rows
+  {
+    saveDepthImage (Image<float> (7, height, 1.5f), folder.file ("a.exr"));
+    EXPECT_EQ (loadDepthImage (folder.file ("a.exr")).height, height);
+    saveColourImage (Picture (7, height), folder.file ("a.jpg"));
+    EXPECT_EQ (loadColourImage (folder.file ("a.jpg")).height, height);
+  }
 }
 
 TEST (ImageIo, WhatIsNoImageIsSaid)

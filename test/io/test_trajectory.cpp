@@ -65,9 +65,21 @@ TEST_F (Trajectory, NamesTheLineThatIsWrong)
   EXPECT_NE (failure ("0 0 x 0 0 0 0 1\n").find ("line 1"), std::string::npos);
   EXPECT_NE (failure ("0 0 nan 0 0 0 0 1\n").find ("line 1"), std::string::npos);
   EXPECT_NE (failure ("0 0 1e999 0 0 0 0 1\n").find ("line 1"), std::string::npos);
+  EXPECT_NE (failure ("0 0 0 0 0 0 0 1\n1 0 0 0 nan nan nan nan\n").find ("line 2 must be eight finite numbers"), std::string::npos);
+  EXPECT_NE (failure ("inf 0 0 0 0 0 0 1\n").find ("line 1 must be eight finite numbers"), std::string::npos);
+  EXPECT_NE (failure ("0 0 0 0 0 0 0 -inf\n").find ("line 1 must be eight finite numbers"), std::string::npos);
   EXPECT_NE (failure ("# nothing\n").find ("no poses"), std::string::npos);
   EXPECT_NE (failure ("3 0 0 0 0 0 0 1\n3 0 0 0 0 0 0 1\n").find ("two poses of stamp 3"), std::string::npos);
   EXPECT_THROW (loadTrajectory (folder_.file ("missing.txt")), IoError);
+}
+
+TEST_F (Trajectory, QuaternionsOfAnyLengthAreRotations)
+{
+  for (const char* line : {"0 1 2 3 0 0 0.6 0.8", "0 1 2 3 0 0 0.606 0.808", "0 1 2 3 0 0 6 8", "0 1 2 3 0 0 -0.06 -0.08"})
+  {
+    const Eigen::Isometry3d pose = load (line).at (0).pose;
+    EXPECT_LT ((pose * Eigen::Vector3d (1, 0, 0) - Eigen::Vector3d (1.28, 2.96, 3)).norm (), 1e-12) << line;
+  }
 }
 
 TEST_F (Trajectory, WhatIsSavedIsLoaded)

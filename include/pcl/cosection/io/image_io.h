@@ -23,7 +23,8 @@ saveColourImage (const Picture& picture, const std::string& path);
 PCL_COSECTION_EXPORT void
 saveDepthImage (const Image<float>& depth, const std::string& path, double scale = 1000.0);
 
-/** \brief Read what saveDepthImage () writes. \return metres; NaN: no reading \throws IoError */
+/** \brief Read what saveDepthImage () writes, or floating-point depth in three equal channels. \return metres; NaN: no reading
+ * \throws IoError naming the file, if it cannot be read, is damaged, or is no depth image */
 PCL_COSECTION_EXPORT Image<float>
 loadDepthImage (const std::string& path, double scale = 1000.0);
 
