@@ -53,8 +53,10 @@ private:
 class Extractor
 {
 public:
-  Extractor (const SignedDistanceField& field, const IsoSurfaceOptions& options)
+  /** \param[in] supported one per voxel; nullptr: everywhere */
+  Extractor (const SignedDistanceField& field, const IsoSurfaceOptions& options, const std::uint8_t* supported = nullptr)
       : field_ (field)
+      , supported_ (supported)
       , grid_ (field.grid)
       , dims_ (field.grid.dims)
       , options_ (options)
@@ -200,10 +202,22 @@ private:
         const unsigned upper = column (i + 1);
         const unsigned code = lower | (upper << 1);
         lower = upper;
-        if (code != 0 && code != 255)
+        if (code != 0 && code != 255 && isSupported (i, j, k))
           visit (i, j, table[code]);
       }
     }
+  }
+
+  /** \brief Are all corners of this cell? */
+  bool
+  isSupported (int i, int j, int k) const
+  {
+    if (!supported_)
+      return true;
+    for (int corner = 0; corner < 8; ++corner)
+      if (supported_[grid_.index (i + (corner & 1), j + ((corner >> 1) & 1), k + (corner >> 2))] == 0)
+        return false;
+    return true;
   }
 
   void
@@ -331,6 +345,7 @@ private:
   }
 
   const SignedDistanceField& field_;
+  const std::uint8_t* supported_;
   const VoxelGrid& grid_;
   const Eigen::Vector3i dims_;
   const IsoSurfaceOptions options_;
@@ -341,16 +356,35 @@ private:
   TriangleMesh mesh_;
 };
 
-} // namespace
-
-TriangleMesh
-extractIsoSurface (const SignedDistanceField& field, const IsoSurfaceOptions& options)
+void
+checkField (const SignedDistanceField& field)
 {
   if (field.grid.dims.minCoeff () < 1 || field.values.size () != field.grid.size ())
     throw InvalidArgument ("iso surface: the field must have one value per voxel");
   if (!(field.grid.voxel_size_m > 0.0))
     throw InvalidArgument ("iso surface: the voxel size must be positive");
+}
+
+} // namespace
+
+TriangleMesh
+extractIsoSurface (const SignedDistanceField& field, const IsoSurfaceOptions& options)
+{
+  checkField (field);
   return Extractor (field, options).run ();
+}
+
+TriangleMesh
+extractOpenIsoSurface (const SignedDistanceField& field, const std::vector<std::uint8_t>& supported, int threads)
+{
+  checkField (field);
+  if (supported.size () != field.grid.size ())
+    throw InvalidArgument ("iso surface: there must be one mark of support per voxel");
+  IsoSurfaceOptions options;
+  options.closed = false;
+  options.threads = threads;
+  const TriangleMesh mesh = Extractor (field, options, supported.data ()).run ();
+  return extractTriangles (mesh, std::vector<bool> (mesh.triangles.size (), true));
 }
 
 } // namespace cosection

@@ -6,6 +6,9 @@
 #include <pcl/cosection/common/triangle_mesh.h>
 #include <pcl/cosection/volume/signed_distance_field.h>
 
+#include <cstdint>
+#include <vector>
+
 namespace pcl
 {
 namespace cosection
@@ -30,6 +33,13 @@ struct PCL_COSECTION_EXPORT IsoSurfaceOptions
  * order of vertices and triangles does not depend on the number of threads. */
 PCL_COSECTION_EXPORT TriangleMesh
 extractIsoSurface (const SignedDistanceField& field, const IsoSurfaceOptions& options = {});
+
+/** \brief As extractIsoSurface (), but only in cells whose eight voxels are all marked in \a supported, and never closed: an
+ * open mesh without loose vertices, of which every edge has one triangle or two.
+ * \param[in] supported one per voxel, 0: no; that of \a field is not looked at
+ * \throws InvalidArgument as extractIsoSurface (), and if there is not one mark per voxel */
+PCL_COSECTION_EXPORT TriangleMesh
+extractOpenIsoSurface (const SignedDistanceField& field, const std::vector<std::uint8_t>& supported, int threads = 0);
 
 } // namespace cosection
 } // namespace pcl

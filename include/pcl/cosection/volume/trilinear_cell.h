@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_cosection authors
+#pragma once
+
+#include <pcl/cosection/volume/signed_distance_field.h>
+
+#include <Eigen/Core>
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <optional>
+
+namespace pcl
+{
+namespace cosection
+{
+
+/** \brief The eight voxels around a point, and the trilinear function between their centres.
+ *
+ * Unlike SignedDistanceField::sample (), which may be asked on a face between cells of which one has no values, it needs a
+ * number at all eight, so that the gradient exists with the value. All inline: for loops over many points.
+ *
+ * \code
+ * if (const auto cell = TrilinearCell<double>::around (field, p))
+ *   minimise (cell->value (), cell->gradient ());
+ * \endcode */
+template <typename Scalar>
+class TrilinearCell
+{
+public:
+  using Vector3 = Eigen::Matrix<Scalar, 3, 1>;
+
+  /** \brief The cell around \a p (metres, the grid's frame): nothing outside the box of voxel centres, for NaN, where the
+   * grid is a single voxel thin, or where one of the eight values is not finite. */
+  static std::optional<TrilinearCell>
+  around (const SignedDistanceField& field, const Vector3& p)
+  {
+    const VoxelGrid& grid = field.grid;
+    const Eigen::Vector3d v = grid.toVoxel (p.template cast<double> ());
+    TrilinearCell cell;
+    std::array<int, 3> lower;
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      const int last = grid.dims[axis] - 1;
+      if (!(v[axis] >= 0.0 && v[axis] <= last) || last < 1)
+        return std::nullopt;
+      const auto below = static_cast<int> (v[axis]);
+      lower[axis] = (below < last ? below : last - 1);
+      cell.fraction_[axis] = static_cast<Scalar> (v[axis] - lower[axis]);
+    }
+    const std::size_t row = static_cast<std::size_t> (grid.dims.x ());
+    const std::size_t slice = row * grid.dims.y ();
+    const float* corner = field.values.data () + grid.index (lower[0], lower[1], lower[2]);
+    for (int n = 0; n < 4; ++n)
+    {
+      const float* pair = corner + (n & 1) * row + (n >> 1) * slice;
+      cell.lower_x_[n] = static_cast<Scalar> (pair[0]);
+      cell.step_x_[n] = static_cast<Scalar> (pair[1]) - cell.lower_x_[n];
+    }
+    cell.voxel_size_m_ = static_cast<Scalar> (grid.voxel_size_m);
+    if (!std::isfinite (cell.value ())) // of finite values it is finite; 0 * NaN is not
+      return std::nullopt;
+    return cell;
+  }
+
+  /** \brief In the field's unit (metres). */
+  Scalar
+  value () const
+  {
+    const auto edge = alongX ();
+    return mix (mix (edge[0], edge[1], fraction_[1]), mix (edge[2], edge[3], fraction_[1]), fraction_[2]);
+  }
+
+  /** \brief Derivative of value () by the point: metres per metre, in the grid's frame. Not normalised. */
+  Vector3
+  gradient () const
+  {
+    const auto edge = alongX ();
+    const Scalar dx = mix (mix (step_x_[0], step_x_[1], fraction_[1]), mix (step_x_[2], step_x_[3], fraction_[1]), fraction_[2]);
+    const Scalar dy = mix (edge[1] - edge[0], edge[3] - edge[2], fraction_[2]);
+    const Scalar dz = mix (edge[2] - edge[0], edge[3] - edge[1], fraction_[1]);
+    return Vector3 (dx, dy, dz) / voxel_size_m_;
+  }
+
+private:
+  /** \brief Values at the four edges along x. */
+  std::array<Scalar, 4>
+  alongX () const
+  {
+    std::array<Scalar, 4> edge;
+    for (int n = 0; n < 4; ++n)
+      edge[n] = lower_x_[n] + fraction_[0] * step_x_[n];
+    return edge;
+  }
+
+  static Scalar
+  mix (Scalar a, Scalar b, Scalar t)
+  {
+    return a + t * (b - a);
+  }
+
+  std::array<Scalar, 3> fraction_;
+  std::array<Scalar, 4> lower_x_; // where the edges along x begin: (y, z), (y + 1, z), (y, z + 1), (y + 1, z + 1)
+  std::array<Scalar, 4> step_x_;
+  Scalar voxel_size_m_ = 1;
+};
+
+} // namespace cosection
+} // namespace pcl
