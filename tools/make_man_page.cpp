@@ -4,6 +4,7 @@
 // make_man_page PROGRAM: prints the manual page of a program, which says what --help says. Part of the build, not installed.
 
 #include "evaluation_commands.h"
+#include "fusion_command_line.h"
 #include "option_table.h"
 #include "program_text.h"
 #include "simulate_command_line.h"
@@ -23,6 +24,13 @@ main (int argc, char** argv)
   }
   else if (program == "pcl_cosection_evaluate")
     std::cout << evaluationManPage () << std::flush;
+  else if (program == "pcl_cosection_fusion")
+  {
+    CLI::App app;
+    GivenFusion given;
+    declareFusionOptions (app, given);
+    std::cout << manPage (app, fusionText ()) << std::flush;
+  }
   else if (program == "pcl_cosection_simulate")
   {
     CLI::App app;

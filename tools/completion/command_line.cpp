@@ -11,7 +11,6 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
-#include <cmath>
 #include <filesystem>
 
 using namespace pcl::cosection;
@@ -19,90 +18,12 @@ using namespace pcl::cosection;
 namespace
 {
 
-/** \brief What the command line says of the size of voxels replaces what the configuration file does. */
-void
-preferCommandLine (const std::vector<std::string>& arguments, Given& given)
-{
-  const auto isGiven = [&] (const std::string& name) {
-    return (std::any_of (arguments.begin (), arguments.end (), [&name] (const std::string& argument) {
-      return (argument.substr (0, argument.find ('=')) == name);
-    }));
-  };
-  const bool voxel_size = isGiven ("--voxel-size"), resolution = isGiven ("--resolution");
-  if (voxel_size && !resolution)
-    given.resolution.reset ();
-  if (resolution && !voxel_size)
-    given.voxel_size.reset ();
-}
-
 template <typename Target, typename Value>
 void
 override (Target& target, const std::optional<Value>& value)
 {
   if (value)
     target = *value;
-}
-
-CoSectionOptions
-methodOptions (const Given& given)
-{
-  CoSectionOptions options = given.preset == "paper" ? CoSectionOptions::paper () : CoSectionOptions ();
-  if (given.resolution)
-    options.voxel_size_m = 0.0;
-  override (options.voxel_size_m, given.voxel_size);
-  override (options.resolution, given.resolution);
-  override (options.padding, given.padding);
-  override (options.background_voxel_size_m, given.background_voxel_size);
-  override (options.alpha, given.alpha);
-  override (options.beta_hull, given.beta_hull);
-  override (options.beta_inter, given.beta_inter);
-  override (options.sigma_vox, given.sigma);
-  override (options.solver.max_iterations, given.max_iterations);
-  override (options.solver.tolerance_vox, given.tolerance);
-  override (options.threads, given.threads);
-  options.solver.threads = options.threads;
-  if (!given.constraints.empty ())
-  {
-    options.use_hull = given.constraints == "hull" || given.constraints == "all";
-    options.use_intersection = given.constraints == "intersection" || given.constraints == "all";
-  }
-  if (given.no_planes)
-    options.use_planes = false;
-  if (!given.weighting.empty ())
-    options.weighting = given.weighting == "sum" ? Weighting::Sum : Weighting::Mean;
-  if (!given.solver.empty ())
-    options.solver.type = given.solver == "fast-jacobi" ? SolverType::FastJacobi : SolverType::Multigrid;
-  options.compute_hull = given.save_hull;
-  options.compute_bounds = given.save_bounds;
-  options.max_memory_bytes = physicalMemory (); // rather than let the system end the program
-  if (!given.max_memory.empty ())
-  {
-    const std::optional<std::size_t> size = parseSize (given.max_memory);
-    if (!size)
-      throw UsageError ("--max-memory: \"" + given.max_memory +
-                        "\" is not valid, it must be a size such as 500M or 2G");
-    options.max_memory_bytes = *size;
-  }
-  options.validate ();
-  return (options);
-}
-
-std::map<int, std::string>
-objectTrajectories (const Given& given)
-{
-  std::map<int, std::string> files;
-  for (const std::string& value : given.object_trajectories)
-  {
-    const std::size_t equals = value.find ('=');
-    const std::optional<double> id = parseNumber (value.substr (0, equals));
-    if (equals == std::string::npos || equals + 1 == value.size () || !id || !(*id >= 1.0 && *id <= 2147483647.0) ||
-        *id != std::floor (*id))
-      throw UsageError ("--object-trajectory must be ID=FILE with the label of an object, such as 2=cup.txt; it is \"" +
-                        value + "\"");
-    if (!files.emplace (static_cast<int> (*id), value.substr (equals + 1)).second)
-      throw UsageError ("--object-trajectory is given twice for object " + value.substr (0, equals));
-  }
-  return (files);
 }
 
 void
@@ -137,8 +58,6 @@ Settings
 toSettings (const Given& given)
 {
   Settings settings;
-  if (given.voxel_size && given.resolution)
-    throw UsageError ("--voxel-size and --resolution exclude each other");
   if (given.quiet && given.verbose)
     throw UsageError ("--quiet and --verbose exclude each other");
   setPaths (given, settings);
@@ -147,12 +66,13 @@ toSettings (const Given& given)
   if (given.max_faces)
     settings.max_faces = static_cast<std::size_t> (*given.max_faces);
   settings.obstacles = given.obstacles;
-  settings.object_trajectories = objectTrajectories (given);
+  settings.object_trajectories = parseObjectFiles ("--object-trajectory", given.object_trajectories);
   settings.verbosity = given.quiet ? Verbosity::Quiet : given.verbose ? Verbosity::Verbose : Verbosity::Normal;
   settings.preset = given.preset;
   settings.method = methodOptions (given);
-  settings.constraints = settings.method.use_hull ? (settings.method.use_intersection ? "all" : "hull")
-                                                  : (settings.method.use_intersection ? "intersection" : "none");
+  settings.method.compute_hull = given.save_hull;
+  settings.method.compute_bounds = given.save_bounds;
+  settings.constraints = constraintsOf (settings.method);
   if (!given.planes.empty ())
   {
     const auto planes = parseQuadruples (given.planes);

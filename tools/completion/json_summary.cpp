@@ -2,14 +2,12 @@
 // Copyright (c) 2026, the pcl_cosection authors
 #include "json_summary.h"
 
+#include "method_json.h"
 #include "output_files.h"
 
 #include <pcl/cosection/common/error.h>
-#include <pcl/cosection/common/triangle_mesh.h>
 
 #include <nlohmann/json.hpp>
-
-#include <array>
 
 using namespace pcl::cosection;
 using Json = nlohmann::ordered_json;
@@ -18,71 +16,12 @@ namespace
 {
 
 Json
-toJson (const Eigen::Vector3d& v)
-{
-  return (Json::array ({v.x (), v.y (), v.z ()}));
-}
-
-/** \brief Share of the vertices of each provenance. */
-Json
-provenanceShares (const TriangleMesh& mesh)
-{
-  std::array<std::size_t, 4> counts{};
-  for (const std::uint8_t p : mesh.provenance)
-    if (p < counts.size ())
-      ++counts[p];
-  const auto share = [&] (Provenance p) {
-    return (mesh.provenance.empty () ? 0.0
-                                     : static_cast<double> (counts[static_cast<std::size_t> (p)]) /
-                                           static_cast<double> (mesh.provenance.size ()));
-  };
-  return (Json{{"observed", share (Provenance::Observed)},
-               {"inferred", share (Provenance::Inferred)},
-               {"hull", share (Provenance::Hull)},
-               {"intersection", share (Provenance::Intersection)}});
-}
-
-Json
-toJson (const ObjectResult& object)
-{
-  const MeshTopology topology = computeTopology (object.mesh);
-  const MassProperties mass = computeMassProperties (object.mesh);
-  Json result;
-  result["id"] = object.id;
-  result["label"] = object.id;
-  if (object.signed_distance)
-  {
-    const VoxelGrid& grid = object.signed_distance->grid;
-    result["voxel_size_m"] = grid.voxel_size_m;
-    result["dimensions"] = {grid.dims.x (), grid.dims.y (), grid.dims.z ()};
-  }
-  result["vertices"] = object.mesh.vertices.size ();
-  result["closed"] = topology.closed_manifold;
-  result["euler"] = topology.euler;
-  result["volume_m3"] = mass.volume_m3;
-  result["centroid_m"] = toJson (mass.centroid_m);
-  result["inertia"] =
-      Json::array ({toJson (mass.inertia.row (0)), toJson (mass.inertia.row (1)), toJson (mass.inertia.row (2))});
-  result["provenance"] = provenanceShares (object.mesh);
-  result["penetration_m"] = object.penetration_m;
-  result["stray_points"] = object.stray_points;
-  result["solver"] = {{"iterations", object.solver.iterations},
-                      {"converged", object.solver.converged ()},
-                      {"energy", object.solver.energy}};
-  return (result);
-}
-
-Json
 parameters (const Settings& settings)
 {
   const CoSectionOptions& method = settings.method;
   Json result;
   result["preset"] = settings.preset.empty () ? "default" : settings.preset;
-  result["voxel_size_m"] = method.voxel_size_m;
-  result["resolution"] = method.resolution;
-  result["padding"] = method.padding;
-  result["background_voxel_size_m"] = method.background_voxel_size_m;
-  result["constraints"] = settings.constraints;
+  addMethod (method, result);
   result["planes"] = Json::array ();
   for (const Eigen::Vector4d& p : settings.planes)
     result["planes"].push_back ({p[0], p[1], p[2], p[3]});
@@ -90,17 +29,6 @@ parameters (const Settings& settings)
   result["object_trajectories"] = Json::object ();
   for (const auto& [label, file] : settings.object_trajectories)
     result["object_trajectories"][std::to_string (label)] = file;
-  result["find_planes"] = method.use_planes;
-  result["alpha"] = method.alpha;
-  result["beta_hull"] = method.beta_hull;
-  result["beta_inter"] = method.beta_inter;
-  result["sigma_vox"] = method.sigma_vox;
-  result["weighting"] = method.weighting == Weighting::Sum ? "sum" : "mean";
-  result["solver"] = method.solver.type == SolverType::FastJacobi ? "fast-jacobi" : "multigrid";
-  result["max_iterations"] = method.solver.max_iterations;
-  result["tolerance_vox"] = method.solver.tolerance_vox;
-  result["threads"] = method.threads;
-  result["max_memory_bytes"] = method.max_memory_bytes;
   result["max_faces"] = settings.max_faces;
   result["scale"] = settings.reading.scale;
   result["world_points"] = settings.reading.world_points;
@@ -119,7 +47,7 @@ writeJsonSummary (const Settings& settings, const SceneResult& result, const std
   summary["objects"] = Json::array ();
   for (const ObjectResult& object : result.objects)
     if (object.error.empty ())
-      summary["objects"].push_back (toJson (object));
+      summary["objects"].push_back (objectJson (object));
   summary["failed"] = Json::array ();
   for (const ObjectResult& object : result.objects)
     if (!object.error.empty ())

@@ -5,8 +5,6 @@
 #include "arguments.h"
 #include "option_values.h"
 
-#include <pcl/cosection/surface/options.h>
-
 #include <limits>
 #include <memory>
 #include <sstream>
@@ -76,87 +74,6 @@ declareSurroundings (CLI::App& app, Given& given)
 }
 
 void
-declareVolume (CLI::App& app, Given& given)
-{
-  const std::string group = "Volume";
-  app.add_option ("--voxel-size", given.voxel_size, "Edge of an object's voxels")
-      ->option_text ("METRES")
-      ->check (numberRange (0, unlimited, true))
-      ->group (group);
-  app.add_option ("--resolution", given.resolution,
-                  "Voxels along an object's longest observed side (default: 64, fewer where points are sparse)")
-      ->option_text ("N")
-      ->check (wholeRange (4, 2048))
-      ->group (group);
-  app.add_option ("--padding", given.padding,
-                  "Volume beyond the observed box on each side, as a fraction of its longest side "
-                  "(default: 0, as far as the shape may reach)")
-      ->option_text ("FRACTION")
-      ->check (numberRange (0, 10))
-      ->group (group);
-  app.add_option ("--background-voxel-size", given.background_voxel_size,
-                  "Edge of the background's voxels (default: twice the smallest object's)")
-      ->option_text ("METRES")
-      ->check (numberRange (0, unlimited, true))
-      ->group (group);
-  app.add_option ("--max-memory", given.max_memory,
-                  "Refuse clouds and volumes that need more, for example 500M or 2G (default: this machine's memory)")
-      ->option_text ("BYTES")
-      ->group (group);
-}
-
-void
-declareMethod (CLI::App& app, Given& given)
-{
-  const CoSectionOptions defaults;
-  const std::string group = "Method";
-  app.add_option ("--preset", given.preset, "The parameters of the publication; other options override it")
-      ->option_text ("paper")
-      ->check (oneOf ({"paper"}))
-      ->group (group);
-  app.add_option ("--constraints", given.constraints,
-                  "What bounds hidden surfaces: seen free space (hull), other bodies (intersection)" +
-                      byDefault ("all"))
-      ->option_text ("none|hull|intersection|all")
-      ->check (oneOf ({"none", "hull", "intersection", "all"}))
-      ->group (group);
-  app.add_option ("--alpha", given.alpha, "Weight of smoothness, relative to the voxel" + byDefault (defaults.alpha))
-      ->option_text ("WEIGHT")
-      ->check (numberRange (0, unlimited, true))
-      ->group (group);
-  app.add_option ("--beta-hull", given.beta_hull, "Weight of seen free space" + byDefault (defaults.beta_hull))
-      ->option_text ("WEIGHT")
-      ->check (numberRange (0, unlimited))
-      ->group (group);
-  app.add_option ("--beta-inter", given.beta_inter, "Weight of other bodies" + byDefault (defaults.beta_inter))
-      ->option_text ("WEIGHT")
-      ->check (numberRange (0, unlimited))
-      ->group (group);
-  app.add_option ("--sigma", given.sigma, "Width of a point's influence" + byDefault (defaults.sigma_vox))
-      ->option_text ("VOXELS")
-      ->check (numberRange (0, 10, true))
-      ->group (group);
-  app.add_option ("--weighting", given.weighting, "How points in reach of a voxel are combined" + byDefault ("mean"))
-      ->option_text ("mean|sum")
-      ->check (oneOf ({"mean", "sum"}))
-      ->group (group);
-  app.add_option ("--solver", given.solver, "How the minimum is found" + byDefault ("multigrid"))
-      ->option_text ("multigrid|fast-jacobi")
-      ->check (oneOf ({"multigrid", "fast-jacobi"}))
-      ->group (group);
-  app.add_option ("--max-iterations", given.max_iterations,
-                  "Most iterations on each level" + byDefault (defaults.solver.max_iterations))
-      ->option_text ("N")
-      ->check (wholeRange (1, 10000000))
-      ->group (group);
-  app.add_option ("--tolerance", given.tolerance,
-                  "Stop when the surface is this near to the solution" + byDefault (defaults.solver.tolerance_vox))
-      ->option_text ("VOXELS")
-      ->check (numberRange (0, unlimited, true))
-      ->group (group);
-}
-
-void
 declareOutput (CLI::App& app, Given& given)
 {
   const std::string output = "Output";
@@ -192,7 +109,7 @@ declareOptions (CLI::App& app, Given& given)
 {
   declareInput (app, given);
   declareSurroundings (app, given);
-  declareVolume (app, given);
-  declareMethod (app, given);
+  declareVolumeOptions (app, given);
+  declareMethodOptions (app, given);
   declareOutput (app, given);
 }

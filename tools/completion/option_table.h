@@ -2,6 +2,8 @@
 // Copyright (c) 2026, the pcl_cosection authors
 #pragma once
 
+#include "method_options.h"
+
 #include <CLI/CLI.hpp>
 
 #include <optional>
@@ -9,16 +11,14 @@
 #include <vector>
 
 /** \brief The options as the user gave them: what is absent leaves the preset as it is. */
-struct Given
+struct Given : GivenMethod
 {
   std::vector<std::string> paths;
-  std::optional<double> voxel_size, padding, background_voxel_size, alpha, beta_hull, beta_inter, sigma, tolerance,
-      scale;
-  std::optional<int> resolution, max_iterations, threads;
+  std::optional<double> scale;
   std::optional<long> max_faces;
-  std::string constraints, weighting, solver, preset, max_memory, format, json;
+  std::string format, json;
   std::vector<std::string> planes, intrinsics, obstacles, object_trajectories;
-  bool no_planes = false, save_sdf = false, save_hull = false, save_bounds = false, world_points = false, verbose = false, quiet = false;
+  bool save_sdf = false, save_hull = false, save_bounds = false, world_points = false, verbose = false, quiet = false;
 };
 
 /** \brief Declare every option of the program, and where the help screen shows it. */

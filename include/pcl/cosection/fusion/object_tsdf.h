@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_cosection authors
+#pragma once
+
+#include <pcl/cosection/common/export.h>
+#include <pcl/cosection/surface/oriented_point.h>
+#include <pcl/cosection/volume/tsdf_volume.h>
+
+#include <optional>
+#include <vector>
+
+namespace pcl
+{
+namespace cosection
+{
+
+/** \brief Where an object's TSDF volume lies. */
+struct PCL_COSECTION_EXPORT ObjectTsdfOptions
+{
+  int resolution = 64;       ///< voxels along the longest side of what is seen first
+  double margin = 0.25;      ///< of the volume beyond what was seen, as a fraction of its longest side
+  int max_resolution = 256;  ///< voxels along a side; what lies beyond is left out
+  TsdfOptions tsdf;
+
+  /** \brief \throws InvalidArgument naming the first parameter outside its domain. */
+  void
+  validate () const;
+};
+
+/** \brief The TSDF volume of an object, which is placed by the first points that are seen of it and grows with more. */
+class PCL_COSECTION_EXPORT ObjectTsdf
+{
+public:
+  explicit ObjectTsdf (const ObjectTsdfOptions& options = {});
+
+  /** \brief Make room for points, object frame; a hundredth of them at either end of each axis counts as outliers. Nothing of
+   * what was integrated is lost. */
+  void
+  makeRoom (const std::vector<OrientedPoint>& points);
+
+  /** \brief TsdfVolume::integrate (); nothing until there is room. */
+  void
+  integrate (const Image<float>& depth, const PinholeCamera& camera, const Eigen::Isometry3d& T_object_sensor,
+             const TsdfPixels& pixels);
+
+  /** \brief Nothing until there is room. */
+  const std::optional<TsdfVolume>&
+  volume () const
+  {
+    return volume_;
+  }
+
+private:
+  ObjectTsdfOptions options_;
+  std::optional<TsdfVolume> volume_;
+};
+
+} // namespace cosection
+} // namespace pcl

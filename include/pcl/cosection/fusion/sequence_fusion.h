@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_cosection authors
+#pragma once
+
+#include <pcl/cosection/common/export.h>
+#include <pcl/cosection/common/progress.h>
+#include <pcl/cosection/fusion/co_section_backend.h>
+#include <pcl/cosection/fusion/keyframe.h>
+#include <pcl/cosection/fusion/object_tsdf.h>
+#include <pcl/cosection/io/frame_reader.h>
+#include <pcl/cosection/io/mask_sequence.h>
+#include <pcl/cosection/io/rgbd_sequence.h>
+#include <pcl/cosection/io/trajectory.h>
+
+#include <cstddef>
+#include <functional>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace pcl
+{
+namespace cosection
+{
+
+/** \brief A sequence and what is known beside its images. */
+struct PCL_COSECTION_EXPORT KnownSequence
+{
+  const RgbdSequence* images = nullptr;
+  const MaskSequence* masks = nullptr; ///< a pixel is the id of an object, the same in all frames; null: no objects
+  std::vector<StampedPose> camera;     ///< T_world_camera, by ascending stamps
+  /** \brief T_world_object, by id and by ascending stamps. An object of the masks that is not among them is at rest. */
+  std::map<int, std::vector<StampedPose>> objects;
+};
+
+/** \brief How SequenceFusion goes through a sequence. */
+struct PCL_COSECTION_EXPORT FusionOptions
+{
+  BackendOptions backend;
+  KeyframeOptions keyframe;
+  ObjectTsdfOptions tsdf;
+  FrameRange frames;
+  int keyframe_every = 10;           ///< frames; where one has no mask or no pose, the next that has
+  bool update_at_keyframes = false;  ///< complete everything at each keyframe, not only at the end
+
+  FusionOptions ();
+
+  /** \brief \throws InvalidArgument naming the first parameter outside its domain. */
+  void
+  validate () const;
+};
+
+/** \brief One object of a sequence beside its completion. */
+struct PCL_COSECTION_EXPORT FusedObject
+{
+  std::vector<StampedPose> trajectory; ///< T_world_object at the frames at which it is known
+  TriangleMesh tsdf;                   ///< open mesh of what was seen, object frame
+  std::size_t points = 0;              ///< in all keyframes
+};
+
+/** \brief What SequenceFusion makes of a sequence. */
+struct PCL_COSECTION_EXPORT FusionResult
+{
+  SceneResult scene;
+  std::vector<StampedPose> camera; ///< at the frames that were used
+  std::map<int, FusedObject> objects;
+  std::size_t frames = 0;         ///< that were used
+  std::size_t keyframes = 0;      ///< of them
+  std::size_t kept_keyframes = 0; ///< of them, in the result
+  std::map<std::string, double> timings_s; ///< read, segmentation, integration, keyframes, final_solve, and those of the scene
+  std::vector<std::string> warnings;
+};
+
+/** \brief What is known after a keyframe. */
+struct KeyframeReport
+{
+  double stamp;
+  const SceneResult& scene;
+};
+
+/** \brief Goes through a sequence whose poses and masks are known, and completes the objects in it and the background.
+ *
+ * Each frame gives free space, and distances for the objects' TSDF volumes; keyframes give oriented points as well. Frames that
+ * cannot be read, or without the camera's pose, are left out and told.
+ *
+ * \code
+ * KnownSequence known;
+ * known.images = &images;
+ * known.camera = loadTrajectory ("gt-cam-0.txt");
+ * const FusionResult result = SequenceFusion (known).run ();
+ * \endcode */
+class PCL_COSECTION_EXPORT SequenceFusion
+{
+public:
+  using KeyframeCallback = std::function<void (const KeyframeReport&)>;
+
+  /** \throws InvalidArgument if an option is outside its domain, there are no images, or no pose of the camera */
+  explicit SequenceFusion (KnownSequence sequence, const FusionOptions& options = {});
+
+  /** \param[in] keyframe called after every update, if those are asked for
+   * \throws IoError if no frame can be used, Cancelled */
+  FusionResult
+  run (const ProgressCallback& progress = {}, const KeyframeCallback& keyframe = {}) const;
+
+private:
+  KnownSequence sequence_;
+  FusionOptions options_;
+};
+
+} // namespace cosection
+} // namespace pcl

@@ -1,0 +1,254 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_cosection authors
+#include "fusion_command_line.h"
+
+#include "option_values.h"
+
+#include <pcl/cosection/common/error.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+using namespace pcl::cosection;
+
+namespace
+{
+
+constexpr double unlimited = std::numeric_limits<double>::max ();
+
+void
+declareInput (CLI::App& app, GivenFusion& given)
+{
+  const std::string group = "Input";
+  app.add_option ("paths", given.paths)->group ("")->configurable (false);
+  app.add_option ("--format", given.format, "Layout of DATASET (default: found out)")
+      ->option_text ("cofusion|tum|7scenes")
+      ->check (CLI::IsMember (std::vector<std::string>{"cofusion", "tum", "7scenes"}))
+      ->group (group);
+  app.add_option ("--depth-dir", given.depth_dir, "Folder of the depth images (default: depth_noise, else depth)")
+      ->option_text ("NAME")
+      ->group (group);
+  app.add_option ("--depth-scale", given.depth_scale,
+                  "Units of a depth PNG per metre (default: 5000 for the layout tum, else 1000)")
+      ->option_text ("FACTOR")
+      ->check (numberRange (0, unlimited, true))
+      ->group (group);
+  app.add_option ("--intrinsics", given.intrinsics, "Camera in pixels, instead of calibration.txt")
+      ->option_text ("FX,FY,CX,CY")
+      ->allow_extra_args (false)
+      ->group (group);
+  app.add_option ("--frames", given.frames, "Only the frames from A up to but without B, counted from 0 (default: all)")
+      ->option_text ("A:B")
+      ->group (group);
+  app.add_option ("--max-depth", given.max_depth, "Leave out readings that are farther away (default: 10)")
+      ->option_text ("METRES")
+      ->check (numberRange (0, unlimited, true))
+      ->group (group);
+}
+
+void
+declareKnown (CLI::App& app, GivenFusion& given)
+{
+  const std::string group = "Poses and masks";
+  app.add_option ("--camera-trajectory", given.camera_trajectory,
+                  "Poses of the camera in the world: lines \"stamp tx ty tz qx qy qz qw\" (default: those of the layout 7scenes)")
+      ->option_text ("FILE")
+      ->group (group);
+  app.add_option ("--object-trajectory", given.object_trajectories,
+                  "Poses of object ID in the world; repeatable. Objects without one are at rest")
+      ->option_text ("ID=FILE")
+      ->allow_extra_args (false)
+      ->group (group);
+  app.add_option ("--masks", given.masks,
+                  "Folder of PNGs of 8 or 16 bits, one per frame that has one: pixel = number of an object, 0 = background "
+                  "(default: there are no objects)")
+      ->option_text ("DIR")
+      ->group (group);
+  app.add_option ("--mask-ids", given.mask_ids, "Objects have the same number in all masks (default: persistent)")
+      ->option_text ("persistent")
+      ->check (CLI::IsMember (std::vector<std::string>{"persistent"}))
+      ->group (group);
+}
+
+void
+declareRun (CLI::App& app, GivenFusion& given)
+{
+  const std::string group = "Sequence";
+  app.add_option ("--keyframe-every", given.keyframe_every,
+                  "Take the points of every N-th frame; of the others, free space (default: 10)")
+      ->option_text ("N")
+      ->check (wholeRange (1, 1000000))
+      ->group (group);
+  app.add_option ("--max-views", given.max_views,
+                  "Keep at most so many depth images; those most like others are given up (default: 100)")
+      ->option_text ("N")
+      ->check (wholeRange (4, 100000))
+      ->group (group);
+  app.add_flag ("--save-keyframes", given.save_keyframes,
+                "Complete everything at each keyframe, and write it to keyframes/STAMP/")
+      ->group (group);
+  app.add_flag ("--deterministic", given.deterministic, "The same bytes in every run; so it is in any case")->group (group);
+  app.add_option ("--json", given.json, "Write the summary to this file as well")->option_text ("FILE")->group ("General");
+  app.add_option ("--threads", given.threads, "Threads to use, without influence on results (default: all processors)")
+      ->option_text ("N")
+      ->check (wholeRange (1, 1024))
+      ->group ("General");
+  declareGeneralOptions (app, "pcl_cosection_fusion", given.verbose, given.quiet);
+}
+
+/** \brief "A:B", "A:" or ":B". */
+FrameRange
+parseFrames (const std::string& text)
+{
+  const std::size_t colon = text.find (':');
+  const auto number = [&] (const std::string& part, std::size_t otherwise) {
+    if (part.empty ())
+      return (otherwise);
+    const std::optional<double> value = parseNumber (part);
+    if (!value || !(*value >= 0.0 && *value <= 1e12) || *value != std::floor (*value))
+      throw UsageError ("--frames must be A:B, frames from A up to but without B, such as 0:50; it is \"" + text + "\"");
+    return (static_cast<std::size_t> (*value));
+  };
+  FrameRange frames;
+  if (colon == std::string::npos)
+    number ("x", 0);
+  frames.first = number (text.substr (0, colon), frames.first);
+  frames.last = number (text.substr (colon + 1), frames.last);
+  if (frames.last <= frames.first)
+    throw UsageError ("--frames " + text + " holds no frame");
+  return (frames);
+}
+
+SequenceSource
+toSource (const GivenFusion& given)
+{
+  SequenceSource source;
+  if (!given.format.empty ())
+    source.format = given.format == "cofusion" ? SequenceFormat::CoFusion
+                    : given.format == "tum"    ? SequenceFormat::Tum
+                                               : SequenceFormat::SevenScenes;
+  source.depth_folder = given.depth_dir;
+  source.depth_scale = given.depth_scale.value_or (0.0);
+  if (!given.intrinsics.empty ())
+  {
+    const auto intrinsics = parseQuadruples (given.intrinsics);
+    if (!intrinsics || intrinsics->size () != 1 || !((*intrinsics)[0][0] > 0.0) || !((*intrinsics)[0][1] > 0.0))
+      throw UsageError ("--intrinsics must be four numbers fx,fy,cx,cy with positive fx and fy");
+    source.intrinsics = (*intrinsics)[0];
+  }
+  return (source);
+}
+
+void
+setPaths (const GivenFusion& given, FusionSettings& settings)
+{
+  if (given.paths.empty ())
+    throw UsageError ("DATASET and OUTPUT are missing; see --help");
+  if (given.paths.size () == 1)
+    throw UsageError ("OUTPUT is missing after " + given.paths[0] + "; see --help");
+  if (given.paths.size () > 2)
+    throw UsageError ("there is one argument too many: " + given.paths[2]);
+  settings.dataset = given.paths[0];
+  settings.output = given.paths[1];
+  if (settings.dataset.empty () || settings.output.empty ())
+    throw UsageError (std::string (settings.dataset.empty () ? "DATASET" : "OUTPUT") + " is empty; it must be a folder");
+}
+
+FusionSettings
+toSettings (const GivenFusion& given)
+{
+  FusionSettings settings;
+  if (given.quiet && given.verbose)
+    throw UsageError ("--quiet and --verbose exclude each other");
+  setPaths (given, settings);
+  settings.source = toSource (given);
+  settings.camera_trajectory = given.camera_trajectory;
+  settings.object_trajectories = parseObjectFiles ("--object-trajectory", given.object_trajectories);
+  settings.masks = given.masks;
+  if (!settings.object_trajectories.empty () && settings.masks.empty ())
+    throw UsageError ("--object-trajectory needs --masks, which tell the objects' pixels");
+  if (!given.mask_ids.empty () && settings.masks.empty ())
+    throw UsageError ("--mask-ids needs --masks");
+  settings.preset = given.preset;
+  settings.save_keyframes = given.save_keyframes;
+  settings.json = given.json;
+  settings.verbosity = given.quiet ? Verbosity::Quiet : given.verbose ? Verbosity::Verbose : Verbosity::Normal;
+
+  FusionOptions& fusion = settings.fusion;
+  const CoSectionOptions defaults = fusion.backend.method;
+  fusion.backend.method = methodOptions (given);
+  fusion.backend.method.whole_background = defaults.whole_background;
+  fusion.backend.method.min_points = defaults.min_points;
+  if (!given.frames.empty ())
+    fusion.frames = parseFrames (given.frames);
+  fusion.keyframe_every = given.keyframe_every.value_or (fusion.keyframe_every);
+  fusion.keyframe.max_depth_m = given.max_depth.value_or (fusion.keyframe.max_depth_m);
+  fusion.keyframe.threads = fusion.backend.method.threads;
+  fusion.tsdf.tsdf.threads = fusion.backend.method.threads;
+  fusion.update_at_keyframes = given.save_keyframes;
+  if (given.max_views)
+  {
+    fusion.backend.max_views = static_cast<std::size_t> (*given.max_views);
+    fusion.backend.max_keyframes = std::max<std::size_t> (2, std::min (fusion.backend.max_keyframes, fusion.backend.max_views - 1));
+  }
+  fusion.validate ();
+  return (settings);
+}
+
+} // namespace
+
+const ProgramText&
+fusionText ()
+{
+  static const ProgramText text = {
+      "pcl_cosection_fusion",
+      "complete the objects of an RGB-D sequence",
+      "pcl_cosection_fusion [OPTIONS] DATASET OUTPUT",
+      "Completes the objects and the background of an RGB-D sequence whose poses and masks are known.",
+      {"DATASET is a folder with colour and depth images in the layout of Co-Fusion (colour/, depth_noise/ or depth/, "
+       "calibration.txt), of TUM's benchmark (associations.txt, or rgb.txt and depth.txt), or of 7-Scenes "
+       "(frame-NNNNNN.depth.png).",
+       "OUTPUT is a folder: trajectory/camera.txt and object_ID.txt, mesh/background.ply (world frame), object_ID.ply (closed, "
+       "the object's frame) and object_ID_tsdf.ply (what was seen), summary.json."},
+      {
+          {"pcl_cosection_fusion --camera-trajectory toys/gt-cam-0.txt --masks toys/mask --mask-ids persistent "
+           "--object-trajectory 1=toys/gt-truck-1.txt toys out",
+           "a simulated sequence with its true poses; objects without a trajectory are at rest"},
+          {"pcl_cosection_fusion --camera-trajectory kitchen/groundtruth.txt kitchen room", "a room without objects"},
+          {"pcl_cosection_fusion --constraints none --frames 0:50 --camera-trajectory poses.txt --masks masks sequence out",
+           "half of a sequence, with smoothness alone"},
+      },
+      {"keyframe-every = 5", "masks = \"toys/mask\""},
+  };
+  return (text);
+}
+
+void
+declareFusionOptions (CLI::App& app, GivenFusion& given)
+{
+  declareInput (app, given);
+  declareKnown (app, given);
+  declareVolumeOptions (app, given);
+  declareMethodOptions (app, given);
+  declareRun (app, given);
+}
+
+std::optional<FusionSettings>
+parseFusionCommandLine (int argc, const char* const* argv)
+{
+  GivenFusion given;
+  CLI::App app;
+  declareFusionOptions (app, given);
+  if (!parseArguments (app, fusionText (), argc, argv))
+    return (std::nullopt);
+  try
+  {
+    preferCommandLine ({argv + 1, argv + argc}, given);
+    return (toSettings (given));
+  }
+  catch (const InvalidArgument& error)
+  {
+    throw UsageError (error.what ());
+  }
+}

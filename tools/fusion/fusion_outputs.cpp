@@ -1,0 +1,218 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_cosection authors
+#include "fusion_outputs.h"
+
+#include "method_json.h"
+#include "output_files.h"
+
+#include <pcl/cosection/common/error.h>
+#include <pcl/cosection/io/mesh_io.h>
+#include <pcl/cosection/io/trajectory.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <sstream>
+
+using namespace pcl::cosection;
+using Json = nlohmann::ordered_json;
+namespace fs = std::filesystem;
+
+namespace
+{
+
+void
+makeFolder (const fs::path& folder)
+{
+  std::error_code failure;
+  fs::create_directories (folder, failure);
+  if (!fs::is_directory (folder, failure))
+    throw IoError (folder.string () + ": the folder cannot be made" + (failure ? ": " + failure.message () : ""));
+}
+
+/** \brief Whether \a path is \a folder or lies in it. */
+bool
+isWithin (const std::string& path, const std::string& folder)
+{
+  std::error_code failure;
+  const fs::path inner = fs::weakly_canonical (path, failure);
+  const fs::path outer = fs::weakly_canonical (folder, failure);
+  return (std::mismatch (outer.begin (), outer.end (), inner.begin (), inner.end ()).first == outer.end ());
+}
+
+bool
+endsWith (const std::string& text, const std::string& ending)
+{
+  return (text.size () >= ending.size () && text.compare (text.size () - ending.size (), ending.size (), ending) == 0);
+}
+
+std::string
+nameOf (double stamp)
+{
+  std::ostringstream text;
+  text.precision (12);
+  text << stamp;
+  return (text.str ());
+}
+
+Json
+parameters (const FusionSettings& settings)
+{
+  Json result;
+  result["dataset"] = settings.dataset;
+  result["camera_trajectory"] = settings.camera_trajectory;
+  result["object_trajectories"] = Json::object ();
+  for (const auto& [id, file] : settings.object_trajectories)
+    result["object_trajectories"][std::to_string (id)] = file;
+  result["masks"] = settings.masks;
+  result["preset"] = settings.preset.empty () ? "default" : settings.preset;
+  result["keyframe_every"] = settings.fusion.keyframe_every;
+  result["max_views"] = settings.fusion.backend.max_views;
+  result["max_depth_m"] = settings.fusion.keyframe.max_depth_m;
+  addMethod (settings.fusion.backend.method, result);
+  return (result);
+}
+
+} // namespace
+
+FusionOutputs::FusionOutputs (const FusionSettings& settings) : folder_ (settings.output)
+{
+  std::vector<std::string> inputs{settings.dataset, settings.camera_trajectory, settings.masks};
+  for (const auto& [id, file] : settings.object_trajectories)
+    inputs.push_back (file);
+  for (const std::string& input : inputs)
+    if (!input.empty () && isWithin (input, folder_))
+      throw UsageError ("OUTPUT " + folder_ + " would overwrite the input " + input + "; give another folder");
+  if (!settings.json.empty ())
+    requireWritable (settings.json);
+  std::error_code failure;
+  if (fs::exists (folder_, failure) && !fs::is_directory (folder_, failure))
+    throw IoError (folder_ + ": is a file; OUTPUT must be a folder");
+  makeFolder (folder_);
+  requireWritableFolder (folder_, folder_);
+  removeEarlierRun ();
+}
+
+void
+FusionOutputs::removeEarlierRun () const
+{
+  std::error_code ignored;
+  const auto isMesh = [] (const std::string& name) {
+    return (name == "background.ply" || (name.rfind ("object_", 0) == 0 && endsWith (name, ".ply")));
+  };
+  const auto removeFiles = [&] (const fs::path& folder, auto&& isOurs) {
+    std::vector<fs::path> ours;
+    for (fs::directory_iterator entry (folder, ignored), end; entry != end; entry.increment (ignored))
+      if (isOurs (entry->path ().filename ().string ()))
+        ours.push_back (entry->path ());
+    for (const fs::path& file : ours)
+      fs::remove (file, ignored);
+    fs::remove (folder, ignored); // fails if it is not empty, as it should
+  };
+  const fs::path folder (folder_);
+  fs::remove (folder / "summary.json", ignored);
+  removeFiles (folder / "mesh", isMesh);
+  removeFiles (folder / "trajectory", [] (const std::string& name) {
+    return (name == "camera.txt" || (name.rfind ("object_", 0) == 0 && endsWith (name, ".txt")));
+  });
+  std::vector<fs::path> keyframes;
+  for (fs::directory_iterator entry (folder / "keyframes", ignored), end; entry != end; entry.increment (ignored))
+    keyframes.push_back (entry->path ());
+  for (const fs::path& keyframe : keyframes)
+    removeFiles (keyframe, isMesh);
+  fs::remove (folder / "keyframes", ignored);
+}
+
+void
+FusionOutputs::writeKeyframe (const KeyframeReport& keyframe) const
+{
+  const fs::path folder = fs::path (folder_) / "keyframes" / nameOf (keyframe.stamp);
+  makeFolder (folder);
+  if (!keyframe.scene.background.empty ())
+    saveMesh (keyframe.scene.background, (folder / "background.ply").string ());
+  for (const ObjectResult& object : keyframe.scene.objects)
+    if (object.error.empty ())
+      saveMesh (object.mesh, (folder / ("object_" + std::to_string (object.id) + ".ply")).string ());
+}
+
+std::vector<std::string>
+FusionOutputs::write (const FusionResult& result) const
+{
+  std::vector<std::string> files;
+  const fs::path mesh = fs::path (folder_) / "mesh";
+  const fs::path trajectory = fs::path (folder_) / "trajectory";
+  makeFolder (mesh);
+  makeFolder (trajectory);
+  const auto write = [&] (const fs::path& file, auto&& save) {
+    save (file.string ());
+    files.push_back (file.string ());
+  };
+  write (trajectory / "camera.txt", [&] (const std::string& file) { saveTrajectory (result.camera, file); });
+  for (const auto& [id, object] : result.objects)
+    if (!object.trajectory.empty ())
+      write (trajectory / ("object_" + std::to_string (id) + ".txt"),
+             [&, &o = object] (const std::string& file) { saveTrajectory (o.trajectory, file); });
+  if (!result.scene.background.empty ())
+    write (mesh / "background.ply", [&] (const std::string& file) { saveMesh (result.scene.background, file); });
+  for (const ObjectResult& object : result.scene.objects)
+    if (object.error.empty ())
+      write (mesh / ("object_" + std::to_string (object.id) + ".ply"),
+             [&] (const std::string& file) { saveMesh (object.mesh, file); });
+  for (const auto& [id, object] : result.objects)
+    if (!object.tsdf.empty ())
+      write (mesh / ("object_" + std::to_string (id) + "_tsdf.ply"),
+             [&, &o = object] (const std::string& file) { saveMesh (o.tsdf, file); });
+  return (files);
+}
+
+void
+FusionOutputs::writeSummary (const FusionSettings& settings, const FusionResult& result) const
+{
+  Json summary;
+  summary["timings_s"] = result.timings_s;
+  const double total = result.timings_s.at ("total");
+  const double before_final = total - result.timings_s.at ("final_solve") - result.timings_s.at ("write");
+  summary["frames_per_second"] = static_cast<double> (result.frames) / std::max (1e-9, before_final);
+  summary["frames"] = result.frames;
+  summary["keyframes"] = result.keyframes;
+  summary["kept_keyframes"] = result.kept_keyframes;
+  summary["parameters"] = parameters (settings);
+  summary["objects"] = Json::array ();
+  summary["failed"] = Json::array ();
+  for (const ObjectResult& object : result.scene.objects)
+    if (object.error.empty ())
+    {
+      Json entry = objectJson (object);
+      entry.erase ("label");
+      entry["mask_ids"] = Json::array ({object.id});
+      const auto fused = result.objects.find (object.id);
+      entry["frames_tracked"] = fused == result.objects.end () ? 0 : fused->second.trajectory.size ();
+      summary["objects"].push_back (entry);
+    }
+    else
+      summary["failed"].push_back ({{"id", object.id}, {"error", object.error}});
+  summary["background"] = {{"vertices", result.scene.background.vertices.size ()}};
+  summary["warnings"] = result.warnings;
+  saveJson (summary, (fs::path (folder_) / "summary.json").string ());
+  if (!settings.json.empty ())
+    saveJson (summary, settings.json);
+}
+
+void
+FusionOutputs::writeFailure (const FusionSettings& settings, const std::string& error) const
+try
+{
+  Json summary;
+  summary["error"] = error;
+  summary["timings_s"] = Json::object ();
+  summary["parameters"] = parameters (settings);
+  summary["objects"] = Json::array ();
+  summary["failed"] = Json::array ();
+  summary["warnings"] = Json::array ();
+  saveJson (summary, (fs::path (folder_) / "summary.json").string ());
+  if (!settings.json.empty ())
+    saveJson (summary, settings.json);
+}
+catch (const std::exception&)
+{
+  // the error itself is told
+}

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_cosection authors
+#pragma once
+
+#include "fusion_command_line.h"
+
+#include <pcl/cosection/fusion/sequence_fusion.h>
+
+#include <map>
+#include <string>
+#include <vector>
+
+/** \brief The folder that a run writes. Each file is whole or not there. */
+class FusionOutputs
+{
+public:
+  /** \brief Make the folder, if there is none, and remove what an earlier run wrote into it. Other files stay.
+   * \throws UsageError if it is, or holds, an input \throws pcl::cosection::IoError if it cannot be written */
+  explicit FusionOutputs (const FusionSettings& settings);
+
+  /** \brief Write the meshes of a keyframe. \throws pcl::cosection::IoError */
+  void
+  writeKeyframe (const pcl::cosection::KeyframeReport& keyframe) const;
+
+  /** \brief Write meshes and trajectories. \return the files \throws pcl::cosection::IoError */
+  std::vector<std::string>
+  write (const pcl::cosection::FusionResult& result) const;
+
+  /** \brief Write summary.json. \throws pcl::cosection::IoError */
+  void
+  writeSummary (const FusionSettings& settings, const pcl::cosection::FusionResult& result) const;
+
+  /** \brief Write a summary of a run that failed as a whole. */
+  void
+  writeFailure (const FusionSettings& settings, const std::string& error) const;
+
+private:
+  void
+  removeEarlierRun () const;
+
+  std::string folder_;
+};

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_cosection authors
+#pragma once
+
+#include <nlohmann/json.hpp>
+
+#include <pcl/cosection/surface/co_section.h>
+
+/** \brief A completed object in a summary for programs. */
+nlohmann::ordered_json
+objectJson (const pcl::cosection::ObjectResult& object);
+
+/** \brief Add the parameters of the method. */
+void
+addMethod (const pcl::cosection::CoSectionOptions& method, nlohmann::ordered_json& parameters);

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_cosection authors
+#pragma once
+
+#include "arguments.h"
+
+#include <pcl/cosection/surface/options.h>
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+/** \brief Options of the method as the user gave them: what is absent leaves the preset as it is. */
+struct GivenMethod
+{
+  std::optional<double> voxel_size, padding, background_voxel_size, alpha, beta_hull, beta_inter, sigma, tolerance;
+  std::optional<int> resolution, max_iterations, threads;
+  std::string constraints, weighting, solver, preset, max_memory;
+  bool no_planes = false;
+};
+
+/** \brief Declare the options about volumes and memory, in the group "Volume". */
+void
+declareVolumeOptions (CLI::App& app, GivenMethod& given);
+
+/** \brief Declare those about the energy and its minimisation, in the group "Method". */
+void
+declareMethodOptions (CLI::App& app, GivenMethod& given);
+
+/** \brief What the command line says of the size of voxels replaces what the configuration file does. */
+void
+preferCommandLine (const std::vector<std::string>& arguments, GivenMethod& given);
+
+/** \throws UsageError, pcl::cosection::InvalidArgument */
+pcl::cosection::CoSectionOptions
+methodOptions (const GivenMethod& given);
+
+/** \brief "none", "hull", "intersection" or "all". */
+std::string
+constraintsOf (const pcl::cosection::CoSectionOptions& method);
+
+/** \brief Files by object from values "ID=FILE". \param[in] option for messages \throws UsageError */
+std::map<int, std::string>
+parseObjectFiles (const std::string& option, const std::vector<std::string>& values);

@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_cosection authors
+
+// Completes the objects of an RGB-D sequence; see pcl_cosection_fusion --help.
+
+#include "exit_status.h"
+#include "fusion_command_line.h"
+#include "fusion_outputs.h"
+#include "interruption.h"
+#include "terminal.h"
+
+#include <pcl/cosection/common/error.h>
+#include <pcl/cosection/common/triangle_mesh.h>
+#include <pcl/cosection/io/trajectory.h>
+
+#include <chrono>
+#include <new>
+#include <sstream>
+
+using namespace pcl::cosection;
+
+namespace
+{
+
+double
+secondsSince (std::chrono::steady_clock::time_point start)
+{
+  return (std::chrono::duration<double> (std::chrono::steady_clock::now () - start).count ());
+}
+
+std::string
+describe (const std::exception& error)
+{
+  if (dynamic_cast<const std::bad_alloc*> (&error))
+    return ("out of memory; use larger voxels (--voxel-size, --background-voxel-size) or fewer views (--max-views)");
+  return (error.what ());
+}
+
+std::string
+describe (const ObjectResult& object)
+{
+  std::ostringstream text;
+  text.precision (3);
+  text << "object " << object.id << ": " << object.mesh.vertices.size () << " vertices, "
+       << 1000.0 * computeMassProperties (object.mesh).volume_m3 << " litres, voxels of "
+       << 1000.0 * object.signed_distance->grid.voxel_size_m << " mm";
+  if (object.penetration_m > 0.0)
+    text << ", " << 1000.0 * object.penetration_m << " mm inside another body";
+  return (text.str ());
+}
+
+/** \brief Poses for all frames that have one. */
+std::vector<StampedPose>
+cameraTrajectory (const FusionSettings& settings, const RgbdSequence& images, std::vector<std::string>& warnings)
+{
+  if (!settings.camera_trajectory.empty ())
+    return (loadTrajectory (settings.camera_trajectory));
+  std::vector<StampedPose> given = images.givenTrajectory (warnings);
+  if (given.empty ())
+    throw InvalidArgument (settings.dataset + ": no poses of the camera come with the images; give --camera-trajectory FILE");
+  return (given);
+}
+
+/** \return whether every object succeeded */
+bool
+fuse (const FusionSettings& settings, const FusionOutputs& outputs, Terminal& terminal)
+{
+  const auto start = std::chrono::steady_clock::now ();
+  const RgbdSequence images (settings.dataset, settings.source);
+  std::vector<std::string> warnings = images.warnings ();
+  KnownSequence known;
+  known.images = &images;
+  known.camera = cameraTrajectory (settings, images, warnings);
+  for (const auto& [id, file] : settings.object_trajectories)
+    known.objects[id] = loadTrajectory (file);
+  std::optional<MaskSequence> masks;
+  if (!settings.masks.empty ())
+  {
+    masks.emplace (settings.masks, images);
+    known.masks = &*masks;
+    warnings.insert (warnings.end (), masks->warnings ().begin (), masks->warnings ().end ());
+  }
+  for (const std::string& warning : warnings)
+    terminal.warning (warning);
+
+  const auto report = [&] (const std::string& stage, double fraction) {
+    terminal.progress (stage, fraction);
+    return (!interrupted ());
+  };
+  FusionResult result = SequenceFusion (known, settings.fusion)
+                            .run (report, [&] (const KeyframeReport& keyframe) { outputs.writeKeyframe (keyframe); });
+  for (const std::string& warning : result.warnings)
+    terminal.warning (warning);
+  result.warnings.insert (result.warnings.begin (), warnings.begin (), warnings.end ());
+  bool all_good = true;
+  for (const ObjectResult& object : result.scene.objects)
+    if (object.error.empty ())
+      terminal.result (describe (object));
+    else
+    {
+      all_good = false;
+      result.warnings.push_back ("object " + std::to_string (object.id) + ": " + object.error);
+      terminal.error (result.warnings.back ());
+    }
+
+  const auto write_start = std::chrono::steady_clock::now ();
+  const std::vector<std::string> files = outputs.write (result);
+  result.timings_s["write"] = secondsSince (write_start);
+  result.timings_s["total"] = secondsSince (start);
+  outputs.writeSummary (settings, result);
+  for (const std::string& file : files)
+    terminal.detail ("wrote " + file);
+  std::ostringstream text;
+  text.precision (3);
+  text << "wrote " << settings.output << ": " << result.frames << " frames, " << result.keyframes << " keyframes, "
+       << result.timings_s["total"] << " s";
+  terminal.result (text.str ());
+  for (const auto& [stage, seconds] : result.timings_s)
+    terminal.detail (stage + ": " + std::to_string (seconds) + " s");
+  return (all_good);
+}
+
+bool
+run (const FusionSettings& settings, Terminal& terminal)
+{
+  const FusionOutputs outputs (settings);
+  try
+  {
+    return (fuse (settings, outputs, terminal));
+  }
+  catch (const Cancelled&)
+  {
+    throw;
+  }
+  catch (const std::exception& error)
+  {
+    outputs.writeFailure (settings, describe (error));
+    throw;
+  }
+}
+
+} // namespace
+
+int
+main (int argc, char** argv)
+{
+  Terminal terminal ("pcl_cosection_fusion");
+  try
+  {
+    const std::optional<FusionSettings> settings = parseFusionCommandLine (argc, argv);
+    if (!settings)
+      return (Success);
+    terminal.setVerbosity (settings->verbosity);
+    catchInterruptions ();
+    return (run (*settings, terminal) ? Success : Failure);
+  }
+  catch (const UsageError& error)
+  {
+    terminal.error (error.what ());
+    return (WrongUsage);
+  }
+  catch (const Cancelled&)
+  {
+    terminal.error ("interrupted; what was written is whole");
+    return (Interrupted);
+  }
+  catch (const std::exception& error)
+  {
+    terminal.error (describe (error));
+  }
+  return (Failure);
+}
