@@ -290,6 +290,35 @@ TEST (TsdfVolume, VolumesOutOfView)
   EXPECT_TRUE (single.surfaceMesh ().empty ());
 }
 
+TEST (TsdfVolume, VoxelsOfAnySize)
+{
+  const PinholeCamera camera = test::smallCamera ();
+  TsdfOptions options;
+  options.colour = true;
+  options.foreground = true;
+  const Picture colours (camera.width, camera.height, {1, 2, 3});
+  const Image<std::uint16_t> labels (camera.width, camera.height, 1);
+  TsdfPixels pixels;
+  pixels.colours = &colours;
+  for (const double size : {1e-300, 1e-40, 1e-25, 1e-10, 1.0, 1e5, 1e8}) // what single precision holds, and more
+  {
+    TsdfVolume volume (test::cubeGrid (20, size), options);
+    Eigen::Isometry3d inside = test::lookAtOrigin ({1.0, 1.0, 1.0});
+    inside.translation ().setConstant (size);
+    for (const Eigen::Isometry3d& pose : {Eigen::Isometry3d (Eigen::Isometry3d::Identity ()), frontPose (), inside})
+    {
+      volume.integrate (wallDepth (0.5f), camera, pose, pixels);
+      volume.countForeground (wallDepth (0.5f), camera, pose, labels, 1);
+    }
+    for (std::size_t v = 0; v < volume.weights ().size (); ++v)
+    {
+      ASSERT_TRUE (volume.weights ()[v] >= 0.0f && volume.weights ()[v] <= 3.0f);
+      ASSERT_EQ (volume.weights ()[v] > 0.0f, std::isfinite (volume.field ().values[v])) << size;
+    }
+  }
+  EXPECT_THROW (TsdfVolume (test::cubeGrid (20, 1e9)), InvalidArgument);
+}
+
 TEST (TsdfVolume, ForegroundCounts)
 {
   const PinholeCamera camera = test::smallCamera ();
@@ -299,7 +328,10 @@ TEST (TsdfVolume, ForegroundCounts)
   const Eigen::Vector3d p (0.005, 0.005, 0.0);
   EXPECT_FALSE (volume.foregroundProbability (p));
   for (const std::uint16_t label : {7, 7, 7, 3})
-    volume.countForeground (wallDepth (0.5f), camera, frontPose (), Image<std::uint16_t> (camera.width, camera.height, label), 7);
+  {
+    const Image<std::uint16_t> labels (camera.width, camera.height, label);
+    volume.countForeground (wallDepth (0.5f), camera, frontPose (), labels, 7);
+  }
   EXPECT_EQ (volume.foregroundProbability (p), 0.75f);
   EXPECT_FALSE (volume.foregroundProbability ({0.005, 0.005, -0.14})); // free space belongs to nobody
   EXPECT_FALSE (volume.foregroundProbability ({9.0, 0.0, 0.0}));
