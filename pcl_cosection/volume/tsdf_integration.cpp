@@ -50,19 +50,26 @@ checkView (const Image<float>& depth, const PinholeCamera& camera, const Eigen::
     throw InvalidArgument ("TSDF volume: the sensor's pose must be a finite rigid motion");
 }
 
-/** \brief What is used of the pixels: as their depth, and optionally weights, 0 where there is no pixel. */
+/** \brief The readings of the pixels i for which use (i). */
 template <typename Use> DepthReadings
-collectReadings (const Image<float>& depth, Use&& use)
+collectReadings (const Image<float>& depth, int threads, Use&& use)
 {
   DepthReadings readings;
   readings.depth.resize (depth.pixels.size () + 1, DepthReadings::none);
-  for (std::size_t i = 0; i < depth.pixels.size (); ++i)
-  {
-    const float z = depth.pixels[i];
-    const bool used = z > 0.0f && z <= std::numeric_limits<float>::max () && use (i);
-    readings.depth[i] = used ? z : DepthReadings::none;
-    readings.farthest_m = std::max (readings.farthest_m, readings.depth[i]);
-  }
+  std::vector<float> farthest_m (depth.height, 0.0f);
+  parallelFor (0, depth.height, threadsForVoxels (threads, depth.pixels.size ()), [&] (int v) {
+    const std::size_t begin = static_cast<std::size_t> (v) * depth.width;
+    float farthest = 0.0f;
+    for (std::size_t i = begin; i < begin + depth.width; ++i)
+    {
+      const float z = depth.pixels[i];
+      const bool used = z > 0.0f && z <= std::numeric_limits<float>::max () && use (i);
+      readings.depth[i] = used ? z : DepthReadings::none;
+      farthest = std::max (farthest, readings.depth[i]);
+    }
+    farthest_m[v] = farthest;
+  });
+  readings.farthest_m = *std::max_element (farthest_m.begin (), farthest_m.end ());
   return readings;
 }
 
@@ -95,36 +102,16 @@ forEachVisibleRow (const VoxelGrid& grid, const VoxelProjection& projection, int
   });
 }
 
-/** \brief Where weights come from: each pixel's own, or the same for all. */
-struct PixelWeights
-{
-  const float* of_pixel;
-
-  float
-  operator() (int pixel) const
-  {
-    return of_pixel[pixel];
-  }
-};
-
-struct UnitWeight
-{
-  float
-  operator() (int) const
-  {
-    return 1.0f;
-  }
-};
-
-/** \brief KinectFusion's Equations (11) to (13), for a row of voxels. */
-template <typename Weight> PCL_COSECTION_INLINE void
-average (const float* __restrict distances, const int* __restrict pixels, Weight&& pixel_weight, float truncation_m,
-         float max_weight, int count, float* __restrict values, float* __restrict weights)
+/** \brief KinectFusion's Equations (11) to (13), for a row of voxels.
+ * \param[in] pixel_weights not looked at if all are 1 */
+template <bool weighted> PCL_COSECTION_INLINE void
+average (const float* __restrict distances, const int* __restrict pixels, const float* __restrict pixel_weights,
+         float truncation_m, float max_weight, int count, float* __restrict values, float* __restrict weights)
 {
   for (int n = 0; n < count; ++n)
   {
     const float d = distances[n];
-    const float of_pixel = pixel_weight (pixels[n]);
+    const float of_pixel = (weighted ? pixel_weights[pixels[n]] : 1.0f);
     const float w = (d >= -truncation_m ? of_pixel : 0.0f);
     const float old_weight = weights[n];
     const float old_value = values[n];
@@ -140,14 +127,14 @@ PCL_COSECTION_MULTIVERSION void
 averageRow (const float* distances, const int* pixels, float truncation_m, float max_weight, int count, float* values,
             float* weights)
 {
-  average (distances, pixels, UnitWeight (), truncation_m, max_weight, count, values, weights);
+  average<false> (distances, pixels, nullptr, truncation_m, max_weight, count, values, weights);
 }
 
 PCL_COSECTION_MULTIVERSION void
 averageWeightedRow (const float* distances, const int* pixels, const float* pixel_weights, float truncation_m,
                     float max_weight, int count, float* values, float* weights)
 {
-  average (distances, pixels, PixelWeights{pixel_weights}, truncation_m, max_weight, count, values, weights);
+  average<true> (distances, pixels, pixel_weights, truncation_m, max_weight, count, values, weights);
 }
 
 } // namespace
@@ -172,8 +159,9 @@ TsdfVolume::integrate (const Image<float>& depth, const PinholeCamera& camera, c
     for (std::size_t i = 0; i < depth.pixels.size (); ++i)
       pixel_weights[i] = std::min (std::max (0.0f, pixels.weights->pixels[i]), max_weight); // NaN: 0
   }
-  const DepthReadings readings = collectReadings (depth, [&] (std::size_t i) {
-    return (!pixels.labels || pixels.labels->pixels[i] == pixels.label) && (pixel_weights.empty () || pixel_weights[i] > 0.0f);
+  const DepthReadings readings = collectReadings (depth, options_.threads, [&] (std::size_t i) {
+    const bool labelled = !pixels.labels || pixels.labels->pixels[i] == pixels.label;
+    return labelled && (pixel_weights.empty () || pixel_weights[i] > 0.0f);
   });
   if (!(readings.farthest_m > 0.0f))
     return;
@@ -228,7 +216,7 @@ TsdfVolume::countForeground (const Image<float>& depth, const PinholeCamera& cam
     throw InvalidArgument ("TSDF volume: it was made without foreground counts");
   checkView (depth, camera, T_grid_sensor);
   checkSize (labels, camera, "image of labels");
-  const DepthReadings readings = collectReadings (depth, [] (std::size_t) { return true; });
+  const DepthReadings readings = collectReadings (depth, options_.threads, [] (std::size_t) { return true; });
   if (!(readings.farthest_m > 0.0f))
     return;
   const VoxelProjection projection (grid (), camera, T_grid_sensor, readings, truncation ());

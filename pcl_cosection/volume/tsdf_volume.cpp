@@ -19,6 +19,7 @@ namespace
 constexpr float unseen = std::numeric_limits<float>::quiet_NaN ();
 
 constexpr double max_voxels = 1e12; ///< more than any memory holds, and far from overflow
+constexpr double max_truncation_m = 1e9; ///< far from what stands for no distance
 
 bool
 isPositive (double value)
@@ -27,14 +28,16 @@ isPositive (double value)
 }
 
 void
-checkGrid (const VoxelGrid& grid)
+checkGrid (const VoxelGrid& grid, const TsdfOptions& options)
 {
   if (grid.dims.minCoeff () < 1 || !(grid.dims.cast<double> ().prod () <= max_voxels))
-    throw InvalidArgument ("TSDF volume: the grid must have at least one voxel along each axis, and no more than 1e12 in all");
+    throw InvalidArgument ("TSDF volume: the grid must have at least one voxel along each axis, and at most 1e12 in all");
   if (!isPositive (grid.voxel_size_m))
     throw InvalidArgument ("TSDF volume: the voxel size must be positive");
   if (!grid.origin_m.allFinite ())
     throw InvalidArgument ("TSDF volume: the grid's origin must be finite");
+  if (!(options.truncation_vox * grid.voxel_size_m <= max_truncation_m))
+    throw InvalidArgument ("TSDF volume: the truncation distance must be at most 1e9 m");
 }
 
 /** \brief Where a grid's voxels are in another: voxel v is voxel v + offset there. */
@@ -100,7 +103,7 @@ std::size_t
 TsdfVolume::estimateBytes (const VoxelGrid& grid, const TsdfOptions& options)
 {
   options.validate ();
-  checkGrid (grid);
+  checkGrid (grid, options);
   return grid.size () * (2 * sizeof (float) + (options.colour ? sizeof (ColourVoxel) : 0) +
                          (options.foreground ? sizeof (LabelCounts) : 0));
 }
@@ -108,7 +111,7 @@ TsdfVolume::estimateBytes (const VoxelGrid& grid, const TsdfOptions& options)
 TsdfVolume::TsdfVolume (const VoxelGrid& grid, const TsdfOptions& options) : options_ (options)
 {
   options.validate ();
-  checkGrid (grid);
+  checkGrid (grid, options);
   field_.grid = grid;
   field_.values.assign (grid.size (), unseen);
   weights_.assign (grid.size (), 0.0f);
@@ -133,7 +136,7 @@ TsdfVolume::reframe (const Eigen::Vector3i& offset, const Eigen::Vector3i& dims)
   VoxelGrid moved = grid ();
   moved.dims = dims;
   moved.origin_m -= moved.voxel_size_m * offset.cast<double> ();
-  checkGrid (moved);
+  checkGrid (moved, options_);
   // A shift beyond all voxels is as good as one by the size of the grid, and cannot overflow.
   const Placement placement{grid ().dims, dims, offset.cwiseMax (-grid ().dims).cwiseMin (dims)};
   auto values = movedValues (field_.values, placement, unseen, options_.threads);

@@ -74,7 +74,9 @@ measureDistances (const ProjectedRow& row, int count, const float* __restrict re
     const float x = r.x (i);
     const float y = r.y (i);
     const float z = std::max (r.near_m, r.z (i));
-    distances[n] = (readings[pixels[n]] - z) * (std::sqrt (x * x + y * y + z * z) / z);
+    const float reading = readings[pixels[n]];
+    const float distance = (reading - z) * (std::sqrt (x * x + y * y + z * z) / z);
+    distances[n] = (reading > 0.0f ? distance : DepthReadings::none);
   }
 }
 

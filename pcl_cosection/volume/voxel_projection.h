@@ -24,7 +24,7 @@ struct VoxelRange
 /** \brief Depth readings for VoxelProjection: one per pixel, row by row, and a last one for voxels without a pixel. */
 struct DepthReadings
 {
-  static constexpr float none = -1e30f; ///< so far in front of every voxel that no voxel learns from it
+  static constexpr float none = -1e30f; ///< so far in front of every voxel that none learns from it
 
   std::vector<float> depth; ///< metres, or none
   float farthest_m = 0.0f;  ///< 0: no readings
@@ -43,7 +43,7 @@ public:
   visible (int j, int k) const;
 
   /** \brief For each voxel of \a range, its pixel's index (width * height: none) and the distance along the ray from it to
-   * the reading: metres, positive in front of the surface; less than -1e29 without a reading. */
+   * the reading: metres, positive in front of the surface; DepthReadings::none without a reading. */
   void
   project (int j, int k, const VoxelRange& range, int* pixels, float* distances) const;
 

@@ -8,8 +8,9 @@
 
 #include <cmath>
 
-// A room's wall and a ball seen at 640 x 480: voxels along each edge of the volume. The background's volume is all in view but
-// its corners; the object's stands around the ball. The plain loop is what the definition costs as it is written down.
+// A room's wall and a ball seen at 640 x 480: voxels along each edge of the volume, and threads. The background's volume is
+// all in view but its corners; the object's stands around the ball. The plain loop, in one thread, is what the definition
+// costs as it is written down.
 
 using namespace pcl::cosection;
 

@@ -50,12 +50,14 @@ TEST (TrilinearCell, IsTheInterpolatedValueAndItsDerivative)
 TEST (TrilinearCell, ExistsOnTheBoundsAndNowhereBeyond)
 {
   const auto field = test::sampleField (test::sphere (0.02), 0.03, 0.01);
-  const Eigen::Vector3d last = field.grid.center (field.grid.dims.x () - 1, field.grid.dims.y () - 1, field.grid.dims.z () - 1);
+  const int end = field.grid.dims.x () - 1;
+  const Eigen::Vector3d last = field.grid.center (end, end, end);
   EXPECT_NEAR (TrilinearCell<double>::around (field, last)->value (), field.values.back (), 1e-7);
   EXPECT_NEAR (TrilinearCell<double>::around (field, field.grid.origin_m)->value (), field.values.front (), 1e-7);
   EXPECT_FALSE (TrilinearCell<double>::around (field, last + Eigen::Vector3d (1e-6, 0.0, 0.0)));
   EXPECT_FALSE (TrilinearCell<double>::around (field, field.grid.origin_m - Eigen::Vector3d (0.0, 0.0, 1e-6)));
-  for (const double bad : {std::numeric_limits<double>::quiet_NaN (), std::numeric_limits<double>::infinity (), -1e300, 1e300})
+  const double nan = std::numeric_limits<double>::quiet_NaN ();
+  for (const double bad : {nan, std::numeric_limits<double>::infinity (), -1e300, 1e300})
     EXPECT_FALSE (TrilinearCell<double>::around (field, Eigen::Vector3d (0.0, bad, 0.0)));
 }
 

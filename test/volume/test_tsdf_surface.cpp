@@ -57,7 +57,10 @@ TEST_P (TsdfSphere, ComesBackWithinAFractionOfAVoxel)
   options.truncation_vox = std::min (10.0, 0.05 / voxel_size_m); // views from opposite sides do not meet
   TsdfVolume volume (test::cubeGrid (static_cast<int> (0.3 / voxel_size_m), voxel_size_m), options);
   for (const auto& pose : test::posesAround (0.5))
-    volume.integrate (frontalDepth (center, camera, pose, test::renderDepth (test::sphereRay (0.1), camera, pose)), camera, pose);
+  {
+    const auto depth = test::renderDepth (test::sphereRay (0.1), camera, pose);
+    volume.integrate (frontalDepth (center, camera, pose, depth), camera, pose);
+  }
 
   const TriangleMesh mesh = volume.surfaceMesh ();
   ASSERT_GT (mesh.vertices.size (), 500u);

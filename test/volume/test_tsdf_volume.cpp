@@ -43,22 +43,6 @@ seenVoxels (const TsdfVolume& volume)
   return seen;
 }
 
-/** \brief A sensor half a metre before the origin, looking along z. */
-Eigen::Isometry3d
-frontPose ()
-{
-  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity ();
-  pose.translation ().z () = -0.5;
-  return pose;
-}
-
-Image<float>
-wallDepth (float depth_m)
-{
-  const PinholeCamera camera = test::smallCamera ();
-  return Image<float> (camera.width, camera.height, depth_m);
-}
-
 /** \brief Compare with the definition, applied to every voxel in double precision. */
 void
 expectDefinition (const TsdfVolume& volume, const Image<float>& depth, const PinholeCamera& camera,
@@ -134,7 +118,7 @@ TEST (TsdfVolume, SensorOnAVoxelCentre)
 {
   const VoxelGrid grid = test::cubeGrid (31, 0.01);
   TsdfVolume volume (grid);
-  volume.integrate (wallDepth (0.08f), test::smallCamera (), Eigen::Isometry3d::Identity ());
+  volume.integrate (test::wallDepth (0.08f), test::smallCamera (), Eigen::Isometry3d::Identity ());
   EXPECT_EQ (volume.weight (Eigen::Vector3d::Zero ()), 0.0f);
   EXPECT_EQ (volume.weight ({0.0, 0.0, -0.05}), 0.0f);
   EXPECT_EQ (volume.weight ({0.0, 0.0, 0.05}), 1.0f);
@@ -152,10 +136,10 @@ TEST (TsdfVolume, NoiseAveragesDown)
     TsdfVolume volume (test::cubeGrid (32, 0.01));
     for (int n = 0; n < frames; ++n)
     {
-      Image<float> depth = wallDepth (0.5f);
+      Image<float> depth = test::wallDepth (0.5f);
       for (float& z : depth.pixels)
         z = noise (random);
-      volume.integrate (depth, camera, frontPose ());
+      volume.integrate (depth, camera, test::frontPose ());
     }
     double sum = 0.0;
     int count = 0;
@@ -164,7 +148,7 @@ TEST (TsdfVolume, NoiseAveragesDown)
       {
         const VoxelGrid& grid = volume.grid ();
         const Eigen::Vector3d p = grid.center (i, j, 16);
-        const double along_ray = (p - frontPose ().translation ()).norm () / (p.z () + 0.5);
+        const double along_ray = (p - test::frontPose ().translation ()).norm () / (p.z () + 0.5);
         sum += std::pow (volume.field ().values[grid.index (i, j, 16)] / along_ray + p.z (), 2);
       }
     return std::sqrt (sum / count);
@@ -179,12 +163,12 @@ TEST (TsdfVolume, TheWeightIsCappedSoThatAMovedSurfaceReplacesTheOldOne)
   options.max_weight = 8.0;
   TsdfVolume volume (test::cubeGrid (32, 0.01), options);
   for (int n = 0; n < 100; ++n)
-    volume.integrate (wallDepth (0.5f), test::smallCamera (), frontPose ());
+    volume.integrate (test::wallDepth (0.5f), test::smallCamera (), test::frontPose ());
   const Eigen::Vector3d p (0.005, 0.005, 0.0);
   EXPECT_EQ (volume.weight (p), 8.0f);
   EXPECT_NEAR (volume.sample (p)->value (), 0.0, 1e-5);
   for (int n = 0; n < 50; ++n) // what is left of the old one is (8 / 9)^50 < 0.3 %
-    volume.integrate (wallDepth (0.55f), test::smallCamera (), frontPose ());
+    volume.integrate (test::wallDepth (0.55f), test::smallCamera (), test::frontPose ());
   EXPECT_EQ (volume.weight (p), 8.0f);
   EXPECT_NEAR (volume.sample (p)->value (), 0.05, 0.001);
 }
@@ -196,9 +180,9 @@ TEST (TsdfVolume, WeightsOfPixels)
   TsdfPixels pixels;
   Image<float> weights (camera.width, camera.height, 0.75f);
   pixels.weights = &weights;
-  volume.integrate (wallDepth (0.5f), camera, frontPose (), pixels);
+  volume.integrate (test::wallDepth (0.5f), camera, test::frontPose (), pixels);
   weights = Image<float> (camera.width, camera.height, 0.25f);
-  volume.integrate (wallDepth (0.54f), camera, frontPose (), pixels);
+  volume.integrate (test::wallDepth (0.54f), camera, test::frontPose (), pixels);
   const Eigen::Vector3d p (0.005, 0.005, 0.0);
   EXPECT_EQ (volume.weight (p), 1.0f);
   EXPECT_NEAR (volume.sample (p)->value (), 0.25 * 0.04, 1e-5);
@@ -207,22 +191,22 @@ TEST (TsdfVolume, WeightsOfPixels)
   for (const float nothing : {0.0f, -1.0f, nan_f, -infinity_f})
   {
     weights = Image<float> (camera.width, camera.height, nothing);
-    volume.integrate (wallDepth (0.4f), camera, frontPose (), pixels);
+    volume.integrate (test::wallDepth (0.4f), camera, test::frontPose (), pixels);
     EXPECT_TRUE (sameState (before, volume)) << nothing;
   }
   weights = Image<float> (camera.width, camera.height, infinity_f); // as much as a voxel can have
-  volume.integrate (wallDepth (0.5f), camera, frontPose (), pixels);
+  volume.integrate (test::wallDepth (0.5f), camera, test::frontPose (), pixels);
   EXPECT_EQ (volume.weight (p), 64.0f);
   weights = Image<float> (camera.width, camera.height, std::numeric_limits<float>::denorm_min ());
   TsdfVolume faint (test::cubeGrid (32, 0.01));
-  faint.integrate (wallDepth (0.5f), camera, frontPose (), pixels);
+  faint.integrate (test::wallDepth (0.5f), camera, test::frontPose (), pixels);
   EXPECT_NEAR (faint.sample (p)->value (), 0.0, 1e-5);
 }
 
 TEST (TsdfVolume, MasksSeparateObjects)
 {
   const PinholeCamera camera = test::smallCamera ();
-  Image<float> depth = wallDepth (0.5f);
+  Image<float> depth = test::wallDepth (0.5f);
   Image<std::uint16_t> labels (camera.width, camera.height, 1);
   for (int v = 0; v < camera.height; ++v)
     for (int u = camera.width / 2; u < camera.width; ++u)
@@ -238,7 +222,7 @@ TEST (TsdfVolume, MasksSeparateObjects)
   {
     TsdfVolume volume (test::cubeGrid (32, 0.01));
     pixels.label = label;
-    volume.integrate (depth, camera, frontPose (), pixels);
+    volume.integrate (depth, camera, test::frontPose (), pixels);
     EXPECT_EQ (volume.weight (left), label == 1 ? 1.0f : 0.0f);
     EXPECT_EQ (volume.weight (right), label == 2 ? 1.0f : 0.0f);
   }
@@ -247,47 +231,76 @@ TEST (TsdfVolume, MasksSeparateObjects)
 TEST (TsdfVolume, ReadingsThatAreNone)
 {
   TsdfVolume volume (test::cubeGrid (32, 0.01));
-  volume.integrate (wallDepth (0.5f), test::smallCamera (), frontPose ());
+  volume.integrate (test::wallDepth (0.5f), test::smallCamera (), test::frontPose ());
   const TsdfVolume before = volume;
   for (const float none : {nan_f, infinity_f, -infinity_f, 0.0f, -0.5f})
   {
-    volume.integrate (wallDepth (none), test::smallCamera (), frontPose ());
+    volume.integrate (test::wallDepth (none), test::smallCamera (), test::frontPose ());
     EXPECT_TRUE (sameState (before, volume)) << none;
   }
   // One of them among readings silences its pixel alone.
   for (const float none : {nan_f, infinity_f})
   {
-    Image<float> depth = wallDepth (0.5f);
+    Image<float> depth = test::wallDepth (0.5f);
     for (int v = 0; v < depth.height; ++v)
       for (int u = 0; u < depth.width / 2; ++u)
         depth.at (u, v) = none;
     TsdfVolume half (test::cubeGrid (32, 0.01));
-    half.integrate (depth, test::smallCamera (), frontPose ());
+    half.integrate (depth, test::smallCamera (), test::frontPose ());
     EXPECT_EQ (half.weight ({-0.055, 0.005, 0.0}), 0.0f);
     EXPECT_EQ (half.weight ({0.055, 0.005, 0.0}), 1.0f);
   }
   // A reading however far says that all before it is free.
   TsdfVolume free (test::cubeGrid (32, 0.01));
-  free.integrate (wallDepth (std::numeric_limits<float>::max ()), test::smallCamera (), frontPose ());
+  free.integrate (test::wallDepth (std::numeric_limits<float>::max ()), test::smallCamera (), test::frontPose ());
   EXPECT_NEAR (free.sample (Eigen::Vector3d (0.0, 0.0, 0.0))->value (), free.truncation (), 1e-6);
 }
 
 TEST (TsdfVolume, VolumesOutOfView)
 {
   TsdfVolume volume (test::cubeGrid (32, 0.01));
-  Eigen::Isometry3d pose = frontPose ();
+  Eigen::Isometry3d pose = test::frontPose ();
   pose.translation ().z () = 0.5; // all voxels behind the sensor
-  volume.integrate (wallDepth (0.5f), test::smallCamera (), pose);
+  volume.integrate (test::wallDepth (0.5f), test::smallCamera (), pose);
   pose.translation () << 1e30, -1e200, 1e300;
-  volume.integrate (wallDepth (0.5f), test::smallCamera (), pose);
+  volume.integrate (test::wallDepth (0.5f), test::smallCamera (), pose);
   EXPECT_EQ (seenVoxels (volume), 0u);
 
   VoxelGrid voxel = test::cubeGrid (1, 0.01);
   TsdfVolume single (voxel);
-  single.integrate (wallDepth (0.5f), test::smallCamera (), frontPose ());
+  single.integrate (test::wallDepth (0.5f), test::smallCamera (), test::frontPose ());
   EXPECT_EQ (single.weights ()[0], 1.0f);
   EXPECT_FALSE (single.sample (Eigen::Vector3d (0.0, 0.0, 0.0)));
   EXPECT_TRUE (single.surfaceMesh ().empty ());
+}
+
+TEST (TsdfVolume, VoxelsOfAnySize)
+{
+  const PinholeCamera camera = test::smallCamera ();
+  TsdfOptions options;
+  options.colour = true;
+  options.foreground = true;
+  const Picture colours (camera.width, camera.height, {1, 2, 3});
+  const Image<std::uint16_t> labels (camera.width, camera.height, 1);
+  TsdfPixels pixels;
+  pixels.colours = &colours;
+  for (const double size : {1e-300, 1e-40, 1e-25, 1e-10, 1.0, 1e5, 1e8}) // what single precision holds, and more
+  {
+    TsdfVolume volume (test::cubeGrid (20, size), options);
+    Eigen::Isometry3d inside = test::lookAtOrigin ({1.0, 1.0, 1.0});
+    inside.translation ().setConstant (size);
+    for (const Eigen::Isometry3d& pose : {Eigen::Isometry3d (Eigen::Isometry3d::Identity ()), test::frontPose (), inside})
+    {
+      volume.integrate (test::wallDepth (0.5f), camera, pose, pixels);
+      volume.countForeground (test::wallDepth (0.5f), camera, pose, labels, 1);
+    }
+    for (std::size_t v = 0; v < volume.weights ().size (); ++v)
+    {
+      ASSERT_TRUE (volume.weights ()[v] >= 0.0f && volume.weights ()[v] <= 3.0f);
+      ASSERT_EQ (volume.weights ()[v] > 0.0f, std::isfinite (volume.field ().values[v])) << size;
+    }
+  }
+  EXPECT_THROW (TsdfVolume (test::cubeGrid (20, 1e9)), InvalidArgument);
 }
 
 TEST (TsdfVolume, ForegroundCounts)
@@ -299,7 +312,10 @@ TEST (TsdfVolume, ForegroundCounts)
   const Eigen::Vector3d p (0.005, 0.005, 0.0);
   EXPECT_FALSE (volume.foregroundProbability (p));
   for (const std::uint16_t label : {7, 7, 7, 3})
-    volume.countForeground (wallDepth (0.5f), camera, frontPose (), Image<std::uint16_t> (camera.width, camera.height, label), 7);
+  {
+    const Image<std::uint16_t> labels (camera.width, camera.height, label);
+    volume.countForeground (test::wallDepth (0.5f), camera, test::frontPose (), labels, 7);
+  }
   EXPECT_EQ (volume.foregroundProbability (p), 0.75f);
   EXPECT_FALSE (volume.foregroundProbability ({0.005, 0.005, -0.14})); // free space belongs to nobody
   EXPECT_FALSE (volume.foregroundProbability ({9.0, 0.0, 0.0}));
@@ -307,13 +323,13 @@ TEST (TsdfVolume, ForegroundCounts)
 
   const Image<std::uint16_t> labels (camera.width, camera.height, 7);
   TsdfVolume without (test::cubeGrid (4, 0.01));
-  EXPECT_THROW (without.countForeground (wallDepth (0.5f), camera, frontPose (), labels, 7), InvalidArgument);
+  EXPECT_THROW (without.countForeground (test::wallDepth (0.5f), camera, test::frontPose (), labels, 7), InvalidArgument);
   EXPECT_FALSE (without.foregroundProbability (p));
 
   TsdfVolume often (test::cubeGrid (2, 0.01), options);
   const PinholeCamera pixel{1, 1, 10.0, 10.0, 0.0, 0.0};
   for (int n = 0; n < 70000; ++n)
-    often.countForeground (Image<float> (1, 1, 0.5f), pixel, frontPose (), Image<std::uint16_t> (1, 1, n % 4 ? 7 : 0), 7);
+    often.countForeground (Image<float> (1, 1, 0.5f), pixel, test::frontPose (), Image<std::uint16_t> (1, 1, n % 4 ? 7 : 0), 7);
   EXPECT_NEAR (*often.foregroundProbability (Eigen::Vector3d::Zero ()), 0.75, 0.01);
 }
 
@@ -341,78 +357,4 @@ TEST (TsdfVolume, AnyNumberOfThreadsGivesTheSameBytes)
   EXPECT_TRUE (sameBytes (a.triangles, b.triangles));
   EXPECT_TRUE (sameBytes (a.normals, b.normals));
   EXPECT_TRUE (sameBytes (a.colours, b.colours));
-}
-
-TEST (TsdfVolume, MemoryIsAsDocumented)
-{
-  VoxelGrid grid = test::cubeGrid (256, 0.01);
-  const std::size_t voxels = grid.size ();
-  TsdfOptions options;
-  EXPECT_EQ (TsdfVolume::estimateBytes (grid, options), 8 * voxels);
-  options.colour = true;
-  EXPECT_EQ (TsdfVolume::estimateBytes (grid, options), 16 * voxels);
-  options.foreground = true;
-  EXPECT_EQ (TsdfVolume::estimateBytes (grid, options), 20 * voxels);
-}
-
-TEST (TsdfVolume, RefusesWhatIsNotValid)
-{
-  const double nan = std::numeric_limits<double>::quiet_NaN ();
-  VoxelGrid grid = test::cubeGrid (8, 0.01);
-  for (const double size : {0.0, -0.01, nan, std::numeric_limits<double>::infinity ()})
-  {
-    grid.voxel_size_m = size;
-    EXPECT_THROW (TsdfVolume{grid}, InvalidArgument) << size;
-  }
-  grid = test::cubeGrid (8, 0.01);
-  grid.dims = {8, 0, 8};
-  EXPECT_THROW (TsdfVolume{grid}, InvalidArgument);
-  grid.dims = {-8, -8, 8};
-  EXPECT_THROW (TsdfVolume{grid}, InvalidArgument);
-  grid.dims.setConstant (std::numeric_limits<int>::max ());
-  EXPECT_THROW (TsdfVolume{grid}, InvalidArgument);
-  grid = test::cubeGrid (8, 0.01);
-  grid.origin_m.y () = nan;
-  EXPECT_THROW (TsdfVolume{grid}, InvalidArgument);
-
-  grid = test::cubeGrid (8, 0.01);
-  for (const double bad : {0.0, -1.0, nan})
-  {
-    TsdfOptions options;
-    options.truncation_vox = bad;
-    EXPECT_THROW (TsdfVolume (grid, options), InvalidArgument);
-    options = {};
-    options.max_weight = bad;
-    EXPECT_THROW (TsdfVolume (grid, options), InvalidArgument);
-  }
-
-  TsdfVolume volume (grid);
-  const PinholeCamera camera = test::smallCamera ();
-  EXPECT_THROW (volume.integrate (Image<float> (), PinholeCamera (), frontPose ()), InvalidArgument);
-  EXPECT_THROW (volume.integrate (Image<float> (camera.height, camera.width), camera, frontPose ()), InvalidArgument);
-  Image<float> torn = wallDepth (0.5f);
-  torn.pixels.pop_back ();
-  EXPECT_THROW (volume.integrate (torn, camera, frontPose ()), InvalidArgument);
-  Eigen::Isometry3d pose = frontPose ();
-  pose.translation ().x () = nan;
-  EXPECT_THROW (volume.integrate (wallDepth (0.5f), camera, pose), InvalidArgument);
-  pose = frontPose ();
-  pose.linear () *= 1.1;
-  EXPECT_THROW (volume.integrate (wallDepth (0.5f), camera, pose), InvalidArgument);
-
-  const Image<float> weights (3, 3);
-  const Image<std::uint16_t> labels (3, 3);
-  const Picture colours (3, 3);
-  TsdfPixels pixels;
-  pixels.weights = &weights;
-  EXPECT_THROW (volume.integrate (wallDepth (0.5f), camera, frontPose (), pixels), InvalidArgument);
-  pixels = {};
-  pixels.labels = &labels;
-  EXPECT_THROW (volume.integrate (wallDepth (0.5f), camera, frontPose (), pixels), InvalidArgument);
-  pixels = {};
-  pixels.colours = &colours;
-  EXPECT_THROW (volume.integrate (wallDepth (0.5f), camera, frontPose (), pixels), InvalidArgument);
-  EXPECT_THROW (volume.surfaceMesh (nan), InvalidArgument);
-  EXPECT_THROW (volume.surfaceMesh (-1.0), InvalidArgument);
-  EXPECT_EQ (seenVoxels (volume), 0u);
 }

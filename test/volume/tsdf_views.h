@@ -97,6 +97,23 @@ posesAround (double distance)
   return poses;
 }
 
+/** \brief A sensor half a metre before the origin, looking along z. */
+inline Eigen::Isometry3d
+frontPose ()
+{
+  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity ();
+  pose.translation ().z () = -0.5;
+  return pose;
+}
+
+/** \brief The same depth everywhere, of smallCamera (). */
+inline Image<float>
+wallDepth (float depth_m)
+{
+  const PinholeCamera camera = smallCamera ();
+  return Image<float> (camera.width, camera.height, depth_m);
+}
+
 /** \brief A cube of voxels about the origin. */
 inline VoxelGrid
 cubeGrid (int dim, double voxel_size_m)

@@ -18,8 +18,8 @@ namespace cosection
 
 /** \brief The eight voxels around a point, and the trilinear function between their centres.
  *
- * Unlike SignedDistanceField::sample (), which may be asked on a face between cells of which one has no values, it needs a
- * number at all eight, so that the gradient exists with the value. All inline: for loops over many points.
+ * It needs a number at all eight, so that the gradient exists with the value; SignedDistanceField::sample () makes do with
+ * fewer on a cell's faces. All inline: for loops over many points.
  *
  * \code
  * if (const auto cell = TrilinearCell<double>::around (field, p))
@@ -77,7 +77,8 @@ public:
   gradient () const
   {
     const auto edge = alongX ();
-    const Scalar dx = mix (mix (step_x_[0], step_x_[1], fraction_[1]), mix (step_x_[2], step_x_[3], fraction_[1]), fraction_[2]);
+    const Scalar dx =
+        mix (mix (step_x_[0], step_x_[1], fraction_[1]), mix (step_x_[2], step_x_[3], fraction_[1]), fraction_[2]);
     const Scalar dy = mix (edge[1] - edge[0], edge[3] - edge[2], fraction_[2]);
     const Scalar dz = mix (edge[2] - edge[0], edge[3] - edge[1], fraction_[1]);
     return Vector3 (dx, dy, dz) / voxel_size_m_;

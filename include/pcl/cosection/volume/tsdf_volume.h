@@ -25,7 +25,7 @@ namespace cosection
 
 struct PCL_COSECTION_EXPORT TsdfOptions
 {
-  double truncation_vox = 10.0; ///< distances are cut off at this many voxels; bodies thinner than twice that come out thicker
+  double truncation_vox = 10.0; ///< distances are cut off at this many voxels; thinner bodies come out thicker
   double max_weight = 64.0;     ///< of a voxel; what it bounds is how long a surface that is gone is remembered
   bool colour = false;          ///< average colours, too
   bool foreground = false;      ///< count how often a voxel's surface was seen in the object's mask and outside it
@@ -60,8 +60,8 @@ struct PCL_COSECTION_EXPORT TsdfPixels
  *
  *     sdf <- sdf + w / (W + w) (min (d, truncation) - sdf),  W <- min (W + w, max_weight)
  *
- * Voxels farther behind the surface than that learn nothing. Leaving out unreliable pixels, such as those at depth edges, is
- * the caller's part: as NaN or with weight 0.
+ * Voxels farther behind the surface than that learn nothing. Leaving out unreliable pixels, such as those at depth edges,
+ * is the caller's part: as NaN or with weight 0.
  *
  * Foreground counts follow M. Strecke, J. Stueckler, "EM-Fusion: Dynamic Object-Level SLAM with Probabilistic Data
  * Association", ICCV 2019.
@@ -85,16 +85,16 @@ public:
 
   /** \brief Memory that a volume holds, bytes. Integrating needs up to two numbers per pixel beside it; growing, both the old
    * and the new volume.
-   * \throws InvalidArgument if the options are not valid, the grid has no voxels or more than can be counted, or its voxel
-   * size is not positive or its origin not finite */
+   * \throws InvalidArgument if the options are not valid, the grid has no voxels or more than can be counted, its voxel
+   * size is not positive or its origin not finite, or the truncation distance is beyond 1e9 m */
   static std::size_t
   estimateBytes (const VoxelGrid& grid, const TsdfOptions& options = {});
 
   /** \brief Average a depth image in. O (voxels in the frustum up to the farthest reading + pixels).
    * \param[in] depth metres along the optical axis; not finite or not positive: no reading
    * \param[in] T_grid_sensor pose of the sensor in the grid's frame; it may be within the volume
-   * \throws InvalidArgument if the camera is not valid, an image is not of its size, or the pose is not a finite rigid motion;
-   * nothing was changed then */
+   * \throws InvalidArgument if the camera is not valid, an image is not of its size, or the pose is not a finite rigid
+   * motion; nothing was changed then */
   void
   integrate (const Image<float>& depth, const PinholeCamera& camera, const Eigen::Isometry3d& T_grid_sensor,
              const TsdfPixels& pixels = {});
@@ -108,8 +108,8 @@ public:
   countForeground (const Image<float>& depth, const PinholeCamera& camera, const Eigen::Isometry3d& T_grid_sensor,
                    const Image<std::uint16_t>& labels, std::uint16_t label);
 
-  /** \brief Give the volume more voxels without losing one: what is in voxel v is in voxel v + \a offset then, bit for bit, and
-   * at the same place.
+  /** \brief Give the volume more voxels without losing one: what is in voxel v is in voxel v + \a offset then, bit for
+   * bit, and at the same place.
    * \param[in] offset voxels added before the first of each axis
    * \param[in] dims the new size
    * \throws InvalidArgument if a voxel would be lost; nothing was changed then */
@@ -122,7 +122,7 @@ public:
   reframe (const Eigen::Vector3i& offset, const Eigen::Vector3i& dims);
 
   /** \brief Distance and gradient at \a p (metres, the grid's frame), of the scalar type of \a p; nothing where one of the
-   * eight voxels around it has no weight. Where the distance is truncated the gradient is zero. */
+   * eight voxels around it has no weight. Where all of them are truncated the gradient is zero. */
   template <typename Scalar>
   std::optional<TrilinearCell<Scalar>>
   sample (const Eigen::Matrix<Scalar, 3, 1>& p) const
@@ -146,8 +146,11 @@ public:
   std::optional<TriangleMesh::Colour>
   colour (const Eigen::Vector3d& p) const;
 
-  /** \brief The zero level set in cells whose eight voxels all have a weight, of at least \a min_weight: an open mesh, in the
-   * grid's frame, with normals, and with colours if the volume has them (grey where none was seen).
+  /** \brief The zero level set in cells whose eight voxels all have a weight, of at least \a min_weight: an open mesh, in
+   * the grid's frame, with normals, and with colours if the volume has them (grey where none was seen).
+   *
+   * Where space behind a surface that one view saw meets space that another saw free, distances jump, and the mesh has a
+   * surface in between; more views, and leaving out depth edges, remove it.
    * \throws InvalidArgument if \a min_weight is negative or NaN */
   TriangleMesh
   surfaceMesh (double min_weight = 0.0) const;
