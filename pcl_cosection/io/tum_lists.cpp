@@ -66,6 +66,8 @@ readList (const std::string& path, std::size_t columns)
         file.name = line.word ();
         if (file.name.empty ())
           throw IoError ("it ends where the name of a file should be");
+        if (std::any_of (file.name.begin (), file.name.end (), [] (unsigned char c) { return c < ' ' || c == 127; }))
+          throw IoError (quoted (std::string_view (file.name)) + " is not the name of a file");
       }
       const std::string_view more = line.word ();
       if (!more.empty ())

@@ -7,6 +7,8 @@
 
 #include <gtest/gtest.h>
 
+#include <random>
+
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -155,7 +157,53 @@ INSTANTIATE_TEST_SUITE_P (RgbdSequenceErrors, BadList,
                                            std::pair ("\n0.5\n", "line 2"), std::pair ("garbage line\n", "line 1"),
                                            std::pair ("0 a.png\nnan b.png\n", "line 2"), std::pair ("inf a.png", "line 1"),
                                            std::pair ("1e300 a.png", "line 1"), std::pair ("0 a.png b.png", "line 1"),
-                                           std::pair ("\x01\xff\xfe garbage", "line 1")));
+                                           std::pair ("\x01\xff\xfe garbage", "line 1"), std::pair ("0 a\x1b[1m.png", "line 1")));
+
+TEST (RgbdSequenceErrors, TextsOfAnyBytesAreReadOrTold)
+{
+  SequenceFolder folder;
+  folder.coFusion ({0});
+  const std::vector<std::pair<std::string, std::string>> texts = {
+      {"calibration.txt", "10 10.5 +4 3e0 8 6\n# camera\n"},
+      {"depth.txt", "# stamp file\n0.5 depth/Depth0000.png\n1.5 depth/Depth0000.png\n"},
+      {"rgb.txt", "0.5 colour/Color0000.png\n1.5 colour/Color0000.png\n"},
+      {"associations.txt", "0.5 rgb/0.png 0.5 depth/Depth0000.png\n1.5 rgb/0.png 1.5 depth/Depth0000.png\n"}};
+  const std::string alphabet ("0123456789.e+-# \n\r\t/\0\x7f\xff\x1bnaif", 28);
+  std::mt19937 random (1);
+  std::size_t read = 0, told = 0;
+  for (const auto& [name, text] : texts)
+  {
+    for (int n = 0; n < 150; ++n)
+    {
+      std::string bytes = text;
+      for (std::size_t change = random () % 3 + 1; change > 0; --change)
+        if (random () % 2 != 0)
+          bytes[random () % bytes.size ()] = alphabet[random () % alphabet.size ()];
+        else
+          bytes.insert (random () % bytes.size (), 1 + random () % 20, alphabet[random () % alphabet.size ()]);
+      folder.text (name, bytes);
+      try
+      {
+        const RgbdSequence sequence (folder.path ());
+        ++read;
+        EXPECT_GT (sequence.size (), 0u);
+        EXPECT_NO_THROW (sequence.camera ().validate ());
+        EXPECT_GT (sequence.period (), 0.0);
+        for (std::size_t i = 0; i < sequence.size (); ++i)
+          EXPECT_TRUE (std::isfinite (sequence.stamp (i)) && (i == 0 || sequence.stamp (i - 1) < sequence.stamp (i)));
+      }
+      catch (const IoError& error)
+      {
+        ++told;
+        for (const unsigned char c : std::string (error.what ()))
+          EXPECT_TRUE (c >= ' ' && c != 127) << error.what ();
+      }
+    }
+    folder.text (name, text);
+  }
+  EXPECT_GT (read, 30u);
+  EXPECT_GT (told, 30u);
+}
 
 TEST (RgbdSequenceErrors, DamagedFramesAreErrorsOfTheirOwn)
 {
