@@ -291,7 +291,7 @@ CoSectionRun::gatherEvidence ()
           return;
         if (!view)
           view.emplace (depth);
-        body.evidence->addView (*view, T_body_sensor);
+        body.evidence->addView (*view, T_body_sensor, scene_.views[v].use == ViewUse::Full);
       };
       for (FollowedBody* body : backgroundBodies ())
         if (scene_.views[v].use != ViewUse::FreeSpace)

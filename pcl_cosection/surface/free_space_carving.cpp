@@ -40,8 +40,9 @@ FreeSpaceCarving::add (const FreeSpaceView& view, const Eigen::Isometry3d& T_gri
 {
   const PinholeCamera& camera = view.view ().camera;
   const std::vector<float>& opened = view.openedDepth ();
-  const std::vector<float> lowest = filterDepth (opened, camera, window, false);
-  const std::vector<float> highest = filterDepth (opened, camera, window, true);
+  const PixelRegion region = projectedRegion (grid_, camera, T_grid_sensor);
+  const std::vector<float> lowest = filterDepth (opened, camera, window, false, region);
+  const std::vector<float> highest = filterDepth (opened, camera, window, true, region);
   const double focal = 0.5 * (camera.fx + camera.fy);
 
   forEachProjectedVoxel (grid_, camera, T_grid_sensor, threads_, [&] (const ProjectedVoxel& voxel) {

@@ -33,27 +33,61 @@ freeSpaceMargin (double depth_m, double voxel_size_m)
   return std::max (margin_voxels * voxel_size_m, margin_sigmas * depthNoiseSigma (depth_m));
 }
 
-std::vector<float>
-filterDepth (const std::vector<float>& image, const PinholeCamera& camera, int radius, bool maximum)
+PixelRegion
+wholeImage (const PinholeCamera& camera)
 {
-  const auto filter = [&] (const std::vector<float>& in, int along, int across, int stride, int line_stride) {
-    std::vector<float> out (in.size ());
-    for (int line = 0; line < across; ++line)
-      for (int i = 0; i < along; ++i)
-      {
-        const std::size_t base = static_cast<std::size_t> (line) * line_stride;
-        float best = in[base + static_cast<std::size_t> (i) * stride];
-        for (int j = std::max (0, i - radius); j <= std::min (along - 1, i + radius); ++j)
-        {
-          const float value = in[base + static_cast<std::size_t> (j) * stride];
-          best = maximum ? std::max (best, value) : std::min (best, value);
-        }
-        out[base + static_cast<std::size_t> (i) * stride] = best;
-      }
-    return out;
+  return {0, 0, camera.width, camera.height};
+}
+
+PixelRegion
+projectedRegion (const VoxelGrid& grid, const PinholeCamera& camera, const Eigen::Isometry3d& T_grid_sensor)
+{
+  const Eigen::Isometry3d T_sensor_grid = T_grid_sensor.inverse ();
+  Eigen::Vector2d low = Eigen::Vector2d::Constant (std::numeric_limits<double>::infinity ());
+  Eigen::Vector2d high = -low;
+  for (int corner = 0; corner < 8; ++corner)
+  {
+    const Eigen::Vector3d p =
+        T_sensor_grid * grid.center ((corner & 1) ? grid.dims.x () - 1 : 0, (corner & 2) ? grid.dims.y () - 1 : 0,
+                                     (corner & 4) ? grid.dims.z () - 1 : 0);
+    if (!(p.z () > 0.0))
+      return wholeImage (camera);
+    low = low.cwiseMin (camera.project (p));
+    high = high.cwiseMax (camera.project (p));
+  }
+  const Eigen::Vector2d size (camera.width, camera.height);
+  const auto clipped = [&] (const Eigen::Vector2d& p) {
+    return Eigen::Vector2i (p.cwiseMax (0.0).cwiseMin (size).cast<int> ());
   };
-  const std::vector<float> rows = filter (image, camera.width, camera.height, 1, camera.width);
-  return filter (rows, camera.height, camera.width, camera.width, 1);
+  const Eigen::Vector2i first = clipped (low.array ().floor ());
+  const Eigen::Vector2i last = clipped (high.array ().ceil () + 1.0);
+  return {first.x (), first.y (), last.x (), last.y ()};
+}
+
+std::vector<float>
+filterDepth (const std::vector<float>& image, const PinholeCamera& camera, int radius, bool maximum, const PixelRegion& region)
+{
+  std::vector<float> rows (image.size ());
+  const auto best = [maximum] (float a, float b) { return maximum ? std::max (a, b) : std::min (a, b); };
+  for (int v = std::max (0, region.top - radius); v < std::min (camera.height, region.bottom + radius); ++v)
+    for (int u = region.left; u < region.right; ++u)
+    {
+      const float* row = image.data () + static_cast<std::size_t> (v) * camera.width;
+      float value = row[u];
+      for (int w = std::max (0, u - radius); w <= std::min (camera.width - 1, u + radius); ++w)
+        value = best (value, row[w]);
+      rows[static_cast<std::size_t> (v) * camera.width + u] = value;
+    }
+  std::vector<float> filtered (image.size ());
+  for (int v = region.top; v < region.bottom; ++v)
+    for (int u = region.left; u < region.right; ++u)
+    {
+      float value = rows[static_cast<std::size_t> (v) * camera.width + u];
+      for (int w = std::max (0, v - radius); w <= std::min (camera.height - 1, v + radius); ++w)
+        value = best (value, rows[static_cast<std::size_t> (w) * camera.width + u]);
+      filtered[static_cast<std::size_t> (v) * camera.width + u] = value;
+    }
+  return filtered;
 }
 
 FreeSpaceView::FreeSpaceView (DepthView view) : view_ (std::move (view)), edge_ (view_.depth.size (), 0)
@@ -85,17 +119,18 @@ FreeSpaceView::FreeSpaceView (DepthView view) : view_ (std::move (view)), edge_ 
   for (float& z : depth)
     if (!std::isfinite (z) || z <= 0.0f)
       z = 0.0f;
-  opened_ = filterDepth (filterDepth (depth, view_.camera, 1, false), view_.camera, 1, true);
+  const PixelRegion all = wholeImage (view_.camera);
+  opened_ = filterDepth (filterDepth (depth, view_.camera, 1, false, all), view_.camera, 1, true, all);
 }
 
 std::vector<float>
-FreeSpaceView::nearestDepth (int radius) const
+FreeSpaceView::nearestDepth (int radius, const PixelRegion& region) const
 {
   std::vector<float> depth (view_.depth);
   for (float& z : depth)
     if (!std::isfinite (z) || z <= 0.0f)
       z = std::numeric_limits<float>::infinity ();
-  return filterDepth (depth, view_.camera, radius, false);
+  return filterDepth (depth, view_.camera, radius, false, region);
 }
 
 HullConstraint::HullConstraint (const VoxelGrid& grid, int threads)
@@ -121,7 +156,7 @@ HullConstraint::add (const FreeSpaceView& view, const Eigen::Isometry3d& T_grid_
   const int radius = nearest > half_diagonal
                          ? std::min (max_footprint, static_cast<int> (std::ceil (half_diagonal * focal / nearest)))
                          : max_footprint;
-  const std::vector<float> nearest_depth = view.nearestDepth (radius);
+  const std::vector<float> nearest_depth = view.nearestDepth (radius, projectedRegion (grid_, camera, T_grid_sensor));
 
   const auto vote = [] (std::uint8_t& votes) {
     if (votes < 255)

@@ -24,11 +24,12 @@ ShapeEvidence::addPoints (const std::vector<OrientedPoint>& points)
 }
 
 void
-ShapeEvidence::addView (const FreeSpaceView& view, const Eigen::Isometry3d& T_grid_sensor)
+ShapeEvidence::addView (const FreeSpaceView& view, const Eigen::Isometry3d& T_grid_sensor, bool silhouettes)
 {
   hull_.add (view, T_grid_sensor);
-  if (carving_)
-    carving_->add (view, T_grid_sensor);
+  if (!carving_ || !silhouettes)
+    return;
+  carving_->add (view, T_grid_sensor);
   seen_ = true;
 }
 

@@ -20,9 +20,28 @@ namespace cosection
 PCL_COSECTION_EXPORT double
 freeSpaceMargin (double depth_m, double voxel_size_m);
 
-/** \brief Minimum or \a maximum of an image over a square window of \a radius pixels around every pixel. */
+/** \brief Pixels of columns [left, right) and rows [top, bottom). */
+struct PixelRegion
+{
+  int left = 0;
+  int top = 0;
+  int right = 0;
+  int bottom = 0;
+};
+
+/** \brief The whole image. */
+PCL_COSECTION_EXPORT PixelRegion
+wholeImage (const PinholeCamera& camera);
+
+/** \brief The pixels onto which a camera projects a grid; the whole image if the grid reaches behind the camera. */
+PCL_COSECTION_EXPORT PixelRegion
+projectedRegion (const VoxelGrid& grid, const PinholeCamera& camera, const Eigen::Isometry3d& T_grid_sensor);
+
+/** \brief Minimum or \a maximum of an image over a square window of \a radius pixels around every pixel of a region; other
+ * pixels of the result have no meaning. */
 PCL_COSECTION_EXPORT std::vector<float>
-filterDepth (const std::vector<float>& image, const PinholeCamera& camera, int radius, bool maximum);
+filterDepth (const std::vector<float>& image, const PinholeCamera& camera, int radius, bool maximum,
+             const PixelRegion& region);
 
 /** \brief A depth view prepared for looking up free space. */
 class PCL_COSECTION_EXPORT FreeSpaceView
@@ -45,9 +64,10 @@ public:
     return edge_[static_cast<std::size_t> (v) * view_.camera.width + u] != 0;
   }
 
-  /** \brief The nearest reading within \a radius pixels (square window) of every pixel; infinity if none. */
+  /** \brief The nearest reading within \a radius pixels (square window) of every pixel of a region; infinity if none. Other
+   * pixels of the result have no meaning. */
   std::vector<float>
-  nearestDepth (int radius) const;
+  nearestDepth (int radius, const PixelRegion& region) const;
 
   /** \brief The depth without patches of less than 3 x 3 pixels that are farther than what surrounds them
    * (morphological opening); 0 where there is no reading. */
