@@ -167,8 +167,9 @@ CoSectionRun::solveBackground (FollowedBody& body, const std::vector<PlaneContin
     body.evidence.reset ();
   if (!volume.hasData ())
     return;
+  BackgroundResult piece;
   timed ("solve", [&] {
-    volume.solve (Resolution::Full, [this] (const std::string&, double f) {
+    piece.solver = volume.solve (Resolution::Full, [this] (const std::string&, double f) {
       report ("background", 0.05 + 0.25 * f);
       return true;
     });
@@ -179,7 +180,9 @@ CoSectionRun::solveBackground (FollowedBody& body, const std::vector<PlaneContin
       transferAttributes (scene_.background, volume.grid (), mesh);
       appendMesh (result_.background, mesh);
     });
-  background_.push_back (volume.solvedField ());
+  piece.signed_distance = std::make_shared<SignedDistanceField> (volume.solvedField ());
+  background_.push_back (piece.signed_distance);
+  result_.background_pieces.push_back (std::move (piece));
 }
 
 void

@@ -45,8 +45,8 @@ CoSectionRun::surroundings (const Object& object) const
   {
     for (const Eigen::Vector4d& plane : object.planes)
       constraint.addHalfSpace (transformPlane (plane, T_world_object), object.volume ().freeSpace (), beta);
-    for (const SignedDistanceField& body : background_)
-      constraint.addBody (body, T_world_object, beta);
+    for (const SignedDistanceField::ConstPtr& body : background_)
+      constraint.addBody (*body, T_world_object, beta);
     for (const Obstacle& body : bodies_)
       for (const Eigen::Isometry3d& T_field_world : body.T_field_world)
         constraint.addBody (*body.field, T_field_world * T_world_object, beta);
@@ -201,8 +201,8 @@ CoSectionRun::penetrationOfSurroundings (const Object& object) const
 {
   double deepest = penetrationOfGivenPlanes (object);
   const std::vector<Eigen::Isometry3d> poses = relativePoses (object, nullptr);
-  for (const SignedDistanceField& body : background_)
-    deepest = std::max (deepest, penetration (object, body, poses));
+  for (const SignedDistanceField::ConstPtr& body : background_)
+    deepest = std::max (deepest, penetration (object, *body, poses));
   for (const Obstacle& body : bodies_)
     for (const Eigen::Isometry3d& T_field_world : body.T_field_world)
       for (const Eigen::Isometry3d& T_world_object : poses)
@@ -232,8 +232,8 @@ CoSectionRun::growWeightsWherePenetrating (Resolution resolution)
     any = true;
   };
   double coarsest = 0.0; // of the surroundings
-  for (const SignedDistanceField& body : background_)
-    coarsest = std::max (coarsest, body.grid.voxel_size_m);
+  for (const SignedDistanceField::ConstPtr& body : background_)
+    coarsest = std::max (coarsest, body->grid.voxel_size_m);
   for (const Obstacle& body : bodies_)
     coarsest = std::max (coarsest, body.field->grid.voxel_size_m);
   for (Object& object : objects_)

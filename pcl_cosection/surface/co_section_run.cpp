@@ -197,8 +197,8 @@ CoSectionRun::bytesInUse () const
     if (object.body->volume)
       bytes += ShapeVolume::estimateBytes (object.body->grid ());
   }
-  for (const SignedDistanceField& field : background_)
-    bytes += field.grid.size () * bytes_per_field_voxel;
+  for (const SignedDistanceField::ConstPtr& field : background_)
+    bytes += field->grid.size () * bytes_per_field_voxel;
   for (const Obstacle& body : bodies_)
     bytes += body.field->grid.size () * bytes_per_field_voxel;
   std::size_t largest_view = 0;

@@ -198,7 +198,7 @@ private:
   SceneResult result_;
   std::vector<Object> objects_;
   std::vector<std::unique_ptr<FollowedBody>> pieces_; // of the background, if only parts of it are solved
-  std::vector<SignedDistanceField> background_;
+  std::vector<SignedDistanceField::ConstPtr> background_;
   std::vector<Obstacle> bodies_; // that the user gave, as fields
 };
 

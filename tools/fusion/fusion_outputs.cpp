@@ -191,6 +191,13 @@ FusionOutputs::writeSummary (const FusionSettings& settings, const FusionResult&
     else
       summary["failed"].push_back ({{"id", object.id}, {"error", object.error}});
   summary["background"] = {{"vertices", result.scene.background.vertices.size ()}};
+  for (const BackgroundResult& piece : result.scene.background_pieces)
+  {
+    const VoxelGrid& grid = piece.signed_distance->grid;
+    summary["background"]["voxel_size_m"] = grid.voxel_size_m;
+    summary["background"]["dimensions"] = {grid.dims.x (), grid.dims.y (), grid.dims.z ()};
+    summary["background"]["solver"] = solverJson (piece.solver);
+  }
   summary["warnings"] = result.warnings;
   saveJson (summary, (fs::path (folder_) / "summary.json").string ());
   if (!settings.json.empty ())

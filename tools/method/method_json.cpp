@@ -42,6 +42,12 @@ provenanceShares (const TriangleMesh& mesh)
 } // namespace
 
 Json
+solverJson (const SolverSummary& solver)
+{
+  return (Json{{"iterations", solver.iterations}, {"converged", solver.converged ()}, {"energy", solver.energy}});
+}
+
+Json
 objectJson (const ObjectResult& object)
 {
   const MeshTopology topology = computeTopology (object.mesh);
@@ -65,9 +71,7 @@ objectJson (const ObjectResult& object)
   result["provenance"] = provenanceShares (object.mesh);
   result["penetration_m"] = object.penetration_m;
   result["stray_points"] = object.stray_points;
-  result["solver"] = {{"iterations", object.solver.iterations},
-                      {"converged", object.solver.converged ()},
-                      {"energy", object.solver.energy}};
+  result["solver"] = solverJson (object.solver);
   return (result);
 }
 

@@ -6,6 +6,9 @@
 
 #include <pcl/cosection/surface/co_section.h>
 
+nlohmann::ordered_json
+solverJson (const pcl::cosection::SolverSummary& solver);
+
 /** \brief A completed object in a summary for programs. */
 nlohmann::ordered_json
 objectJson (const pcl::cosection::ObjectResult& object);

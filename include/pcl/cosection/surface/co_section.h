@@ -49,11 +49,19 @@ struct PCL_COSECTION_EXPORT ObjectResult
   double penetration_m = 0.0; ///< deepest place of its surface in supported parts of another body
 };
 
+/** \brief A piece of the background, as it was solved. */
+struct PCL_COSECTION_EXPORT BackgroundResult
+{
+  SignedDistanceField::Ptr signed_distance; ///< world frame
+  SolverSummary solver;
+};
+
 /** \brief Everything CoSection::reconstruct () computes. */
 struct PCL_COSECTION_EXPORT SceneResult
 {
   std::vector<ObjectResult> objects;       ///< in the order of addObject ()
   TriangleMesh background;                 ///< open, trimmed to supported regions; world frame
+  std::vector<BackgroundResult> background_pieces; ///< around the objects, or the whole in one
   std::vector<Eigen::Vector4d> planes;     ///< support planes used: unit normal n towards the objects, n.x + d = 0, world frame
   std::map<std::string, double> timings_s; ///< data_term, constraints, solve, mesh
   std::vector<std::string> warnings;
