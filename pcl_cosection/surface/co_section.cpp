@@ -135,8 +135,8 @@ CoSection::removeViews (const std::vector<bool>& remove)
     batches = std::move (left_batches);
   }
   for (auto& [id, body] : impl_->memory.objects)
-    body.readAgain (impl_->options);
-  impl_->memory.background.readAgain (impl_->options);
+    body.readAgain ();
+  impl_->memory.background.readAgain ();
 }
 
 void

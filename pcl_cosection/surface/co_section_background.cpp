@@ -70,8 +70,8 @@ CoSectionRun::backgroundVoxelSize (const std::vector<Eigen::AlignedBox3d>& boxes
   if (!scene_.options.whole_background)
     return std::isfinite (smallest) ? background_voxels_per_object_voxel * smallest : side / background_only_resolution;
   double voxel = std::min (whole_background_voxel_m, side / whole_background_resolution);
-  if (memory_.background.volume) // that it has stays, unless it is too small
-    voxel = memory_.background.grid ().voxel_size_m;
+  if (const VoxelGrid* earlier = earlierGrid (memory_.background, 0)) // stays, unless it is too small
+    voxel = earlier->voxel_size_m;
   while (((boxes.front ().sizes ().array () + 2.0 * whole_margin_vox * voxel) / voxel + 1.0).prod () > most_whole_voxels)
     voxel *= 2.0;
   return voxel;
@@ -135,14 +135,14 @@ CoSectionRun::createBackground ()
   {
     const Eigen::Vector3d margin = Eigen::Vector3d::Constant (whole_margin_vox * voxel);
     guardedBackground ([&] {
-      place (memory_.background, {boxes.front ().min () - margin, boxes.front ().max () + margin}, voxel, false);
+      place (memory_.background, 0, {boxes.front ().min () - margin, boxes.front ().max () + margin}, voxel, false);
     });
     return;
   }
   for (const Eigen::AlignedBox3d& box : boxes)
     guardedBackground ([&] {
       auto piece = std::make_unique<FollowedBody> ();
-      place (*piece, box, voxel, false);
+      place (*piece, -1, box, voxel, false);
       pieces_.push_back (std::move (piece));
     });
 }

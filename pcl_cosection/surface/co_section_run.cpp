@@ -27,6 +27,7 @@ constexpr double same_pose_voxels = 0.5;
 constexpr std::size_t bytes_per_field_voxel = sizeof (float) + sizeof (std::uint8_t);
 constexpr double stray_reach_voxels = 3.0; // of a point in the data term
 constexpr double max_stray_share = 0.2;    // more are no exception
+constexpr double follow_tolerance = 0.5;      // of that of the solver: what one update leaves, the next begins with
 constexpr double max_voxel_size_change = 1.2; // until a body that is followed gets other voxels
 constexpr double max_empty_share = 0.5;       // of a volume that was large enough for what was known before
 
@@ -129,8 +130,7 @@ CoSectionRun::observeObjects ()
       object.observed = observedBox (object.points ());
       object.voxel_size_m = objectVoxelSize (object.points (), object.observed, scene_.options);
       leaveOutStrays (object);
-      if (mode_ == Mode::Follow)
-        keepVoxelSize (object);
+      keepVoxelSize (object);
       if (scene_.options.use_extent_prior && viewsOf (object).empty ())
         object.assumed = assumeView (object.points ());
     });
@@ -156,14 +156,27 @@ CoSectionRun::leaveOutStrays (Object& object)
   object.voxel_size_m = objectVoxelSize (object.points (), object.observed, scene_.options);
 }
 
+const VoxelGrid*
+CoSectionRun::earlierGrid (const FollowedBody& body, int id) const
+{
+  if (body.volume)
+    return &body.grid ();
+  const auto followed = scene_.memory.objects.find (id);
+  const FollowedBody* earlier = id == 0                               ? &scene_.memory.background
+                                : followed == scene_.memory.objects.end () ? nullptr
+                                                                           : &followed->second;
+  return earlier && earlier->volume ? &earlier->grid () : nullptr;
+}
+
 void
 CoSectionRun::keepVoxelSize (Object& object) const
 {
-  double& kept = object.body->voxel_size_m;
-  const double ratio = kept / object.voxel_size_m;
+  const VoxelGrid* grid = earlierGrid (*object.body, object.input->id);
+  if (!grid)
+    return;
+  const double ratio = grid->voxel_size_m / object.voxel_size_m;
   if (ratio > 1.0 / max_voxel_size_change && ratio < max_voxel_size_change)
-    object.voxel_size_m = kept;
-  kept = object.voxel_size_m;
+    object.voxel_size_m = grid->voxel_size_m;
 }
 
 Eigen::AlignedBox3d
@@ -214,26 +227,27 @@ CoSectionRun::bytesInUse () const
 }
 
 void
-CoSectionRun::place (FollowedBody& body, const Eigen::AlignedBox3d& box, double voxel_size_m, bool carve)
+CoSectionRun::place (FollowedBody& body, int id, const Eigen::AlignedBox3d& box, double voxel_size_m, bool carve)
 {
   VoxelGrid grid = layoutBox (box, voxel_size_m);
-  if (body.volume)
+  const VoxelGrid* earlier = earlierGrid (body, id);
+  if (earlier && earlier->voxel_size_m == voxel_size_m)
   {
-    const VoxelGrid& old = body.grid ();
-    if (old.voxel_size_m == voxel_size_m)
-    {
-      // On the old lattice.
-      const Eigen::Vector3d first = old.toVoxel (box.min ()).array ().floor ();
-      const Eigen::Vector3d last = old.toVoxel (box.max ()).array ().ceil ();
-      if ((first.array () >= 0.0).all () && (last.array () <= old.dims.cast<double> ().array () - 1.0).all () &&
-          (last - first + Eigen::Vector3d::Ones ()).prod () > max_empty_share * static_cast<double> (old.size ()))
-        return;
-      grid.origin_m = old.origin_m + voxel_size_m * first;
-      grid.dims = (last - first).cast<int> ().array () + 1;
-    }
+    // On its lattice; the same as long as it is large enough and not much too large.
+    const Eigen::Vector3d first = earlier->toVoxel (box.min ()).array ().floor ();
+    const Eigen::Vector3d last = earlier->toVoxel (box.max ()).array ().ceil ();
+    if (body.volume && (first.array () >= 0.0).all () &&
+        (last.array () <= earlier->dims.cast<double> ().array () - 1.0).all () &&
+        (last - first + Eigen::Vector3d::Ones ()).prod () > max_empty_share * static_cast<double> (earlier->size ()))
+      return;
+    grid.origin_m = earlier->origin_m + voxel_size_m * first;
+    grid.dims = (last - first).cast<int> ().array () + 1;
   }
   checkMemory (grid, scene_.options.max_memory_bytes, bytesInUse () - (body.volume ? ShapeVolume::estimateBytes (body.grid ()) : 0));
-  body.restart (grid, scene_.options, carve);
+  CoSectionOptions options = scene_.options;
+  if (mode_ == Mode::Follow)
+    options.solver.tolerance_vox *= follow_tolerance;
+  body.restart (grid, options, carve);
 }
 
 void
@@ -242,7 +256,7 @@ CoSectionRun::createVolumes ()
   const bool carve = scene_.options.use_hull && scene_.options.carve_free_space && !scene_.views.empty ();
   for (Object& object : objects_)
     if (object.alive ())
-      guarded (object, [&] { place (*object.body, volumeBox (object), object.voxel_size_m, carve); });
+      guarded (object, [&] { place (*object.body, object.input->id, volumeBox (object), object.voxel_size_m, carve); });
 }
 
 void
@@ -253,7 +267,7 @@ CoSectionRun::readPoints (Object& object)
   std::vector<bool> stray = object.stray;
   stray.resize (all.size (), false);
   if (!std::equal (body.stray.begin (), body.stray.end (), stray.begin ()))
-    body.readAgain (scene_.options);
+    body.readAgain ();
   std::vector<OrientedPoint> fresh;
   fresh.reserve (all.size () - body.stray.size ());
   for (std::size_t p = body.stray.size (); p < all.size (); ++p)

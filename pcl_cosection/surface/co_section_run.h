@@ -104,6 +104,9 @@ private:
   /** \brief A few points far from all others would become bodies of their own. */
   void
   leaveOutStrays (Object& object);
+  /** \brief Where a body had its voxels; null if it had none. \param[in] id 0: the background, -1: a piece of it */
+  const VoxelGrid*
+  earlierGrid (const FollowedBody& body, int id) const;
   /** \brief Keep the size of the voxels of a body that is followed, unless it is very wrong. */
   void
   keepVoxelSize (Object& object) const;
@@ -143,7 +146,7 @@ private:
   solveBackground (FollowedBody& body, const std::vector<PlaneContinuation>& planes, UpdateOutput output);
   /** \brief Give a body a volume that covers \a box, keeping the one it has where that does. */
   void
-  place (FollowedBody& body, const Eigen::AlignedBox3d& box, double voxel_size_m, bool carve);
+  place (FollowedBody& body, int id, const Eigen::AlignedBox3d& box, double voxel_size_m, bool carve);
   /** \brief Let all bodies read what is new in the scene. */
   void
   gatherEvidence ();

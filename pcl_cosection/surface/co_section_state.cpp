@@ -21,10 +21,10 @@ FollowedBody::restart (const VoxelGrid& grid, const CoSectionOptions& options, b
 }
 
 void
-FollowedBody::readAgain (const CoSectionOptions& options)
+FollowedBody::readAgain ()
 {
   if (volume)
-    restart (VoxelGrid (volume->grid ()), options, evidence && evidence->carves ());
+    restart (VoxelGrid (volume->grid ()), CoSectionOptions (volume->options ()), evidence && evidence->carves ());
 }
 
 } // namespace cosection

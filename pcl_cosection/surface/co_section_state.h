@@ -53,7 +53,6 @@ struct FollowedBody
   std::size_t points_read = 0;
   std::size_t views_read = 0;
   std::vector<bool> stray;     // which of the points read were left out
-  double voxel_size_m = 0.0;
 
   const VoxelGrid&
   grid () const
@@ -67,7 +66,7 @@ struct FollowedBody
 
   /** \brief The same on the grid that it has. */
   void
-  readAgain (const CoSectionOptions& options);
+  readAgain ();
 };
 
 /** \brief What remains from one CoSection::update () to the next. */

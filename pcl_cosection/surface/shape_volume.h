@@ -88,6 +88,12 @@ public:
     return grid_;
   }
 
+  const CoSectionOptions&
+  options () const
+  {
+    return options_;
+  }
+
   /** \brief Whether solve () has been called for this resolution, or a finer one. */
   bool
   solved (Resolution resolution) const

@@ -159,7 +159,7 @@ public:
   addIntersection (TriangleMesh body,
                    const std::vector<Eigen::Isometry3d>& T_body_world = {Eigen::Isometry3d::Identity ()});
 
-  /** \brief Run. One failing object (degenerate, too large for the memory allowed ...) does not lose the
+  /** \brief Run from the start; if there were updates, with voxels at the places that they have given them. One failing object (degenerate, too large for the memory allowed ...) does not lose the
    * others: see ObjectResult::error; a background that fails is a warning.
    * \throws Cancelled */
   SceneResult
