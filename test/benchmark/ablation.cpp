@@ -1,31 +1,31 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_cosection authors
 
-// ablation OUTPUT [PRESET|SPEC.json ...]: what each constraint is worth. Simulates views of known scenes (all presets), completes
-// their objects without constraints, with each, and with all, lets PCL's methods reconstruct the same points, and
-// compares everything with the truth. Prints tables and saves them in OUTPUT/ablation.md and .csv, with all meshes and a
-// picture of each scene. Poses are known, depth is noisy.
+// ablation OUTPUT [DATASET|PRESET|SPEC.json ...]: what each constraint is worth, on sequences with known poses and masks: folders with
+// their truth, or simulated (all presets). Completes their objects without constraints, with each, and with all, lets PCL's
+// methods reconstruct the points of the same keyframes, and compares everything with the truth. Prints tables and saves them
+// in OUTPUT/ablation.md and .csv, with all meshes and a picture of each scene.
 
 #include "ablation_picture.h"
 #include "ablation_table.h"
 #include "rivals.h"
 
 #include "output_files.h"
-#include "scene_input.h"
+#include "scene_folders.h"
 
 #include <pcl/cosection/common/error.h>
 #include <pcl/cosection/evaluation/mesh_comparison.h>
+#include <pcl/cosection/fusion/sequence_fusion.h>
 #include <pcl/cosection/io/mesh_io.h>
+#include <pcl/cosection/io/stamp_matching.h>
 #include <pcl/cosection/rendering/picture.h>
 #include <pcl/cosection/simulation/scene_spec.h>
 #include <pcl/cosection/simulation/sequence_writer.h>
-#include <pcl/cosection/surface/co_section.h>
 
 #include <pcl/console/print.h>
 
 #include <algorithm>
 #include <chrono>
-#include <cstdio>
 #include <exception>
 #include <filesystem>
 #include <functional>
@@ -61,117 +61,154 @@ sceneOf (const std::string& name)
   return loadSceneSpec (name);
 }
 
-/** \brief The scene as only its views: each frame is one. */
-SimulatedScene
-viewsOnly (SimulatedScene scene)
+/** \brief A sequence with its truth. */
+struct Dataset
 {
-  if (scene.views_every < 1)
-    throw InvalidArgument ("the scene has no views; give it \"views\": {\"every\": N}");
-  scene.frames = (scene.frames - 1) / scene.views_every + 1;
-  scene.rate /= scene.views_every;
-  scene.views_every = 1;
-  return scene;
-}
-
-Settings
-settingsFor (const SimulatedScene& scene, const fs::path& data)
-{
-  Settings settings;
-  for (int view = 0; view < scene.frames; ++view)
+  explicit Dataset (const std::string& folder)
+  : truth (readTruth (folder, notes)), images (folder), masks (folder + "/mask", images)
   {
-    char name[32];
-    std::snprintf (name, sizeof name, "View%04d.pcd", view);
-    settings.inputs.push_back ((data / "views" / name).string ());
+    truth.objects.erase (std::remove_if (truth.objects.begin (), truth.objects.end (),
+                                         [] (const SceneRecord::Object& object) { return object.mesh.empty (); }),
+                         truth.objects.end ());
+    known.images = &images;
+    known.masks = &masks;
+    known.camera = truth.camera;
+    for (const SceneRecord::Object& object : truth.objects)
+      known.objects[object.id] = object.poses;
   }
-  for (const SceneBody& body : scene.bodies)
-    if (body.id > 0)
-      settings.object_trajectories[body.id] =
-          (data / "views" / ("gt-" + body.name + "-" + std::to_string (body.id) + ".txt")).string ();
-  return settings;
-}
 
-/** \brief Complete all objects at once. \return by id; empty where it failed */
-std::map<int, TriangleMesh>
-complete (const SceneInput& input, const Variant& variant)
+  ReadingNotes notes;
+  SceneRecord truth;
+  RgbdSequence images;
+  MaskSequence masks;
+  KnownSequence known;
+};
+
+using Meshes = std::map<int, TriangleMesh>;
+
+/** \brief All objects at once, and what their TSDF volumes say; empty where it failed. */
+std::pair<Meshes, Meshes>
+complete (const Dataset& data, const Variant& variant)
 {
-  CoSectionOptions options = variant.paper ? CoSectionOptions::paper () : CoSectionOptions ();
-  options.use_hull = variant.hull;
-  options.use_intersection = variant.intersection;
-  CoSection task (options);
-  for (const DepthView& view : input.views)
-    task.addView (view);
-  if (!input.background.empty ())
-    task.setBackground (input.background);
-  for (const auto& [id, object] : input.objects)
-    task.addObject (object);
-  std::map<int, TriangleMesh> meshes;
-  for (ObjectResult& object : task.reconstruct ().objects)
+  FusionOptions options;
+  CoSectionOptions& method = options.backend.method;
+  const bool whole = method.whole_background;
+  const std::size_t min_points = method.min_points;
+  method = variant.paper ? CoSectionOptions::paper () : CoSectionOptions ();
+  method.whole_background = whole;
+  method.min_points = min_points;
+  method.use_hull = variant.hull;
+  method.use_intersection = variant.intersection;
+  FusionResult result = SequenceFusion (data.known, options).run ();
+  std::pair<Meshes, Meshes> meshes;
+  for (ObjectResult& object : result.scene.objects)
   {
     if (!object.error.empty ())
       std::cerr << variant.name << ": object " << object.id << ": " << object.error << '\n';
-    meshes[object.id] = std::move (object.mesh);
+    meshes.first[object.id] = std::move (object.mesh);
   }
+  for (auto& [id, object] : result.objects)
+    meshes.second[id] = std::move (object.tsdf);
   return meshes;
 }
 
-std::map<int, TriangleMesh>
-reconstructEach (const SceneInput& input, const std::function<TriangleMesh (const std::vector<OrientedPoint>&)>& method)
+/** \brief The points of all keyframes, by object, in its frame. */
+std::map<int, std::vector<OrientedPoint>>
+keyframePoints (const Dataset& data)
 {
-  std::map<int, TriangleMesh> meshes;
-  for (const auto& [id, object] : input.objects)
-    meshes[id] = method (object.points);
-  return meshes;
+  const FusionOptions options;
+  const auto camera = posesAtStamps (data.known.camera, data.images.stamps (), data.images.period ());
+  std::map<int, std::vector<OrientedPoint>> points;
+  std::vector<std::string> warnings;
+  for (std::size_t n = 0; n < data.images.size (); n += static_cast<std::size_t> (options.keyframe_every))
+  {
+    const RgbdFrame frame = data.images.read (n, warnings);
+    const auto mask = data.masks.read (frame.stamp);
+    if (!camera[n] || !mask)
+      continue;
+    const Keyframe keyframe = makeKeyframe (frame, data.images.camera (), *mask, *camera[n], options.keyframe);
+    for (const SceneRecord::Object& object : data.truth.objects)
+    {
+      const auto pose = posesAtStamps (object.poses, {frame.stamp}, data.images.period ()).front ();
+      const auto seen = keyframe.points.find (object.id);
+      if (!pose || seen == keyframe.points.end ())
+        continue;
+      const Eigen::Isometry3d T = pose->inverse () * *camera[n];
+      for (OrientedPoint p : seen->second)
+      {
+        p.position = (T * p.position.cast<double> ()).cast<float> ();
+        p.normal = (T.linear () * p.normal.cast<double> ()).cast<float> ();
+        points[object.id].push_back (p);
+      }
+    }
+  }
+  return points;
+}
+
+/** \brief A sequence's folder as it is; else the scene, simulated into \a folder. */
+std::string
+prepare (const std::string& name, const fs::path& folder)
+{
+  if (fs::is_directory (name))
+    return name;
+  const SimulatedScene scene = sceneOf (name);
+  fs::remove_all (folder / "data");
+  writeSequence (scene, (folder / "data").string ());
+  return (folder / "data").string ();
 }
 
 AblationScene
 runScene (const std::string& name, const fs::path& output)
 {
-  const SimulatedScene scene = viewsOnly (sceneOf (name));
   AblationScene result;
-  result.name = fs::path (name).stem ().string ();
+  const fs::path path = fs::path (name).has_filename () ? fs::path (name) : fs::path (name).parent_path ();
+  result.name = path.stem ().string ();
   const fs::path folder = output / result.name;
-  fs::remove_all (folder / "data");
-  writeSequence (scene, (folder / "data").string ());
-  const SceneInput input = readScene (settingsFor (scene, folder / "data"), [] (const std::string&, double) { return true; });
-  for (const std::string& warning : input.warnings)
+  const Dataset data (prepare (name, folder));
+  for (const std::string& warning : data.notes.warnings)
     std::cerr << result.name << ": " << warning << '\n';
-
-  std::vector<std::pair<std::string, std::function<std::map<int, TriangleMesh> ()>>> methods;
-  methods.emplace_back (tools_of_others[0], [&] { return reconstructEach (input, poissonSurface); });
-  methods.emplace_back (tools_of_others[1], [&] { return reconstructEach (input, convexHull); });
-  methods.emplace_back (tools_of_others[2], [&] { return reconstructEach (input, hoppeSurface); });
+  const std::map<int, std::vector<OrientedPoint>> points = keyframePoints (data);
+  const auto each = [&] (TriangleMesh (*method) (const std::vector<OrientedPoint>&)) {
+    Meshes meshes;
+    for (const auto& [id, of] : points)
+      meshes[id] = method (of);
+    return meshes;
+  };
+  Meshes tsdf;
+  std::vector<std::pair<std::string, std::function<Meshes ()>>> methods;
+  methods.emplace_back (tools_of_others[0], [&] { return each (poissonSurface); });
+  methods.emplace_back (tools_of_others[1], [&] { return each (convexHull); });
+  methods.emplace_back (tools_of_others[2], [&] { return each (hoppeSurface); });
   for (const Variant& variant : variants)
-    methods.emplace_back (variant.name, [&input, variant] { return complete (input, variant); });
+    methods.emplace_back (variant.name, [&data, &tsdf, variant] {
+      auto [completed, volumes] = complete (data, variant);
+      tsdf = std::move (volumes);
+      return completed;
+    });
+  methods.emplace_back ("TSDF", [&] { return tsdf; });
 
-  std::map<int, TriangleMesh> truth;
-  for (const SceneBody& body : scene.bodies)
-    if (body.id > 0)
-    {
-      truth[body.id] = loadPlyMesh ((folder / "data" / "gt-mesh" / (body.name + ".ply")).string ());
-      result.objects.push_back (body.name);
-    }
-  PictureRows rows (truth, scene);
+  for (const SceneRecord::Object& object : data.truth.objects)
+    result.objects.push_back (object.name);
+  PictureRows rows (data.truth);
   for (const auto& [method, reconstruct] : methods)
   {
     const auto start = std::chrono::steady_clock::now ();
-    const std::map<int, TriangleMesh> meshes = reconstruct ();
+    const Meshes meshes = reconstruct ();
     AblationRow row;
     row.method = method;
     row.seconds = std::chrono::duration<double> (std::chrono::steady_clock::now () - start).count ();
     std::string file = method;
     std::replace_if (file.begin (), file.end (), [] (char c) { return c == ':' || c == ' ' || c == ',' || c == '-'; }, '_');
     fs::create_directories (folder / file);
-    for (const SceneBody& body : scene.bodies)
+    for (const SceneRecord::Object& object : data.truth.objects)
     {
-      if (body.id == 0)
-        continue;
-      const auto mesh = meshes.find (body.id);
+      const auto mesh = meshes.find (object.id);
       row.results.emplace_back ();
       if (mesh == meshes.end () || mesh->second.empty ())
         continue;
-      row.results.back ().comparison = compareMeshes (truth.at (body.id), mesh->second);
+      row.results.back ().comparison = compareMeshes (object.mesh, mesh->second);
       row.results.back ().closed = computeTopology (mesh->second).closed_manifold;
-      saveMesh (mesh->second, (folder / file / (body.name + ".ply")).string ());
+      saveMesh (mesh->second, (folder / file / (object.name + ".ply")).string ());
     }
     rows.add (method, meshes);
     std::cerr << result.name << ", " << method << ": " << row.seconds << " s\n";
@@ -188,7 +225,7 @@ main (int argc, char** argv)
 {
   if (argc < 2 || argv[1][0] == '-')
   {
-    std::cerr << "Usage: ablation OUTPUT [PRESET|SPEC.json ...]\n";
+    std::cerr << "Usage: ablation OUTPUT [DATASET|PRESET|SPEC.json ...]\n";
     return 2;
   }
   try

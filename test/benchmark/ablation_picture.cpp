@@ -2,8 +2,11 @@
 // Copyright (c) 2026, the pcl_cosection authors
 #include "ablation_picture.h"
 
+#include <pcl/cosection/io/stamp_matching.h>
 #include <pcl/cosection/rendering/picture.h>
 #include <pcl/cosection/rendering/rasterizer.h>
+
+#include <pcl/cosection/simulation/keyed_motion.h>
 
 #include <cmath>
 
@@ -19,39 +22,41 @@ constexpr double from_above = 0.45; // of the direction to the camera, upwards
 
 /** \brief Mean direction from the object to the cameras, object frame. */
 Eigen::Vector3d
-seenFrom (const SceneBody& body, const SimulatedScene& scene)
+seenFrom (const SceneRecord::Object& object, const std::vector<StampedPose>& camera)
 {
+  std::vector<double> stamps;
+  for (const StampedPose& pose : camera)
+    stamps.push_back (pose.stamp);
+  const auto poses = posesAtStamps (object.poses, stamps, stampPeriod (stamps));
   Eigen::Vector3d sum = Eigen::Vector3d::Zero ();
-  for (int frame = 0; frame < scene.frames; ++frame)
-  {
-    const double time = scene.timeOf (frame);
-    sum += (body.motion.at (time).inverse () * scene.camera_motion.at (time).translation ()).normalized ();
-  }
+  for (std::size_t n = 0; n < camera.size (); ++n)
+    if (poses[n])
+      sum += (poses[n]->inverse () * camera[n].pose.translation ()).normalized ();
   return sum;
 }
 
 } // namespace
 
-PictureRows::PictureRows (const std::map<int, TriangleMesh>& truth, const SimulatedScene& scene)
+PictureRows::PictureRows (const SceneRecord& truth)
 {
-  for (const SceneBody& body : scene.bodies)
+  std::map<int, TriangleMesh> meshes;
+  for (const SceneRecord::Object& object : truth.objects)
   {
-    if (body.id == 0)
-      continue;
+    meshes[object.id] = object.mesh;
     Eigen::AlignedBox3d box;
-    for (const Eigen::Vector3f& v : truth.at (body.id).vertices)
+    for (const Eigen::Vector3f& v : object.mesh.vertices)
       box.extend (v.cast<double> ());
     const double radius = 0.5 * box.diagonal ().norm ();
-    Eigen::Vector3d back = -seenFrom (body, scene);
+    Eigen::Vector3d back = -seenFrom (object, truth.camera);
     back.z () = 0.0;
     back = (back.norm () > 1e-6 ? back.normalized () : Eigen::Vector3d::UnitY ()) + from_above * Eigen::Vector3d::UnitZ ();
     Row row;
     const double focal = panel_px / 2.0 / margin * (distance_radii - 1.0);
     row.camera = {panel_px, panel_px, focal, focal, (panel_px - 1) / 2.0, (panel_px - 1) / 2.0};
     row.T_object_camera = lookAt (box.center () + distance_radii * radius * back.normalized (), box.center ());
-    rows_[body.id] = row;
+    rows_[object.id] = row;
   }
-  add ("truth", truth);
+  add ("truth", meshes);
 }
 
 void

@@ -4,7 +4,7 @@
 
 #include <pcl/cosection/common/image.h>
 #include <pcl/cosection/common/triangle_mesh.h>
-#include <pcl/cosection/simulation/simulated_scene.h>
+#include <pcl/cosection/evaluation/run_evaluation.h>
 
 #include <map>
 #include <string>
@@ -15,7 +15,8 @@
 class PictureRows
 {
 public:
-  PictureRows (const std::map<int, pcl::cosection::TriangleMesh>& truth, const pcl::cosection::SimulatedScene& scene);
+  /** \param[in] truth objects with meshes and poses, and the camera's */
+  explicit PictureRows (const pcl::cosection::SceneRecord& truth);
 
   void
   add (const std::string& method, const std::map<int, pcl::cosection::TriangleMesh>& meshes);
