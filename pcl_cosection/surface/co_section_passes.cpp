@@ -20,6 +20,7 @@ namespace
 {
 
 constexpr double penetration_voxels = 0.5; // more is resolved by growing weights
+constexpr double coarse_voxels = 2.0;      // no more is allowed however coarse the surroundings are, voxels of the object
 constexpr double weight_growth = 4.0;
 constexpr double max_weight_growth = 1024.0;
 
@@ -173,7 +174,7 @@ CoSectionRun::penetration (const Object& object, const SignedDistanceField& body
   return deepest (object, [&] (const Eigen::Vector3d& at) {
     double depth = 0.0;
     for (const Eigen::Isometry3d& T : poses)
-      if (const auto u = body.sampleSupported (T * at))
+      if (const auto u = body.sampleInside (body.grid.toVoxel (T * at)))
         depth = std::max (depth, static_cast<double> (-*u));
     return depth;
   });
@@ -237,9 +238,13 @@ CoSectionRun::growWeightsWherePenetrating (Resolution resolution)
   for (const Obstacle& body : bodies_)
     coarsest = std::max (coarsest, body.field->grid.voxel_size_m);
   for (Object& object : objects_)
-    if (object.alive () && penetrationOfSurroundings (object) >
-                               allowed_voxels * std::max (coarsest, object.volume ().grid ().voxel_size_m))
+  {
+    if (!object.alive ())
+      continue;
+    const double h = object.volume ().grid ().voxel_size_m;
+    if (penetrationOfSurroundings (object) > allowed_voxels * std::clamp (coarsest, h, coarse_voxels * h))
       grow (object.beta_surroundings);
+  }
   for (Object& object : objects_)
     for (std::size_t p = 0; object.alive () && p < objects_.size (); ++p)
     {

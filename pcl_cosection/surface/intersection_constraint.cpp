@@ -54,14 +54,18 @@ IntersectionConstraint::addBody (const SignedDistanceField& body, const Eigen::I
   distance_vox_.resize (grid_.size (), 0.0f);
   beta_.resize (grid_.size (), 0.0f);
   const auto to_voxels = static_cast<float> (1.0 / grid_.voxel_size_m);
+  const Eigen::Vector3d step = T_body_grid.linear ().col (0) * (grid_.voxel_size_m / body.grid.voxel_size_m);
   parallelFor (first.z (), last.z (), threads_, [&] (int k) {
     for (int j = first.y (); j < last.y (); ++j)
+    {
+      const Eigen::Vector3d start = body.grid.toVoxel (T_body_grid * grid_.center (0, j, k));
       for (int i = first.x (); i < last.x (); ++i)
       {
-        const auto u = body.sampleSupported (T_body_grid * grid_.center (i, j, k));
-        if (u && *u < 0.0f)
+        const auto u = body.sampleInside (start + i * step);
+        if (u)
           raise (grid_.index (i, j, k), -*u * to_voxels, static_cast<float> (beta));
       }
+    }
   });
 }
 

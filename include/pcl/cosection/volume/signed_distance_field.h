@@ -34,6 +34,11 @@ struct PCL_COSECTION_EXPORT SignedDistanceField
   std::optional<float>
   sampleSupported (const Eigen::Vector3d& p) const;
 
+  /** \brief As sampleSupported (), but only values below zero, at voxel coordinates; quick where there are none. Of a field that
+   * grows by no more than three times the distance. */
+  std::optional<float>
+  sampleInside (const Eigen::Vector3d& v) const;
+
 private:
   /** \brief As sample (), at voxel coordinates. */
   std::optional<float>
