@@ -27,6 +27,9 @@ constexpr double same_pose_voxels = 0.5;
 constexpr std::size_t bytes_per_field_voxel = sizeof (float) + sizeof (std::uint8_t);
 constexpr double stray_reach_voxels = 3.0; // of a point in the data term
 constexpr double max_stray_share = 0.2;    // more are no exception
+constexpr double resting_reach = 0.15;     // of the middle observed extent: what is as low over a plane rests on it
+constexpr double resting_share = 0.01;     // of the points, which may be lower
+constexpr double same_resting_cosine = 0.995; // planes of two views on which it rests the same way
 
 } // namespace
 
@@ -196,6 +199,32 @@ CoSectionRun::createVolumes ()
       });
 }
 
+std::vector<Eigen::Vector4d>
+CoSectionRun::restingPlanes (const Object& object) const
+{
+  std::vector<Eigen::Vector4d> resting;
+  const std::vector<OrientedPoint>& points = object.points ();
+  const double reach_m = resting_reach * observedExtents (points)[1];
+  std::vector<double> heights (points.size ());
+  for (const Eigen::Isometry3d& T_world_object : relativePoses (object, nullptr))
+    for (const Eigen::Vector4d& in_world : object.planes)
+    {
+      const Eigen::Vector4d plane = transformPlane (in_world, T_world_object);
+      const bool known = std::any_of (resting.begin (), resting.end (), [&] (const Eigen::Vector4d& other) {
+        return plane.head<3> ().dot (other.head<3> ()) > same_resting_cosine;
+      });
+      if (known)
+        continue;
+      for (std::size_t p = 0; p < points.size (); ++p)
+        heights[p] = plane.head<3> ().dot (points[p].position.cast<double> ()) + plane[3];
+      const auto low = heights.begin () + static_cast<std::ptrdiff_t> (resting_share * static_cast<double> (heights.size ()));
+      std::nth_element (heights.begin (), low, heights.end ());
+      if (*low < reach_m)
+        resting.push_back (plane);
+    }
+  return resting;
+}
+
 void
 CoSectionRun::prepareObject (Object& object)
 {
@@ -218,15 +247,20 @@ CoSectionRun::prepareObject (Object& object)
     object.volume->prepare ();
     if (!object.volume->hasData ())
       throw DegenerateInput ("no usable measurements: all of its points lie in space that was seen free");
-    const auto views = viewsOf (object);
+    std::vector<SymmetricExtent> standing;
+    const std::vector<Eigen::Vector4d> resting = restingPlanes (object);
+    for (const Eigen::Vector4d& plane : resting)
+      standing.emplace_back (object.points (), plane.head<3> ());
+    if (scene_.options.use_contact_prior)
+      for (std::size_t n = 0; n < resting.size (); ++n)
+        object.volume->addContactPrior (object.points (), resting[n], standing[n].center ());
+    if (standing.empty ())
+      standing.emplace_back (object.points ());
+    if (!scene_.options.use_symmetric_extent)
+      standing.clear ();
     if (scene_.options.use_extent_prior)
       object.volume->addExtentPrior (scene_.background.empty () ? ExtentPrior::cutOut () : ExtentPrior (),
-                                     object.points (), views);
-    if (scene_.options.use_contact_prior && !views.empty ())
-      for (const Eigen::Isometry3d& T_world_object : relativePoses (object, nullptr))
-        for (const Eigen::Vector4d& plane : object.planes)
-          object.volume->addContactPrior (object.points (), transformPlane (plane, T_world_object),
-                                          views.front ().second.translation ());
+                                     object.points (), viewsOf (object), standing);
   });
   object.told = object.volume->measuredField ();
 }
