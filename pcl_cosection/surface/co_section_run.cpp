@@ -27,9 +27,9 @@ constexpr double same_pose_voxels = 0.5;
 constexpr std::size_t bytes_per_field_voxel = sizeof (float) + sizeof (std::uint8_t);
 constexpr double stray_reach_voxels = 3.0; // of a point in the data term
 constexpr double max_stray_share = 0.2;    // more are no exception
-constexpr double follow_tolerance = 0.5;      // of that of the solver: what one update leaves, the next begins with
-constexpr double max_voxel_size_change = 1.2; // until a body that is followed gets other voxels
-constexpr double max_empty_share = 0.5;       // of a volume that was large enough for what was known before
+constexpr double resting_reach = 0.15;     // of the middle observed extent: what is as low over a plane rests on it
+constexpr double resting_share = 0.01;     // of the points, which may be lower
+constexpr double same_resting_cosine = 0.995; // planes of two views on which it rests the same way
 
 } // namespace
 
@@ -156,29 +156,6 @@ CoSectionRun::leaveOutStrays (Object& object)
   object.voxel_size_m = objectVoxelSize (object.points (), object.observed, scene_.options);
 }
 
-const VoxelGrid*
-CoSectionRun::earlierGrid (const FollowedBody& body, int id) const
-{
-  if (body.volume)
-    return &body.grid ();
-  const auto followed = scene_.memory.objects.find (id);
-  const FollowedBody* earlier = id == 0                               ? &scene_.memory.background
-                                : followed == scene_.memory.objects.end () ? nullptr
-                                                                           : &followed->second;
-  return earlier && earlier->volume ? &earlier->grid () : nullptr;
-}
-
-void
-CoSectionRun::keepVoxelSize (Object& object) const
-{
-  const VoxelGrid* grid = earlierGrid (*object.body, object.input->id);
-  if (!grid)
-    return;
-  const double ratio = grid->voxel_size_m / object.voxel_size_m;
-  if (ratio > 1.0 / max_voxel_size_change && ratio < max_voxel_size_change)
-    object.voxel_size_m = grid->voxel_size_m;
-}
-
 Eigen::AlignedBox3d
 CoSectionRun::volumeBox (const Object& object) const
 {
@@ -226,96 +203,30 @@ CoSectionRun::bytesInUse () const
   return bytes + points * sizeof (OrientedPoint);
 }
 
-void
-CoSectionRun::place (FollowedBody& body, int id, const Eigen::AlignedBox3d& box, double voxel_size_m, bool carve)
+std::vector<Eigen::Vector4d>
+CoSectionRun::restingPlanes (const Object& object) const
 {
-  VoxelGrid grid = layoutBox (box, voxel_size_m);
-  const VoxelGrid* earlier = earlierGrid (body, id);
-  if (earlier && earlier->voxel_size_m == voxel_size_m)
-  {
-    // On its lattice; the same as long as it is large enough and not much too large.
-    const Eigen::Vector3d first = earlier->toVoxel (box.min ()).array ().floor ();
-    const Eigen::Vector3d last = earlier->toVoxel (box.max ()).array ().ceil ();
-    if (body.volume && (first.array () >= 0.0).all () &&
-        (last.array () <= earlier->dims.cast<double> ().array () - 1.0).all () &&
-        (last - first + Eigen::Vector3d::Ones ()).prod () > max_empty_share * static_cast<double> (earlier->size ()))
-      return;
-    grid.origin_m = earlier->origin_m + voxel_size_m * first;
-    grid.dims = (last - first).cast<int> ().array () + 1;
-  }
-  checkMemory (grid, scene_.options.max_memory_bytes, bytesInUse () - (body.volume ? ShapeVolume::estimateBytes (body.grid ()) : 0));
-  CoSectionOptions options = scene_.options;
-  if (mode_ == Mode::Follow)
-    options.solver.tolerance_vox *= follow_tolerance;
-  body.restart (grid, options, carve);
-}
-
-void
-CoSectionRun::createVolumes ()
-{
-  const bool carve = scene_.options.use_hull && scene_.options.carve_free_space && !scene_.views.empty ();
-  for (Object& object : objects_)
-    if (object.alive ())
-      guarded (object, [&] { place (*object.body, object.input->id, volumeBox (object), object.voxel_size_m, carve); });
-}
-
-void
-CoSectionRun::readPoints (Object& object)
-{
-  FollowedBody& body = *object.body;
-  const std::vector<OrientedPoint>& all = object.input->points;
-  std::vector<bool> stray = object.stray;
-  stray.resize (all.size (), false);
-  if (!std::equal (body.stray.begin (), body.stray.end (), stray.begin ()))
-    body.readAgain ();
-  std::vector<OrientedPoint> fresh;
-  fresh.reserve (all.size () - body.stray.size ());
-  for (std::size_t p = body.stray.size (); p < all.size (); ++p)
-    if (!stray[p])
-      fresh.push_back (all[p]);
-  if (!fresh.empty ())
-    body.evidence->addPoints (fresh);
-  body.stray = std::move (stray);
-}
-
-void
-CoSectionRun::gatherEvidence ()
-{
-  timed ("data_term", [&] {
-    for (Object& object : objects_)
-      if (object.alive ())
-        guarded (object, [&] { readPoints (object); });
-    for (FollowedBody* body : backgroundBodies ())
+  std::vector<Eigen::Vector4d> resting;
+  const std::vector<OrientedPoint>& points = object.points ();
+  const double reach_m = resting_reach * observedExtents (points)[1];
+  std::vector<double> heights (points.size ());
+  for (const Eigen::Isometry3d& T_world_object : relativePoses (object, nullptr))
+    for (const Eigen::Vector4d& in_world : object.planes)
     {
-      body->evidence->addPoints ({scene_.background.begin () + static_cast<std::ptrdiff_t> (body->points_read),
-                                  scene_.background.end ()});
-      body->points_read = scene_.background.size ();
+      const Eigen::Vector4d plane = transformPlane (in_world, T_world_object);
+      const bool known = std::any_of (resting.begin (), resting.end (), [&] (const Eigen::Vector4d& other) {
+        return plane.head<3> ().dot (other.head<3> ()) > same_resting_cosine;
+      });
+      if (known)
+        continue;
+      for (std::size_t p = 0; p < points.size (); ++p)
+        heights[p] = plane.head<3> ().dot (points[p].position.cast<double> ()) + plane[3];
+      const auto low = heights.begin () + static_cast<std::ptrdiff_t> (resting_share * static_cast<double> (heights.size ()));
+      std::nth_element (heights.begin (), low, heights.end ());
+      if (*low < reach_m)
+        resting.push_back (plane);
     }
-  });
-  timed ("constraints", [&] {
-    for (std::size_t v = 0; v < scene_.views.size (); ++v)
-    {
-      const DepthView& depth = scene_.views[v].depth;
-      std::optional<FreeSpaceView> view; // prepared once, for the first that asks
-      const auto show = [&] (FollowedBody& body, const Eigen::Isometry3d& T_body_sensor) {
-        if (body.views_read > v)
-          return;
-        body.views_read = v + 1;
-        if (!T_body_sensor.matrix ().allFinite ())
-          return;
-        if (!view)
-          view.emplace (depth);
-        body.evidence->addView (*view, T_body_sensor, scene_.views[v].use == ViewUse::Full);
-      };
-      for (FollowedBody* body : backgroundBodies ())
-        if (scene_.views[v].use != ViewUse::FreeSpace)
-          show (*body, depth.T_world_sensor);
-      for (Object& object : objects_)
-        if (object.alive () && scene_.options.use_hull)
-          guarded (object, [&] { show (*object.body, pose (object, v).inverse () * depth.T_world_sensor); });
-      report ("free space", 0.05 * static_cast<double> (v + 1) / static_cast<double> (scene_.views.size ()));
-    }
-  });
+  return resting;
 }
 
 void
@@ -328,14 +239,20 @@ CoSectionRun::prepareObject (Object& object)
       object.body->evidence.reset ();
     if (!volume.hasData ())
       throw DegenerateInput ("no usable measurements: all of its points lie in space that was seen free");
-    const auto views = viewsOf (object);
+    std::vector<SymmetricExtent> standing;
+    const std::vector<Eigen::Vector4d> resting = restingPlanes (object);
+    for (const Eigen::Vector4d& plane : resting)
+      standing.emplace_back (object.points (), plane.head<3> ());
+    if (scene_.options.use_contact_prior)
+      for (std::size_t n = 0; n < resting.size (); ++n)
+        volume.addContactPrior (object.points (), resting[n], standing[n].center ());
+    if (standing.empty ())
+      standing.emplace_back (object.points ());
+    if (!scene_.options.use_symmetric_extent)
+      standing.clear ();
     if (scene_.options.use_extent_prior)
-      volume.addExtentPrior (scene_.background.empty () ? ExtentPrior::cutOut () : ExtentPrior (), object.points (), views);
-    if (scene_.options.use_contact_prior && !views.empty ())
-      for (const Eigen::Isometry3d& T_world_object : relativePoses (object, nullptr))
-        for (const Eigen::Vector4d& plane : object.planes)
-          volume.addContactPrior (object.points (), transformPlane (plane, T_world_object),
-                                  views.front ().second.translation ());
+      volume.addExtentPrior (scene_.background.empty () ? ExtentPrior::cutOut () : ExtentPrior (), object.points (),
+                             viewsOf (object), standing);
   });
   object.told = volume.measuredField ();
 }

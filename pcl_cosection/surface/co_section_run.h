@@ -99,6 +99,9 @@ private:
   std::vector<std::pair<const DepthView*, Eigen::Isometry3d>>
   viewsOf (const Object& object) const;
 
+  /** \brief The planes on which the object comes to rest in some view, object frame. */
+  std::vector<Eigen::Vector4d>
+  restingPlanes (const Object& object) const;
   void
   observeObjects ();
   /** \brief A few points far from all others would become bodies of their own. */

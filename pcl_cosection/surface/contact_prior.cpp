@@ -2,10 +2,13 @@
 // Copyright (c) 2026, the pcl_cosection authors
 #include <pcl/cosection/surface/contact_prior.h>
 
+#include "plane_map.h"
+
 #include <Eigen/Geometry>
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace pcl
 {
@@ -15,101 +18,67 @@ namespace cosection
 namespace
 {
 
-constexpr double contact_outliers = 0.02; // share of the contacts, at either side
-constexpr int closing_cells = 3;          // gaps between points up to twice this wide are closed
+constexpr int least_part_cells = 4; // of contact; less is a stray
+constexpr int closing_cells = 3; // gaps between points up to twice this wide are closed
 
-/** \brief A bitmap on the plane, in cells of one voxel. */
-class PlaneMap
+double
+cross (const Eigen::Vector2d& a, const Eigen::Vector2d& b)
 {
-public:
-  PlaneMap (const Eigen::Vector2d& low, const Eigen::Vector2d& high, double cell)
-  : low_ (low - Eigen::Vector2d::Constant (margin_cells * cell))
-  , cell_ (cell)
-  , width_ (static_cast<int> ((high.x () - low.x ()) / cell) + 2 * margin_cells + 1)
-  , height_ (static_cast<int> ((high.y () - low.y ()) / cell) + 2 * margin_cells + 1)
-  , cells_ (static_cast<std::size_t> (width_) * height_, 0)
-  {}
+  return a.x () * b.y () - a.y () * b.x ();
+}
 
-  void
-  set (const Eigen::Vector2d& p)
+/** \brief Corners of the convex hull, counter-clockwise (Andrew's monotone chain). */
+std::vector<Eigen::Vector2d>
+convexHull (std::vector<Eigen::Vector2d> points)
+{
+  std::sort (points.begin (), points.end (), [] (const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
+    return a.x () < b.x () || (a.x () == b.x () && a.y () < b.y ());
+  });
+  std::vector<Eigen::Vector2d> hull;
+  for (int side = 0; side < 2; ++side) // lower, upper
   {
-    cells_[index (p)] = 1;
-  }
-
-  bool
-  at (const Eigen::Vector2d& p) const
-  {
-    const Eigen::Vector2d q = (p - low_) / cell_;
-    return q.x () >= 0.0 && q.y () >= 0.0 && q.x () < width_ && q.y () < height_ && cells_[index (p)] != 0;
-  }
-
-  void
-  close (int radius)
-  {
-    spread (radius, 1);
-    spread (radius, 0);
-  }
-
-private:
-  static constexpr int margin_cells = closing_cells + 1;
-
-  std::size_t
-  index (const Eigen::Vector2d& p) const
-  {
-    const Eigen::Vector2d q = (p - low_) / cell_;
-    return static_cast<std::size_t> (q.y ()) * width_ + static_cast<std::size_t> (q.x ());
-  }
-
-  /** \brief Give cells within \a radius (square) of one of \a value that value. */
-  void
-  spread (int radius, std::uint8_t value)
-  {
-    for (const bool along_x : {true, false})
+    const std::size_t begin = hull.size ();
+    for (const Eigen::Vector2d& p : points)
     {
-      const std::vector<std::uint8_t> before = cells_;
-      for (int y = 0; y < height_; ++y)
-        for (int x = 0; x < width_; ++x)
-          for (int r = -radius; r <= radius; ++r)
-          {
-            const int i = along_x ? x + r : x;
-            const int j = along_x ? y : y + r;
-            if (i >= 0 && j >= 0 && i < width_ && j < height_ && before[static_cast<std::size_t> (j) * width_ + i] == value)
-              cells_[static_cast<std::size_t> (y) * width_ + x] = value;
-          }
+      while (hull.size () >= begin + 2 && cross (hull.back () - hull[hull.size () - 2], p - hull.back ()) <= 0.0)
+        hull.pop_back ();
+      hull.push_back (p);
     }
+    hull.pop_back ();
+    std::reverse (points.begin (), points.end ());
   }
+  return hull;
+}
 
-  Eigen::Vector2d low_;
-  double cell_;
-  int width_;
-  int height_;
-  std::vector<std::uint8_t> cells_;
-};
+/** \brief Whether a point is in a convex polygon. */
+bool
+inside (const std::vector<Eigen::Vector2d>& polygon, const Eigen::Vector2d& p)
+{
+  for (std::size_t n = 0; n < polygon.size (); ++n)
+  {
+    const Eigen::Vector2d side = polygon[(n + 1) % polygon.size ()] - polygon[n];
+    if (cross (side, p - polygon[n]) < 0.0)
+      return false;
+  }
+  return !polygon.empty ();
+}
 
 } // namespace
 
 std::vector<std::uint8_t>
 ContactPrior::patch (const VoxelGrid& grid, const Eigen::Vector4d& plane, const std::vector<OrientedPoint>& points,
-                     const Eigen::Vector3d& sensor_m, const std::vector<std::uint8_t>& free_space) const
+                     const Eigen::Vector3d& center, const std::vector<std::uint8_t>& free_space) const
 {
   const double h = grid.voxel_size_m;
   const Eigen::Vector3d normal = plane.head<3> ();
   const auto height = [&] (const Eigen::Vector3d& p) { return normal.dot (p) + plane[3]; };
-
-  // Axes in the plane: across and along the line of sight.
-  Eigen::Vector3d middle = Eigen::Vector3d::Zero ();
-  for (const OrientedPoint& p : points)
-    middle += p.position.cast<double> () / static_cast<double> (points.size ());
-  Eigen::Vector3d along = middle - sensor_m;
-  along -= normal.dot (along) * normal;
-  if (along.norm () < 1e-9) // seen from straight above: any axis
-    along = normal.unitOrthogonal ();
-  along.normalize ();
-  const Eigen::Vector3d across = normal.cross (along);
+  const Eigen::Vector3d across = normal.unitOrthogonal ();
+  const Eigen::Vector3d along = normal.cross (across);
   const auto flat = [&] (const Eigen::Vector3d& p) { return Eigen::Vector2d (across.dot (p), along.dot (p)); };
+  const Eigen::Vector2d middle = flat (center);
+  const auto turned = [&] (const Eigen::Vector2d& p) { return Eigen::Vector2d (2.0 * middle - p); };
 
-  std::vector<double> contacts, depths;
-  std::vector<Eigen::Vector2d> above;
+  std::vector<Eigen::Vector2d> contacts, above;
   Eigen::Vector2d low = Eigen::Vector2d::Constant (1e30);
   Eigen::Vector2d high = Eigen::Vector2d::Constant (-1e30);
   for (const OrientedPoint& point : points)
@@ -119,31 +88,56 @@ ContactPrior::patch (const VoxelGrid& grid, const Eigen::Vector4d& plane, const 
     if ((voxel.array () < 0.0).any () || (voxel.array () >= grid.dims.cast<double> ().array ()).any ())
       continue;
     const double z = height (p);
-    if (std::abs (z) <= contact_height_vox * h)
-    {
-      contacts.push_back (across.dot (p));
-      depths.push_back (along.dot (p));
-    }
+    if (std::abs (z) <= contact_height_vox * h && std::abs (normal.dot (point.normal.cast<double> ())) < max_slope)
+      contacts.push_back (flat (p));
     if (z > 0.0)
     {
       above.push_back (flat (p));
-      low = low.cwiseMin (above.back ());
-      high = high.cwiseMax (above.back ());
+      for (const Eigen::Vector2d& q : {above.back (), turned (above.back ())})
+      {
+        low = low.cwiseMin (q);
+        high = high.cwiseMax (q);
+      }
     }
   }
   if (static_cast<int> (contacts.size ()) < min_contacts || above.empty ())
     return {};
-  std::sort (contacts.begin (), contacts.end ());
-  const auto cut = static_cast<std::size_t> (contact_outliers * static_cast<double> (contacts.size ()));
-  const double left = contacts[cut];
-  const double right = contacts[contacts.size () - 1 - cut];
-  std::sort (depths.begin (), depths.end ());
-  const double back = depths[depths.size () - 1 - cut] + depth_per_width * (right - left);
-
-  PlaneMap covered (low, high, h);
+  PlaneMap covered (low, high, h, closing_cells + 1);
   for (const Eigen::Vector2d& p : above)
+  {
     covered.set (p);
+    covered.set (turned (p));
+  }
   covered.close (closing_cells);
+
+  PlaneMap touched (low, high, h, closing_cells + 1);
+  for (const Eigen::Vector2d& p : contacts)
+    touched.set (p);
+  touched.close (closing_cells);
+  std::vector<std::vector<Eigen::Vector2d>> undersides;
+  for (const std::vector<Eigen::Vector2d>& part : touched.parts ())
+  {
+    if (static_cast<int> (part.size ()) < least_part_cells)
+      continue;
+    double length = 0.0, gap = std::numeric_limits<double>::infinity ();
+    for (const Eigen::Vector2d& a : part)
+      for (const Eigen::Vector2d& b : part)
+      {
+        length = std::max (length, (a - b).norm ());
+        gap = std::min (gap, (a - turned (b)).norm ());
+      }
+    const bool completed = gap <= gap_per_length * length;
+    std::vector<Eigen::Vector2d> corners; // a voxel around the middles, which may lie on one line
+    for (const Eigen::Vector2d& p : part)
+      for (const Eigen::Vector2d& corner : {Eigen::Vector2d (-h, -h), Eigen::Vector2d (h, -h),
+                                            Eigen::Vector2d (-h, h), Eigen::Vector2d (h, h)})
+      {
+        corners.emplace_back (p + corner);
+        if (completed)
+          corners.emplace_back (turned (p) + corner);
+      }
+    undersides.push_back (convexHull (std::move (corners)));
+  }
 
   std::vector<std::uint8_t> patch (grid.size (), 0);
   for (int k = 0; k < grid.dims.z (); ++k)
@@ -155,7 +149,9 @@ ContactPrior::patch (const VoxelGrid& grid, const Eigen::Vector4d& plane, const 
         if (std::abs (height (p)) > reach_vox * h || free_space[n])
           continue;
         const Eigen::Vector2d q = flat (p);
-        patch[n] = q.x () >= left && q.x () <= right && q.y () <= back && covered.at (q);
+        patch[n] = covered.at (q) && std::any_of (undersides.begin (), undersides.end (), [&] (const auto& hull) {
+                     return inside (hull, q);
+                   });
       }
   return patch;
 }

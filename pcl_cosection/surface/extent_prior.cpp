@@ -140,33 +140,50 @@ ExtentPrior::farthest (const std::vector<OrientedPoint>& points) const
 std::vector<float>
 ExtentPrior::bounds (const VoxelGrid& grid, const std::vector<float>& data_distance_vox,
                      const std::vector<OrientedPoint>& points,
-                     const std::vector<std::pair<const DepthView*, Eigen::Isometry3d>>& views, int threads) const
+                     const std::vector<std::pair<const DepthView*, Eigen::Isometry3d>>& views, int threads,
+                     const std::vector<SymmetricExtent>& plausible) const
 {
   std::vector<Silhouette> silhouettes;
   for (const auto& [view, T_grid_sensor] : views)
     silhouettes.emplace_back (*view, T_grid_sensor, points);
-  const double extent_vox = observedExtents (points)[1] / grid.voxel_size_m;
+  const Eigen::Vector3d extents_vox = observedExtents (points) / grid.voxel_size_m;
+  const auto margin_vox =
+      static_cast<float> (std::max (symmetric_margin * extents_vox[1], least_depth * extents_vox[1] - extents_vox[2]));
   const auto allowed = [&] (Evidence evidence) {
     const double factor = evidence == Evidence::Behind     ? depth_factor
                           : evidence == Evidence::Occluded ? occluded_factor
                                                            : side_factor;
-    return static_cast<float> (factor * extent_vox);
+    return static_cast<float> (factor * extents_vox[1]);
   };
   const float unquestioned = std::min ({allowed (Evidence::Behind), allowed (Evidence::Occluded), allowed (Evidence::None)});
 
   std::vector<float> bounds (grid.size (), 0.0f);
   parallelFor (0, grid.dims.z (), threads, [&] (int k) {
+    const int width = grid.dims.x ();
+    std::vector<float> beyond_vox (width, 0.0f), beyond_m (width);
     for (int j = 0; j < grid.dims.y (); ++j)
-      for (int i = 0; i < grid.dims.x (); ++i)
+    {
+      if (!plausible.empty ())
+        std::fill (beyond_vox.begin (), beyond_vox.end (), std::numeric_limits<float>::infinity ());
+      for (const SymmetricExtent& extent : plausible)
+      {
+        extent.beyond (grid.center (0, j, k), grid.voxel_size_m * Eigen::Vector3d::UnitX (), width, beyond_m.data ());
+        for (int i = 0; i < width; ++i)
+          beyond_vox[i] = std::min (beyond_vox[i], static_cast<float> (beyond_m[i] / grid.voxel_size_m) - margin_vox);
+      }
+      for (int i = 0; i < width; ++i)
       {
         const std::size_t n = grid.index (i, j, k);
-        if (data_distance_vox[n] <= unquestioned)
+        if (data_distance_vox[n] <= unquestioned && beyond_vox[i] <= 0.0f)
           continue;
         Evidence evidence = silhouettes.empty () ? Evidence::Behind : Evidence::None;
         for (const Silhouette& silhouette : silhouettes)
           evidence = std::max (evidence, silhouette.at (grid.center (i, j, k)));
         bounds[n] = std::max (0.0f, data_distance_vox[n] - allowed (evidence));
+        if (evidence != Evidence::Occluded) // what hides a part hides how far it reaches
+          bounds[n] = std::max (bounds[n], beyond_vox[i]);
       }
+    }
   });
   return bounds;
 }

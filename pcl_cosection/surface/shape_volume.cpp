@@ -146,11 +146,12 @@ ShapeVolume::prepare (const ShapeEvidence& evidence, const std::vector<PlaneCont
 
 void
 ShapeVolume::addExtentPrior (const ExtentPrior& prior, const std::vector<OrientedPoint>& points,
-                             const std::vector<std::pair<const DepthView*, Eigen::Isometry3d>>& views)
+                             const std::vector<std::pair<const DepthView*, Eigen::Isometry3d>>& views,
+                             const std::vector<SymmetricExtent>& plausible)
 {
   if (options_.beta_extent <= 0.0)
     return;
-  const std::vector<float> bounds = prior.bounds (grid_, data_distance_vox_, points, views, options_.threads);
+  const std::vector<float> bounds = prior.bounds (grid_, data_distance_vox_, points, views, options_.threads, plausible);
   problem_.exterior.resize (grid_.size ());
   for (std::size_t n = 0; n < grid_.size (); ++n)
     if (bounds[n] > 0.0f && !problem_.exterior[n])
@@ -159,11 +160,11 @@ ShapeVolume::addExtentPrior (const ExtentPrior& prior, const std::vector<Oriente
 
 void
 ShapeVolume::addContactPrior (const std::vector<OrientedPoint>& points, const Eigen::Vector4d& plane,
-                              const Eigen::Vector3d& sensor_m)
+                              const Eigen::Vector3d& center)
 {
   if (options_.beta_contact <= 0.0)
     return;
-  const std::vector<std::uint8_t> patch = ContactPrior ().patch (grid_, plane, points, sensor_m, free_space_);
+  const std::vector<std::uint8_t> patch = ContactPrior ().patch (grid_, plane, points, center, free_space_);
   for (std::size_t n = 0; n < patch.size (); ++n)
   {
     if (!patch[n] || data_[n])

@@ -62,11 +62,12 @@ public:
   /** \brief Add the pull that prevents swelling; after prepare (). */
   void
   addExtentPrior (const ExtentPrior& prior, const std::vector<OrientedPoint>& points,
-                  const std::vector<std::pair<const DepthView*, Eigen::Isometry3d>>& views);
+                  const std::vector<std::pair<const DepthView*, Eigen::Isometry3d>>& views,
+                  const std::vector<SymmetricExtent>& plausible);
 
   /** \brief Let the object rest on a support plane where that is hidden; after prepare (). */
   void
-  addContactPrior (const std::vector<OrientedPoint>& points, const Eigen::Vector4d& plane, const Eigen::Vector3d& sensor_m);
+  addContactPrior (const std::vector<OrientedPoint>& points, const Eigen::Vector4d& plane, const Eigen::Vector3d& center);
 
   void
   setIntersection (std::vector<LowerBound> bounds);

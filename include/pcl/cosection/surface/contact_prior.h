@@ -19,26 +19,29 @@ namespace cosection
 /** \brief Where an object rests on a support plane without our seeing it.
  *
  * Non-intersection says that an object does not enter the table; nothing in it says that the object
- * stands on it, and smoothness alone lifts hidden undersides off. If the observed surface comes down to
- * the plane, the hidden part of the plane straight below observed surface is taken as the object's
- * underside, as far to either side as the observed contact reaches, and no farther behind it than it is
- * wide. The result is a set of voxels next to
- * the plane at which u = -height is to be preferred, with a weight far below that of data. */
+ * stands on it, and smoothness alone lifts hidden undersides off. Contact is where observed surface that is not level comes down
+ * to the plane; the level inside of a bowl does not. Each connected part K of it is completed by its copy K' that is turned by half a
+ * revolution about the object's axis (SymmetricExtent), if the two are no farther apart than K is long: the front and the back edge
+ * of a box, but not two wheels of a car. Below the convex hull of K and K' (of K alone otherwise), where there is
+ * observed surface or its copy above, the object is taken to lie on the plane.
+ * The result is a set of voxels next to the plane at which u = -height is to be preferred, with a weight far below that of
+ * data. */
 struct PCL_COSECTION_EXPORT ContactPrior
 {
   double contact_height_vox = 2.5; ///< points this near to the plane are contact
-  double depth_per_width = 1.0;    ///< depth of the hidden contact per width of the observed one
-  int min_contacts = 10;           ///< points
+  double max_slope = 0.7;          ///< largest |n.plane| of the normal n of a point of contact
+  double gap_per_length = 1.0;     ///< largest gap between a part and its copy, per length of the part
+  int min_contacts = 10;           ///< points; and cells of a voxel, of each part
   double reach_vox = 2.0;          ///< voxels up to this height above or below the plane are affected
 
   /** \brief 1 for voxels of the contact patch, 0 for others; empty if the object does not come down to the plane.
    * \param[in] plane (n, d), unit normal towards the object, the grid's frame
    * \param[in] points the object's, the grid's frame
-   * \param[in] sensor_m position from which the points were seen, the grid's frame
+   * \param[in] center of the object's axis, the grid's frame
    * \param[in] free_space 1 where seen free, one per voxel */
   std::vector<std::uint8_t>
   patch (const VoxelGrid& grid, const Eigen::Vector4d& plane, const std::vector<OrientedPoint>& points,
-         const Eigen::Vector3d& sensor_m, const std::vector<std::uint8_t>& free_space) const;
+         const Eigen::Vector3d& center, const std::vector<std::uint8_t>& free_space) const;
 };
 
 } // namespace cosection

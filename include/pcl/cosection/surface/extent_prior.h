@@ -5,6 +5,7 @@
 #include <pcl/cosection/common/camera.h>
 #include <pcl/cosection/common/export.h>
 #include <pcl/cosection/surface/oriented_point.h>
+#include <pcl/cosection/surface/symmetric_extent.h>
 #include <pcl/cosection/volume/voxel_grid.h>
 
 #include <utility>
@@ -33,12 +34,18 @@ observedExtents (const std::vector<OrientedPoint>& points);
  *     elsewhere (missing readings, out of view):                      \a side_factor
  *
  * What it exceeds that by is the bound, to be applied with a weak weight to voxels that were not seen
- * free. */
+ * free.
+ *
+ * Where a plausible region is given (SymmetricExtent), a voxel is also to keep the distance by which it lies beyond that region, less
+ * max (\a symmetric_margin e2, \a least_depth e2 - e3), e2 and e3 the middle and the smallest observed extent: of a thing of
+ * which one flat face was seen, the region is that face. Voxels that something else hides are left out. The larger bound counts. */
 struct PCL_COSECTION_EXPORT ExtentPrior
 {
   double depth_factor = 0.75;   ///< of the middle observed extent
   double occluded_factor = 0.5; ///< of the middle observed extent
   double side_factor = 0.15;    ///< of the middle observed extent
+  double symmetric_margin = 0.02; ///< around the plausible region, of the middle observed extent
+  double least_depth = 0.25;      ///< that an object is taken to have, of the middle observed extent
 
   /** \brief For an object whose points were cut out of a scene: what they stood on is gone, and a missing reading beside them
    * suggests no matter. */
@@ -53,10 +60,12 @@ struct PCL_COSECTION_EXPORT ExtentPrior
    * \param[in] data_distance_vox distance to the nearest voxel with data
    * \param[in] points the object's, the grid's frame
    * \param[in] views depth views and their sensors' poses in the grid's frame; none: every voxel counts as
-   * behind an observed surface */
+   * behind an observed surface
+   * \param[in] plausible regions of which any may hold the object, the grid's frame; none: no such bound */
   std::vector<float>
   bounds (const VoxelGrid& grid, const std::vector<float>& data_distance_vox, const std::vector<OrientedPoint>& points,
-          const std::vector<std::pair<const DepthView*, Eigen::Isometry3d>>& views, int threads = 0) const;
+          const std::vector<std::pair<const DepthView*, Eigen::Isometry3d>>& views, int threads = 0,
+          const std::vector<SymmetricExtent>& plausible = {}) const;
 };
 
 } // namespace cosection

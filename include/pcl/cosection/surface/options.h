@@ -58,6 +58,7 @@ struct PCL_COSECTION_EXPORT CoSectionOptions
   bool use_intersection = true; ///< E_inter, equation (5)
   bool use_planes = true;       ///< find support planes in the background and continue them under the objects
   bool use_extent_prior = true; ///< remedy for swelling: a weak pull outside where nothing suggests the object
+  bool use_symmetric_extent = true; ///< part of the extent prior: hidden parts reach as far as those seen do, see SymmetricExtent
   bool use_contact_prior = true; ///< let objects that come down to a support plane rest on it where that is hidden
   bool carve_free_space = true; ///< with the hull: cut the result along the silhouettes, finer than a voxel
   bool revise_votes = true;     ///< free space can be revised by contradicting evidence

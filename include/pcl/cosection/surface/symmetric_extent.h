@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_cosection authors
+#pragma once
+
+#include <pcl/cosection/common/export.h>
+#include <pcl/cosection/surface/oriented_point.h>
+
+#include <Eigen/Core>
+
+#include <optional>
+#include <utility>
+#include <vector>
+
+namespace pcl
+{
+namespace cosection
+{
+
+/** \brief How far an object would reach if what is hidden of it looked like what was seen of it.
+ *
+ * Boxes, cans, bottles, bowls, vehicles: most things look from behind about as from the front. So what was
+ * observed, S, is completed by a copy that is turned by half a revolution about an axis along the normal of the
+ * plane on which the object rests, or, without such a plane, inverted through a point. The axis or point c is the
+ * middle between the two observed points that are farthest apart (seen along the axis): of what is seen of a box,
+ * these are opposite corners. If surface faces in at least a fifth of all directions n across the axis, next to each
+ * other, and the extents of S along these are those of a circle, s (n) = n.c + r, then c is that circle's.
+ *
+ * The plausible region is the convex hull of S and its copy, as the intersection of half spaces { x : n_k.x <= s_k }
+ * of fixed directions n_k and of those in which large parts of the surface face; s_k is the largest n_k.p of all
+ * points p, but for 0.2 %, and of their copies. */
+class PCL_COSECTION_EXPORT SymmetricExtent
+{
+public:
+  /** \brief Inverted through a point. \param[in] points the object's, of one frame */
+  explicit SymmetricExtent (const std::vector<OrientedPoint>& points);
+
+  /** \brief Turned about an axis along \a up, the unit normal of what the object stands on. */
+  SymmetricExtent (const std::vector<OrientedPoint>& points, const Eigen::Vector3d& up);
+
+  /** \brief max_k (n_k.x - s_k): at most the distance to the plausible region, negative inside; metres. */
+  double
+  beyond (const Eigen::Vector3d& x) const;
+
+  /** \brief The same for \a first + i * \a step, i = 0 ... \a count - 1. \param[out] values metres */
+  void
+  beyond (const Eigen::Vector3d& first, const Eigen::Vector3d& step, int count, float* values) const;
+
+  /** \brief A point of the axis, or the point of inversion. */
+  const Eigen::Vector3d&
+  center () const
+  {
+    return center_;
+  }
+
+private:
+  void
+  build (const std::vector<OrientedPoint>& points, const std::optional<Eigen::Vector3d>& up);
+
+  Eigen::Vector3d center_ = Eigen::Vector3d::Zero ();
+  std::vector<std::pair<Eigen::Vector3d, double>> half_spaces_; // n_k, s_k
+};
+
+} // namespace cosection
+} // namespace pcl

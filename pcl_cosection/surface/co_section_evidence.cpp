@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_cosection authors
+#include "co_section_run.h"
+
+#include "volume_layout.h"
+
+#include <algorithm>
+#include <optional>
+
+// The part of a run that gives bodies their volumes and lets them read what was measured.
+
+namespace pcl
+{
+namespace cosection
+{
+
+namespace
+{
+
+constexpr double follow_tolerance = 0.5;      // of that of the solver: what one update leaves, the next begins with
+constexpr double max_voxel_size_change = 1.2; // until a body that is followed gets other voxels
+constexpr double max_empty_share = 0.5;       // of a volume that was large enough for what was known before
+
+} // namespace
+
+const VoxelGrid*
+CoSectionRun::earlierGrid (const FollowedBody& body, int id) const
+{
+  if (body.volume)
+    return &body.grid ();
+  const auto followed = scene_.memory.objects.find (id);
+  const FollowedBody* earlier = id == 0                               ? &scene_.memory.background
+                                : followed == scene_.memory.objects.end () ? nullptr
+                                                                           : &followed->second;
+  return earlier && earlier->volume ? &earlier->grid () : nullptr;
+}
+
+void
+CoSectionRun::keepVoxelSize (Object& object) const
+{
+  const VoxelGrid* grid = earlierGrid (*object.body, object.input->id);
+  if (!grid)
+    return;
+  const double ratio = grid->voxel_size_m / object.voxel_size_m;
+  if (ratio > 1.0 / max_voxel_size_change && ratio < max_voxel_size_change)
+    object.voxel_size_m = grid->voxel_size_m;
+}
+
+void
+CoSectionRun::place (FollowedBody& body, int id, const Eigen::AlignedBox3d& box, double voxel_size_m, bool carve)
+{
+  VoxelGrid grid = layoutBox (box, voxel_size_m);
+  const VoxelGrid* earlier = earlierGrid (body, id);
+  if (earlier && earlier->voxel_size_m == voxel_size_m)
+  {
+    // On its lattice; the same as long as it is large enough and not much too large.
+    const Eigen::Vector3d first = earlier->toVoxel (box.min ()).array ().floor ();
+    const Eigen::Vector3d last = earlier->toVoxel (box.max ()).array ().ceil ();
+    if (body.volume && (first.array () >= 0.0).all () &&
+        (last.array () <= earlier->dims.cast<double> ().array () - 1.0).all () &&
+        (last - first + Eigen::Vector3d::Ones ()).prod () > max_empty_share * static_cast<double> (earlier->size ()))
+      return;
+    grid.origin_m = earlier->origin_m + voxel_size_m * first;
+    grid.dims = (last - first).cast<int> ().array () + 1;
+  }
+  checkMemory (grid, scene_.options.max_memory_bytes, bytesInUse () - (body.volume ? ShapeVolume::estimateBytes (body.grid ()) : 0));
+  CoSectionOptions options = scene_.options;
+  if (mode_ == Mode::Follow)
+    options.solver.tolerance_vox *= follow_tolerance;
+  body.restart (grid, options, carve);
+}
+
+void
+CoSectionRun::createVolumes ()
+{
+  const bool carve = scene_.options.use_hull && scene_.options.carve_free_space && !scene_.views.empty ();
+  for (Object& object : objects_)
+    if (object.alive ())
+      guarded (object, [&] { place (*object.body, object.input->id, volumeBox (object), object.voxel_size_m, carve); });
+}
+
+void
+CoSectionRun::readPoints (Object& object)
+{
+  FollowedBody& body = *object.body;
+  const std::vector<OrientedPoint>& all = object.input->points;
+  std::vector<bool> stray = object.stray;
+  stray.resize (all.size (), false);
+  if (!std::equal (body.stray.begin (), body.stray.end (), stray.begin ()))
+    body.readAgain ();
+  std::vector<OrientedPoint> fresh;
+  fresh.reserve (all.size () - body.stray.size ());
+  for (std::size_t p = body.stray.size (); p < all.size (); ++p)
+    if (!stray[p])
+      fresh.push_back (all[p]);
+  if (!fresh.empty ())
+    body.evidence->addPoints (fresh);
+  body.stray = std::move (stray);
+}
+
+void
+CoSectionRun::gatherEvidence ()
+{
+  timed ("data_term", [&] {
+    for (Object& object : objects_)
+      if (object.alive ())
+        guarded (object, [&] { readPoints (object); });
+    for (FollowedBody* body : backgroundBodies ())
+    {
+      body->evidence->addPoints ({scene_.background.begin () + static_cast<std::ptrdiff_t> (body->points_read),
+                                  scene_.background.end ()});
+      body->points_read = scene_.background.size ();
+    }
+  });
+  timed ("constraints", [&] {
+    for (std::size_t v = 0; v < scene_.views.size (); ++v)
+    {
+      const DepthView& depth = scene_.views[v].depth;
+      std::optional<FreeSpaceView> view; // prepared once, for the first that asks
+      const auto show = [&] (FollowedBody& body, const Eigen::Isometry3d& T_body_sensor) {
+        if (body.views_read > v)
+          return;
+        body.views_read = v + 1;
+        if (!T_body_sensor.matrix ().allFinite ())
+          return;
+        if (!view)
+          view.emplace (depth);
+        body.evidence->addView (*view, T_body_sensor, scene_.views[v].use == ViewUse::Full);
+      };
+      for (FollowedBody* body : backgroundBodies ())
+        if (scene_.views[v].use != ViewUse::FreeSpace)
+          show (*body, depth.T_world_sensor);
+      for (Object& object : objects_)
+        if (object.alive () && scene_.options.use_hull)
+          guarded (object, [&] { show (*object.body, pose (object, v).inverse () * depth.T_world_sensor); });
+      report ("free space", 0.05 * static_cast<double> (v + 1) / static_cast<double> (scene_.views.size ()));
+    }
+  });
+}
+
+} // namespace cosection
+} // namespace pcl

@@ -1,0 +1,262 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_cosection authors
+#include <pcl/cosection/surface/symmetric_extent.h>
+
+#include <Eigen/Cholesky>
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace pcl
+{
+namespace cosection
+{
+
+namespace
+{
+
+constexpr int even_directions = 162;
+constexpr std::size_t max_points = 4000; // an even subset of no more
+constexpr double stray_share = 0.002;    // of the points, may lie beyond a half space
+constexpr double tie = 0.97;             // of the largest distance: pairs as far apart count as farthest too
+constexpr double face_share = 0.03;      // of the points: normals of so many make a direction
+constexpr double face_cosine = 0.966;    // 15 degrees
+constexpr int round_directions = 64;
+constexpr double round_share = 0.2;      // of these directions, next to each other, in which surface must face
+constexpr double round_cosine = 0.93;    // mean, between such a direction and the normals at its end
+constexpr double end_radius = 0.05;      // of the size: points at an end
+constexpr double round_tolerance = 0.03; // of the radius, root mean square
+constexpr double max_round_width = 1.1;  // diameter of the circle per size
+constexpr double least_flat = 0.5;       // length of a unit vector along the plane, else it is no direction there
+
+/** \brief Directions evenly over the sphere (Fibonacci lattice). */
+std::vector<Eigen::Vector3d>
+evenDirections (int count)
+{
+  std::vector<Eigen::Vector3d> directions;
+  const double golden = M_PI * (3.0 - std::sqrt (5.0));
+  for (int n = 0; n < count; ++n)
+  {
+    const double z = 1.0 - (2.0 * n + 1.0) / count;
+    const double r = std::sqrt (1.0 - z * z);
+    directions.emplace_back (r * std::cos (golden * n), r * std::sin (golden * n), z);
+  }
+  return directions;
+}
+
+/** \brief Mean normals of all large patches that face one way. */
+std::vector<Eigen::Vector3d>
+faceNormals (const std::vector<OrientedPoint>& points, const std::vector<Eigen::Vector3d>& bins)
+{
+  std::vector<Eigen::Vector3d> sums (bins.size (), Eigen::Vector3d::Zero ());
+  std::vector<int> counts (bins.size (), 0);
+  for (const OrientedPoint& point : points)
+  {
+    const Eigen::Vector3d n = point.normal.cast<double> ();
+    std::size_t nearest = 0;
+    for (std::size_t b = 1; b < bins.size (); ++b)
+      if (bins[b].dot (n) > bins[nearest].dot (n))
+        nearest = b;
+    sums[nearest] += n;
+    ++counts[nearest];
+  }
+  std::vector<Eigen::Vector3d> faces;
+  while (true)
+  {
+    const std::ptrdiff_t fullest = std::max_element (counts.begin (), counts.end ()) - counts.begin ();
+    if (counts[fullest] < face_share * static_cast<double> (points.size ()))
+      return faces;
+    const Eigen::Vector3d rough = sums[fullest].normalized ();
+    Eigen::Vector3d sum = Eigen::Vector3d::Zero ();
+    for (const OrientedPoint& point : points)
+      if (point.normal.cast<double> ().dot (rough) > face_cosine)
+        sum += point.normal.cast<double> ();
+    counts[fullest] = 0;
+    if (!(sum.norm () > 0.0))
+      continue;
+    faces.push_back (sum.normalized ());
+    for (std::size_t b = 0; b < bins.size (); ++b)
+      if (bins[b].dot (faces.back ()) > face_cosine)
+        counts[b] = 0;
+  }
+}
+
+/** \brief The point that is farthest along a direction, but for strays. */
+class Farthest
+{
+public:
+  explicit Farthest (const std::vector<OrientedPoint>& points)
+  : points_ (points), stray_ (static_cast<std::ptrdiff_t> (stray_share * static_cast<double> (points.size ())))
+  {}
+
+  Eigen::Vector3d
+  along (const Eigen::Vector3d& direction)
+  {
+    order_.clear ();
+    for (const OrientedPoint& p : points_)
+      order_.emplace_back (-direction.dot (p.position.cast<double> ()), order_.size ());
+    std::nth_element (order_.begin (), order_.begin () + stray_, order_.end ());
+    return points_[order_[static_cast<std::size_t> (stray_)].second].position.cast<double> ();
+  }
+
+private:
+  const std::vector<OrientedPoint>& points_;
+  std::ptrdiff_t stray_;
+  std::vector<std::pair<double, std::size_t>> order_;
+};
+
+/** \brief The middle between the two that are farthest apart; of all such pairs, if there are several. */
+Eigen::Vector3d
+middleOfFarthest (const std::vector<Eigen::Vector3d>& ends)
+{
+  double farthest = 0.0;
+  for (const Eigen::Vector3d& a : ends)
+    for (const Eigen::Vector3d& b : ends)
+      farthest = std::max (farthest, (a - b).norm ());
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero ();
+  double weights = 0.0;
+  for (const Eigen::Vector3d& a : ends)
+    for (const Eigen::Vector3d& b : ends)
+    {
+      const double weight = std::max (0.0, (a - b).norm () - tie * farthest);
+      sum += 0.5 * weight * (a + b);
+      weights += weight;
+    }
+  return weights > 0.0 ? Eigen::Vector3d (sum / weights) : ends.front ();
+}
+
+/** \brief The axis of something round, from the side that was seen. Its edges, where rays graze it, are badly seen, so that
+ * the points farthest apart lie before the axis. What is round has n.c + r as its extent along any direction n in which some of its surface
+ * faces; least squares give c and r.
+ * \return a point of the axis, if these extents are those of a circle */
+std::optional<Eigen::Vector3d>
+axisOfRound (const std::vector<OrientedPoint>& points, const Eigen::Vector3d& up, double size, Farthest& farthest)
+{
+  const Eigen::Vector3d x = up.unitOrthogonal ();
+  const Eigen::Vector3d y = up.cross (x);
+  Eigen::Matrix3d normal_matrix = Eigen::Matrix3d::Zero ();
+  Eigen::Vector3d right_side = Eigen::Vector3d::Zero ();
+  std::vector<std::pair<Eigen::Vector3d, double>> equations;
+  std::vector<bool> faces (round_directions, false);
+  for (int k = 0; k < round_directions; ++k)
+  {
+    const double angle = 2.0 * M_PI * k / round_directions;
+    const Eigen::Vector3d direction = std::cos (angle) * x + std::sin (angle) * y;
+    const Eigen::Vector3d end = farthest.along (direction);
+    double facing = 0.0;
+    int count = 0;
+    for (const OrientedPoint& p : points)
+      if ((p.position.cast<double> () - end).norm () < end_radius * size)
+      {
+        facing += direction.dot (p.normal.cast<double> ());
+        ++count;
+      }
+    if (facing < round_cosine * count)
+      continue;
+    faces[k] = true;
+    const Eigen::Vector3d row (std::cos (angle), std::sin (angle), 1.0);
+    normal_matrix += row * row.transpose ();
+    right_side += direction.dot (end) * row;
+    equations.emplace_back (row, direction.dot (end));
+  }
+  int run = 0, longest = 0; // a box has faces in few directions next to each other
+  for (int k = 0; k < 2 * round_directions; ++k)
+  {
+    run = faces[k % round_directions] ? run + 1 : 0;
+    longest = std::max (longest, run);
+  }
+  if (longest < round_share * round_directions)
+    return std::nullopt;
+  const Eigen::Vector3d solution = normal_matrix.ldlt ().solve (right_side);
+  double error = 0.0;
+  for (const auto& [row, extent] : equations)
+    error += std::pow (row.dot (solution) - extent, 2) / static_cast<double> (equations.size ());
+  const double radius = solution[2];
+  if (!(radius > 0.0) || 2.0 * radius > max_round_width * size || std::sqrt (error) > round_tolerance * radius)
+    return std::nullopt;
+  return solution[0] * x + solution[1] * y;
+}
+
+} // namespace
+
+SymmetricExtent::SymmetricExtent (const std::vector<OrientedPoint>& points)
+{
+  build (points, std::nullopt);
+}
+
+SymmetricExtent::SymmetricExtent (const std::vector<OrientedPoint>& points, const Eigen::Vector3d& up)
+{
+  build (points, up);
+}
+
+void
+SymmetricExtent::build (const std::vector<OrientedPoint>& all, const std::optional<Eigen::Vector3d>& up)
+{
+  if (all.empty ())
+    return;
+  const Eigen::Matrix3d along = up ? Eigen::Matrix3d (*up * up->transpose ()) : Eigen::Matrix3d (Eigen::Matrix3d::Zero ());
+  const Eigen::Matrix3d turn = 2.0 * along - Eigen::Matrix3d::Identity ();
+  const Eigen::Matrix3d flatten = Eigen::Matrix3d::Identity () - along;
+  std::vector<OrientedPoint> points;
+  for (std::size_t p = 0; p < all.size (); p += all.size () / max_points + 1)
+    points.push_back (all[p]);
+  const std::vector<Eigen::Vector3d> even = evenDirections (even_directions);
+  Farthest farthest (points);
+
+  std::vector<Eigen::Vector3d> ends; // points that are farthest apart are farthest along some direction
+  for (const Eigen::Vector3d& direction : even)
+    if ((flatten * direction).norm () > least_flat)
+      ends.push_back (flatten * farthest.along ((flatten * direction).normalized ()));
+  center_ = middleOfFarthest (ends);
+  if (up)
+  {
+    double size = 0.0;
+    for (const Eigen::Vector3d& a : ends)
+      size = std::max (size, 2.0 * (a - center_).norm ());
+    center_ = axisOfRound (points, *up, size, farthest).value_or (center_);
+  }
+
+  std::vector<Eigen::Vector3d> directions = even;
+  for (const Eigen::Vector3d& normal : faceNormals (points, even))
+  {
+    directions.push_back (normal);
+    directions.push_back (turn * normal);
+  }
+  for (const Eigen::Vector3d& n : directions)
+  {
+    // The copy of p is turn (p - center) + center, and turn its own inverse.
+    const Eigen::Vector3d turned = turn * n;
+    const double own = n.dot (farthest.along (n));
+    const double copied = turned.dot (farthest.along (turned) - center_) + n.dot (center_);
+    half_spaces_.emplace_back (n, std::max (own, copied));
+  }
+}
+
+double
+SymmetricExtent::beyond (const Eigen::Vector3d& x) const
+{
+  float value = 0.0f;
+  beyond (x, Eigen::Vector3d::Zero (), 1, &value);
+  return value;
+}
+
+void
+SymmetricExtent::beyond (const Eigen::Vector3d& first, const Eigen::Vector3d& step, int count, float* values) const
+{
+  std::fill (values, values + count, half_spaces_.empty () ? 0.0f : -std::numeric_limits<float>::infinity ());
+  for (const auto& [n, s] : half_spaces_)
+  {
+    const auto at_first = static_cast<float> (n.dot (first) - s);
+    const auto per_step = static_cast<float> (n.dot (step));
+    for (int i = 0; i < count; ++i)
+    {
+      const float value = at_first + static_cast<float> (i) * per_step;
+      values[i] = values[i] < value ? value : values[i];
+    }
+  }
+}
+
+} // namespace cosection
+} // namespace pcl

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_cosection authors
+#include "observed_box.h"
+
+#include <pcl/cosection/surface/symmetric_extent.h>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+using namespace pcl::cosection;
+using namespace pcl::cosection::test;
+
+namespace
+{
+
+const Eigen::Vector3d half_size (0.08, 0.05, 0.06);
+const Eigen::Vector3d corner_view (-1.0, -1.0, 1.0);
+const Eigen::Vector3d up = Eigen::Vector3d::UnitZ ();
+
+/** \brief Around the hidden faces (x, y > 0) the region ends where the box does. */
+void
+expectRegionOfBox (const SymmetricExtent& extent)
+{
+  for (const int axis : {0, 1})
+  {
+    Eigen::Vector3d p = Eigen::Vector3d::Zero ();
+    p[axis] = half_size[axis];
+    EXPECT_NEAR (extent.beyond (p), 0.0, 0.003) << "axis " << axis;
+    p[axis] += 0.03;
+    EXPECT_NEAR (extent.beyond (p), 0.03, 0.003) << "axis " << axis;
+  }
+  EXPECT_LE (extent.beyond (half_size.cwiseProduct (Eigen::Vector3d (0.95, 0.95, 0.95))), 0.002);
+  EXPECT_LT (extent.beyond (Eigen::Vector3d::Zero ()), -0.04);
+}
+
+} // namespace
+
+TEST (SymmetricExtent, BoxOnAPlaneEndsWhereItsHiddenFacesAre)
+{
+  const SymmetricExtent extent (observedBox (half_size, corner_view), up);
+  EXPECT_LT (extent.center ().head<2> ().norm (), 0.003);
+  expectRegionOfBox (extent);
+}
+
+TEST (SymmetricExtent, BoxInTheAirEndsWhereItsHiddenFacesAre)
+{
+  const SymmetricExtent extent (observedBox (half_size, corner_view));
+  EXPECT_LT (extent.center ().norm (), 0.003);
+  expectRegionOfBox (extent);
+  EXPECT_NEAR (extent.beyond ({0.0, 0.0, -half_size.z () - 0.03}), 0.03, 0.003);
+}
+
+TEST (SymmetricExtent, BoxSeenFromTheFrontIsAsDeepAsItsTop)
+{
+  const SymmetricExtent extent (observedBox (half_size, {0.0, -1.0, 1.0}), up);
+  EXPECT_NEAR (extent.beyond ({0.0, half_size.y () + 0.02, 0.0}), 0.02, 0.005);
+}
+
+TEST (SymmetricExtent, BackOfABottleIsAsFarAsItsFront)
+{
+  constexpr double radius = 0.04;
+  std::vector<OrientedPoint> points;
+  for (double angle = M_PI; angle <= 2.0 * M_PI; angle += 0.03)
+    for (double z = 0.0; z < 0.2; z += 0.003)
+    {
+      const Eigen::Vector3d n (std::cos (angle), std::sin (angle), 0.0);
+      OrientedPoint point;
+      point.position = (radius * n + Eigen::Vector3d (0.5, 0.2, z)).cast<float> ();
+      point.normal = n.cast<float> ();
+      points.push_back (point);
+    }
+  const SymmetricExtent extent (points, up);
+  EXPECT_NEAR (extent.center ().x (), 0.5, 0.002);
+  EXPECT_NEAR (extent.center ().y (), 0.2, 0.004);
+  EXPECT_LE (extent.beyond ({0.5, 0.2 + 0.8 * radius, 0.1}), 0.0);
+  EXPECT_NEAR (extent.beyond ({0.5, 0.2 + radius + 0.03, 0.1}), 0.03, 0.008);
+}
+
+TEST (SymmetricExtent, MovesWithThePoints)
+{
+  const Eigen::Isometry3d T =
+      Eigen::Translation3d (0.3, -0.2, 0.7) * Eigen::AngleAxisd (0.8, Eigen::Vector3d (1.0, 2.0, -1.0).normalized ());
+  std::vector<OrientedPoint> points = observedBox (half_size, corner_view);
+  const SymmetricExtent still (points, up);
+  for (OrientedPoint& p : points)
+  {
+    p.position = (T * p.position.cast<double> ()).cast<float> ();
+    p.normal = (T.linear () * p.normal.cast<double> ()).cast<float> ();
+  }
+  const SymmetricExtent moved (points, T.linear () * up);
+  for (const Eigen::Vector3d& x : {Eigen::Vector3d (0.0, 0.08, 0.0), Eigen::Vector3d (0.11, 0.0, 0.0), Eigen::Vector3d (0.0, 0.0, 0.1)})
+    EXPECT_NEAR (moved.beyond (T * x), still.beyond (x), 0.004);
+}
+
+TEST (SymmetricExtent, ARowIsItsPoints)
+{
+  const SymmetricExtent extent (observedBox (half_size, corner_view));
+  const Eigen::Vector3d first (-0.1, 0.07, 0.01);
+  const Eigen::Vector3d step (0.004, 0.001, 0.0);
+  std::vector<float> row (50);
+  extent.beyond (first, step, static_cast<int> (row.size ()), row.data ());
+  for (std::size_t i = 0; i < row.size (); ++i)
+    EXPECT_NEAR (row[i], extent.beyond (first + static_cast<double> (i) * step), 1e-6);
+}
+
+TEST (SymmetricExtent, NoPointsSayNothing)
+{
+  EXPECT_EQ (SymmetricExtent (std::vector<OrientedPoint> ()).beyond ({1.0, 2.0, 3.0}), 0.0);
+}
