@@ -3,6 +3,7 @@
 #include <pcl/cosection/surface/symmetric_extent.h>
 
 #include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 
 #include <algorithm>
@@ -31,9 +32,45 @@ constexpr double round_tolerance = 0.03; // of the radius, root mean square
 constexpr double max_round_width = 1.1;  // diameter of the circle per size
 constexpr double least_flat = 0.5;       // length of a unit vector along the plane, else it is no direction there
 
-/** \brief Directions evenly over the sphere (Fibonacci lattice). */
+/** \brief Axes that turn with the points: along \a up, if given, and the directions in which they extend most. */
+Eigen::Matrix3d
+principalAxes (const std::vector<OrientedPoint>& points, const std::optional<Eigen::Vector3d>& up)
+{
+  Eigen::Vector3d mean = Eigen::Vector3d::Zero ();
+  for (const OrientedPoint& p : points)
+    mean += p.position.cast<double> () / static_cast<double> (points.size ());
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero ();
+  for (const OrientedPoint& p : points)
+  {
+    Eigen::Vector3d d = p.position.cast<double> () - mean;
+    if (up)
+      d -= up->dot (d) * *up;
+    covariance += d * d.transpose ();
+  }
+  Eigen::Vector3d longest = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> (covariance).eigenvectors ().col (2);
+  Eigen::Vector3d upright = up ? *up : Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> (covariance).eigenvectors ().col (0);
+  // To the side to which the points are skewed.
+  const auto skewness = [&] (const Eigen::Vector3d& axis) {
+    double sum = 0.0;
+    for (const OrientedPoint& p : points)
+      sum += std::pow (axis.dot (p.position.cast<double> () - mean), 3);
+    return sum;
+  };
+  if (skewness (longest) < 0.0)
+    longest = -longest;
+  if (!up && skewness (upright) < 0.0)
+    upright = -upright;
+  longest = (longest - upright.dot (longest) * upright).normalized ();
+  if (!longest.allFinite ())
+    longest = upright.unitOrthogonal ();
+  Eigen::Matrix3d axes;
+  axes << longest, upright.cross (longest), upright;
+  return axes;
+}
+
+/** \brief Directions evenly over the sphere (Fibonacci lattice), with respect to some axes. */
 std::vector<Eigen::Vector3d>
-evenDirections (int count)
+evenDirections (int count, const Eigen::Matrix3d& axes)
 {
   std::vector<Eigen::Vector3d> directions;
   const double golden = M_PI * (3.0 - std::sqrt (5.0));
@@ -41,7 +78,7 @@ evenDirections (int count)
   {
     const double z = 1.0 - (2.0 * n + 1.0) / count;
     const double r = std::sqrt (1.0 - z * z);
-    directions.emplace_back (r * std::cos (golden * n), r * std::sin (golden * n), z);
+    directions.push_back (axes * Eigen::Vector3d (r * std::cos (golden * n), r * std::sin (golden * n), z));
   }
   return directions;
 }
@@ -132,10 +169,10 @@ middleOfFarthest (const std::vector<Eigen::Vector3d>& ends)
  * faces; least squares give c and r.
  * \return a point of the axis, if these extents are those of a circle */
 std::optional<Eigen::Vector3d>
-axisOfRound (const std::vector<OrientedPoint>& points, const Eigen::Vector3d& up, double size, Farthest& farthest)
+axisOfRound (const std::vector<OrientedPoint>& points, const Eigen::Matrix3d& axes, double size, Farthest& farthest)
 {
-  const Eigen::Vector3d x = up.unitOrthogonal ();
-  const Eigen::Vector3d y = up.cross (x);
+  const Eigen::Vector3d x = axes.col (0);
+  const Eigen::Vector3d y = axes.col (1);
   Eigen::Matrix3d normal_matrix = Eigen::Matrix3d::Zero ();
   Eigen::Vector3d right_side = Eigen::Vector3d::Zero ();
   std::vector<std::pair<Eigen::Vector3d, double>> equations;
@@ -202,7 +239,8 @@ SymmetricExtent::build (const std::vector<OrientedPoint>& all, const std::option
   std::vector<OrientedPoint> points;
   for (std::size_t p = 0; p < all.size (); p += all.size () / max_points + 1)
     points.push_back (all[p]);
-  const std::vector<Eigen::Vector3d> even = evenDirections (even_directions);
+  const Eigen::Matrix3d axes = principalAxes (points, up);
+  const std::vector<Eigen::Vector3d> even = evenDirections (even_directions, axes);
   Farthest farthest (points);
 
   std::vector<Eigen::Vector3d> ends; // points that are farthest apart are farthest along some direction
@@ -215,7 +253,7 @@ SymmetricExtent::build (const std::vector<OrientedPoint>& all, const std::option
     double size = 0.0;
     for (const Eigen::Vector3d& a : ends)
       size = std::max (size, 2.0 * (a - center_).norm ());
-    center_ = axisOfRound (points, *up, size, farthest).value_or (center_);
+    center_ = axisOfRound (points, axes, size, farthest).value_or (center_);
   }
 
   std::vector<Eigen::Vector3d> directions = even;
