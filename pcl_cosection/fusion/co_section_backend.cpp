@@ -157,6 +157,8 @@ CoSectionBackend::addKeyframe (const Keyframe& keyframe, const Poses& T_world_ob
 {
   keyframe.view.validate ();
   requireFinite (T_world_object);
+  if (!keyframe.points.empty () && keyframe.points.begin ()->first < 0)
+    throw InvalidArgument ("the id of an object is " + std::to_string (keyframe.points.begin ()->first) + "; it must be positive");
   const Eigen::Isometry3d& T_world_sensor = keyframe.view.T_world_sensor;
   KeptView place{{{0, T_world_sensor}}, true};
   for (const auto& [id, T] : T_world_object)
