@@ -109,11 +109,11 @@ CoSectionBackend::thin (bool keyframes)
       least_gap_m_ = std::max (least_gap_m_, worst_gap);
   }
   scene_.removeViews (remove);
-  std::size_t next = 0;
+  std::vector<KeptView> remaining;
   for (std::size_t v = 0; v < views; ++v)
     if (!remove[v])
-      kept_[next++] = std::move (kept_[v]);
-  kept_.resize (next);
+      remaining.push_back (std::move (kept_[v]));
+  kept_ = std::move (remaining);
 }
 
 bool

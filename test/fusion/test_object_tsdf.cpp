@@ -142,7 +142,7 @@ TEST_F (ObjectTsdfTest, ASliverDoesNotDecideForTheWhole)
   ASSERT_GT (sliver.size (), 20u);
   std::vector<OrientedPoint> part;
   for (const OrientedPoint& point : sliver)
-    if (std::abs (point.position.y ()) < 0.1f && point.position.z () > 0.09f)
+    if (std::abs (point.position.y ()) < 0.1f && point.position.z () > 0.085f)
       part.push_back (point);
   ASSERT_GT (part.size (), 20u);
   tsdf.makeRoom (part);

@@ -216,7 +216,7 @@ TEST_F (SequenceFusionTest, AFewPixelsAreNoObject)
     for (int u = 30; u < 36; ++u)
       for (int v = 45; v < 50; ++v)
         mask.at (u, v) = 500;
-    saveMaskImage (mask, folder_.newPath (maskName (n)));
+    saveMaskImage (mask, folder_.newPath (maskName (n)), true);
   }
   const FusionResult result = run (every (4));
   EXPECT_EQ (result.scene.objects.size (), 2u);

@@ -51,7 +51,7 @@ protected:
     {
       Image<std::uint16_t> mask = loadMaskImage (entry.path ().string ());
       change (mask, entry.path ().stem ().string ());
-      saveMaskImage (mask, entry.path ().string ());
+      saveMaskImage (mask, entry.path ().string (), true);
     }
   }
 
