@@ -13,6 +13,7 @@
 #include <pcl/cosection/common/triangle_mesh.h>
 #include <pcl/cosection/io/trajectory.h>
 
+#include <algorithm>
 #include <chrono>
 #include <new>
 #include <sstream>
@@ -63,7 +64,7 @@ cameraTrajectory (const FusionSettings& settings, const RgbdSequence& images, st
 
 /** \return whether every object succeeded */
 bool
-fuse (const FusionSettings& settings, const FusionOutputs& outputs, Terminal& terminal)
+fuse (const FusionSettings& settings, FusionOutputs& outputs, Terminal& terminal)
 {
   const auto start = std::chrono::steady_clock::now ();
   const RgbdSequence images (settings.dataset, settings.source);
@@ -83,12 +84,14 @@ fuse (const FusionSettings& settings, const FusionOutputs& outputs, Terminal& te
   for (const std::string& warning : warnings)
     terminal.warning (warning);
 
+  const SequenceFusion fusion (known, settings.fusion);
+  outputs.begin (); // not before the inputs are there: a slip of the pen costs nothing
+
   const auto report = [&] (const std::string& stage, double fraction) {
     terminal.progress (stage, fraction);
     return (!interrupted ());
   };
-  FusionResult result = SequenceFusion (known, settings.fusion)
-                            .run (report, [&] (const KeyframeReport& keyframe) { outputs.writeKeyframe (keyframe); });
+  FusionResult result = fusion.run (report, [&] (const KeyframeReport& keyframe) { outputs.writeKeyframe (keyframe); });
   for (const std::string& warning : result.warnings)
     terminal.warning (warning);
   result.warnings.insert (result.warnings.begin (), warnings.begin (), warnings.end ());
@@ -102,6 +105,14 @@ fuse (const FusionSettings& settings, const FusionOutputs& outputs, Terminal& te
       result.warnings.push_back ("object " + std::to_string (object.id) + ": " + object.error);
       terminal.error (result.warnings.back ());
     }
+  if (all_good && result.scene.background.empty () &&
+      std::none_of (result.scene.objects.begin (), result.scene.objects.end (),
+                    [] (const ObjectResult& object) { return (object.error.empty ()); }))
+  {
+    all_good = false;
+    terminal.error ("nothing could be completed" +
+                    (result.warnings.empty () ? std::string () : "; " + result.warnings.back ()));
+  }
 
   const auto write_start = std::chrono::steady_clock::now ();
   const std::vector<std::string> files = outputs.write (result);
@@ -123,7 +134,7 @@ fuse (const FusionSettings& settings, const FusionOutputs& outputs, Terminal& te
 bool
 run (const FusionSettings& settings, Terminal& terminal)
 {
-  const FusionOutputs outputs (settings);
+  FusionOutputs outputs (settings);
   try
   {
     return (fuse (settings, outputs, terminal));

@@ -14,15 +14,34 @@ namespace pcl
 namespace cosection
 {
 
+namespace
+{
+
+constexpr double room_share = 0.5; // of the diagonal of everything
+
+double
+diagonal (const TriangleMesh& mesh)
+{
+  Eigen::AlignedBox3f box;
+  for (const Eigen::Vector3f& vertex : mesh.vertices)
+    box.extend (vertex);
+  return box.isEmpty () ? 0.0 : static_cast<double> (box.diagonal ().norm ());
+}
+
+} // namespace
+
 SolidDepth::SolidDepth (const TriangleMesh& mesh, double band_m) : band_m_ (band_m)
 {
   const TriangleMesh clean = dropBackToBack (cleanMesh (mesh));
   const MeshBodies division = divideBodies (clean);
+  const double whole_m = diagonal (clean);
   for (const auto& triangles : division.bodies)
   {
     Body body;
     body.surface = std::make_unique<SearchableSurface> (clean, triangles);
     body.is_room = computeMassProperties (body.surface->mesh).volume_m3 < 0.0;
+    if (body.is_room && diagonal (body.surface->mesh) < room_share * whole_m)
+      continue; // a cavity in the matter of others, not a room that everything is in
     body.all.resize (body.surface->mesh.triangles.size ());
     std::iota (body.all.begin (), body.all.end (), 0u);
     bodies_.push_back (std::move (body));

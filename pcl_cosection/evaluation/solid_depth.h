@@ -17,7 +17,8 @@ namespace pcl
 namespace cosection
 {
 
-/** \brief How deep points lie in the matter that a mesh bounds, by the rules of sampleSignedDistance (). */
+/** \brief How deep points lie in the matter that a mesh bounds, by the rules of sampleSignedDistance (); but a closed part that faces
+ * inward and is less than half as long as the whole is a cavity in matter that something else bounds, and says nothing. */
 class SolidDepth
 {
 public:

@@ -109,11 +109,11 @@ CoSectionBackend::thin (bool keyframes)
       least_gap_m_ = std::max (least_gap_m_, worst_gap);
   }
   scene_.removeViews (remove);
-  std::size_t next = 0;
+  std::vector<KeptView> remaining;
   for (std::size_t v = 0; v < views; ++v)
     if (!remove[v])
-      kept_[next++] = std::move (kept_[v]);
-  kept_.resize (next);
+      remaining.push_back (std::move (kept_[v]));
+  kept_ = std::move (remaining);
 }
 
 bool
@@ -157,6 +157,8 @@ CoSectionBackend::addKeyframe (const Keyframe& keyframe, const Poses& T_world_ob
 {
   keyframe.view.validate ();
   requireFinite (T_world_object);
+  if (!keyframe.points.empty () && keyframe.points.begin ()->first < 0)
+    throw InvalidArgument ("the id of an object is " + std::to_string (keyframe.points.begin ()->first) + "; it must be positive");
   const Eigen::Isometry3d& T_world_sensor = keyframe.view.T_world_sensor;
   KeptView place{{{0, T_world_sensor}}, true};
   for (const auto& [id, T] : T_world_object)

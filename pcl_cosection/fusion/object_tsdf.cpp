@@ -18,10 +18,12 @@ namespace
 {
 
 constexpr double outlier_share = 0.01; // of the points, at either end of each axis
+constexpr double core_share = 0.1;     // without these, stray parts of a mask count no more
 constexpr std::size_t min_points = 20;
 
+/** \brief Of the points without a share of them at either end of each axis. */
 Eigen::AlignedBox3d
-boxWithoutOutliers (const std::vector<OrientedPoint>& points)
+boxWithout (double share, const std::vector<OrientedPoint>& points)
 {
   Eigen::AlignedBox3d box;
   std::vector<float> values (points.size ());
@@ -29,7 +31,7 @@ boxWithoutOutliers (const std::vector<OrientedPoint>& points)
   {
     std::transform (points.begin (), points.end (), values.begin (),
                     [axis] (const OrientedPoint& point) { return point.position[axis]; });
-    const auto cut = static_cast<std::ptrdiff_t> (outlier_share * static_cast<double> (values.size ()));
+    const auto cut = static_cast<std::ptrdiff_t> (share * static_cast<double> (values.size ()));
     const auto low = values.begin () + cut;
     const auto high = values.end () - 1 - cut;
     std::nth_element (values.begin (), low, values.end ());
@@ -59,24 +61,40 @@ ObjectTsdf::ObjectTsdf (const ObjectTsdfOptions& options) : options_ (options)
   options.validate ();
 }
 
+bool
+ObjectTsdf::canHold (const Eigen::AlignedBox3d& box) const
+{
+  const VoxelGrid& grid = volume_->grid ();
+  const Eigen::Array3d low = grid.toVoxel (box.min ()).array ().min (0.0);
+  const Eigen::Array3d high = grid.toVoxel (box.max ()).array ().max (grid.dims.cast<double> ().array () - 1.0);
+  return (high - low < options_.max_resolution).all ();
+}
+
+void
+ObjectTsdf::place (const Eigen::AlignedBox3d& box, double voxel_size_m)
+{
+  VoxelGrid grid;
+  grid.voxel_size_m = voxel_size_m;
+  const Eigen::Array3d wanted = (box.sizes () / voxel_size_m).array ().ceil () + 1.0;
+  grid.dims = wanted.min (options_.max_resolution).cast<int> ().matrix ();
+  grid.origin_m = box.center () - 0.5 * voxel_size_m * (grid.dims.cast<double> ().array () - 1.0).matrix ();
+  volume_.emplace (grid, options_.tsdf);
+}
+
 void
 ObjectTsdf::makeRoom (const std::vector<OrientedPoint>& points)
 {
   if (points.size () < min_points)
     return;
-  const Eigen::AlignedBox3d seen = boxWithoutOutliers (points);
+  const Eigen::AlignedBox3d seen = boxWithout (outlier_share, points);
   const double longest = seen.sizes ().maxCoeff ();
   if (!(longest > 0.0) || !std::isfinite (longest))
     return;
   const Eigen::Vector3d margin = Eigen::Vector3d::Constant (options_.margin * longest);
   const Eigen::AlignedBox3d wanted (seen.min () - margin, seen.max () + margin);
-  if (!volume_)
+  if (!volume_ || !canHold (boxWithout (core_share, points)))
   {
-    VoxelGrid grid;
-    grid.voxel_size_m = longest / options_.resolution;
-    grid.origin_m = wanted.min ();
-    grid.dims = (wanted.sizes () / grid.voxel_size_m).array ().ceil ().cast<int> () + 1;
-    volume_.emplace (grid, options_.tsdf);
+    place (wanted, longest / options_.resolution);
     return;
   }
   const VoxelGrid& grid = volume_->grid ();

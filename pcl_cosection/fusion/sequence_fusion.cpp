@@ -2,6 +2,8 @@
 // Copyright (c) 2026, the pcl_cosection authors
 #include <pcl/cosection/fusion/sequence_fusion.h>
 
+#include "frame_check.h"
+
 #include <pcl/cosection/common/error.h>
 #include <pcl/cosection/io/stamp_matching.h>
 
@@ -9,6 +11,7 @@
 #include <chrono>
 #include <optional>
 #include <set>
+#include <sstream>
 #include <utility>
 
 namespace pcl
@@ -21,6 +24,7 @@ namespace
 
 constexpr double frames_share = 0.5; // of the progress; the rest is the last solution
 constexpr std::size_t min_object_points = 100;
+constexpr std::size_t most_mask_warnings = 20;
 
 /** \brief One execution of SequenceFusion::run (). */
 class FusionRun
@@ -51,6 +55,11 @@ private:
              const CoSectionBackend::Poses& T_world_object);
   void
   finish ();
+  void
+  warnOfPoses ();
+  /** \brief Those with too few points, which are no failure: masks have stray pixels. */
+  void
+  leaveOutSmallObjects ();
   template <typename Function> void
   timed (const char* stage, Function&& f);
 
@@ -67,6 +76,9 @@ private:
   std::size_t frames_of_range_ = 0;
   std::size_t without_pose_ = 0;
   std::size_t points_without_pose_ = 0;
+  std::size_t points_ = 0; // in all keyframes
+  std::vector<std::string> mask_warnings_;
+  std::size_t more_mask_warnings_ = 0;
   std::optional<std::size_t> next_keyframe_;
 };
 
@@ -108,7 +120,10 @@ FusionRun::mask (const RgbdFrame& frame)
   }
   catch (const Error& error)
   {
-    result_.warnings.push_back (std::string (error.what ()) + "; the frame is used without it");
+    if (mask_warnings_.size () < most_mask_warnings)
+      mask_warnings_.push_back (std::string (error.what ()) + "; the frame is used without it");
+    else
+      ++more_mask_warnings_;
     return std::nullopt;
   }
 }
@@ -142,6 +157,7 @@ FusionRun::addKeyframe (const RgbdFrame& frame, const Image<std::uint16_t>& mask
   const CoSectionBackend::Poses T_world_object = poses (frame.index);
   for (const auto& [id, points] : keyframe.points)
   {
+    points_ += points.size ();
     if (id == 0)
       continue;
     const auto pose = T_world_object.find (id);
@@ -240,22 +256,55 @@ FusionRun::finish ()
     if (tsdf.volume ())
       result_.objects[id].tsdf = tsdf.volume ()->surfaceMesh ();
   result_.kept_keyframes = backend_.keyframes ();
+  warnOfPoses ();
+  leaveOutSmallObjects ();
+  result_.warnings.insert (result_.warnings.end (), result_.scene.warnings.begin (), result_.scene.warnings.end ());
+}
 
+void
+FusionRun::warnOfPoses ()
+{
   if (without_pose_ > 0)
     result_.warnings.push_back (std::to_string (without_pose_) + " of " + std::to_string (without_pose_ + result_.frames) +
                                 " frames were left out: the camera's trajectory has no pose for them");
   if (points_without_pose_ > 0)
     result_.warnings.push_back (std::to_string (points_without_pose_) +
                                 " points of objects were left out: their trajectories have no pose for those frames");
+  if (sequence_.masks && result_.objects.empty () && points_without_pose_ == 0)
+    result_.warnings.push_back ("the masks show no object in any keyframe");
+}
+
+void
+FusionRun::leaveOutSmallObjects ()
+{
   for (const auto& [id, trajectory] : sequence_.objects)
     if (result_.objects[id].points == 0)
       result_.warnings.push_back ("object " + std::to_string (id) + " has a trajectory, but no points in any keyframe");
-  result_.warnings.insert (result_.warnings.end (), result_.scene.warnings.begin (), result_.scene.warnings.end ());
+  for (auto object = result_.objects.begin (); object != result_.objects.end ();)
+  {
+    const auto& [id, fused] = *object;
+    if (fused.points >= min_object_points)
+    {
+      ++object;
+      continue;
+    }
+    if (fused.points > 0)
+      result_.warnings.push_back ("object " + std::to_string (id) + " was left out: it has only " + std::to_string (fused.points) +
+                                  " points in all keyframes; " + std::to_string (min_object_points) + " are needed");
+    auto& completed = result_.scene.objects;
+    completed.erase (std::remove_if (completed.begin (), completed.end (),
+                                     [id = id] (const ObjectResult& result) { return result.id == id && !result.error.empty (); }),
+                     completed.end ());
+    object = result_.objects.erase (object);
+  }
 }
 
 FusionResult
 FusionRun::run ()
 {
+  if (options_.frames.last > sequence_.images->size () && options_.frames.last != FrameRange ().last)
+    result_.warnings.push_back ("frames from " + std::to_string (sequence_.images->size ()) + " on are not there; the sequence has 0:" +
+                                std::to_string (sequence_.images->size ()));
   FrameReader reader (*sequence_.images, options_.frames);
   std::size_t read = 0;
   while (true)
@@ -269,15 +318,22 @@ FusionRun::run ()
     use (*frame);
     ++read;
   }
+  if (more_mask_warnings_ > 0)
+    mask_warnings_.push_back ("and " + std::to_string (more_mask_warnings_) + " more warnings about masks");
   const std::vector<std::string> warnings = reader.warnings ();
+  const auto firstOf = [] (const std::vector<std::string>& lines) { return lines.empty () ? std::string () : ": " + lines.front (); };
   result_.warnings.insert (result_.warnings.end (), warnings.begin (), warnings.end ());
-  if (read == 0)
-    throw IoError ("none of the frames can be read" + (warnings.empty () ? std::string () : ": " + warnings.front ()));
+  result_.warnings.insert (result_.warnings.end (), mask_warnings_.begin (), mask_warnings_.end ());
   if (result_.frames == 0)
-    throw IoError ("the camera's trajectory has no pose for any of the " + std::to_string (read) +
-                   " frames; stamps must be within half a frame of theirs");
+    throw IoError ((read == 0 ? "no frame can be read" : "no frame that has a pose can be read") + firstOf (warnings));
   if (result_.keyframes == 0)
-    throw IoError ("no frame has a mask");
+    throw IoError ("no frame has a mask that can be used" + firstOf (mask_warnings_));
+  if (points_ == 0)
+  {
+    std::ostringstream text;
+    text << "no keyframe has a surface nearer than " << options_.keyframe.max_depth_m << " m" << firstOf (warnings);
+    throw IoError (text.str ());
+  }
   finish ();
   return std::move (result_);
 }
@@ -309,6 +365,7 @@ SequenceFusion::SequenceFusion (KnownSequence sequence, const FusionOptions& opt
     throw InvalidArgument ("there are no images");
   if (sequence_.camera.empty ())
     throw InvalidArgument ("there is no pose of the camera");
+  requireFrames (sequence_, options_.frames);
 }
 
 FusionResult

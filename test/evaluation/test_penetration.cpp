@@ -119,6 +119,24 @@ TEST (Penetration, ARoomIsSolidAround)
   EXPECT_EQ (walls.depthOf (box ({0.4f, 0.4f, 0.1f}, {0.6f, 0.6f, 0.2f})), 0.0);
 }
 
+/** \brief A closed part of an open background that faces inward is no room: nothing outside it is matter for that. */
+TEST (Penetration, ASmallCavityIsNoRoom)
+{
+  TriangleMesh floor = boxMesh ({-0.02f, -0.02f, -0.5f}, {0.02f, 0.02f, -0.46f});
+  for (auto& t : floor.triangles)
+    std::swap (t[0], t[1]);
+  const auto first = static_cast<std::uint32_t> (floor.vertices.size ());
+  for (const Eigen::Vector3f& corner : {Eigen::Vector3f (-1.0f, -1.0f, 0.0f), Eigen::Vector3f (1.0f, -1.0f, 0.0f),
+                                        Eigen::Vector3f (1.0f, 1.0f, 0.0f), Eigen::Vector3f (-1.0f, 1.0f, 0.0f)})
+    floor.vertices.push_back (corner);
+  floor.triangles.push_back ({first, first + 1, first + 2});
+  floor.triangles.push_back ({first, first + 2, first + 3});
+  const PenetrationBody background (floor);
+  EXPECT_TRUE (background.isOpen ());
+  EXPECT_EQ (box ({0.3f, 0.3f, 0.2f}, {0.5f, 0.5f, 0.4f}).depthOf (background), 0.0);
+  EXPECT_NEAR (box ({0.3f, 0.3f, -0.03f}, {0.5f, 0.5f, 0.4f}).depthOf (background), 0.03, 1e-6);
+}
+
 TEST (Penetration, RefusesBadOptions)
 {
   PenetrationOptions options;

@@ -6,6 +6,7 @@
 
 #include "common/temporary_folder.h"
 #include "evaluation_commands.h"
+#include "fusion_command_line.h"
 #include "option_table.h"
 #include "program_text.h"
 #include "scene_files.h"
@@ -106,6 +107,22 @@ TEST_F (Help, SimulationIsExplained)
   EXPECT_GE (expectEverywhere (app, screen, manPage (app, simulationText ()), "pcl_cosection_simulate.md"), 12);
   for (const std::string& line : linesOf (screen))
     EXPECT_LE (line.size (), 80u) << line;
+}
+
+TEST_F (Help, FusionIsExplained)
+{
+  CLI::App app;
+  GivenFusion given;
+  declareFusionOptions (app, given);
+  const std::string screen = helpText (app, fusionText ());
+  EXPECT_GE (expectEverywhere (app, screen, manPage (app, fusionText ()), "pcl_cosection_fusion.md"), 35);
+  for (const std::string& topic : helpTopics (app))
+  {
+    const std::vector<std::string> lines = linesOf (helpText (app, fusionText (), topic));
+    EXPECT_LE (lines.size (), 24u) << topic;
+    for (const std::string& line : lines)
+      EXPECT_LE (line.size (), 80u) << line;
+  }
 }
 
 TEST_F (Help, EveryOptionOfEveryCommandIsEverywhere)

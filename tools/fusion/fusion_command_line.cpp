@@ -50,7 +50,7 @@ declareInput (CLI::App& app, GivenFusion& given)
 void
 declareKnown (CLI::App& app, GivenFusion& given)
 {
-  const std::string group = "Poses and masks";
+  const std::string group = "Known";
   app.add_option ("--camera-trajectory", given.camera_trajectory,
                   "Poses of the camera in the world: lines \"stamp tx ty tz qx qy qz qw\" (default: those of the layout 7scenes)")
       ->option_text ("FILE")
@@ -212,9 +212,12 @@ fusionText ()
        "OUTPUT is a folder: trajectory/camera.txt and object_ID.txt, mesh/background.ply (world frame), object_ID.ply (closed, "
        "the object's frame) and object_ID_tsdf.ply (what was seen), summary.json."},
       {
-          {"pcl_cosection_fusion --camera-trajectory toys/gt-cam-0.txt --masks toys/mask --mask-ids persistent "
-           "--object-trajectory 1=toys/gt-truck-1.txt toys out",
-           "a simulated sequence with its true poses; objects without a trajectory are at rest"},
+          {"pcl_cosection_fusion --camera-trajectory toys/gt-cam-0.txt --masks toys/mask "
+           "--object-trajectory 1=toys/gt-truck-1.txt --object-trajectory 2=toys/gt-car-2.txt "
+           "--object-trajectory 3=toys/gt-crate-3.txt toys out",
+           "what pcl_cosection_simulate --preset toys toys renders, with its true poses"},
+          {"pcl_cosection_fusion --camera-trajectory table/gt-cam-0.txt --masks table/mask table things",
+           "objects without a trajectory are at rest"},
           {"pcl_cosection_fusion --camera-trajectory kitchen/groundtruth.txt kitchen room", "a room without objects"},
           {"pcl_cosection_fusion --constraints none --frames 0:50 --camera-trajectory poses.txt --masks masks sequence out",
            "half of a sequence, with smoothness alone"},

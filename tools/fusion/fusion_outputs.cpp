@@ -10,7 +10,9 @@
 #include <pcl/cosection/io/trajectory.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
+#include <iomanip>
 #include <sstream>
 
 using namespace pcl::cosection;
@@ -45,13 +47,69 @@ endsWith (const std::string& text, const std::string& ending)
   return (text.size () >= ending.size () && text.compare (text.size () - ending.size (), ending.size (), ending) == 0);
 }
 
+/** \brief The stamp as trajectories have it. */
 std::string
 nameOf (double stamp)
 {
+  const bool whole = stamp == std::floor (stamp) && std::abs (stamp) < 1e15;
   std::ostringstream text;
-  text.precision (12);
-  text << stamp;
+  text << std::fixed << std::setprecision (whole ? 0 : 6) << stamp;
   return (text.str ());
+}
+
+/** \brief What a run that was killed left behind. */
+bool
+isTemporary (const std::string& name)
+{
+  return (name.rfind (".cosection-", 0) == 0 && name.find (".tmp") != std::string::npos);
+}
+
+bool
+isMesh (const std::string& name)
+{
+  return (name == "background.ply" || (name.rfind ("object_", 0) == 0 && endsWith (name, ".ply")));
+}
+
+bool
+isTrajectory (const std::string& name)
+{
+  return (name == "camera.txt" || (name.rfind ("object_", 0) == 0 && endsWith (name, ".txt")));
+}
+
+/** \brief Remove the files that \a isOurs, and the folder if nothing is left in it. */
+template <typename Predicate> void
+removeFiles (const fs::path& folder, Predicate&& isOurs)
+{
+  std::error_code ignored;
+  std::vector<fs::path> ours;
+  for (fs::directory_iterator entry (folder, ignored), end; entry != end; entry.increment (ignored))
+    if (isTemporary (entry->path ().filename ().string ()) || isOurs (entry->path ().filename ().string ()))
+      ours.push_back (entry->path ());
+  for (const fs::path& file : ours)
+    fs::remove (file, ignored);
+  if (!fs::is_symlink (folder, ignored))
+    fs::remove (folder, ignored); // fails if it is not empty, as it should
+}
+
+/** \throws UsageError if the further summary would overwrite an input, or what the run writes */
+void
+checkJson (const FusionSettings& settings)
+{
+  std::vector<std::string> inputs{settings.camera_trajectory};
+  for (const auto& [id, file] : settings.object_trajectories)
+    inputs.push_back (file);
+  inputs.erase (std::remove (inputs.begin (), inputs.end (), ""), inputs.end ());
+  refuseToOverwrite (inputs, {settings.json});
+  std::error_code failure;
+  for (const std::string& input : {settings.dataset, settings.masks})
+    if (!input.empty () && fs::exists (settings.json, failure) && isWithin (settings.json, input) &&
+        !isWithin (settings.json, settings.output))
+      throw UsageError (settings.json + " would be overwritten: it is part of the input " + input);
+  for (const char* folder : {"mesh", "trajectory", "keyframes"})
+    if (isWithin (settings.json, (fs::path (settings.output) / folder).string ()))
+      throw UsageError ("--json " + settings.json + " is where the run writes other files; give another name");
+  if (!isWithin (settings.json, settings.output))
+    requireWritable (settings.json);
 }
 
 Json
@@ -64,6 +122,8 @@ parameters (const FusionSettings& settings)
   for (const auto& [id, file] : settings.object_trajectories)
     result["object_trajectories"][std::to_string (id)] = file;
   result["masks"] = settings.masks;
+  result["frames"] = {settings.fusion.frames.first,
+                      settings.fusion.frames.last == FrameRange ().last ? Json () : Json (settings.fusion.frames.last)};
   result["preset"] = settings.preset.empty () ? "default" : settings.preset;
   result["keyframe_every"] = settings.fusion.keyframe_every;
   result["max_views"] = settings.fusion.backend.max_views;
@@ -74,7 +134,7 @@ parameters (const FusionSettings& settings)
 
 } // namespace
 
-FusionOutputs::FusionOutputs (const FusionSettings& settings) : folder_ (settings.output)
+FusionOutputs::FusionOutputs (const FusionSettings& settings) : folder_ (settings.output), json_ (settings.json)
 {
   std::vector<std::string> inputs{settings.dataset, settings.camera_trajectory, settings.masks};
   for (const auto& [id, file] : settings.object_trajectories)
@@ -82,44 +142,43 @@ FusionOutputs::FusionOutputs (const FusionSettings& settings) : folder_ (setting
   for (const std::string& input : inputs)
     if (!input.empty () && isWithin (input, folder_))
       throw UsageError ("OUTPUT " + folder_ + " would overwrite the input " + input + "; give another folder");
-  if (!settings.json.empty ())
-    requireWritable (settings.json);
   std::error_code failure;
   if (fs::exists (folder_, failure) && !fs::is_directory (folder_, failure))
     throw IoError (folder_ + ": is a file; OUTPUT must be a folder");
+  if (!json_.empty ())
+    checkJson (settings);
+}
+
+void
+FusionOutputs::begin ()
+{
   makeFolder (folder_);
   requireWritableFolder (folder_, folder_);
+  if (!json_.empty ())
+    requireWritable (json_); // it may be in that folder
   removeEarlierRun ();
+  begun_ = true;
 }
 
 void
 FusionOutputs::removeEarlierRun () const
 {
   std::error_code ignored;
-  const auto isMesh = [] (const std::string& name) {
-    return (name == "background.ply" || (name.rfind ("object_", 0) == 0 && endsWith (name, ".ply")));
-  };
-  const auto removeFiles = [&] (const fs::path& folder, auto&& isOurs) {
-    std::vector<fs::path> ours;
-    for (fs::directory_iterator entry (folder, ignored), end; entry != end; entry.increment (ignored))
-      if (isOurs (entry->path ().filename ().string ()))
-        ours.push_back (entry->path ());
-    for (const fs::path& file : ours)
-      fs::remove (file, ignored);
-    fs::remove (folder, ignored); // fails if it is not empty, as it should
-  };
   const fs::path folder (folder_);
-  fs::remove (folder / "summary.json", ignored);
   removeFiles (folder / "mesh", isMesh);
-  removeFiles (folder / "trajectory", [] (const std::string& name) {
-    return (name == "camera.txt" || (name.rfind ("object_", 0) == 0 && endsWith (name, ".txt")));
-  });
+  removeFiles (folder / "trajectory", isTrajectory);
   std::vector<fs::path> keyframes;
   for (fs::directory_iterator entry (folder / "keyframes", ignored), end; entry != end; entry.increment (ignored))
     keyframes.push_back (entry->path ());
   for (const fs::path& keyframe : keyframes)
     removeFiles (keyframe, isMesh);
   fs::remove (folder / "keyframes", ignored);
+  std::vector<fs::path> files{folder / "summary.json"};
+  for (fs::directory_iterator entry (folder, ignored), end; entry != end; entry.increment (ignored))
+    if (isTemporary (entry->path ().filename ().string ()))
+      files.push_back (entry->path ());
+  for (const fs::path& file : files)
+    fs::remove (file, ignored);
 }
 
 void
@@ -200,8 +259,8 @@ FusionOutputs::writeSummary (const FusionSettings& settings, const FusionResult&
   }
   summary["warnings"] = result.warnings;
   saveJson (summary, (fs::path (folder_) / "summary.json").string ());
-  if (!settings.json.empty ())
-    saveJson (summary, settings.json);
+  if (!json_.empty ())
+    saveJson (summary, json_);
 }
 
 void
@@ -215,9 +274,10 @@ try
   summary["objects"] = Json::array ();
   summary["failed"] = Json::array ();
   summary["warnings"] = Json::array ();
-  saveJson (summary, (fs::path (folder_) / "summary.json").string ());
-  if (!settings.json.empty ())
-    saveJson (summary, settings.json);
+  if (!json_.empty ())
+    saveJson (summary, json_);
+  if (begun_)
+    saveJson (summary, (fs::path (folder_) / "summary.json").string ());
 }
 catch (const std::exception&)
 {

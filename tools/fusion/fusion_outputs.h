@@ -14,9 +14,15 @@
 class FusionOutputs
 {
 public:
-  /** \brief Make the folder, if there is none, and remove what an earlier run wrote into it. Other files stay.
-   * \throws UsageError if it is, or holds, an input \throws pcl::cosection::IoError if it cannot be written */
+  /** \brief Nothing is touched yet.
+   * \throws UsageError if an input would be overwritten \throws pcl::cosection::IoError if OUTPUT is a file, or the further summary
+   * cannot be written */
   explicit FusionOutputs (const FusionSettings& settings);
+
+  /** \brief Make the folder, if there is none, and remove what an earlier run wrote into it. Other files stay.
+   * \throws pcl::cosection::IoError if it cannot be written */
+  void
+  begin ();
 
   /** \brief Write the meshes of a keyframe. \throws pcl::cosection::IoError */
   void
@@ -30,7 +36,7 @@ public:
   void
   writeSummary (const FusionSettings& settings, const pcl::cosection::FusionResult& result) const;
 
-  /** \brief Write a summary of a run that failed as a whole. */
+  /** \brief Write a summary of a run that failed as a whole; into the folder only if the run had begun. */
   void
   writeFailure (const FusionSettings& settings, const std::string& error) const;
 
@@ -38,5 +44,7 @@ private:
   void
   removeEarlierRun () const;
 
-  std::string folder_;
+  const std::string folder_;
+  const std::string json_; ///< a further summary, or empty
+  bool begun_ = false;
 };

@@ -54,7 +54,8 @@ public:
 
   /** \brief Add the points and the free space of a keyframe. Points of objects without a pose in \a T_world_object are left out;
    * for objects that never move, give the identity.
-   * \return whether it was kept \throws InvalidArgument if the view is not valid or a pose not finite */
+   * \return whether it was kept
+   * \throws InvalidArgument if the view is not valid, a pose not finite or an id negative; nothing is kept then */
   bool
   addKeyframe (const Keyframe& keyframe, const Poses& T_world_object);
 

@@ -6,6 +6,8 @@
 #include <pcl/cosection/surface/oriented_point.h>
 #include <pcl/cosection/volume/tsdf_volume.h>
 
+#include <Eigen/Geometry>
+
 #include <optional>
 #include <vector>
 
@@ -33,8 +35,9 @@ class PCL_COSECTION_EXPORT ObjectTsdf
 public:
   explicit ObjectTsdf (const ObjectTsdfOptions& options = {});
 
-  /** \brief Make room for points, object frame; a hundredth of them at either end of each axis counts as outliers. Nothing of
-   * what was integrated is lost. */
+  /** \brief Make room for points, object frame; a hundredth of them at either end of each axis counts as outliers. What was
+   * integrated stays, unless most of the points are beyond the largest volume: then a sliver of the object was seen before, and a new
+   * volume with larger voxels begins. Fewer than 20 points make none. */
   void
   makeRoom (const std::vector<OrientedPoint>& points);
 
@@ -51,6 +54,11 @@ public:
   }
 
 private:
+  bool
+  canHold (const Eigen::AlignedBox3d& box) const;
+  void
+  place (const Eigen::AlignedBox3d& box, double voxel_size_m);
+
   ObjectTsdfOptions options_;
   std::optional<TsdfVolume> volume_;
 };

@@ -81,7 +81,7 @@ struct KeyframeReport
 /** \brief Goes through a sequence whose poses and masks are known, and completes the objects in it and the background.
  *
  * Each frame gives free space, and distances for the objects' TSDF volumes; keyframes give oriented points as well. Frames that
- * cannot be read, or without the camera's pose, are left out and told.
+ * cannot be read, or without the camera's pose, are left out and told; so are objects of fewer than 100 points.
  *
  * \code
  * KnownSequence known;
@@ -94,11 +94,12 @@ class PCL_COSECTION_EXPORT SequenceFusion
 public:
   using KeyframeCallback = std::function<void (const KeyframeReport&)>;
 
-  /** \throws InvalidArgument if an option is outside its domain, there are no images, or no pose of the camera */
+  /** \throws InvalidArgument if an option is outside its domain, there are no images, or no pose of the camera for any frame of
+   * the range */
   explicit SequenceFusion (KnownSequence sequence, const FusionOptions& options = {});
 
   /** \param[in] keyframe called after every update, if those are asked for
-   * \throws IoError if no frame can be used, Cancelled */
+   * \throws IoError if no frame can be used, no mask, or no keyframe has a point; Cancelled */
   FusionResult
   run (const ProgressCallback& progress = {}, const KeyframeCallback& keyframe = {}) const;
 

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_cosection authors
+#include "frame_check.h"
+
+#include <pcl/cosection/common/error.h>
+#include <pcl/cosection/io/stamp_matching.h>
+
+#include <algorithm>
+#include <sstream>
+
+namespace pcl
+{
+namespace cosection
+{
+
+namespace
+{
+
+std::string
+spanText (double first, double last)
+{
+  std::ostringstream text;
+  text.precision (15);
+  text << first << " to " << last;
+  return text.str ();
+}
+
+} // namespace
+
+void
+requireFrames (const KnownSequence& sequence, const FrameRange& frames)
+{
+  const std::vector<double> stamps = sequence.images->stamps ();
+  const std::size_t last = std::min (frames.last, stamps.size ());
+  if (frames.first >= last)
+    throw InvalidArgument ("the frames from " + std::to_string (frames.first) + " on are not there; the sequence has 0:" +
+                           std::to_string (stamps.size ()));
+  const auto begin = stamps.begin () + static_cast<std::ptrdiff_t> (frames.first);
+  const std::vector<double> used (begin, stamps.begin () + static_cast<std::ptrdiff_t> (last));
+  const auto poses = posesAtStamps (sequence.camera, used, sequence.images->period ());
+  if (std::none_of (poses.begin (), poses.end (), [] (const auto& pose) { return pose.has_value (); }))
+    throw InvalidArgument ("the camera's trajectory has no pose for any frame: its stamps are " +
+                           spanText (sequence.camera.front ().stamp, sequence.camera.back ().stamp) + ", those of the frames " +
+                           spanText (used.front (), used.back ()) + "; they must be within half a frame of each other");
+}
+
+} // namespace cosection
+} // namespace pcl

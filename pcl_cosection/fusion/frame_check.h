@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_cosection authors
+#pragma once
+
+#include <pcl/cosection/fusion/sequence_fusion.h>
+
+namespace pcl
+{
+namespace cosection
+{
+
+/** \brief What can be known of a sequence's frames before any is read.
+ * \throws InvalidArgument if there is no frame in the range, or none of them has a pose of the camera */
+void
+requireFrames (const KnownSequence& sequence, const FrameRange& frames);
+
+} // namespace cosection
+} // namespace pcl

@@ -1,0 +1,249 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_cosection authors
+
+// What the back end keeps is bounded, and its result is that of what it keeps.
+
+#include "surface/analytic_scene.h"
+
+#include <pcl/cosection/common/error.h>
+#include <pcl/cosection/fusion/co_section_backend.h>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+using namespace pcl::cosection;
+using namespace pcl::cosection::test;
+
+namespace
+{
+
+constexpr int ball = 3;
+const Eigen::Vector3d middle (0.0, 0.0, 0.05);
+
+/** \brief A ball on a table, seen from places on a line: their distances are those of the views. */
+class BackendTest : public testing::Test
+{
+protected:
+  BackendTest ()
+  {
+    scene_.add (0, halfSpace (Eigen::Vector4d::UnitZ ()));
+    scene_.add (ball, placed (sphere (0.05), middle));
+  }
+
+  Eigen::Isometry3d
+  sensor (double x) const
+  {
+    Eigen::Isometry3d T = lookAt ({0.0, -0.4, 0.3}, middle);
+    T.translation ().x () = x;
+    return T;
+  }
+
+  Keyframe
+  keyframe (double x) const
+  {
+    const RenderedView seen = scene_.render (camera_, sensor (x));
+    Keyframe keyframe;
+    keyframe.view = seen.view;
+    for (const auto& [label, points] : seen.points)
+      for (OrientedPoint point : points)
+      {
+        point.position = (sensor (x).inverse () * point.position.cast<double> ()).cast<float> ();
+        point.normal = (sensor (x).linear ().transpose () * point.normal.cast<double> ()).cast<float> ();
+        keyframe.points[label].push_back (point);
+      }
+    return keyframe;
+  }
+
+  static BackendOptions
+  options (std::size_t views = 100, std::size_t keyframes = 40)
+  {
+    BackendOptions options;
+    options.method.voxel_size_m = 0.006;
+    options.method.whole_background = true;
+    options.method.threads = 1;
+    options.max_views = views;
+    options.max_keyframes = keyframes;
+    return options;
+  }
+
+  static const CoSectionBackend::Poses&
+  atRest ()
+  {
+    static const CoSectionBackend::Poses poses = {{ball, Eigen::Isometry3d::Identity ()}};
+    return poses;
+  }
+
+  static void
+  expectSame (const SceneResult& a, const SceneResult& b)
+  {
+    ASSERT_EQ (a.objects.size (), b.objects.size ());
+    for (std::size_t n = 0; n < a.objects.size (); ++n)
+    {
+      EXPECT_EQ (a.objects[n].error, "");
+      ASSERT_EQ (a.objects[n].mesh.vertices.size (), b.objects[n].mesh.vertices.size ());
+      for (std::size_t v = 0; v < a.objects[n].mesh.vertices.size (); ++v)
+        ASSERT_EQ (a.objects[n].mesh.vertices[v], b.objects[n].mesh.vertices[v]) << v;
+    }
+    ASSERT_EQ (a.background.vertices.size (), b.background.vertices.size ());
+    for (std::size_t v = 0; v < a.background.vertices.size (); ++v)
+      ASSERT_EQ (a.background.vertices[v], b.background.vertices[v]) << v;
+  }
+
+  const PinholeCamera camera_{80, 60, 90.0, 90.0, 39.5, 29.5};
+  AnalyticScene scene_;
+};
+
+} // namespace
+
+TEST_F (BackendTest, AResultIsThatOfItsViews)
+{
+  CoSectionBackend backend (options ());
+  EXPECT_TRUE (backend.addKeyframe (keyframe (0.0), atRest ()));
+  EXPECT_TRUE (backend.addFrame (keyframe (0.1).view, atRest ()));
+  EXPECT_TRUE (backend.addKeyframe (keyframe (-0.2), atRest ()));
+  EXPECT_EQ (backend.views (), 3u);
+  EXPECT_EQ (backend.keyframes (), 2u);
+  const SceneResult result = backend.solve ();
+  ASSERT_EQ (result.objects.size (), 1u);
+  EXPECT_EQ (result.objects[0].id, ball);
+  EXPECT_TRUE (computeTopology (result.objects[0].mesh).closed_manifold);
+  EXPECT_FALSE (result.background.empty ());
+  double sum = 0.0;
+  for (const Eigen::Vector3f& vertex : result.objects[0].mesh.vertices)
+    sum += std::abs ((vertex.cast<double> () - middle).norm () - 0.05);
+  EXPECT_LT (sum / static_cast<double> (result.objects[0].mesh.vertices.size ()), 0.006) << "a voxel";
+}
+
+TEST_F (BackendTest, UpdatesDoNotChangeTheLastSolution)
+{
+  CoSectionBackend followed (options ()), plain (options ());
+  for (const double x : {0.0, 0.1, -0.1})
+  {
+    followed.addKeyframe (keyframe (x), atRest ());
+    plain.addKeyframe (keyframe (x), atRest ());
+    EXPECT_EQ (followed.update (UpdateOutput::Fields).objects.at (0).error, "");
+  }
+  expectSame (followed.solve (), plain.solve ());
+}
+
+/** \brief The points of an object in its own frame, whatever its poses were. */
+TEST_F (BackendTest, AMovedObjectIsInItsFrame)
+{
+  Eigen::Isometry3d T_world_ball = Eigen::Isometry3d::Identity ();
+  T_world_ball.translate (middle);
+  CoSectionBackend backend (options ());
+  backend.addKeyframe (keyframe (0.0), {{ball, T_world_ball}});
+  const SceneResult result = backend.solve ();
+  ASSERT_EQ (result.objects.size (), 1u);
+  ASSERT_EQ (result.objects[0].error, "");
+  EXPECT_LT (computeMassProperties (result.objects[0].mesh).centroid_m.norm (), 0.02);
+}
+
+TEST_F (BackendTest, PointsWithoutPoseAreLeftOut)
+{
+  CoSectionBackend backend (options ());
+  backend.addKeyframe (keyframe (0.0), {});
+  EXPECT_TRUE (backend.solve ().objects.empty ());
+}
+
+TEST_F (BackendTest, TheNearestAreGivenUp)
+{
+  // Of 0, 1, 20 and 50 cm, that at 1 goes, then that at 20: it is as near to 0 as 0 to it, and later.
+  CoSectionBackend backend (options (100, 4));
+  for (const double x : {0.0, 0.01, 0.2, 0.5})
+    EXPECT_TRUE (backend.addKeyframe (keyframe (x), atRest ()));
+  EXPECT_TRUE (backend.addKeyframe (keyframe (-0.4), atRest ()));
+  EXPECT_EQ (backend.keyframes (), 3u);
+  CoSectionBackend fresh (options ());
+  for (const double x : {0.0, 0.5, -0.4})
+    fresh.addKeyframe (keyframe (x), atRest ());
+  expectSame (backend.solve (), fresh.solve ());
+  EXPECT_EQ (backend.update (UpdateOutput::Fields).objects.at (0).error, "");
+}
+
+TEST_F (BackendTest, AfterThinningNothingNearIsTaken)
+{
+  CoSectionBackend backend (options (100, 4));
+  for (const double x : {0.0, 0.01, 0.2, 0.5, -0.4})
+    backend.addKeyframe (keyframe (x), atRest ());
+  ASSERT_EQ (backend.keyframes (), 3u);
+  EXPECT_FALSE (backend.addKeyframe (keyframe (0.0), atRest ()));
+  EXPECT_FALSE (backend.addKeyframe (keyframe (0.31), atRest ())) << "0.19 from that at 0.5, less than what was given up";
+  EXPECT_FALSE (backend.addFrame (keyframe (-0.4).view, atRest ()));
+  EXPECT_TRUE (backend.addKeyframe (keyframe (0.25), atRest ()));
+  EXPECT_EQ (backend.views (), 4u);
+  // The sensor stands where it has been, but the object has moved.
+  Eigen::Isometry3d moved = Eigen::Isometry3d::Identity ();
+  moved.translate (Eigen::Vector3d (0.3, 0.0, 0.0));
+  EXPECT_TRUE (backend.addFrame (keyframe (0.0).view, {{ball, moved}}));
+}
+
+TEST_F (BackendTest, ThousandsOfFramesOfOnePlaceAreBounded)
+{
+  CoSectionBackend backend (options (12, 5));
+  const Keyframe here = keyframe (0.0);
+  std::size_t taken = 0;
+  for (int n = 0; n < 2000; ++n)
+  {
+    taken += n % 10 == 0 ? backend.addKeyframe (here, atRest ()) : backend.addFrame (here.view, atRest ());
+    ASSERT_LE (backend.views (), 12u);
+    ASSERT_LE (backend.keyframes (), 5u);
+  }
+  EXPECT_GE (backend.keyframes (), 1u);
+  EXPECT_LT (taken, 30u) << "what is there already is taken again and again";
+  EXPECT_EQ (backend.solve ().objects.at (0).error, "");
+}
+
+TEST_F (BackendTest, ALongWayIsBoundedAndCovered)
+{
+  CoSectionBackend backend (options (12, 5));
+  Keyframe moving = keyframe (0.0);
+  moving.points.clear ();
+  for (int n = 0; n < 500; ++n)
+  {
+    moving.view.T_world_sensor.translation ().x () = 0.01 * n;
+    if (n % 10 == 0)
+      backend.addKeyframe (moving, {});
+    else
+      backend.addFrame (moving.view, {});
+    ASSERT_LE (backend.views (), 12u);
+    ASSERT_LE (backend.keyframes (), 5u);
+  }
+  EXPECT_GE (backend.keyframes (), 2u);
+}
+
+TEST_F (BackendTest, WrongInputIsRefusedAndNotKept)
+{
+  BackendOptions few = options ();
+  few.max_views = 3;
+  EXPECT_THROW (CoSectionBackend backend (few), InvalidArgument);
+  few = options ();
+  few.max_keyframes = 1;
+  EXPECT_THROW (CoSectionBackend backend (few), InvalidArgument);
+
+  CoSectionBackend backend (options ());
+  Keyframe wrong = keyframe (0.0);
+  wrong.view.depth.pop_back ();
+  EXPECT_THROW (backend.addKeyframe (wrong, {}), InvalidArgument);
+  EXPECT_THROW (backend.addFrame (wrong.view, {}), InvalidArgument);
+  Eigen::Isometry3d nowhere = Eigen::Isometry3d::Identity ();
+  nowhere.translation ().x () = std::numeric_limits<double>::quiet_NaN ();
+  EXPECT_THROW (backend.addKeyframe (keyframe (0.0), {{ball, nowhere}}), InvalidArgument);
+  EXPECT_THROW (backend.addFrame (keyframe (0.0).view, {{ball, nowhere}}), InvalidArgument);
+  Keyframe negative = keyframe (0.0);
+  negative.points[-1] = negative.points[ball];
+  EXPECT_THROW (backend.addKeyframe (negative, {{-1, Eigen::Isometry3d::Identity ()}}), InvalidArgument);
+  EXPECT_EQ (backend.views (), 0u);
+}
+
+TEST_F (BackendTest, CanBeCancelled)
+{
+  CoSectionBackend backend (options ());
+  backend.addKeyframe (keyframe (0.0), atRest ());
+  const auto no = [] (const std::string&, double) { return false; };
+  EXPECT_THROW (backend.update (UpdateOutput::Meshes, no), Cancelled);
+  EXPECT_THROW (backend.solve (no), Cancelled);
+  EXPECT_EQ (backend.solve ().objects.at (0).error, "");
+}
