@@ -3,6 +3,7 @@
 #include <pcl/cosection/surface/contact_prior.h>
 
 #include "plane_map.h"
+#include "principal_axes.h"
 
 #include <Eigen/Geometry>
 
@@ -72,8 +73,9 @@ ContactPrior::patch (const VoxelGrid& grid, const Eigen::Vector4d& plane, const 
   const double h = grid.voxel_size_m;
   const Eigen::Vector3d normal = plane.head<3> ();
   const auto height = [&] (const Eigen::Vector3d& p) { return normal.dot (p) + plane[3]; };
-  const Eigen::Vector3d across = normal.unitOrthogonal ();
-  const Eigen::Vector3d along = normal.cross (across);
+  const Eigen::Matrix3d axes = principalAxes (points, normal);
+  const Eigen::Vector3d across = axes.col (0);
+  const Eigen::Vector3d along = axes.col (1);
   const auto flat = [&] (const Eigen::Vector3d& p) { return Eigen::Vector2d (across.dot (p), along.dot (p)); };
   const Eigen::Vector2d middle = flat (center);
   const auto turned = [&] (const Eigen::Vector2d& p) { return Eigen::Vector2d (2.0 * middle - p); };
@@ -102,6 +104,10 @@ ContactPrior::patch (const VoxelGrid& grid, const Eigen::Vector4d& plane, const 
   }
   if (static_cast<int> (contacts.size ()) < min_contacts || above.empty ())
     return {};
+  // The middle is that of a cell, so that the map is the same for either sense of the axes.
+  const Eigen::Vector2d half = (((0.5 * (high - low)).array () / h).ceil () + 0.5) * h;
+  low = middle - half;
+  high = middle + half;
   PlaneMap covered (low, high, h, closing_cells + 1);
   for (const Eigen::Vector2d& p : above)
   {

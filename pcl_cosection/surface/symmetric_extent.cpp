@@ -2,8 +2,9 @@
 // Copyright (c) 2026, the pcl_cosection authors
 #include <pcl/cosection/surface/symmetric_extent.h>
 
+#include "principal_axes.h"
+
 #include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 
 #include <algorithm>
@@ -18,7 +19,7 @@ namespace cosection
 namespace
 {
 
-constexpr int even_directions = 162;
+constexpr int even_directions = 162;      // about
 constexpr std::size_t max_points = 4000; // an even subset of no more
 constexpr double stray_share = 0.002;    // of the points, may lie beyond a half space
 constexpr double tie = 0.97;             // of the largest distance: pairs as far apart count as farthest too
@@ -32,43 +33,8 @@ constexpr double round_tolerance = 0.03; // of the radius, root mean square
 constexpr double max_round_width = 1.1;  // diameter of the circle per size
 constexpr double least_flat = 0.5;       // length of a unit vector along the plane, else it is no direction there
 
-/** \brief Axes that turn with the points: along \a up, if given, and the directions in which they extend most. */
-Eigen::Matrix3d
-principalAxes (const std::vector<OrientedPoint>& points, const std::optional<Eigen::Vector3d>& up)
-{
-  Eigen::Vector3d mean = Eigen::Vector3d::Zero ();
-  for (const OrientedPoint& p : points)
-    mean += p.position.cast<double> () / static_cast<double> (points.size ());
-  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero ();
-  for (const OrientedPoint& p : points)
-  {
-    Eigen::Vector3d d = p.position.cast<double> () - mean;
-    if (up)
-      d -= up->dot (d) * *up;
-    covariance += d * d.transpose ();
-  }
-  Eigen::Vector3d longest = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> (covariance).eigenvectors ().col (2);
-  Eigen::Vector3d upright = up ? *up : Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> (covariance).eigenvectors ().col (0);
-  // To the side to which the points are skewed.
-  const auto skewness = [&] (const Eigen::Vector3d& axis) {
-    double sum = 0.0;
-    for (const OrientedPoint& p : points)
-      sum += std::pow (axis.dot (p.position.cast<double> () - mean), 3);
-    return sum;
-  };
-  if (skewness (longest) < 0.0)
-    longest = -longest;
-  if (!up && skewness (upright) < 0.0)
-    upright = -upright;
-  longest = (longest - upright.dot (longest) * upright).normalized ();
-  if (!longest.allFinite ())
-    longest = upright.unitOrthogonal ();
-  Eigen::Matrix3d axes;
-  axes << longest, upright.cross (longest), upright;
-  return axes;
-}
-
-/** \brief Directions evenly over the sphere (Fibonacci lattice), with respect to some axes. */
+/** \brief Directions evenly over the sphere, the same for either sense of each axis: those of a Fibonacci lattice in one octant, and
+ * their mirror images. */
 std::vector<Eigen::Vector3d>
 evenDirections (int count, const Eigen::Matrix3d& axes)
 {
@@ -78,7 +44,14 @@ evenDirections (int count, const Eigen::Matrix3d& axes)
   {
     const double z = 1.0 - (2.0 * n + 1.0) / count;
     const double r = std::sqrt (1.0 - z * z);
-    directions.push_back (axes * Eigen::Vector3d (r * std::cos (golden * n), r * std::sin (golden * n), z));
+    const Eigen::Vector3d direction (r * std::cos (golden * n), r * std::sin (golden * n), z);
+    if ((direction.array () < 0.0).any ())
+      continue;
+    for (int octant = 0; octant < 8; ++octant)
+    {
+      const Eigen::Array3d sense ((octant & 1) ? -1.0 : 1.0, (octant & 2) ? -1.0 : 1.0, (octant & 4) ? -1.0 : 1.0);
+      directions.push_back (axes * (sense * direction.array ()).matrix ());
+    }
   }
   return directions;
 }

@@ -30,7 +30,7 @@ expectRegionOfBox (const SymmetricExtent& extent)
     p[axis] += 0.03;
     EXPECT_NEAR (extent.beyond (p), 0.03, 0.003) << "axis " << axis;
   }
-  EXPECT_LE (extent.beyond (half_size.cwiseProduct (Eigen::Vector3d (0.95, 0.95, 0.95))), 0.002);
+  EXPECT_LE (extent.beyond (half_size.cwiseProduct (Eigen::Vector3d (0.95, 0.95, 0.95))), 0.003);
   EXPECT_LT (extent.beyond (Eigen::Vector3d::Zero ()), -0.04);
 }
 

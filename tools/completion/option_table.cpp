@@ -109,7 +109,7 @@ declareOptions (CLI::App& app, Given& given)
 {
   declareInput (app, given);
   declareSurroundings (app, given);
-  declareVolumeOptions (app, given);
+  declareVolumeOptions (app, given, "twice the smallest object's");
   declareMethodOptions (app, given);
   declareOutput (app, given);
 }

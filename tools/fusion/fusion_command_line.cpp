@@ -232,7 +232,7 @@ declareFusionOptions (CLI::App& app, GivenFusion& given)
 {
   declareInput (app, given);
   declareKnown (app, given);
-  declareVolumeOptions (app, given);
+  declareVolumeOptions (app, given, "0.02, or a 128th of a small scene");
   declareMethodOptions (app, given);
   declareRun (app, given);
 }

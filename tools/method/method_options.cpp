@@ -43,7 +43,7 @@ override (Target& target, const std::optional<Value>& value)
 } // namespace
 
 void
-declareVolumeOptions (CLI::App& app, GivenMethod& given)
+declareVolumeOptions (CLI::App& app, GivenMethod& given, const std::string& background_default)
 {
   const std::string group = "Volume";
   app.add_option ("--voxel-size", given.voxel_size, "Edge of an object's voxels")
@@ -62,7 +62,7 @@ declareVolumeOptions (CLI::App& app, GivenMethod& given)
       ->check (numberRange (0, 10))
       ->group (group);
   app.add_option ("--background-voxel-size", given.background_voxel_size,
-                  "Edge of the background's voxels (default: twice the smallest object's)")
+                  "Edge of the background's voxels (default: " + background_default + ")")
       ->option_text ("METRES")
       ->check (numberRange (0, unlimited, true))
       ->group (group);

@@ -20,9 +20,10 @@ struct GivenMethod
   bool no_planes = false;
 };
 
-/** \brief Declare the options about volumes and memory, in the group "Volume". */
+/** \brief Declare the options about volumes and memory, in the group "Volume". \param[in] background_default what the background's
+ * voxels are, if nothing is given */
 void
-declareVolumeOptions (CLI::App& app, GivenMethod& given);
+declareVolumeOptions (CLI::App& app, GivenMethod& given, const std::string& background_default);
 
 /** \brief Declare those about the energy and its minimisation, in the group "Method". */
 void
