@@ -87,8 +87,11 @@ TEST_F (FusionTool, WritesMeshesTrajectoriesAndASummary)
     EXPECT_EQ (mesh.provenance.size (), mesh.vertices.size ());
   }
   // The ball's frame is at its centre.
-  for (const Eigen::Vector3f& vertex : loadPlyMesh (file ("out/mesh/object_1_tsdf.ply")).vertices)
-    EXPECT_NEAR (vertex.norm (), 0.1, 0.02);
+  const TriangleMesh tsdf = loadPlyMesh (file ("out/mesh/object_1_tsdf.ply"));
+  double sum = 0.0;
+  for (const Eigen::Vector3f& vertex : tsdf.vertices)
+    sum += std::abs (vertex.norm () - 0.1);
+  EXPECT_LT (sum / static_cast<double> (tsdf.vertices.size ()), 0.01);
   const auto truth = loadTrajectory (file ("sim/gt-ball-1.txt")), written = loadTrajectory (file ("out/trajectory/object_1.txt"));
   ASSERT_EQ (truth.size (), written.size ());
   for (std::size_t n = 0; n < truth.size (); ++n)
@@ -114,7 +117,7 @@ TEST_F (FusionTool, ItsOutputIsEvaluated)
     EXPECT_LT (object["accuracy_m"], 0.02);
     EXPECT_LT (object["completeness_m"], 0.03);
   }
-  EXPECT_LT (result["background"]["accuracy_m"], 0.01);
+  EXPECT_LT (result["background"]["accuracy_m"], 0.03);
 }
 
 TEST_F (FusionTool, ThreadsDoNotMatter)

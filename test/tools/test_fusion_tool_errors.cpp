@@ -213,9 +213,9 @@ TEST_F (FusionToolErrors, MasksOfAnotherSizeOrWithoutFrames)
 
 TEST_F (FusionToolErrors, OddObjects)
 {
-  // One keyframe has the box; a few stray pixels are no object.
+  // One keyframe has the ball; a few stray pixels are no object.
   changeMasks ([] (Image<std::uint16_t>& mask, const std::string& name) {
-    std::replace (mask.pixels.begin (), mask.pixels.end (), std::uint16_t (2), std::uint16_t (name == "Mask0000" ? 2 : 0));
+    std::replace (mask.pixels.begin (), mask.pixels.end (), std::uint16_t (1), std::uint16_t (name == "Mask0000" ? 1 : 0));
     for (int v = 80; v < 84; ++v)
       for (int u = 20; u < 28; ++u)
         mask.at (u, v) = 400;
@@ -246,12 +246,15 @@ TEST_F (FusionToolErrors, TheExamplesWork)
   fs::create_directory (file ("toys"));
   for (const auto& entry : fs::directory_iterator (file ("sim")))
     fs::rename (entry.path (), file ("toys/" + entry.path ().filename ().string ()));
-  for (const char* name : {"truck-1", "car-2", "crate-3"})
+  for (const char* name : {"truck-1", "car-2"})
     fs::copy (file ("toys/gt-ball-1.txt"), file ("toys/gt-" + std::string (name) + ".txt"));
-  for (const char* name : {"table", "sequence", "kitchen", "masks"})
+  std::ofstream options (file ("toys.txt"));
+  for (const std::string& line : fusionText ().configuration)
+    options << line << std::endl;
+  for (const char* name : {"sequence", "kitchen", "masks"})
     fs::create_directory_symlink (std::string (name) == "masks" ? "toys/mask" : "toys", file (name));
   fs::copy (file ("toys/gt-cam-0.txt"), file ("toys/groundtruth.txt"));
-  fs::copy (file ("toys/gt-cam-0.txt"), file ("poses.txt"));
+  fs::copy (file ("toys/gt-cam-0.txt"), file ("cam.txt"));
   for (const UsageExample& example : fusionText ().examples)
   {
     std::istringstream in (example.command);

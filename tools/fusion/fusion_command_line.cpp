@@ -212,17 +212,14 @@ fusionText ()
        "OUTPUT is a folder: trajectory/camera.txt and object_ID.txt, mesh/background.ply (world frame), object_ID.ply (closed, "
        "the object's frame) and object_ID_tsdf.ply (what was seen), summary.json."},
       {
-          {"pcl_cosection_fusion --camera-trajectory toys/gt-cam-0.txt --masks toys/mask "
-           "--object-trajectory 1=toys/gt-truck-1.txt --object-trajectory 2=toys/gt-car-2.txt "
-           "--object-trajectory 3=toys/gt-crate-3.txt toys out",
-           "what pcl_cosection_simulate --preset toys toys renders, with its true poses"},
-          {"pcl_cosection_fusion --camera-trajectory table/gt-cam-0.txt --masks table/mask table things",
+          {"pcl_cosection_fusion --config toys.txt toys out",
+           "a simulated sequence with its true poses, with the options in toys.txt as below"},
+          {"pcl_cosection_fusion --camera-trajectory cam.txt --masks masks sequence out",
            "objects without a trajectory are at rest"},
           {"pcl_cosection_fusion --camera-trajectory kitchen/groundtruth.txt kitchen room", "a room without objects"},
-          {"pcl_cosection_fusion --constraints none --frames 0:50 --camera-trajectory poses.txt --masks masks sequence out",
-           "half of a sequence, with smoothness alone"},
       },
-      {"keyframe-every = 5", "masks = \"toys/mask\""},
+      {"camera-trajectory = \"toys/gt-cam-0.txt\"", "masks = \"toys/mask\"",
+       "object-trajectory = [\"1=toys/gt-truck-1.txt\", \"2=toys/gt-car-2.txt\"]"},
   };
   return (text);
 }

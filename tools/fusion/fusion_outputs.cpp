@@ -25,9 +25,9 @@ namespace
 void
 makeFolder (const fs::path& folder)
 {
-  std::error_code failure;
+  std::error_code failure, ignored;
   fs::create_directories (folder, failure);
-  if (!fs::is_directory (folder, failure))
+  if (!fs::is_directory (folder, ignored))
     throw IoError (folder.string () + ": the folder cannot be made" + (failure ? ": " + failure.message () : ""));
 }
 
