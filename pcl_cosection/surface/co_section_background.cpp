@@ -176,7 +176,7 @@ CoSectionRun::solveBackground (FollowedBody& body, const std::vector<PlaneContin
   });
   if (output == UpdateOutput::Meshes)
     timed ("mesh", [&] {
-      TriangleMesh mesh = volume.trimmedMesh ();
+      TriangleMesh mesh = volume.trimmedMesh (scene_.background);
       transferAttributes (scene_.background, volume.grid (), mesh);
       appendMesh (result_.background, mesh);
     });

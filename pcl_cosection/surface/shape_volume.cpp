@@ -32,6 +32,7 @@ constexpr float vouched_depth_vox = 3.0f;  // behind a measured surface, where m
 constexpr float vouched_step_vox = 0.5f;
 constexpr float vouched_radius_vox = 0.75f; // closes the gaps between points
 constexpr float least_free_vox = 0.25f;    // of a voxel seen free, from the surface of the hull
+constexpr double half_cells_vox = 1.0;      // what is lost by taking a point and a vertex for their voxels' centres
 constexpr double confidence_scale_vox = 5.0;
 constexpr std::size_t bytes_per_voxel = 80;
 constexpr float border_voxels = 2.0f; // a closed surface stays so far inside its volume
@@ -110,6 +111,7 @@ ShapeVolume::prepare (const ShapeEvidence& evidence, const std::vector<PlaneCont
       data_[n] = evidence.data ().weight[n] >= observed_weight;
   }
   data_distance_vox_ = distanceTransform (grid_.dims, data_, options_.threads);
+  continued_.assign (planes.empty () ? 0 : grid_.size (), 0);
 
   for (const PlaneContinuation& continuation : planes)
     parallelFor (0, grid_.dims.z (), options_.threads, [&] (int k) {
@@ -127,7 +129,7 @@ ShapeVolume::prepare (const ShapeEvidence& evidence, const std::vector<PlaneCont
           problem_.weight[n] = static_cast<float> (w);
           problem_.weighted_target[n] = static_cast<float> (w * s);
           if (std::abs (s) <= 1.0)
-            data_[n] = 1;
+            data_[n] = continued_[n] = 1;
         }
     });
   if (!planes.empty ())
@@ -319,8 +321,16 @@ ShapeVolume::outerMesh () const
 }
 
 TriangleMesh
-ShapeVolume::trimmedMesh () const
+ShapeVolume::trimmedMesh (const std::vector<OrientedPoint>& points) const
 {
+  std::vector<std::uint8_t> seen = continued_;
+  seen.resize (grid_.size (), 0);
+  for (const OrientedPoint& point : points)
+    if (const auto at = grid_.nearest (point.position.cast<double> ()))
+      seen[grid_.index (at->x (), at->y (), at->z ())] = 1;
+  const std::vector<float> distance_vox = distanceTransform (grid_.dims, seen, options_.threads);
+  const double reach_vox = options_.max_bound_vox - half_cells_vox;
+
   IsoSurfaceOptions iso;
   iso.closed = false;
   iso.threads = options_.threads;
@@ -331,7 +341,10 @@ ShapeVolume::trimmedMesh () const
   for (std::size_t v = 0; v < near.size (); ++v)
   {
     const Eigen::Vector3i at = grid_.toVoxel (mesh.vertices[v].cast<double> ()).array ().round ().cast<int> ();
-    near[v] = grid_.contains (at.x (), at.y (), at.z ()) && field.supported[grid_.index (at.x (), at.y (), at.z ())];
+    if (!grid_.contains (at.x (), at.y (), at.z ()))
+      continue;
+    const std::size_t n = grid_.index (at.x (), at.y (), at.z ());
+    near[v] = field.supported[n] && distance_vox[n] <= reach_vox;
   }
   std::vector<bool> keep (mesh.triangles.size ());
   for (std::size_t t = 0; t < keep.size (); ++t)

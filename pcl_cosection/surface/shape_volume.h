@@ -136,9 +136,9 @@ public:
   TriangleMesh
   outerMesh () const;
 
-  /** \brief Open mesh of the minimiser where it is supported. */
+  /** \brief Open mesh of the minimiser where it is supported, no farther from \a points and continued planes than evidence reaches. */
   TriangleMesh
-  trimmedMesh () const;
+  trimmedMesh (const std::vector<OrientedPoint>& points) const;
 
 private:
   float
@@ -162,6 +162,7 @@ private:
   EnergyProblem problem_;
   std::vector<std::uint8_t> free_space_;
   std::vector<std::uint8_t> data_;          // 1 where points are near
+  std::vector<std::uint8_t> continued_;     // 1 on continued planes; empty: there are none
   std::vector<float> data_distance_vox_;
   std::vector<float> carved_;               // signed distance to free space, voxels; or empty
   std::vector<float> half_u_;               // at half the resolution, voxels of grid_
