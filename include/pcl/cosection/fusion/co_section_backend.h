@@ -67,7 +67,7 @@ public:
   SceneResult
   update (UpdateOutput output, const ProgressCallback& progress = {});
 
-  /** \brief Complete everything from the start, from all that is kept. The result does not depend on earlier updates.
+  /** \brief Complete everything from the start, from all that is kept. Earlier updates only say where voxels are.
    * \throws Cancelled */
   SceneResult
   solve (const ProgressCallback& progress = {}) const;
