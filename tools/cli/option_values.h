@@ -6,9 +6,31 @@
 
 #include <array>
 #include <cstddef>
+#include <limits>
 #include <optional>
+#include <sstream>
 #include <string>
 #include <vector>
+
+/** \brief No upper bound of a number. */
+constexpr double unlimited = std::numeric_limits<double>::max ();
+
+/** \brief A default for the help screen. */
+template <typename Value>
+std::string
+byDefault (const Value& value)
+{
+  std::ostringstream text;
+  text << " (default: " << value << ")";
+  return (text.str ());
+}
+
+/** \brief Accepts one of some words. */
+inline CLI::Validator
+oneOf (const std::vector<std::string>& words)
+{
+  return (CLI::IsMember (words));
+}
 
 /** \brief A finite number that fills \a text; nothing if it is anything else. */
 std::optional<double>

@@ -5,32 +5,10 @@
 #include "arguments.h"
 #include "option_values.h"
 
-#include <limits>
-#include <memory>
-#include <sstream>
-
 using namespace pcl::cosection;
 
 namespace
 {
-
-constexpr double unlimited = std::numeric_limits<double>::max ();
-
-/** \brief A default for the help screen. */
-template <typename Value>
-std::string
-byDefault (Value value)
-{
-  std::ostringstream text;
-  text << " (default: " << value << ")";
-  return (text.str ());
-}
-
-CLI::Validator
-oneOf (const std::vector<std::string>& words)
-{
-  return (CLI::IsMember (words));
-}
 
 void
 declareInput (CLI::App& app, Given& given)

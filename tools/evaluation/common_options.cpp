@@ -5,7 +5,6 @@
 #include "arguments.h"
 #include "option_values.h"
 
-#include <sstream>
 
 void
 declareCommonOptions (CLI::App& app, CommonOptions& given)
@@ -40,12 +39,4 @@ Verbosity
 verbosityOf (const CommonOptions& given)
 {
   return (given.quiet ? Verbosity::Quiet : given.verbose ? Verbosity::Verbose : Verbosity::Normal);
-}
-
-std::string
-byDefault (double value)
-{
-  std::ostringstream text;
-  text << " (default: " << value << ")";
-  return (text.str ());
 }

@@ -31,7 +31,3 @@ checkCommonOptions (const CommonOptions& given, const std::string& first, const 
 
 Verbosity
 verbosityOf (const CommonOptions& given);
-
-/** \brief " (default: VALUE)" */
-std::string
-byDefault (double value);

@@ -3,15 +3,6 @@
 #include "mesh_command.h"
 #include "option_values.h"
 
-#include <limits>
-
-namespace
-{
-
-constexpr double unlimited = std::numeric_limits<double>::max ();
-
-} // namespace
-
 void
 declareMeshOptions (CLI::App& app, MeshSettings& settings)
 {

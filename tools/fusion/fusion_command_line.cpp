@@ -8,14 +8,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 using namespace pcl::cosection;
 
 namespace
 {
-
-constexpr double unlimited = std::numeric_limits<double>::max ();
 
 void
 declareInput (CLI::App& app, GivenFusion& given)
