@@ -28,6 +28,25 @@ constexpr double whole_background_voxel_m = 0.02;    // or smaller, if that give
 constexpr double whole_background_resolution = 128.0; // voxels along the longest side
 constexpr double most_whole_voxels = 256.0 * 256.0 * 256.0;
 constexpr double whole_margin_vox = 4.0;
+constexpr double growth_vox = 12.0; // beyond where a background that is followed has grown to, as it will grow again
+
+/** \brief A box that is larger than a grid, and by more than it has to where it is. */
+Eigen::AlignedBox3d
+withRoomToGrow (const Eigen::AlignedBox3d& box, const VoxelGrid& grid)
+{
+  const Eigen::AlignedBox3d before = boxOf (grid);
+  const double room = growth_vox * grid.voxel_size_m;
+  Eigen::AlignedBox3d larger = box;
+  for (int a = 0; a < 3; ++a)
+  {
+    if (box.min ()[a] < before.min ()[a])
+      larger.min ()[a] -= room;
+    if (box.max ()[a] > before.max ()[a])
+      larger.max ()[a] += room;
+  }
+  const bool fits = (larger.sizes ().array () / grid.voxel_size_m + 1.0).prod () <= most_whole_voxels;
+  return fits ? larger : box;
+}
 
 } // namespace
 
@@ -134,9 +153,11 @@ CoSectionRun::createBackground ()
   if (scene_.options.whole_background)
   {
     const Eigen::Vector3d margin = Eigen::Vector3d::Constant (whole_margin_vox * voxel);
-    guardedBackground ([&] {
-      place (memory_.background, 0, {boxes.front ().min () - margin, boxes.front ().max () + margin}, voxel, false);
-    });
+    Eigen::AlignedBox3d box (boxes.front ().min () - margin, boxes.front ().max () + margin);
+    FollowedBody& body = memory_.background;
+    if (body.volume && body.grid ().voxel_size_m == voxel && scene_.options.max_memory_bytes == 0)
+      box = withRoomToGrow (box, body.grid ());
+    guardedBackground ([&] { place (body, 0, box, voxel, false); });
     return;
   }
   for (const Eigen::AlignedBox3d& box : boxes)
@@ -169,10 +190,12 @@ CoSectionRun::solveBackground (FollowedBody& body, const std::vector<PlaneContin
     return;
   BackgroundResult piece;
   timed ("solve", [&] {
-    piece.solver = volume.solve (Resolution::Full, [this] (const std::string&, double f) {
+    const ProgressCallback progress = [this] (const std::string&, double f) {
       report ("background", 0.05 + 0.25 * f);
       return true;
-    });
+    };
+    piece.solver = mode_ == Mode::Follow ? volume.follow (progress) : volume.solve (Resolution::Full, progress);
+    piece.solved_share = volume.solvedShare ();
   });
   if (output == UpdateOutput::Meshes)
     timed ("mesh", [&] {

@@ -21,19 +21,6 @@ LowerBound::LowerBound (float distance_vox, float weight)
             static_cast<std::uint32_t> (std::lround (std::clamp (distance_vox, 0.0f, 255.0f) * 256.0f));
 }
 
-namespace
-{
-
-kernels::EnergyRow
-energyRow (const EnergyProblem& problem, std::size_t at)
-{
-  return {problem.weight.data () + at, problem.weighted_target.data () + at,
-          problem.exterior.empty () ? nullptr : problem.exterior.data () + at,
-          problem.intersection.empty () ? nullptr : problem.intersection.data () + at};
-}
-
-} // namespace
-
 template <typename Real> double
 evaluate (const EnergyProblem& problem, const HessianOperator<Real>& hessian, const Real* u, Real* residual,
           std::uint16_t* weights)

@@ -15,6 +15,15 @@ namespace pcl
 namespace cosection
 {
 
+/** \brief The terms of a problem from voxel \a at on. */
+inline kernels::EnergyRow
+energyRow (const EnergyProblem& problem, std::size_t at)
+{
+  return {problem.weight.data () + at, problem.weighted_target.data () + at,
+          problem.exterior.empty () ? nullptr : problem.exterior.data () + at,
+          problem.intersection.empty () ? nullptr : problem.intersection.data () + at};
+}
+
 /** \brief E (u), with by-products of the same pass unless both are null.
  * \param[out] residual minus half the gradient
  * \param[out] weights W plus the weights of the active bounds, packed: the diagonal part of half the

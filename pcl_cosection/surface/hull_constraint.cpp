@@ -181,8 +181,11 @@ std::vector<std::uint8_t>
 HullConstraint::freeSpace (bool revise) const
 {
   std::vector<std::uint8_t> free_space (votes_for_.size ());
-  for (std::size_t n = 0; n < free_space.size (); ++n)
-    free_space[n] = votes_for_[n] > (revise ? votes_against_[n] : 0);
+  const std::size_t plane = static_cast<std::size_t> (grid_.dims.x ()) * grid_.dims.y ();
+  parallelFor (0, grid_.dims.z (), threads_, [&] (int k) {
+    for (std::size_t n = k * plane; n < (k + 1) * plane; ++n)
+      free_space[n] = votes_for_[n] > (revise ? votes_against_[n] : 0);
+  });
   return free_space;
 }
 
@@ -190,8 +193,7 @@ std::vector<float>
 hullDistance (const Eigen::Vector3i& dims, const std::vector<std::uint8_t>& free_space, int threads)
 {
   std::vector<std::uint8_t> hull (free_space.size ());
-  for (std::size_t n = 0; n < hull.size (); ++n)
-    hull[n] = free_space[n] == 0;
+  std::transform (free_space.begin (), free_space.end (), hull.begin (), [] (std::uint8_t free) { return free == 0; });
   std::vector<float> distance = distanceTransform (dims, hull, threads);
   parallelFor (0, dims.z (), threads, [&] (int k) {
     for (int j = 0; j < dims.y (); ++j)

@@ -291,18 +291,20 @@ ImlsDataTerm::add (const VoxelGrid& grid, const std::vector<OrientedPoint>& poin
 }
 
 void
-ImlsDataTerm::average (Weighting weighting, std::vector<float>& averaged_weight, std::vector<float>& averaged_target) const
+ImlsDataTerm::average (Weighting weighting, std::vector<float>& averaged_weight, std::vector<float>& averaged_target,
+                       int threads) const
 {
-  averaged_weight = weight;
-  averaged_target = weighted_target;
-  if (weighting == Weighting::Mean)
-    for (std::size_t n = 0; n < count.size (); ++n)
-      if (count[n] > 0.0f)
-      {
-        const float scale = 1.0f / count[n];
-        averaged_weight[n] *= scale;
-        averaged_target[n] *= scale;
-      }
+  averaged_weight.resize (weight.size ());
+  averaged_target.resize (weight.size ());
+  constexpr std::size_t block = 4096;
+  parallelFor (0, static_cast<int> ((weight.size () + block - 1) / block), threads, [&] (int b) {
+    for (std::size_t n = b * block; n < std::min (weight.size (), (b + 1) * block); ++n)
+    {
+      const float scale = weighting == Weighting::Mean && count[n] > 0.0f ? 1.0f / count[n] : 1.0f;
+      averaged_weight[n] = scale * weight[n];
+      averaged_target[n] = scale * weighted_target[n];
+    }
+  });
 }
 
 void

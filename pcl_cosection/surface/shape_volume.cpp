@@ -2,16 +2,15 @@
 // Copyright (c) 2026, the pcl_cosection authors
 #include "shape_volume.h"
 
+#include "local_solver.h"
 #include "solver_detail.h"
 
 #include <pcl/cosection/common/parallel.h>
 #include <pcl/cosection/surface/contact_prior.h>
 #include <pcl/cosection/volume/distance_transform.h>
-#include <pcl/cosection/volume/iso_surface.h>
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace pcl
 {
@@ -24,34 +23,9 @@ namespace
 constexpr float observed_weight = 0.3f;        // sum of weights that makes a voxel one with data: a point within 1.1 sigma
 constexpr double continued_plane_weight = 0.5; // of the data term on a continued plane, as of a densely measured one
 constexpr double continued_plane_gap_vox = 2.0; // planes are continued where no data is nearer
-constexpr double observed_reach_vox = 1.0;
-constexpr double intersection_reach_vox = 1.0;
-constexpr double hull_reach_vox = 1.5;
 constexpr float carving_reach_vox = 1.5f; // from the boundary of free space into the hull
-constexpr float vouched_depth_vox = 3.0f;  // behind a measured surface, where matter is sure: the reach of its points
-constexpr float vouched_step_vox = 0.5f;
-constexpr float vouched_radius_vox = 0.75f; // closes the gaps between points
-constexpr float least_free_vox = 0.25f;    // of a voxel seen free, from the surface of the hull
-constexpr double half_cells_vox = 1.0;      // what is lost by taking a point and a vertex for their voxels' centres
-constexpr double confidence_scale_vox = 5.0;
 constexpr std::size_t bytes_per_voxel = 80;
-constexpr float border_voxels = 2.0f; // a closed surface stays so far inside its volume
-
-/** \brief Raise a field near the border so that its zero set stays inside. */
-void
-keepOffBorder (SignedDistanceField& field)
-{
-  const Eigen::Vector3i& dims = field.grid.dims;
-  for (int k = 0; k < dims.z (); ++k)
-    for (int j = 0; j < dims.y (); ++j)
-      for (int i = 0; i < dims.x (); ++i)
-      {
-        const int border = std::min ({i, j, k, dims.x () - 1 - i, dims.y () - 1 - j, dims.z () - 1 - k});
-        const float bound = static_cast<float> ((border_voxels - static_cast<float> (border)) * field.grid.voxel_size_m);
-        float& value = field.values[field.grid.index (i, j, k)];
-        value = std::max (value, bound);
-      }
-}
+constexpr double follow_margin_vox = 3.0; // what follows new evidence at full resolution reaches so far beyond what is supported
 
 } // namespace
 
@@ -60,6 +34,16 @@ ShapeVolume::ShapeVolume (const VoxelGrid& grid, const CoSectionOptions& options
 {
   problem_.dims = grid.dims;
   problem_.alpha = options.alpha;
+}
+
+template <typename Function> void
+ShapeVolume::forEachVoxel (Function&& f) const
+{
+  const std::size_t plane = grid_.index (0, 0, 1);
+  parallelFor (0, grid_.dims.z (), threadsForVoxels (options_.threads, grid_.size ()), [&] (int k) {
+    for (std::size_t n = k * plane; n < (k + 1) * plane; ++n)
+      f (n);
+  });
 }
 
 std::size_t
@@ -87,6 +71,8 @@ ShapeVolume::startFrom (const ShapeVolume& other)
                                     static_cast<float> ((at - inside).cast<double> ().norm ());
       }
   solved_fully_ = true;
+  if (grid_.origin_m == other.grid_.origin_m && grid_.dims == other.grid_.dims)
+    quarter_ = other.quarter_;
 }
 
 bool
@@ -101,15 +87,13 @@ ShapeVolume::prepare (const ShapeEvidence& evidence, const std::vector<PlaneCont
   changed_ = true;
   free_space_ = evidence.freeSpace ();
   carved_ = evidence.carvedBounds ();
-  evidence.data ().average (options_.weighting, problem_.weight, problem_.weighted_target);
-  data_.assign (grid_.size (), 0);
-  for (std::size_t n = 0; n < grid_.size (); ++n)
-  {
+  evidence.data ().average (options_.weighting, problem_.weight, problem_.weighted_target, options_.threads);
+  data_.resize (grid_.size ());
+  forEachVoxel ([&] (std::size_t n) {
     if (free_space_[n])
       problem_.weight[n] = problem_.weighted_target[n] = 0.0f;
-    else
-      data_[n] = evidence.data ().weight[n] >= observed_weight;
-  }
+    data_[n] = !free_space_[n] && evidence.data ().weight[n] >= observed_weight;
+  });
   data_distance_vox_ = distanceTransform (grid_.dims, data_, options_.threads);
   continued_.assign (planes.empty () ? 0 : grid_.size (), 0);
 
@@ -138,11 +122,13 @@ ShapeVolume::prepare (const ShapeEvidence& evidence, const std::vector<PlaneCont
   if (options_.use_hull && options_.beta_hull > 0.0)
   {
     const std::vector<float> distance = hullDistance (grid_.dims, free_space_, options_.threads);
-    problem_.exterior.assign (grid_.size (), LowerBound ());
-    for (std::size_t n = 0; n < grid_.size (); ++n)
-      if (free_space_[n])
-        problem_.exterior[n] = LowerBound (options_.hull_distance == HullDistance::Exact ? distance[n] : 1.0f,
-                                           static_cast<float> (options_.beta_hull));
+    problem_.exterior.resize (grid_.size ());
+    forEachVoxel ([&] (std::size_t n) {
+      problem_.exterior[n] = free_space_[n]
+                                 ? LowerBound (options_.hull_distance == HullDistance::Exact ? distance[n] : 1.0f,
+                                               static_cast<float> (options_.beta_hull))
+                                 : LowerBound ();
+    });
   }
 }
 
@@ -200,6 +186,27 @@ ShapeVolume::solve (Resolution resolution, const ProgressCallback& progress)
   return cosection::solve (problem_, solver, u_, progress);
 }
 
+SolverSummary
+ShapeVolume::follow (const ProgressCallback& progress)
+{
+  SolverOptions solver = options_.solver;
+  solver.threads = options_.threads;
+  QuarterResolution quarter;
+  std::swap (quarter, quarter_); // back when all has been done
+  const bool follows = quarter.update (problem_, solver, u_, progress) && solved_fully_;
+  std::optional<LocalSolution> local;
+  if (follows)
+  {
+    const auto reach_vox = static_cast<float> (options_.max_bound_vox + follow_margin_vox);
+    local = solveNearData (problem_, solver, {data_distance_vox_, reach_vox}, u_, progress);
+  }
+  solved_share_ = local ? static_cast<double> (local->voxels) / static_cast<double> (grid_.size ()) : 1.0;
+  const SolverSummary summary = local ? local->summary : solve (Resolution::Full, progress);
+  changed_ = false;
+  quarter_ = std::move (quarter);
+  return summary;
+}
+
 SignedDistanceField
 ShapeVolume::measuredField () const
 {
@@ -228,8 +235,8 @@ std::vector<std::uint8_t>
 ShapeVolume::supported () const
 {
   std::vector<std::uint8_t> supported (grid_.size ());
-  for (std::size_t n = 0; n < grid_.size (); ++n)
-    supported[n] = !free_space_[n] && data_distance_vox_[n] <= options_.max_bound_vox;
+  forEachVoxel (
+      [&] (std::size_t n) { supported[n] = !free_space_[n] && data_distance_vox_[n] <= options_.max_bound_vox; });
   return supported;
 }
 
@@ -239,155 +246,9 @@ ShapeVolume::solvedField () const
   SignedDistanceField field;
   field.grid = grid_;
   field.values.resize (grid_.size ());
-  for (std::size_t n = 0; n < grid_.size (); ++n)
-    field.values[n] = static_cast<float> (carvedValue (n) * grid_.voxel_size_m);
+  forEachVoxel ([&] (std::size_t n) { field.values[n] = static_cast<float> (carvedValue (n) * grid_.voxel_size_m); });
   field.supported = supported ();
   return field;
-}
-
-float
-ShapeVolume::hullValue (std::size_t n) const
-{
-  if (carved_.empty ())
-    return free_space_[n] ? 0.5f : -0.5f;
-  return free_space_[n] ? std::max (carved_[n], least_free_vox) : carved_[n];
-}
-
-template <typename Value> TriangleMesh
-ShapeVolume::closedMeshOf (Value&& value) const
-{
-  IsoSurfaceOptions iso;
-  iso.closed = true;
-  iso.threads = options_.threads;
-  SignedDistanceField field;
-  field.grid = grid_;
-  field.values.resize (grid_.size ());
-  for (std::size_t n = 0; n < grid_.size (); ++n)
-    field.values[n] = static_cast<float> (value (n) * grid_.voxel_size_m);
-  keepOffBorder (field);
-  TriangleMesh mesh = extractIsoSurface (field, iso);
-  attachEvidence (mesh);
-  return mesh;
-}
-
-TriangleMesh
-ShapeVolume::observedParts (const TriangleMesh& mesh)
-{
-  const std::vector<int> component = labelComponents (mesh);
-  std::vector<bool> observed (component.empty () ? 0 : *std::max_element (component.begin (), component.end ()) + 1, false);
-  for (std::size_t v = 0; v < mesh.vertices.size (); ++v)
-    if (mesh.provenance[v] == static_cast<std::uint8_t> (Provenance::Observed))
-      observed[component[v]] = true;
-  std::vector<bool> keep (mesh.triangles.size ());
-  for (std::size_t t = 0; t < keep.size (); ++t)
-    keep[t] = observed[component[mesh.triangles[t][0]]];
-  return extractTriangles (mesh, keep);
-}
-
-TriangleMesh
-ShapeVolume::closedMesh () const
-{
-  return observedParts (closedMeshOf ([this] (std::size_t n) { return carvedValue (n); }));
-}
-
-TriangleMesh
-ShapeVolume::hullMesh () const
-{
-  return closedMeshOf ([this] (std::size_t n) { return hullValue (n); });
-}
-
-TriangleMesh
-ShapeVolume::innerMesh (const std::vector<OrientedPoint>& points) const
-{
-  // Every point vouches for the voxels straight behind it.
-  std::vector<std::uint8_t> vouched (grid_.size (), 0);
-  for (const OrientedPoint& point : points)
-    for (float depth = 0.0f; depth <= vouched_depth_vox; depth += vouched_step_vox)
-    {
-      const Eigen::Vector3d behind =
-          point.position.cast<double> () - depth * grid_.voxel_size_m * point.normal.cast<double> ();
-      if (const auto at = grid_.nearest (behind))
-        vouched[grid_.index (at->x (), at->y (), at->z ())] = 1;
-    }
-  const std::vector<float> distance = distanceTransform (grid_.dims, vouched, options_.threads);
-  return observedParts (
-      closedMeshOf ([&] (std::size_t n) { return std::max (carvedValue (n), distance[n] - vouched_radius_vox); }));
-}
-
-TriangleMesh
-ShapeVolume::outerMesh () const
-{
-  return closedMeshOf ([this] (std::size_t n) { return std::min (carvedValue (n), hullValue (n)); });
-}
-
-TriangleMesh
-ShapeVolume::trimmedMesh (const std::vector<OrientedPoint>& points) const
-{
-  std::vector<std::uint8_t> seen = continued_;
-  seen.resize (grid_.size (), 0);
-  for (const OrientedPoint& point : points)
-    if (const auto at = grid_.nearest (point.position.cast<double> ()))
-      seen[grid_.index (at->x (), at->y (), at->z ())] = 1;
-  const std::vector<float> distance_vox = distanceTransform (grid_.dims, seen, options_.threads);
-  const double reach_vox = options_.max_bound_vox - half_cells_vox;
-
-  IsoSurfaceOptions iso;
-  iso.closed = false;
-  iso.threads = options_.threads;
-  const SignedDistanceField field = solvedField ();
-  TriangleMesh mesh = extractIsoSurface (field, iso);
-  attachEvidence (mesh);
-  std::vector<bool> near (mesh.vertices.size ());
-  for (std::size_t v = 0; v < near.size (); ++v)
-  {
-    const Eigen::Vector3i at = grid_.toVoxel (mesh.vertices[v].cast<double> ()).array ().round ().cast<int> ();
-    if (!grid_.contains (at.x (), at.y (), at.z ()))
-      continue;
-    const std::size_t n = grid_.index (at.x (), at.y (), at.z ());
-    near[v] = field.supported[n] && distance_vox[n] <= reach_vox;
-  }
-  std::vector<bool> keep (mesh.triangles.size ());
-  for (std::size_t t = 0; t < keep.size (); ++t)
-    keep[t] = near[mesh.triangles[t][0]] && near[mesh.triangles[t][1]] && near[mesh.triangles[t][2]];
-  return extractTriangles (mesh, keep);
-}
-
-void
-ShapeVolume::attachEvidence (TriangleMesh& mesh) const
-{
-  mesh.confidence.resize (mesh.vertices.size ());
-  mesh.provenance.resize (mesh.vertices.size ());
-  parallelFor (0, static_cast<int> (mesh.vertices.size ()), options_.threads, [&] (int v) {
-    const Eigen::Vector3d at = grid_.toVoxel (mesh.vertices[v].cast<double> ());
-    double data_distance = std::numeric_limits<double>::infinity ();
-    bool bounded_by_body = false;
-    bool bounded_by_hull = false;
-    constexpr int reach = 2; // voxels, of the largest distance below
-    const Eigen::Vector3i base = at.array ().floor ().cast<int> ();
-    for (int dz = -reach + 1; dz <= reach; ++dz)
-      for (int dy = -reach + 1; dy <= reach; ++dy)
-        for (int dx = -reach + 1; dx <= reach; ++dx)
-        {
-          const Eigen::Vector3i cell = base + Eigen::Vector3i (dx, dy, dz);
-          if (!grid_.contains (cell.x (), cell.y (), cell.z ()))
-            continue;
-          const std::size_t n = grid_.index (cell.x (), cell.y (), cell.z ());
-          const double distance = (cell.cast<double> () - at).norm ();
-          data_distance = std::min (data_distance, data_[n] ? distance : distance + data_distance_vox_[n]);
-          bounded_by_hull |= (free_space_[n] || (!carved_.empty () && carved_[n] >= 0.0f)) && distance <= hull_reach_vox;
-          bounded_by_body |= !problem_.intersection.empty () && problem_.intersection[n] &&
-                             u_[n] < problem_.intersection[n].distance () && distance <= intersection_reach_vox;
-        }
-    Provenance provenance = Provenance::Inferred;
-    if (data_distance <= observed_reach_vox)
-      provenance = Provenance::Observed;
-    else if (bounded_by_body)
-      provenance = Provenance::Intersection;
-    else if (bounded_by_hull)
-      provenance = Provenance::Hull;
-    mesh.provenance[v] = static_cast<std::uint8_t> (provenance);
-    mesh.confidence[v] = static_cast<float> (std::exp (-data_distance / confidence_scale_vox));
-  });
 }
 
 } // namespace cosection

@@ -2,6 +2,7 @@
 // Copyright (c) 2026, the pcl_cosection authors
 #pragma once
 
+#include "quarter_resolution.h"
 #include "shape_evidence.h"
 
 #include <pcl/cosection/common/progress.h>
@@ -76,6 +77,19 @@ public:
   SolverSummary
   solve (Resolution resolution, const ProgressCallback& progress);
 
+  /** \brief The same after more evidence, for a body of which only what is near data is used: everywhere on voxels of four
+   * times the size, and at full resolution near data where that has changed. The first time, or where most has changed, as
+   * solve (). */
+  SolverSummary
+  follow (const ProgressCallback& progress);
+
+  /** \brief How large a part of the voxels the last follow () solved at full resolution. */
+  double
+  solvedShare () const
+  {
+    return solved_share_;
+  }
+
   /** \brief 1 where seen free. */
   const std::vector<std::uint8_t>&
   freeSpace () const
@@ -141,6 +155,9 @@ public:
   trimmedMesh (const std::vector<OrientedPoint>& points) const;
 
 private:
+  /** \brief f (index) for every voxel, planes of them on several threads. */
+  template <typename Function> void
+  forEachVoxel (Function&& f) const;
   float
   carvedValue (std::size_t n) const;
   /** \brief Signed distance to the space that was seen free, positive in it, within some voxels. */
@@ -166,8 +183,10 @@ private:
   std::vector<float> data_distance_vox_;
   std::vector<float> carved_;               // signed distance to free space, voxels; or empty
   std::vector<float> half_u_;               // at half the resolution, voxels of grid_
+  QuarterResolution quarter_;               // of follow ()
   std::vector<float> u_;                    // voxels
   bool solved_fully_ = false;
+  double solved_share_ = 1.0;
   bool changed_ = true;
 };
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_cosection authors
 #include "grid_transfer.h"
+#include "quarter_resolution.h"
 #include "solver_detail.h"
 
 #include <chrono>
@@ -96,6 +97,37 @@ solveAtHalfResolution (const EnergyProblem& problem, const SolverOptions& option
   solveNested (coarserProblem (problem, options), options, 2, half, progress);
   u = interpolate (half, problem.dims, options.threads);
   return true;
+}
+
+bool
+QuarterResolution::update (const EnergyProblem& problem, const SolverOptions& options, std::vector<float>& u,
+                           const ProgressCallback& progress)
+{
+  if (options.type != SolverType::Multigrid || !hasCoarserLevel (problem, options))
+    return false;
+  const EnergyProblem half = coarserProblem (problem, options);
+  if (!hasCoarserLevel (half, options))
+    return false;
+  const EnergyProblem quarter = coarserProblem (half, options);
+  std::vector<float> next (u_);
+  solveNested (quarter, options, 4, next, progress);
+  const bool follows = next.size () == u_.size () && u.size () == problem.size ();
+  std::vector<float> on_half;
+  if (follows)
+  {
+    for (std::size_t n = 0; n < next.size (); ++n)
+      u_[n] = next[n] - u_[n];
+    on_half = interpolate (u_, half.dims, options.threads);
+  }
+  u_ = std::move (next);
+  if (follows)
+    GridTransfer (problem.dims, 1).prolongAdd (on_half.data (), u.data (), options.threads);
+  if (u.size () == problem.size ())
+    return follows;
+  on_half = interpolate (u_, half.dims, options.threads);
+  solveNested (half, options, 2, on_half, progress);
+  u = interpolate (on_half, problem.dims, options.threads);
+  return false;
 }
 
 template SolverSummary

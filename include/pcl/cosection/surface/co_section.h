@@ -54,6 +54,7 @@ struct PCL_COSECTION_EXPORT BackgroundResult
 {
   SignedDistanceField::Ptr signed_distance; ///< world frame
   SolverSummary solver;
+  double solved_share = 1.0; ///< of its voxels that were solved; less where an update found the others as they have to be
 };
 
 /** \brief Everything CoSection::reconstruct () computes. */
@@ -166,8 +167,8 @@ public:
   reconstruct (const ProgressCallback& progress = {}) const;
 
   /** \brief Run on what was added since the last time: measurements are gathered once, and every shape starts from the last
-   * one. The minimum is that of reconstruct (), within the solver's tolerance. Volumes grow (or shrink) with what is
-   * observed; their voxels keep their places unless the points ask for a size that differs by more than a fifth.
+   * one. The minimum is that of reconstruct () within the solver's tolerance, of a whole background near data. Volumes grow (or
+   * shrink) with what is observed; their voxels keep their places unless points ask for a size that differs by over a fifth.
    * \throws Cancelled; the next call then goes on from what was gathered */
   SceneResult
   update (UpdateOutput output = UpdateOutput::Meshes, const ProgressCallback& progress = {});

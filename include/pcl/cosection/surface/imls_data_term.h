@@ -35,7 +35,8 @@ struct PCL_COSECTION_EXPORT ImlsDataTerm
 
   /** \brief The same, leaving the sums for more to be added. */
   void
-  average (Weighting weighting, std::vector<float>& averaged_weight, std::vector<float>& averaged_target) const;
+  average (Weighting weighting, std::vector<float>& averaged_weight, std::vector<float>& averaged_target,
+           int threads = 0) const;
 };
 
 } // namespace cosection

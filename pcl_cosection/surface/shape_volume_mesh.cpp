@@ -1,0 +1,198 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_cosection authors
+#include "shape_volume.h"
+
+#include <pcl/cosection/common/parallel.h>
+#include <pcl/cosection/volume/distance_transform.h>
+#include <pcl/cosection/volume/iso_surface.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+// The part of a volume that turns its field into meshes.
+
+namespace pcl
+{
+namespace cosection
+{
+
+namespace
+{
+
+constexpr double observed_reach_vox = 1.0;
+constexpr double intersection_reach_vox = 1.0;
+constexpr double hull_reach_vox = 1.5;
+constexpr float vouched_depth_vox = 3.0f;  // behind a measured surface, where matter is sure: the reach of its points
+constexpr float vouched_step_vox = 0.5f;
+constexpr float vouched_radius_vox = 0.75f; // closes the gaps between points
+constexpr float least_free_vox = 0.25f;    // of a voxel seen free, from the surface of the hull
+constexpr double half_cells_vox = 1.0;      // what is lost by taking a point and a vertex for their voxels' centres
+constexpr double confidence_scale_vox = 5.0;
+constexpr float border_voxels = 2.0f; // a closed surface stays so far inside its volume
+
+/** \brief Raise a field near the border so that its zero set stays inside. */
+void
+keepOffBorder (SignedDistanceField& field)
+{
+  const Eigen::Vector3i& dims = field.grid.dims;
+  for (int k = 0; k < dims.z (); ++k)
+    for (int j = 0; j < dims.y (); ++j)
+      for (int i = 0; i < dims.x (); ++i)
+      {
+        const int border = std::min ({i, j, k, dims.x () - 1 - i, dims.y () - 1 - j, dims.z () - 1 - k});
+        const float bound = static_cast<float> ((border_voxels - static_cast<float> (border)) * field.grid.voxel_size_m);
+        float& value = field.values[field.grid.index (i, j, k)];
+        value = std::max (value, bound);
+      }
+}
+
+} // namespace
+
+float
+ShapeVolume::hullValue (std::size_t n) const
+{
+  if (carved_.empty ())
+    return free_space_[n] ? 0.5f : -0.5f;
+  return free_space_[n] ? std::max (carved_[n], least_free_vox) : carved_[n];
+}
+
+template <typename Value> TriangleMesh
+ShapeVolume::closedMeshOf (Value&& value) const
+{
+  IsoSurfaceOptions iso;
+  iso.closed = true;
+  iso.threads = options_.threads;
+  SignedDistanceField field;
+  field.grid = grid_;
+  field.values.resize (grid_.size ());
+  for (std::size_t n = 0; n < grid_.size (); ++n)
+    field.values[n] = static_cast<float> (value (n) * grid_.voxel_size_m);
+  keepOffBorder (field);
+  TriangleMesh mesh = extractIsoSurface (field, iso);
+  attachEvidence (mesh);
+  return mesh;
+}
+
+TriangleMesh
+ShapeVolume::observedParts (const TriangleMesh& mesh)
+{
+  const std::vector<int> component = labelComponents (mesh);
+  std::vector<bool> observed (component.empty () ? 0 : *std::max_element (component.begin (), component.end ()) + 1, false);
+  for (std::size_t v = 0; v < mesh.vertices.size (); ++v)
+    if (mesh.provenance[v] == static_cast<std::uint8_t> (Provenance::Observed))
+      observed[component[v]] = true;
+  std::vector<bool> keep (mesh.triangles.size ());
+  for (std::size_t t = 0; t < keep.size (); ++t)
+    keep[t] = observed[component[mesh.triangles[t][0]]];
+  return extractTriangles (mesh, keep);
+}
+
+TriangleMesh
+ShapeVolume::closedMesh () const
+{
+  return observedParts (closedMeshOf ([this] (std::size_t n) { return carvedValue (n); }));
+}
+
+TriangleMesh
+ShapeVolume::hullMesh () const
+{
+  return closedMeshOf ([this] (std::size_t n) { return hullValue (n); });
+}
+
+TriangleMesh
+ShapeVolume::innerMesh (const std::vector<OrientedPoint>& points) const
+{
+  // Every point vouches for the voxels straight behind it.
+  std::vector<std::uint8_t> vouched (grid_.size (), 0);
+  for (const OrientedPoint& point : points)
+    for (float depth = 0.0f; depth <= vouched_depth_vox; depth += vouched_step_vox)
+    {
+      const Eigen::Vector3d behind =
+          point.position.cast<double> () - depth * grid_.voxel_size_m * point.normal.cast<double> ();
+      if (const auto at = grid_.nearest (behind))
+        vouched[grid_.index (at->x (), at->y (), at->z ())] = 1;
+    }
+  const std::vector<float> distance = distanceTransform (grid_.dims, vouched, options_.threads);
+  return observedParts (
+      closedMeshOf ([&] (std::size_t n) { return std::max (carvedValue (n), distance[n] - vouched_radius_vox); }));
+}
+
+TriangleMesh
+ShapeVolume::outerMesh () const
+{
+  return closedMeshOf ([this] (std::size_t n) { return std::min (carvedValue (n), hullValue (n)); });
+}
+
+TriangleMesh
+ShapeVolume::trimmedMesh (const std::vector<OrientedPoint>& points) const
+{
+  std::vector<std::uint8_t> seen = continued_;
+  seen.resize (grid_.size (), 0);
+  for (const OrientedPoint& point : points)
+    if (const auto at = grid_.nearest (point.position.cast<double> ()))
+      seen[grid_.index (at->x (), at->y (), at->z ())] = 1;
+  const std::vector<float> distance_vox = distanceTransform (grid_.dims, seen, options_.threads);
+  const double reach_vox = options_.max_bound_vox - half_cells_vox;
+
+  IsoSurfaceOptions iso;
+  iso.closed = false;
+  iso.threads = options_.threads;
+  const SignedDistanceField field = solvedField ();
+  TriangleMesh mesh = extractIsoSurface (field, iso);
+  attachEvidence (mesh);
+  std::vector<bool> near (mesh.vertices.size ());
+  for (std::size_t v = 0; v < near.size (); ++v)
+  {
+    const Eigen::Vector3i at = grid_.toVoxel (mesh.vertices[v].cast<double> ()).array ().round ().cast<int> ();
+    if (!grid_.contains (at.x (), at.y (), at.z ()))
+      continue;
+    const std::size_t n = grid_.index (at.x (), at.y (), at.z ());
+    near[v] = field.supported[n] && distance_vox[n] <= reach_vox;
+  }
+  std::vector<bool> keep (mesh.triangles.size ());
+  for (std::size_t t = 0; t < keep.size (); ++t)
+    keep[t] = near[mesh.triangles[t][0]] && near[mesh.triangles[t][1]] && near[mesh.triangles[t][2]];
+  return extractTriangles (mesh, keep);
+}
+
+void
+ShapeVolume::attachEvidence (TriangleMesh& mesh) const
+{
+  mesh.confidence.resize (mesh.vertices.size ());
+  mesh.provenance.resize (mesh.vertices.size ());
+  parallelFor (0, static_cast<int> (mesh.vertices.size ()), options_.threads, [&] (int v) {
+    const Eigen::Vector3d at = grid_.toVoxel (mesh.vertices[v].cast<double> ());
+    double data_distance = std::numeric_limits<double>::infinity ();
+    bool bounded_by_body = false;
+    bool bounded_by_hull = false;
+    constexpr int reach = 2; // voxels, of the largest distance below
+    const Eigen::Vector3i base = at.array ().floor ().cast<int> ();
+    for (int dz = -reach + 1; dz <= reach; ++dz)
+      for (int dy = -reach + 1; dy <= reach; ++dy)
+        for (int dx = -reach + 1; dx <= reach; ++dx)
+        {
+          const Eigen::Vector3i cell = base + Eigen::Vector3i (dx, dy, dz);
+          if (!grid_.contains (cell.x (), cell.y (), cell.z ()))
+            continue;
+          const std::size_t n = grid_.index (cell.x (), cell.y (), cell.z ());
+          const double distance = (cell.cast<double> () - at).norm ();
+          data_distance = std::min (data_distance, data_[n] ? distance : distance + data_distance_vox_[n]);
+          bounded_by_hull |= (free_space_[n] || (!carved_.empty () && carved_[n] >= 0.0f)) && distance <= hull_reach_vox;
+          bounded_by_body |= !problem_.intersection.empty () && problem_.intersection[n] &&
+                             u_[n] < problem_.intersection[n].distance () && distance <= intersection_reach_vox;
+        }
+    Provenance provenance = Provenance::Inferred;
+    if (data_distance <= observed_reach_vox)
+      provenance = Provenance::Observed;
+    else if (bounded_by_body)
+      provenance = Provenance::Intersection;
+    else if (bounded_by_hull)
+      provenance = Provenance::Hull;
+    mesh.provenance[v] = static_cast<std::uint8_t> (provenance);
+    mesh.confidence[v] = static_cast<float> (std::exp (-data_distance / confidence_scale_vox));
+  });
+}
+
+} // namespace cosection
+} // namespace pcl
