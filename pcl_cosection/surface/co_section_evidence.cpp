@@ -84,18 +84,14 @@ CoSectionRun::readPoints (Object& object)
 {
   FollowedBody& body = *object.body;
   const std::vector<OrientedPoint>& all = object.input->points;
-  std::vector<bool> stray = object.stray;
-  stray.resize (all.size (), false);
-  if (!std::equal (body.stray.begin (), body.stray.end (), stray.begin ()))
-    body.readAgain ();
   std::vector<OrientedPoint> fresh;
-  fresh.reserve (all.size () - body.stray.size ());
-  for (std::size_t p = body.stray.size (); p < all.size (); ++p)
-    if (!stray[p])
+  fresh.reserve (all.size () - body.points_read);
+  for (std::size_t p = body.points_read; p < all.size (); ++p)
+    if (!body.stray[p])
       fresh.push_back (all[p]);
   if (!fresh.empty ())
     body.evidence->addPoints (fresh);
-  body.stray = std::move (stray);
+  body.points_read = all.size ();
 }
 
 void

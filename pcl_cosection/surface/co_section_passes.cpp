@@ -5,7 +5,6 @@
 #include <pcl/cosection/common/parallel.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <string>
 
@@ -145,24 +144,29 @@ CoSectionRun::deepest (const Object& object, DepthAt&& depthAt) const
 {
   const SignedDistanceField& own = object.field;
   const VoxelGrid& grid = own.grid;
-  const std::array<std::size_t, 3> strides{1, grid.index (0, 1, 0), grid.index (0, 0, 1)};
   std::vector<double> deepest (grid.dims.z (), 0.0);
   parallelFor (0, grid.dims.z (), scene_.options.threads, [&] (int k) {
+    const auto edge = [&] (int i, int j, int axis, float here, float there) {
+      if ((here < 0.0f) == (there < 0.0f))
+        return;
+      Eigen::Vector3d at = grid.center (i, j, k);
+      at[axis] += grid.voxel_size_m * here / (here - there);
+      deepest[k] = std::max (deepest[k], depthAt (at));
+    };
+    const bool has_above = k + 1 < grid.dims.z ();
     for (int j = 0; j < grid.dims.y (); ++j)
+    {
+      const float* row = own.values.data () + grid.index (0, j, k);
+      const float* next_row = j + 1 < grid.dims.y () ? own.values.data () + grid.index (0, j + 1, k) : row; // itself: no crossing
+      const float* row_above = has_above ? own.values.data () + grid.index (0, j, k + 1) : row;
       for (int i = 0; i < grid.dims.x (); ++i)
-        for (int axis = 0; axis < 3; ++axis)
-        {
-          if (Eigen::Vector3i (i, j, k)[axis] + 1 == grid.dims[axis])
-            continue;
-          const std::size_t n = grid.index (i, j, k);
-          const float here = own.values[n];
-          const float there = own.values[n + strides[axis]];
-          if ((here < 0.0f) == (there < 0.0f))
-            continue;
-          Eigen::Vector3d at = grid.center (i, j, k);
-          at[axis] += grid.voxel_size_m * here / (here - there);
-          deepest[k] = std::max (deepest[k], depthAt (at));
-        }
+      {
+        if (i + 1 < grid.dims.x ())
+          edge (i, j, 0, row[i], row[i + 1]);
+        edge (i, j, 1, row[i], next_row[i]);
+        edge (i, j, 2, row[i], row_above[i]);
+      }
+    }
   });
   return *std::max_element (deepest.begin (), deepest.end ());
 }
@@ -268,7 +272,11 @@ CoSectionRun::solveObjects (Resolution resolution, int min_passes)
   for (int pass = 0; pass < passes; ++pass)
   {
     solvePass (resolution, pass);
-    if (pass + 1 >= min_passes && pass + 1 < passes && !growWeightsWherePenetrating (resolution))
+    if (pass + 1 < min_passes || pass + 1 == passes)
+      continue;
+    bool again = false;
+    timed ("constraints", [&] { again = growWeightsWherePenetrating (resolution); });
+    if (!again)
       break;
   }
 }

@@ -127,12 +127,15 @@ CoSectionRun::observeObjects ()
       if (object.input->points.size () < scene_.options.min_points)
         throw DegenerateInput ("it has " + std::to_string (object.input->points.size ()) + " points with a normal, at least " +
                                std::to_string (scene_.options.min_points) + " are needed");
-      object.observed = observedBox (object.points ());
+      object.observed = observedBox (object.points (), scene_.options.threads);
       object.voxel_size_m = objectVoxelSize (object.points (), object.observed, scene_.options);
       leaveOutStrays (object);
       keepVoxelSize (object);
+      object.extents_m = observedExtents (object.points (), scene_.options.threads);
       if (scene_.options.use_extent_prior && viewsOf (object).empty ())
         object.assumed = assumeView (object.points ());
+      if (scene_.options.use_extent_prior)
+        findHidden (object);
     });
 }
 
@@ -142,18 +145,35 @@ CoSectionRun::leaveOutStrays (Object& object)
   const std::vector<OrientedPoint>& all = object.input->points;
   // No nearer than the points' own spacing allows, however fine the voxels.
   const double spacing_m = supportedVoxelSize (all, object.observed);
-  const std::vector<bool> stray = findStrayPoints (all, object.observed.center (),
-                                                   stray_reach_voxels * std::max (object.voxel_size_m, spacing_m));
-  const auto strays = static_cast<std::size_t> (std::count (stray.begin (), stray.end (), true));
-  if (strays == 0 || static_cast<double> (strays) > max_stray_share * static_cast<double> (all.size ()))
+  std::vector<bool> stray = findStrayPoints (all, object.observed.center (),
+                                             stray_reach_voxels * std::max (object.voxel_size_m, spacing_m));
+  auto strays = static_cast<std::size_t> (std::count (stray.begin (), stray.end (), true));
+  if (static_cast<double> (strays) > max_stray_share * static_cast<double> (all.size ()))
+  {
+    strays = 0;
+    stray.assign (all.size (), false);
+  }
+  FollowedBody& body = *object.body;
+  if (!std::equal (body.stray.begin (), body.stray.end (), stray.begin ()))
+    body.readPointsAgain ();
+  body.stray = std::move (stray);
+  if (strays == 0)
     return;
   object.result->stray_points = strays;
-  object.stray = stray;
+  object.kept.reserve (all.size () - strays);
   for (std::size_t p = 0; p < all.size (); ++p)
-    if (!stray[p])
+    if (!body.stray[p])
       object.kept.push_back (all[p]);
-  object.observed = observedBox (object.points ());
+  object.observed = observedBox (object.points (), scene_.options.threads);
   object.voxel_size_m = objectVoxelSize (object.points (), object.observed, scene_.options);
+}
+
+void
+CoSectionRun::findHidden (Object& object) const
+{
+  if (object.assumed) // of all points: another one each time
+    object.body->hidden.clear ();
+  object.body->hidden.add (viewsOf (object), object.points (), scene_.options.threads);
 }
 
 Eigen::AlignedBox3d
@@ -173,7 +193,8 @@ CoSectionRun::volumeBox (const Object& object) const
     if (pose (object, v).matrix ().allFinite ())
       for (const Eigen::Vector4d& plane : object.planes)
         planes.push_back (transformPlane (plane, pose (object, v)));
-  return possibleBox (object.points (), object.observed, object.voxel_size_m, views, planes, options.threads);
+  return possibleBox (object.points (), object.observed, object.extents_m, object.voxel_size_m, views, object.body->hidden,
+                      planes, options.threads);
 }
 
 std::size_t
@@ -186,6 +207,7 @@ CoSectionRun::bytesInUse () const
     points += object.input->points.size () + object.kept.size ();
     if (object.body->volume)
       bytes += ShapeVolume::estimateBytes (object.body->grid ());
+    bytes += object.body->hidden.bytes ();
   }
   for (const SignedDistanceField::ConstPtr& field : background_)
     bytes += field->grid.size () * bytes_per_field_voxel;
@@ -208,8 +230,8 @@ CoSectionRun::restingPlanes (const Object& object) const
 {
   std::vector<Eigen::Vector4d> resting;
   const std::vector<OrientedPoint>& points = object.points ();
-  const double reach_m = resting_reach * observedExtents (points)[1];
-  std::vector<double> heights (points.size ());
+  const double reach_m = resting_reach * object.extents_m[1];
+  const auto may_be_lower = static_cast<std::ptrdiff_t> (resting_share * static_cast<double> (points.size ()));
   for (const Eigen::Isometry3d& T_world_object : relativePoses (object, nullptr))
     for (const Eigen::Vector4d& in_world : object.planes)
     {
@@ -219,11 +241,10 @@ CoSectionRun::restingPlanes (const Object& object) const
       });
       if (known)
         continue;
-      for (std::size_t p = 0; p < points.size (); ++p)
-        heights[p] = plane.head<3> ().dot (points[p].position.cast<double> ()) + plane[3];
-      const auto low = heights.begin () + static_cast<std::ptrdiff_t> (resting_share * static_cast<double> (heights.size ()));
-      std::nth_element (heights.begin (), low, heights.end ());
-      if (*low < reach_m)
+      const auto low = std::count_if (points.begin (), points.end (), [&] (const OrientedPoint& p) {
+        return plane.head<3> ().dot (p.position.cast<double> ()) + plane[3] < reach_m;
+      });
+      if (low > may_be_lower)
         resting.push_back (plane);
     }
   return resting;
@@ -251,8 +272,10 @@ CoSectionRun::prepareObject (Object& object)
     if (!scene_.options.use_symmetric_extent)
       standing.clear ();
     if (scene_.options.use_extent_prior)
-      volume.addExtentPrior (scene_.background.empty () ? ExtentPrior::cutOut () : ExtentPrior (), object.points (),
-                             viewsOf (object), standing);
+      volume.addExtentPrior (scene_.background.empty () ? ExtentPrior::cutOut () : ExtentPrior (), object.extents_m,
+                             object.body->hidden, standing);
+    if (mode_ == Mode::Once || object.assumed)
+      object.body->hidden.clear ();
   });
   object.told = volume.measuredField ();
 }
@@ -282,7 +305,7 @@ CoSectionRun::run (UpdateOutput output)
 {
   report ("measurements", 0.0);
   bodies_ = scene_.bodies;
-  observeObjects ();
+  timed ("data_term", [&] { observeObjects (); });
   timed ("constraints", [&] {
     findPlanes ();
     createVolumes ();

@@ -56,9 +56,9 @@ private:
     std::vector<OrientedPoint> kept;                 // its points, if some are stray; else empty
     Eigen::AlignedBox3d observed;                    // of its points
     double voxel_size_m = 0.0;
+    Eigen::Vector3d extents_m = Eigen::Vector3d::Zero (); // observedExtents () of its points
     std::optional<DepthView> assumed;                // of its points, if the scene has no views; object frame
     FollowedBody* body = nullptr;
-    std::vector<bool> stray;                         // which of its points; empty: none
     std::vector<Eigen::Vector4d> planes;             // world
     SignedDistanceField field;                       // its shape, as far as known
     SignedDistanceField told;                        // what its neighbours are told of it
@@ -107,6 +107,9 @@ private:
   /** \brief A few points far from all others would become bodies of their own. */
   void
   leaveOutStrays (Object& object);
+  /** \brief What its views hide of the object; for the extent prior. */
+  void
+  findHidden (Object& object) const;
   /** \brief Where a body had its voxels; null if it had none. \param[in] id 0: the background, -1: a piece of it */
   const VoxelGrid*
   earlierGrid (const FollowedBody& body, int id) const;

@@ -17,7 +17,6 @@ FollowedBody::restart (const VoxelGrid& grid, const CoSectionOptions& options, b
   evidence = std::make_unique<ShapeEvidence> (grid, options, carve);
   points_read = 0;
   views_read = 0;
-  stray.clear ();
 }
 
 void
@@ -25,6 +24,17 @@ FollowedBody::readAgain ()
 {
   if (volume)
     restart (VoxelGrid (volume->grid ()), CoSectionOptions (volume->options ()), evidence && evidence->carves ());
+  hidden.clear ();
+  stray.clear ();
+}
+
+void
+FollowedBody::readPointsAgain ()
+{
+  if (evidence)
+    evidence->clearPoints ();
+  points_read = 0;
+  hidden.clear ();
 }
 
 } // namespace cosection

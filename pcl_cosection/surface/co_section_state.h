@@ -2,6 +2,7 @@
 // Copyright (c) 2026, the pcl_cosection authors
 #pragma once
 
+#include "hidden_places.h"
 #include "shape_evidence.h"
 #include "shape_volume.h"
 
@@ -44,15 +45,16 @@ struct SceneView
   ViewUse use = ViewUse::Full;
 };
 
-/** \brief One body as it follows a scene to which more is added: how far it has read the scene's points and views, what it
- * gathered of them, and the shape it had last. */
+/** \brief One body as it follows a scene to which more is added: how far its evidence has read the scene's points and views,
+ * what it gathered of them, and the shape it had last. */
 struct FollowedBody
 {
   std::unique_ptr<ShapeEvidence> evidence;
   std::unique_ptr<ShapeVolume> volume;
+  HiddenPlaces hidden;         // of an object
   std::size_t points_read = 0;
   std::size_t views_read = 0;
-  std::vector<bool> stray;     // which of the points read were left out
+  std::vector<bool> stray;     // which of its points are left out; as many as were known at the last update
 
   const VoxelGrid&
   grid () const
@@ -64,9 +66,13 @@ struct FollowedBody
   void
   restart (const VoxelGrid& grid, const CoSectionOptions& options, bool carve);
 
-  /** \brief The same on the grid that it has. */
+  /** \brief Forget all that was read; the grid and the shape stay. */
   void
   readAgain ();
+
+  /** \brief Forget what was made of points. */
+  void
+  readPointsAgain ();
 };
 
 /** \brief What remains from one CoSection::update () to the next. */

@@ -35,10 +35,10 @@ Eigen::Vector4d
 CoSectionRun::towards (const Object& object, const Eigen::Vector4d& plane) const
 {
   const Eigen::Vector4d local = transformPlane (plane, firstPose (object));
-  std::ptrdiff_t above = 0;
+  std::size_t above = 0;
   for (const OrientedPoint& p : object.points ())
-    above += local.head<3> ().dot (p.position.cast<double> ()) + local[3] > 0.0 ? 1 : -1;
-  return above < 0 ? Eigen::Vector4d (-plane) : plane;
+    above += local.head<3> ().dot (p.position.cast<double> ()) + local[3] > 0.0;
+  return 2 * above < object.points ().size () ? Eigen::Vector4d (-plane) : plane;
 }
 
 void

@@ -81,13 +81,15 @@ ContactPrior::patch (const VoxelGrid& grid, const Eigen::Vector4d& plane, const 
   const auto turned = [&] (const Eigen::Vector2d& p) { return Eigen::Vector2d (2.0 * middle - p); };
 
   std::vector<Eigen::Vector2d> contacts, above;
+  above.reserve (points.size ());
   Eigen::Vector2d low = Eigen::Vector2d::Constant (1e30);
   Eigen::Vector2d high = Eigen::Vector2d::Constant (-1e30);
+  const Eigen::Array3d begin = grid.origin_m.array ();
+  const Eigen::Array3d end = begin + h * grid.dims.cast<double> ().array ();
   for (const OrientedPoint& point : points)
   {
     const Eigen::Vector3d p = point.position.cast<double> ();
-    const Eigen::Vector3d voxel = grid.toVoxel (p);
-    if ((voxel.array () < 0.0).any () || (voxel.array () >= grid.dims.cast<double> ().array ()).any ())
+    if ((p.array () < begin).any () || (p.array () >= end).any ())
       continue;
     const double z = height (p);
     if (std::abs (z) <= contact_height_vox * h && std::abs (normal.dot (point.normal.cast<double> ())) < max_slope)
@@ -95,17 +97,15 @@ ContactPrior::patch (const VoxelGrid& grid, const Eigen::Vector4d& plane, const 
     if (z > 0.0)
     {
       above.push_back (flat (p));
-      for (const Eigen::Vector2d& q : {above.back (), turned (above.back ())})
-      {
-        low = low.cwiseMin (q);
-        high = high.cwiseMax (q);
-      }
+      low = low.cwiseMin (above.back ());
+      high = high.cwiseMax (above.back ());
     }
   }
   if (static_cast<int> (contacts.size ()) < min_contacts || above.empty ())
     return {};
   // The middle is that of a cell, so that the map is the same for either sense of the axes.
-  const Eigen::Vector2d half = (((0.5 * (high - low)).array () / h).ceil () + 0.5) * h;
+  const Eigen::Vector2d reach = (high - middle).cwiseMax (middle - low); // of what is above and its turned copy
+  const Eigen::Vector2d half = ((reach.array () / h).ceil () + 0.5) * h;
   low = middle - half;
   high = middle + half;
   PlaneMap covered (low, high, h, closing_cells + 1);

@@ -54,13 +54,18 @@ FreeSpaceCarving::add (const FreeSpaceView& view, const Eigen::Isometry3d& T_gri
     double squared_px = window * window; // to the nearest pixel of the other kind
     if (!free_here || lowest[voxel.pixel] <= reach)
       for (int v = std::max (0, voxel.row - window); v <= std::min (camera.height - 1, voxel.row + window); ++v)
+      {
+        const double down = std::max (0.0, std::abs (voxel.v - v) - 0.5);
+        if (down * down >= squared_px)
+          continue;
+        const float* row = opened.data () + static_cast<std::size_t> (v) * camera.width;
         for (int u = std::max (0, voxel.column - window); u <= std::min (camera.width - 1, voxel.column + window); ++u)
-          if ((opened[static_cast<std::size_t> (v) * camera.width + u] > reach) != free_here)
+          if ((row[u] > reach) != free_here)
           {
             const double across = std::max (0.0, std::abs (voxel.u - u) - 0.5);
-            const double down = std::max (0.0, std::abs (voxel.v - v) - 0.5);
             squared_px = std::min (squared_px, across * across + down * down);
           }
+      }
     const double distance_px = std::sqrt (squared_px);
     const auto signed_vox = static_cast<float> (((free_here ? distance_px : -distance_px) + inset_px) * voxels_per_pixel);
     const std::size_t n = voxel.index;

@@ -25,6 +25,39 @@ constexpr double edge_sigmas = 6.0;   // neighbouring depths that differ by more
 constexpr double edge_slope = 0.03;   // ... unless a steep surface explains it: fraction of the depth
 constexpr int max_footprint = 12;     // pixels
 
+/** \brief filterDepth () by whole rows, which the compiler vectorises. */
+template <typename Best> std::vector<float>
+filterWindows (const std::vector<float>& image, const PinholeCamera& camera, int radius, const PixelRegion& region, Best&& best)
+{
+  const auto width = static_cast<std::size_t> (camera.width);
+  std::vector<float> columns (image.size ()); // best of each window's column
+  const int first = std::max (0, region.left - radius);
+  const int last = std::min (camera.width, region.right + radius);
+  for (int v = region.top; v < region.bottom; ++v)
+  {
+    float* out = columns.data () + v * width;
+    const float* row = image.data () + v * width;
+    std::copy (row + first, row + std::max (first, last), out + first);
+    for (int w = std::max (0, v - radius); w <= std::min (camera.height - 1, v + radius); ++w)
+    {
+      const float* other = image.data () + w * width;
+      for (int u = first; u < last; ++u)
+        out[u] = best (out[u], other[u]);
+    }
+  }
+  std::vector<float> filtered (image.size ());
+  for (int v = region.top; v < region.bottom; ++v)
+  {
+    float* out = filtered.data () + v * width;
+    const float* row = columns.data () + v * width;
+    std::copy (row + region.left, row + std::max (region.left, region.right), out + region.left);
+    for (int shift = -radius; shift <= radius; ++shift)
+      for (int u = std::max (region.left, -shift); u < std::min (region.right, camera.width - shift); ++u)
+        out[u] = best (out[u], row[u + shift]);
+  }
+  return filtered;
+}
+
 } // namespace
 
 double
@@ -67,27 +100,8 @@ projectedRegion (const VoxelGrid& grid, const PinholeCamera& camera, const Eigen
 std::vector<float>
 filterDepth (const std::vector<float>& image, const PinholeCamera& camera, int radius, bool maximum, const PixelRegion& region)
 {
-  std::vector<float> rows (image.size ());
-  const auto best = [maximum] (float a, float b) { return maximum ? std::max (a, b) : std::min (a, b); };
-  for (int v = std::max (0, region.top - radius); v < std::min (camera.height, region.bottom + radius); ++v)
-    for (int u = region.left; u < region.right; ++u)
-    {
-      const float* row = image.data () + static_cast<std::size_t> (v) * camera.width;
-      float value = row[u];
-      for (int w = std::max (0, u - radius); w <= std::min (camera.width - 1, u + radius); ++w)
-        value = best (value, row[w]);
-      rows[static_cast<std::size_t> (v) * camera.width + u] = value;
-    }
-  std::vector<float> filtered (image.size ());
-  for (int v = region.top; v < region.bottom; ++v)
-    for (int u = region.left; u < region.right; ++u)
-    {
-      float value = rows[static_cast<std::size_t> (v) * camera.width + u];
-      for (int w = std::max (0, v - radius); w <= std::min (camera.height - 1, v + radius); ++w)
-        value = best (value, rows[static_cast<std::size_t> (w) * camera.width + u]);
-      filtered[static_cast<std::size_t> (v) * camera.width + u] = value;
-    }
-  return filtered;
+  return maximum ? filterWindows (image, camera, radius, region, [] (float a, float b) { return a < b ? b : a; })
+                 : filterWindows (image, camera, radius, region, [] (float a, float b) { return b < a ? b : a; });
 }
 
 FreeSpaceView::FreeSpaceView (DepthView view) : view_ (std::move (view)), edge_ (view_.depth.size (), 0)
@@ -126,10 +140,16 @@ FreeSpaceView::FreeSpaceView (DepthView view) : view_ (std::move (view)), edge_ 
 std::vector<float>
 FreeSpaceView::nearestDepth (int radius, const PixelRegion& region) const
 {
-  std::vector<float> depth (view_.depth);
-  for (float& z : depth)
-    if (!std::isfinite (z) || z <= 0.0f)
-      z = std::numeric_limits<float>::infinity ();
+  std::vector<float> depth (view_.depth.size ());
+  const int left = std::max (0, region.left - radius);
+  const int right = std::min (view_.camera.width, region.right + radius);
+  for (int v = std::max (0, region.top - radius); v < std::min (view_.camera.height, region.bottom + radius); ++v)
+    for (int u = left; u < right; ++u)
+    {
+      const float z = view_.at (u, v);
+      depth[static_cast<std::size_t> (v) * view_.camera.width + u] =
+          std::isfinite (z) && z > 0.0f ? z : std::numeric_limits<float>::infinity ();
+    }
   return filterDepth (depth, view_.camera, radius, false, region);
 }
 

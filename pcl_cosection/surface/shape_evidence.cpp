@@ -12,9 +12,15 @@ ShapeEvidence::ShapeEvidence (const VoxelGrid& grid, const CoSectionOptions& opt
 {
   if (carve)
     carving_.emplace (grid, options.revise_votes, options.threads);
-  data_.weight.assign (grid.size (), 0.0f);
-  data_.weighted_target.assign (grid.size (), 0.0f);
-  data_.count.assign (grid.size (), 0.0f);
+  clearPoints ();
+}
+
+void
+ShapeEvidence::clearPoints ()
+{
+  data_.weight.assign (grid_.size (), 0.0f);
+  data_.weighted_target.assign (grid_.size (), 0.0f);
+  data_.count.assign (grid_.size (), 0.0f);
 }
 
 void

@@ -30,6 +30,9 @@ public:
   void
   addPoints (const std::vector<OrientedPoint>& points);
 
+  void
+  clearPoints ();
+
   /** \param[in] silhouettes false: only votes on voxels, not finer, which costs a third */
   void
   addView (const FreeSpaceView& view, const Eigen::Isometry3d& T_grid_sensor, bool silhouettes = true);

@@ -2,6 +2,7 @@
 // Copyright (c) 2026, the pcl_cosection authors
 #include "shape_volume.h"
 
+#include "extent_bounds.h"
 #include "local_solver.h"
 #include "solver_detail.h"
 
@@ -133,16 +134,19 @@ ShapeVolume::prepare (const ShapeEvidence& evidence, const std::vector<PlaneCont
 }
 
 void
-ShapeVolume::addExtentPrior (const ExtentPrior& prior, const std::vector<OrientedPoint>& points,
-                             const std::vector<std::pair<const DepthView*, Eigen::Isometry3d>>& views,
+ShapeVolume::addExtentPrior (const ExtentPrior& prior, const Eigen::Vector3d& extents_m, HiddenPlaces& places,
                              const std::vector<SymmetricExtent>& plausible)
 {
   if (options_.beta_extent <= 0.0)
     return;
-  const std::vector<float> bounds = prior.bounds (grid_, data_distance_vox_, points, views, options_.threads, plausible);
   problem_.exterior.resize (grid_.size ());
+  std::vector<std::uint8_t> bounded (grid_.size ());
   for (std::size_t n = 0; n < grid_.size (); ++n)
-    if (bounds[n] > 0.0f && !problem_.exterior[n])
+    bounded[n] = static_cast<bool> (problem_.exterior[n]);
+  const std::vector<float> bounds =
+      extentBounds (prior, grid_, data_distance_vox_, extents_m, places, plausible, bounded, options_.threads);
+  for (std::size_t n = 0; n < grid_.size (); ++n)
+    if (bounds[n] > 0.0f)
       problem_.exterior[n] = LowerBound (bounds[n], static_cast<float> (options_.beta_extent));
 }
 

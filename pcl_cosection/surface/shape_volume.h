@@ -2,6 +2,7 @@
 // Copyright (c) 2026, the pcl_cosection authors
 #pragma once
 
+#include "hidden_places.h"
 #include "quarter_resolution.h"
 #include "shape_evidence.h"
 
@@ -60,10 +61,9 @@ public:
   void
   prepare (const ShapeEvidence& evidence, const std::vector<PlaneContinuation>& planes = {});
 
-  /** \brief Add the pull that prevents swelling; after prepare (). */
+  /** \brief Add the pull that prevents swelling; after prepare (). \param[in] extents_m observedExtents () of the points */
   void
-  addExtentPrior (const ExtentPrior& prior, const std::vector<OrientedPoint>& points,
-                  const std::vector<std::pair<const DepthView*, Eigen::Isometry3d>>& views,
+  addExtentPrior (const ExtentPrior& prior, const Eigen::Vector3d& extents_m, HiddenPlaces& places,
                   const std::vector<SymmetricExtent>& plausible);
 
   /** \brief Let the object rest on a support plane where that is hidden; after prepare (). */

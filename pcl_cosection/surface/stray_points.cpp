@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <unordered_map>
 
 namespace pcl
@@ -29,15 +30,24 @@ findStrayPoints (const std::vector<OrientedPoint>& points, const Eigen::Vector3d
   std::vector<CellIndex> places;
   constexpr std::size_t nowhere = ~std::size_t (0);
   std::vector<std::size_t> cell_of (points.size (), nowhere);
+  std::size_t last = nowhere; // points come in rows: most are in the cell of the one before
+  Eigen::Array3d corner = Eigen::Array3d::Constant (std::numeric_limits<double>::quiet_NaN ()); // of that cell
+  const double per_reach = 1.0 / reach_m;
   for (std::size_t p = 0; p < points.size (); ++p)
   {
-    const auto place = cellOf ((points[p].position.cast<double> () - middle) / reach_m);
-    if (!place)
-      continue;
-    const auto [entry, fresh] = cells.emplace (keyOf (*place), places.size ());
-    if (fresh)
-      places.push_back (*place);
-    cell_of[p] = entry->second;
+    const Eigen::Array3d at = (points[p].position.cast<double> () - middle).array () * per_reach;
+    if (!((at >= corner).all () && (at < corner + 1.0).all ()))
+    {
+      const auto place = cellOf (at.matrix ());
+      if (!place)
+        continue;
+      const auto [entry, fresh] = cells.emplace (keyOf (*place), places.size ());
+      if (fresh)
+        places.push_back (*place);
+      last = entry->second;
+      corner = place->cast<double> ().array ();
+    }
+    cell_of[p] = last;
   }
   DisjointSets patches (places.size ());
   for (std::size_t c = 0; c < places.size (); ++c)
@@ -47,15 +57,21 @@ findStrayPoints (const std::vector<OrientedPoint>& points, const Eigen::Vector3d
       if (neighbour != cells.end ())
         patches.unite (c, neighbour->second);
     }
-  std::vector<std::size_t> size (places.size (), 0);
+  std::vector<std::size_t> count (places.size (), 0); // of points, by cell
   for (const std::size_t c : cell_of)
     if (c != nowhere)
-      ++size[patches.find (c)];
+      ++count[c];
+  std::vector<std::size_t> size (places.size (), 0); // by patch
+  for (std::size_t c = 0; c < places.size (); ++c)
+    size[patches.find (c)] += count[c];
   const std::size_t enough =
       std::min (patch_points, static_cast<std::size_t> (std::ceil (patch_share * static_cast<double> (points.size ()))));
+  std::vector<bool> lonely (places.size ());
+  for (std::size_t c = 0; c < places.size (); ++c)
+    lonely[c] = size[patches.find (c)] < enough;
   std::vector<bool> stray (points.size ());
   for (std::size_t p = 0; p < points.size (); ++p)
-    stray[p] = cell_of[p] == nowhere || size[patches.find (cell_of[p])] < enough;
+    stray[p] = cell_of[p] == nowhere || lonely[cell_of[p]];
   return stray;
 }
 

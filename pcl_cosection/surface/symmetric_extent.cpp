@@ -31,6 +31,7 @@ constexpr double round_cosine = 0.93;    // mean, between such a direction and t
 constexpr double end_radius = 0.05;      // of the size: points at an end
 constexpr double round_tolerance = 0.03; // of the radius, root mean square
 constexpr double max_round_width = 1.1;  // diameter of the circle per size
+constexpr double rounding = 1e-6;        // relative: more than that of a row's values
 constexpr double least_flat = 0.5;       // length of a unit vector along the plane, else it is no direction there
 
 /** \brief Directions evenly over the sphere, the same for either sense of each axis: those of a Fibonacci lattice in one octant, and
@@ -66,9 +67,13 @@ faceNormals (const std::vector<OrientedPoint>& points, const std::vector<Eigen::
   {
     const Eigen::Vector3d n = point.normal.cast<double> ();
     std::size_t nearest = 0;
+    double largest = bins[0].dot (n);
     for (std::size_t b = 1; b < bins.size (); ++b)
-      if (bins[b].dot (n) > bins[nearest].dot (n))
+      if (const double cosine = bins[b].dot (n); cosine > largest)
+      {
         nearest = b;
+        largest = cosine;
+      }
     sums[nearest] += n;
     ++counts[nearest];
   }
@@ -98,23 +103,42 @@ class Farthest
 {
 public:
   explicit Farthest (const std::vector<OrientedPoint>& points)
-  : points_ (points), stray_ (static_cast<std::ptrdiff_t> (stray_share * static_cast<double> (points.size ())))
-  {}
+  : positions_ (static_cast<Eigen::Index> (points.size ()), 3)
+  , rank_ (static_cast<std::size_t> (stray_share * static_cast<double> (points.size ())))
+  {
+    for (std::size_t n = 0; n < points.size (); ++n)
+      positions_.row (static_cast<Eigen::Index> (n)) = points[n].position.cast<double> ().transpose ();
+  }
 
   Eigen::Vector3d
   along (const Eigen::Vector3d& direction)
   {
-    order_.clear ();
-    for (const OrientedPoint& p : points_)
-      order_.emplace_back (-direction.dot (p.position.cast<double> ()), order_.size ());
-    std::nth_element (order_.begin (), order_.begin () + stray_, order_.end ());
-    return points_[order_[static_cast<std::size_t> (stray_)].second].position.cast<double> ();
+    along_ = direction.x () * positions_.col (0) + (direction.y () * positions_.col (1) + direction.z () * positions_.col (2));
+    // The first of equals is the farther one.
+    const auto farther = [this] (Eigen::Index a, Eigen::Index b) {
+      return along_[a] > along_[b] || (along_[a] == along_[b] && a < b);
+    };
+    farthest_.clear (); // a heap, the nearest of them in front
+    for (Eigen::Index n = 0; n < along_.size (); ++n)
+    {
+      if (farthest_.size () == rank_ + 1)
+      {
+        if (along_[n] <= along_[farthest_.front ()])
+          continue;
+        std::pop_heap (farthest_.begin (), farthest_.end (), farther);
+        farthest_.pop_back ();
+      }
+      farthest_.push_back (n);
+      std::push_heap (farthest_.begin (), farthest_.end (), farther);
+    }
+    return positions_.row (farthest_.front ()).transpose ().matrix ();
   }
 
 private:
-  const std::vector<OrientedPoint>& points_;
-  std::ptrdiff_t stray_;
-  std::vector<std::pair<double, std::size_t>> order_;
+  Eigen::ArrayX3d positions_;
+  Eigen::ArrayXd along_;
+  std::size_t rank_;
+  std::vector<Eigen::Index> farthest_;
 };
 
 /** \brief The middle between the two that are farthest apart; of all such pairs, if there are several. */
@@ -267,6 +291,23 @@ SymmetricExtent::beyond (const Eigen::Vector3d& first, const Eigen::Vector3d& st
       values[i] = values[i] < value ? value : values[i];
     }
   }
+}
+
+SymmetricExtent
+SymmetricExtent::within (const Eigen::AlignedBox3d& box) const
+{
+  const Eigen::Vector3d middle = box.center ();
+  const Eigen::Vector3d half_sizes = 0.5 * box.sizes ();
+  double least = -std::numeric_limits<double>::infinity (); // of the largest, anywhere in the box
+  for (const auto& [n, s] : half_spaces_)
+    least = std::max (least, n.dot (middle) - s - n.cwiseAbs ().dot (half_sizes));
+  const double tolerance = rounding * (middle.norm () + half_sizes.norm ());
+  SymmetricExtent needed;
+  needed.center_ = center_;
+  for (const auto& [n, s] : half_spaces_)
+    if (n.dot (middle) - s + n.cwiseAbs ().dot (half_sizes) >= least - tolerance)
+      needed.half_spaces_.emplace_back (n, s);
+  return needed;
 }
 
 } // namespace cosection

@@ -2,13 +2,18 @@
 // Copyright (c) 2026, the pcl_cosection authors
 #include "volume_layout.h"
 
+#include "extent_bounds.h"
+#include "ranked_values.h"
+
 #include "shape_volume.h"
 
 #include <pcl/cosection/common/error.h>
+#include <pcl/cosection/common/parallel.h>
 #include <pcl/cosection/surface/extent_prior.h>
 #include <pcl/cosection/volume/distance_transform.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <sstream>
 
@@ -38,18 +43,20 @@ constexpr double possible_margin_vox = 6.0; // around that
 std::size_t
 occupiedVoxels (const std::vector<OrientedPoint>& points, const Eigen::AlignedBox3d& box, double h)
 {
-  std::vector<std::uint64_t> keys;
-  keys.reserve (points.size ());
+  const Eigen::Array3i dims = (box.sizes () / h).array ().floor ().cast<int> () + 1;
+  std::vector<std::uint8_t> occupied (static_cast<std::size_t> (dims.x ()) * dims.y () * dims.z (), 0);
+  std::size_t count = 0;
   for (const OrientedPoint& p : points)
   {
-    const Eigen::Vector3d at = (p.position.cast<double> () - box.min ()) / h;
-    if (!box.contains (p.position.cast<double> ()))
+    const Eigen::Vector3d position = p.position.cast<double> ();
+    if (!box.contains (position))
       continue;
-    keys.push_back ((static_cast<std::uint64_t> (at.z ()) << 42) | (static_cast<std::uint64_t> (at.y ()) << 21) |
-                    static_cast<std::uint64_t> (at.x ()));
+    const Eigen::Array3i at = ((position - box.min ()) / h).cast<int> ();
+    std::uint8_t& voxel = occupied[(static_cast<std::size_t> (at.z ()) * dims.y () + at.y ()) * dims.x () + at.x ()];
+    count += voxel == 0;
+    voxel = 1;
   }
-  std::sort (keys.begin (), keys.end ());
-  return static_cast<std::size_t> (std::unique (keys.begin (), keys.end ()) - keys.begin ());
+  return count;
 }
 
 /** \brief Whether a point in the sensor's frame lies before what was measured, by more than \a margin_m. */
@@ -108,25 +115,22 @@ checkMemory (const VoxelGrid& grid, std::size_t limit_bytes, std::size_t used_by
 }
 
 Eigen::AlignedBox3d
-observedBox (const std::vector<OrientedPoint>& points)
+observedBox (const std::vector<OrientedPoint>& points, int threads)
 {
-  Eigen::AlignedBox3d box;
-  std::vector<float> values (points.size ());
   if (points.empty ())
     throw DegenerateInput ("no points with finite coordinates and a normal");
-  for (int a = 0; a < 3; ++a)
-  {
+  Eigen::AlignedBox3d box;
+  parallelFor (0, 3, threads, [&] (int a) {
+    std::vector<float> values (points.size ());
     for (std::size_t n = 0; n < points.size (); ++n)
       values[n] = points[n].position[a];
     if (!std::all_of (values.begin (), values.end (), [] (float v) { return std::isfinite (v); }))
       throw DegenerateInput ("some points have no finite coordinates");
-    const auto cut = static_cast<std::ptrdiff_t> (outlier_share * static_cast<double> (values.size ()));
-    std::nth_element (values.begin (), values.begin () + cut, values.end ());
-    box.min ()[a] = values[cut];
-    const auto high = static_cast<std::ptrdiff_t> (values.size ()) - 1 - cut;
-    std::nth_element (values.begin (), values.begin () + high, values.end ());
-    box.max ()[a] = values[high];
-  }
+    const auto cut = static_cast<std::size_t> (outlier_share * static_cast<double> (values.size ()));
+    const std::array<float, 2> ends = valuesOfRanks (values, {cut, values.size () - 1 - cut});
+    box.min ()[a] = ends[0];
+    box.max ()[a] = ends[1];
+  });
   if (!(box.sizes ().maxCoeff () > min_extent_m))
     throw DegenerateInput ("all points lie on one spot");
   return box;
@@ -164,47 +168,59 @@ objectVoxelSize (const std::vector<OrientedPoint>& points, const Eigen::AlignedB
 }
 
 Eigen::AlignedBox3d
-possibleBox (const std::vector<OrientedPoint>& points, const Eigen::AlignedBox3d& observed, double voxel_size_m,
-             const std::vector<std::pair<const DepthView*, Eigen::Isometry3d>>& views,
+possibleBox (const std::vector<OrientedPoint>& points, const Eigen::AlignedBox3d& observed, const Eigen::Vector3d& extents_m,
+             double voxel_size_m, const HiddenPlaces::Views& views, const HiddenPlaces& places,
              const std::vector<Eigen::Vector4d>& planes, int threads)
 {
   const ExtentPrior prior;
   VoxelGrid cells;
   cells.voxel_size_m = observed.sizes ().maxCoeff () / possible_cells;
-  const double farthest = prior.farthest (points);
+  const double farthest = prior.farthest (extents_m);
   cells.dims = ((observed.sizes ().array () + 2.0 * farthest) / cells.voxel_size_m).ceil ().cast<int> () + 1;
   cells.origin_m =
       observed.center () - 0.5 * cells.voxel_size_m * (cells.dims.cast<double> () - Eigen::Vector3d::Ones ());
   std::vector<std::uint8_t> data (cells.size (), 0);
-  for (const OrientedPoint& p : points)
+  const double cells_per_m = 1.0 / cells.voxel_size_m;
+  for (const OrientedPoint& point : points)
   {
-    const auto at = cells.nearest (p.position.cast<double> ());
-    if (at && observed.contains (p.position.cast<double> ()))
-      data[cells.index (at->x (), at->y (), at->z ())] = 1;
+    const Eigen::Vector3d p = point.position.cast<double> ();
+    if (!observed.contains (p))
+      continue;
+    const Eigen::Array3i at = (cells_per_m * (p - cells.origin_m).array () + 0.5).cast<int> (); // the nearest: positive
+    data[cells.index (at.x (), at.y (), at.z ())] = 1;
   }
   const std::vector<float> distance = distanceTransform (cells.dims, data, threads);
-  const std::vector<float> bounds = prior.bounds (cells, distance, points, views, threads);
+  const auto allowed = [&] (Hidden hidden) {
+    return static_cast<float> (allowedFactor (prior, hidden) * (extents_m / cells.voxel_size_m)[1]);
+  };
+  const float most = std::max ({allowed (Hidden::ByObject), allowed (Hidden::ByOther), allowed (Hidden::Nothing)});
   const double margin = 0.5 * cells.voxel_size_m + possible_margin_vox * voxel_size_m;
   const auto below = [&] (const Eigen::Vector3d& p) {
     return std::any_of (planes.begin (), planes.end (), [&] (const Eigen::Vector4d& plane) {
       return plane.head<3> ().dot (p) + plane[3] < 0.5 * cells.voxel_size_m;
     });
   };
+  std::vector<Eigen::Isometry3d> T_sensor_points;
+  for (const auto& [view, T_points_sensor] : views)
+    T_sensor_points.push_back (T_points_sensor.inverse ());
   const auto free = [&] (const Eigen::Vector3d& p) {
-    return std::any_of (views.begin (), views.end (), [&] (const auto& view) {
-      return seenFree (*view.first, view.second.inverse () * p, cells.voxel_size_m);
-    });
+    for (std::size_t v = 0; v < views.size (); ++v)
+      if (seenFree (*views[v].first, T_sensor_points[v] * p, cells.voxel_size_m))
+        return true;
+    return false;
   };
-  Eigen::AlignedBox3d box;
+  Eigen::AlignedBox3d box = observed;
   for (int k = 0; k < cells.dims.z (); ++k)
     for (int j = 0; j < cells.dims.y (); ++j)
       for (int i = 0; i < cells.dims.x (); ++i)
       {
         const Eigen::Vector3d p = cells.center (i, j, k);
-        if (bounds[cells.index (i, j, k)] <= 0.0f && !below (p) && !free (p))
+        const float away = distance[cells.index (i, j, k)];
+        if (away > most || box.contains (p) || below (p) || free (p))
+          continue;
+        if (away <= allowed (places.at (p)))
           box.extend (p);
       }
-  box.extend (observed);
   // Whole voxels from the observed box, so that the lattice depends on that alone.
   const auto whole = [&] (const Eigen::Vector3d& beyond) {
     return Eigen::Vector3d (voxel_size_m * ((beyond.array () + margin) / voxel_size_m).ceil ());

@@ -2,7 +2,8 @@
 // Copyright (c) 2026, the pcl_cosection authors
 #pragma once
 
-#include <pcl/cosection/common/camera.h>
+#include "hidden_places.h"
+
 #include <pcl/cosection/surface/options.h>
 #include <pcl/cosection/surface/oriented_point.h>
 #include <pcl/cosection/volume/voxel_grid.h>
@@ -19,7 +20,7 @@ namespace cosection
 
 /** \brief Box of an object's points without outliers. \throws DegenerateInput */
 Eigen::AlignedBox3d
-observedBox (const std::vector<OrientedPoint>& points);
+observedBox (const std::vector<OrientedPoint>& points, int threads = 0);
 
 /** \brief The smallest voxel size that the points' spacing supports, of those that give at most 64 voxels along the
  * longest side; see objectVoxelSize (). */
@@ -36,10 +37,12 @@ objectVoxelSize (const std::vector<OrientedPoint>& points, const Eigen::AlignedB
 
 /** \brief Box of where an object may be, with a margin: where ExtentPrior asks for no distance, on the upper
  * side of all \a planes.
- * \param[in] views depth views and their sensors' poses in the points' frame */
+ * \param[in] extents_m observedExtents () of the points
+ * \param[in] views depth views and their sensors' poses in the points' frame
+ * \param[in] places what those views hide */
 Eigen::AlignedBox3d
-possibleBox (const std::vector<OrientedPoint>& points, const Eigen::AlignedBox3d& observed, double voxel_size_m,
-             const std::vector<std::pair<const DepthView*, Eigen::Isometry3d>>& views,
+possibleBox (const std::vector<OrientedPoint>& points, const Eigen::AlignedBox3d& observed, const Eigen::Vector3d& extents_m,
+             double voxel_size_m, const HiddenPlaces::Views& views, const HiddenPlaces& places,
              const std::vector<Eigen::Vector4d>& planes, int threads);
 
 /** \brief A grid of voxels of the given size over a box. \throws InvalidArgument */

@@ -165,6 +165,37 @@ TEST_P (FollowScene, ViewsAreGivenUpBetweenUpdates)
   expectSame (followed, task.reconstruct ());
 }
 
+/** \brief A few points over the object, left out until there are more of them; then they are given up. */
+TEST_P (FollowScene, StrayPointsAreNoLongerOnesWhenThereAreMany)
+{
+  const auto patch = [] (int side) {
+    std::vector<OrientedPoint> points;
+    for (int n = 0; n < side * side; ++n)
+    {
+      OrientedPoint point;
+      point.position = Eigen::Vector3f (0.001f * (n % side), 0.001f * (n / side), 0.2f);
+      point.normal = Eigen::Vector3f::UnitZ ();
+      points.push_back (point);
+    }
+    return points;
+  };
+  CoSection task (options ());
+  show (scene_, 0, {}, task);
+  task.addPoints (1, patch (4));
+  EXPECT_EQ (task.update (UpdateOutput::Fields).objects.at (0).stray_points, 16u);
+  show (scene_, 1, {}, task);
+  EXPECT_EQ (task.update (UpdateOutput::Fields).objects.at (0).stray_points, 16u);
+  show (scene_, 2, {}, task);
+  task.addPoints (1, patch (12));
+  const SceneResult followed = task.update ();
+  EXPECT_EQ (followed.objects.at (0).stray_points, 0u);
+  expectSame (followed, task.reconstruct ());
+  task.removeViews ({false, false, true});
+  const SceneResult before = task.update ();
+  EXPECT_EQ (before.objects.at (0).stray_points, 16u);
+  expectSame (before, task.reconstruct ());
+}
+
 INSTANTIATE_TEST_SUITE_P (Shapes, FollowScene, testing::Values (Shape::Sphere, Shape::Box, Shape::Cup),
                           [] (const auto& info) { return nameOf (info.param); });
 

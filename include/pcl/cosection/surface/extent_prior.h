@@ -19,7 +19,7 @@ namespace cosection
 /** \brief How large an object appears: extents of its points (1st to 99th percentile) along their
  * principal axes, metres, largest first. Zero for no points. */
 PCL_COSECTION_EXPORT Eigen::Vector3d
-observedExtents (const std::vector<OrientedPoint>& points);
+observedExtents (const std::vector<OrientedPoint>& points, int threads = 0);
 
 /** \brief Remedy for swelling: a distance that a voxel should keep from the object because nothing
  * suggests that the object reaches it.
@@ -55,6 +55,10 @@ struct PCL_COSECTION_EXPORT ExtentPrior
   /** \brief Largest distance from its data that an object may have, metres. */
   double
   farthest (const std::vector<OrientedPoint>& points) const;
+
+  /** \brief The same. \param[in] extents_m observedExtents () of its points */
+  double
+  farthest (const Eigen::Vector3d& extents_m) const;
 
   /** \brief Bounds in voxels, 0 where there is none.
    * \param[in] data_distance_vox distance to the nearest voxel with data

@@ -5,7 +5,7 @@
 #include <pcl/cosection/common/export.h>
 #include <pcl/cosection/surface/oriented_point.h>
 
-#include <Eigen/Core>
+#include <Eigen/Geometry>
 
 #include <optional>
 #include <utility>
@@ -45,6 +45,10 @@ public:
   void
   beyond (const Eigen::Vector3d& first, const Eigen::Vector3d& step, int count, float* values) const;
 
+  /** \brief The same in a box, of as few half spaces as are needed there. */
+  SymmetricExtent
+  within (const Eigen::AlignedBox3d& box) const;
+
   /** \brief A point of the axis, or the point of inversion. */
   const Eigen::Vector3d&
   center () const
@@ -53,6 +57,7 @@ public:
   }
 
 private:
+  SymmetricExtent () = default;
   void
   build (const std::vector<OrientedPoint>& points, const std::optional<Eigen::Vector3d>& up);
 
