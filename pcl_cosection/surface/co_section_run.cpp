@@ -28,7 +28,9 @@ constexpr std::size_t bytes_per_field_voxel = sizeof (float) + sizeof (std::uint
 constexpr double stray_reach_voxels = 3.0; // of a point in the data term
 constexpr double max_stray_share = 0.2;    // more are no exception
 constexpr double resting_reach = 0.15;     // of the middle observed extent: what is as low over a plane rests on it
+constexpr double hidden_foot_reach = 0.5;  // of the middle observed extent: what is as low rests on it, if that may be
 constexpr double resting_share = 0.01;     // of the points, which may be lower
+constexpr double hidden_side_reach = 0.7;  // voxels inside the plausible region; what is deeper may be a cavity
 constexpr double same_resting_cosine = 0.995; // planes of two views on which it rests the same way
 
 } // namespace
@@ -225,6 +227,32 @@ CoSectionRun::bytesInUse () const
   return bytes + points * sizeof (OrientedPoint);
 }
 
+bool
+CoSectionRun::footIsHidden (const Object& object, const Eigen::Vector4d& plane) const
+{
+  const Eigen::Vector3d up = plane.head<3> ();
+  const std::vector<OrientedPoint>& points = object.points ();
+  double lowest_m = std::numeric_limits<double>::infinity ();
+  for (const OrientedPoint& p : points)
+    lowest_m = std::min (lowest_m, up.dot (p.position.cast<double> ()) + plane[3]);
+  Eigen::Vector3d foot = SymmetricExtent (points, plane).center ();
+  foot -= (up.dot (foot) + plane[3]) * up;
+  const VoxelGrid& grid = object.body->grid ();
+  for (double height_m = 0.0; height_m < lowest_m; height_m += 0.5 * grid.voxel_size_m)
+  {
+    const Eigen::Vector3d p = foot + height_m * up;
+    const auto at = grid.nearest (p);
+    if (at && object.body->volume->freeSpace ()[grid.index (at->x (), at->y (), at->z ())])
+      return false;
+    for (const Object& other : objects_)
+      if (&other != &object && other.alive ())
+        for (const Eigen::Isometry3d& T_other_object : relativePoses (object, &other))
+          if (other.observed.contains (T_other_object * p))
+            return false;
+  }
+  return true;
+}
+
 std::vector<Eigen::Vector4d>
 CoSectionRun::restingPlanes (const Object& object) const
 {
@@ -241,10 +269,13 @@ CoSectionRun::restingPlanes (const Object& object) const
       });
       if (known)
         continue;
-      const auto low = std::count_if (points.begin (), points.end (), [&] (const OrientedPoint& p) {
-        return plane.head<3> ().dot (p.position.cast<double> ()) + plane[3] < reach_m;
-      });
-      if (low > may_be_lower)
+      const auto lower = [&] (double height_m) {
+        return std::count_if (points.begin (), points.end (), [&] (const OrientedPoint& p) {
+          return plane.head<3> ().dot (p.position.cast<double> ()) + plane[3] < height_m;
+        });
+      };
+      if (lower (reach_m) > may_be_lower ||
+          (lower (hidden_foot_reach * object.extents_m[1]) > may_be_lower && footIsHidden (object, plane)))
         resting.push_back (plane);
     }
   return resting;
@@ -263,7 +294,7 @@ CoSectionRun::prepareObject (Object& object)
     std::vector<SymmetricExtent> standing;
     const std::vector<Eigen::Vector4d> resting = restingPlanes (object);
     for (const Eigen::Vector4d& plane : resting)
-      standing.emplace_back (object.points (), plane.head<3> ());
+      standing.emplace_back (object.points (), plane);
     if (scene_.options.use_contact_prior)
       for (std::size_t n = 0; n < resting.size (); ++n)
         volume.addContactPrior (object.points (), resting[n], standing[n].center ());
@@ -271,6 +302,9 @@ CoSectionRun::prepareObject (Object& object)
       standing.emplace_back (object.points ());
     if (!scene_.options.use_symmetric_extent)
       standing.clear ();
+    if (scene_.options.use_extent_prior)
+      for (std::size_t n = 0; n < std::min (resting.size (), standing.size ()); ++n)
+        volume.addHiddenSide (standing[n].hiddenSide (object.points (), hidden_side_reach * object.voxel_size_m));
     if (scene_.options.use_extent_prior)
       volume.addExtentPrior (scene_.background.empty () ? ExtentPrior::cutOut () : ExtentPrior (), object.extents_m,
                              object.body->hidden, standing);

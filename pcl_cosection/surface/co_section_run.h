@@ -102,6 +102,10 @@ private:
   /** \brief The planes on which the object comes to rest in some view, object frame. */
   std::vector<Eigen::Vector4d>
   restingPlanes (const Object& object) const;
+  /** \brief Whether between the foot of its axis on a plane and what was seen of it nothing is known to be, neither
+   * free space nor another body. */
+  bool
+  footIsHidden (const Object& object, const Eigen::Vector4d& plane) const;
   void
   observeObjects ();
   /** \brief A few points far from all others would become bodies of their own. */

@@ -23,6 +23,7 @@ namespace
 
 constexpr float observed_weight = 0.3f;        // sum of weights that makes a voxel one with data: a point within 1.1 sigma
 constexpr double continued_plane_weight = 0.5; // of the data term on a continued plane, as of a densely measured one
+constexpr float hidden_side_gap_vox = 2.0f; // nothing is expected where data is nearer
 constexpr double continued_plane_gap_vox = 2.0; // planes are continued where no data is nearer
 constexpr float carving_reach_vox = 1.5f; // from the boundary of free space into the hull
 constexpr std::size_t bytes_per_voxel = 80;
@@ -148,6 +149,25 @@ ShapeVolume::addExtentPrior (const ExtentPrior& prior, const Eigen::Vector3d& ex
   for (std::size_t n = 0; n < grid_.size (); ++n)
     if (bounds[n] > 0.0f)
       problem_.exterior[n] = LowerBound (bounds[n], static_cast<float> (options_.beta_extent));
+}
+
+void
+ShapeVolume::addHiddenSide (const std::vector<OrientedPoint>& expected)
+{
+  if (options_.beta_extent <= 0.0 || expected.empty ())
+    return;
+  ImlsDataTerm term;
+  term.weight.assign (grid_.size (), 0.0f);
+  term.weighted_target.assign (grid_.size (), 0.0f);
+  term.count.assign (grid_.size (), 0.0f);
+  term.add (grid_, expected, options_.sigma_vox, options_.threads);
+  const auto weight = static_cast<float> (options_.beta_extent);
+  for (std::size_t n = 0; n < grid_.size (); ++n)
+    if (!free_space_[n] && data_distance_vox_[n] >= hidden_side_gap_vox && term.weight[n] >= observed_weight)
+    {
+      problem_.weight[n] += weight;
+      problem_.weighted_target[n] += weight * term.weighted_target[n] / term.weight[n];
+    }
 }
 
 void

@@ -66,6 +66,10 @@ public:
   addExtentPrior (const ExtentPrior& prior, const Eigen::Vector3d& extents_m, HiddenPlaces& places,
                   const std::vector<SymmetricExtent>& plausible);
 
+  /** \brief Prefer surface where it is to be expected, weakly, where nothing was seen; after prepare (). */
+  void
+  addHiddenSide (const std::vector<OrientedPoint>& expected);
+
   /** \brief Let the object rest on a support plane where that is hidden; after prepare (). */
   void
   addContactPrior (const std::vector<OrientedPoint>& points, const Eigen::Vector4d& plane, const Eigen::Vector3d& center);

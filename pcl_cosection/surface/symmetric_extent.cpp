@@ -32,6 +32,7 @@ constexpr double end_radius = 0.05;      // of the size: points at an end
 constexpr double round_tolerance = 0.03; // of the radius, root mean square
 constexpr double max_round_width = 1.1;  // diameter of the circle per size
 constexpr double rounding = 1e-6;        // relative: more than that of a row's values
+constexpr double round_rim = 1.05;       // of the radius: what is farther out is not part of what is round
 constexpr double least_flat = 0.5;       // length of a unit vector along the plane, else it is no direction there
 
 /** \brief Directions evenly over the sphere, the same for either sense of each axis: those of a Fibonacci lattice in one octant, and
@@ -161,11 +162,18 @@ middleOfFarthest (const std::vector<Eigen::Vector3d>& ends)
   return weights > 0.0 ? Eigen::Vector3d (sum / weights) : ends.front ();
 }
 
+/** \brief The axis of something round. */
+struct RoundAxis
+{
+  Eigen::Vector3d point;
+  double radius; // largest, m
+};
+
 /** \brief The axis of something round, from the side that was seen. Its edges, where rays graze it, are badly seen, so that
  * the points farthest apart lie before the axis. What is round has n.c + r as its extent along any direction n in which some of its surface
  * faces; least squares give c and r.
- * \return a point of the axis, if these extents are those of a circle */
-std::optional<Eigen::Vector3d>
+ * \return nothing if these extents are not those of a circle */
+std::optional<RoundAxis>
 axisOfRound (const std::vector<OrientedPoint>& points, const Eigen::Matrix3d& axes, double size, Farthest& farthest)
 {
   const Eigen::Vector3d x = axes.col (0);
@@ -210,7 +218,30 @@ axisOfRound (const std::vector<OrientedPoint>& points, const Eigen::Matrix3d& ax
   const double radius = solution[2];
   if (!(radius > 0.0) || 2.0 * radius > max_round_width * size || std::sqrt (error) > round_tolerance * radius)
     return std::nullopt;
-  return solution[0] * x + solution[1] * y;
+  return RoundAxis{solution[0] * x + solution[1] * y, radius};
+}
+
+/** \brief Extent along \a n, from the axis on, of what a thing becomes that is turned all around; of points no farther out than
+ * what is round: handles stay where they are. */
+double
+turnedAllAround (const std::vector<OrientedPoint>& points, const RoundAxis& axis, const Eigen::Vector3d& up, const Eigen::Vector3d& n)
+{
+  const double rise = up.dot (n);
+  const double reach = (n - rise * up).norm ();
+  std::vector<double> extents;
+  for (const OrientedPoint& p : points)
+  {
+    const Eigen::Vector3d q = p.position.cast<double> () - axis.point;
+    const double height = up.dot (q);
+    const double radius = (q - height * up).norm ();
+    if (radius < round_rim * axis.radius)
+      extents.push_back (rise * height + reach * radius);
+  }
+  if (extents.empty ())
+    return -std::numeric_limits<double>::infinity ();
+  const auto end = extents.end () - 1 - static_cast<std::ptrdiff_t> (stray_share * static_cast<double> (extents.size ()));
+  std::nth_element (extents.begin (), end, extents.end ());
+  return *end;
 }
 
 } // namespace
@@ -220,18 +251,21 @@ SymmetricExtent::SymmetricExtent (const std::vector<OrientedPoint>& points)
   build (points, std::nullopt);
 }
 
-SymmetricExtent::SymmetricExtent (const std::vector<OrientedPoint>& points, const Eigen::Vector3d& up)
+SymmetricExtent::SymmetricExtent (const std::vector<OrientedPoint>& points, const Eigen::Vector4d& plane)
 {
-  build (points, up);
+  build (points, plane);
 }
 
 void
-SymmetricExtent::build (const std::vector<OrientedPoint>& all, const std::optional<Eigen::Vector3d>& up)
+SymmetricExtent::build (const std::vector<OrientedPoint>& all, const std::optional<Eigen::Vector4d>& plane)
 {
   if (all.empty ())
     return;
+  std::optional<Eigen::Vector3d> up;
+  if (plane)
+    up = plane->head<3> ();
   const Eigen::Matrix3d along = up ? Eigen::Matrix3d (*up * up->transpose ()) : Eigen::Matrix3d (Eigen::Matrix3d::Zero ());
-  const Eigen::Matrix3d turn = 2.0 * along - Eigen::Matrix3d::Identity ();
+  turn_ = 2.0 * along - Eigen::Matrix3d::Identity ();
   const Eigen::Matrix3d flatten = Eigen::Matrix3d::Identity () - along;
   std::vector<OrientedPoint> points;
   for (std::size_t p = 0; p < all.size (); p += all.size () / max_points + 1)
@@ -245,28 +279,56 @@ SymmetricExtent::build (const std::vector<OrientedPoint>& all, const std::option
     if ((flatten * direction).norm () > least_flat)
       ends.push_back (flatten * farthest.along ((flatten * direction).normalized ()));
   center_ = middleOfFarthest (ends);
+  std::optional<RoundAxis> round;
+  std::optional<Eigen::Vector3d> foot;
   if (up)
   {
     double size = 0.0;
     for (const Eigen::Vector3d& a : ends)
       size = std::max (size, 2.0 * (a - center_).norm ());
-    center_ = axisOfRound (points, axes, size, farthest).value_or (center_);
+    round = axisOfRound (points, axes, size, farthest);
+    if (round)
+      center_ = round->point;
+    const double on_plane = -(*plane)[3];
+    if (up->dot (farthest.along (-*up)) > on_plane)
+      foot = center_ + (on_plane - up->dot (center_)) * *up;
   }
 
   std::vector<Eigen::Vector3d> directions = even;
   for (const Eigen::Vector3d& normal : faceNormals (points, even))
   {
     directions.push_back (normal);
-    directions.push_back (turn * normal);
+    directions.push_back (turn_ * normal);
   }
   for (const Eigen::Vector3d& n : directions)
   {
     // The copy of p is turn (p - center) + center, and turn its own inverse.
-    const Eigen::Vector3d turned = turn * n;
+    const Eigen::Vector3d turned = turn_ * n;
     const double own = n.dot (farthest.along (n));
     const double copied = turned.dot (farthest.along (turned) - center_) + n.dot (center_);
-    half_spaces_.emplace_back (n, std::max (own, copied));
+    double extent = std::max (own, copied);
+    if (round)
+      extent = std::max (extent, turnedAllAround (points, *round, *up, n) + n.dot (center_));
+    if (foot)
+      extent = std::max (extent, n.dot (*foot));
+    half_spaces_.emplace_back (n, extent);
   }
+}
+
+std::vector<OrientedPoint>
+SymmetricExtent::hiddenSide (const std::vector<OrientedPoint>& points, double reach) const
+{
+  std::vector<OrientedPoint> copies;
+  for (OrientedPoint p : points)
+  {
+    const Eigen::Vector3d position = center_ + turn_ * (p.position.cast<double> () - center_);
+    if (beyond (position) < -reach)
+      continue;
+    p.position = position.cast<float> ();
+    p.normal = (turn_ * p.normal.cast<double> ()).cast<float> ();
+    copies.push_back (p);
+  }
+  return copies;
 }
 
 double
@@ -304,6 +366,7 @@ SymmetricExtent::within (const Eigen::AlignedBox3d& box) const
   const double tolerance = rounding * (middle.norm () + half_sizes.norm ());
   SymmetricExtent needed;
   needed.center_ = center_;
+  needed.turn_ = turn_;
   for (const auto& [n, s] : half_spaces_)
     if (n.dot (middle) - s + n.cwiseAbs ().dot (half_sizes) >= least - tolerance)
       needed.half_spaces_.emplace_back (n, s);

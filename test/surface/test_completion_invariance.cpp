@@ -41,7 +41,7 @@ class Invariance : public testing::TestWithParam<Shape>
 TEST_P (Invariance, UnderMotionsOfTheGrid)
 {
   // Where a ring touches the table is found on cells of a voxel, of which one more or less may count after a motion.
-  const double allowed_vox = GetParam () == Shape::Torus ? 0.25 : 0.02;
+  const double allowed_vox = GetParam () == Shape::Torus ? 0.16 : 0.02;
   EXPECT_LE (effectOfMotion (GetParam (), voxel_m, motion (M_PI / 2.0, Eigen::Vector3d::UnitX (), {0.3, -0.2, 0.1})),
              allowed_vox);
   EXPECT_LE (effectOfMotion (GetParam (), voxel_m, motion (M_PI / 2.0, Eigen::Vector3d::UnitZ (), {-1.3, 0.7, 0.4})),

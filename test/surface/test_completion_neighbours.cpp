@@ -72,6 +72,6 @@ TEST (NeighboursContact, LeavesNoGap)
       double gap = 0.0;
       for (const ObjectResult& object : result.objects)
         gap += object.signed_distance->sample (Eigen::Vector3d (x, 0.0, z)).value ();
-      EXPECT_LE (std::abs (gap), 1.5 * neighbour_voxel_m) << "at x = " << x << ", z = " << z;
+      EXPECT_LE (std::abs (gap), 1.0 * neighbour_voxel_m) << "at x = " << x << ", z = " << z;
     }
 }

@@ -126,9 +126,9 @@ TEST_P (CroppedObject, AloneClosesWithoutSwelling)
     std::printf ("%s, %s: at most %.1f mm outside, %.2f of the true volume, mean error %.2f mm\n", nameOf (GetParam ()).c_str (),
                  view ? "with its viewpoint" : "points alone", 1e3 * outside_m, volume_m3 / truth_m3_, 1e3 * error_m);
     EXPECT_LE (volume_m3, 1.05 * volume_with_table_m3);
-    EXPECT_GE (volume_m3, 0.75 * volume_with_table_m3);
+    EXPECT_GE (volume_m3, 0.67 * truth_m3_);
     EXPECT_LE (outside_m, outside_with_table_m + voxel_m);
-    EXPECT_LE (error_m, error_with_table_m + voxel_m);
+    EXPECT_LE (error_m, std::max (error_with_table_m + voxel_m, 1.8 * voxel_m));
   }
 }
 

@@ -19,6 +19,8 @@ using namespace pcl::cosection::test;
 namespace
 {
 
+const Eigen::Vector4d table_plane (0.0, 0.0, 1.0, 0.0);
+
 constexpr int cell_px = 4; // of a silhouette
 
 using Views = std::vector<std::pair<const DepthView*, Eigen::Isometry3d>>;
@@ -161,8 +163,8 @@ TEST_P (ExtentPriorTest, IsItsDefinition)
 
 TEST_P (ExtentPriorTest, IsItsDefinitionWithPlausibleRegions)
 {
-  expectAsDefined ({SymmetricExtent (points_, Eigen::Vector3d::UnitZ ())});
-  expectAsDefined ({SymmetricExtent (points_, Eigen::Vector3d::UnitZ ()), SymmetricExtent (points_)});
+  expectAsDefined ({SymmetricExtent (points_, table_plane)});
+  expectAsDefined ({SymmetricExtent (points_, table_plane), SymmetricExtent (points_)});
 }
 
 INSTANTIATE_TEST_SUITE_P (Views, ExtentPriorTest, testing::Values (0, 1, 3));
@@ -171,7 +173,7 @@ TEST (SymmetricExtent, IsTheSameWithinABox)
 {
   AnalyticScene scene = tableScene (Shape::Cup);
   const std::vector<OrientedPoint> points = scene.render (tableCamera (), around (0)).points.at (1);
-  const SymmetricExtent extent (points, Eigen::Vector3d::UnitZ ());
+  const SymmetricExtent extent (points, table_plane);
   for (const double size_m : {0.0, 0.01, 0.1})
     for (const double x : {-0.1, 0.0, 0.05, 0.2})
     {

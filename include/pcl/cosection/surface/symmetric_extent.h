@@ -23,7 +23,8 @@ namespace cosection
  * plane on which the object rests, or, without such a plane, inverted through a point. The axis or point c is the
  * middle between the two observed points that are farthest apart (seen along the axis): of what is seen of a box,
  * these are opposite corners. If surface faces in at least a fifth of all directions n across the axis, next to each
- * other, and the extents of S along these are those of a circle, s (n) = n.c + r, then c is that circle's.
+ * other, and the extents of S along these are those of a circle, s (n) = n.c + r, then c is that circle's, and the
+ * copies are those by all turns.
  *
  * The plausible region is the convex hull of S and its copy, as the intersection of half spaces { x : n_k.x <= s_k }
  * of fixed directions n_k and of those in which large parts of the surface face; s_k is the largest n_k.p of all
@@ -34,8 +35,9 @@ public:
   /** \brief Inverted through a point. \param[in] points the object's, of one frame */
   explicit SymmetricExtent (const std::vector<OrientedPoint>& points);
 
-  /** \brief Turned about an axis along \a up, the unit normal of what the object stands on. */
-  SymmetricExtent (const std::vector<OrientedPoint>& points, const Eigen::Vector3d& up);
+  /** \brief Turned about an axis along the normal of what the object stands on. If nothing that was seen comes down to it, the object
+   * touches it where the axis does. \param[in] plane (n, d) with n.x + d = 0, unit n towards the object */
+  SymmetricExtent (const std::vector<OrientedPoint>& points, const Eigen::Vector4d& plane);
 
   /** \brief max_k (n_k.x - s_k): at most the distance to the plausible region, negative inside; metres. */
   double
@@ -49,6 +51,11 @@ public:
   SymmetricExtent
   within (const Eigen::AlignedBox3d& box) const;
 
+  /** \brief The copies, by half a revolution or through the point, of those of \a points that come to lie beyond the plausible
+   * region or less than \a reach (metres) inside it: where the hidden side is to be expected. */
+  std::vector<OrientedPoint>
+  hiddenSide (const std::vector<OrientedPoint>& points, double reach) const;
+
   /** \brief A point of the axis, or the point of inversion. */
   const Eigen::Vector3d&
   center () const
@@ -59,8 +66,9 @@ public:
 private:
   SymmetricExtent () = default;
   void
-  build (const std::vector<OrientedPoint>& points, const std::optional<Eigen::Vector3d>& up);
+  build (const std::vector<OrientedPoint>& points, const std::optional<Eigen::Vector4d>& plane);
 
+  Eigen::Matrix3d turn_ = Eigen::Matrix3d::Identity ();
   Eigen::Vector3d center_ = Eigen::Vector3d::Zero ();
   std::vector<std::pair<Eigen::Vector3d, double>> half_spaces_; // n_k, s_k
 };
