@@ -134,6 +134,7 @@ TrackedPoses::finish (FusionResult& result)
   for (const auto& [stage, seconds] : fusion_.timings ())
     result.timings_s[stage] += seconds;
   result.timings_s["segmentation"] += masks_s_;
+  result.tracked = true;
   result.events = fusion_.events ();
   if (frames_lost_ > 0)
     result.warnings.push_back (std::to_string (frames_lost_) + " of " + std::to_string (frames_) +

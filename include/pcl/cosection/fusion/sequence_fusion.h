@@ -79,6 +79,7 @@ struct PCL_COSECTION_EXPORT FusionResult
   std::size_t keyframes = 0;      ///< of them
   std::size_t kept_keyframes = 0; ///< of them, in the result
   std::map<std::string, double> timings_s; ///< read, tracking, segmentation, integration, keyframes, final_solve, and those of the scene
+  bool tracked = false;            ///< poses were not given
   std::vector<std::string> events; ///< what tracking decided, and why
   std::vector<std::string> warnings;
 };
