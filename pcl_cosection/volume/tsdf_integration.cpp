@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_cosection authors
+#include "rigid_motion.h"
 #include "voxel_projection.h"
 
 #include "../common/multiversion.h"
@@ -44,9 +45,7 @@ checkView (const Image<float>& depth, const PinholeCamera& camera, const Eigen::
   if (static_cast<long long> (camera.width) * camera.height >= std::numeric_limits<int>::max ())
     throw InvalidArgument ("TSDF volume: the image has more pixels than can be counted");
   checkSize (depth, camera, "depth image");
-  constexpr double tolerance = 1e-3; // of poses kept in single precision
-  if (!T_grid_sensor.matrix ().allFinite () || !T_grid_sensor.linear ().isUnitary (tolerance) ||
-      T_grid_sensor.linear ().determinant () < 0.0)
+  if (!isRigidMotion (T_grid_sensor))
     throw InvalidArgument ("TSDF volume: the sensor's pose must be a finite rigid motion");
 }
 
