@@ -85,7 +85,7 @@ makeFusion (const FusionSettings& settings, const Inputs& inputs)
     if (!inputs.known.objects.empty ())
       throw InvalidArgument ("--object-trajectory needs the poses of the camera: " + settings.dataset +
                              " has none; give --camera-trajectory FILE");
-    return (SequenceFusion (TrackedSequence{&inputs.images, inputs.known.masks}, settings.fusion));
+    return (SequenceFusion (TrackedSequence (inputs.images, inputs.known.masks), settings.fusion));
   }
   if (settings.ids_per_frame)
     throw InvalidArgument ("with given poses, objects must have the same number in all masks, not --mask-ids per-frame");

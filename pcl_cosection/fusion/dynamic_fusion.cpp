@@ -11,6 +11,7 @@
 
 #include <pcl/cosection/common/error.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <utility>
@@ -63,7 +64,7 @@ struct DynamicFusion::Impl
   void
   process (const RgbdFrame& frame, const Image<std::uint16_t>* mask);
   bool
-  trackCamera (const FrameCloud& cloud, double stamp);
+  trackCamera (const FrameCloud& cloud, const RgbdFrame& frame);
   void
   trackObjects (const FrameCloud& cloud, double stamp);
   FrameSegmentation
@@ -98,6 +99,7 @@ struct DynamicFusion::Impl
 
   Eigen::Isometry3d T_world_camera;                                 // the last good one
   Eigen::Isometry3d last_motion = Eigen::Isometry3d::Identity (); // of the camera, its own frame
+  std::size_t last_frame = 0;                                       // of that pose
   int frames_lost = 0;                                              // of the camera, in a row
 };
 
@@ -159,21 +161,24 @@ DynamicFusion::Impl::models (const Eigen::Isometry3d& T_world_sensor, bool predi
 }
 
 bool
-DynamicFusion::Impl::trackCamera (const FrameCloud& cloud, double stamp)
+DynamicFusion::Impl::trackCamera (const FrameCloud& cloud, const RgbdFrame& frame)
 {
+  const double stamp = frame.stamp;
   if (!background.volume ())
   {
+    last_frame = frame.index;
     background.follow (cloud, T_world_camera);
     result.inlier_share = 1.0;
     return background.volume ().has_value ();
   }
+  const double frames_passed = std::max (1.0, static_cast<double> (frame.index) - static_cast<double> (last_frame));
   std::vector<TrackedObject*> used;
   PoseEstimate estimate;
   bool good = false;
   for (const Eigen::Isometry3d& motion : {last_motion, Eigen::Isometry3d (Eigen::Isometry3d::Identity ())})
   {
     const Eigen::Isometry3d guess = T_world_camera * motion;
-    estimate = tracking.trackCamera (cloud, models (guess, true, used), guess, 1.0 + frames_lost);
+    estimate = tracking.trackCamera (cloud, models (guess, true, used), guess, frames_passed);
     good = estimate.doubt.empty ();
     if (good || last_motion.isApprox (Eigen::Isometry3d::Identity (), 1e-9))
       break;
@@ -190,10 +195,11 @@ DynamicFusion::Impl::trackCamera (const FrameCloud& cloud, double stamp)
   if (frames_lost > 0)
     log.add (stamp, "the camera is found again after ", frames_lost, " frames");
   // What the surroundings do not tell must not go on by itself.
-  const bool steady = frames_lost == 0 && estimate.alignment.observed_directions == all_directions;
+  const bool steady = frames_passed == 1.0 && estimate.alignment.observed_directions == all_directions;
   last_motion = steady ? Eigen::Isometry3d (T_world_camera.inverse () * estimate.T_model_camera) : Eigen::Isometry3d::Identity ();
   T_world_camera = estimate.T_model_camera;
   frames_lost = 0;
+  last_frame = frame.index;
   background.follow (cloud, T_world_camera);
   return true;
 }
@@ -322,7 +328,7 @@ DynamicFusion::Impl::process (const RgbdFrame& frame, const Image<std::uint16_t>
   bool good = false;
   FrameCloud cloud;
   timed ("tracking", [&] {
-    cloud = makeFrameCloud (frame.depth, camera, options.max_depth_m, options.threads);
+    cloud = makeFrameCloud (frame.depth, camera, options.max_depth_m, options.smooth_depth, options.threads);
     if (static_cast<double> (cloud.readings) < min_readings_share * static_cast<double> (cloud.points.size ()))
     {
       log.add (frame.stamp, "there are hardly any readings: ", cloud.readings);
@@ -330,7 +336,7 @@ DynamicFusion::Impl::process (const RgbdFrame& frame, const Image<std::uint16_t>
       last_motion = Eigen::Isometry3d::Identity ();
       return;
     }
-    good = trackCamera (cloud, frame.stamp);
+    good = trackCamera (cloud, frame);
     if (good)
       trackObjects (cloud, frame.stamp);
   });

@@ -4,6 +4,7 @@
 
 #include <pcl/cosection/common/error.h>
 #include <pcl/cosection/common/parallel.h>
+#include <pcl/cosection/fusion/bilateral_filter.h>
 
 #include <cmath>
 #include <limits>
@@ -47,10 +48,13 @@ FrameCloud::sample (int step) const
 }
 
 FrameCloud
-makeFrameCloud (const Image<float>& depth, const PinholeCamera& camera, double max_depth_m, int threads)
+makeFrameCloud (const Image<float>& depth, const PinholeCamera& camera, double max_depth_m, bool smooth, int threads)
 {
   if (depth.width != camera.width || depth.height != camera.height)
     throw InvalidArgument ("the depth image must be of the camera's size");
+  BilateralFilterOptions filter;
+  filter.threads = threads;
+  const Image<float> smoothed = smooth ? bilateralFilter (depth, filter) : Image<float> ();
   FrameCloud cloud;
   cloud.camera = camera;
   cloud.depth = depth;
@@ -67,7 +71,8 @@ makeFrameCloud (const Image<float>& depth, const PinholeCamera& camera, double m
         continue;
       }
       ++readings[v];
-      cloud.points[static_cast<std::size_t> (v) * camera.width + u] = camera.unproject (u, v, z).cast<float> ();
+      cloud.points[static_cast<std::size_t> (v) * camera.width + u] =
+          camera.unproject (u, v, smooth ? smoothed.at (u, v) : z).cast<float> ();
       if (!isEdge (depth, u, v))
         cloud.reliable.at (u, v) = z;
     }

@@ -21,7 +21,7 @@ struct FrameCloud
   PinholeCamera camera;
   Image<float> depth;                  ///< metres; NaN: no reading, beyond the largest depth
   Image<float> reliable;               ///< the same without pixels at depth edges, where readings are frayed
-  std::vector<Eigen::Vector3f> points; ///< sensor frame, of all readings; NaN: none
+  std::vector<Eigen::Vector3f> points; ///< sensor frame, of all readings, smoothed if asked for; NaN: none
   std::size_t readings = 0;
 
   /** \brief Every \a step-th reliable point along rows and columns. */
@@ -29,8 +29,9 @@ struct FrameCloud
   sample (int step) const;
 };
 
+/** \param[in] smooth filter the points' depth bilaterally */
 FrameCloud
-makeFrameCloud (const Image<float>& depth, const PinholeCamera& camera, double max_depth_m, int threads);
+makeFrameCloud (const Image<float>& depth, const PinholeCamera& camera, double max_depth_m, bool smooth, int threads);
 
 /** \brief How much a reading at depth \a z counts for a pose: the inverse of its variance, with that of a model whose voxels are so
  * large; 1 without noise. */

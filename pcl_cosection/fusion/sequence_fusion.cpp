@@ -254,8 +254,6 @@ SequenceFusion::SequenceFusion (KnownSequence sequence, const FusionOptions& opt
 SequenceFusion::SequenceFusion (const TrackedSequence& sequence, const FusionOptions& options) : tracked_ (sequence), options_ (options)
 {
   options.validate ();
-  if (!sequence.images)
-    throw InvalidArgument ("there are no images");
   requireFrames (*sequence.images, options_.frames);
 }
 

@@ -162,8 +162,8 @@ TEST (DynamicFusion, WhatCannotBeUsedIsRefused)
   const PinholeCamera camera{40, 30, 45.0, 45.0, 19.5, 14.5};
   DynamicFusionOptions options;
   options.object_resolution = 1;
-  EXPECT_THROW (DynamicFusion (camera, options), InvalidArgument);
-  EXPECT_THROW (DynamicFusion (PinholeCamera ()), InvalidArgument);
+  EXPECT_THROW ((DynamicFusion{camera, options}), InvalidArgument);
+  EXPECT_THROW (DynamicFusion{PinholeCamera{}}, InvalidArgument);
   options = DynamicFusionOptions ();
   options.background_resolution = 32;
   DynamicFusion fusion (camera, options);

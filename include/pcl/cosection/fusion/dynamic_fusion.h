@@ -37,6 +37,7 @@ struct PCL_COSECTION_EXPORT DynamicFusionOptions
   double object_truncation_vox = 5.0;      ///< wider ones bias poses
   double max_weight = 64.0;                ///< of a voxel
   double max_depth_m = 10.0;               ///< readings beyond are left out
+  bool smooth_depth = true;                ///< track with bilaterally filtered depth; what is mapped is not filtered
   int tracking_points = 80000;             ///< of a frame, at most
   bool persistent_ids = false;             ///< an instance has the same number in all masks, that of its object
   int min_object_pixels = 1600;            ///< of a new object, in an image of 640 x 480; in proportion in others

@@ -38,9 +38,12 @@ struct PCL_COSECTION_EXPORT KnownSequence
 /** \brief A sequence of which poses are not known. */
 struct PCL_COSECTION_EXPORT TrackedSequence
 {
-  const RgbdSequence* images = nullptr;
+  explicit TrackedSequence (const RgbdSequence& images, const MaskSequence* masks = nullptr) : images (&images), masks (masks)
+  {}
+
+  const RgbdSequence* images;
   /** \brief A pixel is the number of an instance, which may be another in the next mask; not every frame needs one. Null: no objects. */
-  const MaskSequence* masks = nullptr;
+  const MaskSequence* masks;
 };
 
 /** \brief How SequenceFusion goes through a sequence. */
@@ -112,7 +115,7 @@ public:
    * the range */
   explicit SequenceFusion (KnownSequence sequence, const FusionOptions& options = {});
 
-  /** \brief Track the camera and the objects. \throws InvalidArgument if an option is outside its domain, or there are no images in the
+  /** \brief Track the camera and the objects. \throws InvalidArgument if an option is outside its domain, or there are no frames in the
    * range */
   explicit SequenceFusion (const TrackedSequence& sequence, const FusionOptions& options = {});
 
