@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_cosection authors
 
-// Completes the objects of an RGB-D sequence; see pcl_cosection_fusion --help.
+// Tracks and completes the objects of an RGB-D sequence; see pcl_cosection_fusion --help.
 
 #include "exit_status.h"
 #include "fusion_command_line.h"
@@ -50,16 +50,46 @@ describe (const ObjectResult& object)
   return (text.str ());
 }
 
-/** \brief Poses for all frames that have one. */
-std::vector<StampedPose>
-cameraTrajectory (const FusionSettings& settings, const RgbdSequence& images, std::vector<std::string>& warnings)
+/** \brief What goes in; it refers to itself. */
+struct Inputs
 {
-  if (!settings.camera_trajectory.empty ())
-    return (loadTrajectory (settings.camera_trajectory));
-  std::vector<StampedPose> given = images.givenTrajectory (warnings);
-  if (given.empty ())
-    throw InvalidArgument (settings.dataset + ": no poses of the camera come with the images; give --camera-trajectory FILE");
-  return (given);
+  explicit Inputs (const FusionSettings& settings) : images (settings.dataset, settings.source)
+  {
+    warnings = images.warnings ();
+    known.images = &images;
+    known.camera = settings.camera_trajectory.empty () ? images.givenTrajectory (warnings) : loadTrajectory (settings.camera_trajectory);
+    for (const auto& [id, file] : settings.object_trajectories)
+      known.objects[id] = loadTrajectory (file);
+    if (settings.masks.empty ())
+      return;
+    masks.emplace (settings.masks, images);
+    known.masks = &*masks;
+    warnings.insert (warnings.end (), masks->warnings ().begin (), masks->warnings ().end ());
+  }
+
+  Inputs (const Inputs&) = delete;
+  Inputs&
+  operator= (const Inputs&) = delete;
+
+  RgbdSequence images;
+  std::optional<MaskSequence> masks;
+  KnownSequence known;
+  std::vector<std::string> warnings;
+};
+
+SequenceFusion
+makeFusion (const FusionSettings& settings, const Inputs& inputs)
+{
+  if (inputs.known.camera.empty ())
+  {
+    if (!inputs.known.objects.empty ())
+      throw InvalidArgument ("--object-trajectory needs the poses of the camera: " + settings.dataset +
+                             " has none; give --camera-trajectory FILE");
+    return (SequenceFusion (TrackedSequence (inputs.images, inputs.known.masks), settings.fusion));
+  }
+  if (settings.ids_per_frame)
+    throw InvalidArgument ("with given poses, objects must have the same number in all masks, not --mask-ids per-frame");
+  return (SequenceFusion (inputs.known, settings.fusion));
 }
 
 /** \return whether every object succeeded */
@@ -67,24 +97,10 @@ bool
 fuse (const FusionSettings& settings, FusionOutputs& outputs, Terminal& terminal)
 {
   const auto start = std::chrono::steady_clock::now ();
-  const RgbdSequence images (settings.dataset, settings.source);
-  std::vector<std::string> warnings = images.warnings ();
-  KnownSequence known;
-  known.images = &images;
-  known.camera = cameraTrajectory (settings, images, warnings);
-  for (const auto& [id, file] : settings.object_trajectories)
-    known.objects[id] = loadTrajectory (file);
-  std::optional<MaskSequence> masks;
-  if (!settings.masks.empty ())
-  {
-    masks.emplace (settings.masks, images);
-    known.masks = &*masks;
-    warnings.insert (warnings.end (), masks->warnings ().begin (), masks->warnings ().end ());
-  }
-  for (const std::string& warning : warnings)
+  const Inputs inputs (settings);
+  for (const std::string& warning : inputs.warnings)
     terminal.warning (warning);
-
-  const SequenceFusion fusion (known, settings.fusion);
+  const SequenceFusion fusion = makeFusion (settings, inputs);
   outputs.begin (); // not before the inputs are there: a slip of the pen costs nothing
 
   const auto report = [&] (const std::string& stage, double fraction) {
@@ -94,7 +110,9 @@ fuse (const FusionSettings& settings, FusionOutputs& outputs, Terminal& terminal
   FusionResult result = fusion.run (report, [&] (const KeyframeReport& keyframe) { outputs.writeKeyframe (keyframe); });
   for (const std::string& warning : result.warnings)
     terminal.warning (warning);
-  result.warnings.insert (result.warnings.begin (), warnings.begin (), warnings.end ());
+  for (const std::string& event : result.events)
+    terminal.detail (event);
+  result.warnings.insert (result.warnings.begin (), inputs.warnings.begin (), inputs.warnings.end ());
   bool all_good = true;
   for (const ObjectResult& object : result.scene.objects)
     if (object.error.empty ())

@@ -28,13 +28,18 @@ spanText (double first, double last)
 } // namespace
 
 void
-requireFrames (const KnownSequence& sequence, const FrameRange& frames)
+requireFrames (const RgbdSequence& images, const FrameRange& frames)
+{
+  if (frames.first >= std::min (frames.last, images.size ()))
+    throw InvalidArgument ("the frames from " + std::to_string (frames.first) + " on are not there; the sequence has 0:" +
+                           std::to_string (images.size ()));
+}
+
+void
+requirePoses (const KnownSequence& sequence, const FrameRange& frames)
 {
   const std::vector<double> stamps = sequence.images->stamps ();
   const std::size_t last = std::min (frames.last, stamps.size ());
-  if (frames.first >= last)
-    throw InvalidArgument ("the frames from " + std::to_string (frames.first) + " on are not there; the sequence has 0:" +
-                           std::to_string (stamps.size ()));
   const auto begin = stamps.begin () + static_cast<std::ptrdiff_t> (frames.first);
   const std::vector<double> used (begin, stamps.begin () + static_cast<std::ptrdiff_t> (last));
   const auto poses = posesAtStamps (sequence.camera, used, sequence.images->period ());

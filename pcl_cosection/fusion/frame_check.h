@@ -9,10 +9,13 @@ namespace pcl
 namespace cosection
 {
 
-/** \brief What can be known of a sequence's frames before any is read.
- * \throws InvalidArgument if there is no frame in the range, or none of them has a pose of the camera */
+/** \brief What can be known of a sequence's frames before any is read. \throws InvalidArgument if there is no frame in the range */
 void
-requireFrames (const KnownSequence& sequence, const FrameRange& frames);
+requireFrames (const RgbdSequence& images, const FrameRange& frames);
+
+/** \throws InvalidArgument if no frame of the range has a pose of the camera */
+void
+requirePoses (const KnownSequence& sequence, const FrameRange& frames);
 
 } // namespace cosection
 } // namespace pcl

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_cosection authors
+#include "rigid_motion.h"
 #include "voxel_projection.h"
 
 #include "../common/multiversion.h"
@@ -44,9 +45,7 @@ checkView (const Image<float>& depth, const PinholeCamera& camera, const Eigen::
   if (static_cast<long long> (camera.width) * camera.height >= std::numeric_limits<int>::max ())
     throw InvalidArgument ("TSDF volume: the image has more pixels than can be counted");
   checkSize (depth, camera, "depth image");
-  constexpr double tolerance = 1e-3; // of poses kept in single precision
-  if (!T_grid_sensor.matrix ().allFinite () || !T_grid_sensor.linear ().isUnitary (tolerance) ||
-      T_grid_sensor.linear ().determinant () < 0.0)
+  if (!isRigidMotion (T_grid_sensor))
     throw InvalidArgument ("TSDF volume: the sensor's pose must be a finite rigid motion");
 }
 
@@ -103,16 +102,17 @@ forEachVisibleRow (const VoxelGrid& grid, const VoxelProjection& projection, int
 }
 
 /** \brief KinectFusion's Equations (11) to (13), for a row of voxels.
- * \param[in] pixel_weights not looked at if all are 1 */
+ * \param[in] pixel_weights not looked at if all are 1
+ * \param[in] least_m voxels of smaller distances learn nothing */
 template <bool weighted> PCL_COSECTION_INLINE void
 average (const float* __restrict distances, const int* __restrict pixels, const float* __restrict pixel_weights,
-         float truncation_m, float max_weight, int count, float* __restrict values, float* __restrict weights)
+         float least_m, float truncation_m, float max_weight, int count, float* __restrict values, float* __restrict weights)
 {
   for (int n = 0; n < count; ++n)
   {
     const float d = distances[n];
     const float of_pixel = (weighted ? pixel_weights[pixels[n]] : 1.0f);
-    const float w = (d >= -truncation_m ? of_pixel : 0.0f);
+    const float w = (d >= least_m ? of_pixel : 0.0f);
     const float old_weight = weights[n];
     const float old_value = values[n];
     const float base = (old_weight > 0.0f ? old_value : 0.0f);
@@ -124,17 +124,17 @@ average (const float* __restrict distances, const int* __restrict pixels, const 
 }
 
 PCL_COSECTION_MULTIVERSION void
-averageRow (const float* distances, const int* pixels, float truncation_m, float max_weight, int count, float* values,
-            float* weights)
+averageRow (const float* distances, const int* pixels, float least_m, float truncation_m, float max_weight, int count,
+            float* values, float* weights)
 {
-  average<false> (distances, pixels, nullptr, truncation_m, max_weight, count, values, weights);
+  average<false> (distances, pixels, nullptr, least_m, truncation_m, max_weight, count, values, weights);
 }
 
 PCL_COSECTION_MULTIVERSION void
 averageWeightedRow (const float* distances, const int* pixels, const float* pixel_weights, float truncation_m,
                     float max_weight, int count, float* values, float* weights)
 {
-  average<true> (distances, pixels, pixel_weights, truncation_m, max_weight, count, values, weights);
+  average<true> (distances, pixels, pixel_weights, -truncation_m, truncation_m, max_weight, count, values, weights);
 }
 
 } // namespace
@@ -177,9 +177,28 @@ TsdfVolume::integrate (const Image<float>& depth, const PinholeCamera& camera, c
     if (weight_of_pixel)
       averageWeightedRow (distances, indices, weight_of_pixel, truncation_m, max_weight, count, values, weights);
     else
-      averageRow (distances, indices, truncation_m, max_weight, count, values, weights);
+      averageRow (distances, indices, -truncation_m, truncation_m, max_weight, count, values, weights);
     if (with_colour)
       averageColours (voxel, distances, indices, count, weight_of_pixel, *pixels.colours);
+  });
+}
+
+void
+TsdfVolume::integrateFreeSpace (const Image<float>& depth, const PinholeCamera& camera, const Eigen::Isometry3d& T_grid_sensor,
+                                const Image<std::uint16_t>& labels, std::uint16_t label)
+{
+  checkView (depth, camera, T_grid_sensor);
+  checkSize (labels, camera, "image of labels");
+  const DepthReadings readings =
+      collectReadings (depth, options_.threads, [&] (std::size_t i) { return labels.pixels[i] != label; });
+  if (!(readings.farthest_m > 0.0f))
+    return;
+  const auto truncation_m = static_cast<float> (truncation ());
+  const auto max_weight = static_cast<float> (options_.max_weight);
+  const VoxelProjection projection (grid (), camera, T_grid_sensor, readings, 0.0);
+  forEachVisibleRow (grid (), projection, options_.threads,
+                     [&] (std::size_t voxel, const float* distances, const int* indices, int count) {
+    averageRow (distances, indices, truncation_m, truncation_m, max_weight, count, &field_.values[voxel], &weights_[voxel]);
   });
 }
 

@@ -11,6 +11,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include <filesystem>
+
 #include <cmath>
 
 #include <csignal>
@@ -118,6 +120,26 @@ TEST_F (FusionTool, ItsOutputIsEvaluated)
     EXPECT_LT (object["completeness_m"], 0.03);
   }
   EXPECT_LT (result["background"]["accuracy_m"], 0.03);
+}
+
+TEST_F (FusionTool, WithoutPosesEverythingIsTracked)
+{
+  for (int n = 0; n < 12; ++n)
+    if (n % 5 != 0)
+      fs::remove (file ("sim/mask/Mask" + std::string (n < 10 ? "000" : "00") + std::to_string (n) + ".png"));
+  ASSERT_EQ (run ({"--masks", "sim/mask", "--background-voxel-size", "0.03", "sim", "out"}), 0) << errors_;
+  EXPECT_EQ (filesIn ("out"), all_files);
+  const nlohmann::json summary = json ("out/summary.json");
+  EXPECT_GT (summary["timings_s"]["tracking"], 0.0);
+  EXPECT_EQ (summary["events"].size (), 2u); // two objects begin
+  ASSERT_EQ (summary["objects"].size (), 2u);
+  for (const auto& object : summary["objects"])
+  {
+    EXPECT_EQ (object["frames_tracked"], 12);
+    EXPECT_TRUE (object["mask_ids"].empty ());
+  }
+  EXPECT_EQ (loadTrajectory (file ("out/trajectory/camera.txt")).size (), 12u);
+  EXPECT_TRUE (loadTrajectory (file ("out/trajectory/camera.txt"))[0].pose.isApprox (Eigen::Isometry3d::Identity ()));
 }
 
 TEST_F (FusionTool, ThreadsDoNotMatter)

@@ -84,12 +84,17 @@ TEST_F (FusionToolErrors, WrongUsage)
   expectFailure ({"--object-trajectory", "1=sim/gt-ball-1.txt", "sim", "out"}, 2, "needs --masks");
   expectFailure ({"--masks", "sim/mask", "--object-trajectory", "ball=sim/gt-ball-1.txt", "sim", "out"}, 2, "must be ID=FILE");
   expectFailure ({"--mask-ids", "persistent", "sim", "out"}, 2, "--mask-ids needs --masks");
+  expectFailure ({"--masks", "sim/mask", "--mask-ids", "per-frame", "--object-trajectory", "1=sim/gt-ball-1.txt", "sim", "out"}, 2,
+                 "not --mask-ids per-frame");
   EXPECT_FALSE (exists ("out"));
 }
 
 TEST_F (FusionToolErrors, WhatIsNotThere)
 {
-  expectFailure ({"sim", "out"}, 1, "no poses of the camera come with the images; give --camera-trajectory");
+  expectFailure ({"--masks", "sim/mask", "--object-trajectory", "1=sim/gt-ball-1.txt", "sim", "out"}, 1,
+                 "--object-trajectory needs the poses of the camera: sim has none; give --camera-trajectory FILE");
+  expectFailure (camera ("sim/gt-cam-0.txt", {"--masks", "sim/mask", "--mask-ids", "per-frame", "sim", "out"}), 1,
+                 "with given poses, objects must have the same number in all masks");
   expectFailure (camera ("sim/gt-cam-0.txt", {"nowhere", "out"}), 1, "nowhere: there is no such folder");
   expectFailure (camera ("nowhere.txt", {"sim", "out"}), 1, "nowhere.txt");
   expectFailure (camera ("sim/gt-cam-0.txt", {"--masks", "nowhere", "sim", "out"}), 1, "nowhere: there is no such folder");

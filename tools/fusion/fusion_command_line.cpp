@@ -49,11 +49,12 @@ declareKnown (CLI::App& app, GivenFusion& given)
 {
   const std::string group = "Known";
   app.add_option ("--camera-trajectory", given.camera_trajectory,
-                  "Poses of the camera in the world: lines \"stamp tx ty tz qx qy qz qw\" (default: those of the layout 7scenes)")
+                  "Poses of the camera in the world: lines \"stamp tx ty tz qx qy qz qw\" (default: those of the layout 7scenes; "
+                  "without, camera and objects are tracked)")
       ->option_text ("FILE")
       ->group (group);
   app.add_option ("--object-trajectory", given.object_trajectories,
-                  "Poses of object ID in the world; repeatable. Objects without one are at rest")
+                  "Poses of object ID in the world, beside those of the camera; repeatable. Objects without one are at rest")
       ->option_text ("ID=FILE")
       ->allow_extra_args (false)
       ->group (group);
@@ -62,9 +63,9 @@ declareKnown (CLI::App& app, GivenFusion& given)
                   "(default: there are no objects)")
       ->option_text ("DIR")
       ->group (group);
-  app.add_option ("--mask-ids", given.mask_ids, "Objects have the same number in all masks (default: persistent)")
-      ->option_text ("persistent")
-      ->check (CLI::IsMember (std::vector<std::string>{"persistent"}))
+  app.add_option ("--mask-ids", given.mask_ids, "Whether an object has the same number in all masks (default: persistent with given poses, else per-frame)")
+      ->option_text ("persistent|per-frame")
+      ->check (CLI::IsMember (std::vector<std::string>{"persistent", "per-frame"}))
       ->group (group);
 }
 
@@ -167,6 +168,8 @@ toSettings (const GivenFusion& given)
     throw UsageError ("--object-trajectory needs --masks, which tell the objects' pixels");
   if (!given.mask_ids.empty () && settings.masks.empty ())
     throw UsageError ("--mask-ids needs --masks");
+  if (!settings.object_trajectories.empty () && given.mask_ids == "per-frame")
+    throw UsageError ("--object-trajectory needs objects with the same number in all masks, not --mask-ids per-frame");
   settings.preset = given.preset;
   settings.save_keyframes = given.save_keyframes;
   settings.json = given.json;
@@ -183,6 +186,10 @@ toSettings (const GivenFusion& given)
   fusion.keyframe.max_depth_m = given.max_depth.value_or (fusion.keyframe.max_depth_m);
   fusion.keyframe.threads = fusion.backend.method.threads;
   fusion.tsdf.tsdf.threads = fusion.backend.method.threads;
+  fusion.front_end.max_depth_m = fusion.keyframe.max_depth_m;
+  fusion.front_end.threads = fusion.backend.method.threads;
+  fusion.front_end.persistent_ids = given.mask_ids == "persistent";
+  settings.ids_per_frame = given.mask_ids == "per-frame";
   fusion.update_at_keyframes = given.save_keyframes;
   if (given.max_views)
   {
@@ -202,18 +209,19 @@ fusionText ()
       "pcl_cosection_fusion",
       "complete the objects of an RGB-D sequence",
       "pcl_cosection_fusion [OPTIONS] DATASET OUTPUT",
-      "Completes the objects and the background of an RGB-D sequence whose poses and masks are known.",
+      "Tracks the camera and the objects of an RGB-D sequence, unless their poses are given, and completes the objects and the background.",
       {"DATASET is a folder with colour and depth images in the layout of Co-Fusion (colour/, depth_noise/ or depth/, "
        "calibration.txt), of TUM's benchmark (associations.txt, or rgb.txt and depth.txt), or of 7-Scenes "
        "(frame-NNNNNN.depth.png).",
        "OUTPUT is a folder: trajectory/camera.txt and object_ID.txt, mesh/background.ply (world frame), object_ID.ply (closed, "
        "the object's frame) and object_ID_tsdf.ply (what was seen), summary.json."},
       {
+          {"pcl_cosection_fusion --masks masks sequence out", "camera and objects are tracked; a mask now and then is enough"},
+          {"pcl_cosection_fusion kitchen room", "a room without objects"},
           {"pcl_cosection_fusion --config toys.txt toys out",
            "a simulated sequence with its true poses, with the options in toys.txt as below"},
           {"pcl_cosection_fusion --camera-trajectory cam.txt --masks masks sequence out",
-           "objects without a trajectory are at rest"},
-          {"pcl_cosection_fusion --camera-trajectory kitchen/groundtruth.txt kitchen room", "a room without objects"},
+           "given poses: objects without a trajectory are at rest"},
       },
       {"camera-trajectory = \"toys/gt-cam-0.txt\"", "masks = \"toys/mask\"",
        "object-trajectory = [\"1=toys/gt-truck-1.txt\", \"2=toys/gt-car-2.txt\"]"},

@@ -18,9 +18,10 @@ struct FusionSettings
   std::string dataset;
   std::string output;
   pcl::cosection::SequenceSource source;
-  std::string camera_trajectory;                  ///< file; empty: the poses that come with the images
+  std::string camera_trajectory;                  ///< file; empty: the poses that come with the images, or tracking
   std::map<int, std::string> object_trajectories; ///< files, by id
   std::string masks;                              ///< folder; empty: there are no objects
+  bool ids_per_frame = false;                     ///< asked for: a number of a mask means another object in the next
   std::string preset;                             ///< empty: our own defaults
   bool save_keyframes = false;
   std::string json; ///< a further summary

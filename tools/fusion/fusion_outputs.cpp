@@ -122,6 +122,7 @@ parameters (const FusionSettings& settings)
   for (const auto& [id, file] : settings.object_trajectories)
     result["object_trajectories"][std::to_string (id)] = file;
   result["masks"] = settings.masks;
+  result["mask_ids"] = settings.fusion.front_end.persistent_ids ? "persistent" : settings.ids_per_frame ? "per-frame" : "";
   result["frames"] = {settings.fusion.frames.first,
                       settings.fusion.frames.last == FrameRange ().last ? Json () : Json (settings.fusion.frames.last)};
   result["preset"] = settings.preset.empty () ? "default" : settings.preset;
@@ -242,7 +243,9 @@ FusionOutputs::writeSummary (const FusionSettings& settings, const FusionResult&
     {
       Json entry = objectJson (object);
       entry.erase ("label");
-      entry["mask_ids"] = Json::array ({object.id});
+      entry["mask_ids"] = Json::array ();
+      if (!result.tracked || settings.fusion.front_end.persistent_ids)
+        entry["mask_ids"].push_back (object.id); // else they differ from mask to mask
       const auto fused = result.objects.find (object.id);
       entry["frames_tracked"] = fused == result.objects.end () ? 0 : fused->second.trajectory.size ();
       summary["objects"].push_back (entry);
@@ -257,6 +260,8 @@ FusionOutputs::writeSummary (const FusionSettings& settings, const FusionResult&
     summary["background"]["dimensions"] = {grid.dims.x (), grid.dims.y (), grid.dims.z ()};
     summary["background"]["solver"] = solverJson (piece.solver);
   }
+  if (result.tracked)
+    summary["events"] = result.events;
   summary["warnings"] = result.warnings;
   saveJson (summary, (fs::path (folder_) / "summary.json").string ());
   if (!json_.empty ())

@@ -5,6 +5,7 @@
 #include <pcl/cosection/common/export.h>
 #include <pcl/cosection/common/progress.h>
 #include <pcl/cosection/fusion/co_section_backend.h>
+#include <pcl/cosection/fusion/dynamic_fusion.h>
 #include <pcl/cosection/fusion/keyframe.h>
 #include <pcl/cosection/fusion/object_tsdf.h>
 #include <pcl/cosection/io/frame_reader.h>
@@ -15,6 +16,7 @@
 #include <cstddef>
 #include <functional>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -33,12 +35,24 @@ struct PCL_COSECTION_EXPORT KnownSequence
   std::map<int, std::vector<StampedPose>> objects;
 };
 
+/** \brief A sequence of which poses are not known. */
+struct PCL_COSECTION_EXPORT TrackedSequence
+{
+  explicit TrackedSequence (const RgbdSequence& images, const MaskSequence* masks = nullptr) : images (&images), masks (masks)
+  {}
+
+  const RgbdSequence* images;
+  /** \brief A pixel is the number of an instance, which may be another in the next mask; not every frame needs one. Null: no objects. */
+  const MaskSequence* masks;
+};
+
 /** \brief How SequenceFusion goes through a sequence. */
 struct PCL_COSECTION_EXPORT FusionOptions
 {
   BackendOptions backend;
   KeyframeOptions keyframe;
-  ObjectTsdfOptions tsdf;
+  ObjectTsdfOptions tsdf;         ///< of objects with given poses
+  DynamicFusionOptions front_end; ///< where poses are not given
   FrameRange frames;
   int keyframe_every = 10;           ///< frames; where one has no mask or no pose, the next that has
   bool update_at_keyframes = false;  ///< complete everything at each keyframe, not only at the end
@@ -67,7 +81,9 @@ struct PCL_COSECTION_EXPORT FusionResult
   std::size_t frames = 0;         ///< that were used
   std::size_t keyframes = 0;      ///< of them
   std::size_t kept_keyframes = 0; ///< of them, in the result
-  std::map<std::string, double> timings_s; ///< read, segmentation, integration, keyframes, final_solve, and those of the scene
+  std::map<std::string, double> timings_s; ///< read, tracking, segmentation, integration, keyframes, final_solve, and those of the scene
+  bool tracked = false;            ///< poses were not given
+  std::vector<std::string> events; ///< what tracking decided, and why
   std::vector<std::string> warnings;
 };
 
@@ -78,7 +94,8 @@ struct KeyframeReport
   const SceneResult& scene;
 };
 
-/** \brief Goes through a sequence whose poses and masks are known, and completes the objects in it and the background.
+/** \brief Goes through a sequence and completes the objects in it and the background. Poses and masks are known, or the camera and the
+ * objects are tracked (DynamicFusion).
  *
  * Each frame gives free space, and distances for the objects' TSDF volumes; keyframes give oriented points as well. Frames that
  * cannot be read, or without the camera's pose, are left out and told; so are objects of fewer than 100 points.
@@ -98,6 +115,10 @@ public:
    * the range */
   explicit SequenceFusion (KnownSequence sequence, const FusionOptions& options = {});
 
+  /** \brief Track the camera and the objects. \throws InvalidArgument if an option is outside its domain, or there are no frames in the
+   * range */
+  explicit SequenceFusion (const TrackedSequence& sequence, const FusionOptions& options = {});
+
   /** \param[in] keyframe called after every update, if those are asked for
    * \throws IoError if no frame can be used, no mask, or no keyframe has a point; Cancelled */
   FusionResult
@@ -105,6 +126,7 @@ public:
 
 private:
   KnownSequence sequence_;
+  std::optional<TrackedSequence> tracked_; ///< instead
   FusionOptions options_;
 };
 

@@ -4,6 +4,7 @@
 
 #include <pcl/cosection/common/camera.h>
 #include <pcl/cosection/common/export.h>
+#include <pcl/cosection/volume/pixel_region.h>
 #include <pcl/cosection/volume/voxel_grid.h>
 
 #include <cstddef>
@@ -19,23 +20,6 @@ namespace cosection
  * max (3 voxels, 3 sigma_z). */
 PCL_COSECTION_EXPORT double
 freeSpaceMargin (double depth_m, double voxel_size_m);
-
-/** \brief Pixels of columns [left, right) and rows [top, bottom). */
-struct PixelRegion
-{
-  int left = 0;
-  int top = 0;
-  int right = 0;
-  int bottom = 0;
-};
-
-/** \brief The whole image. */
-PCL_COSECTION_EXPORT PixelRegion
-wholeImage (const PinholeCamera& camera);
-
-/** \brief The pixels onto which a camera projects a grid; the whole image if the grid reaches behind the camera. */
-PCL_COSECTION_EXPORT PixelRegion
-projectedRegion (const VoxelGrid& grid, const PinholeCamera& camera, const Eigen::Isometry3d& T_grid_sensor);
 
 /** \brief Minimum or \a maximum of an image over a square window of \a radius pixels around every pixel of a region; other
  * pixels of the result have no meaning. */

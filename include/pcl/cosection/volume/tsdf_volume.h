@@ -99,6 +99,14 @@ public:
   integrate (const Image<float>& depth, const PinholeCamera& camera, const Eigen::Isometry3d& T_grid_sensor,
              const TsdfPixels& pixels = {});
 
+  /** \brief Average in that space is free, from pixels of other labels than the volume's: voxels more than the truncation distance in
+   * front of their readings come nearer to that distance. Others, also those beside what the readings show, learn nothing.
+   * \param[in] labels pixels of \a label are left out
+   * \throws InvalidArgument as integrate () */
+  void
+  integrateFreeSpace (const Image<float>& depth, const PinholeCamera& camera, const Eigen::Isometry3d& T_grid_sensor,
+                      const Image<std::uint16_t>& labels, std::uint16_t label);
+
   /** \brief Count, at voxels within the truncation distance of a reading, whether its pixel has \a label (foreground) or any
    * other (background).
    *

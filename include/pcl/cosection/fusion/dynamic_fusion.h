@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_cosection authors
+#pragma once
+
+#include <pcl/cosection/common/export.h>
+#include <pcl/cosection/common/image.h>
+#include <pcl/cosection/common/triangle_mesh.h>
+#include <pcl/cosection/fusion/data_association.h>
+#include <pcl/cosection/io/rgbd_sequence.h>
+
+#include <Eigen/Geometry>
+
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <map>
+#include <memory>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace pcl
+{
+namespace cosection
+{
+
+/** \brief How DynamicFusion follows a scene. */
+struct PCL_COSECTION_EXPORT DynamicFusionOptions
+{
+  int background_resolution = 256;         ///< voxels along each axis
+  double background_voxel_size_m = 0.0;    ///< 0: so that the volume holds the first frame, up to 0.02
+  double background_truncation_vox = 5.0;
+  bool objects = true;                     ///< there will be masks; without, the background takes less time and memory
+  int object_resolution = 64;              ///< voxels along each axis, at first
+  int max_object_resolution = 160;         ///< to which volumes grow
+  double object_truncation_vox = 5.0;      ///< wider ones bias poses
+  double max_weight = 64.0;                ///< of a voxel
+  double max_depth_m = 10.0;               ///< readings beyond are left out
+  bool smooth_depth = true;                ///< track with bilaterally filtered depth; what is mapped is not filtered
+  int tracking_points = 80000;             ///< of a frame, at most
+  bool persistent_ids = false;             ///< an instance has the same number in all masks, that of its object
+  int min_object_pixels = 1600;            ///< of a new object, in an image of 640 x 480; in proportion in others
+  double max_object_depth_m = 5.0;         ///< of a new object, mean
+  double min_mask_iou = 0.2;               ///< from which on an instance shows an object
+  double max_volume_iou = 0.5;             ///< from which on a new object would be one that is there
+  double min_existence = 0.1;              ///< below, an object is given up
+  double min_association = 0.1;            ///< mean over its pixels; below, an object is given up
+  int max_objects = 64;                    ///< at a time
+  AssociationOptions association;
+  Eigen::Isometry3d first_pose = Eigen::Isometry3d::Identity (); ///< T_world_camera of the first frame
+  int threads = 0;                         ///< 0: all; no result depends on it
+
+  /** \brief \throws InvalidArgument naming the first parameter outside its domain. */
+  void
+  validate () const;
+};
+
+/** \brief What DynamicFusion knows of a frame. */
+struct PCL_COSECTION_EXPORT TrackedFrame
+{
+  /** \brief A pixel that is neither the background's nor a known object's. */
+  static constexpr std::uint16_t unassigned = std::numeric_limits<std::uint16_t>::max ();
+
+  std::optional<Eigen::Isometry3d> T_world_camera;   ///< nothing: tracking failed
+  std::map<int, Eigen::Isometry3d> T_world_object;   ///< of the objects that were tracked in this frame
+  Image<std::uint16_t> instances;                    ///< id of the object, 0: background; empty if tracking failed
+  bool masked = false;                               ///< a mask had a part in it
+  double inlier_share = 0.0;                         ///< of the points that the camera was tracked with
+  int lost = 0;                                      ///< objects that should be in view and are not found
+};
+
+/** \brief The front end: tracks the camera and every object through RGB-D frames, and maps them, without given poses.
+ *
+ * Per frame: association likelihoods, tracking of the camera against the background, association again, tracking of each object relative
+ * to the camera, segmentation by association; where there is a mask, instances are matched with objects, new objects begin and existence
+ * probabilities change; then depth is integrated into the volumes. After M. Strecke, J. Stueckler, "EM-Fusion: Dynamic Object-Level SLAM with
+ * Probabilistic Data Association", ICCV 2019.
+ *
+ * A pose is believed if enough points fit, and it is no jump; of an object, if readings confirm its surface as well. What is lost is neither
+ * mapped, nor part of the background: it is looked for where it was, and among the instances of masks that match nothing.
+ *
+ * \code
+ * DynamicFusion fusion (images.camera ());
+ * for (const auto& frame : frames)
+ *   use (fusion.process (frame, mask_of (frame)));
+ * \endcode
+ * O (pixels + voxels in view) per frame. Not for two threads at once. */
+class PCL_COSECTION_EXPORT DynamicFusion
+{
+public:
+  /** \throws InvalidArgument as DynamicFusionOptions::validate () and PinholeCamera::validate () */
+  explicit DynamicFusion (const PinholeCamera& camera, const DynamicFusionOptions& options = {});
+  ~DynamicFusion ();
+  DynamicFusion (DynamicFusion&& other) noexcept;
+  DynamicFusion&
+  operator= (DynamicFusion&& other) noexcept;
+
+  /** \brief \param[in] mask instances of the frame, 0: none; null: there is no mask
+   * \return valid until the next call
+   * \throws InvalidArgument if the depth or the mask is not of the camera's size */
+  const TrackedFrame&
+  process (const RgbdFrame& frame, const Image<std::uint16_t>* mask = nullptr);
+
+  /** \brief Numbers of the objects that are tracked or looked for. */
+  std::set<int>
+  objects () const;
+
+  /** \brief Numbers of all objects that were found so far and not given up as wrong. */
+  std::set<int>
+  foundObjects () const;
+
+  /** \brief What was seen of an object, its frame; empty if there is none. */
+  TriangleMesh
+  surfaceMesh (int id) const;
+
+  /** \brief What was seen of the background, world frame. */
+  TriangleMesh
+  backgroundMesh () const;
+
+  /** \brief Lines about what was decided, with reasons: the first hundred, then how many more. */
+  std::vector<std::string>
+  events () const;
+
+  /** \brief Seconds: tracking, segmentation, integration. */
+  const std::map<std::string, double>&
+  timings () const;
+
+private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+} // namespace cosection
+} // namespace pcl

@@ -1,0 +1,411 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_cosection authors
+#include <pcl/cosection/fusion/dynamic_fusion.h>
+
+#include "background_model.h"
+#include "event_log.h"
+#include "frame_cloud.h"
+#include "frame_segmentation.h"
+#include "object_map.h"
+#include "pose_tracking.h"
+
+#include <pcl/cosection/common/error.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <utility>
+
+namespace pcl
+{
+namespace cosection
+{
+
+namespace
+{
+
+constexpr std::size_t min_readings = 500;     // of an image of 640 x 480
+constexpr double min_readings_share = min_readings / (640.0 * 480.0);
+constexpr double least_in_view = 0.15;         // of an object's surface: with less of it to be seen, it is hidden, not lost
+constexpr int mask_border_px = 2;              // beside an object, readings are mixed with its own
+constexpr int all_directions = 6;
+
+void
+check (bool good, const char* message)
+{
+  if (!good)
+    throw InvalidArgument (message);
+}
+
+} // namespace
+
+void
+DynamicFusionOptions::validate () const
+{
+  association.validate ();
+  check (background_resolution >= 16 && background_resolution <= 1024, "background_resolution must be in [16, 1024]");
+  check (background_voxel_size_m >= 0.0 && std::isfinite (background_voxel_size_m), "background_voxel_size_m must be positive, or 0");
+  check (object_resolution >= 16 && object_resolution <= 512, "object_resolution must be in [16, 512]");
+  check (max_object_resolution >= object_resolution, "max_object_resolution must not be smaller than object_resolution");
+  check (background_truncation_vox >= 2.0 && object_truncation_vox >= 2.0, "truncation distances must be at least 2 voxels");
+  check (max_weight >= 1.0 && std::isfinite (max_weight), "max_weight must be at least 1");
+  check (max_depth_m > 0.0 && max_object_depth_m > 0.0, "the largest depths must be positive");
+  check (tracking_points >= 1000, "tracking_points must be at least 1000");
+  check (min_object_pixels >= 1, "min_object_pixels must be at least 1");
+  check (max_objects >= 0 && max_objects <= 200, "max_objects must be in [0, 200]");
+  check (first_pose.matrix ().allFinite (), "first_pose must be finite");
+  check (threads >= 0, "threads must not be negative");
+}
+
+struct DynamicFusion::Impl
+{
+  Impl (const PinholeCamera& camera, const DynamicFusionOptions& options);
+
+  void
+  process (const RgbdFrame& frame, const Image<std::uint16_t>* mask);
+  bool
+  trackCamera (const FrameCloud& cloud, const RgbdFrame& frame);
+  void
+  trackObjects (const FrameCloud& cloud, double stamp);
+  FrameSegmentation
+  segment (const FrameCloud& cloud, double stamp, const Image<std::uint16_t>* mask);
+  void
+  integrate (const RgbdFrame& frame, const FrameCloud& cloud, const Image<std::uint16_t>& labels);
+  void
+  report (const FrameSegmentation& segmentation);
+
+  /** \brief The background, and the objects of a state or of any; relative to a camera at \a T_world_camera.
+   * \param[in] predicted where objects should be in this frame, not where they were */
+  std::vector<AssociatedModel>
+  models (const Eigen::Isometry3d& T_world_camera, bool predicted, std::vector<TrackedObject*>& objects) const;
+
+  template <typename Function> void
+  timed (const char* stage, Function&& f)
+  {
+    const auto start = std::chrono::steady_clock::now ();
+    f ();
+    timings[stage] += std::chrono::duration<double> (std::chrono::steady_clock::now () - start).count ();
+  }
+
+  PinholeCamera camera;
+  DynamicFusionOptions options;
+  BackgroundModel background;
+  ObjectMap objects;
+  PoseTracking tracking;
+  DataAssociation association;
+  EventLog log;
+  TrackedFrame result;
+  std::map<std::string, double> timings;
+
+  Eigen::Isometry3d T_world_camera;                                 // the last good one
+  Eigen::Isometry3d last_motion = Eigen::Isometry3d::Identity (); // of the camera, its own frame
+  std::size_t last_frame = 0;                                       // of that pose
+  int frames_lost = 0;                                              // of the camera, in a row
+};
+
+namespace
+{
+
+BackgroundOptions
+backgroundOptions (const DynamicFusionOptions& options)
+{
+  BackgroundOptions background;
+  background.resolution = options.background_resolution;
+  background.voxel_size_m = options.background_voxel_size_m;
+  background.tsdf.truncation_vox = options.background_truncation_vox;
+  background.tsdf.max_weight = options.max_weight;
+  background.tsdf.foreground = options.objects;
+  background.tsdf.threads = options.threads;
+  return background;
+}
+
+AssociationOptions
+associationOptions (const DynamicFusionOptions& options)
+{
+  AssociationOptions association = options.association;
+  association.threads = options.threads;
+  return association;
+}
+
+constexpr double uncounted_object = 0.5; // foreground probability of what no mask showed yet
+
+} // namespace
+
+DynamicFusion::Impl::Impl (const PinholeCamera& camera, const DynamicFusionOptions& options)
+: camera (camera)
+, options (options)
+, background (backgroundOptions (options))
+, objects (camera, options)
+, tracking (options.tracking_points, associationOptions (options), options.threads)
+, association (associationOptions (options))
+, T_world_camera (options.first_pose)
+{
+  camera.validate ();
+  options.validate ();
+}
+
+std::vector<AssociatedModel>
+DynamicFusion::Impl::models (const Eigen::Isometry3d& T_world_sensor, bool predicted, std::vector<TrackedObject*>& used) const
+{
+  std::vector<AssociatedModel> result{{&*background.volume (), T_world_sensor, 1.0}};
+  used.clear ();
+  for (const auto& object : objects.active ())
+  {
+    if (!predicted && object->state != ObjectState::Tracked)
+      continue;
+    used.push_back (object.get ());
+    const Eigen::Isometry3d& T_world_object = predicted ? object->predicted () : object->T_world_object;
+    result.push_back ({&object->volume, T_world_object.inverse () * T_world_sensor, uncounted_object});
+  }
+  return result;
+}
+
+bool
+DynamicFusion::Impl::trackCamera (const FrameCloud& cloud, const RgbdFrame& frame)
+{
+  const double stamp = frame.stamp;
+  if (!background.volume ())
+  {
+    last_frame = frame.index;
+    background.follow (cloud, T_world_camera);
+    result.inlier_share = 1.0;
+    return background.volume ().has_value ();
+  }
+  const double frames_passed = std::max (1.0, static_cast<double> (frame.index) - static_cast<double> (last_frame));
+  std::vector<TrackedObject*> used;
+  PoseEstimate estimate;
+  bool good = false;
+  for (const Eigen::Isometry3d& motion : {last_motion, Eigen::Isometry3d (Eigen::Isometry3d::Identity ())})
+  {
+    const Eigen::Isometry3d guess = T_world_camera * motion;
+    estimate = tracking.trackCamera (cloud, models (guess, true, used), guess, frames_passed);
+    good = estimate.doubt.empty ();
+    if (good || last_motion.isApprox (Eigen::Isometry3d::Identity (), 1e-9))
+      break;
+  }
+  result.inlier_share = estimate.alignment.inlier_share;
+  if (!good)
+  {
+    if (frames_lost == 0)
+      log.add (stamp, "the camera is lost: ", estimate.doubt);
+    ++frames_lost;
+    last_motion = Eigen::Isometry3d::Identity ();
+    return false;
+  }
+  if (frames_lost > 0)
+    log.add (stamp, "the camera is found again after ", frames_lost, " frames");
+  // What the surroundings do not tell must not go on by itself.
+  const bool steady = frames_passed == 1.0 && estimate.alignment.observed_directions == all_directions;
+  last_motion = steady ? Eigen::Isometry3d (T_world_camera.inverse () * estimate.T_model_camera) : Eigen::Isometry3d::Identity ();
+  T_world_camera = estimate.T_model_camera;
+  frames_lost = 0;
+  last_frame = frame.index;
+  background.follow (cloud, T_world_camera);
+  return true;
+}
+
+void
+DynamicFusion::Impl::trackObjects (const FrameCloud& cloud, double stamp)
+{
+  std::vector<TrackedObject*> used;
+  const std::vector<AssociatedModel> expected = models (T_world_camera, true, used);
+  for (std::size_t m = 1; m < expected.size (); ++m)
+  {
+    TrackedObject& object = *used[m - 1];
+    PoseEstimate estimate = tracking.trackObject (cloud, expected, m, 1.0 + object.frames_not_tracked);
+    if (!estimate.doubt.empty ())
+    {
+      // It may have stopped.
+      std::vector<AssociatedModel> at_rest = expected;
+      at_rest[m].T_model_sensor = object.T_world_object.inverse () * T_world_camera;
+      const PoseEstimate other = tracking.trackObject (cloud, at_rest, m, 1.0 + object.frames_not_tracked);
+      if (other.doubt.empty () || other.visibility.confirmedShare () > estimate.visibility.confirmedShare ())
+        estimate = other;
+    }
+    if (estimate.doubt.empty ())
+    {
+      const Eigen::Isometry3d T_world_object = T_world_camera * estimate.T_model_camera.inverse ();
+      const bool steady = object.state == ObjectState::Tracked && estimate.alignment.observed_directions == all_directions;
+      if (object.state == ObjectState::Lost)
+        log.add (stamp, "object ", object.id, " is found again");
+      object.last_motion = steady ? Eigen::Isometry3d (T_world_object * object.T_world_object.inverse ()) : Eigen::Isometry3d::Identity ();
+      object.T_world_object = T_world_object;
+      object.state = ObjectState::Tracked;
+      object.frames_not_tracked = 0;
+      continue;
+    }
+    const bool hidden = estimate.visibility.inViewShare () < least_in_view;
+    if (!hidden && object.state != ObjectState::Lost)
+      log.add (stamp, "object ", object.id, " is lost: ", estimate.doubt);
+    else if (hidden && object.state == ObjectState::Tracked)
+      log.add (stamp, "object ", object.id, " is out of sight");
+    object.state = hidden ? ObjectState::Hidden : ObjectState::Lost;
+    ++object.frames_not_tracked;
+  }
+}
+
+FrameSegmentation
+DynamicFusion::Impl::segment (const FrameCloud& cloud, double stamp, const Image<std::uint16_t>* mask)
+{
+  std::vector<TrackedObject*> used;
+  const auto idsOf = [] (const std::vector<TrackedObject*>& objects) {
+    std::vector<std::uint16_t> ids{0};
+    for (const TrackedObject* object : objects)
+      ids.push_back (static_cast<std::uint16_t> (object->id));
+    return ids;
+  };
+  std::vector<AssociatedModel> known = models (T_world_camera, false, used);
+  FrameSegmentation segmentation = segmentFrame (cloud, known, idsOf (used), association);
+  if (mask)
+  {
+    const MaskedFrame frame{stamp, cloud, *mask, T_world_camera};
+    const auto object_of = objects.readMask (frame, segmentation.labels, tracking, log);
+    known = models (T_world_camera, false, used);
+    applyMask (cloud, *mask, object_of, known, idsOf (used), association, segmentation);
+    objects.grow (frame, segmentation.labels, log);
+  }
+  objects.tidy (stamp, segmentation, log);
+  // What a lost object may be is nobody's.
+  for (const auto& object : objects.active ())
+    if (object->state == ObjectState::Lost)
+      for (std::size_t n = 0; n < cloud.points.size (); ++n)
+      {
+        const Eigen::Vector3d p = T_world_camera * cloud.points[n].cast<double> ();
+        const auto cell = object->volume.sample<float> (Eigen::Vector3f ((object->T_world_object.inverse () * p).cast<float> ()));
+        if (segmentation.labels.pixels[n] == 0 && cell && cell->value () < 0.5 * object->volume.truncation ())
+          segmentation.labels.pixels[n] = TrackedFrame::unassigned;
+      }
+  return segmentation;
+}
+
+void
+DynamicFusion::Impl::integrate (const RgbdFrame& frame, const FrameCloud& cloud, const Image<std::uint16_t>& labels)
+{
+  TsdfPixels pixels;
+  pixels.labels = &labels;
+  TsdfVolume& room = *background.volume ();
+  room.integrate (cloud.reliable, camera, T_world_camera, pixels);
+  if (result.masked && room.options ().foreground)
+    room.countForeground (cloud.reliable, camera, T_world_camera, labels, 0);
+  if (objects.active ().empty ())
+    return;
+  const Image<std::uint16_t> wide = widened (labels, mask_border_px);
+  if (frame.colour.pixels.size () == labels.pixels.size ())
+    pixels.colours = &frame.colour;
+  for (const auto& object : objects.active ())
+  {
+    if (object->state != ObjectState::Tracked)
+      continue;
+    pixels.label = static_cast<std::uint16_t> (object->id);
+    const Eigen::Isometry3d T_object_camera = object->T_world_object.inverse () * T_world_camera;
+    object->volume.integrate (cloud.reliable, camera, T_object_camera, pixels);
+    object->volume.integrateFreeSpace (cloud.reliable, camera, T_object_camera, wide, pixels.label);
+    if (result.masked)
+      object->volume.countForeground (cloud.reliable, camera, T_object_camera, labels, pixels.label);
+  }
+}
+
+void
+DynamicFusion::Impl::report (const FrameSegmentation& segmentation)
+{
+  result.T_world_camera = T_world_camera;
+  result.instances = segmentation.labels;
+  for (const auto& object : objects.active ())
+  {
+    if (object->state == ObjectState::Tracked)
+      result.T_world_object[object->id] = object->T_world_object;
+    result.lost += object->state == ObjectState::Lost;
+  }
+}
+
+void
+DynamicFusion::Impl::process (const RgbdFrame& frame, const Image<std::uint16_t>* mask)
+{
+  if (mask && (mask->width != camera.width || mask->height != camera.height))
+    throw InvalidArgument ("the mask must be of the camera's size");
+  result = TrackedFrame ();
+  result.masked = mask != nullptr;
+  bool good = false;
+  FrameCloud cloud;
+  timed ("tracking", [&] {
+    cloud = makeFrameCloud (frame.depth, camera, options.max_depth_m, options.smooth_depth, options.threads);
+    if (static_cast<double> (cloud.readings) < min_readings_share * static_cast<double> (cloud.points.size ()))
+    {
+      log.add (frame.stamp, "there are hardly any readings: ", cloud.readings);
+      ++frames_lost;
+      last_motion = Eigen::Isometry3d::Identity ();
+      return;
+    }
+    good = trackCamera (cloud, frame);
+    if (good)
+      trackObjects (cloud, frame.stamp);
+  });
+  if (!good)
+  {
+    for (const auto& object : objects.active ())
+      ++object->frames_not_tracked;
+    return;
+  }
+  FrameSegmentation segmentation;
+  timed ("segmentation", [&] { segmentation = segment (cloud, frame.stamp, mask); });
+  timed ("integration", [&] { integrate (frame, cloud, segmentation.labels); });
+  report (segmentation);
+}
+
+DynamicFusion::DynamicFusion (const PinholeCamera& camera, const DynamicFusionOptions& options)
+: impl_ (std::make_unique<Impl> (camera, options))
+{}
+
+DynamicFusion::~DynamicFusion () = default;
+DynamicFusion::DynamicFusion (DynamicFusion&& other) noexcept = default;
+DynamicFusion&
+DynamicFusion::operator= (DynamicFusion&& other) noexcept = default;
+
+const TrackedFrame&
+DynamicFusion::process (const RgbdFrame& frame, const Image<std::uint16_t>* mask)
+{
+  impl_->process (frame, mask);
+  return impl_->result;
+}
+
+std::set<int>
+DynamicFusion::objects () const
+{
+  std::set<int> ids;
+  for (const auto& object : impl_->objects.active ())
+    ids.insert (object->id);
+  return ids;
+}
+
+std::set<int>
+DynamicFusion::foundObjects () const
+{
+  return impl_->objects.found ();
+}
+
+TriangleMesh
+DynamicFusion::surfaceMesh (int id) const
+{
+  return impl_->objects.surfaceMesh (id);
+}
+
+TriangleMesh
+DynamicFusion::backgroundMesh () const
+{
+  return impl_->background.volume () ? impl_->background.volume ()->surfaceMesh () : TriangleMesh ();
+}
+
+std::vector<std::string>
+DynamicFusion::events () const
+{
+  return impl_->log.lines ();
+}
+
+const std::map<std::string, double>&
+DynamicFusion::timings () const
+{
+  return impl_->timings;
+}
+
+} // namespace cosection
+} // namespace pcl

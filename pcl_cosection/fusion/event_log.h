@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_cosection authors
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+#include <sstream>
+#include <string>
+#include <vector>
+
+namespace pcl
+{
+namespace cosection
+{
+
+/** \brief Lines about decisions; what it keeps is bounded. */
+class EventLog
+{
+public:
+  template <typename... Parts> void
+  add (double stamp, const Parts&... parts)
+  {
+    if (lines_.size () >= most)
+    {
+      ++more_;
+      return;
+    }
+    std::ostringstream text;
+    text.precision (10);
+    text << "frame " << stamp << ": ";
+    text.precision (3);
+    (text << ... << parts);
+    lines_.push_back (text.str ());
+  }
+
+  std::vector<std::string>
+  lines () const
+  {
+    std::vector<std::string> result = lines_;
+    if (more_ > 0)
+      result.push_back ("and " + std::to_string (more_) + " more");
+    return result;
+  }
+
+private:
+  static constexpr std::size_t most = 100;
+  std::vector<std::string> lines_;
+  std::size_t more_ = 0;
+};
+
+} // namespace cosection
+} // namespace pcl

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_cosection authors
+#pragma once
+
+#include <pcl/cosection/common/camera.h>
+#include <pcl/cosection/common/image.h>
+
+#include <Eigen/Core>
+
+#include <cstddef>
+#include <vector>
+
+namespace pcl
+{
+namespace cosection
+{
+
+/** \brief The readings of a depth image as points, row by row. */
+struct FrameCloud
+{
+  PinholeCamera camera;
+  Image<float> depth;                  ///< metres; NaN: no reading, beyond the largest depth
+  Image<float> reliable;               ///< the same without pixels at depth edges, where readings are frayed
+  std::vector<Eigen::Vector3f> points; ///< sensor frame, of all readings, smoothed if asked for; NaN: none
+  std::size_t readings = 0;
+
+  /** \brief Every \a step-th reliable point along rows and columns. */
+  std::vector<Eigen::Vector3f>
+  sample (int step) const;
+};
+
+/** \param[in] smooth filter the points' depth bilaterally */
+FrameCloud
+makeFrameCloud (const Image<float>& depth, const PinholeCamera& camera, double max_depth_m, bool smooth, int threads);
+
+/** \brief How much a reading at depth \a z counts for a pose: the inverse of its variance, with that of a model whose voxels are so
+ * large; 1 without noise. */
+float
+readingWeight (double z, double voxel_size_m);
+
+} // namespace cosection
+} // namespace pcl

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_cosection authors
+#pragma once
+
+#include "event_log.h"
+#include "frame_cloud.h"
+#include "frame_segmentation.h"
+#include "pose_tracking.h"
+#include "tracked_object.h"
+
+#include <pcl/cosection/fusion/dynamic_fusion.h>
+#include <pcl/cosection/fusion/mask_matching.h>
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <set>
+#include <vector>
+
+namespace pcl
+{
+namespace cosection
+{
+
+/** \brief A frame in which objects are looked for. */
+struct MaskedFrame
+{
+  double stamp;
+  const FrameCloud& cloud;
+  const Image<std::uint16_t>& mask;
+  Eigen::Isometry3d T_world_camera;
+};
+
+/** \brief The objects that are known, and the decisions which there are. */
+class ObjectMap
+{
+public:
+  using Objects = std::vector<std::unique_ptr<TrackedObject>>;
+
+  ObjectMap (const PinholeCamera& camera, const DynamicFusionOptions& options);
+
+  /** \brief Those that are tracked or looked for, by ascending numbers. */
+  const Objects&
+  active () const
+  {
+    return active_;
+  }
+
+  /** \brief Numbers of all that were not given up as wrong. */
+  std::set<int>
+  found () const;
+
+  /** \brief What was seen of one of them, its frame; empty if there is none of that number. */
+  TriangleMesh
+  surfaceMesh (int id) const;
+
+  /** \brief Match the instances of a mask with objects; count which were seen and which missed; look for lost ones among
+   * instances that match none; begin new objects with the others.
+   * \param[in] labels what shows which object by association
+   * \return the object of each instance that has one */
+  std::map<std::uint16_t, std::uint16_t>
+  readMask (const MaskedFrame& frame, const Image<std::uint16_t>& labels, PoseTracking& tracking, EventLog& log);
+
+  /** \brief Give up what is probably no object, and stop looking for what was not seen for long. */
+  void
+  tidy (double stamp, const FrameSegmentation& segmentation, EventLog& log);
+
+  /** \brief Make room for what is labelled as an object's. */
+  void
+  grow (const MaskedFrame& frame, const Image<std::uint16_t>& labels, EventLog& log);
+
+private:
+  MaskMatches
+  match (const MaskedFrame& frame, const Image<std::uint16_t>& labels) const;
+  void
+  countExistence (const MaskMatches& matches);
+  /** \brief The object that an instance shows, of those that are not tracked. */
+  TrackedObject*
+  findAgain (const MaskedFrame& frame, const std::vector<Eigen::Vector3f>& points, std::uint16_t instance, PoseTracking& tracking);
+  TrackedObject*
+  create (const MaskedFrame& frame, const std::vector<Eigen::Vector3f>& points, std::uint16_t instance, EventLog& log);
+  void
+  sortActive ();
+
+  DynamicFusionOptions options_;
+  std::size_t min_pixels_;
+  TsdfOptions tsdf_;
+  Objects active_;
+  Objects dormant_;                            // not seen for long, but they may come back
+  std::map<int, TriangleMesh> surfaces_of_gone_; // of those before them, which are not looked for any more
+  std::set<int> not_growing_; // whose largest size was told
+  int next_id_ = 1;
+};
+
+} // namespace cosection
+} // namespace pcl

@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_cosection authors
+#include "pose_tracking.h"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+#include <utility>
+
+namespace pcl
+{
+namespace cosection
+{
+
+namespace
+{
+
+constexpr std::size_t min_camera_points = 200;
+constexpr std::size_t min_object_points = 50;
+constexpr int object_rounds = 2;           // of association and alignment
+constexpr double min_confirmed = 0.5;      // of an object's surface about which a frame says something
+constexpr double min_found_confirmed = 0.7; // of one that comes back
+constexpr double min_in_view = 0.1;
+constexpr double tolerance_voxels = 2.0;
+
+constexpr PoseLimits camera_limits{0.15, 0.26, 0.3, 0.1};
+constexpr PoseLimits object_limits{0.15, 0.5, 0.3, 0.0};
+
+SdfAlignmentOptions
+alignmentOptions (int max_points, int threads)
+{
+  SdfAlignmentOptions options;
+  options.max_points = max_points;
+  options.threads = threads;
+  return options;
+}
+
+Eigen::Vector3d
+centroid (const std::vector<Eigen::Vector3f>& points, const std::vector<float>& weights)
+{
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero ();
+  double total = 0.0;
+  for (std::size_t n = 0; n < points.size (); ++n)
+    if (weights[n] > 0.0f)
+    {
+      sum += weights[n] * points[n].cast<double> ();
+      total += weights[n];
+    }
+  return total > 0.0 ? Eigen::Vector3d (sum / total) : sum;
+}
+
+template <typename... Parts> std::string
+line (const Parts&... parts)
+{
+  std::ostringstream text;
+  text.precision (3);
+  (text << ... << parts);
+  return text.str ();
+}
+
+/** \brief Why a pose is not believed. */
+std::string
+doubtOf (const SdfAlignmentResult& result, const Eigen::Isometry3d& guess, const Eigen::Vector3d& centre, std::size_t points,
+         const PoseLimits& limits, double frames_passed)
+{
+  if (result.stop == SdfAlignmentStop::TooFewPoints || result.stop == SdfAlignmentStop::NoGradient)
+    return describe (result.stop);
+  if (static_cast<double> (result.points_with_distance) < limits.min_points_share * static_cast<double> (points))
+    return line ("only ", result.points_with_distance, " of ", points, " points are where the model knows a surface");
+  if (result.inlier_share < limits.min_inlier_share)
+    return line ("only ", 100.0 * result.inlier_share, " % of the points fit");
+  const double shift = (result.T_grid_sensor * centre - guess * centre).norm ();
+  const double turn = Eigen::AngleAxisd (guess.linear ().transpose () * result.T_grid_sensor.linear ()).angle ();
+  if (shift > limits.max_shift_m * frames_passed || turn > limits.max_turn_rad * frames_passed)
+    return line ("it would have jumped by ", shift, " m and ", turn * 180.0 / M_PI, " degrees");
+  return "";
+}
+
+/** \brief The reliable points that may lie in a volume, and what they count. */
+std::vector<Eigen::Vector3f>
+pointsNear (const FrameCloud& cloud, const AssociatedModel& model)
+{
+  const VoxelGrid& grid = model.volume->grid ();
+  const Eigen::Isometry3d T_camera_model = model.T_model_sensor.inverse ();
+  Eigen::AlignedBox2d seen;
+  for (int corner = 0; corner < 8; ++corner)
+  {
+    const Eigen::Vector3d p = T_camera_model * grid.center ((corner & 1) * (grid.dims.x () - 1), ((corner >> 1) & 1) * (grid.dims.y () - 1),
+                                                            (corner >> 2) * (grid.dims.z () - 1));
+    if (p.z () <= 0.0)
+      return cloud.sample (1);
+    seen.extend (cloud.camera.project (p));
+  }
+  const auto clamped = [] (double value, int last) { return static_cast<int> (std::min<double> (last, std::max (0.0, value))); };
+  std::vector<Eigen::Vector3f> points;
+  if (seen.max ().x () < 0.0 || seen.max ().y () < 0.0 || seen.min ().x () > cloud.camera.width || seen.min ().y () > cloud.camera.height)
+    return points;
+  for (int v = clamped (seen.min ().y (), cloud.camera.height - 1); v <= clamped (seen.max ().y (), cloud.camera.height - 1); ++v)
+    for (int u = clamped (seen.min ().x (), cloud.camera.width - 1); u <= clamped (seen.max ().x (), cloud.camera.width - 1); ++u)
+    {
+      const Eigen::Vector3f& p = cloud.points[static_cast<std::size_t> (v) * cloud.camera.width + u];
+      if (std::isfinite (cloud.reliable.at (u, v)) && grid.nearest (model.T_model_sensor * p.cast<double> ()))
+        points.push_back (p);
+    }
+  return points;
+}
+
+void
+weighReadings (const std::vector<Eigen::Vector3f>& points, double voxel_size_m, std::vector<float>& weights)
+{
+  for (std::size_t n = 0; n < points.size (); ++n)
+    weights[n] *= readingWeight (points[n].z (), voxel_size_m);
+}
+
+} // namespace
+
+PoseTracking::PoseTracking (int max_points, const AssociationOptions& association, int threads)
+: camera_ (alignmentOptions (max_points, threads))
+, object_ (alignmentOptions (max_points, threads))
+, association_ (association)
+, max_points_ (max_points)
+{}
+
+PoseEstimate
+PoseTracking::trackCamera (const FrameCloud& cloud, const std::vector<AssociatedModel>& models, const Eigen::Isometry3d& guess,
+                           double frames_passed)
+{
+  const double pixels = static_cast<double> (cloud.camera.width) * cloud.camera.height;
+  const int step = std::max (1, static_cast<int> (std::ceil (std::sqrt (pixels / max_points_) - 0.01)));
+  const std::vector<Eigen::Vector3f> points = cloud.sample (step);
+  const TsdfVolume& background = *models[0].volume;
+  PoseEstimate estimate;
+  estimate.T_model_camera = guess;
+  if (points.size () < min_camera_points)
+  {
+    estimate.doubt = "there are hardly any readings";
+    return estimate;
+  }
+  std::vector<float> weights = association_.probabilities (points, models, 0);
+  weighReadings (points, background.grid ().voxel_size_m, weights);
+  estimate.alignment = camera_.align (points, weights, background, guess);
+  estimate.T_model_camera = estimate.alignment.T_grid_sensor;
+  estimate.doubt = doubtOf (estimate.alignment, guess, Eigen::Vector3d (0.0, 0.0, 1.0), points.size (), camera_limits, frames_passed);
+  return estimate;
+}
+
+PoseEstimate
+PoseTracking::trackObject (const FrameCloud& cloud, std::vector<AssociatedModel> models, std::size_t target, double frames_passed)
+{
+  const TsdfVolume& volume = *models[target].volume;
+  const Eigen::Isometry3d guess = models[target].T_model_sensor;
+  PoseEstimate estimate;
+  estimate.T_model_camera = guess;
+  Eigen::Vector3d centre = Eigen::Vector3d::Zero ();
+  for (int round = 0; round < object_rounds; ++round)
+  {
+    const std::vector<Eigen::Vector3f> points = pointsNear (cloud, models[target]);
+    std::vector<float> weights = association_.probabilities (points, models, target);
+    if (round == 0)
+      centre = centroid (points, weights);
+    weighReadings (points, volume.grid ().voxel_size_m, weights);
+    estimate.alignment = object_.align (points, weights, volume, models[target].T_model_sensor);
+    estimate.doubt = estimate.alignment.points_with_distance < min_object_points
+                         ? std::string (describe (SdfAlignmentStop::TooFewPoints))
+                         : doubtOf (estimate.alignment, guess, centre, points.size (), object_limits, frames_passed);
+    if (!estimate.doubt.empty ())
+      break;
+    models[target].T_model_sensor = estimate.alignment.T_grid_sensor;
+    estimate.T_model_camera = estimate.alignment.T_grid_sensor;
+  }
+  estimate.visibility =
+      checkVisibility (volume, estimate.T_model_camera, cloud, tolerance_voxels * volume.grid ().voxel_size_m);
+  if (estimate.doubt.empty () && estimate.visibility.confirmedShare () < min_confirmed)
+    estimate.doubt = line ("readings are behind ", 100.0 * (1.0 - estimate.visibility.confirmedShare ()), " % of its surface");
+  return estimate;
+}
+
+PoseEstimate
+PoseTracking::findObject (const FrameCloud& cloud, const std::vector<Eigen::Vector3f>& points, const TsdfVolume& volume,
+                          const Eigen::Isometry3d& guess)
+{
+  PoseEstimate estimate;
+  std::vector<float> weights (points.size (), 1.0f);
+  weighReadings (points, volume.grid ().voxel_size_m, weights);
+  estimate.alignment = object_.align (points, weights, volume, guess);
+  estimate.T_model_camera = estimate.alignment.T_grid_sensor;
+  estimate.visibility =
+      checkVisibility (volume, estimate.T_model_camera, cloud, tolerance_voxels * volume.grid ().voxel_size_m);
+  const SdfAlignmentResult& result = estimate.alignment;
+  if (result.points_with_distance < std::max (min_object_points, points.size () / 2))
+    estimate.doubt = "most points are where its model knows nothing";
+  else if (result.inlier_share < min_found_confirmed)
+    estimate.doubt = line ("only ", 100.0 * result.inlier_share, " % of the points fit");
+  else if (estimate.visibility.confirmedShare () < min_found_confirmed || estimate.visibility.inViewShare () < min_in_view)
+    estimate.doubt = "the readings do not confirm its surface";
+  return estimate;
+}
+
+} // namespace cosection
+} // namespace pcl

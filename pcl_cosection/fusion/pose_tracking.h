@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_cosection authors
+#pragma once
+
+#include "frame_cloud.h"
+#include "visibility_check.h"
+
+#include <pcl/cosection/fusion/data_association.h>
+#include <pcl/cosection/tracking/sdf_alignment.h>
+
+#include <Eigen/Geometry>
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace pcl
+{
+namespace cosection
+{
+
+/** \brief Where a model is relative to the camera, and whether to believe it. */
+struct PoseEstimate
+{
+  Eigen::Isometry3d T_model_camera = Eigen::Isometry3d::Identity ();
+  SdfAlignmentResult alignment;
+  Visibility visibility; ///< of objects
+  std::string doubt;     ///< why it is not believed; empty: it is
+};
+
+/** \brief What a pose is checked against. */
+struct PoseLimits
+{
+  double max_shift_m;       ///< from the guess, of the points' centroid
+  double max_turn_rad;      ///< from the guess
+  double min_inlier_share;
+  double min_points_share;  ///< of the points, those where the model knows a distance
+};
+
+/** \brief Tracks the camera against the background and objects relative to the camera: frame to model, weighted by association. */
+class PoseTracking
+{
+public:
+  PoseTracking (int max_points, const AssociationOptions& association, int threads);
+
+  /** \brief \param[in] models the background first, objects where they are expected relative to the camera at \a guess
+   * \param[in] guess T_world_camera */
+  PoseEstimate
+  trackCamera (const FrameCloud& cloud, const std::vector<AssociatedModel>& models, const Eigen::Isometry3d& guess, double frames_passed);
+
+  /** \brief Track the model of number \a target from where it is among \a models.
+   * \param[in] within pixels that may show it; null: all */
+  PoseEstimate
+  trackObject (const FrameCloud& cloud, std::vector<AssociatedModel> models, std::size_t target, double frames_passed);
+
+  /** \brief Find an object at points of which all are said to be its own. \param[in] guess T_model_camera */
+  PoseEstimate
+  findObject (const FrameCloud& cloud, const std::vector<Eigen::Vector3f>& points, const TsdfVolume& volume,
+              const Eigen::Isometry3d& guess);
+
+private:
+  SdfAlignment camera_;
+  SdfAlignment object_;
+  DataAssociation association_;
+  int max_points_;
+};
+
+} // namespace cosection
+} // namespace pcl

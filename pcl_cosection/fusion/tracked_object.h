@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_cosection authors
+#pragma once
+
+#include <pcl/cosection/volume/tsdf_volume.h>
+
+#include <Eigen/Geometry>
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+namespace pcl
+{
+namespace cosection
+{
+
+enum class ObjectState
+{
+  Tracked,
+  Hidden, ///< out of view, or behind something else
+  Lost,   ///< it should be seen, but is not found
+};
+
+/** \brief An object that is tracked: its volume and what is known of its motion. */
+struct TrackedObject
+{
+  TrackedObject (int id, const VoxelGrid& grid, const TsdfOptions& tsdf, const Eigen::Isometry3d& T_world_object)
+  : id (id), volume (grid, tsdf), T_world_object (T_world_object)
+  {}
+
+  /** \brief Share of the masks in which it should have been seen and was. */
+  double
+  existence () const
+  {
+    return seen + missed > 0 ? static_cast<double> (seen) / (seen + missed) : 1.0;
+  }
+
+  /** \brief Where it is next, if it goes on as it did. */
+  Eigen::Isometry3d
+  predicted () const
+  {
+    return state == ObjectState::Tracked ? last_motion * T_world_object : T_world_object;
+  }
+
+  int id;
+  TsdfVolume volume;                                           ///< object frame
+  Eigen::Isometry3d T_world_object;                            ///< the last good one
+  Eigen::Isometry3d last_motion = Eigen::Isometry3d::Identity (); ///< T_now_before, world frame
+  ObjectState state = ObjectState::Tracked;
+  int mask_id = 0;            ///< in the masks, if ids persist
+  int seen = 0;               ///< in masks
+  int missed = 0;
+  int frames_not_tracked = 0; ///< since it was
+  std::size_t pixels = 0;     ///< assigned to it when it was last tracked
+  double range_m = 0.0;       ///< mean depth of those
+};
+
+/** \brief Where the volume of a new object lies: centred on the box of its points without a tenth of them at either end of each axis, its edge
+ * twice the longest side of that. Nothing for too few points or none of extent.
+ * \param[in] points world frame */
+std::optional<VoxelGrid>
+placeObjectVolume (const std::vector<Eigen::Vector3f>& points, int resolution);
+
+/** \brief Make room for points that have come near the volume's sides or beyond; its voxels stay.
+ * \param[in] points object frame
+ * \return whether the volume holds them, but for outliers */
+bool
+growObjectVolume (TsdfVolume& volume, const std::vector<Eigen::Vector3f>& points, int max_resolution);
+
+/** \brief Intersection over union of two volumes' boxes, by sampling the first. */
+double
+volumeOverlap (const VoxelGrid& a, const Eigen::Isometry3d& T_world_a, const VoxelGrid& b, const Eigen::Isometry3d& T_world_b);
+
+} // namespace cosection
+} // namespace pcl

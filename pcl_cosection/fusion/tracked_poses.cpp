@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_cosection authors
+#include "frame_knowledge.h"
+
+#include <pcl/cosection/fusion/dynamic_fusion.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <set>
+
+namespace pcl
+{
+namespace cosection
+{
+
+namespace
+{
+
+constexpr std::size_t status_every = 10; // frames
+
+DynamicFusionOptions
+frontEndOptions (const TrackedSequence& sequence, const FusionOptions& options)
+{
+  DynamicFusionOptions front_end = options.front_end;
+  front_end.objects = sequence.masks != nullptr;
+  return front_end;
+}
+
+/** \brief Poses and what shows which object are found out frame by frame. */
+class TrackedPoses : public FrameKnowledge
+{
+public:
+  TrackedPoses (const TrackedSequence& sequence, const FusionOptions& options)
+  : options_ (options)
+  , masks_ (sequence.masks)
+  , with_masks_ (sequence.masks != nullptr)
+  , fusion_ (sequence.images->camera (), frontEndOptions (sequence, options))
+  {}
+
+  std::optional<Eigen::Isometry3d>
+  next (const RgbdFrame& frame) override;
+
+  const std::optional<Image<std::uint16_t>>&
+  instances () const override
+  {
+    return instances_;
+  }
+
+  /** \brief A mask is waited for as long as one may still come. */
+  bool
+  isFitForKeyframe (std::size_t overdue) const override
+  {
+    return instances_ && (!with_masks_ || tracked_->masked || overdue >= static_cast<std::size_t> (options_.keyframe_every));
+  }
+
+  void
+  look (Keyframe& keyframe) override
+  {
+    keyframe.points.erase (TrackedFrame::unassigned);
+  }
+
+  CoSectionBackend::Poses
+  poses () const override
+  {
+    return tracked_->T_world_object;
+  }
+
+  void
+  map (const RgbdFrame&, const Eigen::Isometry3d&) override
+  {}
+
+  std::string
+  status () const override
+  {
+    return status_;
+  }
+
+  std::vector<std::string>
+  maskWarnings () const override
+  {
+    return masks_.warnings ();
+  }
+
+  void
+  finish (FusionResult& result) override;
+
+private:
+  void
+  describe ();
+
+  const FusionOptions& options_;
+  MaskReader masks_;
+  const bool with_masks_;
+  DynamicFusion fusion_;
+  const TrackedFrame* tracked_ = nullptr; // of the frame
+  std::optional<Image<std::uint16_t>> instances_;
+  std::size_t frames_ = 0;
+  std::size_t frames_lost_ = 0;
+  std::string status_;
+  double masks_s_ = 0.0;
+  const std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now ();
+};
+
+std::optional<Eigen::Isometry3d>
+TrackedPoses::next (const RgbdFrame& frame)
+{
+  std::optional<Image<std::uint16_t>> mask;
+  addSeconds (masks_s_, [&] { mask = masks_.read (frame); });
+  tracked_ = &fusion_.process (frame, mask ? &*mask : nullptr);
+  ++frames_;
+  frames_lost_ += !tracked_->T_world_camera;
+  instances_.reset ();
+  if (tracked_->T_world_camera)
+    instances_ = tracked_->instances;
+  if (frames_ % status_every == 1)
+    describe ();
+  return tracked_->T_world_camera;
+}
+
+void
+TrackedPoses::describe ()
+{
+  const double seconds = std::chrono::duration<double> (std::chrono::steady_clock::now () - start_).count ();
+  char text[128];
+  std::snprintf (text, sizeof (text), "%.1f/s, %zu objects, %d lost, %s%.0f %%", static_cast<double> (frames_) / std::max (1e-3, seconds),
+                 fusion_.objects ().size (), tracked_->lost, tracked_->T_world_camera ? "fit " : "camera lost ",
+                 100.0 * tracked_->inlier_share);
+  status_ = text;
+}
+
+void
+TrackedPoses::finish (FusionResult& result)
+{
+  for (const auto& [stage, seconds] : fusion_.timings ())
+    result.timings_s[stage] += seconds;
+  result.timings_s["segmentation"] += masks_s_;
+  result.tracked = true;
+  result.events = fusion_.events ();
+  if (frames_lost_ > 0)
+    result.warnings.push_back (std::to_string (frames_lost_) + " of " + std::to_string (frames_) +
+                               " frames were left out: the camera could not be tracked in them");
+  const std::set<int> found = fusion_.foundObjects ();
+  for (auto object = result.objects.begin (); object != result.objects.end ();)
+  {
+    const int id = object->first;
+    if (found.count (id) > 0)
+    {
+      object->second.tsdf = fusion_.surfaceMesh (id);
+      ++object;
+      continue;
+    }
+    auto& completed = result.scene.objects;
+    completed.erase (std::remove_if (completed.begin (), completed.end (), [id] (const ObjectResult& o) { return o.id == id; }),
+                     completed.end ());
+    object = result.objects.erase (object);
+  }
+}
+
+} // namespace
+
+std::unique_ptr<FrameKnowledge>
+makeTrackedPoses (const TrackedSequence& sequence, const FusionOptions& options)
+{
+  return std::make_unique<TrackedPoses> (sequence, options);
+}
+
+} // namespace cosection
+} // namespace pcl

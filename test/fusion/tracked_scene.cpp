@@ -1,0 +1,207 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_cosection authors
+#include "fusion/tracked_scene.h"
+
+#include <pcl/cosection/simulation/scene_renderer.h>
+
+#include <algorithm>
+#include <map>
+
+namespace pcl
+{
+namespace cosection
+{
+namespace test
+{
+
+namespace
+{
+
+const Eigen::Vector3d middle (0.0, 0.0, 0.1);
+
+Eigen::Isometry3d
+at (const Eigen::Vector3d& position)
+{
+  Eigen::Isometry3d T = Eigen::Isometry3d::Identity ();
+  T.translation () = position;
+  return T;
+}
+
+BodyPart
+part (Shape::ConstPtr shape, const Eigen::Vector3d& position)
+{
+  BodyPart result;
+  result.shape = std::move (shape);
+  result.T_body_part = at (position);
+  return result;
+}
+
+} // namespace
+
+Image<std::uint16_t>
+reshuffled (const Image<std::uint16_t>& mask, int frame)
+{
+  Image<std::uint16_t> result = mask;
+  for (std::uint16_t& pixel : result.pixels)
+    if (pixel != 0)
+      pixel = static_cast<std::uint16_t> (1 + (pixel * 37 + frame * 11) % 101);
+  return result;
+}
+
+KeyedMotion
+movingThing (const Eigen::Vector3d& from, const Eigen::Vector3d& to, double turn_rad)
+{
+  const Eigen::Quaterniond start = Eigen::Quaterniond::Identity ();
+  const Eigen::Quaterniond end (Eigen::AngleAxisd (turn_rad, Eigen::Vector3d::UnitZ ()));
+  return KeyedMotion (KeyedVector ({0.0, 1.0}, {from, to}), KeyedRotation ({0.0, 1.0}, {start, end}));
+}
+
+int
+TrackedRun::framesWithCamera () const
+{
+  return static_cast<int> (
+      std::count_if (frames.begin (), frames.end (), [] (const TrackedFrame& frame) { return frame.T_world_camera.has_value (); }));
+}
+
+int
+TrackedRun::framesOf (int id) const
+{
+  return static_cast<int> (
+      std::count_if (frames.begin (), frames.end (), [id] (const TrackedFrame& frame) { return frame.T_world_object.count (id) > 0; }));
+}
+
+double
+TrackedRun::cameraError () const
+{
+  double largest = 0.0;
+  for (std::size_t n = 0; n < frames.size (); ++n)
+    if (frames[n].T_world_camera)
+      largest = std::max (largest, (frames[n].T_world_camera->translation () - T_world_camera[n].translation ()).norm ());
+  return largest;
+}
+
+double
+TrackedRun::objectError (int id, const SceneBody& body) const
+{
+  std::optional<Eigen::Isometry3d> T_object_body;
+  double largest = 0.0;
+  for (std::size_t n = 0; n < frames.size (); ++n)
+  {
+    const auto pose = frames[n].T_world_object.find (id);
+    if (pose == frames[n].T_world_object.end ())
+      continue;
+    const Eigen::Isometry3d truth = body.motion.at (times[n]);
+    if (!T_object_body)
+      T_object_body = pose->second.inverse () * truth;
+    largest = std::max (largest, ((pose->second * *T_object_body).translation () - truth.translation ()).norm ());
+  }
+  return largest;
+}
+
+int
+TrackedRun::foundAs (int body) const
+{
+  std::map<int, int> counts;
+  for (std::size_t n = 0; n < masks.back ().pixels.size (); ++n)
+    if (masks.back ().pixels[n] == body)
+      ++counts[frames.back ().instances.pixels[n]];
+  counts.erase (TrackedFrame::unassigned);
+  const auto most =
+      std::max_element (counts.begin (), counts.end (), [] (const auto& a, const auto& b) { return a.second < b.second; });
+  return most == counts.end () ? 0 : most->first;
+}
+
+double
+TrackedRun::shareOfBackgroundInside (const TrackedScene& scene, int id, double depth_m) const
+{
+  const SceneBody& body = scene.body (id);
+  std::size_t inside = 0;
+  for (const Eigen::Vector3f& vertex : background.vertices)
+    inside += std::any_of (times.begin (), times.end (), [&] (double time) {
+      return body.distance (body.motion.at (time).inverse () * vertex.cast<double> ()) < -depth_m;
+    });
+  return static_cast<double> (inside) / static_cast<double> (std::max<std::size_t> (1, background.vertices.size ()));
+}
+
+TrackedScene::TrackedScene (int frames, Surroundings surroundings)
+{
+  scene_.camera = PinholeCamera{160, 120, 131.0, 131.0, 79.5, 59.5};
+  scene_.frames = frames;
+  scene_.rate = frames;
+  scene_.noise = DepthNoise ();
+  SceneBody room;
+  room.name = "room";
+  if (surroundings == Surroundings::Room)
+  {
+    room.parts.push_back (part (makeRoom ({3.0, 3.0, 2.4}), {0.0, 0.0, 1.2}));
+    room.parts.push_back (part (makeBox ({0.5, 0.3, 0.6}), {-0.8, 0.9, 0.3}));
+    room.parts.push_back (part (makeBox ({0.4, 0.4, 0.35}), {0.7, 0.8, 0.175}));
+    scene_.camera_motion = KeyedMotion (lookAt ({0.0, -1.3, 0.9}, middle));
+  }
+  else
+  {
+    room.parts.push_back (part (makeRoom ({20.0, 2.0, 20.0}), Eigen::Vector3d::Zero ()));
+    scene_.camera_motion = KeyedMotion (lookAt ({0.0, -0.3, 0.0}, {0.0, 1.0, 0.0}));
+  }
+  scene_.bodies.push_back (room);
+}
+
+void
+TrackedScene::addThing (int id, const KeyedMotion& motion)
+{
+  SceneBody thing;
+  thing.name = "thing" + std::to_string (id);
+  thing.id = id;
+  thing.parts.push_back (part (makeBox ({0.26, 0.16, 0.12}), {0.0, 0.0, 0.061}));
+  thing.parts.push_back (part (makeSphere (0.07), {0.06, 0.0, 0.16}));
+  thing.motion = motion;
+  scene_.bodies.push_back (thing);
+}
+
+void
+TrackedScene::moveCamera (const Eigen::Vector3d& from, const Eigen::Vector3d& to)
+{
+  scene_.camera_motion =
+      KeyedMotion (KeyedVector ({0.0, 1.0}, {from, to}), KeyedVector ({0.0}, {middle}), Eigen::Vector3d::UnitZ ());
+}
+
+const SceneBody&
+TrackedScene::body (int id) const
+{
+  return *std::find_if (scene_.bodies.begin (), scene_.bodies.end (), [id] (const SceneBody& body) { return body.id == id; });
+}
+
+TrackedRun
+TrackedScene::run (const MaskPolicy& masks, DynamicFusionOptions options) const
+{
+  const SceneRenderer renderer (scene_);
+  options.first_pose = scene_.camera_motion.at (0.0);
+  options.background_resolution = 128;
+  DynamicFusion fusion (scene_.camera, options);
+  TrackedRun run;
+  for (int n = 0; n < scene_.frames; ++n)
+  {
+    const double time = scene_.timeOf (n);
+    const SimulatedFrame seen = renderer.render (time);
+    RgbdFrame frame;
+    frame.index = static_cast<std::size_t> (n);
+    frame.stamp = n;
+    frame.colour = seen.colour;
+    frame.depth = measureDepth (seen.depth, seen.normals, scene_.camera, *scene_.noise, scene_.seed, static_cast<std::uint64_t> (n));
+    if (spoil_)
+      spoil_ (n, frame.depth);
+    const std::optional<Image<std::uint16_t>> mask = masks (n, seen.mask);
+    run.frames.push_back (fusion.process (frame, mask ? &*mask : nullptr));
+    run.T_world_camera.push_back (seen.T_world_camera);
+    run.times.push_back (time);
+    run.masks.push_back (seen.mask);
+  }
+  run.found = fusion.foundObjects ();
+  run.events = fusion.events ();
+  run.background = fusion.backgroundMesh ();
+  return run;
+}
+
+} // namespace test
+} // namespace cosection
+} // namespace pcl

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_cosection authors
+#pragma once
+
+#include <pcl/cosection/fusion/dynamic_fusion.h>
+#include <pcl/cosection/simulation/simulated_scene.h>
+
+#include <functional>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace pcl
+{
+namespace cosection
+{
+namespace test
+{
+
+/** \brief The mask that the front end gets for a frame, made of the true one; nothing: none. */
+using MaskPolicy = std::function<std::optional<Image<std::uint16_t>> (int frame, const Image<std::uint16_t>& truth)>;
+
+/** \brief The same instances with other numbers, which differ from frame to frame. */
+Image<std::uint16_t>
+reshuffled (const Image<std::uint16_t>& mask, int frame);
+
+/** \brief From one place to another in a second, turning about z by \a turn_rad. */
+KeyedMotion
+movingThing (const Eigen::Vector3d& from, const Eigen::Vector3d& to, double turn_rad);
+
+/** \brief What the front end made of a scene, and the truth. */
+struct TrackedRun
+{
+  std::vector<TrackedFrame> frames;
+  std::vector<Eigen::Isometry3d> T_world_camera; ///< true; the first is given to the front end
+  std::vector<double> times;                     ///< s
+  std::vector<Image<std::uint16_t>> masks;       ///< true
+  std::set<int> found;
+  std::vector<std::string> events;
+  TriangleMesh background;
+
+  int
+  framesWithCamera () const;
+
+  /** \brief In how many an object of the front end was tracked. */
+  int
+  framesOf (int id) const;
+
+  /** \brief Largest distance of the camera from where it was, metres. */
+  double
+  cameraError () const;
+
+  /** \brief Largest distance of the object's origin from where it was, metres, relative to its first pose. */
+  double
+  objectError (int id, const SceneBody& body) const;
+
+  /** \brief The object of the front end that most pixels of a body belong to in the last frame. */
+  int
+  foundAs (int body) const;
+
+  /** \brief Share of the background's vertices that were deeper than \a depth_m within a body in some frame. */
+  double
+  shareOfBackgroundInside (const class TrackedScene& scene, int body, double depth_m) const;
+};
+
+/** \brief A corner of a room with things in it, as a structured-light camera sees it in a second. */
+class TrackedScene
+{
+public:
+  enum class Surroundings
+  {
+    Room,
+    Wall, ///< and nothing else
+  };
+
+  explicit TrackedScene (int frames, Surroundings surroundings = Surroundings::Room);
+
+  /** \brief A box with a ball beside it, on the floor. */
+  void
+  addThing (int id, const KeyedMotion& motion);
+
+  /** \brief Along a line, looking at the middle of the floor. */
+  void
+  moveCamera (const Eigen::Vector3d& from, const Eigen::Vector3d& to);
+
+  /** \brief Change the depth of each frame before the front end gets it. */
+  void
+  spoil (std::function<void (int frame, Image<float>& depth)> change)
+  {
+    spoil_ = std::move (change);
+  }
+
+  const SceneBody&
+  body (int id) const;
+
+  TrackedRun
+  run (const MaskPolicy& masks, DynamicFusionOptions options = {}) const;
+
+private:
+  SimulatedScene scene_;
+  std::function<void (int frame, Image<float>& depth)> spoil_;
+};
+
+} // namespace test
+} // namespace cosection
+} // namespace pcl
