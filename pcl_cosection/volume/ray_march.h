@@ -15,7 +15,7 @@ namespace pcl
 namespace cosection
 {
 
-/** \brief origin + t direction for 0 <= t <= end, within the voxels' box; voxel coordinates. */
+/** \brief origin + t direction for 0 <= t <= end; voxel coordinates, within the voxels' box whatever is rounded. */
 struct GridRay
 {
   std::array<float, 3> origin;
@@ -36,15 +36,20 @@ class RayMarch
 public:
   using Point = std::array<float, 3>; // voxel coordinates
 
+  /** \brief How far rays must stay away from the faces of the box. */
+  static double
+  margin (const VoxelGrid& grid)
+  {
+    constexpr double rounding = 1e-6; // of a coordinate of a ray
+    return rounding * grid.dims.maxCoeff () + 1e-4;
+  }
+
   RayMarch (const SignedDistanceField& field, const SignBricks& bricks)
   : values_ (field.values.data ())
   , bricks_ (bricks)
   , row_ (field.grid.dims.x ())
   , slice_ (row_ * field.grid.dims.y ())
-  {
-    for (int axis = 0; axis < 3; ++axis)
-      last_cell_[axis] = field.grid.dims[axis] - 2;
-  }
+  {}
 
   /** \brief Where the field first passes from positive values to others, if accept (t) says so; NaN: nowhere.
    *
@@ -62,7 +67,7 @@ public:
     while (true)
     {
       const Point p = ray.at (t);
-      const int distance = bricks_.distanceAt (cell (p, 0), cell (p, 1), cell (p, 2));
+      const int distance = bricks_.distanceAt (cell (p[0]), cell (p[1]), cell (p[2]));
       if (distance == 0 || known) // the first sample behind bricks with both signs belongs to them
       {
         if (!known)
@@ -92,13 +97,13 @@ public:
     }
   }
 
-  /** \brief Trilinear; NaN next to an unknown voxel. A point outside the box is taken as in the outermost cell. */
+  /** \brief Trilinear, within the voxels' box without its far faces; NaN next to an unknown voxel. */
   float
   sample (const Point& p) const
   {
-    const int i = cell (p, 0);
-    const int j = cell (p, 1);
-    const int k = cell (p, 2);
+    const std::ptrdiff_t i = cell (p[0]);
+    const std::ptrdiff_t j = cell (p[1]);
+    const std::ptrdiff_t k = cell (p[2]);
     const float* c = values_ + (k * slice_ + j * row_ + i);
     const float fx = p[0] - static_cast<float> (i);
     const float fy = p[1] - static_cast<float> (j);
@@ -118,10 +123,10 @@ private:
     return a + t * (b - a);
   }
 
-  int
-  cell (const Point& p, int axis) const
+  static std::ptrdiff_t
+  cell (float x)
   {
-    return std::min (std::max (0, static_cast<int> (p[axis])), last_cell_[axis]);
+    return static_cast<std::ptrdiff_t> (x);
   }
 
   /** \brief Zero between \a a, where the field is positive, and \a b; NaN: something is unknown between. */
@@ -139,7 +144,6 @@ private:
   const SignBricks& bricks_;
   std::ptrdiff_t row_;
   std::ptrdiff_t slice_;
-  std::array<int, 3> last_cell_;
 };
 
 } // namespace cosection

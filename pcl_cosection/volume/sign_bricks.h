@@ -37,7 +37,7 @@ public:
 
   /** \brief Of the brick that a cell is in. */
   int
-  distanceAt (unsigned i, unsigned j, unsigned k) const
+  distanceAt (std::size_t i, std::size_t j, std::size_t k) const
   {
     return distances_[index (i / edge, j / edge, k / edge)];
   }
@@ -49,9 +49,9 @@ public:
 
 private:
   std::size_t
-  index (int i, int j, int k) const
+  index (std::size_t i, std::size_t j, std::size_t k) const
   {
-    return (static_cast<std::size_t> (k) * dims_.y () + j) * dims_.x () + i;
+    return (k * dims_.y () + j) * dims_.x () + i;
   }
 
   /** \brief 1 for bricks of both signs. */

@@ -52,8 +52,11 @@ public:
   /** \param[in] box corners, voxel coordinates */
   GridRays (const VoxelGrid& grid, const std::array<Eigen::Vector3d, 2>& box, const PinholeCamera& camera,
             const Eigen::Isometry3d& T_grid_sensor)
-  : origin_ (grid.toVoxel (T_grid_sensor.translation ())), low_ (box[0] - origin_), high_ (box[1] - origin_)
+  : origin_ (grid.toVoxel (T_grid_sensor.translation ()))
   {
+    const double margin = RayMarch::margin (grid);
+    low_ = (box[0].array ().max (margin)).matrix () - origin_;
+    high_ = (box[1].array ().min (grid.dims.cast<double> ().array () - 1.0 - margin)).matrix () - origin_;
     Eigen::Matrix3d ray_of_pixel;
     ray_of_pixel << 1.0 / camera.fx, 0.0, -camera.cx / camera.fx, 0.0, 1.0 / camera.fy, -camera.cy / camera.fy, 0.0, 0.0, 1.0;
     directions_ = T_grid_sensor.linear () * ray_of_pixel / grid.voxel_size_m;
@@ -112,8 +115,22 @@ public:
   , bricks_ (volume_.field (), options.threads)
   , march_ (volume_.field (), bricks_)
   , rays_ (volume_.grid (), bricks_.surfaceBox (), image.camera, body.T_grid_sensor)
+  , last_ (volume_.grid ().dims.cast<float> ().array () - 1.0f - static_cast<float> (RayMarch::margin (volume_.grid ())))
   , image_ (image)
   {}
+
+  /** \brief The pixels that may see a surface. */
+  PixelRegion
+  region () const
+  {
+    const auto box = bricks_.surfaceBox ();
+    VoxelGrid part = volume_.grid ();
+    part.dims = (box[1] - box[0]).array ().round ().cast<int> () + 1; // corners are voxels
+    part.origin_m += part.voxel_size_m * box[0];
+    if (part.dims.minCoeff () < 2)
+      return {};
+    return projectedRegion (part, image_.camera, body_.T_grid_sensor);
+  }
 
   void
   castRow (int v, int left, int right) const
@@ -147,9 +164,7 @@ private:
   position (const GridRay& ray, float t) const
   {
     const RayMarch::Point p = ray.at (t);
-    const Eigen::Array3d v (p[0], p[1], p[2]);
-    const Eigen::Array3d last = volume_.grid ().dims.cast<double> ().array () - 1.0;
-    return volume_.grid ().origin_m + volume_.grid ().voxel_size_m * v.max (0.0).min (last).matrix ();
+    return volume_.grid ().origin_m + volume_.grid ().voxel_size_m * Eigen::Vector3d (p[0], p[1], p[2]);
   }
 
   bool
@@ -170,7 +185,7 @@ private:
       RayMarch::Point before = p;
       RayMarch::Point behind = p;
       before[axis] = std::max (0.0f, p[axis] - 1.0f);
-      behind[axis] = std::min (p[axis] + 1.0f, static_cast<float> (volume_.grid ().dims[axis] - 1));
+      behind[axis] = std::min (p[axis] + 1.0f, last_[axis]);
       gradient[axis] = (march_.sample (behind) - march_.sample (before)) / (behind[axis] - before[axis]);
     }
     if (!gradient.allFinite ())
@@ -187,21 +202,21 @@ private:
   SignBricks bricks_;
   RayMarch march_;
   GridRays rays_;
+  Eigen::Array3f last_; // where a cell is around, voxels
   RaycastImage& image_;
 };
 
 void
 cast (const RaycastBody& body, const RaycastOptions& options, RaycastImage& image)
 {
-  const VoxelGrid& grid = body.volume->grid ();
-  if (grid.dims.minCoeff () < 2) // no cell
+  if (body.volume->grid ().dims.minCoeff () < 2) // no cell
     return;
-  const PixelRegion region = projectedRegion (grid, image.camera, body.T_grid_sensor);
+  const BodyCaster caster (body, options, image);
+  const PixelRegion region = caster.region ();
   const int rows = region.bottom - region.top;
   const int columns = region.right - region.left;
   if (rows <= 0 || columns <= 0)
     return;
-  const BodyCaster caster (body, options, image);
   const int threads = std::min (rows, threadsForVoxels (options.threads, static_cast<std::size_t> (rows) * columns));
   parallelFor (0, threads, threads, [&] (int thread) { // rows by turns, so that each thread has long and short rays
     for (int v = region.top + thread; v < region.bottom; v += threads)

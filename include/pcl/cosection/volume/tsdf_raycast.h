@@ -65,7 +65,7 @@ struct PCL_COSECTION_EXPORT RaycastImage
  * distances themselves do not say how far a ray may go: they are those along the rays of other views, and beside a thin body
  * they are as large as far from it.
  *
- * O (voxels) to find out where signs differ, O (pixels of the volumes' boxes * voxels along a ray at most) to cast.
+ * O (voxels) to find out where signs differ, O (pixels of the surfaces' boxes * voxels along a ray at most) to cast.
  *
  * \code
  * const RaycastImage seen = raycast ({{&room, T_room_sensor, 0}, {&cup, T_cup_sensor, 1, true}}, camera);
