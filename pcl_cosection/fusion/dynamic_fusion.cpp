@@ -195,7 +195,7 @@ DynamicFusion::Impl::trackCamera (const FrameCloud& cloud, const RgbdFrame& fram
   if (frames_lost > 0)
     log.add (stamp, "the camera is found again after ", frames_lost, " frames");
   // What the surroundings do not tell must not go on by itself.
-  const bool steady = frames_passed == 1.0 && estimate.alignment.observed_directions == all_directions;
+  const bool steady = frames_passed == 1.0 && estimate.observed_directions == all_directions;
   last_motion = steady ? Eigen::Isometry3d (T_world_camera.inverse () * estimate.T_model_camera) : Eigen::Isometry3d::Identity ();
   T_world_camera = estimate.T_model_camera;
   frames_lost = 0;
@@ -225,7 +225,7 @@ DynamicFusion::Impl::trackObjects (const FrameCloud& cloud, double stamp)
     if (estimate.doubt.empty ())
     {
       const Eigen::Isometry3d T_world_object = T_world_camera * estimate.T_model_camera.inverse ();
-      const bool steady = object.state == ObjectState::Tracked && estimate.alignment.observed_directions == all_directions;
+      const bool steady = object.state == ObjectState::Tracked && estimate.observed_directions == all_directions;
       if (object.state == ObjectState::Lost)
         log.add (stamp, "object ", object.id, " is found again");
       object.last_motion = steady ? Eigen::Isometry3d (T_world_object * object.T_world_object.inverse ()) : Eigen::Isometry3d::Identity ();

@@ -2,6 +2,8 @@
 // Copyright (c) 2026, the pcl_cosection authors
 #include "pose_tracking.h"
 
+#include "observed_motion.h"
+
 #include <algorithm>
 #include <cmath>
 #include <sstream>
@@ -139,7 +141,9 @@ PoseTracking::trackCamera (const FrameCloud& cloud, const std::vector<Associated
   std::vector<float> weights = association_.probabilities (points, models, 0);
   weighReadings (points, background.grid ().voxel_size_m, weights);
   estimate.alignment = camera_.align (points, weights, background, guess);
-  estimate.T_model_camera = estimate.alignment.T_grid_sensor;
+  const ObservedMotion observed = observedMotion (points, weights, background, guess, estimate.alignment.T_grid_sensor);
+  estimate.T_model_camera = observed.T_model_camera;
+  estimate.observed_directions = std::min (observed.directions, estimate.alignment.observed_directions);
   estimate.doubt = doubtOf (estimate.alignment, guess, Eigen::Vector3d (0.0, 0.0, 1.0), points.size (), camera_limits, frames_passed);
   return estimate;
 }
@@ -165,6 +169,7 @@ PoseTracking::trackObject (const FrameCloud& cloud, std::vector<AssociatedModel>
                          : doubtOf (estimate.alignment, guess, centre, points.size (), object_limits, frames_passed);
     if (!estimate.doubt.empty ())
       break;
+    estimate.observed_directions = estimate.alignment.observed_directions;
     models[target].T_model_sensor = estimate.alignment.T_grid_sensor;
     estimate.T_model_camera = estimate.alignment.T_grid_sensor;
   }

@@ -24,6 +24,7 @@ struct PoseEstimate
 {
   Eigen::Isometry3d T_model_camera = Eigen::Isometry3d::Identity ();
   SdfAlignmentResult alignment;
+  int observed_directions = 0; ///< of six, those that the surface tells
   Visibility visibility; ///< of objects
   std::string doubt;     ///< why it is not believed; empty: it is
 };
@@ -48,8 +49,7 @@ public:
   PoseEstimate
   trackCamera (const FrameCloud& cloud, const std::vector<AssociatedModel>& models, const Eigen::Isometry3d& guess, double frames_passed);
 
-  /** \brief Track the model of number \a target from where it is among \a models.
-   * \param[in] within pixels that may show it; null: all */
+  /** \brief Track the model of number \a target from where it is among \a models. */
   PoseEstimate
   trackObject (const FrameCloud& cloud, std::vector<AssociatedModel> models, std::size_t target, double frames_passed);
 

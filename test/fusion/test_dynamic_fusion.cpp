@@ -151,8 +151,11 @@ TEST (DynamicFusion, ResultsDoNotDependOnThreads)
   const TrackedRun b = scene.run (every (3), two);
   for (std::size_t n = 0; n < a.frames.size (); ++n)
   {
+    ASSERT_TRUE (a.frames[n].T_world_camera && b.frames[n].T_world_camera);
     EXPECT_EQ (a.frames[n].T_world_camera->matrix (), b.frames[n].T_world_camera->matrix ());
-    EXPECT_EQ (a.frames[n].T_world_object.at (1).matrix (), b.frames[n].T_world_object.at (1).matrix ());
+    ASSERT_EQ (a.frames[n].T_world_object.size (), b.frames[n].T_world_object.size ());
+    for (const auto& [id, T] : a.frames[n].T_world_object)
+      EXPECT_EQ (T.matrix (), b.frames[n].T_world_object.at (id).matrix ());
     EXPECT_EQ (a.frames[n].instances.pixels, b.frames[n].instances.pixels);
   }
 }

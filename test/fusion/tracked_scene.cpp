@@ -128,7 +128,13 @@ TrackedScene::TrackedScene (int frames, Surroundings surroundings)
   scene_.camera = PinholeCamera{160, 120, 131.0, 131.0, 79.5, 59.5};
   scene_.frames = frames;
   scene_.rate = frames;
-  scene_.noise = DepthNoise ();
+  // The noise of a camera of 640 x 480 whose image is reduced.
+  DepthNoise noise;
+  const double reduction = scene_.camera.width / 640.0;
+  noise.disparity_sigma_px *= reduction;
+  noise.disparity_step_px *= reduction;
+  noise.lateral_sigma_px *= reduction;
+  scene_.noise = noise;
   SceneBody room;
   room.name = "room";
   if (surroundings == Surroundings::Room)

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_cosection authors
+#include "observed_motion.h"
+
+#include <Eigen/Eigenvalues>
+
+#include <algorithm>
+#include <cmath>
+
+namespace pcl
+{
+namespace cosection
+{
+
+namespace
+{
+
+using Vector6d = Eigen::Matrix<double, 6, 1>;
+using Matrix6d = Eigen::Matrix<double, 6, 6>;
+
+constexpr std::size_t most_points = 5000;
+constexpr double least_slope = 0.3;  // of the distance: smaller ones are where it is truncated
+constexpr double facing = 0.5;       // of the slope along a direction, from which on a point tells of it
+constexpr double least_share = 0.002; // of all points' weight, times the square of that
+
+struct Sample
+{
+  Eigen::Vector3d position;
+  Eigen::Vector3d normal;
+  double weight;
+};
+
+} // namespace
+
+ObservedMotion
+observedMotion (const std::vector<Eigen::Vector3f>& points, const std::vector<float>& weights, const TsdfVolume& volume,
+                const Eigen::Isometry3d& guess, const Eigen::Isometry3d& found)
+{
+  std::vector<Sample> samples;
+  Eigen::Vector3d centre = Eigen::Vector3d::Zero ();
+  double total = 0.0;
+  const std::size_t step = std::max<std::size_t> (1, points.size () / most_points);
+  for (std::size_t n = 0; n < points.size (); n += step)
+  {
+    const Eigen::Vector3d p = found * points[n].cast<double> ();
+    const auto cell = weights[n] > 0.0f ? volume.sample<double> (p) : std::nullopt;
+    if (!cell || cell->gradient ().norm () < least_slope)
+      continue;
+    samples.push_back ({p, cell->gradient ().normalized (), weights[n]});
+    centre += weights[n] * p;
+    total += weights[n];
+  }
+  ObservedMotion result;
+  result.T_model_camera = guess;
+  if (!(total > 0.0))
+    return result;
+  centre /= total;
+  double squares = 0.0;
+  for (const Sample& sample : samples)
+    squares += sample.weight * (sample.position - centre).squaredNorm ();
+  const double radius = std::max (1e-6, std::sqrt (squares / total)); // rotations in its units
+
+  const auto jacobian = [&] (const Sample& sample) {
+    Vector6d row;
+    row << sample.normal, (sample.position - centre).cross (sample.normal) / radius;
+    return row;
+  };
+  Matrix6d curvature = Matrix6d::Zero ();
+  for (const Sample& sample : samples)
+  {
+    const Vector6d row = jacobian (sample);
+    curvature += sample.weight * row * row.transpose ();
+  }
+  const Matrix6d directions = Eigen::SelfAdjointEigenSolver<Matrix6d> (curvature).eigenvectors ();
+
+  const Eigen::Isometry3d motion = found * guess.inverse ();
+  const Eigen::AngleAxisd turn (motion.linear ());
+  Vector6d moved;
+  moved << motion * centre - centre, radius * turn.angle () * turn.axis ();
+  for (int k = 0; k < 6; ++k)
+  {
+    const Vector6d direction = directions.col (k);
+    double told = 0.0;
+    for (const Sample& sample : samples)
+    {
+      const double along = jacobian (sample).dot (direction);
+      if (std::abs (along) >= facing)
+        told += sample.weight * along * along;
+    }
+    if (told >= least_share * total)
+      ++result.directions;
+    else
+      moved -= direction * direction.dot (moved);
+  }
+  if (result.directions == 6)
+  {
+    result.T_model_camera = found;
+    return result;
+  }
+  const Eigen::Vector3d rotation = moved.tail<3> () / radius;
+  Eigen::Isometry3d held = Eigen::Isometry3d::Identity ();
+  if (rotation.norm () > 0.0)
+    held.linear () = Eigen::AngleAxisd (rotation.norm (), rotation.normalized ()).toRotationMatrix ();
+  held.translation () = centre + moved.head<3> () - held.linear () * centre;
+  result.T_model_camera = held * guess;
+  return result;
+}
+
+} // namespace cosection
+} // namespace pcl
