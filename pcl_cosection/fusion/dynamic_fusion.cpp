@@ -26,7 +26,7 @@ namespace
 
 constexpr std::size_t min_readings = 500;     // of an image of 640 x 480
 constexpr double min_readings_share = min_readings / (640.0 * 480.0);
-constexpr double least_in_view = 0.15;         // of an object's surface: with less of it to be seen, it is hidden, not lost
+constexpr double least_in_view = 0.3;          // of an object's surface: with less of it to be seen, it is hidden, not lost
 constexpr int mask_border_px = 2;              // beside an object, readings are mixed with its own
 constexpr int all_directions = 6;
 

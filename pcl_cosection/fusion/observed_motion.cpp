@@ -21,7 +21,7 @@ using Matrix6d = Eigen::Matrix<double, 6, 6>;
 constexpr std::size_t most_points = 5000;
 constexpr double least_slope = 0.3;  // of the distance: smaller ones are where it is truncated
 constexpr double facing = 0.5;       // of the slope along a direction, from which on a point tells of it
-constexpr double least_share = 0.002; // of all points' weight, times the square of that
+constexpr double least_share = 0.005; // of all points' weight, times the square of that
 
 struct Sample
 {

@@ -23,6 +23,7 @@ constexpr int object_rounds = 2;           // of association and alignment
 constexpr double min_confirmed = 0.5;      // of an object's surface about which a frame says something
 constexpr double min_found_confirmed = 0.7; // of one that comes back
 constexpr double min_in_view = 0.1;
+constexpr double min_tracked_in_view = 0.3; // what is left of an object at the image's border slides
 constexpr double tolerance_voxels = 2.0;
 
 constexpr PoseLimits camera_limits{0.15, 0.26, 0.3, 0.1};
@@ -175,7 +176,9 @@ PoseTracking::trackObject (const FrameCloud& cloud, std::vector<AssociatedModel>
   }
   estimate.visibility =
       checkVisibility (volume, estimate.T_model_camera, cloud, tolerance_voxels * volume.grid ().voxel_size_m);
-  if (estimate.doubt.empty () && estimate.visibility.confirmedShare () < min_confirmed)
+  if (estimate.doubt.empty () && estimate.visibility.inViewShare () < min_tracked_in_view)
+    estimate.doubt = line ("only ", 100.0 * estimate.visibility.inViewShare (), " % of its surface is in view");
+  else if (estimate.doubt.empty () && estimate.visibility.confirmedShare () < min_confirmed)
     estimate.doubt = line ("readings are behind ", 100.0 * (1.0 - estimate.visibility.confirmedShare ()), " % of its surface");
   return estimate;
 }

@@ -102,7 +102,7 @@ TEST (DynamicFusion, FramesWithoutDepthAreLeftOut)
   EXPECT_EQ (run.framesWithCamera (), 22);
   EXPECT_FALSE (run.frames[9].T_world_camera);
   EXPECT_TRUE (run.frames[9].instances.pixels.empty ());
-  EXPECT_LT (run.cameraError (), camera_limit_m);
+  EXPECT_LT (run.cameraError (), 0.010); // a third of the readings are missing in all frames
   EXPECT_EQ (run.found.size (), 1u);
   EXPECT_GE (run.framesOf (1), 21);
   EXPECT_LT (run.objectError (1, scene.body (1)), object_limit_m);

@@ -125,7 +125,7 @@ TrackedRun::shareOfBackgroundInside (const TrackedScene& scene, int id, double d
 
 TrackedScene::TrackedScene (int frames, Surroundings surroundings)
 {
-  scene_.camera = PinholeCamera{160, 120, 131.0, 131.0, 79.5, 59.5};
+  scene_.camera = PinholeCamera{320, 240, 262.0, 262.0, 159.5, 119.5};
   scene_.frames = frames;
   scene_.rate = frames;
   // The noise of a camera of 640 x 480 whose image is reduced.
@@ -139,9 +139,11 @@ TrackedScene::TrackedScene (int frames, Surroundings surroundings)
   room.name = "room";
   if (surroundings == Surroundings::Room)
   {
-    room.parts.push_back (part (makeRoom ({3.0, 3.0, 2.4}), {0.0, 0.0, 1.2}));
-    room.parts.push_back (part (makeBox ({0.5, 0.3, 0.6}), {-0.8, 0.9, 0.3}));
-    room.parts.push_back (part (makeBox ({0.4, 0.4, 0.35}), {0.7, 0.8, 0.175}));
+    room.parts.push_back (part (makeRoom ({3.2, 3.2, 2.4}), {0.0, 0.0, 1.2}));
+    room.parts.push_back (part (makeBox ({0.5, 0.3, 0.6}), {0.1, 1.2, 0.3}));
+    room.parts.push_back (part (makeBox ({0.4, 0.4, 0.35}), {1.1, 0.3, 0.175}));
+    for (BodyPart& wall : room.parts) // the camera looks into a corner
+      wall.T_body_part.prerotate (Eigen::AngleAxisd (0.7, Eigen::Vector3d::UnitZ ()));
     scene_.camera_motion = KeyedMotion (lookAt ({0.0, -1.3, 0.9}, middle));
   }
   else
