@@ -124,7 +124,9 @@ TEST (FreeSpace, IsAveragedInFromOtherPixelsOnly)
   EXPECT_EQ (weightAt (0.1, 1.1), 0.0f);
   for (std::size_t n = 0; n < grid.size (); ++n)
     if (volume.weights ()[n] > 0.0f)
+    {
       EXPECT_FLOAT_EQ (volume.field ().values[n], static_cast<float> (volume.truncation ()));
+    }
   EXPECT_THROW (volume.integrateFreeSpace (Image<float> (80, 60, 1.0f), camera, Eigen::Isometry3d::Identity (),
                                            Image<std::uint16_t> (4, 4), 3),
                 InvalidArgument);

@@ -131,7 +131,14 @@ TEST_F (FusionTool, WithoutPosesEverythingIsTracked)
   EXPECT_EQ (filesIn ("out"), all_files);
   const nlohmann::json summary = json ("out/summary.json");
   EXPECT_GT (summary["timings_s"]["tracking"], 0.0);
-  EXPECT_EQ (summary["events"].size (), 2u); // two objects begin
+  int begun = 0;
+  for (const std::string event : summary["events"]) // others are of volumes that grow
+  {
+    begun += event.find (" begins ") != std::string::npos;
+    EXPECT_EQ (event.find ("lost"), std::string::npos) << event;
+    EXPECT_EQ (event.find ("given up"), std::string::npos) << event;
+  }
+  EXPECT_EQ (begun, 2);
   ASSERT_EQ (summary["objects"].size (), 2u);
   for (const auto& object : summary["objects"])
   {
