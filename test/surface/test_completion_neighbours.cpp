@@ -66,7 +66,7 @@ TEST (NeighboursReport, TheirPenetration)
 TEST (NeighboursContact, LeavesNoGap)
 {
   const SceneResult result = complete (touchingBoxes (0), optionsFor (neighbour_voxel_m));
-  for (double x = -0.02; x <= 0.03; x += 0.005)
+  for (double x = -0.03; x <= 0.03; x += 0.005)
     for (double z = 0.05; z <= 0.07; z += 0.005)
     {
       double gap = 0.0;

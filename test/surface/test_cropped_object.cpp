@@ -113,6 +113,9 @@ TEST_P (CroppedObject, AloneClosesWithoutSwelling)
   std::printf ("%s, with the table: at most %.1f mm outside, %.2f of the true volume, mean error %.2f mm\n",
                nameOf (GetParam ()).c_str (), 1e3 * outside_with_table_m, volume_with_table_m3 / truth_m3_,
                1e3 * error_with_table_m);
+  // With a table their hidden sides are expected; alone they come out small.
+  const bool ball = GetParam () == Shape::Sphere;
+  const bool torus = GetParam () == Shape::Torus;
   const DepthView unorganized = redrawn (seen_);
   const DepthView* const views[] = {&unorganized, nullptr};
   for (const DepthView* view : views)
@@ -126,9 +129,9 @@ TEST_P (CroppedObject, AloneClosesWithoutSwelling)
     std::printf ("%s, %s: at most %.1f mm outside, %.2f of the true volume, mean error %.2f mm\n", nameOf (GetParam ()).c_str (),
                  view ? "with its viewpoint" : "points alone", 1e3 * outside_m, volume_m3 / truth_m3_, 1e3 * error_m);
     EXPECT_LE (volume_m3, 1.05 * volume_with_table_m3);
-    EXPECT_GE (volume_m3, 0.67 * truth_m3_);
+    EXPECT_GE (volume_m3, ball ? 0.67 * truth_m3_ : torus ? 0.75 * truth_m3_ : 0.8 * volume_with_table_m3);
     EXPECT_LE (outside_m, outside_with_table_m + voxel_m);
-    EXPECT_LE (error_m, std::max (error_with_table_m + voxel_m, 1.8 * voxel_m));
+    EXPECT_LE (error_m, ball ? 1.8 * voxel_m : error_with_table_m + voxel_m);
   }
 }
 
