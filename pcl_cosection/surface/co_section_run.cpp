@@ -30,7 +30,6 @@ constexpr double max_stray_share = 0.2;    // more are no exception
 constexpr double resting_reach = 0.15;     // of the middle observed extent: what is as low over a plane rests on it
 constexpr double hidden_foot_reach = 0.5;  // of the middle observed extent: what is as low rests on it, if that may be
 constexpr double resting_share = 0.01;     // of the points, which may be lower
-constexpr double hidden_side_reach = 0.7;  // voxels inside the plausible region; what is deeper may be a cavity
 constexpr double same_resting_cosine = 0.995; // planes of two views on which it rests the same way
 
 } // namespace
@@ -304,7 +303,7 @@ CoSectionRun::prepareObject (Object& object)
       standing.clear ();
     if (scene_.options.use_extent_prior)
       for (std::size_t n = 0; n < std::min (resting.size (), standing.size ()); ++n)
-        volume.addHiddenSide (standing[n].hiddenSide (object.points (), hidden_side_reach * object.voxel_size_m));
+        volume.addHiddenSide (standing[n], object.points ());
     if (scene_.options.use_extent_prior)
       volume.addExtentPrior (scene_.background.empty () ? ExtentPrior::cutOut () : ExtentPrior (), object.extents_m,
                              object.body->hidden, standing);

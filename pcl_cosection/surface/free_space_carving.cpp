@@ -19,9 +19,10 @@ namespace
 {
 
 constexpr int window = 4;          // pixels around a projection in which the boundary is looked for
-constexpr double inset_px = 1.25;  // the cut is made so far inside the silhouette
+constexpr double inset_px = 1.0;   // the cut is made so far inside the silhouette: pixels at an edge say nothing
 constexpr float nothing = -1e6f;
-constexpr float far_vox = 3.0f;     // distances are of no interest beyond
+constexpr float far_vox = 3.0f;    // distances are of no interest beyond
+constexpr float soft_vox = 1.0f;   // views that say about as much as the largest say it together
 
 } // namespace
 
@@ -29,11 +30,26 @@ FreeSpaceCarving::FreeSpaceCarving (const VoxelGrid& grid, bool revise, int thre
 : grid_ (grid)
 , revise_ (revise)
 , threads_ (threads)
-, outside_vox_ (grid.size (), nothing)
+, bound_vox_ (grid.size ())
 , inside_vox_ (grid.size (), nothing)
 , votes_for_ (grid.size (), 0)
 , votes_against_ (grid.size (), 0)
 {}
+
+void
+FreeSpaceCarving::SoftMaximum::add (float value)
+{
+  const float weight = std::exp (-std::abs (value - largest) / soft_vox);
+  if (value > largest)
+  {
+    sum = sum * weight + value;
+    weights = weights * weight + 1.0f;
+    largest = value;
+    return;
+  }
+  sum += weight * value;
+  weights += weight;
+}
 
 void
 FreeSpaceCarving::add (const FreeSpaceView& view, const Eigen::Isometry3d& T_grid_sensor)
@@ -69,9 +85,10 @@ FreeSpaceCarving::add (const FreeSpaceView& view, const Eigen::Isometry3d& T_gri
     const double distance_px = std::sqrt (squared_px);
     const auto signed_vox = static_cast<float> (((free_here ? distance_px : -distance_px) + inset_px) * voxels_per_pixel);
     const std::size_t n = voxel.index;
+    if (signed_vox > -far_vox)
+      bound_vox_[n].add (signed_vox);
     if (signed_vox > 0.0f)
     {
-      outside_vox_[n] = std::max (outside_vox_[n], signed_vox);
       if (votes_for_[n] < 255)
         ++votes_for_[n];
     }
@@ -86,12 +103,12 @@ FreeSpaceCarving::add (const FreeSpaceView& view, const Eigen::Isometry3d& T_gri
 std::vector<float>
 FreeSpaceCarving::lowerBounds () const
 {
-  std::vector<float> bounds (outside_vox_.size ());
+  std::vector<float> bounds (bound_vox_.size ());
   for (std::size_t n = 0; n < bounds.size (); ++n)
   {
     // One or two views cannot outvote each other.
     const int needed = revise_ && votes_for_[n] + votes_against_[n] > 2 ? votes_against_[n] : 0;
-    const float bound = votes_for_[n] > needed ? outside_vox_[n] : inside_vox_[n];
+    const float bound = votes_for_[n] > needed ? bound_vox_[n].value () : std::min (inside_vox_[n], bound_vox_[n].value ());
     bounds[n] = std::clamp (bound, -far_vox, far_vox);
   }
 

@@ -66,9 +66,9 @@ public:
   addExtentPrior (const ExtentPrior& prior, const Eigen::Vector3d& extents_m, HiddenPlaces& places,
                   const std::vector<SymmetricExtent>& plausible);
 
-  /** \brief Prefer surface where it is to be expected, weakly, where nothing was seen; after prepare (). */
+  /** \brief Prefer surface where copies of the points make it likely, weakly, where nothing was seen; after prepare (). */
   void
-  addHiddenSide (const std::vector<OrientedPoint>& expected);
+  addHiddenSide (const SymmetricExtent& plausible, const std::vector<OrientedPoint>& points);
 
   /** \brief Let the object rest on a support plane where that is hidden; after prepare (). */
   void

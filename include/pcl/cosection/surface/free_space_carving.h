@@ -37,11 +37,29 @@ public:
   lowerBounds () const;
 
 private:
+  /** \brief The mean of values, each the less the farther it is below the largest: of many noisy values that say the same, the
+   * largest would be wrong, of values that differ, the largest is right. */
+  struct SoftMaximum
+  {
+    float largest = -1e6f;
+    float sum = 0.0f;
+    float weights = 0.0f;
+
+    void
+    add (float value);
+
+    float
+    value () const
+    {
+      return weights > 0.0f ? sum / weights : largest;
+    }
+  };
+
   VoxelGrid grid_;
   bool revise_;
   int threads_;
-  std::vector<float> outside_vox_; // largest distance of a view that sees the voxel free; negative: none does
-  std::vector<float> inside_vox_;  // largest (nearest to 0) distance of a view that does not
+  std::vector<SoftMaximum> bound_vox_; // distance to what a view sees free
+  std::vector<float> inside_vox_;  // largest (nearest to 0) distance of a view that sees the voxel not free
   std::vector<std::uint8_t> votes_for_;
   std::vector<std::uint8_t> votes_against_;
 };
