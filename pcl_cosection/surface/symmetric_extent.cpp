@@ -322,7 +322,8 @@ SymmetricExtent::hiddenSide (const std::vector<OrientedPoint>& points, double re
   for (OrientedPoint p : points)
   {
     const Eigen::Vector3d position = center_ + turn_ * (p.position.cast<double> () - center_);
-    if (beyond (position) < -reach)
+    if (std::none_of (half_spaces_.begin (), half_spaces_.end (),
+                      [&] (const auto& half_space) { return half_space.first.dot (position) - half_space.second >= -reach; }))
       continue;
     p.position = position.cast<float> ();
     p.normal = (turn_ * p.normal.cast<double> ()).cast<float> ();
