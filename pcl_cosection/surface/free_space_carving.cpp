@@ -20,9 +20,8 @@ namespace
 
 constexpr int window = 4;          // pixels around a projection in which the boundary is looked for
 constexpr double inset_px = 1.0;   // the cut is made so far inside the silhouette: pixels at an edge say nothing
-constexpr float nothing = -1e6f;
 constexpr float far_vox = 3.0f;    // distances are of no interest beyond
-constexpr float soft_vox = 1.0f;   // views that say about as much as the largest say it together
+constexpr float single_view_doubt_vox = 0.6f; // a cut by one view alone is made so much farther out than one by four
 
 } // namespace
 
@@ -37,18 +36,20 @@ FreeSpaceCarving::FreeSpaceCarving (const VoxelGrid& grid, bool revise, int thre
 {}
 
 void
-FreeSpaceCarving::SoftMaximum::add (float value)
+FreeSpaceCarving::Supported::add (float value)
 {
-  const float weight = std::exp (-std::abs (value - largest) / soft_vox);
-  if (value > largest)
-  {
-    sum = sum * weight + value;
-    weights = weights * weight + 1.0f;
-    largest = value;
-    return;
-  }
-  sum += weight * value;
-  weights += weight;
+  for (float& kept : largest)
+    if (value > kept)
+      std::swap (value, kept);
+}
+
+float
+FreeSpaceCarving::Supported::value () const
+{
+  float best = nothing;
+  for (int views = 1; views <= full_support; ++views)
+    best = std::max (best, largest[views - 1] - single_view_doubt_vox * static_cast<float> (full_support - views) / (full_support - 1));
+  return best;
 }
 
 void

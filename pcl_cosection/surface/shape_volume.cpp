@@ -27,7 +27,7 @@ constexpr float hidden_side_gap_vox = 2.0f; // nothing is expected where data is
 constexpr double hidden_side_reach_vox = 0.7; // inside the plausible region; what is deeper may be a cavity
 constexpr double continued_plane_gap_vox = 2.0; // planes are continued where no data is nearer
 constexpr float carving_reach_vox = 1.5f; // from the boundary of free space into the hull
-constexpr std::size_t bytes_per_voxel = 80;
+constexpr std::size_t bytes_per_voxel = 92;
 constexpr double follow_margin_vox = 3.0; // what follows new evidence at full resolution reaches so far beyond what is supported
 
 /** \brief The first of the points in each eighth of a voxel: as many as a surface of weak targets needs, whatever the number of views. */

@@ -6,6 +6,7 @@
 #include <pcl/cosection/surface/hull_constraint.h>
 #include <pcl/cosection/volume/voxel_grid.h>
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -21,7 +22,8 @@ namespace cosection
  * Per view the distance is measured in the image, from a voxel's projection to the nearest pixel that is
  * free at the voxel's depth (or, from within free space, to the nearest that is not), up to a few pixels.
  * Readings count as for HullConstraint, but free patches of less than 3 x 3 pixels are ignored. A voxel is
- * cut only where more views see it free than see a surface there. */
+ * cut only where more views see it free than see a surface there. What one view says alone is believed less than what
+ * several say, as poses and silhouettes are not exact. */
 class PCL_COSECTION_EXPORT FreeSpaceCarving
 {
 public:
@@ -37,28 +39,25 @@ public:
   lowerBounds () const;
 
 private:
-  /** \brief The mean of values, each the less the farther it is below the largest: of many noisy values that say the same, the
-   * largest would be wrong, of values that differ, the largest is right. */
-  struct SoftMaximum
+  static constexpr float nothing = -1e6f;
+  static constexpr int full_support = 4; // views
+
+  /** \brief What several views say together: the largest of many noisy values would be too large. Never less for one view more. */
+  struct Supported
   {
-    float largest = -1e6f;
-    float sum = 0.0f;
-    float weights = 0.0f;
+    std::array<float, full_support> largest{nothing, nothing, nothing, nothing};
 
     void
     add (float value);
 
     float
-    value () const
-    {
-      return weights > 0.0f ? sum / weights : largest;
-    }
+    value () const;
   };
 
   VoxelGrid grid_;
   bool revise_;
   int threads_;
-  std::vector<SoftMaximum> bound_vox_; // distance to what a view sees free
+  std::vector<Supported> bound_vox_; // distance to what a view sees free
   std::vector<float> inside_vox_;  // largest (nearest to 0) distance of a view that sees the voxel not free
   std::vector<std::uint8_t> votes_for_;
   std::vector<std::uint8_t> votes_against_;
