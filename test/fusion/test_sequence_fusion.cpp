@@ -119,7 +119,7 @@ protected:
   std::vector<double>
   keyframesOf (FusionOptions options) const
   {
-    options.update_at_keyframes = true;
+    options.updates = KeyframeUpdates::InStep;
     std::vector<double> stamps;
     run (options, [&] (const KeyframeReport& report) { stamps.push_back (report.stamp); });
     return stamps;
