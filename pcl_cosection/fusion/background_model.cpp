@@ -37,10 +37,13 @@ seenBox (const FrameCloud& cloud, const Eigen::Isometry3d& T_world_camera)
   {
     std::transform (points.begin (), points.end (), values.begin (),
                     [&] (const Eigen::Vector3f& p) { return (T_world_camera * p.cast<double> ())[axis]; });
-    std::sort (values.begin (), values.end ());
-    const auto cut = static_cast<std::size_t> (outlier_share * static_cast<double> (values.size ()));
-    box.min ()[axis] = values[cut];
-    box.max ()[axis] = values[values.size () - 1 - cut];
+    const auto cut = static_cast<std::ptrdiff_t> (outlier_share * static_cast<double> (values.size ()));
+    const auto low = values.begin () + cut;
+    const auto high = values.end () - 1 - cut;
+    std::nth_element (values.begin (), low, values.end ());
+    box.min ()[axis] = *low;
+    std::nth_element (low, high, values.end ());
+    box.max ()[axis] = *high;
   }
   return box;
 }

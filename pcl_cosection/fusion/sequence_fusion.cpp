@@ -6,8 +6,12 @@
 #include "frame_knowledge.h"
 
 #include <pcl/cosection/common/error.h>
+#include <pcl/cosection/fusion/backend_thread.h>
 
 #include <algorithm>
+#include <array>
+#include <chrono>
+#include <cstdio>
 #include <memory>
 #include <optional>
 #include <sstream>
@@ -23,6 +27,8 @@ namespace
 
 constexpr double frames_share = 0.5; // of the progress; the rest is the last solution
 constexpr std::size_t min_object_points = 100;
+constexpr std::size_t status_every = 10; // frames
+constexpr std::chrono::milliseconds patience (50); // until a cancellation is heard
 
 /** \brief One execution of SequenceFusion::run (). */
 class FusionRun
@@ -37,10 +43,18 @@ public:
 private:
   void
   report (const std::string& stage, double fraction) const;
+  /** \brief Say how it goes. */
+  void
+  reportFrame (const RgbdFrame& frame);
   void
   use (const RgbdFrame& frame);
   void
   addKeyframe (const RgbdFrame& frame, const Eigen::Isometry3d& T_world_camera);
+  void
+  addFrame (const RgbdFrame& frame, const Eigen::Isometry3d& T_world_camera);
+  /** \brief Pass updates on, once no more than so many views wait for the back end; 0: once all that were asked for are done. */
+  void
+  followUpdates (std::size_t waiting_views);
   void
   finish ();
   /** \brief Those with too few points, which are no failure: masks have stray pixels. */
@@ -59,7 +73,12 @@ private:
   const SequenceFusion::KeyframeCallback& report_;
   FusionResult result_;
   CoSectionBackend backend_;
+  std::optional<BackendThread> thread_; // has the backend, if there are updates
   std::size_t frames_of_range_ = 0;
+  double done_ = 0.0;          // of all, so far
+  std::size_t frames_read_ = 0;
+  std::string status_ = "frames";
+  std::chrono::steady_clock::time_point status_time_ = std::chrono::steady_clock::now ();
   std::size_t points_without_pose_ = 0;
   std::size_t points_ = 0; // in all keyframes
   std::optional<std::size_t> next_keyframe_;
@@ -70,6 +89,10 @@ FusionRun::FusionRun (const RgbdSequence& images, FrameKnowledge& knowledge, con
 : images_ (images), knowledge_ (knowledge), options_ (options), progress_ (progress), report_ (report), backend_ (options.backend)
 {
   frames_of_range_ = std::min (options.frames.last, images.size ()) - std::min (options.frames.first, images.size ());
+  for (const char* stage : {"read", "tracking", "raycast", "segmentation", "integration", "keyframes", "updates"})
+    result_.timings_s[stage] = 0.0;
+  if (options.updates != KeyframeUpdates::None)
+    thread_.emplace (backend_);
 }
 
 void
@@ -77,6 +100,25 @@ FusionRun::report (const std::string& stage, double fraction) const
 {
   if (progress_ && !progress_ (stage, std::min (1.0, fraction)))
     throw Cancelled ("cancelled");
+}
+
+void
+FusionRun::reportFrame (const RgbdFrame& frame)
+{
+  done_ = frames_share * static_cast<double> (frame.index - options_.frames.first) /
+          static_cast<double> (std::max<std::size_t> (1, frames_of_range_));
+  if (frames_read_ > 0 && frames_read_ % status_every == 0)
+  {
+    const auto now = std::chrono::steady_clock::now ();
+    const double seconds = std::max (1e-3, std::chrono::duration<double> (now - status_time_).count ());
+    std::array<char, 32> rate;
+    std::snprintf (rate.data (), rate.size (), "%.1f fps", static_cast<double> (status_every) / seconds);
+    const std::string of_frame = knowledge_.status ();
+    status_ = rate.data () + (of_frame.empty () ? "" : ", " + of_frame);
+    status_time_ = now;
+  }
+  report (status_, done_);
+  ++frames_read_;
 }
 
 void
@@ -95,8 +137,37 @@ FusionRun::addKeyframe (const RgbdFrame& frame, const Eigen::Isometry3d& T_world
     else
       points_without_pose_ += points.size ();
   }
-  backend_.addKeyframe (keyframe, T_world_object);
   ++result_.keyframes;
+  if (thread_)
+    thread_->addKeyframe (std::move (keyframe), T_world_object);
+  else
+    backend_.addKeyframe (keyframe, T_world_object);
+}
+
+void
+FusionRun::addFrame (const RgbdFrame& frame, const Eigen::Isometry3d& T_world_camera)
+{
+  DepthView view = makeDepthView (frame.depth, images_.camera (), T_world_camera, options_.keyframe);
+  if (thread_)
+    thread_->addFrame (std::move (view), knowledge_.poses ());
+  else
+    backend_.addFrame (std::move (view), knowledge_.poses ());
+}
+
+void
+FusionRun::followUpdates (std::size_t waiting_views)
+{
+  if (!thread_)
+    return;
+  while (!thread_->wait (waiting_views, patience))
+    report ("keyframe", done_);
+  for (const BackendUpdate& update : thread_->takeUpdates ())
+  {
+    result_.timings_s["updates"] += update.seconds;
+    report ("keyframe", done_);
+    if (report_)
+      report_ ({update.stamp, update.scene});
+  }
 }
 
 void
@@ -121,26 +192,17 @@ FusionRun::use (const RgbdFrame& frame)
   for (const auto& [id, T] : T_world_object)
     result_.objects[id].trajectory.push_back ({frame.stamp, T});
   if (!is_keyframe)
-    timed ("keyframes", [&] {
-      backend_.addFrame (makeDepthView (frame.depth, images_.camera (), *T_world_camera, options_.keyframe), T_world_object);
-    });
+    timed ("keyframes", [&] { addFrame (frame, *T_world_camera); });
   knowledge_.map (frame, *T_world_camera);
-  if (is_keyframe && options_.update_at_keyframes)
-    timed ("updates", [&] {
-      const double done = frames_share * static_cast<double> (frame.index - options_.frames.first) /
-                          static_cast<double> (frames_of_range_);
-      const SceneResult scene = backend_.update (UpdateOutput::Meshes, [&] (const std::string&, double) {
-        report ("keyframe", done);
-        return true;
-      });
-      if (report_)
-        report_ ({frame.stamp, scene});
-    });
+  followUpdates (is_keyframe && options_.updates == KeyframeUpdates::InStep ? 0 : options_.backend.max_views);
 }
 
 void
 FusionRun::finish ()
 {
+  followUpdates (0);
+  thread_.reset ();
+  backend_.forgetUpdates ();
   timed ("final_solve", [&] {
     result_.scene = backend_.solve ([&] (const std::string& stage, double fraction) {
       report (stage, frames_share + (1.0 - frames_share) * fraction);
@@ -187,18 +249,14 @@ FusionRun::run ()
     result_.warnings.push_back ("frames from " + std::to_string (images_.size ()) + " on are not there; the sequence has 0:" +
                                 std::to_string (images_.size ()));
   FrameReader reader (images_, options_.frames);
-  std::size_t read = 0;
   while (true)
   {
     std::optional<RgbdFrame> frame;
     timed ("read", [&] { frame = reader.next (); });
     if (!frame)
       break;
-    const std::string status = knowledge_.status ();
-    report (status.empty () ? "frames" : status, frames_share * static_cast<double> (frame->index - options_.frames.first) /
-                          static_cast<double> (std::max<std::size_t> (1, frames_of_range_)));
+    reportFrame (*frame);
     use (*frame);
-    ++read;
   }
   const std::vector<std::string> mask_warnings = knowledge_.maskWarnings ();
   const std::vector<std::string> warnings = reader.warnings ();
@@ -206,7 +264,7 @@ FusionRun::run ()
   result_.warnings.insert (result_.warnings.end (), warnings.begin (), warnings.end ());
   result_.warnings.insert (result_.warnings.end (), mask_warnings.begin (), mask_warnings.end ());
   if (result_.frames == 0)
-    throw IoError ((read == 0 ? "no frame can be read" : "no frame that has a pose can be read") + firstOf (warnings));
+    throw IoError ((frames_read_ == 0 ? "no frame can be read" : "no frame that has a pose can be read") + firstOf (warnings));
   if (result_.keyframes == 0)
     throw IoError ("no frame has a mask that can be used" + firstOf (mask_warnings));
   if (points_ == 0)

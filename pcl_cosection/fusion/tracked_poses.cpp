@@ -5,7 +5,7 @@
 #include <pcl/cosection/fusion/dynamic_fusion.h>
 
 #include <algorithm>
-#include <cstdio>
+#include <cmath>
 #include <set>
 
 namespace pcl
@@ -15,8 +15,6 @@ namespace cosection
 
 namespace
 {
-
-constexpr std::size_t status_every = 10; // frames
 
 DynamicFusionOptions
 frontEndOptions (const TrackedSequence& sequence, const FusionOptions& options)
@@ -70,10 +68,7 @@ public:
   {}
 
   std::string
-  status () const override
-  {
-    return status_;
-  }
+  status () const override;
 
   std::vector<std::string>
   maskWarnings () const override
@@ -85,9 +80,6 @@ public:
   finish (FusionResult& result) override;
 
 private:
-  void
-  describe ();
-
   const FusionOptions& options_;
   MaskReader masks_;
   const bool with_masks_;
@@ -96,9 +88,7 @@ private:
   std::optional<Image<std::uint16_t>> instances_;
   std::size_t frames_ = 0;
   std::size_t frames_lost_ = 0;
-  std::string status_;
   double masks_s_ = 0.0;
-  const std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now ();
 };
 
 std::optional<Eigen::Isometry3d>
@@ -112,20 +102,22 @@ TrackedPoses::next (const RgbdFrame& frame)
   instances_.reset ();
   if (tracked_->T_world_camera)
     instances_ = tracked_->instances;
-  if (frames_ % status_every == 1)
-    describe ();
   return tracked_->T_world_camera;
 }
 
-void
-TrackedPoses::describe ()
+std::string
+TrackedPoses::status () const
 {
-  const double seconds = std::chrono::duration<double> (std::chrono::steady_clock::now () - start_).count ();
-  char text[128];
-  std::snprintf (text, sizeof (text), "%.1f/s, %zu objects, %d lost, %s%.0f %%", static_cast<double> (frames_) / std::max (1e-3, seconds),
-                 fusion_.objects ().size (), tracked_->lost, tracked_->T_world_camera ? "fit " : "camera lost ",
-                 100.0 * tracked_->inlier_share);
-  status_ = text;
+  if (!tracked_)
+    return "";
+  std::string text;
+  if (with_masks_)
+    text = std::to_string (fusion_.objects ().size ()) + " objects, ";
+  if (tracked_->lost > 0)
+    text += std::to_string (tracked_->lost) + " lost, ";
+  if (!tracked_->T_world_camera)
+    return text + "camera lost";
+  return text + "fit " + std::to_string (std::lround (100.0 * tracked_->inlier_share)) + " %";
 }
 
 void

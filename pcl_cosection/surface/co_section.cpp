@@ -226,5 +226,11 @@ CoSection::update (UpdateOutput output, const ProgressCallback& progress)
   return CoSectionRun (*impl_, impl_->memory, progress, CoSectionRun::Mode::Follow).run (output);
 }
 
+void
+CoSection::forgetUpdates ()
+{
+  impl_->memory = {};
+}
+
 } // namespace cosection
 } // namespace pcl

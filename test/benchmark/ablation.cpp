@@ -8,10 +8,10 @@
 
 #include "ablation_picture.h"
 #include "ablation_table.h"
+#include "benchmark_dataset.h"
 #include "rivals.h"
 
 #include "output_files.h"
-#include "scene_folders.h"
 
 #include <pcl/cosection/common/error.h>
 #include <pcl/cosection/evaluation/mesh_comparison.h>
@@ -19,8 +19,6 @@
 #include <pcl/cosection/io/mesh_io.h>
 #include <pcl/cosection/io/stamp_matching.h>
 #include <pcl/cosection/rendering/picture.h>
-#include <pcl/cosection/simulation/scene_spec.h>
-#include <pcl/cosection/simulation/sequence_writer.h>
 
 #include <pcl/console/print.h>
 
@@ -52,43 +50,11 @@ constexpr Variant variants[] = {{"none", false, false, false},
                                 {"all", true, true, false},
                                 {"all, --preset paper", true, true, true}};
 
-SimulatedScene
-sceneOf (const std::string& name)
-{
-  for (const ScenePreset& preset : scenePresets ())
-    if (preset.name == name)
-      return parseSceneSpec (preset.spec, name);
-  return loadSceneSpec (name);
-}
-
-/** \brief A sequence with its truth. */
-struct Dataset
-{
-  explicit Dataset (const std::string& folder)
-  : truth (readTruth (folder, notes)), images (folder), masks (folder + "/mask", images)
-  {
-    truth.objects.erase (std::remove_if (truth.objects.begin (), truth.objects.end (),
-                                         [] (const SceneRecord::Object& object) { return object.mesh.empty (); }),
-                         truth.objects.end ());
-    known.images = &images;
-    known.masks = &masks;
-    known.camera = truth.camera;
-    for (const SceneRecord::Object& object : truth.objects)
-      known.objects[object.id] = object.poses;
-  }
-
-  ReadingNotes notes;
-  SceneRecord truth;
-  RgbdSequence images;
-  MaskSequence masks;
-  KnownSequence known;
-};
-
 using Meshes = std::map<int, TriangleMesh>;
 
 /** \brief All objects at once, and what their TSDF volumes say; empty where it failed. */
 std::pair<Meshes, Meshes>
-complete (const Dataset& data, const Variant& variant)
+complete (const BenchmarkDataset& data, const Variant& variant)
 {
   FusionOptions options;
   CoSectionOptions& method = options.backend.method;
@@ -114,7 +80,7 @@ complete (const Dataset& data, const Variant& variant)
 
 /** \brief The points of all keyframes, by object, in its frame. */
 std::map<int, std::vector<OrientedPoint>>
-keyframePoints (const Dataset& data)
+keyframePoints (const BenchmarkDataset& data)
 {
   const FusionOptions options;
   const auto camera = posesAtStamps (data.known.camera, data.images.stamps (), data.images.period ());
@@ -145,26 +111,13 @@ keyframePoints (const Dataset& data)
   return points;
 }
 
-/** \brief A sequence's folder as it is; else the scene, simulated into \a folder. */
-std::string
-prepare (const std::string& name, const fs::path& folder)
-{
-  if (fs::is_directory (name))
-    return name;
-  const SimulatedScene scene = sceneOf (name);
-  fs::remove_all (folder / "data");
-  writeSequence (scene, (folder / "data").string ());
-  return (folder / "data").string ();
-}
-
 AblationScene
 runScene (const std::string& name, const fs::path& output)
 {
   AblationScene result;
-  const fs::path path = fs::path (name).has_filename () ? fs::path (name) : fs::path (name).parent_path ();
-  result.name = path.stem ().string ();
+  result.name = sceneName (name);
   const fs::path folder = output / result.name;
-  const Dataset data (prepare (name, folder));
+  const BenchmarkDataset data (prepareDataset (name, folder));
   for (const std::string& warning : data.notes.warnings)
     std::cerr << result.name << ": " << warning << '\n';
   const std::map<int, std::vector<OrientedPoint>> points = keyframePoints (data);
@@ -232,12 +185,8 @@ main (int argc, char** argv)
   {
     pcl::console::setVerbosityLevel (pcl::console::L_ERROR);
     const fs::path output = argv[1];
-    std::vector<std::string> names (argv + 2, argv + argc);
-    if (names.empty ())
-      for (const ScenePreset& preset : scenePresets ())
-        names.push_back (preset.name);
     std::vector<AblationScene> scenes;
-    for (const std::string& name : names)
+    for (const std::string& name : scenesOrPresets (argc - 2, argv + 2))
       scenes.push_back (runScene (name, output));
     const std::string table = markdown (scenes);
     std::cout << table;

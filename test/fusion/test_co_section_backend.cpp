@@ -3,99 +3,15 @@
 
 // What the back end keeps is bounded, and its result is that of what it keeps.
 
-#include "surface/analytic_scene.h"
+#include "fusion/backend_fixture.h"
 
 #include <pcl/cosection/common/error.h>
-#include <pcl/cosection/fusion/co_section_backend.h>
-
-#include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>
 
 using namespace pcl::cosection;
 using namespace pcl::cosection::test;
-
-namespace
-{
-
-constexpr int ball = 3;
-const Eigen::Vector3d middle (0.0, 0.0, 0.05);
-
-/** \brief A ball on a table, seen from places on a line: their distances are those of the views. */
-class BackendTest : public testing::Test
-{
-protected:
-  BackendTest ()
-  {
-    scene_.add (0, halfSpace (Eigen::Vector4d::UnitZ ()));
-    scene_.add (ball, placed (sphere (0.05), middle));
-  }
-
-  Eigen::Isometry3d
-  sensor (double x) const
-  {
-    Eigen::Isometry3d T = lookAt ({0.0, -0.4, 0.3}, middle);
-    T.translation ().x () = x;
-    return T;
-  }
-
-  Keyframe
-  keyframe (double x) const
-  {
-    const RenderedView seen = scene_.render (camera_, sensor (x));
-    Keyframe keyframe;
-    keyframe.view = seen.view;
-    for (const auto& [label, points] : seen.points)
-      for (OrientedPoint point : points)
-      {
-        point.position = (sensor (x).inverse () * point.position.cast<double> ()).cast<float> ();
-        point.normal = (sensor (x).linear ().transpose () * point.normal.cast<double> ()).cast<float> ();
-        keyframe.points[label].push_back (point);
-      }
-    return keyframe;
-  }
-
-  static BackendOptions
-  options (std::size_t views = 100, std::size_t keyframes = 40)
-  {
-    BackendOptions options;
-    options.method.voxel_size_m = 0.006;
-    options.method.whole_background = true;
-    options.method.threads = 1;
-    options.max_views = views;
-    options.max_keyframes = keyframes;
-    return options;
-  }
-
-  static const CoSectionBackend::Poses&
-  atRest ()
-  {
-    static const CoSectionBackend::Poses poses = {{ball, Eigen::Isometry3d::Identity ()}};
-    return poses;
-  }
-
-  static void
-  expectSame (const SceneResult& a, const SceneResult& b)
-  {
-    ASSERT_EQ (a.objects.size (), b.objects.size ());
-    for (std::size_t n = 0; n < a.objects.size (); ++n)
-    {
-      EXPECT_EQ (a.objects[n].error, "");
-      ASSERT_EQ (a.objects[n].mesh.vertices.size (), b.objects[n].mesh.vertices.size ());
-      for (std::size_t v = 0; v < a.objects[n].mesh.vertices.size (); ++v)
-        ASSERT_EQ (a.objects[n].mesh.vertices[v], b.objects[n].mesh.vertices[v]) << v;
-    }
-    ASSERT_EQ (a.background.vertices.size (), b.background.vertices.size ());
-    for (std::size_t v = 0; v < a.background.vertices.size (); ++v)
-      ASSERT_EQ (a.background.vertices[v], b.background.vertices[v]) << v;
-  }
-
-  const PinholeCamera camera_{80, 60, 90.0, 90.0, 39.5, 29.5};
-  AnalyticScene scene_;
-};
-
-} // namespace
 
 TEST_F (BackendTest, AResultIsThatOfItsViews)
 {
@@ -116,7 +32,7 @@ TEST_F (BackendTest, AResultIsThatOfItsViews)
   EXPECT_LT (sum / static_cast<double> (result.objects[0].mesh.vertices.size ()), 0.006) << "a voxel";
 }
 
-/** \brief They only say where the voxels are. */
+/** \brief They only say where the voxels are, if they are not forgotten. */
 TEST_F (BackendTest, UpdatesDoNotChangeTheLastSolution)
 {
   CoSectionBackend followed (options ()), plain (options ());
@@ -130,6 +46,8 @@ TEST_F (BackendTest, UpdatesDoNotChangeTheLastSolution)
   const MassProperties b = computeMassProperties (plain.solve ().objects.at (0).mesh);
   EXPECT_NEAR (a.volume_m3, b.volume_m3, 0.05 * b.volume_m3);
   EXPECT_LT ((a.centroid_m - b.centroid_m).norm (), 0.5 * options ().method.voxel_size_m);
+  followed.forgetUpdates ();
+  expectSame (followed.solve (), plain.solve ());
 }
 
 /** \brief The points of an object in its own frame, whatever its poses were. */

@@ -11,7 +11,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 using namespace pcl::cosection;
 using namespace pcl::cosection::test;
@@ -119,7 +121,7 @@ protected:
   std::vector<double>
   keyframesOf (FusionOptions options) const
   {
-    options.update_at_keyframes = true;
+    options.updates = KeyframeUpdates::InStep;
     std::vector<double> stamps;
     run (options, [&] (const KeyframeReport& report) { stamps.push_back (report.stamp); });
     return stamps;
@@ -258,6 +260,40 @@ TEST_F (SequenceFusionTest, WhatCannotBeUsedIsRefused)
   camera_poses_.clear ();
   EXPECT_THROW (run (options, {}, false), InvalidArgument);
   EXPECT_THROW (SequenceFusion ({}, options), InvalidArgument);
+}
+
+TEST_F (SequenceFusionTest, UpdatesChangeNoResult)
+{
+  const FusionResult plain = run (every (3));
+  for (const KeyframeUpdates updates : {KeyframeUpdates::InStep, KeyframeUpdates::Beside})
+  {
+    FusionOptions options = every (3);
+    options.updates = updates;
+    std::vector<double> stamps;
+    const FusionResult result = run (options, [&] (const KeyframeReport& report) { stamps.push_back (report.stamp); });
+    ASSERT_FALSE (stamps.empty ());
+    EXPECT_EQ (stamps.back (), 6.0) << "the last is always completed";
+    EXPECT_TRUE (std::is_sorted (stamps.begin (), stamps.end ()));
+    ASSERT_EQ (result.scene.objects.size (), plain.scene.objects.size ());
+    for (std::size_t n = 0; n < plain.scene.objects.size (); ++n)
+      EXPECT_EQ (result.scene.objects[n].mesh.vertices, plain.scene.objects[n].mesh.vertices) << n;
+    EXPECT_EQ (result.scene.background.vertices, plain.scene.background.vertices);
+  }
+}
+
+/** \brief Whatever the back end does then. */
+TEST_F (SequenceFusionTest, UpdatesBesideEndWithTheRun)
+{
+  const RgbdSequence images (folder_.path ());
+  KnownSequence known;
+  known.images = &images;
+  known.camera = camera_poses_;
+  FusionOptions options = every (2);
+  options.updates = KeyframeUpdates::Beside;
+  const SequenceFusion fusion (known, options);
+  for (const double until : {0.0, 0.2, 0.4, 0.7})
+    EXPECT_THROW (fusion.run ([&] (const std::string&, double done) { return done < until; }), Cancelled) << until;
+  EXPECT_THROW (fusion.run ({}, [] (const KeyframeReport&) { throw std::runtime_error ("the user's"); }), std::runtime_error);
 }
 
 TEST_F (SequenceFusionTest, CanBeCancelled)

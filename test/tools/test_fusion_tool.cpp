@@ -75,6 +75,9 @@ TEST_F (FusionTool, WritesMeshesTrajectoriesAndASummary)
   EXPECT_EQ (summary["frames"], 12);
   EXPECT_EQ (summary["keyframes"], 2);
   EXPECT_EQ (summary["parameters"]["masks"], "sim/mask");
+  for (const char* stage : {"read", "tracking", "integration", "raycast", "segmentation", "data_term", "constraints", "solve", "mesh",
+                            "final_solve"})
+    EXPECT_TRUE (summary["timings_s"].contains (stage)) << stage;
   EXPECT_GT (summary["timings_s"]["total"], 0.0);
   EXPECT_GT (summary["frames_per_second"], 0.0);
   EXPECT_EQ (summary["warnings"].size (), 1u);
@@ -130,7 +133,8 @@ TEST_F (FusionTool, WithoutPosesEverythingIsTracked)
   ASSERT_EQ (run ({"--masks", "sim/mask", "--background-voxel-size", "0.03", "sim", "out"}), 0) << errors_;
   EXPECT_EQ (filesIn ("out"), all_files);
   const nlohmann::json summary = json ("out/summary.json");
-  EXPECT_GT (summary["timings_s"]["tracking"], 0.0);
+  for (const char* stage : {"read", "tracking", "segmentation", "integration", "final_solve"})
+    EXPECT_GT (summary["timings_s"][stage], 0.0) << stage;
   int begun = 0;
   for (const std::string event : summary["events"]) // others are of volumes that grow
   {
@@ -152,7 +156,7 @@ TEST_F (FusionTool, WithoutPosesEverythingIsTracked)
 TEST_F (FusionTool, ThreadsDoNotMatter)
 {
   for (const char* threads : {"1", "2"})
-    ASSERT_EQ (run (known ({"--threads", threads, "--save-keyframes", "--keyframe-every", "6", "sim", threads})), 0) << errors_;
+    ASSERT_EQ (run (known ({"--threads", threads, "--save-keyframes", "--deterministic", "--keyframe-every", "6", "sim", threads})), 0) << errors_;
   const Words files = filesIn ("1");
   EXPECT_EQ (files, filesIn ("2"));
   EXPECT_EQ (std::count (files.begin (), files.end (), "keyframes/6/object_2.ply"), 1);
@@ -163,9 +167,22 @@ TEST_F (FusionTool, ThreadsDoNotMatter)
     }
 }
 
+TEST_F (FusionTool, UpdatesBesideTheFrontEndChangeNoResult)
+{
+  ASSERT_EQ (run (known ({"sim", "without"})), 0) << errors_;
+  ASSERT_EQ (run (known ({"--save-keyframes", "--keyframe-every", "10", "sim", "with"})), 0) << errors_;
+  EXPECT_TRUE (exists ("with/keyframes/10/object_1.ply")) << "the last is always completed";
+  EXPECT_GT (json ("with/summary.json")["timings_s"]["updates"], 0.0);
+  for (const std::string& name : filesIn ("without"))
+    if (name != "summary.json")
+    {
+      EXPECT_EQ (readFile (file ("with/" + name)), readFile (file ("without/" + name))) << name;
+    }
+}
+
 TEST_F (FusionTool, WhatAnEarlierRunWroteIsReplaced)
 {
-  ASSERT_EQ (run (known ({"--save-keyframes", "--keyframe-every", "6", "sim", "out"})), 0) << errors_;
+  ASSERT_EQ (run (known ({"--save-keyframes", "--deterministic", "--keyframe-every", "6", "sim", "out"})), 0) << errors_;
   EXPECT_TRUE (exists ("out/keyframes/0/background.ply"));
   writeFile (file ("out/notes.txt"), "mine");
   writeFile (file ("out/mesh/mine.ply"), "mine");

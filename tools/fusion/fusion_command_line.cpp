@@ -84,9 +84,12 @@ declareRun (CLI::App& app, GivenFusion& given)
       ->check (wholeRange (4, 100000))
       ->group (group);
   app.add_flag ("--save-keyframes", given.save_keyframes,
-                "Complete everything at each keyframe, and write it to keyframes/STAMP/")
+                "Complete everything at keyframes too, beside the tracking, and write it to keyframes/STAMP/; of keyframes that come "
+                "meanwhile the last")
       ->group (group);
-  app.add_flag ("--deterministic", given.deterministic, "The same bytes in every run; so it is in any case")->group (group);
+  app.add_flag ("--deterministic", given.deterministic,
+                "With --save-keyframes, wait for each keyframe, so that all are written; the last result is the same in any case")
+      ->group (group);
   app.add_option ("--json", given.json, "Write the summary to this file as well")->option_text ("FILE")->group ("General");
   app.add_option ("--threads", given.threads, "Threads to use, without influence on results (default: all processors)")
       ->option_text ("N")
@@ -94,6 +97,8 @@ declareRun (CLI::App& app, GivenFusion& given)
       ->group ("General");
   declareGeneralOptions (app, "pcl_cosection_fusion", given.verbose, given.quiet);
 }
+
+constexpr double coarsest_tracking_voxel_m = 0.02; // coarser ones lose small objects
 
 /** \brief "A:B", "A:" or ":B". */
 FrameRange
@@ -187,10 +192,13 @@ toSettings (const GivenFusion& given)
   fusion.keyframe.threads = fusion.backend.method.threads;
   fusion.tsdf.tsdf.threads = fusion.backend.method.threads;
   fusion.front_end.max_depth_m = fusion.keyframe.max_depth_m;
+  if (given.background_voxel_size)
+    fusion.front_end.background_voxel_size_m = std::min (*given.background_voxel_size, coarsest_tracking_voxel_m);
   fusion.front_end.threads = fusion.backend.method.threads;
   fusion.front_end.persistent_ids = given.mask_ids == "persistent";
   settings.ids_per_frame = given.mask_ids == "per-frame";
-  fusion.update_at_keyframes = given.save_keyframes;
+  if (given.save_keyframes)
+    fusion.updates = given.deterministic ? KeyframeUpdates::InStep : KeyframeUpdates::Beside;
   if (given.max_views)
   {
     fusion.backend.max_views = static_cast<std::size_t> (*given.max_views);

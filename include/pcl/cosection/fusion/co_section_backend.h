@@ -72,6 +72,13 @@ public:
   SceneResult
   solve (const ProgressCallback& progress = {}) const;
 
+  /** \brief As if there had been no update. */
+  void
+  forgetUpdates ()
+  {
+    scene_.forgetUpdates ();
+  }
+
   /** \brief Views that are kept, keyframes among them. */
   std::size_t
   views () const

@@ -46,6 +46,14 @@ struct PCL_COSECTION_EXPORT TrackedSequence
   const MaskSequence* masks;
 };
 
+/** \brief Whether SequenceFusion completes everything at keyframes, too, not only at the end. The last result is the same. */
+enum class KeyframeUpdates
+{
+  None,
+  InStep, ///< each keyframe waits for its update: the same updates in every run
+  Beside, ///< in a thread beside the front end; keyframes that come during an update are completed together in the next
+};
+
 /** \brief How SequenceFusion goes through a sequence. */
 struct PCL_COSECTION_EXPORT FusionOptions
 {
@@ -55,7 +63,7 @@ struct PCL_COSECTION_EXPORT FusionOptions
   DynamicFusionOptions front_end; ///< where poses are not given
   FrameRange frames;
   int keyframe_every = 10;           ///< frames; where one has no mask or no pose, the next that has
-  bool update_at_keyframes = false;  ///< complete everything at each keyframe, not only at the end
+  KeyframeUpdates updates = KeyframeUpdates::None;
 
   FusionOptions ();
 
@@ -81,7 +89,9 @@ struct PCL_COSECTION_EXPORT FusionResult
   std::size_t frames = 0;         ///< that were used
   std::size_t keyframes = 0;      ///< of them
   std::size_t kept_keyframes = 0; ///< of them, in the result
-  std::map<std::string, double> timings_s; ///< read, tracking, segmentation, integration, keyframes, final_solve, and those of the scene
+  /** \brief read, tracking, raycast (0: models are projected, in tracking), segmentation, integration, keyframes, updates (beside the
+   * others, unless in step), final_solve, and those of the scene. */
+  std::map<std::string, double> timings_s;
   bool tracked = false;            ///< poses were not given
   std::vector<std::string> events; ///< what tracking decided, and why
   std::vector<std::string> warnings;
@@ -90,7 +100,7 @@ struct PCL_COSECTION_EXPORT FusionResult
 /** \brief What is known after a keyframe. */
 struct KeyframeReport
 {
-  double stamp;
+  double stamp; ///< of the last keyframe in it
   const SceneResult& scene;
 };
 
@@ -119,7 +129,7 @@ public:
    * range */
   explicit SequenceFusion (const TrackedSequence& sequence, const FusionOptions& options = {});
 
-  /** \param[in] keyframe called after every update, if those are asked for
+  /** \param[in] keyframe called after every update, if those are asked for; from the calling thread
    * \throws IoError if no frame can be used, no mask, or no keyframe has a point; Cancelled */
   FusionResult
   run (const ProgressCallback& progress = {}, const KeyframeCallback& keyframe = {}) const;

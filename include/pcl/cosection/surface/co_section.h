@@ -173,6 +173,10 @@ public:
   SceneResult
   update (UpdateOutput output = UpdateOutput::Meshes, const ProgressCallback& progress = {});
 
+  /** \brief As if there had been no update: what was added stays. Gives the memory back that updates need. */
+  void
+  forgetUpdates ();
+
 private:
   friend class CoSectionRun;
   struct Impl;

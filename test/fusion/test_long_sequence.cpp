@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_cosection authors
+
+// A sequence may go on for as long as it likes: what is remembered of it is bounded.
+
+#include "io/sequence_folder.h"
+
+#include <pcl/cosection/fusion/sequence_fusion.h>
+#include <pcl/cosection/simulation/scene_spec.h>
+#include <pcl/cosection/simulation/sequence_writer.h>
+
+#include <gtest/gtest.h>
+
+#include <unistd.h>
+
+#include <fstream>
+
+using namespace pcl::cosection;
+using namespace pcl::cosection::test;
+namespace fs = std::filesystem;
+
+namespace
+{
+
+const char* const scene = R"({
+  "frames": 12,
+  "camera": {"width": 160, "height": 120, "keys": [
+    {"time": 0, "position": [-0.3, -0.7, 0.45], "look_at": [0, 0, 0.05]},
+    {"time": 0.4, "position": [0.3, -0.7, 0.5], "look_at": [0, 0, 0.05]}]},
+  "background": {"parts": [{"type": "plane", "extent": 1}]},
+  "objects": [
+    {"name": "ball", "shape": {"type": "sphere", "radius": 0.1},
+     "keys": [{"time": 0, "position": [-0.15, 0, 0.1]}, {"time": 0.4, "position": [-0.15, 0.1, 0.1]}]},
+    {"name": "box", "shape": {"type": "box", "size": [0.16, 0.12, 0.1]}, "keys": [{"position": [0.12, 0, 0.05]}]}]
+})";
+
+constexpr int rendered = 12;
+constexpr int frames = 450;
+constexpr int mask_every = 10;
+
+/** \brief To and fro through what was rendered. */
+std::string
+renderedName (int n)
+{
+  const int lap = 2 * (rendered - 1);
+  return SequenceFolder::fourDigits (std::min (n % lap, lap - n % lap)) + ".png";
+}
+
+std::size_t
+residentBytes ()
+{
+  std::size_t all = 0;
+  std::size_t resident = 0;
+  std::ifstream ("/proc/self/statm") >> all >> resident;
+  return resident * static_cast<std::size_t> (::sysconf (_SC_PAGESIZE));
+}
+
+FusionOptions
+smallOptions ()
+{
+  FusionOptions options;
+  options.front_end.background_resolution = 96;
+  options.front_end.object_resolution = 24;
+  options.backend.max_views = 16;
+  options.backend.max_keyframes = 4;
+  options.backend.method.resolution = 16;
+  options.backend.method.background_voxel_size_m = 0.05;
+  options.updates = KeyframeUpdates::Beside;
+  options.keyframe_every = 70;
+  return options;
+}
+
+} // namespace
+
+TEST (LongSequence, MemoryDoesNotGrowWithItsLength)
+{
+  const SequenceFolder folder;
+  writeSequence (parseSceneSpec (scene, "scene"), folder.path ("rendered"));
+  fs::copy_file (folder.path ("rendered/calibration.txt"), folder.newPath ("long/calibration.txt"));
+  for (int n = 0; n < frames; ++n)
+  {
+    const std::string name = SequenceFolder::fourDigits (n) + ".png";
+    fs::create_symlink (folder.path ("rendered/depth_noise/Depth" + renderedName (n)), folder.newPath ("long/depth/Depth" + name));
+    if (n % mask_every == 0)
+      fs::create_symlink (folder.path ("rendered/mask/Mask" + renderedName (n)), folder.newPath ("long/mask/Mask" + name));
+  }
+  const RgbdSequence images (folder.path ("long"));
+  const MaskSequence masks (folder.path ("long/mask"), images);
+
+  std::size_t after_a_third = 0;
+  std::size_t in_the_end = 0;
+  const auto watch = [&] (const std::string&, double done) {
+    if (done < 0.17) // half is the frames
+      after_a_third = residentBytes ();
+    else if (done < 0.5)
+      in_the_end = residentBytes ();
+    return true;
+  };
+  std::size_t updates = 0;
+  const FusionResult result =
+      SequenceFusion (TrackedSequence (images, &masks), smallOptions ()).run (watch, [&] (const KeyframeReport&) { ++updates; });
+
+  EXPECT_EQ (result.frames, static_cast<std::size_t> (frames));
+  EXPECT_LE (result.kept_keyframes, 4u);
+  EXPECT_GE (updates, 1u);
+  EXPECT_LE (updates, result.keyframes);
+  ASSERT_EQ (result.scene.objects.size (), 2u);
+  for (const ObjectResult& object : result.scene.objects)
+    EXPECT_EQ (object.error, "");
+  constexpr std::size_t image = 160 * 120 * sizeof (float);
+  EXPECT_LT (in_the_end, after_a_third + 100 * image) << "of the 300 frames between";
+}
