@@ -21,6 +21,7 @@ using Matrix6d = Eigen::Matrix<double, 6, 6>;
 constexpr std::size_t most_points = 5000;
 constexpr double least_slope = 0.3;  // of the distance: smaller ones are where it is truncated
 constexpr double facing = 0.5;       // of the slope along a direction, from which on a point tells of it
+constexpr double significance = 3.0; // standard deviations
 constexpr double least_share = 0.005; // of all points' weight, times the square of that
 
 struct Sample
@@ -28,13 +29,26 @@ struct Sample
   Eigen::Vector3d position;
   Eigen::Vector3d normal;
   double weight;
+  double distance;
 };
+
+/** \brief Standard deviation of the distance of a point of weight 1, from the median. */
+double
+spread (const std::vector<Sample>& samples)
+{
+  std::vector<double> sizes (samples.size ());
+  std::transform (samples.begin (), samples.end (), sizes.begin (),
+                  [] (const Sample& sample) { return std::abs (sample.distance) * std::sqrt (sample.weight); });
+  const auto middle = sizes.begin () + static_cast<std::ptrdiff_t> (sizes.size () / 2);
+  std::nth_element (sizes.begin (), middle, sizes.end ());
+  return 1.4826 * *middle;
+}
 
 } // namespace
 
 ObservedMotion
 observedMotion (const std::vector<Eigen::Vector3f>& points, const std::vector<float>& weights, const TsdfVolume& volume,
-                const Eigen::Isometry3d& guess, const Eigen::Isometry3d& found)
+                const Eigen::Isometry3d& guess, const Eigen::Isometry3d& found, double correlated)
 {
   std::vector<Sample> samples;
   Eigen::Vector3d centre = Eigen::Vector3d::Zero ();
@@ -46,7 +60,7 @@ observedMotion (const std::vector<Eigen::Vector3f>& points, const std::vector<fl
     const auto cell = weights[n] > 0.0f ? volume.sample<double> (p) : std::nullopt;
     if (!cell || cell->gradient ().norm () < least_slope)
       continue;
-    samples.push_back ({p, cell->gradient ().normalized (), weights[n]});
+    samples.push_back ({p, cell->gradient ().normalized (), weights[n], cell->value ()});
     centre += weights[n] * p;
     total += weights[n];
   }
@@ -71,7 +85,9 @@ observedMotion (const std::vector<Eigen::Vector3f>& points, const std::vector<fl
     const Vector6d row = jacobian (sample);
     curvature += sample.weight * row * row.transpose ();
   }
-  const Matrix6d directions = Eigen::SelfAdjointEigenSolver<Matrix6d> (curvature).eigenvectors ();
+  const Eigen::SelfAdjointEigenSolver<Matrix6d> solver (curvature);
+  const Matrix6d directions = solver.eigenvectors ();
+  const double sigma = spread (samples);
 
   const Eigen::Isometry3d motion = found * guess.inverse ();
   const Eigen::AngleAxisd turn (motion.linear ());
@@ -87,12 +103,16 @@ observedMotion (const std::vector<Eigen::Vector3f>& points, const std::vector<fl
       if (std::abs (along) >= facing)
         told += sample.weight * along * along;
     }
-    if (told >= least_share * total)
-      ++result.directions;
-    else
-      moved -= direction * direction.dot (moved);
+    const double along = direction.dot (moved);
+    const bool observed = told >= least_share * total;
+    const double variance = sigma * sigma * correlated / (solver.eigenvalues ()[k] * static_cast<double> (step));
+    const bool significant = along * along >= significance * significance * variance;
+    result.directions += observed;
+    result.held += observed && !significant;
+    if (!observed || !significant)
+      moved -= direction * along;
   }
-  if (result.directions == 6)
+  if (result.directions == 6 && result.held == 0)
   {
     result.T_model_camera = found;
     return result;
