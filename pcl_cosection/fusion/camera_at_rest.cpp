@@ -84,12 +84,14 @@ void
 CameraAtRest::begin (const FrameCloud& cloud, const Picture& colour)
 {
   now_ = colour.pixels.size () == cloud.points.size () ? smoothedBrightness (colour) : Image<float> ();
+  rests_ = rested_;
   moved_ = true;
 }
 
 void
 CameraAtRest::keep (const FrameCloud& cloud, const Eigen::Isometry3d& T_world_camera)
 {
+  rested_ = rests_;
   if (!moved_)
     return;
   depth_ = cloud.depth;
@@ -147,8 +149,12 @@ CameraAtRest::isPreferredTo (const Eigen::Isometry3d& T_world_camera, const Fram
     rest += ballot.isPlain () && ballot.difference < 0.0;
     motion += ballot.isPlain () && ballot.difference > 0.0;
   }
-  const bool at_rest = rest >= least_votes && rest > least_majority * motion;
-  moved_ = !at_rest && ((motion >= least_votes && motion > least_majority * rest) || shifts > largest_unseen_shift_px * compared);
+  // It goes on as it did, unless most say otherwise.
+  const double majority = rested_ ? 1.0 / least_majority : least_majority;
+  const bool at_rest = rest >= least_votes && rest > majority * motion;
+  const bool in_motion = !at_rest && motion >= least_votes && motion > majority * rest;
+  rests_ = at_rest || (rested_ && !in_motion);
+  moved_ = in_motion || (!at_rest && shifts > largest_unseen_shift_px * compared);
   return at_rest;
 }
 

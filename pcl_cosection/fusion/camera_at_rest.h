@@ -17,7 +17,7 @@ namespace cosection
  *
  * A frame is compared with one before it, brightness and depth, twice: pixel by pixel, as if the camera had not moved, and by where an estimate of
  * its motion puts them. Each block of the image votes for what explains it better, if the difference is plain: what moves by itself is in few
- * blocks, edges and texture of what rests in many. */
+ * blocks, edges and texture of what rests in many. Without a plain majority, the camera goes on as it did: resting or moving. */
 class CameraAtRest
 {
 public:
@@ -45,7 +45,9 @@ private:
   Image<float> brightness_; // smoothed; empty without colours
   Image<float> now_;        // brightness of the frame that is looked at
   Eigen::Isometry3d T_world_camera_ = Eigen::Isometry3d::Identity ();
-  bool moved_ = true;
+  bool rested_ = true; // in the frame before
+  bool rests_ = true;  // in the one that is looked at
+  bool moved_ = true;  // since the one that others are compared with
 };
 
 } // namespace cosection
