@@ -18,13 +18,14 @@ namespace
 
 constexpr int nodes_across = 160;
 constexpr int blocks_across = 16;
+constexpr int blocks_of_sector = 4;      // along a side
 constexpr float brightness_sigma = 4.0f; // of 256, of a smoothed picture
 constexpr float most_sigmas = 3.0f;      // differences count no more
 constexpr double plain_difference = 20.0; // of a block's sums of squares: that of one good edge
 constexpr double plain_share = 0.5;       // of its differences' sizes: chance has both signs
 constexpr float most_of_better = 1.5f;
 constexpr double least_majority = 2.0;
-constexpr int least_votes = 4;
+constexpr int least_votes = 2;
 constexpr double largest_unseen_shift_px = 3.0; // where there is nothing to be seen that tells
 
 /** \brief Brightness without the noise of single pixels, so that it may be read between them. */
@@ -142,17 +143,18 @@ CameraAtRest::isPreferredTo (const Eigen::Isometry3d& T_world_camera, const Fram
         ballot.compare ((at_rest - z) / sigma, (moved - static_cast<float> (p.z ())) / sigma);
       }
     }
-  int rest = 0;
-  int motion = 0;
-  for (const Ballot& ballot : ballots)
-  {
-    rest += ballot.isPlain () && ballot.difference < 0.0;
-    motion += ballot.isPlain () && ballot.difference > 0.0;
-  }
+  std::vector<int> sectors (static_cast<std::size_t> (columns / blocks_of_sector + 1) * (ballots.size () / columns / blocks_of_sector + 1), 0);
+  for (std::size_t n = 0; n < ballots.size (); ++n)
+    if (ballots[n].isPlain ())
+      sectors[n / columns / blocks_of_sector * (columns / blocks_of_sector + 1) + n % columns / blocks_of_sector] +=
+          ballots[n].difference < 0.0 ? 1 : -1;
+  const auto rest = std::count_if (sectors.begin (), sectors.end (), [] (int votes) { return votes > 0; });
+  const auto motion = std::count_if (sectors.begin (), sectors.end (), [] (int votes) { return votes < 0; });
   // It goes on as it did, unless most say otherwise.
   const double majority = rested_ ? 1.0 / least_majority : least_majority;
-  const bool at_rest = rest >= least_votes && rest > majority * motion;
-  const bool in_motion = !at_rest && motion >= least_votes && motion > majority * rest;
+  const bool at_rest = rest >= least_votes && static_cast<double> (rest) > majority * static_cast<double> (motion);
+  const bool in_motion =
+      !at_rest && motion >= least_votes && static_cast<double> (motion) > least_majority * static_cast<double> (rest);
   rests_ = at_rest || (rested_ && !in_motion);
   moved_ = in_motion || (!at_rest && shifts > largest_unseen_shift_px * compared);
   return at_rest;

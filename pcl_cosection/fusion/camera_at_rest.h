@@ -16,8 +16,8 @@ namespace cosection
 /** \brief Tells a camera that moves from one before which something moves, by pictures.
  *
  * A frame is compared with one before it, brightness and depth, twice: pixel by pixel, as if the camera had not moved, and by where an estimate of
- * its motion puts them. Each block of the image votes for what explains it better, if the difference is plain: what moves by itself is in few
- * blocks, edges and texture of what rests in many. Without a plain majority, the camera goes on as it did: resting or moving. */
+ * its motion puts them. Each sector of the image votes for what explains more of its blocks better, where the difference is plain: what moves by
+ * itself is in few sectors, edges and texture of what rests in many. Without a plain majority, the camera goes on as it did: resting or moving. */
 class CameraAtRest
 {
 public:

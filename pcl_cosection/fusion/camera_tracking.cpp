@@ -65,7 +65,7 @@ CameraTracking::track (const FrameCloud& cloud, const std::vector<AssociatedMode
     left_out = share;
     estimate.alignment = alignment_.align (points, weights, background, guess);
     const ObservedMotion observed =
-        observedMotion (points, weights, background, before_, estimate.alignment.T_grid_sensor, correlated);
+        observedMotion (points, weights, background, before_, estimate.alignment.T_grid_sensor, {correlated});
     estimate.T_model_camera = observed.T_model_camera;
     estimate.observed_directions = std::min (observed.directions, estimate.alignment.observed_directions);
     const bool at_rest = at_rest_.isPreferredTo (estimate.T_model_camera, cloud);

@@ -209,7 +209,12 @@ DynamicFusion::Impl::trackObjects (const FrameCloud& cloud, double stamp)
       const bool steady = object.state == ObjectState::Tracked && estimate.observed_directions == all_directions;
       if (object.state == ObjectState::Lost)
         log.add (stamp, "object ", object.id, " is found again");
-      object.last_motion = steady ? Eigen::Isometry3d (T_world_object * object.T_world_object.inverse ()) : Eigen::Isometry3d::Identity ();
+      // What its surface does not tell must not go on by itself.
+      object.last_motion = Eigen::Isometry3d::Identity ();
+      if (steady)
+        object.last_motion = T_world_object * object.T_world_object.inverse ();
+      else if (object.state == ObjectState::Tracked)
+        object.last_motion.translation () = T_world_object.translation () - object.T_world_object.translation ();
       object.T_world_object = T_world_object;
       object.state = ObjectState::Tracked;
       object.frames_not_tracked = 0;

@@ -135,7 +135,7 @@ MovingParts::look (const FrameCloud& cloud, const std::vector<AssociatedModel>& 
       const float mean = scale * sum / count;
       const float change = std::min (most_for_rest, std::max (-most_for_motion, log_peak - 0.5f * mean * mean));
       float& odds = log_odds_.at (i, j);
-      odds = std::min (most_odds, std::max (-2.0f * most_odds, odds + change));
+      odds = std::min (most_odds, std::max (-most_odds, odds + change));
       any_ = any_ || odds < 0.0f;
     }
 }

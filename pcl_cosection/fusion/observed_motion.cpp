@@ -3,9 +3,11 @@
 #include "observed_motion.h"
 
 #include <Eigen/Eigenvalues>
+#include <Eigen/QR>
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace pcl
 {
@@ -18,7 +20,6 @@ namespace
 using Vector6d = Eigen::Matrix<double, 6, 1>;
 using Matrix6d = Eigen::Matrix<double, 6, 6>;
 
-constexpr std::size_t most_points = 5000;
 constexpr double least_slope = 0.3;  // of the distance: smaller ones are where it is truncated
 constexpr double facing = 0.5;       // of the slope along a direction, from which on a point tells of it
 constexpr double significance = 3.0; // standard deviations
@@ -31,6 +32,23 @@ struct Sample
   double weight;
   double distance;
 };
+
+/** \brief Differences of the distance along the axes; nothing where one of them is not known. */
+std::optional<Eigen::Vector3d>
+slopeAround (const TsdfVolume& volume, const Eigen::Vector3d& p, double reach_vox)
+{
+  const double reach_m = reach_vox * volume.grid ().voxel_size_m;
+  Eigen::Vector3d slope;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    const auto before = volume.sample<double> (p - reach_m * Eigen::Vector3d::Unit (axis));
+    const auto behind = volume.sample<double> (p + reach_m * Eigen::Vector3d::Unit (axis));
+    if (!before || !behind)
+      return std::nullopt;
+    slope[axis] = (behind->value () - before->value ()) / (2.0 * reach_m);
+  }
+  return slope;
+}
 
 /** \brief Standard deviation of the distance of a point of weight 1, from the median. */
 double
@@ -48,19 +66,21 @@ spread (const std::vector<Sample>& samples)
 
 ObservedMotion
 observedMotion (const std::vector<Eigen::Vector3f>& points, const std::vector<float>& weights, const TsdfVolume& volume,
-                const Eigen::Isometry3d& guess, const Eigen::Isometry3d& found, double correlated)
+                const Eigen::Isometry3d& guess, const Eigen::Isometry3d& found, const MotionPrior& prior)
 {
   std::vector<Sample> samples;
   Eigen::Vector3d centre = Eigen::Vector3d::Zero ();
   double total = 0.0;
-  const std::size_t step = std::max<std::size_t> (1, points.size () / most_points);
+  const std::size_t step = std::max<std::size_t> (1, points.size () / prior.most_points);
   for (std::size_t n = 0; n < points.size (); n += step)
   {
     const Eigen::Vector3d p = found * points[n].cast<double> ();
     const auto cell = weights[n] > 0.0f ? volume.sample<double> (p) : std::nullopt;
-    if (!cell || cell->gradient ().norm () < least_slope)
+    const auto slope = cell && prior.reach_vox > 0.0 ? slopeAround (volume, p, prior.reach_vox)
+                                                     : (cell ? std::optional<Eigen::Vector3d> (cell->gradient ()) : std::nullopt);
+    if (!slope || slope->norm () < least_slope)
       continue;
-    samples.push_back ({p, cell->gradient ().normalized (), weights[n], cell->value ()});
+    samples.push_back ({p, slope->normalized (), weights[n], cell->value ()});
     centre += weights[n] * p;
     total += weights[n];
   }
@@ -93,6 +113,8 @@ observedMotion (const std::vector<Eigen::Vector3f>& points, const std::vector<fl
   const Eigen::AngleAxisd turn (motion.linear ());
   Vector6d moved;
   moved << motion * centre - centre, radius * turn.angle () * turn.axis ();
+  Matrix6d held_directions = Matrix6d::Zero ();
+  int held_count = 0;
   for (int k = 0; k < 6; ++k)
   {
     const Vector6d direction = directions.col (k);
@@ -105,18 +127,23 @@ observedMotion (const std::vector<Eigen::Vector3f>& points, const std::vector<fl
     }
     const double along = direction.dot (moved);
     const bool observed = told >= least_share * total;
-    const double variance = sigma * sigma * correlated / (solver.eigenvalues ()[k] * static_cast<double> (step));
+    const double variance = sigma * sigma * prior.correlated / (solver.eigenvalues ()[k] * static_cast<double> (step));
     const bool significant = along * along >= significance * significance * variance;
     result.directions += observed;
     result.held += observed && !significant;
     if (!observed || !significant)
-      moved -= direction * along;
+      held_directions.col (held_count++) = direction;
   }
-  if (result.directions == 6 && result.held == 0)
+  if (held_count == 0)
   {
     result.T_model_camera = found;
     return result;
   }
+  // The cheapest of all motions that differ in these directions only.
+  Vector6d costs = Vector6d::Ones ();
+  costs.tail<3> ().setConstant (prior.cost_of_turns);
+  const auto free = held_directions.leftCols (held_count);
+  moved -= free * (costs.asDiagonal () * free).colPivHouseholderQr ().solve (costs.cwiseProduct (moved));
   const Eigen::Vector3d rotation = moved.tail<3> () / radius;
   Eigen::Isometry3d held = Eigen::Isometry3d::Identity ();
   if (rotation.norm () > 0.0)

@@ -6,6 +6,7 @@
 
 #include <Eigen/Geometry>
 
+#include <cstddef>
 #include <vector>
 
 namespace pcl
@@ -21,6 +22,15 @@ struct ObservedMotion
   int held = 0;       ///< of them, those in which the motion is within what noise would make of none
 };
 
+/** \brief What is expected of a motion. */
+struct MotionPrior
+{
+  double correlated = 0.0;   ///< how many points err together; 0: they do not err, and every motion is significant
+  double cost_of_turns = 1.0; ///< relative to that of shifts: where a surface tells only of both together, as a ball's does, the cheaper is taken
+  std::size_t most_points = 5000; ///< that are asked
+  double reach_vox = 0.0;     ///< to either side, over which the slope of distances is taken; 0: that of the cell. Young models are rough
+};
+
 /** \brief Take back the part of a step in directions that no part of the surface opposes.
  *
  * Noise bends the distances before a bare wall everywhere a little, so that curvature alone says that its points know where they are along
@@ -31,10 +41,10 @@ struct ObservedMotion
  * \param[in] points sensor frame, with \a weights
  * \param[in] guess where the step began
  * \param[in] found where it ended
- * \param[in] correlated how many points err together */
+ */
 ObservedMotion
 observedMotion (const std::vector<Eigen::Vector3f>& points, const std::vector<float>& weights, const TsdfVolume& volume,
-                const Eigen::Isometry3d& guess, const Eigen::Isometry3d& found, double correlated);
+                const Eigen::Isometry3d& guess, const Eigen::Isometry3d& found, const MotionPrior& prior);
 
 } // namespace cosection
 } // namespace pcl

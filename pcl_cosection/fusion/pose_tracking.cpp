@@ -2,6 +2,8 @@
 // Copyright (c) 2026, the pcl_cosection authors
 #include "pose_tracking.h"
 
+#include "observed_motion.h"
+
 #include <algorithm>
 #include <cmath>
 #include <sstream>
@@ -23,6 +25,7 @@ constexpr double min_in_view = 0.1;
 constexpr double min_tracked_in_view = 0.3; // what is left of an object at the image's border slides
 constexpr double tolerance_voxels = 2.0;
 
+constexpr MotionPrior object_motion{0.0, 10.0, 1000, 1.5}; // what does not seem to turn does not
 constexpr PoseLimits object_limits{0.15, 0.5, 0.3, 0.0};
 
 Eigen::Vector3d
@@ -138,9 +141,10 @@ PoseTracking::trackObject (const FrameCloud& cloud, std::vector<AssociatedModel>
                          : doubtOf (estimate.alignment, guess, centre, points.size (), object_limits, frames_passed);
     if (!estimate.doubt.empty ())
       break;
-    estimate.observed_directions = estimate.alignment.observed_directions;
-    models[target].T_model_sensor = estimate.alignment.T_grid_sensor;
-    estimate.T_model_camera = estimate.alignment.T_grid_sensor;
+    const ObservedMotion observed = observedMotion (points, weights, volume, guess, estimate.alignment.T_grid_sensor, object_motion);
+    estimate.observed_directions = std::min (observed.directions, estimate.alignment.observed_directions);
+    models[target].T_model_sensor = observed.T_model_camera;
+    estimate.T_model_camera = observed.T_model_camera;
   }
   estimate.visibility =
       checkVisibility (volume, estimate.T_model_camera, cloud, tolerance_voxels * volume.grid ().voxel_size_m);

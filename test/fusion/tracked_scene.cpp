@@ -204,6 +204,18 @@ TrackedScene::addPerson (int id, const KeyedMotion& motion)
 }
 
 void
+TrackedScene::addHand (int id, const KeyedMotion& motion)
+{
+  SceneBody hand;
+  hand.name = "hand" + std::to_string (id);
+  hand.id = id;
+  hand.parts.push_back (part (makeSphere (0.05), {0.0, 0.0, 0.0}));
+  hand.parts.push_back (part (makeBox ({0.5, 0.06, 0.06}), {-0.27, 0.0, 0.0}));
+  hand.motion = motion;
+  scene_.bodies.push_back (hand);
+}
+
+void
 TrackedScene::addBall (int id, const KeyedMotion& motion)
 {
   SceneBody ball;

@@ -96,6 +96,10 @@ public:
   void
   addPerson (int id, const KeyedMotion& motion);
 
+  /** \brief A fist and an arm that comes from the left. */
+  void
+  addHand (int id, const KeyedMotion& motion);
+
   void
   addBall (int id, const KeyedMotion& motion);
 
