@@ -3,6 +3,7 @@
 #include <pcl/cosection/fusion/dynamic_fusion.h>
 
 #include "background_model.h"
+#include "camera_tracking.h"
 #include "event_log.h"
 #include "frame_cloud.h"
 #include "frame_segmentation.h"
@@ -66,6 +67,7 @@ struct DynamicFusion::Impl
   DynamicFusionOptions options;
   BackgroundModel background;
   ObjectMap objects;
+  CameraTracking camera_tracking;
   PoseTracking tracking;
   DataAssociation association;
   EventLog log;
@@ -111,6 +113,7 @@ DynamicFusion::Impl::Impl (const PinholeCamera& camera, const DynamicFusionOptio
 , options (options)
 , background (backgroundOptions (options))
 , objects (camera, options)
+, camera_tracking (options.tracking_points, associationOptions (options), options.threads)
 , tracking (options.tracking_points, associationOptions (options), options.threads)
 , association (associationOptions (options))
 , T_world_camera (options.first_pose)
@@ -139,9 +142,11 @@ bool
 DynamicFusion::Impl::trackCamera (const FrameCloud& cloud, const RgbdFrame& frame)
 {
   const double stamp = frame.stamp;
+  camera_tracking.begin (cloud, frame.colour);
   if (!background.volume ())
   {
     last_frame = frame.index;
+    camera_tracking.keep (cloud, T_world_camera);
     background.follow (cloud, T_world_camera);
     result.inlier_share = 1.0;
     return background.volume ().has_value ();
@@ -153,7 +158,7 @@ DynamicFusion::Impl::trackCamera (const FrameCloud& cloud, const RgbdFrame& fram
   for (const Eigen::Isometry3d& motion : {last_motion, Eigen::Isometry3d (Eigen::Isometry3d::Identity ())})
   {
     const Eigen::Isometry3d guess = T_world_camera * motion;
-    estimate = tracking.trackCamera (cloud, models (guess, true, used), guess, frames_passed);
+    estimate = camera_tracking.track (cloud, models (guess, true, used), guess, frames_passed);
     good = estimate.doubt.empty ();
     if (good || last_motion.isApprox (Eigen::Isometry3d::Identity (), 1e-9))
       break;
@@ -173,6 +178,7 @@ DynamicFusion::Impl::trackCamera (const FrameCloud& cloud, const RgbdFrame& fram
   const bool steady = frames_passed == 1.0 && estimate.observed_directions == all_directions;
   last_motion = steady ? Eigen::Isometry3d (T_world_camera.inverse () * estimate.T_model_camera) : Eigen::Isometry3d::Identity ();
   T_world_camera = estimate.T_model_camera;
+  camera_tracking.keep (cloud, T_world_camera);
   frames_lost = 0;
   last_frame = frame.index;
   background.follow (cloud, T_world_camera);
@@ -203,7 +209,12 @@ DynamicFusion::Impl::trackObjects (const FrameCloud& cloud, double stamp)
       const bool steady = object.state == ObjectState::Tracked && estimate.observed_directions == all_directions;
       if (object.state == ObjectState::Lost)
         log.add (stamp, "object ", object.id, " is found again");
-      object.last_motion = steady ? Eigen::Isometry3d (T_world_object * object.T_world_object.inverse ()) : Eigen::Isometry3d::Identity ();
+      // What its surface does not tell must not go on by itself.
+      object.last_motion = Eigen::Isometry3d::Identity ();
+      if (steady)
+        object.last_motion = T_world_object * object.T_world_object.inverse ();
+      else if (object.state == ObjectState::Tracked)
+        object.last_motion.translation () = T_world_object.translation () - object.T_world_object.translation ();
       object.T_world_object = T_world_object;
       object.state = ObjectState::Tracked;
       object.frames_not_tracked = 0;
@@ -239,6 +250,7 @@ DynamicFusion::Impl::segment (const FrameCloud& cloud, double stamp, const Image
     applyMask (cloud, *mask, object_of, known, idsOf (used), association, segmentation);
     objects.grow (frame, segmentation.labels, log);
   }
+  camera_tracking.moving ().mark (cloud, segmentation.labels, TrackedFrame::unassigned);
   objects.tidy (stamp, segmentation, log);
   // What a lost object may be is nobody's.
   for (const auto& object : objects.active ())

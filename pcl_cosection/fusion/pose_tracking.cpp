@@ -17,7 +17,6 @@ namespace cosection
 namespace
 {
 
-constexpr std::size_t min_camera_points = 200;
 constexpr std::size_t min_object_points = 50;
 constexpr int object_rounds = 2;           // of association and alignment
 constexpr double min_confirmed = 0.5;      // of an object's surface about which a frame says something
@@ -26,17 +25,8 @@ constexpr double min_in_view = 0.1;
 constexpr double min_tracked_in_view = 0.3; // what is left of an object at the image's border slides
 constexpr double tolerance_voxels = 2.0;
 
-constexpr PoseLimits camera_limits{0.15, 0.26, 0.3, 0.1};
+constexpr MotionPrior object_motion{0.0, 10.0, 1000, 1.5}; // what does not seem to turn does not
 constexpr PoseLimits object_limits{0.15, 0.5, 0.3, 0.0};
-
-SdfAlignmentOptions
-alignmentOptions (int max_points, int threads)
-{
-  SdfAlignmentOptions options;
-  options.max_points = max_points;
-  options.threads = threads;
-  return options;
-}
 
 Eigen::Vector3d
 centroid (const std::vector<Eigen::Vector3f>& points, const std::vector<float>& weights)
@@ -59,24 +49,6 @@ line (const Parts&... parts)
   text.precision (3);
   (text << ... << parts);
   return text.str ();
-}
-
-/** \brief Why a pose is not believed. */
-std::string
-doubtOf (const SdfAlignmentResult& result, const Eigen::Isometry3d& guess, const Eigen::Vector3d& centre, std::size_t points,
-         const PoseLimits& limits, double frames_passed)
-{
-  if (result.stop == SdfAlignmentStop::TooFewPoints || result.stop == SdfAlignmentStop::NoGradient)
-    return describe (result.stop);
-  if (static_cast<double> (result.points_with_distance) < limits.min_points_share * static_cast<double> (points))
-    return line ("only ", result.points_with_distance, " of ", points, " points are where the model knows a surface");
-  if (result.inlier_share < limits.min_inlier_share)
-    return line ("only ", 100.0 * result.inlier_share, " % of the points fit");
-  const double shift = (result.T_grid_sensor * centre - guess * centre).norm ();
-  const double turn = Eigen::AngleAxisd (guess.linear ().transpose () * result.T_grid_sensor.linear ()).angle ();
-  if (shift > limits.max_shift_m * frames_passed || turn > limits.max_turn_rad * frames_passed)
-    return line ("it would have jumped by ", shift, " m and ", turn * 180.0 / M_PI, " degrees");
-  return "";
 }
 
 /** \brief The reliable points that may lie in a volume, and what they count. */
@@ -108,6 +80,34 @@ pointsNear (const FrameCloud& cloud, const AssociatedModel& model)
   return points;
 }
 
+} // namespace
+
+SdfAlignmentOptions
+trackingOptions (int max_points, int threads)
+{
+  SdfAlignmentOptions options;
+  options.max_points = max_points;
+  options.threads = threads;
+  return options;
+}
+
+std::string
+doubtOf (const SdfAlignmentResult& result, const Eigen::Isometry3d& guess, const Eigen::Vector3d& centre, std::size_t points,
+         const PoseLimits& limits, double frames_passed)
+{
+  if (result.stop == SdfAlignmentStop::TooFewPoints || result.stop == SdfAlignmentStop::NoGradient)
+    return describe (result.stop);
+  if (static_cast<double> (result.points_with_distance) < limits.min_points_share * static_cast<double> (points))
+    return line ("only ", result.points_with_distance, " of ", points, " points are where the model knows a surface");
+  if (result.inlier_share < limits.min_inlier_share)
+    return line ("only ", 100.0 * result.inlier_share, " % of the points fit");
+  const double shift = (result.T_grid_sensor * centre - guess * centre).norm ();
+  const double turn = Eigen::AngleAxisd (guess.linear ().transpose () * result.T_grid_sensor.linear ()).angle ();
+  if (shift > limits.max_shift_m * frames_passed || turn > limits.max_turn_rad * frames_passed)
+    return line ("it would have jumped by ", shift, " m and ", turn * 180.0 / M_PI, " degrees");
+  return "";
+}
+
 void
 weighReadings (const std::vector<Eigen::Vector3f>& points, double voxel_size_m, std::vector<float>& weights)
 {
@@ -115,39 +115,10 @@ weighReadings (const std::vector<Eigen::Vector3f>& points, double voxel_size_m, 
     weights[n] *= readingWeight (points[n].z (), voxel_size_m);
 }
 
-} // namespace
-
 PoseTracking::PoseTracking (int max_points, const AssociationOptions& association, int threads)
-: camera_ (alignmentOptions (max_points, threads))
-, object_ (alignmentOptions (max_points, threads))
+: object_ (trackingOptions (max_points, threads))
 , association_ (association)
-, max_points_ (max_points)
 {}
-
-PoseEstimate
-PoseTracking::trackCamera (const FrameCloud& cloud, const std::vector<AssociatedModel>& models, const Eigen::Isometry3d& guess,
-                           double frames_passed)
-{
-  const double pixels = static_cast<double> (cloud.camera.width) * cloud.camera.height;
-  const int step = std::max (1, static_cast<int> (std::ceil (std::sqrt (pixels / max_points_) - 0.01)));
-  const std::vector<Eigen::Vector3f> points = cloud.sample (step);
-  const TsdfVolume& background = *models[0].volume;
-  PoseEstimate estimate;
-  estimate.T_model_camera = guess;
-  if (points.size () < min_camera_points)
-  {
-    estimate.doubt = "there are hardly any readings";
-    return estimate;
-  }
-  std::vector<float> weights = association_.probabilities (points, models, 0);
-  weighReadings (points, background.grid ().voxel_size_m, weights);
-  estimate.alignment = camera_.align (points, weights, background, guess);
-  const ObservedMotion observed = observedMotion (points, weights, background, guess, estimate.alignment.T_grid_sensor);
-  estimate.T_model_camera = observed.T_model_camera;
-  estimate.observed_directions = std::min (observed.directions, estimate.alignment.observed_directions);
-  estimate.doubt = doubtOf (estimate.alignment, guess, Eigen::Vector3d (0.0, 0.0, 1.0), points.size (), camera_limits, frames_passed);
-  return estimate;
-}
 
 PoseEstimate
 PoseTracking::trackObject (const FrameCloud& cloud, std::vector<AssociatedModel> models, std::size_t target, double frames_passed)
@@ -170,9 +141,10 @@ PoseTracking::trackObject (const FrameCloud& cloud, std::vector<AssociatedModel>
                          : doubtOf (estimate.alignment, guess, centre, points.size (), object_limits, frames_passed);
     if (!estimate.doubt.empty ())
       break;
-    estimate.observed_directions = estimate.alignment.observed_directions;
-    models[target].T_model_sensor = estimate.alignment.T_grid_sensor;
-    estimate.T_model_camera = estimate.alignment.T_grid_sensor;
+    const ObservedMotion observed = observedMotion (points, weights, volume, guess, estimate.alignment.T_grid_sensor, object_motion);
+    estimate.observed_directions = std::min (observed.directions, estimate.alignment.observed_directions);
+    models[target].T_model_sensor = observed.T_model_camera;
+    estimate.T_model_camera = observed.T_model_camera;
   }
   estimate.visibility =
       checkVisibility (volume, estimate.T_model_camera, cloud, tolerance_voxels * volume.grid ().voxel_size_m);

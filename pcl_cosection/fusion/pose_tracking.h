@@ -38,16 +38,26 @@ struct PoseLimits
   double min_points_share;  ///< of the points, those where the model knows a distance
 };
 
-/** \brief Tracks the camera against the background and objects relative to the camera: frame to model, weighted by association. */
+/** \brief How poses are looked for from frame to frame. */
+SdfAlignmentOptions
+trackingOptions (int max_points, int threads);
+
+/** \brief Why a pose is not believed; empty if it is.
+ * \param[in] centre of what is tracked, sensor frame
+ * \param[in] points how many there are */
+std::string
+doubtOf (const SdfAlignmentResult& result, const Eigen::Isometry3d& guess, const Eigen::Vector3d& centre, std::size_t points,
+         const PoseLimits& limits, double frames_passed);
+
+/** \brief Multiply weights of points by that of their readings. */
+void
+weighReadings (const std::vector<Eigen::Vector3f>& points, double voxel_size_m, std::vector<float>& weights);
+
+/** \brief Tracks objects relative to the camera: frame to model, weighted by association. */
 class PoseTracking
 {
 public:
   PoseTracking (int max_points, const AssociationOptions& association, int threads);
-
-  /** \brief \param[in] models the background first, objects where they are expected relative to the camera at \a guess
-   * \param[in] guess T_world_camera */
-  PoseEstimate
-  trackCamera (const FrameCloud& cloud, const std::vector<AssociatedModel>& models, const Eigen::Isometry3d& guess, double frames_passed);
 
   /** \brief Track the model of number \a target from where it is among \a models. */
   PoseEstimate
@@ -59,10 +69,8 @@ public:
               const Eigen::Isometry3d& guess);
 
 private:
-  SdfAlignment camera_;
   SdfAlignment object_;
   DataAssociation association_;
-  int max_points_;
 };
 
 } // namespace cosection

@@ -5,6 +5,7 @@
 #include <pcl/cosection/simulation/scene_renderer.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 
 namespace pcl
@@ -54,6 +55,12 @@ movingThing (const Eigen::Vector3d& from, const Eigen::Vector3d& to, double turn
   const Eigen::Quaterniond start = Eigen::Quaterniond::Identity ();
   const Eigen::Quaterniond end (Eigen::AngleAxisd (turn_rad, Eigen::Vector3d::UnitZ ()));
   return KeyedMotion (KeyedVector ({0.0, 1.0}, {from, to}), KeyedRotation ({0.0, 1.0}, {start, end}));
+}
+
+KeyedMotion
+along (const std::vector<double>& times, const std::vector<Eigen::Vector3d>& places)
+{
+  return KeyedMotion (KeyedVector (times, places), KeyedRotation ({0.0}, {Eigen::Quaterniond::Identity ()}));
 }
 
 int
@@ -123,6 +130,23 @@ TrackedRun::shareOfBackgroundInside (const TrackedScene& scene, int id, double d
   return static_cast<double> (inside) / static_cast<double> (std::max<std::size_t> (1, background.vertices.size ()));
 }
 
+double
+TrackedRun::shareOfBackgroundWrong (const TrackedScene& scene, double tolerance_m) const
+{
+  const SceneBody& room = scene.body (0);
+  const auto wrong = std::count_if (background.vertices.begin (), background.vertices.end (), [&] (const Eigen::Vector3f& vertex) {
+    return std::abs (room.distance (vertex.cast<double> ())) > tolerance_m;
+  });
+  return static_cast<double> (wrong) / static_cast<double> (std::max<std::size_t> (1, background.vertices.size ()));
+}
+
+bool
+TrackedRun::said (const std::string& words) const
+{
+  return std::any_of (events.begin (), events.end (),
+                      [&] (const std::string& line) { return line.find (words) != std::string::npos; });
+}
+
 TrackedScene::TrackedScene (int frames, Surroundings surroundings)
 {
   scene_.camera = PinholeCamera{320, 240, 262.0, 262.0, 159.5, 119.5};
@@ -164,6 +188,42 @@ TrackedScene::addThing (int id, const KeyedMotion& motion)
   thing.parts.push_back (part (makeSphere (0.07), {0.06, 0.0, 0.16}));
   thing.motion = motion;
   scene_.bodies.push_back (thing);
+}
+
+void
+TrackedScene::addPerson (int id, const KeyedMotion& motion)
+{
+  SceneBody person;
+  person.name = "person" + std::to_string (id);
+  person.id = id;
+  person.parts.push_back (part (makeBox ({0.35, 0.25, 0.8}), {0.0, 0.0, 0.41}));
+  person.parts.push_back (part (makeSphere (0.11), {0.0, 0.0, 0.9}));
+  person.parts.push_back (part (makeBox ({0.08, 0.3, 0.08}), {-0.1, -0.25, 0.5}));
+  person.motion = motion;
+  scene_.bodies.push_back (person);
+}
+
+void
+TrackedScene::addHand (int id, const KeyedMotion& motion)
+{
+  SceneBody hand;
+  hand.name = "hand" + std::to_string (id);
+  hand.id = id;
+  hand.parts.push_back (part (makeSphere (0.05), {0.0, 0.0, 0.0}));
+  hand.parts.push_back (part (makeBox ({0.5, 0.06, 0.06}), {-0.27, 0.0, 0.0}));
+  hand.motion = motion;
+  scene_.bodies.push_back (hand);
+}
+
+void
+TrackedScene::addBall (int id, const KeyedMotion& motion)
+{
+  SceneBody ball;
+  ball.name = "ball" + std::to_string (id);
+  ball.id = id;
+  ball.parts.push_back (part (makeSphere (0.12), {0.0, 0.0, 0.121}));
+  ball.motion = motion;
+  scene_.bodies.push_back (ball);
 }
 
 void

@@ -29,6 +29,10 @@ reshuffled (const Image<std::uint16_t>& mask, int frame);
 KeyedMotion
 movingThing (const Eigen::Vector3d& from, const Eigen::Vector3d& to, double turn_rad);
 
+/** \brief Through places at times, of a second, without turning. */
+KeyedMotion
+along (const std::vector<double>& times, const std::vector<Eigen::Vector3d>& places);
+
 /** \brief What the front end made of a scene, and the truth. */
 struct TrackedRun
 {
@@ -62,6 +66,14 @@ struct TrackedRun
   /** \brief Share of the background's vertices that were deeper than \a depth_m within a body in some frame. */
   double
   shareOfBackgroundInside (const class TrackedScene& scene, int body, double depth_m) const;
+
+  /** \brief Share of the background's vertices that are farther than \a tolerance_m from the surface of the true one. */
+  double
+  shareOfBackgroundWrong (const class TrackedScene& scene, double tolerance_m) const;
+
+  /** \brief Whether a line about a decision contains this. */
+  bool
+  said (const std::string& words) const;
 };
 
 /** \brief A corner of a room with things in it, as a structured-light camera sees it in a second. */
@@ -79,6 +91,17 @@ public:
   /** \brief A box with a ball beside it, on the floor. */
   void
   addThing (int id, const KeyedMotion& motion);
+
+  /** \brief As wide and high as a person who leans over the floor. */
+  void
+  addPerson (int id, const KeyedMotion& motion);
+
+  /** \brief A fist and an arm that comes from the left. */
+  void
+  addHand (int id, const KeyedMotion& motion);
+
+  void
+  addBall (int id, const KeyedMotion& motion);
 
   /** \brief Along a line, looking at the middle of the floor. */
   void

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_cosection authors
+#pragma once
+
+#include "camera_at_rest.h"
+#include "moving_parts.h"
+#include "pose_tracking.h"
+
+#include <pcl/cosection/common/image.h>
+
+#include <Eigen/Geometry>
+
+#include <vector>
+
+namespace pcl
+{
+namespace cosection
+{
+
+/** \brief Tracks the camera against the background: frame to model, weighted by association, without what moves.
+ *
+ * Of the motion that is found, only what is observed and significant is believed (see observedMotion ()); and none where pictures say plainly
+ * that the camera rests (see CameraAtRest). */
+class CameraTracking
+{
+public:
+  CameraTracking (int max_points, const AssociationOptions& association, int threads);
+
+  /** \brief Begin to look at a frame. \param[in] colour of the depth's size, or empty */
+  void
+  begin (const FrameCloud& cloud, const Picture& colour);
+
+  /** \brief Where the camera is in that frame.
+   * \param[in] models the background first, objects where they are expected relative to the camera at \a guess
+   * \param[in] guess T_world_camera */
+  PoseEstimate
+  track (const FrameCloud& cloud, const std::vector<AssociatedModel>& models, const Eigen::Isometry3d& guess, double frames_passed);
+
+  /** \brief Believe where the camera is in that frame: the next ones are compared with it. */
+  void
+  keep (const FrameCloud& cloud, const Eigen::Isometry3d& T_world_camera);
+
+  /** \brief Of the frame that was tracked last. */
+  const MovingParts&
+  moving () const
+  {
+    return moving_;
+  }
+
+private:
+  SdfAlignment alignment_;
+  DataAssociation association_;
+  MovingParts moving_;
+  CameraAtRest at_rest_;
+  Eigen::Isometry3d before_ = Eigen::Isometry3d::Identity (); // T_world_camera
+  int max_points_;
+};
+
+} // namespace cosection
+} // namespace pcl
