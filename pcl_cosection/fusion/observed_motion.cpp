@@ -24,6 +24,8 @@ constexpr double least_slope = 0.3;  // of the distance: smaller ones are where 
 constexpr double facing = 0.5;       // of the slope along a direction, from which on a point tells of it
 constexpr double significance = 3.0; // standard deviations
 constexpr double least_share = 0.005; // of all points' weight, times the square of that
+constexpr double least_settled_share = 0.001; // the same of points at voxels ...
+constexpr float settled_weight = 4.0f;        // ... that were seen as often: less noise, which bends distances
 
 struct Sample
 {
@@ -31,6 +33,7 @@ struct Sample
   Eigen::Vector3d normal;
   double weight;
   double distance;
+  bool settled;
 };
 
 /** \brief Differences of the distance along the axes; nothing where one of them is not known. */
@@ -80,7 +83,7 @@ observedMotion (const std::vector<Eigen::Vector3f>& points, const std::vector<fl
                                                      : (cell ? std::optional<Eigen::Vector3d> (cell->gradient ()) : std::nullopt);
     if (!slope || slope->norm () < least_slope)
       continue;
-    samples.push_back ({p, slope->normalized (), weights[n], cell->value ()});
+    samples.push_back ({p, slope->normalized (), weights[n], cell->value (), volume.weight (p) >= settled_weight});
     centre += weights[n] * p;
     total += weights[n];
   }
@@ -118,15 +121,18 @@ observedMotion (const std::vector<Eigen::Vector3f>& points, const std::vector<fl
   for (int k = 0; k < 6; ++k)
   {
     const Vector6d direction = directions.col (k);
-    double told = 0.0;
+    double told = 0.0, told_settled = 0.0;
     for (const Sample& sample : samples)
     {
       const double along = jacobian (sample).dot (direction);
       if (std::abs (along) >= facing)
+      {
         told += sample.weight * along * along;
+        told_settled += sample.settled ? sample.weight * along * along : 0.0;
+      }
     }
     const double along = direction.dot (moved);
-    const bool observed = told >= least_share * total;
+    const bool observed = told >= least_share * total || told_settled >= least_settled_share * total;
     const double variance = sigma * sigma * prior.correlated / (solver.eigenvalues ()[k] * static_cast<double> (step));
     const bool significant = along * along >= significance * significance * variance;
     result.directions += observed;

@@ -34,7 +34,8 @@ struct MotionPrior
 /** \brief Take back the part of a step in directions that no part of the surface opposes.
  *
  * Noise bends the distances before a bare wall everywhere a little, so that curvature alone says that its points know where they are along
- * it. A direction counts as told only by points at which the distance changes along it at half its slope or more.
+ * it. A direction counts as told only by points at which the distance changes along it at half its slope or more; fewer are enough where
+ * the model has settled.
  *
  * A part that is not significant is taken back, too: shorter than three of its standard deviations, by the spread of the distances, it may be
  * no motion at all. Otherwise poses that little holds would go with every noise, and with whatever else moves.
