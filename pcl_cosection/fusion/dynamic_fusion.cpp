@@ -207,8 +207,8 @@ DynamicFusion::Impl::trackObjects (const FrameCloud& cloud, double stamp)
     {
       const Eigen::Isometry3d T_world_object = T_world_camera * estimate.T_model_camera.inverse ();
       const bool steady = object.state == ObjectState::Tracked && estimate.observed_directions == all_directions;
-      if (object.state == ObjectState::Lost)
-        log.add (stamp, "object ", object.id, " is found again");
+      if (object.state != ObjectState::Tracked)
+        log.add (stamp, "object ", object.id, object.state == ObjectState::Lost ? " is found again" : " is in sight again");
       // What its surface does not tell must not go on by itself.
       object.last_motion = Eigen::Isometry3d::Identity ();
       if (steady)

@@ -159,9 +159,10 @@ TEST (RobustTracking, AnObjectThatLeftAndComesBackIsRecognised)
   const TrackedRun run = scene.run (only ({1}, 5));
   EXPECT_LT (run.cameraError (), camera_limit_m);
   EXPECT_EQ (run.found.size (), 1u);
-  EXPECT_TRUE (run.said ("object 1 is found again")) << run.events.size ();
-  EXPECT_EQ (run.frames.back ().T_world_object.count (1), 1u);
-  EXPECT_LT (run.objectError (1, scene.body (1)), object_limit_m);
+  EXPECT_TRUE (run.said ("object 1 is found again") || run.said ("object 1 is in sight again")) << run.events.size ();
+  ASSERT_EQ (run.frames.back ().T_world_object.count (1), 1u);
+  EXPECT_LT (run.objectError (1, scene.body (1)), 0.016); // 40 mm a frame, and half of it is in view when it comes back
+  EXPECT_LT (run.lastObjectError (1, scene.body (1)), object_limit_m);
 }
 
 TEST (RobustTracking, AnObjectThatJumpsIsReportedLostAndNoPartOfTheBackground)

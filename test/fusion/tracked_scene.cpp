@@ -87,11 +87,11 @@ TrackedRun::cameraError () const
   return largest;
 }
 
-double
-TrackedRun::objectError (int id, const SceneBody& body) const
+std::vector<double>
+TrackedRun::objectErrors (int id, const SceneBody& body) const
 {
   std::optional<Eigen::Isometry3d> T_object_body;
-  double largest = 0.0;
+  std::vector<double> errors;
   for (std::size_t n = 0; n < frames.size (); ++n)
   {
     const auto pose = frames[n].T_world_object.find (id);
@@ -100,9 +100,22 @@ TrackedRun::objectError (int id, const SceneBody& body) const
     const Eigen::Isometry3d truth = body.motion.at (times[n]);
     if (!T_object_body)
       T_object_body = pose->second.inverse () * truth;
-    largest = std::max (largest, ((pose->second * *T_object_body).translation () - truth.translation ()).norm ());
+    errors.push_back (((pose->second * *T_object_body).translation () - truth.translation ()).norm ());
   }
-  return largest;
+  return errors;
+}
+
+double
+TrackedRun::objectError (int id, const SceneBody& body) const
+{
+  const std::vector<double> errors = objectErrors (id, body);
+  return errors.empty () ? 0.0 : *std::max_element (errors.begin (), errors.end ());
+}
+
+double
+TrackedRun::lastObjectError (int id, const SceneBody& body) const
+{
+  return objectErrors (id, body).back ();
 }
 
 int

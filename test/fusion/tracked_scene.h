@@ -55,9 +55,17 @@ struct TrackedRun
   double
   cameraError () const;
 
-  /** \brief Largest distance of the object's origin from where it was, metres, relative to its first pose. */
+  /** \brief Distances of the object's origin from where it was, metres, relative to its first pose; of the frames in which it was tracked. */
+  std::vector<double>
+  objectErrors (int id, const SceneBody& body) const;
+
+  /** \brief The largest of them. */
   double
   objectError (int id, const SceneBody& body) const;
+
+  /** \brief The last of them, if there is one. */
+  double
+  lastObjectError (int id, const SceneBody& body) const;
 
   /** \brief The object of the front end that most pixels of a body belong to in the last frame. */
   int
