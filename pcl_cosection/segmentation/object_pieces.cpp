@@ -78,7 +78,7 @@ describePieces (const DepthGrid& grid, const std::vector<SupportSurface>& surfac
     const int u = i % grid.width, v = i / grid.width;
     piece.edge_pixels += u == 0 || v == 0 || u + 1 == grid.width || v + 1 == grid.height;
     piece.sigma_m = std::max (piece.sigma_m, grid.sigma (i));
-    if (const float height = heightAboveSupport (surfaces, p); height >= 0.0f)
+    if (const float height = heightAboveSupport (grid, surfaces, i); height >= 0.0f)
     {
       piece.carried += 1.0f;
       piece.lowest_m = std::min (piece.lowest_m, height);
@@ -135,7 +135,7 @@ findBorders (const DepthGrid& grid, const std::vector<SupportSurface>& surfaces,
         if (k - last_step <= bridge_px && grid.continuous (i, last, k - last_step))
         {
           ++border.touching;
-          border.touching_height_m += heightAboveSupport (surfaces, grid.points[i]);
+          border.touching_height_m += heightAboveSupport (grid, surfaces, i);
         }
         else if ((grid.points[i].z () < grid.points[last].z ()) != swapped)
           ++border.first_front;
@@ -154,13 +154,15 @@ findBorders (const DepthGrid& grid, const std::vector<SupportSurface>& surfaces,
 }
 
 float
-heightAboveSupport (const std::vector<SupportSurface>& surfaces, const Eigen::Vector3f& p)
+heightAboveSupport (const DepthGrid& grid, const std::vector<SupportSurface>& surfaces, int pixel)
 {
   float height = -1.0f;
   for (const SupportSurface& surface : surfaces)
-    if (const float h = surface.height (p);
-        h >= 0.0f && (height < 0.0f || h < height) && surface.carries (p, outline_margin_m))
+  {
+    const float h = surface.height (grid.points[pixel]);
+    if (h >= 0.0f && (height < 0.0f || h < height) && surface.carries (grid, pixel, outline_margin_m))
       height = h;
+  }
   return (height);
 }
 

@@ -55,9 +55,9 @@ describePieces (const DepthGrid& grid, const std::vector<SupportSurface>& surfac
 Borders
 findBorders (const DepthGrid& grid, const std::vector<SupportSurface>& surfaces, const std::vector<int>& piece_of);
 
-/** \brief Height of a point above the nearest support surface below it that carries it; negative if there is none. */
+/** \brief Height of a pixel above the nearest support surface below it that carries it; negative if there is none. */
 float
-heightAboveSupport (const std::vector<SupportSurface>& surfaces, const Eigen::Vector3f& p);
+heightAboveSupport (const DepthGrid& grid, const std::vector<SupportSurface>& surfaces, int pixel);
 
 } // namespace cosection
 } // namespace pcl

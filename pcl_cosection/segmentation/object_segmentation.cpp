@@ -61,7 +61,7 @@ pixelsAbove (const DepthGrid& grid, const std::vector<SupportSurface>& surfaces,
     for (const SupportSurface& surface : surfaces)
     {
       const float height = surface.height (grid.points[i]);
-      if (height > 0.0f && height < highest && surface.carries (grid.points[i], outline_margin_m))
+      if (height > 0.0f && height < highest && surface.carries (grid, i, outline_margin_m))
         above[i] = 1;
     }
   });

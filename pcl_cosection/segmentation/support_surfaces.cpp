@@ -24,6 +24,7 @@ constexpr float flat_block = 0.985f; ///< length of the mean normal of a block t
 constexpr float same_plane = 0.94f;  ///< cosine between a block's normal and its plane's: 20 degrees
 constexpr float plane_sigmas = 4.0f; ///< distance of a block from its plane; noise and the sensor's distortion
 constexpr int max_surfaces = 8;
+constexpr float unseen_reach_m = 0.25f; ///< how far a plane goes on beyond the border of the image
 
 /** \brief The mean of a square of pixels that lie on one smooth surface. */
 struct Block
@@ -243,16 +244,24 @@ SupportSurface::height (const DepthGrid& grid, int u, int v) const
 }
 
 bool
-SupportSurface::carries (const Eigen::Vector3f& p, float margin_m) const
+SupportSurface::carries (const DepthGrid& grid, int pixel, float margin_m) const
 {
-  const Eigen::Vector2f foot (axis_u.dot (p), axis_v.dot (p));
+  const Eigen::Vector3f& p = grid.points[pixel];
+  const Eigen::Vector2f place (axis_u.dot (p), axis_v.dot (p));
+  float outside_m = outline.empty () ? unseen_reach_m : 0.0f;
   for (std::size_t k = 0; k < outline.size (); ++k)
   {
     const Eigen::Vector2f edge = outline[(k + 1) % outline.size ()] - outline[k];
-    if (cross (edge, foot - outline[k]) < -margin_m * edge.norm ())
-      return (false);
+    outside_m = std::max (outside_m, -cross (edge, place - outline[k]) / std::max (1e-6f, edge.norm ()));
   }
-  return (!outline.empty ());
+  if (outside_m <= margin_m || outside_m >= unseen_reach_m)
+    return (outside_m <= margin_m);
+  const Eigen::Vector3f foot = p - height (p) * normal;
+  if (foot.z () <= 0.0f)
+    return (true);
+  const float u = static_cast<float> (pixel % grid.width) + (foot.x () / foot.z () - p.x () / p.z ()) / grid.pitch;
+  const float v = static_cast<float> (pixel / grid.width) + (foot.y () / foot.z () - p.y () / p.z ()) / grid.pitch;
+  return (u < 0.0f || v < 0.0f || u >= static_cast<float> (grid.width) || v >= static_cast<float> (grid.height));
 }
 
 std::vector<SupportSurface>

@@ -36,9 +36,10 @@ struct SupportSurface
   float
   height (const DepthGrid& grid, int u, int v) const;
 
-  /** \brief Whether the foot of a point is inside of the outline, or no farther than \a margin_m from it. */
+  /** \brief Whether the foot of a pixel's point is inside of the outline, or no farther than \a margin_m from it; or in
+   * reach of it where the camera does not look. */
   bool
-  carries (const Eigen::Vector3f& p, float margin_m) const;
+  carries (const DepthGrid& grid, int pixel, float margin_m) const;
 };
 
 /** \brief The planes of a view that are too large for an object, largest first. The first one may be as small as

@@ -88,6 +88,15 @@ TEST (ObjectSegmentation, ADifferentUpright)
   expectFound (view, 0.9);
 }
 
+TEST (ObjectSegmentation, CutByTheImage)
+{
+  // The table is not seen where the box stands, but behind it.
+  expectFound (viewOfTable (boxOnTable (1, {0.12, 0.1, 0.12}, {0, -0.28, 0}, 0) +
+                                boxOnTable (2, {0.1, 0.1, 0.1}, {0.15, 0, 0}, 20),
+                            {0, -0.5, 0.5}),
+               0.9);
+}
+
 TEST (ObjectSegmentation, FurnitureIsNoObject)
 {
   const SceneView view = viewOfTable (boxOnTable (1, {0.7, 0.1, 0.1}, {0, 0.1, 0}, 0));
