@@ -14,6 +14,7 @@ namespace
 
 constexpr int bridge_px = 4;              ///< pixels of no piece that may lie between two that touch
 constexpr int shadow_share = 16;          ///< share of the image's width that the shadow beside a thing may have
+constexpr int edge_share = 128;           ///< share of the image's width in which what is seen ends raggedly
 constexpr float outline_margin_m = 0.02f; ///< how far beyond the seen part of a surface it still carries something
 
 /** \brief Sums over the places and normals of a piece. */
@@ -46,6 +47,32 @@ struct Bend
   }
 };
 
+/** \brief The part of the image that has readings: where the colour camera's view is wider, there is a frame without.
+ */
+struct SeenBox
+{
+  int left, top, margin, right = -1, bottom = -1;
+
+  explicit SeenBox (const DepthGrid& grid) : left (grid.width), top (grid.height), margin (grid.width / edge_share)
+  {
+    for (int v = 0; v < grid.height; ++v)
+      for (int u = 0; u < grid.width; ++u)
+        if (grid.valid (v * grid.width + u))
+        {
+          left = std::min (left, u);
+          right = std::max (right, u);
+          top = std::min (top, v);
+          bottom = v;
+        }
+  }
+
+  bool
+  isOnEdge (int u, int v) const
+  {
+    return (u <= left + margin || v <= top + margin || u >= right - margin || v >= bottom - margin);
+  }
+};
+
 int
 countPieces (const std::vector<int>& piece_of)
 {
@@ -65,6 +92,7 @@ describePieces (const DepthGrid& grid, const std::vector<SupportSurface>& surfac
   std::vector<Eigen::Vector3d> sum (count, Eigen::Vector3d::Zero ());
   std::vector<Eigen::Matrix3d> products (count, Eigen::Matrix3d::Zero ());
   std::vector<Bend> bends (count);
+  const SeenBox seen (grid);
   for (int i = 0; i < static_cast<int> (piece_of.size ()); ++i)
   {
     if (piece_of[i] < 0)
@@ -75,8 +103,7 @@ describePieces (const DepthGrid& grid, const std::vector<SupportSurface>& surfac
     piece.area_m2 += grid.pitch * p.z () * grid.pitch * p.z ();
     sum[piece_of[i]] += p.cast<double> ();
     products[piece_of[i]] += p.cast<double> () * p.cast<double> ().transpose ();
-    const int u = i % grid.width, v = i / grid.width;
-    piece.edge_pixels += u == 0 || v == 0 || u + 1 == grid.width || v + 1 == grid.height;
+    piece.edge_pixels += seen.isOnEdge (i % grid.width, i / grid.width);
     piece.sigma_m = std::max (piece.sigma_m, grid.sigma (i));
     if (const float height = heightAboveSupport (grid, surfaces, i); height >= 0.0f)
     {

@@ -18,7 +18,7 @@ namespace cosection
 struct Piece
 {
   int pixels = 0;
-  int edge_pixels = 0;   ///< on the border of the image
+  int edge_pixels = 0;   ///< on the border of what is seen in the image
   float area_m2 = 0.0f;  ///< as the sensor sees it
   float length_m = 0.0f; ///< of the box along its principal axes
   float carried = 0.0f;  ///< share of its pixels above a support surface
