@@ -27,7 +27,7 @@ struct DepthGrid
   bool
   valid (int i) const
   {
-    return (std::isfinite (points[i].z ()) && points[i].z () > 0.0f);
+    return (std::isfinite (points[i].sum ()) && points[i].z () > 0.0f);
   }
 
   bool
