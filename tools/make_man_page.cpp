@@ -7,6 +7,7 @@
 #include "fusion_command_line.h"
 #include "option_table.h"
 #include "program_text.h"
+#include "segment_command_line.h"
 #include "simulate_command_line.h"
 
 #include <iostream>
@@ -30,6 +31,13 @@ main (int argc, char** argv)
     GivenFusion given;
     declareFusionOptions (app, given);
     std::cout << manPage (app, fusionText ()) << std::flush;
+  }
+  else if (program == "pcl_cosection_segment")
+  {
+    CLI::App app;
+    GivenSegmentation given;
+    declareSegmentationOptions (app, given);
+    std::cout << manPage (app, segmentationText ()) << std::flush;
   }
   else if (program == "pcl_cosection_simulate")
   {

@@ -10,6 +10,7 @@
 #include "option_table.h"
 #include "program_text.h"
 #include "scene_files.h"
+#include "segment_command_line.h"
 #include "simulate_command_line.h"
 #include "tool_run.h"
 
@@ -105,6 +106,17 @@ TEST_F (Help, SimulationIsExplained)
   declareSimulationOptions (app, given);
   const std::string screen = helpText (app, simulationText ());
   EXPECT_GE (expectEverywhere (app, screen, manPage (app, simulationText ()), "pcl_cosection_simulate.md"), 12);
+  for (const std::string& line : linesOf (screen))
+    EXPECT_LE (line.size (), 80u) << line;
+}
+
+TEST_F (Help, SegmentationIsExplained)
+{
+  CLI::App app;
+  GivenSegmentation given;
+  declareSegmentationOptions (app, given);
+  const std::string screen = helpText (app, segmentationText ());
+  EXPECT_GE (expectEverywhere (app, screen, manPage (app, segmentationText ()), "pcl_cosection_segment.md"), 12);
   for (const std::string& line : linesOf (screen))
     EXPECT_LE (line.size (), 80u) << line;
 }

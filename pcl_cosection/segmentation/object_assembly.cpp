@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_cosection authors
+#include "object_assembly.h"
+
+#include "../common/disjoint_sets.h"
+#include "divided_pieces.h"
+#include "object_pieces.h"
+
+namespace pcl
+{
+namespace cosection
+{
+
+namespace
+{
+
+constexpr int min_pixels_vga = 150;        ///< of an object in an image of 640 x 480
+constexpr int edge_factor = 4;             ///< as many times more for what the image's border cuts
+constexpr float above_noise_sigmas = 6.0f; ///< height of an object over its support
+constexpr float standing_m = 0.015f;       ///< what comes so near to its support stands on it
+constexpr float fragment_ratio = 0.1f;     ///< size of a cap or a knob relative to what it is on ...
+constexpr float fragment_factor = 6.0f;    ///< ... and relative to the smallest object
+constexpr float part_ratio = 0.5f;         ///< size of a part relative to what holds it
+constexpr float hollow_convexity = -0.5f;
+constexpr float hollow_turning = 0.2f;
+
+/** \brief The pieces while they are being joined. */
+class Assembly
+{
+public:
+  Assembly (const DepthGrid& grid, const std::vector<SupportSurface>& surfaces, const PatchImage& patches,
+            std::vector<int>& piece_of_patch)
+      : grid_ (grid)
+      , surfaces_ (surfaces)
+      , patches_ (patches)
+      , piece_of_patch_ (piece_of_patch)
+  {
+    measure ();
+  }
+
+  const std::vector<Piece>&
+  pieces () const
+  {
+    return (pieces_);
+  }
+
+  void
+  joinFragments (float min_area_m2)
+  {
+    joinBest ([&] (int small, int large, const Border& border) {
+      const float area = pieces_[small].area_m2, other = pieces_[large].area_m2;
+      const bool fragment = (area < min_area_m2 && area <= other) ||
+                            (area < fragment_factor * min_area_m2 && area < fragment_ratio * other);
+      return (fragment ? border.touching : 0);
+    });
+  }
+
+  /** \brief Handles and the like: what hangs in the air must be held by what it touches on its side. */
+  void
+  joinParts ()
+  {
+    joinBest ([&] (int part, int whole, const Border& border) {
+      const Piece& p = pieces_[part];
+      if (border.touching == 0 || p.lowest_m < standing_m || p.area_m2 > part_ratio * pieces_[whole].area_m2)
+        return (0);
+      const int hidden = part < whole ? border.second_front : border.first_front;
+      const float held = border.touching_height_m / static_cast<float> (border.touching);
+      return (hidden < border.touching && held - p.lowest_m > 0.4f * (p.highest_m - p.lowest_m) ? border.touching : 0);
+    });
+  }
+
+  /** \brief The inside of a hollow thing, which bends towards the sensor, and the wall before it. */
+  void
+  joinHollows ()
+  {
+    joinBest ([&] (int inside, int outside, const Border& border) {
+      const Piece& p = pieces_[inside];
+      if (p.convexity > hollow_convexity || p.turning < hollow_turning)
+        return (0);
+      const int before = inside < outside ? border.second_front : border.first_front;
+      const bool wall =
+          4.0f * static_cast<float> (before + border.touching) > std::sqrt (static_cast<float> (p.pixels));
+      return (wall ? before + border.touching : 0);
+    });
+  }
+
+  /** \brief Pieces of one surface behind something nearer. */
+  void
+  joinDivided (float max_object_size_m)
+  {
+    DisjointSets sets (pieces_.size ());
+    for (const auto& [a, b] : findDividedPieces (grid_, patches_, piece_of_patch_, borders_, max_object_size_m))
+      sets.unite (static_cast<std::size_t> (a), static_cast<std::size_t> (b));
+    join (sets);
+  }
+
+  /** \brief Keep the pieces that \a good says, by the number of pixels. \return how many */
+  template <typename Good>
+  int
+  keep (Good&& good)
+  {
+    std::vector<int> kept;
+    for (int k = 0; k < static_cast<int> (pieces_.size ()); ++k)
+      if (good (pieces_[k]))
+        kept.push_back (k);
+    std::stable_sort (kept.begin (), kept.end (),
+                      [&] (int a, int b) { return (pieces_[a].pixels > pieces_[b].pixels); });
+    std::vector<int> number (pieces_.size (), -1);
+    for (int n = 0; n < static_cast<int> (kept.size ()); ++n)
+      number[kept[n]] = n;
+    for (int& piece : piece_of_patch_)
+      piece = number[piece];
+    return (static_cast<int> (kept.size ()));
+  }
+
+private:
+  void
+  measure ()
+  {
+    std::vector<int> piece_of (patches_.patch_of.size (), -1);
+    for (std::size_t i = 0; i < piece_of.size (); ++i)
+      if (patches_.patch_of[i] >= 0)
+        piece_of[i] = piece_of_patch_[patches_.patch_of[i]];
+    pieces_ = describePieces (grid_, surfaces_, piece_of);
+    borders_ = findBorders (grid_, surfaces_, piece_of);
+  }
+
+  /** \brief Join each piece with the one for which \a vote (piece, other, border) is largest, and not 0. */
+  template <typename Vote>
+  void
+  joinBest (Vote&& vote)
+  {
+    std::vector<std::pair<int, int>> best (pieces_.size (), {0, -1});
+    for (const auto& [pair, border] : borders_)
+      for (const auto& [piece, other] : {pair, std::make_pair (pair.second, pair.first)})
+        if (const int votes = vote (piece, other, border); votes > best[piece].first)
+          best[piece] = {votes, other};
+    DisjointSets sets (pieces_.size ());
+    for (std::size_t k = 0; k < pieces_.size (); ++k)
+      if (best[k].second >= 0)
+        sets.unite (k, static_cast<std::size_t> (best[k].second));
+    join (sets);
+  }
+
+  void
+  join (DisjointSets& sets)
+  {
+    std::vector<int> number (pieces_.size ());
+    int next = 0;
+    for (std::size_t k = 0; k < pieces_.size (); ++k)
+      number[k] = sets.find (k) == k ? next++ : number[sets.find (k)];
+    for (int& piece : piece_of_patch_)
+      piece = number[piece];
+    measure ();
+  }
+
+  const DepthGrid& grid_;
+  const std::vector<SupportSurface>& surfaces_;
+  const PatchImage& patches_;
+  std::vector<int>& piece_of_patch_;
+  std::vector<Piece> pieces_;
+  Borders borders_;
+};
+
+} // namespace
+
+int
+assembleObjects (const DepthGrid& grid, const std::vector<SupportSurface>& surfaces, const PatchImage& patches,
+                 const ObjectSegmentationOptions& options, std::vector<int>& piece_of_patch)
+{
+  const auto min_size = static_cast<float> (options.min_object_size_m);
+  Assembly assembly (grid, surfaces, patches, piece_of_patch);
+  assembly.joinFragments (min_size * min_size);
+  assembly.joinHollows ();
+  assembly.joinParts ();
+  assembly.joinDivided (static_cast<float> (options.max_object_size_m));
+
+  const int min_pixels = min_pixels_vga * grid.width / 640 * grid.height / 480;
+  return (assembly.keep ([&] (const Piece& piece) {
+    return (piece.pixels >= (piece.edge_pixels > 0 ? edge_factor : 1) * min_pixels && piece.length_m >= min_size &&
+            piece.length_m <= static_cast<float> (options.max_object_size_m) && piece.carried >= 0.5f &&
+            piece.highest_m > above_noise_sigmas * piece.sigma_m);
+  }));
+}
+
+} // namespace cosection
+} // namespace pcl
