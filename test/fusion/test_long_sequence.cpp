@@ -27,7 +27,8 @@ const char* const scene = R"({
   "camera": {"width": 160, "height": 120, "keys": [
     {"time": 0, "position": [-0.3, -0.7, 0.45], "look_at": [0, 0, 0.05]},
     {"time": 0.4, "position": [0.3, -0.7, 0.5], "look_at": [0, 0, 0.05]}]},
-  "background": {"parts": [{"type": "plane", "extent": 1}]},
+  "background": {"parts": [{"type": "room", "size": [2, 2, 1.5], "position": [0, 0, 0.75]},
+    {"type": "box", "size": [0.3, 0.3, 0.3], "position": [0.4, 0.5, 0.15], "rpy_deg": [0, 0, 20]}]},
   "objects": [
     {"name": "ball", "shape": {"type": "sphere", "radius": 0.1},
      "keys": [{"time": 0, "position": [-0.15, 0, 0.1]}, {"time": 0.4, "position": [-0.15, 0.1, 0.1]}]},
