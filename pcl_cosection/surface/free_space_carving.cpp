@@ -21,7 +21,7 @@ namespace
 constexpr int window = 4;          // pixels around a projection in which the boundary is looked for
 constexpr double inset_px = 1.0;   // the cut is made so far inside the silhouette: pixels at an edge say nothing
 constexpr float far_vox = 3.0f;    // distances are of no interest beyond
-constexpr float single_view_doubt_vox = 0.6f; // a cut by one view alone is made so much farther out than one by four
+constexpr float doubt_vox = 0.6f;  // a cut by one of four views is made so much farther out than one by all
 
 } // namespace
 
@@ -46,9 +46,12 @@ FreeSpaceCarving::Supported::add (float value)
 float
 FreeSpaceCarving::Supported::value () const
 {
+  int views = 0;
+  while (views < full_support && largest[views] > nothing)
+    ++views;
   float best = nothing;
-  for (int views = 1; views <= full_support; ++views)
-    best = std::max (best, largest[views - 1] - single_view_doubt_vox * static_cast<float> (full_support - views) / (full_support - 1));
+  for (int k = 0; k < views; ++k)
+    best = std::max (best, largest[k] - doubt_vox * static_cast<float> (views - 1 - k) / (full_support - 1));
   return best;
 }
 
