@@ -21,7 +21,7 @@ namespace
 constexpr int window = 4;          // pixels around a projection in which the boundary is looked for
 constexpr double inset_px = 1.0;   // the cut is made so far inside the silhouette: pixels at an edge say nothing
 constexpr float far_vox = 3.0f;    // distances are of no interest beyond
-constexpr float doubt_vox = 0.6f;  // a cut by one of four views is made so much farther out than one by all
+constexpr float single_view_doubt_vox = 0.6f; // a cut by one view of several is made so much farther out than one by four
 
 } // namespace
 
@@ -44,20 +44,18 @@ FreeSpaceCarving::Supported::add (float value)
 }
 
 float
-FreeSpaceCarving::Supported::value () const
+FreeSpaceCarving::Supported::value (float doubt_vox) const
 {
-  int views = 0;
-  while (views < full_support && largest[views] > nothing)
-    ++views;
   float best = nothing;
-  for (int k = 0; k < views; ++k)
-    best = std::max (best, largest[k] - doubt_vox * static_cast<float> (views - 1 - k) / (full_support - 1));
+  for (int views = 1; views <= full_support; ++views)
+    best = std::max (best, largest[views - 1] - doubt_vox * static_cast<float> (full_support - views) / (full_support - 1));
   return best;
 }
 
 void
 FreeSpaceCarving::add (const FreeSpaceView& view, const Eigen::Isometry3d& T_grid_sensor)
 {
+  ++views_;
   const PinholeCamera& camera = view.view ().camera;
   const std::vector<float>& opened = view.openedDepth ();
   const PixelRegion region = projectedRegion (grid_, camera, T_grid_sensor);
@@ -107,12 +105,13 @@ FreeSpaceCarving::add (const FreeSpaceView& view, const Eigen::Isometry3d& T_gri
 std::vector<float>
 FreeSpaceCarving::lowerBounds () const
 {
+  const float doubt_vox = views_ > 1 ? single_view_doubt_vox : 0.0f; // a single one is as good as any
   std::vector<float> bounds (bound_vox_.size ());
   for (std::size_t n = 0; n < bounds.size (); ++n)
   {
     // One or two views cannot outvote each other.
     const int needed = revise_ && votes_for_[n] + votes_against_[n] > 2 ? votes_against_[n] : 0;
-    const float bound = votes_for_[n] > needed ? bound_vox_[n].value () : std::min (inside_vox_[n], bound_vox_[n].value ());
+    const float bound = votes_for_[n] > needed ? bound_vox_[n].value (doubt_vox) : std::min (inside_vox_[n], bound_vox_[n].value (doubt_vox));
     bounds[n] = std::clamp (bound, -far_vox, far_vox);
   }
 

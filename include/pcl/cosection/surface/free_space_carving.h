@@ -22,8 +22,8 @@ namespace cosection
  * Per view the distance is measured in the image, from a voxel's projection to the nearest pixel that is
  * free at the voxel's depth (or, from within free space, to the nearest that is not), up to a few pixels.
  * Readings count as for HullConstraint, but free patches of less than 3 x 3 pixels are ignored. A voxel is
- * cut only where more views see it free than see a surface there. Where several views see an edge, what one of them says alone is
- * believed less than what they say together, as poses and silhouettes are not exact. */
+ * cut only where more views see it free than see a surface there. Of several views, what one says alone is believed less than what they
+ * say together, as poses and silhouettes are not exact. */
 class PCL_COSECTION_EXPORT FreeSpaceCarving
 {
 public:
@@ -42,7 +42,7 @@ private:
   static constexpr float nothing = -1e6f;
   static constexpr int full_support = 4; // views
 
-  /** \brief What several views say together: the largest of many noisy values would be too large. That of a single one is as good as any. */
+  /** \brief What several views say together: the largest of many noisy values would be too large. Never less for one view more. */
   struct Supported
   {
     std::array<float, full_support> largest{nothing, nothing, nothing, nothing};
@@ -51,10 +51,11 @@ private:
     add (float value);
 
     float
-    value () const;
+    value (float doubt_vox) const;
   };
 
   VoxelGrid grid_;
+  int views_ = 0;
   bool revise_;
   int threads_;
   std::vector<Supported> bound_vox_; // distance to what a view sees free
