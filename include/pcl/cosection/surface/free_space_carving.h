@@ -42,7 +42,7 @@ private:
   static constexpr float nothing = -1e6f;
   static constexpr int full_support = 4; // views
 
-  /** \brief What several views say together: the largest of many noisy values would be too large. Never less for one view more. */
+  /** \brief What several views say together: the largest of many noisy values would be too large. Never less for one more of several views. */
   struct Supported
   {
     std::array<float, full_support> largest{nothing, nothing, nothing, nothing};
