@@ -25,6 +25,7 @@ constexpr double plain_difference = 20.0; // of a block's sums of squares: that 
 constexpr double plain_share = 0.5;       // of its differences' sizes: chance has both signs
 constexpr float most_of_better = 1.5f;
 constexpr double least_majority = 2.0;
+constexpr double majority_to_stay = 1.5; // of votes for motion over those for rest, up to which a camera that rested goes on resting
 constexpr int least_votes = 2;
 constexpr double largest_unseen_shift_px = 3.0; // where there is nothing to be seen that tells
 
@@ -151,7 +152,7 @@ CameraAtRest::isPreferredTo (const Eigen::Isometry3d& T_world_camera, const Fram
   const auto rest = std::count_if (sectors.begin (), sectors.end (), [] (int votes) { return votes > 0; });
   const auto motion = std::count_if (sectors.begin (), sectors.end (), [] (int votes) { return votes < 0; });
   // It goes on as it did, unless most say otherwise.
-  const double majority = rested_ ? 1.0 / least_majority : least_majority;
+  const double majority = rested_ ? 1.0 / majority_to_stay : least_majority;
   const bool at_rest = rest >= least_votes && static_cast<double> (rest) > majority * static_cast<double> (motion);
   const bool in_motion =
       !at_rest && motion >= least_votes && static_cast<double> (motion) > least_majority * static_cast<double> (rest);

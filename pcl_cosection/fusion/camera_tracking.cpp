@@ -3,6 +3,7 @@
 #include "camera_tracking.h"
 
 #include "observed_motion.h"
+#include "resting_objects.h"
 
 #include <algorithm>
 #include <cmath>
@@ -17,6 +18,7 @@ namespace
 
 constexpr std::size_t min_points = 200;
 constexpr PoseLimits limits{0.15, 0.26, 0.3, 0.1};
+constexpr SampleOptions background_samples{5000, 0.0, true};
 constexpr int rounds = 2;                  // without and with what is found to move
 constexpr double new_movers = 0.01;        // of the points' weight, from which on a second round is worth it
 constexpr double standard_pixels = 640.0 * 480.0;
@@ -37,8 +39,8 @@ CameraTracking::begin (const FrameCloud& cloud, const Picture& colour)
 }
 
 PoseEstimate
-CameraTracking::track (const FrameCloud& cloud, const std::vector<AssociatedModel>& models, const Eigen::Isometry3d& guess,
-                       double frames_passed)
+CameraTracking::track (const FrameCloud& cloud, const std::vector<AssociatedModel>& models, const std::vector<TrackedObject*>& objects,
+                       const Eigen::Isometry3d& guess, double frames_passed)
 {
   const double pixels = static_cast<double> (cloud.camera.width) * cloud.camera.height;
   const int step = std::max (1, static_cast<int> (std::ceil (std::sqrt (pixels / max_points_) - 0.01)));
@@ -64,10 +66,14 @@ CameraTracking::track (const FrameCloud& cloud, const std::vector<AssociatedMode
       break;
     left_out = share;
     estimate.alignment = alignment_.align (points, weights, background, guess);
+    const Eigen::Isometry3d& found = estimate.alignment.T_grid_sensor;
     const ObservedMotion observed =
-        observedMotion (points, weights, background, before_, estimate.alignment.T_grid_sensor, {correlated});
+        observedMotion (sampleSurface (points, weights, background, found, background_samples), before_, found, {correlated});
     estimate.T_model_camera = observed.T_model_camera;
     estimate.observed_directions = std::min (observed.directions, estimate.alignment.observed_directions);
+    const HeldPose held = holdByRestingObjects ({points, weights, models, objects, guess}, association_, observed.T_model_camera);
+    estimate.T_model_camera = held.T_world_camera;
+    estimate.observed_directions = std::max (estimate.observed_directions, held.directions);
     const bool at_rest = at_rest_.isPreferredTo (estimate.T_model_camera, cloud);
     if (at_rest)
       estimate.T_model_camera = at_rest_.T_world_camera ();

@@ -5,6 +5,7 @@
 #include "camera_at_rest.h"
 #include "moving_parts.h"
 #include "pose_tracking.h"
+#include "tracked_object.h"
 
 #include <pcl/cosection/common/image.h>
 
@@ -20,7 +21,7 @@ namespace cosection
 /** \brief Tracks the camera against the background: frame to model, weighted by association, without what moves.
  *
  * Of the motion that is found, only what is observed and significant is believed (see observedMotion ()); and none where pictures say plainly
- * that the camera rests (see CameraAtRest). */
+ * that the camera rests (see CameraAtRest). What the background leaves open, objects at rest may tell (see holdByRestingObjects ()). */
 class CameraTracking
 {
 public:
@@ -32,9 +33,11 @@ public:
 
   /** \brief Where the camera is in that frame.
    * \param[in] models the background first, objects where they are expected relative to the camera at \a guess
+   * \param[in] objects of those models
    * \param[in] guess T_world_camera */
   PoseEstimate
-  track (const FrameCloud& cloud, const std::vector<AssociatedModel>& models, const Eigen::Isometry3d& guess, double frames_passed);
+  track (const FrameCloud& cloud, const std::vector<AssociatedModel>& models, const std::vector<TrackedObject*>& objects,
+         const Eigen::Isometry3d& guess, double frames_passed);
 
   /** \brief Believe where the camera is in that frame: the next ones are compared with it. */
   void

@@ -158,7 +158,7 @@ DynamicFusion::Impl::trackCamera (const FrameCloud& cloud, const RgbdFrame& fram
   for (const Eigen::Isometry3d& motion : {last_motion, Eigen::Isometry3d (Eigen::Isometry3d::Identity ())})
   {
     const Eigen::Isometry3d guess = T_world_camera * motion;
-    estimate = camera_tracking.track (cloud, models (guess, true, used), guess, frames_passed);
+    estimate = camera_tracking.track (cloud, models (guess, true, used), used, guess, frames_passed);
     good = estimate.doubt.empty ();
     if (good || last_motion.isApprox (Eigen::Isometry3d::Identity (), 1e-9))
       break;
@@ -215,7 +215,7 @@ DynamicFusion::Impl::trackObjects (const FrameCloud& cloud, double stamp)
         object.last_motion = T_world_object * object.T_world_object.inverse ();
       else if (object.state == ObjectState::Tracked)
         object.last_motion.translation () = T_world_object.translation () - object.T_world_object.translation ();
-      object.T_world_object = T_world_object;
+      object.moveTo (T_world_object);
       object.state = ObjectState::Tracked;
       object.frames_not_tracked = 0;
       continue;

@@ -158,7 +158,7 @@ ObjectMap::findAgain (const MaskedFrame& frame, const std::vector<Eigen::Vector3
     }
   if (!best)
     return nullptr;
-  best->T_world_object = frame.T_world_camera * best_estimate.T_model_camera.inverse ();
+  best->moveTo (frame.T_world_camera * best_estimate.T_model_camera.inverse ());
   best->last_motion = Eigen::Isometry3d::Identity ();
   best->state = ObjectState::Tracked;
   best->frames_not_tracked = 0;

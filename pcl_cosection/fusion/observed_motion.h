@@ -2,11 +2,10 @@
 // Copyright (c) 2026, the pcl_cosection authors
 #pragma once
 
-#include <pcl/cosection/volume/tsdf_volume.h>
+#include "surface_samples.h"
 
 #include <Eigen/Geometry>
 
-#include <cstddef>
 #include <vector>
 
 namespace pcl
@@ -27,8 +26,6 @@ struct MotionPrior
 {
   double correlated = 0.0;   ///< how many points err together; 0: they do not err, and every motion is significant
   double cost_of_turns = 1.0; ///< relative to that of shifts: where a surface tells only of both together, as a ball's does, the cheaper is taken
-  std::size_t most_points = 5000; ///< that are asked
-  double reach_vox = 0.0;     ///< to either side, over which the slope of distances is taken; 0: that of the cell. Young models are rough
 };
 
 /** \brief Take back the part of a step in directions that no part of the surface opposes.
@@ -39,13 +36,12 @@ struct MotionPrior
  *
  * A part that is not significant is taken back, too: shorter than three of its standard deviations, by the spread of the distances, it may be
  * no motion at all. Otherwise poses that little holds would go with every noise, and with whatever else moves.
- * \param[in] points sensor frame, with \a weights
- * \param[in] guess where the step began
- * \param[in] found where it ended
- */
+ * \param[in] samples where the step ended, model frame
+ * \param[in] guess T_model_camera where the step began
+ * \param[in] found where it ended */
 ObservedMotion
-observedMotion (const std::vector<Eigen::Vector3f>& points, const std::vector<float>& weights, const TsdfVolume& volume,
-                const Eigen::Isometry3d& guess, const Eigen::Isometry3d& found, const MotionPrior& prior);
+observedMotion (const std::vector<SurfaceSample>& samples, const Eigen::Isometry3d& guess, const Eigen::Isometry3d& found,
+                const MotionPrior& prior);
 
 } // namespace cosection
 } // namespace pcl

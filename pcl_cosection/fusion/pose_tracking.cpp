@@ -25,7 +25,8 @@ constexpr double min_in_view = 0.1;
 constexpr double min_tracked_in_view = 0.3; // what is left of an object at the image's border slides
 constexpr double tolerance_voxels = 2.0;
 
-constexpr MotionPrior object_motion{0.0, 10.0, 1000, 1.5}; // what does not seem to turn does not
+constexpr SampleOptions object_samples{1000, 1.5};
+constexpr MotionPrior object_motion{0.0, 10.0}; // what does not seem to turn does not
 constexpr PoseLimits object_limits{0.15, 0.5, 0.3, 0.0};
 
 Eigen::Vector3d
@@ -141,7 +142,9 @@ PoseTracking::trackObject (const FrameCloud& cloud, std::vector<AssociatedModel>
                          : doubtOf (estimate.alignment, guess, centre, points.size (), object_limits, frames_passed);
     if (!estimate.doubt.empty ())
       break;
-    const ObservedMotion observed = observedMotion (points, weights, volume, guess, estimate.alignment.T_grid_sensor, object_motion);
+    const Eigen::Isometry3d& found = estimate.alignment.T_grid_sensor;
+    const ObservedMotion observed =
+        observedMotion (sampleSurface (points, weights, volume, found, object_samples), guess, found, object_motion);
     estimate.observed_directions = std::min (observed.directions, estimate.alignment.observed_directions);
     models[target].T_model_sensor = observed.T_model_camera;
     estimate.T_model_camera = observed.T_model_camera;

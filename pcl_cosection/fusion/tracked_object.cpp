@@ -2,6 +2,8 @@
 // Copyright (c) 2026, the pcl_cosection authors
 #include "tracked_object.h"
 
+#include <pcl/cosection/common/camera.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -19,6 +21,7 @@ constexpr double growing_share = 0.02;
 constexpr double margin_share = 0.1; // of a volume's side, around what is seen
 constexpr int growth_step = 8;       // voxels
 constexpr std::size_t min_points = 20;
+constexpr double surface_share = 0.2; // of a volume's side: how far an object's surface is from its centre
 
 Eigen::AlignedBox3d
 boxWithout (double share, const std::vector<Eigen::Vector3f>& points)
@@ -37,6 +40,24 @@ boxWithout (double share, const std::vector<Eigen::Vector3f>& points)
 }
 
 } // namespace
+
+void
+TrackedObject::moveTo (const Eigen::Isometry3d& T_world)
+{
+  const VoxelGrid& grid = volume.grid ();
+  const Eigen::Vector3d centre = grid.origin_m + 0.5 * grid.voxel_size_m * grid.dims.cast<double> ();
+  const double radius = surface_share * grid.voxel_size_m * grid.dims.maxCoeff ();
+  const double turn = Eigen::AngleAxisd (T_world.linear ().transpose () * T_world_rest.linear ()).angle ();
+  const double moved = std::max ((T_world * centre - T_world_rest * centre).norm (), radius * turn);
+  ++frames_at_rest;
+  frames_away = moved > std::hypot (grid.voxel_size_m, depthNoiseSigma (range_m)) ? frames_away + 1 : 0;
+  if (frames_away >= frames_of_motion)
+  {
+    T_world_rest = T_world;
+    frames_at_rest = 0;
+  }
+  T_world_object = T_world;
+}
 
 std::optional<VoxelGrid>
 placeObjectVolume (const std::vector<Eigen::Vector3f>& points, int resolution)

@@ -27,8 +27,19 @@ enum class ObjectState
 struct TrackedObject
 {
   TrackedObject (int id, const VoxelGrid& grid, const TsdfOptions& tsdf, const Eigen::Isometry3d& T_world_object)
-  : id (id), volume (grid, tsdf), T_world_object (T_world_object)
+  : id (id), volume (grid, tsdf), T_world_object (T_world_object), T_world_rest (T_world_object)
   {}
+
+  /** \brief It was tracked to here. */
+  void
+  moveTo (const Eigen::Isometry3d& T_world);
+
+  /** \brief Whether it has not been seen to move of late. */
+  bool
+  rests () const
+  {
+    return state == ObjectState::Tracked && frames_at_rest >= frames_of_rest;
+  }
 
   /** \brief Share of the masks in which it should have been seen and was. */
   double
@@ -44,10 +55,16 @@ struct TrackedObject
     return state == ObjectState::Tracked ? last_motion * T_world_object : T_world_object;
   }
 
+  static constexpr int frames_of_rest = 10;  ///< after which what moved is believed to rest
+  static constexpr int frames_of_motion = 3; ///< after which what is elsewhere is believed to have moved: the camera may have erred
+
   int id;
   TsdfVolume volume;                                           ///< object frame
   Eigen::Isometry3d T_world_object;                            ///< the last good one
   Eigen::Isometry3d last_motion = Eigen::Isometry3d::Identity (); ///< T_now_before, world frame
+  Eigen::Isometry3d T_world_rest;                              ///< where it has been since, within noise
+  int frames_away = 0;                                         ///< from there, in a row
+  int frames_at_rest = frames_of_rest;                         ///< a new object rests until it is seen to move
   ObjectState state = ObjectState::Tracked;
   int mask_id = 0;            ///< in the masks, if ids persist
   int seen = 0;               ///< in masks
