@@ -123,6 +123,11 @@ applyMask (const FrameCloud& cloud, const Image<std::uint16_t>& mask, const std:
       continue;
     std::uint16_t& label = segmentation.labels.pixels[n];
     const std::uint16_t instance = mask.pixels[n];
+    if (instance == FrameSegmentation::unassigned)
+    {
+      label = FrameSegmentation::unassigned;
+      continue;
+    }
     if (instance == 0)
     {
       if (label == FrameSegmentation::unassigned || matched.count (label) > 0)

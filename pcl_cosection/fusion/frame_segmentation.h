@@ -20,7 +20,7 @@ namespace cosection
 /** \brief Pixels of a frame by what they show. */
 struct FrameSegmentation
 {
-  static constexpr std::uint16_t unassigned = 65535; ///< neither the background nor a known object
+  static constexpr std::uint16_t unassigned = 65535; ///< neither the background nor a known object; in a mask: to be ignored
 
   Image<std::uint16_t> labels;                   ///< id of the object, 0: background or no reading
   std::map<std::uint16_t, double> mean_probability; ///< of an object's pixels that its model explains
@@ -36,7 +36,7 @@ segmentFrame (const FrameCloud& cloud, const std::vector<AssociatedModel>& model
               const DataAssociation& association);
 
 /** \brief Give a mask the last word: pixels of an instance that matches an object become the object's, unless the object has seen their place
- * free; instances that match none become unassigned, and so do pixels of a matched object outside its mask that the background does not explain.
+ * free; instances that match none and what is to be ignored become unassigned, and so do pixels of a matched object outside its mask that the background does not explain.
  * \param[in] object_of by instance */
 void
 applyMask (const FrameCloud& cloud, const Image<std::uint16_t>& mask, const std::map<std::uint16_t, std::uint16_t>& object_of,

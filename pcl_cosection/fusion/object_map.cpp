@@ -98,11 +98,17 @@ ObjectMap::surfaceMesh (int id) const
 MaskMatches
 ObjectMap::match (const MaskedFrame& frame, const Image<std::uint16_t>& labels) const
 {
+  Image<std::uint16_t> mask = frame.mask;
   Image<std::uint16_t> rendered = labels;
-  for (std::uint16_t& label : rendered.pixels)
-    if (label == TrackedFrame::unassigned)
-      label = 0;
-  MaskMatches matches = matchMasks (frame.mask, rendered, frame.cloud.depth, options_.min_mask_iou);
+  for (std::size_t n = 0; n < rendered.pixels.size (); ++n)
+  {
+    const bool ignored = mask.pixels[n] == FrameSegmenter::ignored;
+    if (ignored)
+      mask.pixels[n] = 0;
+    if (ignored || rendered.pixels[n] == TrackedFrame::unassigned)
+      rendered.pixels[n] = 0;
+  }
+  MaskMatches matches = matchMasks (mask, rendered, frame.cloud.depth, options_.min_mask_iou);
   if (options_.persistent_ids)
   {
     matches.object_of.clear ();
@@ -115,7 +121,7 @@ ObjectMap::match (const MaskedFrame& frame, const Image<std::uint16_t>& labels) 
 }
 
 void
-ObjectMap::countExistence (const MaskMatches& matches)
+ObjectMap::countExistence (const MaskMatches& matches, bool shows_all)
 {
   std::set<int> seen;
   for (const auto& [instance, object] : matches.object_of)
@@ -125,7 +131,7 @@ ObjectMap::countExistence (const MaskMatches& matches)
     const auto pixels = matches.object_pixels.find (static_cast<std::uint16_t> (object->id));
     if (seen.count (object->id) > 0)
       ++object->seen;
-    else if (object->state == ObjectState::Tracked && pixels != matches.object_pixels.end () &&
+    else if (shows_all && object->state == ObjectState::Tracked && pixels != matches.object_pixels.end () &&
              static_cast<double> (pixels->second) > expected_share * static_cast<double> (min_pixels_))
       ++object->missed;
   }
@@ -227,7 +233,7 @@ std::map<std::uint16_t, std::uint16_t>
 ObjectMap::readMask (const MaskedFrame& frame, const Image<std::uint16_t>& labels, PoseTracking& tracking, EventLog& log)
 {
   MaskMatches matches = match (frame, labels);
-  countExistence (matches);
+  countExistence (matches, frame.shows_all);
   for (const auto& [instance, pixels] : matches.instance_pixels)
   {
     if (matches.object_of.count (instance) > 0)
@@ -279,6 +285,20 @@ ObjectMap::tidy (double stamp, const FrameSegmentation& segmentation, EventLog& 
     }
     i = active_.erase (i);
   }
+}
+
+void
+ObjectMap::leaveToLost (const FrameCloud& cloud, const Eigen::Isometry3d& T_world_camera, Image<std::uint16_t>& labels) const
+{
+  for (const auto& object : active_)
+    if (object->state == ObjectState::Lost)
+      for (std::size_t n = 0; n < cloud.points.size (); ++n)
+      {
+        const Eigen::Vector3d p = T_world_camera * cloud.points[n].cast<double> ();
+        const auto cell = object->volume.sample<float> (Eigen::Vector3f ((object->T_world_object.inverse () * p).cast<float> ()));
+        if (labels.pixels[n] == 0 && cell && cell->value () < 0.5 * object->volume.truncation ())
+          labels.pixels[n] = TrackedFrame::unassigned;
+      }
 }
 
 void

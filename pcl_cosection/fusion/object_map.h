@@ -29,6 +29,7 @@ struct MaskedFrame
   const FrameCloud& cloud;
   const Image<std::uint16_t>& mask;
   Eigen::Isometry3d T_world_camera;
+  bool shows_all; ///< an object that should be in the mask and is not is probably none
 };
 
 /** \brief The objects that are known, and the decisions which there are. */
@@ -65,6 +66,10 @@ public:
   void
   tidy (double stamp, const FrameSegmentation& segmentation, EventLog& log);
 
+  /** \brief Give pixels of label 0 that may show a lost object to nobody. */
+  void
+  leaveToLost (const FrameCloud& cloud, const Eigen::Isometry3d& T_world_camera, Image<std::uint16_t>& labels) const;
+
   /** \brief Make room for what is labelled as an object's. */
   void
   grow (const MaskedFrame& frame, const Image<std::uint16_t>& labels, EventLog& log);
@@ -73,7 +78,7 @@ private:
   MaskMatches
   match (const MaskedFrame& frame, const Image<std::uint16_t>& labels) const;
   void
-  countExistence (const MaskMatches& matches);
+  countExistence (const MaskMatches& matches, bool shows_all);
   /** \brief The object that an instance shows, of those that are not tracked. */
   TrackedObject*
   findAgain (const MaskedFrame& frame, const std::vector<Eigen::Vector3f>& points, std::uint16_t instance, PoseTracking& tracking);

@@ -16,11 +16,17 @@ namespace cosection
 namespace
 {
 
+bool
+hasObjects (const TrackedSequence& sequence)
+{
+  return sequence.masks || sequence.segmenter;
+}
+
 DynamicFusionOptions
 frontEndOptions (const TrackedSequence& sequence, const FusionOptions& options)
 {
   DynamicFusionOptions front_end = options.front_end;
-  front_end.objects = sequence.masks != nullptr;
+  front_end.objects = hasObjects (sequence);
   return front_end;
 }
 
@@ -31,9 +37,11 @@ public:
   TrackedPoses (const TrackedSequence& sequence, const FusionOptions& options)
   : options_ (options)
   , masks_ (sequence.masks)
-  , with_masks_ (sequence.masks != nullptr)
+  , with_masks_ (hasObjects (sequence))
   , fusion_ (sequence.images->camera (), frontEndOptions (sequence, options))
-  {}
+  {
+    fusion_.setSegmenter (sequence.segmenter);
+  }
 
   std::optional<Eigen::Isometry3d>
   next (const RgbdFrame& frame) override;

@@ -16,6 +16,7 @@
 #include <cstddef>
 #include <functional>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -44,6 +45,7 @@ struct PCL_COSECTION_EXPORT TrackedSequence
   const RgbdSequence* images;
   /** \brief A pixel is the number of an instance, which may be another in the next mask; not every frame needs one. Null: no objects. */
   const MaskSequence* masks;
+  std::shared_ptr<FrameSegmenter> segmenter; ///< finds objects in frames without a mask; null: none
 };
 
 /** \brief Whether SequenceFusion completes everything at keyframes, too, not only at the end. The last result is the same. */
