@@ -44,8 +44,8 @@ struct DynamicFusion::Impl
   trackCamera (const FrameCloud& cloud, const RgbdFrame& frame);
   FrameSegmentation
   segment (const RgbdFrame& frame, const FrameCloud& cloud, const Image<std::uint16_t>* mask);
-  /** \brief What the segmenter finds, if it is its turn. */
-  std::optional<Image<std::uint16_t>>
+  /** \brief What the segmenter finds, beside what is known; empty: it is not its turn, or it cannot tell. */
+  Image<std::uint16_t>
   findInstances (const RgbdFrame& frame, const FrameCloud& cloud, const Image<std::uint16_t>& labels);
   void
   integrate (const RgbdFrame& frame, const FrameCloud& cloud, const Image<std::uint16_t>& labels);
@@ -189,17 +189,23 @@ DynamicFusion::Impl::trackCamera (const FrameCloud& cloud, const RgbdFrame& fram
   return true;
 }
 
-std::optional<Image<std::uint16_t>>
+Image<std::uint16_t>
 DynamicFusion::Impl::findInstances (const RgbdFrame& frame, const FrameCloud& cloud, const Image<std::uint16_t>& labels)
 {
   if (!segmenter.isSet ())
-    return std::nullopt;
+    return {};
   const Image<std::uint8_t> moving = camera_tracking.moving ().image (cloud, labels, TrackedFrame::unassigned);
   ObservedFrame observed{frame, camera, cloud.points, T_world_camera, {}, labels, moving};
   for (const auto& object : objects.active ())
     if (object->state == ObjectState::Tracked)
       observed.T_world_object[object->id] = object->T_world_object;
-  return segmenter.see (observed, log);
+  const std::optional<Image<std::uint16_t>> instances = segmenter.see (observed, log);
+  if (!instances || segmenter.isExact ())
+    return instances.value_or (Image<std::uint16_t> ());
+  ReconciledMask reconciled = reconcile (*instances, labels, moving, cloud);
+  objects.judge (frame.stamp, reconciled, labels, log);
+  takeAlong (objects.moved (), labels, cloud, reconciled);
+  return std::move (reconciled.mask);
 }
 
 FrameSegmentation
@@ -213,17 +219,24 @@ DynamicFusion::Impl::segment (const RgbdFrame& frame, const FrameCloud& cloud, c
     return ids;
   };
   std::vector<AssociatedModel> known = models (T_world_camera, false, used);
-  FrameSegmentation segmentation = segmentFrame (cloud, known, idsOf (used), association);
-  std::optional<Image<std::uint16_t>> instances;
+  const bool exact = mask || segmenter.isExact ();
+  // Masks that are not exact do not take back what joined wrongly.
+  FrameSegmentation segmentation =
+      segmentFrame (cloud, known, idsOf (used), association, exact ? ObjectGrowth::Any : ObjectGrowth::Small);
+  Image<std::uint16_t> found; // empty: none
   if (!mask)
-  {
-    instances = findInstances (frame, cloud, segmentation.labels);
-    mask = instances ? &*instances : nullptr;
-  }
+    found = findInstances (frame, cloud, segmentation.labels);
+  if (!exact)
+    objects.uniteParts (frame.stamp, segmentation.labels, found, log);
+  const bool shows_all = mask || !segmenter.isSet () || segmenter.findsAll ();
+  if (!found.pixels.empty ())
+    mask = &found;
   if (mask)
   {
-    const MaskedFrame masked{frame.stamp, cloud, *mask, T_world_camera, !instances || segmenter.findsAll ()};
+    const MaskedFrame masked{frame.stamp, cloud, *mask, T_world_camera, exact, shows_all};
     const auto object_of = objects.readMask (masked, segmentation.labels, tracking, log);
+    if (!exact)
+      removeScraps (cloud, object_of, found);
     known = models (T_world_camera, false, used);
     applyMask (cloud, *mask, object_of, known, idsOf (used), association, segmentation);
     objects.grow (masked, segmentation.labels, log);
@@ -270,7 +283,10 @@ DynamicFusion::Impl::report (const FrameSegmentation& segmentation)
   result.instances = segmentation.labels;
   for (const auto& object : objects.active ())
   {
-    if (object->state == ObjectState::Tracked)
+    if (!object->confirmed)
+      std::replace (result.instances.pixels.begin (), result.instances.pixels.end (), static_cast<std::uint16_t> (object->id),
+                    TrackedFrame::unassigned);
+    else if (object->state == ObjectState::Tracked)
       result.T_world_object[object->id] = object->T_world_object;
     result.lost += object->state == ObjectState::Lost;
   }
@@ -339,7 +355,8 @@ DynamicFusion::objects () const
 {
   std::set<int> ids;
   for (const auto& object : impl_->objects.active ())
-    ids.insert (object->id);
+    if (object->confirmed)
+      ids.insert (object->id);
   return ids;
 }
 

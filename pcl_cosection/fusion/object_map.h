@@ -5,6 +5,8 @@
 #include "event_log.h"
 #include "frame_cloud.h"
 #include "frame_segmentation.h"
+#include "inexact_mask.h"
+#include "object_unions.h"
 #include "pose_tracking.h"
 #include "tracked_object.h"
 
@@ -29,6 +31,7 @@ struct MaskedFrame
   const FrameCloud& cloud;
   const Image<std::uint16_t>& mask;
   Eigen::Isometry3d T_world_camera;
+  bool exact;     ///< its instances are objects (see FrameSegmenter::isExact ())
   bool shows_all; ///< an object that should be in the mask and is not is probably none
 };
 
@@ -51,6 +54,10 @@ public:
   std::set<int>
   found () const;
 
+  /** \brief Numbers of those that are tracked and have moved since they began. */
+  std::set<int>
+  moved () const;
+
   /** \brief What was seen of one of them, its frame; empty if there is none of that number. */
   TriangleMesh
   surfaceMesh (int id) const;
@@ -61,6 +68,14 @@ public:
    * \return the object of each instance that has one */
   std::map<std::uint16_t, std::uint16_t>
   readMask (const MaskedFrame& frame, const Image<std::uint16_t>& labels, PoseTracking& tracking, EventLog& log);
+
+  /** \brief Learn from a mask that is not exact: confirm or give up what began with another one. */
+  void
+  judge (double stamp, const ReconciledMask& mask, const Image<std::uint16_t>& labels, EventLog& log);
+
+  /** \brief Unite objects that are parts of one. \param[in,out] labels by association \param[in,out] mask may be empty */
+  void
+  uniteParts (double stamp, Image<std::uint16_t>& labels, Image<std::uint16_t>& mask, EventLog& log);
 
   /** \brief Give up what is probably no object, and stop looking for what was not seen for long. */
   void
@@ -84,10 +99,21 @@ private:
   findAgain (const MaskedFrame& frame, const std::vector<Eigen::Vector3f>& points, std::uint16_t instance, PoseTracking& tracking);
   TrackedObject*
   create (const MaskedFrame& frame, const std::vector<Eigen::Vector3f>& points, std::uint16_t instance, EventLog& log);
+  /** \brief Whether a mask should show an object of which so much is in view. */
+  bool
+  isExpectedInMask (std::size_t pixels) const
+  {
+    constexpr double expected_share = 0.25; // of the pixels of a new object
+    return static_cast<double> (pixels) > expected_share * static_cast<double> (min_pixels_);
+  }
+  /** \brief Erase one as if it had never been. */
+  void
+  erase (int id);
   void
   sortActive ();
 
   DynamicFusionOptions options_;
+  ObjectUnions unions_;
   std::size_t min_pixels_;
   TsdfOptions tsdf_;
   Objects active_;

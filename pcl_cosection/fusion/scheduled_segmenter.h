@@ -42,6 +42,12 @@ public:
     return segmenter_->findsAll ();
   }
 
+  bool
+  isExact () const
+  {
+    return !segmenter_ || segmenter_->isExact ();
+  }
+
   /** \brief Show a frame to the segmenter. \return the instances in it, if it is the segmenter's turn and it can tell
    * \throws InvalidArgument if they are not of the camera's size */
   std::optional<Image<std::uint16_t>>

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <set>
 
 namespace pcl
@@ -71,6 +72,15 @@ public:
     return tracked_->T_world_object;
   }
 
+  std::set<int>
+  wrongObjects () const override
+  {
+    const std::set<int> found = fusion_.foundObjects ();
+    std::set<int> wrong;
+    std::set_difference (told_.begin (), told_.end (), found.begin (), found.end (), std::inserter (wrong, wrong.end ()));
+    return wrong;
+  }
+
   void
   map (const RgbdFrame&, const Eigen::Isometry3d&) override
   {}
@@ -94,6 +104,7 @@ private:
   DynamicFusion fusion_;
   const TrackedFrame* tracked_ = nullptr; // of the frame
   std::optional<Image<std::uint16_t>> instances_;
+  std::set<int> told_; // numbers of objects
   std::size_t frames_ = 0;
   std::size_t frames_lost_ = 0;
   double masks_s_ = 0.0;
@@ -110,6 +121,8 @@ TrackedPoses::next (const RgbdFrame& frame)
   instances_.reset ();
   if (tracked_->T_world_camera)
     instances_ = tracked_->instances;
+  for (const auto& [id, T] : tracked_->T_world_object)
+    told_.insert (id);
   return tracked_->T_world_camera;
 }
 

@@ -74,6 +74,15 @@ public:
   {
     return true;
   }
+
+  /** \brief Whether an instance is one object. If not, it may be a part of one, several that touch, or none: what frames have shown of an object
+   * goes before a mask; an object begins when two masks show it, and not from an instance that the image's border cuts; objects that move as
+   * one, or that masks show as one, are united. */
+  virtual bool
+  isExact () const
+  {
+    return true;
+  }
 };
 
 } // namespace cosection
