@@ -5,6 +5,8 @@
 #include "../common/disjoint_sets.h"
 #include "frame_segmentation.h"
 
+#include <algorithm>
+
 namespace pcl
 {
 namespace cosection
@@ -14,31 +16,55 @@ namespace
 {
 
 constexpr double cut_share = 0.25; // of the root of its pixels
+constexpr double widest_margin = 0.1; // without readings, of the image: sensors have one; what is wider is far away
+constexpr double border_share = 0.25; // of a side, with readings
 constexpr int cut_margin_px = 12;  // from the border of what is seen, where surfaces have no normals and belong to no instance
 
-/** \brief Call f (pixels of a line, from one end on) for the ends of what is seen in all rows and columns. */
+/** \brief Call f (pixels from the border inwards) along the borders of what is seen: of the smallest rectangle with all readings, the sides that
+ * are those of the sensor's view, not of things before a background without readings. */
 template <typename Function> void
 forEnds (const FrameCloud& cloud, Function&& f)
 {
   const int width = cloud.camera.width;
   const int height = cloud.camera.height;
-  const auto ends = [&] (int lines, int length, auto&& pixelOf) {
-    std::vector<std::size_t> end;
-    for (int line = 0; line < lines; ++line)
-      for (const bool forward : {true, false})
+  const auto isRead = [&] (int u, int v) { return std::isfinite (cloud.depth.at (u, v)); };
+  int left = width, right = -1, top = height, bottom = -1;
+  for (int v = 0; v < height; ++v)
+    for (int u = 0; u < width; ++u)
+      if (isRead (u, v))
       {
-        end.clear ();
-        for (int n = 0; n < length && (end.empty () || static_cast<int> (end.size ()) < cut_margin_px); ++n)
-        {
-          const std::size_t pixel = pixelOf (line, forward ? n : length - 1 - n);
-          if (!end.empty () || std::isfinite (cloud.depth.pixels[pixel]))
-            end.push_back (pixel);
-        }
-        f (end);
+        left = std::min (left, u);
+        right = std::max (right, u);
+        top = std::min (top, v);
+        bottom = std::max (bottom, v);
       }
+  if (right - left < 2 * cut_margin_px || bottom - top < 2 * cut_margin_px)
+    return;
+  const auto side = [&] (int from, int step, bool upright) {
+    const int size = upright ? width : height;
+    if ((step > 0 ? from : size - 1 - from) > widest_margin * size)
+      return;
+    const int first = upright ? top : left, last = upright ? bottom : right;
+    int read = 0;
+    for (int along = first; along <= last; ++along)
+      read += upright ? isRead (from + step * cut_margin_px / 2, along) : isRead (along, from + step * cut_margin_px / 2);
+    if (static_cast<double> (read) < border_share * (last - first + 1))
+      return;
+    std::vector<std::size_t> end (cut_margin_px);
+    for (int along = first; along <= last; ++along)
+    {
+      for (int n = 0; n < cut_margin_px; ++n)
+      {
+        const int across = from + step * n;
+        end[n] = upright ? static_cast<std::size_t> (along) * width + across : static_cast<std::size_t> (across) * width + along;
+      }
+      f (end);
+    }
   };
-  ends (height, width, [&] (int v, int u) { return static_cast<std::size_t> (v) * width + u; });
-  ends (width, height, [&] (int u, int v) { return static_cast<std::size_t> (v) * width + u; });
+  side (left, 1, true);
+  side (right, -1, true);
+  side (top, 1, false);
+  side (bottom, -1, false);
 }
 
 bool

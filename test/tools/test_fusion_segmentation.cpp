@@ -15,6 +15,18 @@ using namespace pcl::cosection::test;
 namespace
 {
 
+const char* const scene = R"({
+  "frames": 22,
+  "camera": {"width": 240, "height": 180, "keys": [
+    {"time": 0, "position": [-0.3, -0.7, 0.45], "look_at": [0, 0, 0.05]},
+    {"time": 0.7, "position": [0.3, -0.7, 0.5], "look_at": [0, 0, 0.05]}]},
+  "background": {"parts": [{"type": "plane", "extent": 1}]},
+  "objects": [
+    {"name": "ball", "shape": {"type": "sphere", "radius": 0.1}, "colour": [200, 60, 40],
+     "keys": [{"time": 0, "position": [-0.15, 0, 0.1]}, {"time": 0.7, "position": [-0.15, 0.1, 0.1]}]},
+    {"name": "box", "shape": {"type": "box", "size": [0.16, 0.12, 0.1]}, "keys": [{"position": [0.12, 0, 0.05]}]}]
+})";
+
 class FusionSegmentation : public FusionScene
 {
 protected:
@@ -29,7 +41,10 @@ protected:
 
 TEST_F (FusionSegmentation, ObjectsAreFoundAndCompleted)
 {
-  ASSERT_EQ (run ({"--segmentation", "geometric", "--keyframe-every", "5", "sim", "out"}), 0) << errors_;
+  writeFile (file ("scene.json"), scene); // that of the other tests is too coarse
+  ToolRun simulation ({"scene.json", "fine"}, file (""), {}, PCL_COSECTION_SIMULATE_TOOL);
+  ASSERT_EQ (simulation.wait (), 0) << simulation.errors ();
+  ASSERT_EQ (run ({"--segmentation", "geometric", "fine", "out"}), 0) << errors_;
   const nlohmann::json result = summary ();
   EXPECT_EQ (result["parameters"]["segmentation"], "geometric");
   ASSERT_EQ (result["objects"].size (), 2u); // the ball and the box
