@@ -6,7 +6,9 @@
 #include "exit_status.h"
 #include "fusion_command_line.h"
 #include "fusion_outputs.h"
+#include "ignored_pixels.h"
 #include "interruption.h"
+#include "segmenter_choice.h"
 #include "terminal.h"
 
 #include <pcl/cosection/common/error.h>
@@ -57,7 +59,8 @@ struct Inputs
   {
     warnings = images.warnings ();
     known.images = &images;
-    known.camera = settings.camera_trajectory.empty () ? images.givenTrajectory (warnings) : loadTrajectory (settings.camera_trajectory);
+    if (settings.segmentation.empty ()) // which is done while tracking
+      known.camera = settings.camera_trajectory.empty () ? images.givenTrajectory (warnings) : loadTrajectory (settings.camera_trajectory);
     for (const auto& [id, file] : settings.object_trajectories)
       known.objects[id] = loadTrajectory (file);
     if (settings.masks.empty ())
@@ -80,16 +83,21 @@ struct Inputs
 SequenceFusion
 makeFusion (const FusionSettings& settings, const Inputs& inputs)
 {
+  FusionOptions options = settings.fusion;
+  options.ignored = ignoredPixels (inputs.images.camera (), settings.ignored_regions, settings.ignored_mask);
   if (inputs.known.camera.empty ())
   {
     if (!inputs.known.objects.empty ())
       throw InvalidArgument ("--object-trajectory needs the poses of the camera: " + settings.dataset +
                              " has none; give --camera-trajectory FILE");
-    return (SequenceFusion (TrackedSequence (inputs.images, inputs.known.masks), settings.fusion));
+    TrackedSequence sequence (inputs.images, inputs.known.masks);
+    if (!settings.segmentation.empty ())
+      sequence.segmenter = makeSegmenter (settings.segmentation, settings.fusion.front_end.threads);
+    return (SequenceFusion (sequence, options));
   }
   if (settings.ids_per_frame)
     throw InvalidArgument ("with given poses, objects must have the same number in all masks, not --mask-ids per-frame");
-  return (SequenceFusion (inputs.known, settings.fusion));
+  return (SequenceFusion (inputs.known, options));
 }
 
 /** \return whether every object succeeded */

@@ -43,6 +43,13 @@ public:
   void
   keep (const FrameCloud& cloud, const Eigen::Isometry3d& T_world_camera);
 
+  /** \brief Do not track with what a mask of that frame labels as \a ignored. */
+  void
+  ignore (const FrameCloud& cloud, const Image<std::uint16_t>& mask, std::uint16_t ignored, const Eigen::Isometry3d& T_world_camera)
+  {
+    moving_.ignore (cloud, mask, ignored, T_world_camera);
+  }
+
   /** \brief Of the frame that was tracked last. */
   const MovingParts&
   moving () const

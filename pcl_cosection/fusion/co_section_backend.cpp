@@ -177,6 +177,15 @@ CoSectionBackend::addKeyframe (const Keyframe& keyframe, const Poses& T_world_ob
   return true;
 }
 
+void
+CoSectionBackend::removeObject (int id)
+{
+  scene_.removeObject (id);
+  if (id != 0)
+    for (KeptView& view : kept_)
+      view.T_body_sensor.erase (id);
+}
+
 SceneResult
 CoSectionBackend::update (UpdateOutput output, const ProgressCallback& progress)
 {

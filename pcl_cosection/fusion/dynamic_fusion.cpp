@@ -8,7 +8,9 @@
 #include "frame_cloud.h"
 #include "frame_segmentation.h"
 #include "object_map.h"
+#include "object_tracking.h"
 #include "pose_tracking.h"
+#include "scheduled_segmenter.h"
 
 #include <pcl/cosection/common/error.h>
 
@@ -27,7 +29,6 @@ namespace
 
 constexpr std::size_t min_readings = 500;     // of an image of 640 x 480
 constexpr double min_readings_share = min_readings / (640.0 * 480.0);
-constexpr double least_in_view = 0.3;          // of an object's surface: with less of it to be seen, it is hidden, not lost
 constexpr int mask_border_px = 2;              // beside an object, readings are mixed with its own
 constexpr int all_directions = 6;
 
@@ -41,10 +42,11 @@ struct DynamicFusion::Impl
   process (const RgbdFrame& frame, const Image<std::uint16_t>* mask);
   bool
   trackCamera (const FrameCloud& cloud, const RgbdFrame& frame);
-  void
-  trackObjects (const FrameCloud& cloud, double stamp);
   FrameSegmentation
-  segment (const FrameCloud& cloud, double stamp, const Image<std::uint16_t>* mask);
+  segment (const RgbdFrame& frame, const FrameCloud& cloud, const Image<std::uint16_t>* mask);
+  /** \brief What the segmenter finds, beside what is known; empty: it is not its turn, or it cannot tell. */
+  Image<std::uint16_t>
+  findInstances (const RgbdFrame& frame, const FrameCloud& cloud, const Image<std::uint16_t>& labels);
   void
   integrate (const RgbdFrame& frame, const FrameCloud& cloud, const Image<std::uint16_t>& labels);
   void
@@ -70,6 +72,7 @@ struct DynamicFusion::Impl
   CameraTracking camera_tracking;
   PoseTracking tracking;
   DataAssociation association;
+  ScheduledSegmenter segmenter;
   EventLog log;
   TrackedFrame result;
   std::map<std::string, double> timings;
@@ -116,6 +119,7 @@ DynamicFusion::Impl::Impl (const PinholeCamera& camera, const DynamicFusionOptio
 , camera_tracking (options.tracking_points, associationOptions (options), options.threads)
 , tracking (options.tracking_points, associationOptions (options), options.threads)
 , association (associationOptions (options))
+, segmenter (options.segment_every)
 , T_world_camera (options.first_pose)
 {
   camera.validate ();
@@ -185,53 +189,27 @@ DynamicFusion::Impl::trackCamera (const FrameCloud& cloud, const RgbdFrame& fram
   return true;
 }
 
-void
-DynamicFusion::Impl::trackObjects (const FrameCloud& cloud, double stamp)
+Image<std::uint16_t>
+DynamicFusion::Impl::findInstances (const RgbdFrame& frame, const FrameCloud& cloud, const Image<std::uint16_t>& labels)
 {
-  std::vector<TrackedObject*> used;
-  const std::vector<AssociatedModel> expected = models (T_world_camera, true, used);
-  for (std::size_t m = 1; m < expected.size (); ++m)
-  {
-    TrackedObject& object = *used[m - 1];
-    PoseEstimate estimate = tracking.trackObject (cloud, expected, m, 1.0 + object.frames_not_tracked);
-    if (!estimate.doubt.empty ())
-    {
-      // It may have stopped.
-      std::vector<AssociatedModel> at_rest = expected;
-      at_rest[m].T_model_sensor = object.T_world_object.inverse () * T_world_camera;
-      const PoseEstimate other = tracking.trackObject (cloud, at_rest, m, 1.0 + object.frames_not_tracked);
-      if (other.doubt.empty () || other.visibility.confirmedShare () > estimate.visibility.confirmedShare ())
-        estimate = other;
-    }
-    if (estimate.doubt.empty ())
-    {
-      const Eigen::Isometry3d T_world_object = T_world_camera * estimate.T_model_camera.inverse ();
-      const bool steady = object.state == ObjectState::Tracked && estimate.observed_directions == all_directions;
-      if (object.state != ObjectState::Tracked)
-        log.add (stamp, "object ", object.id, object.state == ObjectState::Lost ? " is found again" : " is in sight again");
-      // What its surface does not tell must not go on by itself.
-      object.last_motion = Eigen::Isometry3d::Identity ();
-      if (steady)
-        object.last_motion = T_world_object * object.T_world_object.inverse ();
-      else if (object.state == ObjectState::Tracked)
-        object.last_motion.translation () = T_world_object.translation () - object.T_world_object.translation ();
-      object.moveTo (T_world_object);
-      object.state = ObjectState::Tracked;
-      object.frames_not_tracked = 0;
-      continue;
-    }
-    const bool hidden = estimate.visibility.inViewShare () < least_in_view;
-    if (!hidden && object.state != ObjectState::Lost)
-      log.add (stamp, "object ", object.id, " is lost: ", estimate.doubt);
-    else if (hidden && object.state == ObjectState::Tracked)
-      log.add (stamp, "object ", object.id, " is out of sight");
-    object.state = hidden ? ObjectState::Hidden : ObjectState::Lost;
-    ++object.frames_not_tracked;
-  }
+  if (!segmenter.isSet ())
+    return {};
+  const Image<std::uint8_t> moving = camera_tracking.moving ().image (cloud, labels, TrackedFrame::unassigned);
+  ObservedFrame observed{frame, camera, cloud.points, T_world_camera, {}, labels, moving};
+  for (const auto& object : objects.active ())
+    if (object->state == ObjectState::Tracked)
+      observed.T_world_object[object->id] = object->T_world_object;
+  const std::optional<Image<std::uint16_t>> instances = segmenter.see (observed, log);
+  if (!instances || segmenter.isExact ())
+    return instances.value_or (Image<std::uint16_t> ());
+  ReconciledMask reconciled = reconcile (*instances, labels, moving, cloud);
+  objects.judge (frame.stamp, reconciled, labels, log);
+  takeAlong (objects.moved (), labels, cloud, reconciled);
+  return std::move (reconciled.mask);
 }
 
 FrameSegmentation
-DynamicFusion::Impl::segment (const FrameCloud& cloud, double stamp, const Image<std::uint16_t>* mask)
+DynamicFusion::Impl::segment (const RgbdFrame& frame, const FrameCloud& cloud, const Image<std::uint16_t>* mask)
 {
   std::vector<TrackedObject*> used;
   const auto idsOf = [] (const std::vector<TrackedObject*>& objects) {
@@ -241,27 +219,33 @@ DynamicFusion::Impl::segment (const FrameCloud& cloud, double stamp, const Image
     return ids;
   };
   std::vector<AssociatedModel> known = models (T_world_camera, false, used);
-  FrameSegmentation segmentation = segmentFrame (cloud, known, idsOf (used), association);
+  const bool exact = mask || segmenter.isExact ();
+  // Masks that are not exact do not take back what joined wrongly.
+  FrameSegmentation segmentation =
+      segmentFrame (cloud, known, idsOf (used), association, exact ? ObjectGrowth::Any : ObjectGrowth::Small);
+  Image<std::uint16_t> found; // empty: none
+  if (!mask)
+    found = findInstances (frame, cloud, segmentation.labels);
+  if (!exact)
+    objects.uniteParts (frame.stamp, segmentation.labels, found, log);
+  const bool shows_all = mask || !segmenter.isSet () || segmenter.findsAll ();
+  if (!found.pixels.empty ())
+    mask = &found;
   if (mask)
   {
-    const MaskedFrame frame{stamp, cloud, *mask, T_world_camera};
-    const auto object_of = objects.readMask (frame, segmentation.labels, tracking, log);
+    const MaskedFrame masked{frame.stamp, cloud, *mask, T_world_camera, exact, shows_all};
+    const auto object_of = objects.readMask (masked, segmentation.labels, tracking, log);
+    if (!exact)
+      removeScraps (cloud, object_of, found);
     known = models (T_world_camera, false, used);
     applyMask (cloud, *mask, object_of, known, idsOf (used), association, segmentation);
-    objects.grow (frame, segmentation.labels, log);
+    objects.grow (masked, segmentation.labels, log);
+    camera_tracking.ignore (cloud, *mask, FrameSegmenter::ignored, T_world_camera);
+    result.masked = true;
   }
   camera_tracking.moving ().mark (cloud, segmentation.labels, TrackedFrame::unassigned);
-  objects.tidy (stamp, segmentation, log);
-  // What a lost object may be is nobody's.
-  for (const auto& object : objects.active ())
-    if (object->state == ObjectState::Lost)
-      for (std::size_t n = 0; n < cloud.points.size (); ++n)
-      {
-        const Eigen::Vector3d p = T_world_camera * cloud.points[n].cast<double> ();
-        const auto cell = object->volume.sample<float> (Eigen::Vector3f ((object->T_world_object.inverse () * p).cast<float> ()));
-        if (segmentation.labels.pixels[n] == 0 && cell && cell->value () < 0.5 * object->volume.truncation ())
-          segmentation.labels.pixels[n] = TrackedFrame::unassigned;
-      }
+  objects.tidy (frame.stamp, segmentation, log);
+  objects.leaveToLost (cloud, T_world_camera, segmentation.labels);
   return segmentation;
 }
 
@@ -299,7 +283,10 @@ DynamicFusion::Impl::report (const FrameSegmentation& segmentation)
   result.instances = segmentation.labels;
   for (const auto& object : objects.active ())
   {
-    if (object->state == ObjectState::Tracked)
+    if (!object->confirmed)
+      std::replace (result.instances.pixels.begin (), result.instances.pixels.end (), static_cast<std::uint16_t> (object->id),
+                    TrackedFrame::unassigned);
+    else if (object->state == ObjectState::Tracked)
       result.T_world_object[object->id] = object->T_world_object;
     result.lost += object->state == ObjectState::Lost;
   }
@@ -311,7 +298,6 @@ DynamicFusion::Impl::process (const RgbdFrame& frame, const Image<std::uint16_t>
   if (mask && (mask->width != camera.width || mask->height != camera.height))
     throw InvalidArgument ("the mask must be of the camera's size");
   result = TrackedFrame ();
-  result.masked = mask != nullptr;
   bool good = false;
   FrameCloud cloud;
   timed ("tracking", [&] {
@@ -324,8 +310,11 @@ DynamicFusion::Impl::process (const RgbdFrame& frame, const Image<std::uint16_t>
       return;
     }
     good = trackCamera (cloud, frame);
-    if (good)
-      trackObjects (cloud, frame.stamp);
+    if (!good)
+      return;
+    std::vector<TrackedObject*> used;
+    const std::vector<AssociatedModel> expected = models (T_world_camera, true, used);
+    trackObjects ({frame.stamp, cloud, T_world_camera}, expected, used, tracking, log);
   });
   if (!good)
   {
@@ -334,7 +323,7 @@ DynamicFusion::Impl::process (const RgbdFrame& frame, const Image<std::uint16_t>
     return;
   }
   FrameSegmentation segmentation;
-  timed ("segmentation", [&] { segmentation = segment (cloud, frame.stamp, mask); });
+  timed ("segmentation", [&] { segmentation = segment (frame, cloud, mask); });
   timed ("integration", [&] { integrate (frame, cloud, segmentation.labels); });
   report (segmentation);
 }
@@ -348,6 +337,12 @@ DynamicFusion::DynamicFusion (DynamicFusion&& other) noexcept = default;
 DynamicFusion&
 DynamicFusion::operator= (DynamicFusion&& other) noexcept = default;
 
+void
+DynamicFusion::setSegmenter (std::shared_ptr<FrameSegmenter> segmenter)
+{
+  impl_->segmenter.set (std::move (segmenter));
+}
+
 const TrackedFrame&
 DynamicFusion::process (const RgbdFrame& frame, const Image<std::uint16_t>* mask)
 {
@@ -360,7 +355,8 @@ DynamicFusion::objects () const
 {
   std::set<int> ids;
   for (const auto& object : impl_->objects.active ())
-    ids.insert (object->id);
+    if (object->confirmed)
+      ids.insert (object->id);
   return ids;
 }
 

@@ -29,6 +29,7 @@ DynamicFusionOptions::validate () const
   association.validate ();
   check (background_resolution >= 16 && background_resolution <= 1024, "background_resolution must be in [16, 1024]");
   check (background_voxel_size_m >= 0.0 && std::isfinite (background_voxel_size_m), "background_voxel_size_m must be positive, or 0");
+  check (segment_every >= 1, "segment_every must be at least 1");
   check (object_resolution >= 16 && object_resolution <= 512, "object_resolution must be in [16, 512]");
   check (max_object_resolution >= object_resolution, "max_object_resolution must not be smaller than object_resolution");
   check (background_truncation_vox >= 2.0 && object_truncation_vox >= 2.0, "truncation distances must be at least 2 voxels");

@@ -28,8 +28,14 @@ spanText (double first, double last)
 } // namespace
 
 void
-requireFrames (const RgbdSequence& images, const FrameRange& frames)
+requireFrames (const RgbdSequence& images, const FusionOptions& options)
 {
+  const FrameRange& frames = options.frames;
+  const Image<std::uint8_t>& ignored = options.ignored;
+  const PinholeCamera& camera = images.camera ();
+  if (!ignored.pixels.empty () && (ignored.width != camera.width || ignored.height != camera.height))
+    throw InvalidArgument ("the ignored pixels fill an image of " + std::to_string (ignored.width) + " x " + std::to_string (ignored.height) +
+                           ", those of the sequence one of " + std::to_string (camera.width) + " x " + std::to_string (camera.height));
   if (frames.first >= std::min (frames.last, images.size ()))
     throw InvalidArgument ("the frames from " + std::to_string (frames.first) + " on are not there; the sequence has 0:" +
                            std::to_string (images.size ()));

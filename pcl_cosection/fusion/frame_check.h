@@ -9,9 +9,10 @@ namespace pcl
 namespace cosection
 {
 
-/** \brief What can be known of a sequence's frames before any is read. \throws InvalidArgument if there is no frame in the range */
+/** \brief What can be known of a sequence's frames before any is read. \throws InvalidArgument if there is no frame in the range, or
+ * the ignored pixels are not of the images' size */
 void
-requireFrames (const RgbdSequence& images, const FrameRange& frames);
+requireFrames (const RgbdSequence& images, const FusionOptions& options);
 
 /** \throws InvalidArgument if no frame of the range has a pose of the camera */
 void

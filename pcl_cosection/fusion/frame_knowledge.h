@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -41,6 +42,13 @@ public:
   /** \brief T_world_object of the objects that are known in the frame. */
   virtual CoSectionBackend::Poses
   poses () const = 0;
+
+  /** \brief Numbers that keyframes had, of what turned out to be no object of its own. */
+  virtual std::set<int>
+  wrongObjects () const
+  {
+    return {};
+  }
 
   /** \brief Map what is seen of the objects, if that is not done. */
   virtual void

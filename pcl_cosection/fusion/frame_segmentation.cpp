@@ -2,6 +2,8 @@
 // Copyright (c) 2026, the pcl_cosection authors
 #include "frame_segmentation.h"
 
+#include "nobodys_regions.h"
+
 #include <algorithm>
 #include <cmath>
 #include <set>
@@ -29,8 +31,20 @@ isWithin (const AssociatedModel& model, const Eigen::Vector3f& point)
 /** \brief Let objects take unassigned pixels beside theirs, one ring after the other. */
 void
 growObjects (const FrameCloud& cloud, const std::vector<AssociatedModel>& models, const std::vector<std::uint16_t>& ids,
-             const PointAssignment& assignment, const DataAssociation& association, Image<std::uint16_t>& labels)
+             const PointAssignment& assignment, const DataAssociation& association, ObjectGrowth growth, Image<std::uint16_t>& labels)
 {
+  std::vector<bool> nobodys;
+  NobodysRegions regions;
+  std::map<std::uint16_t, std::size_t> pixels;
+  if (growth == ObjectGrowth::Small)
+  {
+    for (const std::uint16_t label : labels.pixels)
+    {
+      nobodys.push_back (label == FrameSegmentation::unassigned);
+      ++pixels[label];
+    }
+    regions = findNobodysRegions (nobodys, cloud);
+  }
   const int width = labels.width;
   const int height = labels.height;
   std::map<std::uint16_t, std::size_t> model_of;
@@ -56,6 +70,8 @@ growObjects (const FrameCloud& cloud, const std::vector<AssociatedModel>& models
         const std::size_t beside = static_cast<std::size_t> (v + dv) * width + u + du;
         if (labels.pixels[beside] != FrameSegmentation::unassigned || assignment.first[beside] != first_free)
           continue;
+        if (growth == ObjectGrowth::Small && !regions.mayBelongTo (regions.of_pixel[beside], pixels[id]))
+          continue;
         const Eigen::Vector3f& p = cloud.points[beside];
         if (std::abs (p.z () - cloud.points[n].z ()) > same_surface * p.z () || (p - origin).norm () > growth_m ||
             !isWithin (model, p) || association.evidence (model, p).free)
@@ -72,7 +88,7 @@ growObjects (const FrameCloud& cloud, const std::vector<AssociatedModel>& models
 
 FrameSegmentation
 segmentFrame (const FrameCloud& cloud, const std::vector<AssociatedModel>& models, const std::vector<std::uint16_t>& ids,
-              const DataAssociation& association)
+              const DataAssociation& association, ObjectGrowth growth)
 {
   const PointAssignment assignment = association.assign (cloud.points, models);
   FrameSegmentation result;
@@ -101,7 +117,7 @@ segmentFrame (const FrameCloud& cloud, const std::vector<AssociatedModel>& model
   for (std::size_t m = 1; m < models.size (); ++m)
     if (counts[m] > 0)
       result.mean_probability[ids[m]] = sums[m] / static_cast<double> (counts[m]);
-  growObjects (cloud, models, ids, assignment, association, result.labels);
+  growObjects (cloud, models, ids, assignment, association, growth, result.labels);
   return result;
 }
 
@@ -123,6 +139,11 @@ applyMask (const FrameCloud& cloud, const Image<std::uint16_t>& mask, const std:
       continue;
     std::uint16_t& label = segmentation.labels.pixels[n];
     const std::uint16_t instance = mask.pixels[n];
+    if (instance == FrameSegmentation::unassigned)
+    {
+      label = FrameSegmentation::unassigned;
+      continue;
+    }
     if (instance == 0)
     {
       if (label == FrameSegmentation::unassigned || matched.count (label) > 0)

@@ -68,8 +68,17 @@ MovingParts::begin (const FrameCloud& cloud, const Eigen::Isometry3d& T_world_ca
       const int jj = static_cast<int> (std::floor ((pixel.y () + 0.5) / step_));
       if (ii < 0 || jj < 0 || ii >= width || jj >= height)
         continue;
-      if (std::abs (last_depth_.at (ii, jj) - q.z ()) < same_surface * q.z ())
+      const auto of_same_surface = [&] (int a, int b) { return std::abs (last_depth_.at (a, b) - q.z ()) < same_surface * q.z (); };
+      if (of_same_surface (ii, jj))
+      {
         odds = last_.at (ii, jj);
+        continue;
+      }
+      // Outlines fray: one node farther it may have been seen.
+      for (int b = std::max (0, jj - 1); b <= std::min (height - 1, jj + 1); ++b)
+        for (int a = std::max (0, ii - 1); a <= std::min (width - 1, ii + 1); ++a)
+          if (of_same_surface (a, b))
+            odds = std::min (odds, last_.at (a, b));
     }
   log_odds_ = carried_;
   any_ = std::any_of (carried_.pixels.begin (), carried_.pixels.end (), [] (float odds) { return odds < 0.0f; });
@@ -175,17 +184,49 @@ MovingParts::weigh (const PinholeCamera& camera, const std::vector<Eigen::Vector
 }
 
 void
+MovingParts::ignore (const FrameCloud& cloud, const Image<std::uint16_t>& mask, std::uint16_t ignored,
+                     const Eigen::Isometry3d& T_world_camera)
+{
+  if (std::find (mask.pixels.begin (), mask.pixels.end (), ignored) == mask.pixels.end ())
+    return;
+  if (log_odds_.pixels.empty ())
+    begin (cloud, T_world_camera);
+  for (int v = 0; v < log_odds_.height * step_; ++v)
+    for (int u = 0; u < log_odds_.width * step_; ++u)
+      if (float& odds = log_odds_.at (u / step_, v / step_); mask.at (u, v) == ignored && std::isfinite (odds))
+        odds = -most_odds;
+  any_ = true;
+  keep (cloud, T_world_camera);
+}
+
+bool
+MovingParts::moves (int u, int v) const
+{
+  return any_ && log_odds_.at (std::min (log_odds_.width - 1, u / step_), std::min (log_odds_.height - 1, v / step_)) < 0.0f;
+}
+
+void
 MovingParts::mark (const FrameCloud& cloud, Image<std::uint16_t>& labels, std::uint16_t moving) const
 {
   if (!any_)
     return;
   for (int v = 0; v < labels.height; ++v)
     for (int u = 0; u < labels.width; ++u)
-    {
-      const float odds = log_odds_.at (std::min (log_odds_.width - 1, u / step_), std::min (log_odds_.height - 1, v / step_));
-      if (odds < 0.0f && labels.at (u, v) == 0 && std::isfinite (cloud.depth.at (u, v)))
+      if (labels.at (u, v) == 0 && std::isfinite (cloud.depth.at (u, v)) && moves (u, v))
         labels.at (u, v) = moving;
+}
+
+Image<std::uint8_t>
+MovingParts::image (const FrameCloud& cloud, const Image<std::uint16_t>& labels, std::uint16_t unassigned) const
+{
+  Image<std::uint8_t> moving (labels.width, labels.height, 0);
+  for (int v = 0; v < labels.height; ++v)
+    for (int u = 0; u < labels.width; ++u)
+    {
+      const bool of_none = labels.at (u, v) == 0 || labels.at (u, v) == unassigned;
+      moving.at (u, v) = of_none && std::isfinite (cloud.depth.at (u, v)) && moves (u, v);
     }
+  return moving;
 }
 
 } // namespace cosection

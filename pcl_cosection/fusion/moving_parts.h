@@ -42,6 +42,10 @@ public:
   void
   keep (const FrameCloud& cloud, const Eigen::Isometry3d& T_world_camera);
 
+  /** \brief Take what a mask says for moving, in the next frames too. \param[in] ignored label of it */
+  void
+  ignore (const FrameCloud& cloud, const Image<std::uint16_t>& mask, std::uint16_t ignored, const Eigen::Isometry3d& T_world_camera);
+
   /** \brief Multiply weights of points by their probability to be at rest.
    * \return what share of the weights was lost */
   double
@@ -51,6 +55,10 @@ public:
   void
   mark (const FrameCloud& cloud, Image<std::uint16_t>& labels, std::uint16_t moving) const;
 
+  /** \brief 1 where pixels of label 0 or \a unassigned move, else 0. */
+  Image<std::uint8_t>
+  image (const FrameCloud& cloud, const Image<std::uint16_t>& labels, std::uint16_t unassigned) const;
+
   bool
   any () const
   {
@@ -58,6 +66,9 @@ public:
   }
 
 private:
+  bool
+  moves (int u, int v) const;
+
   /** \brief The reading of a node, sensor frame. */
   const Eigen::Vector3f&
   pointAt (const FrameCloud& cloud, int i, int j) const;

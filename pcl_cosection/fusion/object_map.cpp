@@ -2,6 +2,8 @@
 // Copyright (c) 2026, the pcl_cosection authors
 #include "object_map.h"
 
+#include "nobodys_regions.h"
+
 #include <pcl/cosection/tracking/surface_points.h>
 
 #include <algorithm>
@@ -21,7 +23,6 @@ namespace
 constexpr double standard_pixels = 640.0 * 480.0;
 constexpr int frames_until_dormant = 60;
 constexpr std::size_t max_dormant = 16;
-constexpr double expected_share = 0.25; // of the pixels of a new object: one that shows more should be in a mask
 constexpr int last_id = TrackedFrame::unassigned - 1;
 
 Eigen::Vector3d
@@ -78,9 +79,20 @@ ObjectMap::found () const
   std::set<int> ids;
   for (const Objects* objects : {&active_, &dormant_})
     for (const auto& object : *objects)
-      ids.insert (object->id);
+      if (object->confirmed)
+        ids.insert (object->id);
   for (const auto& [id, surface] : surfaces_of_gone_)
     ids.insert (id);
+  return ids;
+}
+
+std::set<int>
+ObjectMap::moved () const
+{
+  std::set<int> ids;
+  for (const auto& object : active_)
+    if (object->state == ObjectState::Tracked && object->hasMoved ())
+      ids.insert (object->id);
   return ids;
 }
 
@@ -98,12 +110,25 @@ ObjectMap::surfaceMesh (int id) const
 MaskMatches
 ObjectMap::match (const MaskedFrame& frame, const Image<std::uint16_t>& labels) const
 {
+  Image<std::uint16_t> mask = frame.mask;
   Image<std::uint16_t> rendered = labels;
-  for (std::uint16_t& label : rendered.pixels)
-    if (label == TrackedFrame::unassigned)
-      label = 0;
-  MaskMatches matches = matchMasks (frame.mask, rendered, frame.cloud.depth, options_.min_mask_iou);
-  if (options_.persistent_ids)
+  for (std::size_t n = 0; n < rendered.pixels.size (); ++n)
+  {
+    const bool ignored = mask.pixels[n] == FrameSegmenter::ignored;
+    if (ignored)
+      mask.pixels[n] = 0;
+    if (ignored || rendered.pixels[n] == TrackedFrame::unassigned)
+      rendered.pixels[n] = 0;
+  }
+  MaskMatches matches = matchMasks (mask, rendered, frame.cloud.depth, options_.min_mask_iou);
+  if (!frame.exact) // numbers are those of objects, as far as there are any
+  {
+    matches.object_of.clear ();
+    for (const auto& object : active_)
+      if (object->state == ObjectState::Tracked && matches.instance_pixels.count (static_cast<std::uint16_t> (object->id)) > 0)
+        matches.object_of[static_cast<std::uint16_t> (object->id)] = static_cast<std::uint16_t> (object->id);
+  }
+  else if (options_.persistent_ids)
   {
     matches.object_of.clear ();
     for (const auto& [instance, pixels] : matches.instance_pixels)
@@ -115,7 +140,7 @@ ObjectMap::match (const MaskedFrame& frame, const Image<std::uint16_t>& labels) 
 }
 
 void
-ObjectMap::countExistence (const MaskMatches& matches)
+ObjectMap::countExistence (const MaskMatches& matches, bool shows_all)
 {
   std::set<int> seen;
   for (const auto& [instance, object] : matches.object_of)
@@ -125,8 +150,8 @@ ObjectMap::countExistence (const MaskMatches& matches)
     const auto pixels = matches.object_pixels.find (static_cast<std::uint16_t> (object->id));
     if (seen.count (object->id) > 0)
       ++object->seen;
-    else if (object->state == ObjectState::Tracked && pixels != matches.object_pixels.end () &&
-             static_cast<double> (pixels->second) > expected_share * static_cast<double> (min_pixels_))
+    else if (shows_all && object->state == ObjectState::Tracked && pixels != matches.object_pixels.end () &&
+             isExpectedInMask (pixels->second))
       ++object->missed;
   }
 }
@@ -207,6 +232,7 @@ ObjectMap::create (const MaskedFrame& frame, const std::vector<Eigen::Vector3f>&
   Eigen::Isometry3d T_world_object = Eigen::Isometry3d::Identity ();
   T_world_object.translation () = grid->origin_m - local.origin_m;
   active_.push_back (std::make_unique<TrackedObject> (id, local, tsdf_, T_world_object));
+  active_.back ()->confirmed = frame.exact;
   active_.back ()->mask_id = instance;
   active_.back ()->seen = 1;
   active_.back ()->range_m = depth;
@@ -227,12 +253,15 @@ std::map<std::uint16_t, std::uint16_t>
 ObjectMap::readMask (const MaskedFrame& frame, const Image<std::uint16_t>& labels, PoseTracking& tracking, EventLog& log)
 {
   MaskMatches matches = match (frame, labels);
-  countExistence (matches);
+  const std::set<std::uint16_t> cut = frame.exact ? std::set<std::uint16_t> () : cutInstances (frame.mask, frame.cloud);
+  countExistence (matches, frame.shows_all);
   for (const auto& [instance, pixels] : matches.instance_pixels)
   {
     if (matches.object_of.count (instance) > 0)
       continue;
     const std::vector<Eigen::Vector3f> points = pointsOf (frame.cloud, frame.mask, instance);
+    if (!frame.exact && (cut.count (instance) > 0 || points.size () < min_pixels_))
+      continue; // there are many
     const TrackedObject* object = findAgain (frame, points, instance, tracking);
     if (object)
       log.add (frame.stamp, "object ", object->id, " is found again as instance ", instance);
@@ -255,6 +284,12 @@ ObjectMap::tidy (double stamp, const FrameSegmentation& segmentation, EventLog& 
     const bool unrelated = object.state == ObjectState::Tracked && mean != segmentation.mean_probability.end () &&
                            mean->second < options_.min_association;
     const bool gone = object.frames_not_tracked > frames_until_dormant;
+    if (!object.confirmed && object.state != ObjectState::Tracked)
+    {
+      unions_.forget (object.id);
+      i = active_.erase (i);
+      continue;
+    }
     if (!unlikely && !unrelated && !gone)
     {
       ++i;
@@ -277,8 +312,23 @@ ObjectMap::tidy (double stamp, const FrameSegmentation& segmentation, EventLog& 
       i = active_.erase (i);
       continue;
     }
+    unions_.forget (object.id);
     i = active_.erase (i);
   }
+}
+
+void
+ObjectMap::leaveToLost (const FrameCloud& cloud, const Eigen::Isometry3d& T_world_camera, Image<std::uint16_t>& labels) const
+{
+  for (const auto& object : active_)
+    if (object->state == ObjectState::Lost)
+      for (std::size_t n = 0; n < cloud.points.size (); ++n)
+      {
+        const Eigen::Vector3d p = T_world_camera * cloud.points[n].cast<double> ();
+        const auto cell = object->volume.sample<float> (Eigen::Vector3f ((object->T_world_object.inverse () * p).cast<float> ()));
+        if (labels.pixels[n] == 0 && cell && cell->value () < 0.5 * object->volume.truncation ())
+          labels.pixels[n] = TrackedFrame::unassigned;
+      }
 }
 
 void

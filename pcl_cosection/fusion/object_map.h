@@ -5,6 +5,8 @@
 #include "event_log.h"
 #include "frame_cloud.h"
 #include "frame_segmentation.h"
+#include "inexact_mask.h"
+#include "object_unions.h"
 #include "pose_tracking.h"
 #include "tracked_object.h"
 
@@ -29,6 +31,8 @@ struct MaskedFrame
   const FrameCloud& cloud;
   const Image<std::uint16_t>& mask;
   Eigen::Isometry3d T_world_camera;
+  bool exact;     ///< its instances are objects (see FrameSegmenter::isExact ())
+  bool shows_all; ///< an object that should be in the mask and is not is probably none
 };
 
 /** \brief The objects that are known, and the decisions which there are. */
@@ -50,6 +54,10 @@ public:
   std::set<int>
   found () const;
 
+  /** \brief Numbers of those that are tracked and have moved since they began. */
+  std::set<int>
+  moved () const;
+
   /** \brief What was seen of one of them, its frame; empty if there is none of that number. */
   TriangleMesh
   surfaceMesh (int id) const;
@@ -61,9 +69,21 @@ public:
   std::map<std::uint16_t, std::uint16_t>
   readMask (const MaskedFrame& frame, const Image<std::uint16_t>& labels, PoseTracking& tracking, EventLog& log);
 
+  /** \brief Learn from a mask that is not exact: confirm or give up what began with another one. */
+  void
+  judge (double stamp, const ReconciledMask& mask, const Image<std::uint16_t>& labels, EventLog& log);
+
+  /** \brief Unite objects that are parts of one. \param[in,out] labels by association \param[in,out] mask may be empty */
+  void
+  uniteParts (double stamp, Image<std::uint16_t>& labels, Image<std::uint16_t>& mask, EventLog& log);
+
   /** \brief Give up what is probably no object, and stop looking for what was not seen for long. */
   void
   tidy (double stamp, const FrameSegmentation& segmentation, EventLog& log);
+
+  /** \brief Give pixels of label 0 that may show a lost object to nobody. */
+  void
+  leaveToLost (const FrameCloud& cloud, const Eigen::Isometry3d& T_world_camera, Image<std::uint16_t>& labels) const;
 
   /** \brief Make room for what is labelled as an object's. */
   void
@@ -73,16 +93,27 @@ private:
   MaskMatches
   match (const MaskedFrame& frame, const Image<std::uint16_t>& labels) const;
   void
-  countExistence (const MaskMatches& matches);
+  countExistence (const MaskMatches& matches, bool shows_all);
   /** \brief The object that an instance shows, of those that are not tracked. */
   TrackedObject*
   findAgain (const MaskedFrame& frame, const std::vector<Eigen::Vector3f>& points, std::uint16_t instance, PoseTracking& tracking);
   TrackedObject*
   create (const MaskedFrame& frame, const std::vector<Eigen::Vector3f>& points, std::uint16_t instance, EventLog& log);
+  /** \brief Whether a mask should show an object of which so much is in view. */
+  bool
+  isExpectedInMask (std::size_t pixels) const
+  {
+    constexpr double expected_share = 0.25; // of the pixels of a new object
+    return static_cast<double> (pixels) > expected_share * static_cast<double> (min_pixels_);
+  }
+  /** \brief Erase one as if it had never been. */
+  void
+  erase (int id);
   void
   sortActive ();
 
   DynamicFusionOptions options_;
+  ObjectUnions unions_;
   std::size_t min_pixels_;
   TsdfOptions tsdf_;
   Objects active_;

@@ -12,6 +12,7 @@
 #include <array>
 #include <chrono>
 #include <cstdio>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <sstream>
@@ -203,6 +204,8 @@ FusionRun::finish ()
   followUpdates (0);
   thread_.reset ();
   backend_.forgetUpdates ();
+  for (const int id : knowledge_.wrongObjects ())
+    backend_.removeObject (id);
   timed ("final_solve", [&] {
     result_.scene = backend_.solve ([&] (const std::string& stage, double fraction) {
       report (stage, frames_share + (1.0 - frames_share) * fraction);
@@ -255,6 +258,9 @@ FusionRun::run ()
     timed ("read", [&] { frame = reader.next (); });
     if (!frame)
       break;
+    for (std::size_t n = 0; n < options_.ignored.pixels.size (); ++n)
+      if (options_.ignored.pixels[n] != 0)
+        frame->depth.pixels[n] = std::numeric_limits<float>::quiet_NaN ();
     reportFrame (*frame);
     use (*frame);
   }
@@ -305,14 +311,14 @@ SequenceFusion::SequenceFusion (KnownSequence sequence, const FusionOptions& opt
     throw InvalidArgument ("there are no images");
   if (sequence_.camera.empty ())
     throw InvalidArgument ("there is no pose of the camera");
-  requireFrames (*sequence_.images, options_.frames);
+  requireFrames (*sequence_.images, options_);
   requirePoses (sequence_, options_.frames);
 }
 
 SequenceFusion::SequenceFusion (const TrackedSequence& sequence, const FusionOptions& options) : tracked_ (sequence), options_ (options)
 {
   options.validate ();
-  requireFrames (*sequence.images, options_.frames);
+  requireFrames (*sequence.images, options_);
 }
 
 FusionResult

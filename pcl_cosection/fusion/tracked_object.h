@@ -27,7 +27,7 @@ enum class ObjectState
 struct TrackedObject
 {
   TrackedObject (int id, const VoxelGrid& grid, const TsdfOptions& tsdf, const Eigen::Isometry3d& T_world_object)
-  : id (id), volume (grid, tsdf), T_world_object (T_world_object), T_world_rest (T_world_object)
+  : id (id), volume (grid, tsdf), T_world_object (T_world_object), first_place (T_world_object.translation ()), T_world_rest (T_world_object)
   {}
 
   /** \brief It was tracked to here. */
@@ -55,17 +55,28 @@ struct TrackedObject
     return state == ObjectState::Tracked ? last_motion * T_world_object : T_world_object;
   }
 
+  /** \brief Whether it is not where it began, for certain. */
+  bool
+  hasMoved () const
+  {
+    return (T_world_object.translation () - first_place).norm () > certain_voxels * volume.grid ().voxel_size_m;
+  }
+
+  static constexpr double certain_voxels = 4.0; ///< of its volume: twice as far as its pose may be wrong
   static constexpr int frames_of_rest = 10;  ///< after which what moved is believed to rest
   static constexpr int frames_of_motion = 3; ///< after which what is elsewhere is believed to have moved: the camera may have erred
 
   int id;
   TsdfVolume volume;                                           ///< object frame
   Eigen::Isometry3d T_world_object;                            ///< the last good one
+  Eigen::Vector3d first_place;                                 ///< world frame
   Eigen::Isometry3d last_motion = Eigen::Isometry3d::Identity (); ///< T_now_before, world frame
   Eigen::Isometry3d T_world_rest;                              ///< where it has been since, within noise
   int frames_away = 0;                                         ///< from there, in a row
   int frames_at_rest = frames_of_rest;                         ///< a new object rests until it is seen to move
   ObjectState state = ObjectState::Tracked;
+  bool confirmed = true;      ///< else one mask showed it that may be wrong: it is tracked, and told to nobody
+  int unshown = 0;            ///< masks since then that did not
   int mask_id = 0;            ///< in the masks, if ids persist
   int seen = 0;               ///< in masks
   int missed = 0;

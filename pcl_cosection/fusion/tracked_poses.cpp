@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <set>
 
 namespace pcl
@@ -16,11 +17,17 @@ namespace cosection
 namespace
 {
 
+bool
+hasObjects (const TrackedSequence& sequence)
+{
+  return sequence.masks || sequence.segmenter;
+}
+
 DynamicFusionOptions
 frontEndOptions (const TrackedSequence& sequence, const FusionOptions& options)
 {
   DynamicFusionOptions front_end = options.front_end;
-  front_end.objects = sequence.masks != nullptr;
+  front_end.objects = hasObjects (sequence);
   return front_end;
 }
 
@@ -31,9 +38,11 @@ public:
   TrackedPoses (const TrackedSequence& sequence, const FusionOptions& options)
   : options_ (options)
   , masks_ (sequence.masks)
-  , with_masks_ (sequence.masks != nullptr)
+  , with_masks_ (hasObjects (sequence))
   , fusion_ (sequence.images->camera (), frontEndOptions (sequence, options))
-  {}
+  {
+    fusion_.setSegmenter (sequence.segmenter);
+  }
 
   std::optional<Eigen::Isometry3d>
   next (const RgbdFrame& frame) override;
@@ -63,6 +72,15 @@ public:
     return tracked_->T_world_object;
   }
 
+  std::set<int>
+  wrongObjects () const override
+  {
+    const std::set<int> found = fusion_.foundObjects ();
+    std::set<int> wrong;
+    std::set_difference (told_.begin (), told_.end (), found.begin (), found.end (), std::inserter (wrong, wrong.end ()));
+    return wrong;
+  }
+
   void
   map (const RgbdFrame&, const Eigen::Isometry3d&) override
   {}
@@ -86,6 +104,7 @@ private:
   DynamicFusion fusion_;
   const TrackedFrame* tracked_ = nullptr; // of the frame
   std::optional<Image<std::uint16_t>> instances_;
+  std::set<int> told_; // numbers of objects
   std::size_t frames_ = 0;
   std::size_t frames_lost_ = 0;
   double masks_s_ = 0.0;
@@ -102,6 +121,8 @@ TrackedPoses::next (const RgbdFrame& frame)
   instances_.reset ();
   if (tracked_->T_world_camera)
     instances_ = tracked_->instances;
+  for (const auto& [id, T] : tracked_->T_world_object)
+    told_.insert (id);
   return tracked_->T_world_camera;
 }
 

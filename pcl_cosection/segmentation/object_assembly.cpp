@@ -179,7 +179,8 @@ assembleObjects (const DepthGrid& grid, const std::vector<SupportSurface>& surfa
   return (assembly.keep ([&] (const Piece& piece) {
     return (piece.pixels >= (piece.edge_pixels > 0 ? edge_factor : 1) * min_pixels && piece.length_m >= min_size &&
             piece.length_m <= static_cast<float> (options.max_object_size_m) && piece.carried >= 0.5f &&
-            piece.highest_m > above_noise_sigmas * piece.sigma_m);
+            piece.highest_m > above_noise_sigmas * piece.sigma_m &&
+            piece.lowest_m < static_cast<float> (options.max_object_size_m));
   }));
 }
 

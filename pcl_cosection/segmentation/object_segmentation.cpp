@@ -23,6 +23,7 @@ namespace cosection
 namespace
 {
 
+constexpr double seen_height = 1.5;       ///< in sizes of the largest object: what is too large must be seen to be
 constexpr float outline_margin_m = 0.05f; ///< how far beyond the seen part of its support something may reach
 
 /** \brief Median distance of horizontal neighbours over their depth; 0 without neighbours. */
@@ -54,7 +55,7 @@ pixelsAbove (const DepthGrid& grid, const std::vector<SupportSurface>& surfaces,
 {
   const std::vector<char> on = pixelsOnSurfaces (grid, surfaces, options.threads);
   std::vector<char> above (on.size (), 0);
-  const auto highest = static_cast<float> (options.max_object_size_m);
+  const auto highest = static_cast<float> (seen_height * options.max_object_size_m);
   parallelFor (0, static_cast<int> (on.size ()), options.threads, [&] (int i) {
     if (!grid.valid (i) || on[i])
       return;

@@ -140,6 +140,18 @@ CoSection::removeViews (const std::vector<bool>& remove)
 }
 
 void
+CoSection::removeObject (int id)
+{
+  auto& objects = impl_->objects;
+  objects.erase (std::remove_if (objects.begin (), objects.end (), [id] (const ObjectInput& object) { return object.id == id; }),
+                 objects.end ());
+  impl_->poses.erase (id);
+  impl_->memory.objects.erase (id);
+  if (id != 0)
+    impl_->batches.erase (id);
+}
+
+void
 CoSection::setBackground (std::vector<OrientedPoint> points)
 {
   impl_->background = std::move (points);

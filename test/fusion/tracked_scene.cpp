@@ -253,12 +253,13 @@ TrackedScene::body (int id) const
 }
 
 TrackedRun
-TrackedScene::run (const MaskPolicy& masks, DynamicFusionOptions options) const
+TrackedScene::run (const MaskPolicy& masks, DynamicFusionOptions options, std::shared_ptr<FrameSegmenter> segmenter) const
 {
   const SceneRenderer renderer (scene_);
   options.first_pose = scene_.camera_motion.at (0.0);
   options.background_resolution = 128;
   DynamicFusion fusion (scene_.camera, options);
+  fusion.setSegmenter (std::move (segmenter));
   TrackedRun run;
   for (int n = 0; n < scene_.frames; ++n)
   {

@@ -6,6 +6,7 @@
 #include <pcl/cosection/simulation/simulated_scene.h>
 
 #include <functional>
+#include <memory>
 #include <optional>
 #include <set>
 #include <string>
@@ -126,7 +127,7 @@ public:
   body (int id) const;
 
   TrackedRun
-  run (const MaskPolicy& masks, DynamicFusionOptions options = {}) const;
+  run (const MaskPolicy& masks, DynamicFusionOptions options = {}, std::shared_ptr<FrameSegmenter> segmenter = nullptr) const;
 
 private:
   SimulatedScene scene_;

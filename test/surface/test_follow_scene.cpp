@@ -137,6 +137,31 @@ TEST_P (FollowScene, AnObjectOutgrowsItsVolume)
   expectSame (followed, task.reconstruct ());
 }
 
+TEST_P (FollowScene, AnObjectThatIsGivenUpLeavesNothing)
+{
+  CoSection task (options ()), others (options ());
+  for (int sensor = 0; sensor < 2; ++sensor)
+    for (CoSection* each : {&task, &others})
+      show (scene_, sensor, {}, *each);
+  const SceneResult fresh = others.reconstruct ();
+  Eigen::Vector3f centre = Eigen::Vector3f::Zero ();
+  for (const Eigen::Vector3f& vertex : fresh.objects.at (0).mesh.vertices)
+    centre += vertex / static_cast<float> (fresh.objects[0].mesh.vertices.size ());
+  std::vector<OrientedPoint> wrong; // a ball inside of it
+  for (int n = 0; n < 500; ++n)
+  {
+    const float z = (static_cast<float> (n) + 0.5f) / 250.0f - 1.0f, turn = 2.4f * static_cast<float> (n);
+    const float r = std::sqrt (1.0f - z * z);
+    const Eigen::Vector3f normal (r * std::cos (turn), r * std::sin (turn), z);
+    wrong.push_back ({centre + 0.03f * normal, normal});
+  }
+  task.addPoints (7, wrong);
+  EXPECT_EQ (task.update (UpdateOutput::Fields).objects.size (), 2u);
+  task.removeObject (7);
+  task.removeObject (8); // there is none
+  expectSame (task.update (), fresh);
+}
+
 TEST_P (FollowScene, ViewsThatAreGivenUpLeaveNothing)
 {
   CoSection task (options ());

@@ -7,6 +7,7 @@
 
 #include <pcl/cosection/fusion/sequence_fusion.h>
 
+#include <array>
 #include <map>
 #include <optional>
 #include <string>
@@ -22,6 +23,9 @@ struct FusionSettings
   std::map<int, std::string> object_trajectories; ///< files, by id
   std::string masks;                              ///< folder; empty: there are no objects
   bool ids_per_frame = false;                     ///< asked for: a number of a mask means another object in the next
+  std::string segmentation;                       ///< what finds objects without masks; empty: nothing
+  std::vector<std::array<double, 4>> ignored_regions; ///< x, y, width, height, pixels
+  std::string ignored_mask;                           ///< file; empty: none
   std::string preset;                             ///< empty: our own defaults
   bool save_keyframes = false;
   std::string json; ///< a further summary
@@ -36,8 +40,8 @@ fusionText ();
 /** \brief Options as the user gives them. */
 struct GivenFusion : GivenMethod
 {
-  std::vector<std::string> paths, intrinsics, object_trajectories;
-  std::string format, depth_dir, camera_trajectory, masks, mask_ids, frames, json;
+  std::vector<std::string> paths, intrinsics, object_trajectories, ignore_regions;
+  std::string format, depth_dir, camera_trajectory, masks, mask_ids, segmentation, frames, ignore_mask, json;
   std::optional<double> depth_scale, max_depth;
   std::optional<int> keyframe_every, max_views;
   bool save_keyframes = false, deterministic = false, verbose = false, quiet = false;

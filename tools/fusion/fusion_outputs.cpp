@@ -95,7 +95,7 @@ removeFiles (const fs::path& folder, Predicate&& isOurs)
 void
 checkJson (const FusionSettings& settings)
 {
-  std::vector<std::string> inputs{settings.camera_trajectory};
+  std::vector<std::string> inputs{settings.camera_trajectory, settings.ignored_mask};
   for (const auto& [id, file] : settings.object_trajectories)
     inputs.push_back (file);
   inputs.erase (std::remove (inputs.begin (), inputs.end (), ""), inputs.end ());
@@ -123,6 +123,9 @@ parameters (const FusionSettings& settings)
     result["object_trajectories"][std::to_string (id)] = file;
   result["masks"] = settings.masks;
   result["mask_ids"] = settings.fusion.front_end.persistent_ids ? "persistent" : settings.ids_per_frame ? "per-frame" : "";
+  result["segmentation"] = settings.segmentation;
+  result["ignored_regions"] = settings.ignored_regions;
+  result["ignored_mask"] = settings.ignored_mask;
   result["frames"] = {settings.fusion.frames.first,
                       settings.fusion.frames.last == FrameRange ().last ? Json () : Json (settings.fusion.frames.last)};
   result["preset"] = settings.preset.empty () ? "default" : settings.preset;
@@ -137,7 +140,7 @@ parameters (const FusionSettings& settings)
 
 FusionOutputs::FusionOutputs (const FusionSettings& settings) : folder_ (settings.output), json_ (settings.json)
 {
-  std::vector<std::string> inputs{settings.dataset, settings.camera_trajectory, settings.masks};
+  std::vector<std::string> inputs{settings.dataset, settings.camera_trajectory, settings.masks, settings.ignored_mask};
   for (const auto& [id, file] : settings.object_trajectories)
     inputs.push_back (file);
   for (const std::string& input : inputs)

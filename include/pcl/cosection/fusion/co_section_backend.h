@@ -63,6 +63,10 @@ public:
   bool
   addFrame (DepthView view, const Poses& T_world_object);
 
+  /** \brief Give up what turned out to be no object, or a part of another one, with its points. */
+  void
+  removeObject (int id);
+
   /** \brief Complete everything, from the last solution on: CoSection::update (). \throws Cancelled */
   SceneResult
   update (UpdateOutput output, const ProgressCallback& progress = {});

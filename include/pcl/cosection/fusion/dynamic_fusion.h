@@ -6,6 +6,7 @@
 #include <pcl/cosection/common/image.h>
 #include <pcl/cosection/common/triangle_mesh.h>
 #include <pcl/cosection/fusion/data_association.h>
+#include <pcl/cosection/fusion/frame_segmenter.h>
 #include <pcl/cosection/io/rgbd_sequence.h>
 
 #include <Eigen/Geometry>
@@ -31,7 +32,8 @@ struct PCL_COSECTION_EXPORT DynamicFusionOptions
   int background_resolution = 256;         ///< voxels along each axis
   double background_voxel_size_m = 0.0;    ///< 0: so that the volume holds the first frame, up to 0.02
   double background_truncation_vox = 5.0;
-  bool objects = true;                     ///< there will be masks; without, the background takes less time and memory
+  bool objects = true;                     ///< there will be masks or a segmenter; without, the background takes less time and memory
+  int segment_every = 10;                  ///< frames, from one in which the segmenter is asked for objects to the next
   int object_resolution = 64;              ///< voxels along each axis, at first
   int max_object_resolution = 160;         ///< to which volumes grow
   double object_truncation_vox = 5.0;      ///< wider ones bias poses
@@ -96,9 +98,13 @@ public:
   DynamicFusion&
   operator= (DynamicFusion&& other) noexcept;
 
-  /** \brief \param[in] mask instances of the frame, 0: none; null: there is no mask
+  /** \brief Find objects in frames that come without a mask. What it notes is among the events. \param[in] segmenter null: none */
+  void
+  setSegmenter (std::shared_ptr<FrameSegmenter> segmenter);
+
+  /** \brief \param[in] mask instances of the frame, 0: none, FrameSegmenter::ignored: neither objects nor background; null: there is no mask
    * \return valid until the next call
-   * \throws InvalidArgument if the depth or the mask is not of the camera's size */
+   * \throws InvalidArgument if the depth or a mask is not of the camera's size; what the segmenter throws */
   const TrackedFrame&
   process (const RgbdFrame& frame, const Image<std::uint16_t>* mask = nullptr);
 

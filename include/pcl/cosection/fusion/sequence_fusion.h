@@ -16,6 +16,7 @@
 #include <cstddef>
 #include <functional>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -44,6 +45,7 @@ struct PCL_COSECTION_EXPORT TrackedSequence
   const RgbdSequence* images;
   /** \brief A pixel is the number of an instance, which may be another in the next mask; not every frame needs one. Null: no objects. */
   const MaskSequence* masks;
+  std::shared_ptr<FrameSegmenter> segmenter; ///< finds objects in frames without a mask; null: none
 };
 
 /** \brief Whether SequenceFusion completes everything at keyframes, too, not only at the end. The last result is the same. */
@@ -62,6 +64,7 @@ struct PCL_COSECTION_EXPORT FusionOptions
   ObjectTsdfOptions tsdf;         ///< of objects with given poses
   DynamicFusionOptions front_end; ///< where poses are not given
   FrameRange frames;
+  Image<std::uint8_t> ignored;    ///< not 0: a pixel that is not read in any frame, as of something fixed to the camera; empty: all are
   int keyframe_every = 10;           ///< frames; where one has no mask or no pose, the next that has
   KeyframeUpdates updates = KeyframeUpdates::None;
 
@@ -121,12 +124,12 @@ class PCL_COSECTION_EXPORT SequenceFusion
 public:
   using KeyframeCallback = std::function<void (const KeyframeReport&)>;
 
-  /** \throws InvalidArgument if an option is outside its domain, there are no images, or no pose of the camera for any frame of
-   * the range */
+  /** \throws InvalidArgument if an option is outside its domain, there are no images, the ignored pixels are not of their size, or no pose of
+   * the camera is for any frame of the range */
   explicit SequenceFusion (KnownSequence sequence, const FusionOptions& options = {});
 
-  /** \brief Track the camera and the objects. \throws InvalidArgument if an option is outside its domain, or there are no frames in the
-   * range */
+  /** \brief Track the camera and the objects. \throws InvalidArgument if an option is outside its domain, the ignored pixels are not of the
+   * images' size, or there are no frames in the range */
   explicit SequenceFusion (const TrackedSequence& sequence, const FusionOptions& options = {});
 
   /** \param[in] keyframe called after every update, if those are asked for; from the calling thread

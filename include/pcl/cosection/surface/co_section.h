@@ -123,6 +123,10 @@ public:
   void
   removeViews (const std::vector<bool>& remove);
 
+  /** \brief Give up an object, with its points and poses, as if it had never been. Nothing happens if there is none of that number. */
+  void
+  removeObject (int id);
+
   /** \brief Points of everything that is not an object, world frame; replaces earlier ones. */
   void
   setBackground (std::vector<OrientedPoint> points);

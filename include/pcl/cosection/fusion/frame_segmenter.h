@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_cosection authors
+#pragma once
+
+#include <pcl/cosection/common/camera.h>
+#include <pcl/cosection/common/export.h>
+#include <pcl/cosection/common/image.h>
+#include <pcl/cosection/io/rgbd_sequence.h>
+
+#include <Eigen/Geometry>
+
+#include <cstdint>
+#include <limits>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace pcl
+{
+namespace cosection
+{
+
+/** \brief What the front end knows of a frame when it asks for its objects; it refers to images that live as long as the call. */
+struct PCL_COSECTION_EXPORT ObservedFrame
+{
+  const RgbdFrame& images;                    ///< as they were read; colour may be empty
+  const PinholeCamera& camera;
+  const std::vector<Eigen::Vector3f>& points; ///< row by row, sensor frame, metres, smoothed; NaN: no reading
+  const Eigen::Isometry3d& T_world_camera;
+  std::map<int, Eigen::Isometry3d> T_world_object; ///< of the objects that are tracked
+  /** \brief What known models explain: id of the object, 0: background or no reading, TrackedFrame::unassigned: none of them. */
+  const Image<std::uint16_t>& labels;
+  /** \brief 1: it was found to move against the background and belongs to no object that is known; else 0. */
+  const Image<std::uint8_t>& moving;
+};
+
+/** \brief What a FrameSegmenter says of a frame. */
+struct PCL_COSECTION_EXPORT FrameInstances
+{
+  /** \brief Number of an instance, another one in each frame; 0: none, FrameSegmenter::ignored. Of the camera's size; nothing: the frame
+   * tells nothing. */
+  std::optional<Image<std::uint16_t>> mask;
+  std::string note; ///< what the user should know; the same one is told once
+};
+
+/** \brief Finds objects in frames while they are tracked, instead of masks from files. DynamicFusion calls it now and then, after what is
+ * known was tracked, and uses what it returns as it does a mask: instances are matched with objects, others begin. */
+class PCL_COSECTION_EXPORT FrameSegmenter
+{
+public:
+  /** \brief A pixel of something that is neither an object nor background, as a person: not tracked with, mapped or completed. */
+  static constexpr std::uint16_t ignored = std::numeric_limits<std::uint16_t>::max ();
+
+  virtual ~FrameSegmenter () = default;
+
+  /** \brief A sequence begins: forget what was seen before. */
+  virtual void
+  begin ()
+  {}
+
+  /** \brief Look at a frame in which objects are not asked for; it is called for each of those that is tracked. */
+  virtual void
+  look (const ObservedFrame&)
+  {}
+
+  /** \brief Find the objects in a frame. Errors are thrown: what is wrong with one frame only belongs into the note. */
+  virtual FrameInstances
+  segment (const ObservedFrame& frame) = 0;
+
+  /** \brief Whether an object in view that a mask does not show is probably none: it is given up when that happens too often. */
+  virtual bool
+  findsAll () const
+  {
+    return true;
+  }
+
+  /** \brief Whether an instance is one object. If not, it may be a part of one, several that touch, or none: what frames have shown of an object
+   * goes before a mask; an object begins when two masks show it, and not from an instance that the image's border cuts; objects that move as
+   * one, or that masks show as one, are united. */
+  virtual bool
+  isExact () const
+  {
+    return true;
+  }
+};
+
+} // namespace cosection
+} // namespace pcl

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_cosection authors
+
+// What ObjectMap makes of masks that are not exact.
+
+#include "object_map.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace pcl
+{
+namespace cosection
+{
+
+namespace
+{
+
+constexpr double least_shown_iou = 0.5; // with which a second mask confirms what one showed
+constexpr int most_unshown = 2;         // masks that do not
+
+} // namespace
+
+void
+ObjectMap::erase (int id)
+{
+  unions_.forget (id);
+  active_.erase (std::find_if (active_.begin (), active_.end (), [id] (const auto& object) { return object->id == id; }));
+}
+
+void
+ObjectMap::judge (double stamp, const ReconciledMask& mask, const Image<std::uint16_t>& labels, EventLog& log)
+{
+  unions_.count (mask);
+  std::vector<int> wrong;
+  for (const auto& object : active_)
+  {
+    if (object->confirmed)
+      continue;
+    const auto shown = mask.shown_iou.find (object->id);
+    object->confirmed = shown != mask.shown_iou.end () && shown->second > least_shown_iou;
+    if (object->confirmed)
+    {
+      log.add (stamp, "object ", object->id, " is confirmed");
+      continue;
+    }
+    const auto pixels = std::count (labels.pixels.begin (), labels.pixels.end (), static_cast<std::uint16_t> (object->id));
+    if (isExpectedInMask (static_cast<std::size_t> (pixels)) && ++object->unshown >= most_unshown)
+      wrong.push_back (object->id);
+  }
+  for (const int id : wrong)
+  {
+    log.add (stamp, "object ", id, " is given up: only one mask showed it");
+    erase (id);
+  }
+}
+
+void
+ObjectMap::uniteParts (double stamp, Image<std::uint16_t>& labels, Image<std::uint16_t>& mask, EventLog& log)
+{
+  unions_.follow (active_);
+  while (const std::optional<std::pair<int, int>> one = unions_.next ())
+  {
+    const auto find = [&] (int id) {
+      return std::find_if (active_.begin (), active_.end (), [id] (const auto& object) { return object->id == id; })->get ();
+    };
+    const auto pixelsOf = [&] (int id) { return std::count (labels.pixels.begin (), labels.pixels.end (), static_cast<std::uint16_t> (id)); };
+    const bool second_is_larger = pixelsOf (one->second) > pixelsOf (one->first);
+    const int whole = second_is_larger ? one->second : one->first;
+    const int part = second_is_larger ? one->first : one->second;
+    log.add (stamp, "object ", part, " is a part of object ", whole);
+    find (whole)->confirmed = find (whole)->confirmed || find (part)->confirmed;
+    for (Image<std::uint16_t>* image : {&labels, &mask})
+      std::replace (image->pixels.begin (), image->pixels.end (), static_cast<std::uint16_t> (part), static_cast<std::uint16_t> (whole));
+    erase (part);
+  }
+}
+
+} // namespace cosection
+} // namespace pcl

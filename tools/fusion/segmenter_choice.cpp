@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_cosection authors
+#include "segmenter_choice.h"
+
+#include <pcl/cosection/common/error.h>
+#include <pcl/cosection/fusion/geometric_segmenter.h>
+
+using namespace pcl::cosection;
+
+std::vector<std::string>
+segmenterNames ()
+{
+  return {"geometric"};
+}
+
+std::shared_ptr<FrameSegmenter>
+makeSegmenter (const std::string& name, int threads)
+{
+  if (name == "geometric")
+  {
+    ObjectSegmentationOptions options;
+    options.threads = threads;
+    return (std::make_shared<GeometricSegmenter> (options));
+  }
+  throw InvalidArgument ("there is no segmentation of the name " + name);
+}
