@@ -34,7 +34,7 @@ constexpr double least_explained = 0.4;  // of what is new in it, for a hypothes
 
 } // namespace
 
-MotionSearch::MotionSearch (const MotionView& now, const std::vector<const MotionView*>& earlier, const MotionSegmenterOptions& options)
+MotionSearch::MotionSearch (const MotionView& now, const std::vector<const MotionView*>& earlier, const MotionSegmentationOptions& options)
 : now_ (now), options_ (options), found_ (now.bodies)
 {
   const double share = static_cast<double> (now.points.size ()) / standard_pixels;

@@ -22,7 +22,7 @@ class MotionSearch
 {
 public:
   /** \param[in] earlier the youngest first, at least one */
-  MotionSearch (const MotionView& now, const std::vector<const MotionView*>& earlier, const MotionSegmenterOptions& options);
+  MotionSearch (const MotionView& now, const std::vector<const MotionView*>& earlier, const MotionSegmentationOptions& options);
 
   /** \param[in,out] next number of the next body that was not found before
    * \return the body of each pixel of the view */
@@ -104,7 +104,7 @@ private:
   numberBefore (const std::vector<char>& pixels, const Motion& motion) const;
 
   const MotionView& now_;
-  const MotionSegmenterOptions& options_;
+  const MotionSegmentationOptions& options_;
   int min_pixels_;
   std::vector<Earlier> earlier_;
   PatchImage patches_;

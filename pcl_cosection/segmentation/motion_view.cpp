@@ -55,7 +55,7 @@ makeMotionView (const MotionFrame& frame)
 }
 
 void
-analyse (MotionView& view, const MotionSegmenterOptions& options)
+analyse (MotionView& view, const MotionSegmentationOptions& options)
 {
   if (!view.room.empty ())
     return;

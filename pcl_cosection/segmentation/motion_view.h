@@ -4,7 +4,7 @@
 
 #include "depth_grid.h"
 
-#include <pcl/cosection/segmentation/motion_segmenter.h>
+#include <pcl/cosection/segmentation/moving_body_finder.h>
 
 #include <cstdint>
 #include <map>
@@ -51,7 +51,7 @@ makeMotionView (const MotionFrame& frame);
 
 /** \brief Find normals and planes, if that is not done. */
 void
-analyse (MotionView& view, const MotionSegmenterOptions& options);
+analyse (MotionView& view, const MotionSegmentationOptions& options);
 
 /** \brief What a view says of a place. */
 struct Sighting

@@ -53,16 +53,16 @@ struct Found
 };
 
 Found
-segmented (const MovingTable& table, const std::vector<int>& frames, const MotionSegmenterOptions& options = {})
+segmented (const MovingTable& table, const std::vector<int>& frames, const MotionSegmentationOptions& options = {})
 {
-  MotionSegmenter segmenter (options);
+  MovingBodyFinder finder (options);
   Found found;
   for (const int n : frames)
   {
     found.last = table.at (n);
-    segmenter.add (found.last.frame);
+    finder.add (found.last.frame);
   }
-  found.labels = segmenter.segment ().labels;
+  found.labels = finder.segment ().labels;
   found.comparison = compareLabels (found.last.labels, found.labels, found.last.valid);
   return found;
 }
@@ -185,15 +185,15 @@ TEST (MotionSegmentation, ABodyKeepsItsNumber)
                                                     {"time": 1.3, "position": [0.3, 0.1, 0.051], "rpy_deg": [0, 0, 30]})") +
                            movingBox (2, carton, R"({"time": 0.3, "position": [-0.2, 0, 0.051]},
                                                     {"time": 1.3, "position": [0, -0.1, 0.051]})"));
-  MotionSegmenter segmenter;
+  MovingBodyFinder finder;
   std::map<std::uint32_t, std::set<std::uint32_t>> numbers;
   for (int n = 0; n <= 38; n += 2)
   {
     const MovingView view = table.at (n);
-    segmenter.add (view.frame);
+    finder.add (view.frame);
     if (n < 22 || n % 6 != 4)
       continue;
-    const MotionSegments found = segmenter.segment ();
+    const MotionSegments found = finder.segment ();
     for (std::size_t i = 0; i < found.labels.size (); ++i)
       if (found.labels[i] != 0 && view.labels[i] != 0)
         numbers[view.labels[i]].insert (found.labels[i]);
@@ -206,16 +206,16 @@ TEST (MotionSegmentation, SlowMotionShowsAgainstAModelOfTheRoom)
 {
   const MovingTable table (movingBox (1, carton, R"({"position": [0.2, 0.1, 0.051]})"));
   MotionFrame frame = table.at (0).frame;
-  MotionSegmenter segmenter;
-  segmenter.add (frame);
+  MovingBodyFinder finder;
+  finder.add (frame);
   frame = table.at (1).frame;
-  segmenter.add (frame);
-  const std::vector<std::uint32_t> without = segmenter.segment ().labels;
+  finder.add (frame);
+  const std::vector<std::uint32_t> without = finder.segment ().labels;
   EXPECT_EQ (std::count (without.begin (), without.end (), 0u), static_cast<long> (without.size ()));
   frame.expected_depth = table.at (1).room_depth;
-  segmenter.add (frame);
+  finder.add (frame);
   // It was put there before the first frame: it did not move in them, and is not where the room is.
-  const std::vector<std::uint32_t> with = segmenter.segment ().labels;
+  const std::vector<std::uint32_t> with = finder.segment ().labels;
   const MovingView truth = table.at (1);
   long box = 0, hits = 0;
   for (std::size_t i = 0; i < with.size (); ++i)
@@ -230,7 +230,7 @@ TEST (MotionSegmentation, WhatMovesAsAKnownBodyIsAPartOfIt)
 {
   const MovingTable table (resting + movingBox (2, carton, R"({"time": 0.3, "position": [-0.2, 0, 0.051]},
                                                               {"time": 1.3, "position": [0, -0.1, 0.051]})"));
-  MotionSegmenter segmenter;
+  MovingBodyFinder finder;
   MovingView view;
   const auto positionAt = [&] (int n) { // as the simulation's smooth motion, by the mean of the body's readings
     Eigen::Isometry3d T = Eigen::Isometry3d::Identity ();
@@ -247,9 +247,9 @@ TEST (MotionSegmentation, WhatMovesAsAKnownBodyIsAPartOfIt)
         if (view.labels[v * 320 + u] == 2)
           view.frame.bodies[v * 320 + u] = 7;
     view.frame.T_world_body[7] = positionAt (n);
-    segmenter.add (view.frame);
+    finder.add (view.frame);
   }
-  const std::vector<std::uint32_t> labels = segmenter.segment ().labels;
+  const std::vector<std::uint32_t> labels = finder.segment ().labels;
   const LabelComparison comparison = compareLabels (view.labels, labels, view.valid);
   EXPECT_GE (comparison.best_iou.at (2), 0.8);
   EXPECT_GT (std::count (labels.begin (), labels.end (), 7u), 0);
@@ -260,7 +260,7 @@ TEST (MotionSegmentation, AnyNumberOfThreads)
 {
   const MovingTable table (resting + movingBox (2, carton, R"({"time": 0.3, "position": [-0.2, 0, 0.051]},
                                                               {"time": 1.3, "position": [0, -0.1, 0.051]})"));
-  MotionSegmenterOptions options;
+  MotionSegmentationOptions options;
   options.threads = 1;
   const std::vector<std::uint32_t> one = segmented (table, upTo (24), options).labels;
   options.threads = 3;
@@ -303,14 +303,14 @@ TEST (MotionSegmentation, WrongInput)
 {
   const MovingTable table (resting);
   const MotionFrame good = table.at (0).frame;
-  MotionSegmenter segmenter;
-  EXPECT_TRUE (segmenter.segment ().labels.empty ());
+  MovingBodyFinder finder;
+  EXPECT_TRUE (finder.segment ().labels.empty ());
   const auto refused = [&] (const auto& change) {
     MotionFrame frame = good;
     change (frame);
-    EXPECT_THROW (segmenter.add (frame), InvalidArgument);
+    EXPECT_THROW (finder.add (frame), InvalidArgument);
   };
-  segmenter.add (good);
+  finder.add (good);
   refused ([] (MotionFrame& frame) { frame.points.pop_back (); });
   refused ([] (MotionFrame& frame) { frame.camera.fx = 0.0; });
   refused ([] (MotionFrame& frame) { frame.points.assign (frame.points.size (), Eigen::Vector3f::Constant (nan_value)); });
@@ -323,10 +323,10 @@ TEST (MotionSegmentation, WrongInput)
     frame.camera.width = 160;
     frame.camera.height = 480;
   });
-  EXPECT_EQ (segmenter.segment ().labels.size (), good.points.size ());
-  MotionSegmenterOptions options;
+  EXPECT_EQ (finder.segment ().labels.size (), good.points.size ());
+  MotionSegmentationOptions options;
   options.window = 0;
-  EXPECT_THROW (MotionSegmenter{options}, InvalidArgument);
+  EXPECT_THROW (MovingBodyFinder{options}, InvalidArgument);
 
   MotionSegmentation<pcl::PointXYZ> segmentation;
   pcl::PointCloud<pcl::Label> labels;

@@ -3,7 +3,7 @@
 #pragma once
 
 #include <pcl/cosection/common/export.h>
-#include <pcl/cosection/segmentation/motion_segmenter.h>
+#include <pcl/cosection/segmentation/moving_body_finder.h>
 
 #include <pcl/PointIndices.h>
 #include <pcl/pcl_base.h>
@@ -23,7 +23,7 @@ struct Label;
 namespace cosection
 {
 
-/** \brief Finds rigid bodies in a stream of organised clouds by their motion, while the sensor may move, too. MotionSegmenter says how.
+/** \brief Finds rigid bodies in a stream of organised clouds by their motion, while the sensor may move, too. MovingBodyFinder says how.
  *
  * \code
  * pcl::cosection::MotionSegmentation<pcl::PointXYZRGB> segmentation;
@@ -50,7 +50,7 @@ public:
 
   /** \brief All parameters in one; what was seen is forgotten. \throws InvalidArgument */
   void
-  setOptions (const MotionSegmenterOptions& options);
+  setOptions (const MotionSegmentationOptions& options);
 
   /** \brief Where the sensor of the next cloud is; default: what the cloud says itself. */
   void
@@ -102,7 +102,7 @@ protected:
   using Base::input_;
 
 private:
-  MotionSegmenter segmenter_;
+  MovingBodyFinder finder_;
   std::optional<Eigen::Isometry3d> T_world_sensor_; // these are of the next cloud
   std::optional<PinholeCamera> camera_;
   std::vector<std::uint32_t> bodies_;

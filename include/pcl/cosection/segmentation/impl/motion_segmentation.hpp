@@ -19,9 +19,9 @@ namespace cosection
 
 template <typename PointT>
 void
-MotionSegmentation<PointT>::setOptions (const MotionSegmenterOptions& options)
+MotionSegmentation<PointT>::setOptions (const MotionSegmentationOptions& options)
 {
-  segmenter_ = MotionSegmenter (options);
+  finder_ = MovingBodyFinder (options);
 }
 
 template <typename PointT>
@@ -53,7 +53,7 @@ MotionSegmentation<PointT>::add ()
   frame.bodies = bodies_;
   frame.T_world_body = T_world_body_;
   frame.expected_depth = expected_depth_;
-  segmenter_.add (frame);
+  finder_.add (frame);
 }
 
 template <typename PointT>
@@ -63,7 +63,7 @@ MotionSegmentation<PointT>::segment (pcl::PointCloud<pcl::Label>& labels, std::v
   labels.clear ();
   label_indices.clear ();
   add ();
-  const MotionSegments found = segmenter_.segment ();
+  const MotionSegments found = finder_.segment ();
   labels.header = input_->header;
   labels.resize (found.labels.size ());
   labels.width = input_->width;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_cosection authors
-#include <pcl/cosection/segmentation/motion_segmenter.h>
+#include <pcl/cosection/segmentation/moving_body_finder.h>
 
 #include "motion_search.h"
 #include "motion_view.h"
@@ -41,7 +41,7 @@ isRigid (const Eigen::Isometry3d& T)
 } // namespace
 
 void
-MotionSegmenterOptions::validate () const
+MotionSegmentationOptions::validate () const
 {
   require (window >= 1, "motion segmentation: window must be at least 1");
   require (min_pixels >= 1, "motion segmentation: min_pixels must be at least 1");
@@ -68,9 +68,9 @@ MotionFrame::validate () const
            "motion segmentation: there are no readings");
 }
 
-struct MotionSegmenter::Impl
+struct MovingBodyFinder::Impl
 {
-  explicit Impl (const MotionSegmenterOptions& options) : options (options)
+  explicit Impl (const MotionSegmentationOptions& options) : options (options)
   {
     options.validate ();
   }
@@ -80,7 +80,7 @@ struct MotionSegmenter::Impl
   std::vector<MotionView*>
   earlierViews ();
 
-  MotionSegmenterOptions options;
+  MotionSegmentationOptions options;
   std::deque<MotionView> views;
   MotionFrame last;         // in full
   std::uint32_t next = 1;   // number of a body that is found
@@ -88,7 +88,7 @@ struct MotionSegmenter::Impl
 };
 
 std::vector<MotionView*>
-MotionSegmenter::Impl::earlierViews ()
+MovingBodyFinder::Impl::earlierViews ()
 {
   const int oldest = static_cast<int> (views.size ()) - 1;
   int searched = 0; // age of the last view in which bodies were searched: they keep their numbers
@@ -105,22 +105,22 @@ MotionSegmenter::Impl::earlierViews ()
   return earlier;
 }
 
-MotionSegmenter::MotionSegmenter (const MotionSegmenterOptions& options) : impl_ (std::make_unique<Impl> (options))
+MovingBodyFinder::MovingBodyFinder (const MotionSegmentationOptions& options) : impl_ (std::make_unique<Impl> (options))
 {}
 
-MotionSegmenter::~MotionSegmenter () = default;
-MotionSegmenter::MotionSegmenter (MotionSegmenter&& other) noexcept = default;
-MotionSegmenter&
-MotionSegmenter::operator= (MotionSegmenter&& other) noexcept = default;
+MovingBodyFinder::~MovingBodyFinder () = default;
+MovingBodyFinder::MovingBodyFinder (MovingBodyFinder&& other) noexcept = default;
+MovingBodyFinder&
+MovingBodyFinder::operator= (MovingBodyFinder&& other) noexcept = default;
 
 void
-MotionSegmenter::reset ()
+MovingBodyFinder::reset ()
 {
   impl_ = std::make_unique<Impl> (impl_->options);
 }
 
 void
-MotionSegmenter::add (const MotionFrame& frame)
+MovingBodyFinder::add (const MotionFrame& frame)
 {
   frame.validate ();
   if (!impl_->views.empty ())
@@ -140,7 +140,7 @@ MotionSegmenter::add (const MotionFrame& frame)
 }
 
 MotionSegments
-MotionSegmenter::segment ()
+MovingBodyFinder::segment ()
 {
   Impl& impl = *impl_;
   MotionSegments result;

@@ -18,8 +18,8 @@ namespace pcl
 namespace cosection
 {
 
-/** \brief Parameters of MotionSegmenter. */
-struct PCL_COSECTION_EXPORT MotionSegmenterOptions
+/** \brief Parameters of MovingBodyFinder. */
+struct PCL_COSECTION_EXPORT MotionSegmentationOptions
 {
   int window = 30;                ///< frames that a frame is compared with, at most: what moves less in them is at rest
   int min_pixels = 400;           ///< of an image of 640 x 480 that must show motion plainly; in proportion in others
@@ -53,7 +53,7 @@ struct PCL_COSECTION_EXPORT MotionFrame
   validate () const;
 };
 
-/** \brief What MotionSegmenter finds in a frame. */
+/** \brief What MovingBodyFinder finds in a frame. */
 struct PCL_COSECTION_EXPORT MotionSegments
 {
   /** \brief Neither at rest, nor moved as a whole by any motion that was found. */
@@ -82,22 +82,22 @@ struct PCL_COSECTION_EXPORT MotionSegments
  * 320 pixels a row.
  *
  * \code
- * MotionSegmenter segmenter;
+ * MovingBodyFinder finder;
  * for (const MotionFrame& frame : frames)
  * {
- *   segmenter.add (frame);
- *   const MotionSegments segments = segmenter.segment (); // if wanted
+ *   finder.add (frame);
+ *   const MotionSegments segments = finder.segment (); // if wanted
  * }
  * \endcode */
-class PCL_COSECTION_EXPORT MotionSegmenter
+class PCL_COSECTION_EXPORT MovingBodyFinder
 {
 public:
-  /** \throws InvalidArgument as MotionSegmenterOptions::validate () */
-  explicit MotionSegmenter (const MotionSegmenterOptions& options = {});
-  ~MotionSegmenter ();
-  MotionSegmenter (MotionSegmenter&& other) noexcept;
-  MotionSegmenter&
-  operator= (MotionSegmenter&& other) noexcept;
+  /** \throws InvalidArgument as MotionSegmentationOptions::validate () */
+  explicit MovingBodyFinder (const MotionSegmentationOptions& options = {});
+  ~MovingBodyFinder ();
+  MovingBodyFinder (MovingBodyFinder&& other) noexcept;
+  MovingBodyFinder&
+  operator= (MovingBodyFinder&& other) noexcept;
 
   /** \brief Look at the next frame. \throws InvalidArgument as MotionFrame::validate (); the frame is left out then */
   void
