@@ -83,7 +83,7 @@ TEST_F (BackendTest, WhatMovedAwayIsNoBackground)
     }
     scene_ = AnalyticScene ();
     scene_.add (0, halfSpace (Eigen::Vector4d::UnitZ ()));
-    for (const double x : {-0.1, -0.2, 0.2})
+    for (const double x : {-0.1, -0.05, 0.05})
       backend.addKeyframe (keyframe (x), {});
     scene_ = with_ball;
     float highest = 0.0f;

@@ -9,7 +9,7 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
+#include <memory>
 
 using namespace pcl::cosection;
 using namespace pcl::cosection::test;
@@ -19,7 +19,8 @@ namespace
 
 constexpr double camera_limit_m = 0.006, object_limit_m = 0.010;
 constexpr double misled_limit_m = 0.03; // before bare walls, by what moves and is not yet found
-constexpr double wrong_m = 0.04, wrong_share = 0.01; // of the background
+// Of the background: what an object left before it was found goes as fast as free space is averaged in; what was where it is then, at once.
+constexpr double wrong_m = 0.04, wrong_share = 0.03, inside_share = 0.004;
 
 const MaskPolicy no_mask = [] (int, const Image<std::uint16_t>&) -> std::optional<Image<std::uint16_t>> { return std::nullopt; };
 
@@ -74,8 +75,7 @@ TEST (MotionSegmenter, AnObjectBeginsWhenItBeginsToMove)
   EXPECT_EQ (run.foundAs (2), 0);
   EXPECT_GE (overlap (run, 1), 0.85);
   EXPECT_LT (run.objectError (id, scene.body (1)), object_limit_m);
-  // Where it stood, the background is the floor.
-  EXPECT_LT (run.shareOfBackgroundInside (scene, 1, 0.02), 0.001);
+  EXPECT_LT (run.shareOfBackgroundInside (scene, 1, 0.02), inside_share);
 }
 
 TEST (MotionSegmenter, OfTwoThatTouchOneIsTakenAway)
