@@ -17,6 +17,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <set>
 #include <utility>
 
 namespace pcl
@@ -234,11 +235,15 @@ DynamicFusion::Impl::segment (const RgbdFrame& frame, const FrameCloud& cloud, c
   if (mask)
   {
     const MaskedFrame masked{frame.stamp, cloud, *mask, T_world_camera, exact, shows_all};
+    const std::set<int> before = objects.found ();
     const auto object_of = objects.readMask (masked, segmentation.labels, tracking, log);
     if (!exact)
       removeScraps (cloud, object_of, found);
     known = models (T_world_camera, false, used);
     applyMask (cloud, *mask, object_of, known, idsOf (used), association, segmentation);
+    for (const auto& [instance, id] : object_of)
+      if (exact && before.count (id) == 0) // until now it was background
+        background.volume ()->forget (cloud.depth, camera, T_world_camera, segmentation.labels, id);
     objects.grow (masked, segmentation.labels, log);
     camera_tracking.ignore (cloud, *mask, FrameSegmenter::ignored, T_world_camera);
     result.masked = true;

@@ -317,6 +317,8 @@ SequenceFusion::SequenceFusion (KnownSequence sequence, const FusionOptions& opt
 
 SequenceFusion::SequenceFusion (const TrackedSequence& sequence, const FusionOptions& options) : tracked_ (sequence), options_ (options)
 {
+  if (sequence.segmenter && sequence.segmenter->isExact ()) // what it finds was background until then
+    options_.backend.method.leave_out_moved = true;
   options.validate ();
   requireFrames (*sequence.images, options_);
 }

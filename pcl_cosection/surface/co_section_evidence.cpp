@@ -4,6 +4,8 @@
 
 #include "volume_layout.h"
 
+#include <pcl/cosection/surface/free_space_votes.h>
+
 #include <algorithm>
 #include <optional>
 
@@ -19,6 +21,8 @@ namespace
 
 constexpr double follow_tolerance = 0.5;      // of that of the solver: what one update leaves, the next begins with
 constexpr double max_voxel_size_change = 1.2; // until a body that is followed gets other voxels
+constexpr int least_free_views = 2;           // that look through a point of the background, for it to have moved ...
+constexpr double free_share = 0.25;           // ... and so many of those that see it there
 constexpr double max_empty_share = 0.5;       // of a volume that was large enough for what was known before
 
 } // namespace
@@ -94,6 +98,24 @@ CoSectionRun::readPoints (Object& object)
   body.points_read = all.size ();
 }
 
+std::vector<OrientedPoint>
+CoSectionRun::backgroundAtRest () const
+{
+  std::vector<FreeSpaceView> views;
+  for (const SceneView& view : scene_.views)
+    if (view.use != ViewUse::FreeSpace)
+      views.emplace_back (view.depth);
+  std::vector<Eigen::Vector3f> positions (scene_.background.size ());
+  std::transform (scene_.background.begin (), scene_.background.end (), positions.begin (),
+                  [] (const OrientedPoint& point) { return point.position; });
+  const std::vector<FreeSpaceVotes> votes = voteOnPoints (positions, views, 0.0, scene_.options.threads);
+  std::vector<OrientedPoint> at_rest;
+  for (std::size_t n = 0; n < votes.size (); ++n)
+    if (votes[n].free < least_free_views || votes[n].free < free_share * votes[n].surface)
+      at_rest.push_back (scene_.background[n]);
+  return at_rest;
+}
+
 void
 CoSectionRun::gatherEvidence ()
 {
@@ -101,10 +123,17 @@ CoSectionRun::gatherEvidence ()
     for (Object& object : objects_)
       if (object.alive ())
         guarded (object, [&] { readPoints (object); });
+    std::vector<OrientedPoint> at_rest;
+    const bool all = !scene_.options.leave_out_moved || mode_ == Mode::Follow;
+    if (!all)
+      at_rest = backgroundAtRest ();
     for (FollowedBody* body : backgroundBodies ())
     {
-      body->evidence->addPoints ({scene_.background.begin () + static_cast<std::ptrdiff_t> (body->points_read),
-                                  scene_.background.end ()});
+      if (all)
+        body->evidence->addPoints ({scene_.background.begin () + static_cast<std::ptrdiff_t> (body->points_read),
+                                    scene_.background.end ()});
+      else
+        body->evidence->addPoints (at_rest);
       body->points_read = scene_.background.size ();
     }
   });

@@ -160,6 +160,9 @@ private:
   /** \brief Let all bodies read what is new in the scene. */
   void
   gatherEvidence ();
+  /** \brief Points of the background without those that views look through. */
+  std::vector<OrientedPoint>
+  backgroundAtRest () const;
   void
   readPoints (Object& object);
   void

@@ -203,6 +203,29 @@ TsdfVolume::integrateFreeSpace (const Image<float>& depth, const PinholeCamera& 
 }
 
 void
+TsdfVolume::forget (const Image<float>& depth, const PinholeCamera& camera, const Eigen::Isometry3d& T_grid_sensor,
+                    const Image<std::uint16_t>& labels, std::uint16_t label)
+{
+  checkView (depth, camera, T_grid_sensor);
+  checkSize (labels, camera, "image of labels");
+  const DepthReadings readings =
+      collectReadings (depth, options_.threads, [&] (std::size_t i) { return labels.pixels[i] == label; });
+  if (!(readings.farthest_m > 0.0f))
+    return;
+  const auto band_m = static_cast<float> (truncation ());
+  const VoxelProjection projection (grid (), camera, T_grid_sensor, readings, truncation ());
+  forEachVisibleRow (grid (), projection, options_.threads,
+                     [&] (std::size_t voxel, const float* distances, const int*, int count) {
+    for (int n = 0; n < count; ++n)
+      if (std::abs (distances[n]) <= band_m)
+      {
+        field_.values[voxel + n] = std::numeric_limits<float>::quiet_NaN ();
+        weights_[voxel + n] = 0.0f;
+      }
+  });
+}
+
+void
 TsdfVolume::averageColours (std::size_t first_voxel, const float* distances, const int* pixels, int count,
                             const float* pixel_weights, const Picture& colours)
 {

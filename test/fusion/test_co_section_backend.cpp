@@ -7,6 +7,7 @@
 
 #include <pcl/cosection/common/error.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -61,6 +62,35 @@ TEST_F (BackendTest, AMovedObjectIsInItsFrame)
   ASSERT_EQ (result.objects.size (), 1u);
   ASSERT_EQ (result.objects[0].error, "");
   EXPECT_LT (computeMassProperties (result.objects[0].mesh).centroid_m.norm (), 0.02);
+}
+
+/** \brief What was background until it moved away, as the front end took it for. */
+TEST_F (BackendTest, WhatMovedAwayIsNoBackground)
+{
+  for (const bool leave_out : {false, true})
+  {
+    BackendOptions options = BackendTest::options ();
+    options.method.leave_out_moved = leave_out;
+    CoSectionBackend backend (options);
+    const AnalyticScene with_ball = scene_;
+    for (const double x : {0.0, 0.1})
+    {
+      Keyframe before = keyframe (x);
+      std::vector<OrientedPoint>& background = before.points[0];
+      background.insert (background.end (), before.points[ball].begin (), before.points[ball].end ());
+      before.points.erase (ball);
+      backend.addKeyframe (before, {});
+    }
+    scene_ = AnalyticScene ();
+    scene_.add (0, halfSpace (Eigen::Vector4d::UnitZ ()));
+    for (const double x : {-0.1, -0.05, 0.05})
+      backend.addKeyframe (keyframe (x), {});
+    scene_ = with_ball;
+    float highest = 0.0f;
+    for (const Eigen::Vector3f& vertex : backend.solve ().background.vertices)
+      highest = std::max (highest, vertex.z ());
+    EXPECT_EQ (highest < 0.01f, leave_out) << highest;
+  }
 }
 
 TEST_F (BackendTest, PointsWithoutPoseAreLeftOut)

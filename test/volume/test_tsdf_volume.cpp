@@ -333,6 +333,26 @@ TEST (TsdfVolume, ForegroundCounts)
   EXPECT_NEAR (*often.foregroundProbability (Eigen::Vector3d::Zero ()), 0.75, 0.01);
 }
 
+TEST (TsdfVolume, WhatIsForgottenIsAsNeverSeen)
+{
+  const PinholeCamera camera = test::smallCamera ();
+  TsdfVolume volume (test::cubeGrid (32, 0.01));
+  const Image<float> wall = test::wallDepth (0.5f);
+  volume.integrate (wall, camera, test::frontPose ());
+  Image<std::uint16_t> labels (camera.width, camera.height, 0);
+  for (int v = 0; v < camera.height; ++v)
+    for (int u = camera.width / 2; u < camera.width; ++u)
+      labels.at (u, v) = 7;
+  volume.forget (wall, camera, test::frontPose (), labels, 7);
+  EXPECT_TRUE (volume.sample<double> ({-0.055, 0.005, 0.0}));
+  EXPECT_FALSE (volume.sample<double> ({0.055, 0.005, 0.0}));
+  EXPECT_EQ (volume.weight ({0.055, 0.005, 0.0}), 0.0f);
+  EXPECT_GT (volume.weight ({0.055, 0.005, -0.14}), 0.0f); // free space stays
+  volume.integrate (wall, camera, test::frontPose ());
+  EXPECT_TRUE (volume.sample<double> ({0.055, 0.005, 0.0}));
+  EXPECT_THROW (volume.forget (wall, camera, test::frontPose (), Image<std::uint16_t> (3, 3), 7), InvalidArgument);
+}
+
 TEST (TsdfVolume, AnyNumberOfThreadsGivesTheSameBytes)
 {
   const PinholeCamera camera = test::smallCamera ();

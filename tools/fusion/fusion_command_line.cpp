@@ -82,8 +82,9 @@ void
 declareSegmentation (CLI::App& app, GivenFusion& given)
 {
   app.add_option ("--segmentation", given.segmentation,
-                  "Find the objects in every tenth frame instead of reading masks; geometric: what stands on planes")
-      ->option_text ("geometric")
+                  "Find the objects in every tenth frame instead of reading masks; geometric: what stands on planes; "
+                  "motion: what has begun to move")
+      ->option_text ("geometric|motion")
       ->check (CLI::IsMember (segmenterNames ()))
       ->group ("Known");
 }

@@ -4,13 +4,14 @@
 
 #include <pcl/cosection/common/error.h>
 #include <pcl/cosection/fusion/geometric_segmenter.h>
+#include <pcl/cosection/fusion/motion_segmenter.h>
 
 using namespace pcl::cosection;
 
 std::vector<std::string>
 segmenterNames ()
 {
-  return {"geometric"};
+  return {"geometric", "motion"};
 }
 
 std::shared_ptr<FrameSegmenter>
@@ -21,6 +22,12 @@ makeSegmenter (const std::string& name, int threads)
     ObjectSegmentationOptions options;
     options.threads = threads;
     return (std::make_shared<GeometricSegmenter> (options));
+  }
+  if (name == "motion")
+  {
+    MotionSegmentationOptions options;
+    options.threads = threads;
+    return (std::make_shared<MotionSegmenter> (options));
   }
   throw InvalidArgument ("there is no segmentation of the name " + name);
 }

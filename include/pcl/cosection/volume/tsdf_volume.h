@@ -107,6 +107,13 @@ public:
   integrateFreeSpace (const Image<float>& depth, const PinholeCamera& camera, const Eigen::Isometry3d& T_grid_sensor,
                       const Image<std::uint16_t>& labels, std::uint16_t label);
 
+  /** \brief Forget the distances of voxels within the truncation distance of the readings of pixels of \a label: they are not this volume's,
+   * as was thought before.
+   * \throws InvalidArgument as integrate () */
+  void
+  forget (const Image<float>& depth, const PinholeCamera& camera, const Eigen::Isometry3d& T_grid_sensor,
+          const Image<std::uint16_t>& labels, std::uint16_t label);
+
   /** \brief Count, at voxels within the truncation distance of a reading, whether its pixel has \a label (foreground) or any
    * other (background).
    *

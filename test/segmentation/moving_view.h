@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_cosection authors
+#pragma once
+
+#include <pcl/cosection/segmentation/moving_body_finder.h>
+#include <pcl/cosection/simulation/simulated_scene.h>
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace pcl
+{
+namespace cosection
+{
+namespace test
+{
+
+/** \brief A frame of a scene in which things move, and the truth. */
+struct MovingView
+{
+  MotionFrame frame;
+  std::vector<std::uint32_t> labels;
+  std::vector<char> valid;
+  std::vector<float> room_depth; ///< without the objects
+};
+
+/** \brief Things that move on a table with a wall behind, as a noisy camera of 320 x 240 sees them at times in seconds. */
+class MovingTable
+{
+public:
+  /** \param[in] objects contents of "objects" of a scene's description
+   * \param[in] camera_keys contents of the camera's "keys"; empty: it rests */
+  explicit MovingTable (const std::string& objects, const std::string& camera_keys = "");
+
+  /** \brief The n-th of frames that are a thirtieth of a second apart. */
+  MovingView
+  at (int n) const;
+
+private:
+  SimulatedScene scene_;
+  SimulatedScene room_;
+};
+
+/** \brief A box of a scene's description. \param[in] keys of its motion */
+std::string
+movingBox (int id, const Eigen::Vector3d& size, const std::string& keys);
+
+} // namespace test
+} // namespace cosection
+} // namespace pcl
