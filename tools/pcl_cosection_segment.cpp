@@ -11,10 +11,16 @@
 #include <nlohmann/json.hpp>
 
 #include <pcl/cosection/common/error.h>
+#include <pcl/cosection/common/ignored_label.h>
 #include <pcl/cosection/io/organized_cloud.h>
 
+#include <algorithm>
+#include <array>
 #include <chrono>
-#include <iostream>
+#include <cmath>
+#include <iomanip>
+#include <limits>
+#include <optional>
 #include <sstream>
 
 using namespace pcl::cosection;
@@ -37,15 +43,70 @@ private:
   const std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now ();
 };
 
-ObjectSegmentation
-findObjects (const SegmentSettings& settings, const OrganizedCloud& cloud)
-try
+/** \brief The objects in a view. */
+struct FoundObjects
 {
-  return (segmentObjects (cloud.points, cloud.width, cloud.height, settings.segmentation));
+  struct Object
+  {
+    std::size_t points = 0;
+    std::optional<DetectedInstance> detected; ///< by a network
+  };
+
+  std::vector<std::uint32_t> labels; ///< one per point
+  std::vector<Object> objects;       ///< label n is at n - 1
+  std::vector<Eigen::Vector4f> support_planes;
+};
+
+FoundObjects
+findByGeometry (const SegmentSettings& settings, OrganizedCloud cloud, const Image<std::uint8_t>& ignored)
+{
+  for (std::size_t i = 0; i < cloud.points.size (); ++i)
+    if (ignored.pixels[i] != 0)
+      cloud.points[i].setConstant (std::numeric_limits<float>::quiet_NaN ());
+  ObjectSegmentation found = segmentObjects (cloud.points, cloud.width, cloud.height, settings.segmentation);
+  return {std::move (found.labels), std::vector<FoundObjects::Object> (found.objects), std::move (found.support_planes)};
 }
-catch (const DegenerateInput& error)
+
+FoundObjects
+findByNetwork (InstanceDetector& detector, const ClassRoles& roles, const OrganizedCloud& cloud, const Image<std::uint8_t>& ignored)
 {
-  throw DegenerateInput (settings.input + ": " + error.what ());
+  const std::vector<std::array<std::uint8_t, 3>>& pixels = cloud.picture.pixels;
+  if (std::all_of (pixels.begin (), pixels.end (), [] (const auto& c) { return (c == std::array<std::uint8_t, 3>{}); }))
+    throw DegenerateInput (pixels.empty () ? "has no colours (a field rgb or rgba), which --method mask-rcnn needs" : "all of it is black");
+  Image<std::uint8_t> readings (cloud.width, cloud.height, 0);
+  for (std::size_t i = 0; i < cloud.points.size (); ++i)
+    readings.pixels[i] = cloud.points[i].allFinite () && ignored.pixels[i] == 0 ? 1 : 0;
+  std::vector<DetectedInstance> instances = detector.detect (cloud.picture);
+  const InstanceLabels labelled = labelInstances (instances, cloud.width, cloud.height, roles, readings);
+  FoundObjects found;
+  found.labels.assign (labelled.labels.pixels.begin (), labelled.labels.pixels.end ());
+  for (const std::size_t n : labelled.instances)
+    found.objects.push_back ({0, std::move (instances[n])});
+  return (found);
+}
+
+FoundObjects
+findObjects (const SegmentSettings& settings, const OrganizedCloud& cloud, InstanceDetector* detector)
+{
+  const Image<std::uint8_t> ignored = ignoredPixels (settings.ignored, cloud.width, cloud.height);
+  FoundObjects found;
+  try
+  {
+    found = detector != nullptr ? findByNetwork (*detector, settings.network->roles, cloud, ignored)
+                                : findByGeometry (settings, cloud, ignored);
+  }
+  catch (const DegenerateInput& error)
+  {
+    throw DegenerateInput (settings.input + ": " + error.what ());
+  }
+  for (std::size_t i = 0; i < found.labels.size (); ++i)
+  {
+    if (ignored.pixels[i] != 0)
+      found.labels[i] = ignored_label;
+    if (found.labels[i] > 0 && found.labels[i] <= found.objects.size ())
+      ++found.objects[found.labels[i] - 1].points;
+  }
+  return (found);
 }
 
 std::vector<std::string>
@@ -67,10 +128,56 @@ numbered (std::size_t count, const std::string& what)
   return (std::to_string (count) + " " + what + (count == 1 ? "" : "s"));
 }
 
+/** \brief "cup, score 0.92, "; nothing if that is not known. */
+std::string
+nameOf (const FoundObjects::Object& object)
+{
+  if (!object.detected)
+    return ("");
+  std::ostringstream text;
+  text << object.detected->class_name << ", score " << std::setprecision (2) << object.detected->score << ", ";
+  return (text.str ());
+}
+
+nlohmann::ordered_json
+summaryOf (std::size_t label, const FoundObjects::Object& object)
+{
+  nlohmann::ordered_json summary = {{"label", label}, {"points", object.points}};
+  if (object.detected)
+    summary.update ({{"class", object.detected->class_name}, {"class_id", object.detected->class_id}, {"score", std::round (1e4 * object.detected->score) / 1e4}});
+  return (summary);
+}
+
+nlohmann::ordered_json
+parameters (const SegmentSettings& settings)
+{
+  nlohmann::ordered_json summary;
+  const ObjectSegmentationOptions& options = settings.segmentation;
+  if (settings.network)
+    summary = {{"method", "mask-rcnn"},
+               {"model", settings.network->network.model},
+               {"score", settings.network->network.detection.score_threshold},
+               {"classes", settings.network->roles.objects},
+               {"static_classes", settings.network->roles.statics},
+               {"ignore", settings.network->roles.ignored}};
+  else
+    summary = {{"method", "geometric"},
+               {"max_object_size_m", options.max_object_size_m},
+               {"min_object_size_m", options.min_object_size_m},
+               {"concave_angle_rad", options.concave_angle_rad},
+               {"min_support_area_m2", options.min_support_area_m2}};
+  summary["scale"] = settings.scale;
+  summary["world_points"] = settings.world_points;
+  summary["threads"] = options.threads;
+  return (summary);
+}
+
 void
-run (const SegmentSettings& settings, Terminal& terminal)
+run (SegmentSettings settings, Terminal& terminal)
 {
   const Stopwatch total;
+  if (settings.network)
+    readClassNames (*settings.network);
   requireWritable (settings.output);
   if (!settings.json.empty ())
     requireWritable (settings.json);
@@ -83,33 +190,27 @@ run (const SegmentSettings& settings, Terminal& terminal)
   for (const std::string& warning : warnings)
     terminal.warning (warning);
 
+  std::optional<InstanceDetector> detector;
+  if (settings.network)
+    detector.emplace (settings.network->network);
   const Stopwatch segmentation;
-  const ObjectSegmentation found = findObjects (settings, cloud);
+  const FoundObjects found = findObjects (settings, cloud, detector ? &*detector : nullptr);
   const double segmentation_s = segmentation.seconds ();
   copyWithLabels (settings.input, found.labels, settings.output);
 
-  std::vector<std::size_t> pixels (found.objects + 1, 0);
-  for (const std::uint32_t label : found.labels)
-    ++pixels[label];
-  for (std::uint32_t label = 1; label <= found.objects; ++label)
-    terminal.detail ("object " + std::to_string (label) + ": " + numbered (pixels[label], "point"));
-  terminal.result ("wrote " + settings.output + ": " + numbered (found.objects, "object") + " on " +
-                   numbered (found.support_planes.size (), "plane"));
+  for (std::size_t n = 0; n < found.objects.size (); ++n)
+    terminal.detail ("object " + std::to_string (n + 1) + ": " + nameOf (found.objects[n]) + numbered (found.objects[n].points, "point"));
+  terminal.result ("wrote " + settings.output + ": " + numbered (found.objects.size (), "object") +
+                   (detector ? "" : " on " + numbered (found.support_planes.size (), "plane")));
   if (settings.json.empty ())
     return;
   nlohmann::ordered_json summary;
   summary["timings_s"] = {{"read", read_s}, {"segmentation", segmentation_s}, {"total", total.seconds ()}};
-  const ObjectSegmentationOptions& options = settings.segmentation;
-  summary["parameters"] = {{"max_object_size_m", options.max_object_size_m},
-                           {"min_object_size_m", options.min_object_size_m},
-                           {"concave_angle_rad", options.concave_angle_rad},
-                           {"min_support_area_m2", options.min_support_area_m2},
-                           {"scale", settings.scale},
-                           {"world_points", settings.world_points},
-                           {"threads", options.threads}};
+  summary["parameters"] = parameters (settings);
   summary["objects"] = nlohmann::ordered_json::array ();
-  for (std::uint32_t label = 1; label <= found.objects; ++label)
-    summary["objects"].push_back ({{"label", label}, {"points", pixels[label]}});
+  for (std::size_t n = 0; n < found.objects.size (); ++n)
+    summary["objects"].push_back (summaryOf (n + 1, found.objects[n]));
+  summary["ignored_points"] = std::count (found.labels.begin (), found.labels.end (), ignored_label);
   summary["support_planes"] = nlohmann::ordered_json::array ();
   for (const Eigen::Vector4f& plane : found.support_planes)
     summary["support_planes"].push_back ({plane[0], plane[1], plane[2], plane[3]});
