@@ -4,6 +4,7 @@
 // Finds the objects in a view; see pcl_cosection_segment --help.
 
 #include "exit_status.h"
+#include "found_objects.h"
 #include "output_files.h"
 #include "segment_command_line.h"
 #include "terminal.h"
@@ -12,14 +13,11 @@
 
 #include <pcl/cosection/common/error.h>
 #include <pcl/cosection/common/ignored_label.h>
-#include <pcl/cosection/io/organized_cloud.h>
 
 #include <algorithm>
-#include <array>
 #include <chrono>
 #include <cmath>
 #include <iomanip>
-#include <limits>
 #include <optional>
 #include <sstream>
 
@@ -42,72 +40,6 @@ public:
 private:
   const std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now ();
 };
-
-/** \brief The objects in a view. */
-struct FoundObjects
-{
-  struct Object
-  {
-    std::size_t points = 0;
-    std::optional<DetectedInstance> detected; ///< by a network
-  };
-
-  std::vector<std::uint32_t> labels; ///< one per point
-  std::vector<Object> objects;       ///< label n is at n - 1
-  std::vector<Eigen::Vector4f> support_planes;
-};
-
-FoundObjects
-findByGeometry (const SegmentSettings& settings, OrganizedCloud cloud, const Image<std::uint8_t>& ignored)
-{
-  for (std::size_t i = 0; i < cloud.points.size (); ++i)
-    if (ignored.pixels[i] != 0)
-      cloud.points[i].setConstant (std::numeric_limits<float>::quiet_NaN ());
-  ObjectSegmentation found = segmentObjects (cloud.points, cloud.width, cloud.height, settings.segmentation);
-  return {std::move (found.labels), std::vector<FoundObjects::Object> (found.objects), std::move (found.support_planes)};
-}
-
-FoundObjects
-findByNetwork (InstanceDetector& detector, const ClassRoles& roles, const OrganizedCloud& cloud, const Image<std::uint8_t>& ignored)
-{
-  const std::vector<std::array<std::uint8_t, 3>>& pixels = cloud.picture.pixels;
-  if (std::all_of (pixels.begin (), pixels.end (), [] (const auto& c) { return (c == std::array<std::uint8_t, 3>{}); }))
-    throw DegenerateInput (pixels.empty () ? "has no colours (a field rgb or rgba), which --method mask-rcnn needs" : "all of it is black");
-  Image<std::uint8_t> readings (cloud.width, cloud.height, 0);
-  for (std::size_t i = 0; i < cloud.points.size (); ++i)
-    readings.pixels[i] = cloud.points[i].allFinite () && ignored.pixels[i] == 0 ? 1 : 0;
-  std::vector<DetectedInstance> instances = detector.detect (cloud.picture);
-  const InstanceLabels labelled = labelInstances (instances, cloud.width, cloud.height, roles, readings);
-  FoundObjects found;
-  found.labels.assign (labelled.labels.pixels.begin (), labelled.labels.pixels.end ());
-  for (const std::size_t n : labelled.instances)
-    found.objects.push_back ({0, std::move (instances[n])});
-  return (found);
-}
-
-FoundObjects
-findObjects (const SegmentSettings& settings, const OrganizedCloud& cloud, InstanceDetector* detector)
-{
-  const Image<std::uint8_t> ignored = ignoredPixels (settings.ignored, cloud.width, cloud.height);
-  FoundObjects found;
-  try
-  {
-    found = detector != nullptr ? findByNetwork (*detector, settings.network->roles, cloud, ignored)
-                                : findByGeometry (settings, cloud, ignored);
-  }
-  catch (const DegenerateInput& error)
-  {
-    throw DegenerateInput (settings.input + ": " + error.what ());
-  }
-  for (std::size_t i = 0; i < found.labels.size (); ++i)
-  {
-    if (ignored.pixels[i] != 0)
-      found.labels[i] = ignored_label;
-    if (found.labels[i] > 0 && found.labels[i] <= found.objects.size ())
-      ++found.objects[found.labels[i] - 1].points;
-  }
-  return (found);
-}
 
 std::vector<std::string>
 warningsOf (const SegmentSettings& settings, const OrganizedCloud& cloud)

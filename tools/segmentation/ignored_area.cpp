@@ -28,6 +28,8 @@ ignoredArea (const GivenIgnoredArea& given)
 {
   IgnoredArea area;
   area.mask = given.mask;
+  if (given.regions.empty ())
+    return (area);
   const auto regions = parseQuadruples (given.regions);
   constexpr double largest = 1e6;
   const auto isRegion = [] (const std::array<double, 4>& r) {

@@ -48,7 +48,7 @@ struct PCL_COSECTION_EXPORT InstanceDetectorOptions
  *
  * \code
  * pcl::cosection::InstanceDetectorOptions options;
- * options.model = "yolov8n-seg.onnx";
+ * options.model = "yolov5s-seg.onnx";
  * options.detection.class_names = pcl::cosection::loadClassNames ("coco.names");
  * pcl::cosection::InstanceDetector detector (options);
  * const auto instances = detector.detect (picture);

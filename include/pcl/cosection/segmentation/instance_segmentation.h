@@ -24,7 +24,7 @@ namespace cosection
  *
  * \code
  * pcl::cosection::InstanceDetectorOptions network;
- * network.model = "yolov8n-seg.onnx";
+ * network.model = "yolov5s-seg.onnx";
  * network.detection.class_names = pcl::cosection::loadClassNames ("coco.names");
  * pcl::cosection::InstanceSegmentation<pcl::PointXYZRGB> segmentation;
  * segmentation.setNetwork (network);
