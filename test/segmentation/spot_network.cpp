@@ -13,10 +13,9 @@ namespace
 {
 
 constexpr int width = SpotNetwork::width, height = SpotNetwork::height;
-constexpr int inputs = 3 * width * height;
 
 AffineOutput
-constantOutput (const std::string& name, const std::vector<std::int64_t>& shape)
+constantOutput (const std::string& name, const std::vector<std::int64_t>& shape, int inputs = 3 * SpotNetwork::width * SpotNetwork::height)
 {
   std::int64_t values = 1;
   for (const std::int64_t size : shape)
@@ -103,6 +102,29 @@ SpotNetwork::outputs () const
   return (form == NetworkOutputForm::DetectionOut ? detectionOut (brightest)
           : form == NetworkOutputForm::BoxList    ? boxList (brightest)
                                                   : prototypes (brightest));
+}
+
+std::vector<AffineOutput>
+colourNetwork (int width, int height, const std::vector<Eigen::Vector3f>& colours, float threshold)
+{
+  constexpr float steepness = 100.0f;
+  const auto classes = static_cast<Eigen::Index> (colours.size ());
+  const Eigen::Index pixels = static_cast<Eigen::Index> (width) * height, candidates = 4 + 3 * classes;
+  AffineOutput proposals = constantOutput ("output0", {1, 4 + 2 * classes, candidates}, static_cast<int> (3 * pixels));
+  AffineOutput masks = constantOutput ("output1", {1, classes, height, width}, static_cast<int> (3 * pixels));
+  for (Eigen::Index n = 0; n < classes; ++n)
+  {
+    const std::vector<float> box = {0.5f * width, 0.5f * height, static_cast<float> (width), static_cast<float> (height)};
+    for (Eigen::Index k = 0; k < 4; ++k)
+      proposals.bias[k * candidates + n] = box[static_cast<std::size_t> (k)];
+    proposals.bias[(4 + n) * candidates + n] = 0.9f;
+    proposals.bias[(4 + classes + n) * candidates + n] = 1.0f;
+    for (Eigen::Index pixel = 0; pixel < pixels; ++pixel)
+      for (Eigen::Index channel = 0; channel < 3; ++channel)
+        masks.weights (n * pixels + pixel, channel * pixels + pixel) = steepness * colours[static_cast<std::size_t> (n)][channel];
+    masks.bias.segment (n * pixels, pixels).setConstant (-steepness * threshold);
+  }
+  return {proposals, masks};
 }
 
 Picture

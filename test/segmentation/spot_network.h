@@ -33,6 +33,11 @@ struct SpotNetwork
   outputs () const;
 };
 
+/** \brief A one-stage network that takes all pixels of a colour for one thing of a class, with a score of 0.9.
+ * \param[in] colours by class: factors of red, green and blue, 0 to 1, the sum of which is above \a threshold */
+std::vector<AffineOutput>
+colourNetwork (int width, int height, const std::vector<Eigen::Vector3f>& colours, float threshold);
+
 /** \brief A black picture with a spot whose first column and row are given, enlarged. */
 Picture
 spotPicture (int left, int top, const std::array<std::uint8_t, 3>& colour = {255, 0, 0}, int enlarged = 1,
