@@ -83,21 +83,17 @@ summaryOf (std::size_t label, const FoundObjects::Object& object)
 nlohmann::ordered_json
 parameters (const SegmentSettings& settings)
 {
-  nlohmann::ordered_json summary;
+  nlohmann::ordered_json summary = {{"method", settings.network ? "mask-rcnn" : "geometric"}};
   const ObjectSegmentationOptions& options = settings.segmentation;
   if (settings.network)
-    summary = {{"method", "mask-rcnn"},
-               {"model", settings.network->network.model},
-               {"score", settings.network->network.detection.score_threshold},
-               {"classes", settings.network->roles.objects},
-               {"static_classes", settings.network->roles.statics},
-               {"ignore", settings.network->roles.ignored}};
+    summary["network"] = networkJson (*settings.network);
   else
-    summary = {{"method", "geometric"},
-               {"max_object_size_m", options.max_object_size_m},
-               {"min_object_size_m", options.min_object_size_m},
-               {"concave_angle_rad", options.concave_angle_rad},
-               {"min_support_area_m2", options.min_support_area_m2}};
+    summary.update ({{"max_object_size_m", options.max_object_size_m},
+                     {"min_object_size_m", options.min_object_size_m},
+                     {"concave_angle_rad", options.concave_angle_rad},
+                     {"min_support_area_m2", options.min_support_area_m2}});
+  summary["ignored_regions"] = settings.ignored.regions;
+  summary["ignored_mask"] = settings.ignored.mask;
   summary["scale"] = settings.scale;
   summary["world_points"] = settings.world_points;
   summary["threads"] = options.threads;

@@ -39,7 +39,7 @@ declareIgnoredArea (CLI::App& app, GivenIgnoredArea& given);
 IgnoredArea
 ignoredArea (const GivenIgnoredArea& given);
 
-/** \brief 1: the pixel is left out. \throws UsageError if a region is not in the image \throws pcl::cosection::IoError if the mask cannot be read, or
+/** \brief 1: the pixel is left out. \throws UsageError if a region is not within the image \throws pcl::cosection::IoError if the mask cannot be read, or
  * has another size */
 pcl::cosection::Image<std::uint8_t>
 ignoredPixels (const IgnoredArea& area, int width, int height);

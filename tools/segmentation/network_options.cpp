@@ -5,6 +5,8 @@
 #include "option_values.h"
 #include "suggestion.h"
 
+#include <nlohmann/json.hpp>
+
 #include <pcl/cosection/common/error.h>
 
 #include <algorithm>
@@ -156,4 +158,14 @@ readClassNames (NetworkSettings& settings)
                                        : hint.empty () ? ""
                                                        : "; did you mean " + hint + "?"));
   }
+}
+
+nlohmann::ordered_json
+networkJson (const NetworkSettings& settings)
+{
+  return {{"model", settings.network.model},
+          {"score", settings.network.detection.score_threshold},
+          {"classes", settings.roles.objects},
+          {"static_classes", settings.roles.statics},
+          {"ignore", settings.roles.ignored}};
 }

@@ -4,6 +4,8 @@
 
 #include "arguments.h"
 
+#include <nlohmann/json_fwd.hpp>
+
 #include <pcl/cosection/segmentation/instance_detector.h>
 #include <pcl/cosection/segmentation/instance_labels.h>
 
@@ -43,3 +45,7 @@ networkSettings (const GivenNetwork& given);
  * \throws UsageError, pcl::cosection::IoError */
 void
 readClassNames (NetworkSettings& settings);
+
+/** \brief For summaries: "model", "score", "classes", "static_classes", "ignore". */
+nlohmann::ordered_json
+networkJson (const NetworkSettings& settings);
