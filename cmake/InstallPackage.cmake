@@ -4,7 +4,7 @@ include(CMakePackageConfigHelpers)
 
 set(package_dir "${CMAKE_INSTALL_LIBDIR}/cmake/pcl_cosection")
 
-install(TARGETS pcl_cosection pcl_cosection_rgbd
+install(TARGETS pcl_cosection pcl_cosection_dnn pcl_cosection_rgbd
   EXPORT pcl_cosection-targets
   LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}"
   ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}"

@@ -6,7 +6,6 @@
 #include "exit_status.h"
 #include "fusion_command_line.h"
 #include "fusion_outputs.h"
-#include "ignored_pixels.h"
 #include "interruption.h"
 #include "segmenter_choice.h"
 #include "terminal.h"
@@ -84,7 +83,9 @@ SequenceFusion
 makeFusion (const FusionSettings& settings, const Inputs& inputs)
 {
   FusionOptions options = settings.fusion;
-  options.ignored = ignoredPixels (inputs.images.camera (), settings.ignored_regions, settings.ignored_mask);
+  const PinholeCamera& camera = inputs.images.camera ();
+  if (!settings.ignored.empty ())
+    options.ignored = ignoredPixels (settings.ignored, camera.width, camera.height);
   if (inputs.known.camera.empty ())
   {
     if (!inputs.known.objects.empty ())
@@ -92,7 +93,7 @@ makeFusion (const FusionSettings& settings, const Inputs& inputs)
                              " has none; give --camera-trajectory FILE");
     TrackedSequence sequence (inputs.images, inputs.known.masks);
     if (!settings.segmentation.empty ())
-      sequence.segmenter = makeSegmenter (settings.segmentation, settings.fusion.front_end.threads);
+      sequence.segmenter = makeSegmenter (settings.segmentation, settings.fusion.front_end.threads, settings.network);
     return (SequenceFusion (sequence, options));
   }
   if (settings.ids_per_frame)

@@ -4,6 +4,7 @@
 // Finds the objects in a view; see pcl_cosection_segment --help.
 
 #include "exit_status.h"
+#include "found_objects.h"
 #include "output_files.h"
 #include "segment_command_line.h"
 #include "terminal.h"
@@ -11,10 +12,13 @@
 #include <nlohmann/json.hpp>
 
 #include <pcl/cosection/common/error.h>
-#include <pcl/cosection/io/organized_cloud.h>
+#include <pcl/cosection/common/ignored_label.h>
 
+#include <algorithm>
 #include <chrono>
-#include <iostream>
+#include <cmath>
+#include <iomanip>
+#include <optional>
 #include <sstream>
 
 using namespace pcl::cosection;
@@ -37,17 +41,6 @@ private:
   const std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now ();
 };
 
-ObjectSegmentation
-findObjects (const SegmentSettings& settings, const OrganizedCloud& cloud)
-try
-{
-  return (segmentObjects (cloud.points, cloud.width, cloud.height, settings.segmentation));
-}
-catch (const DegenerateInput& error)
-{
-  throw DegenerateInput (settings.input + ": " + error.what ());
-}
-
 std::vector<std::string>
 warningsOf (const SegmentSettings& settings, const OrganizedCloud& cloud)
 {
@@ -67,10 +60,52 @@ numbered (std::size_t count, const std::string& what)
   return (std::to_string (count) + " " + what + (count == 1 ? "" : "s"));
 }
 
+/** \brief "cup, score 0.92, "; nothing if that is not known. */
+std::string
+nameOf (const FoundObjects::Object& object)
+{
+  if (!object.detected)
+    return ("");
+  std::ostringstream text;
+  text << object.detected->class_name << ", score " << std::setprecision (2) << object.detected->score << ", ";
+  return (text.str ());
+}
+
+nlohmann::ordered_json
+summaryOf (std::size_t label, const FoundObjects::Object& object)
+{
+  nlohmann::ordered_json summary = {{"label", label}, {"points", object.points}};
+  if (object.detected)
+    summary.update ({{"class", object.detected->class_name}, {"class_id", object.detected->class_id}, {"score", std::round (1e4 * object.detected->score) / 1e4}});
+  return (summary);
+}
+
+nlohmann::ordered_json
+parameters (const SegmentSettings& settings)
+{
+  nlohmann::ordered_json summary = {{"method", settings.network ? "mask-rcnn" : "geometric"}};
+  const ObjectSegmentationOptions& options = settings.segmentation;
+  if (settings.network)
+    summary["network"] = networkJson (*settings.network);
+  else
+    summary.update ({{"max_object_size_m", options.max_object_size_m},
+                     {"min_object_size_m", options.min_object_size_m},
+                     {"concave_angle_rad", options.concave_angle_rad},
+                     {"min_support_area_m2", options.min_support_area_m2}});
+  summary["ignored_regions"] = settings.ignored.regions;
+  summary["ignored_mask"] = settings.ignored.mask;
+  summary["scale"] = settings.scale;
+  summary["world_points"] = settings.world_points;
+  summary["threads"] = options.threads;
+  return (summary);
+}
+
 void
-run (const SegmentSettings& settings, Terminal& terminal)
+run (SegmentSettings settings, Terminal& terminal)
 {
   const Stopwatch total;
+  if (settings.network)
+    readClassNames (*settings.network);
   requireWritable (settings.output);
   if (!settings.json.empty ())
     requireWritable (settings.json);
@@ -83,33 +118,27 @@ run (const SegmentSettings& settings, Terminal& terminal)
   for (const std::string& warning : warnings)
     terminal.warning (warning);
 
+  std::optional<InstanceDetector> detector;
+  if (settings.network)
+    detector.emplace (settings.network->network);
   const Stopwatch segmentation;
-  const ObjectSegmentation found = findObjects (settings, cloud);
+  const FoundObjects found = findObjects (settings, cloud, detector ? &*detector : nullptr);
   const double segmentation_s = segmentation.seconds ();
   copyWithLabels (settings.input, found.labels, settings.output);
 
-  std::vector<std::size_t> pixels (found.objects + 1, 0);
-  for (const std::uint32_t label : found.labels)
-    ++pixels[label];
-  for (std::uint32_t label = 1; label <= found.objects; ++label)
-    terminal.detail ("object " + std::to_string (label) + ": " + numbered (pixels[label], "point"));
-  terminal.result ("wrote " + settings.output + ": " + numbered (found.objects, "object") + " on " +
-                   numbered (found.support_planes.size (), "plane"));
+  for (std::size_t n = 0; n < found.objects.size (); ++n)
+    terminal.detail ("object " + std::to_string (n + 1) + ": " + nameOf (found.objects[n]) + numbered (found.objects[n].points, "point"));
+  terminal.result ("wrote " + settings.output + ": " + numbered (found.objects.size (), "object") +
+                   (detector ? "" : " on " + numbered (found.support_planes.size (), "plane")));
   if (settings.json.empty ())
     return;
   nlohmann::ordered_json summary;
   summary["timings_s"] = {{"read", read_s}, {"segmentation", segmentation_s}, {"total", total.seconds ()}};
-  const ObjectSegmentationOptions& options = settings.segmentation;
-  summary["parameters"] = {{"max_object_size_m", options.max_object_size_m},
-                           {"min_object_size_m", options.min_object_size_m},
-                           {"concave_angle_rad", options.concave_angle_rad},
-                           {"min_support_area_m2", options.min_support_area_m2},
-                           {"scale", settings.scale},
-                           {"world_points", settings.world_points},
-                           {"threads", options.threads}};
+  summary["parameters"] = parameters (settings);
   summary["objects"] = nlohmann::ordered_json::array ();
-  for (std::uint32_t label = 1; label <= found.objects; ++label)
-    summary["objects"].push_back ({{"label", label}, {"points", pixels[label]}});
+  for (std::size_t n = 0; n < found.objects.size (); ++n)
+    summary["objects"].push_back (summaryOf (n + 1, found.objects[n]));
+  summary["ignored_points"] = std::count (found.labels.begin (), found.labels.end (), ignored_label);
   summary["support_planes"] = nlohmann::ordered_json::array ();
   for (const Eigen::Vector4f& plane : found.support_planes)
     summary["support_planes"].push_back ({plane[0], plane[1], plane[2], plane[3]});

@@ -2,6 +2,7 @@
 // Copyright (c) 2026, the pcl_cosection authors
 #include "frame_knowledge.h"
 
+#include <pcl/cosection/common/ignored_label.h>
 #include <pcl/cosection/io/stamp_matching.h>
 
 #include <map>
@@ -107,6 +108,7 @@ KnownPoses::next (const RgbdFrame& frame)
 void
 KnownPoses::look (Keyframe& keyframe)
 {
+  keyframe.points.erase (ignored_label);
   for (const auto& [id, points] : keyframe.points)
   {
     saw_object_ = saw_object_ || id != 0;

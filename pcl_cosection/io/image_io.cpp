@@ -171,19 +171,6 @@ saveMaskImage (const Image<std::uint16_t>& mask, const std::string& path, bool w
   encode (image, path);
 }
 
-Image<std::uint16_t>
-loadMaskImage (const std::string& path)
-{
-  const cv::Mat image = decode (path, cv::IMREAD_UNCHANGED);
-  if (image.type () != CV_16U && image.type () != CV_8U)
-    throw IoError (path + ": is not a mask: it must have one channel of 8 or 16 bits");
-  Image<std::uint16_t> mask (image.cols, image.rows);
-  for (int v = 0; v < image.rows; ++v)
-    for (int u = 0; u < image.cols; ++u)
-      mask.at (u, v) = image.type () == CV_16U ? image.at<std::uint16_t> (v, u) : image.at<std::uint8_t> (v, u);
-  return mask;
-}
-
 Picture
 loadColourImage (const std::string& path)
 {

@@ -96,11 +96,17 @@ readOrganizedCloud (const std::string& path, const PcdViewOptions& options)
   if (header.height < 2 || header.width < 2)
     throw IoError (path + ": is not organised (WIDTH " + std::to_string (header.width) + ", HEIGHT " +
                    std::to_string (header.height) + "); an image of points is needed, as the sensor's driver gives it");
-  SensorCloud cloud = readSensorCloud (path, options);
+  SensorCloud cloud = readSensorCloud (path, options, false);
   if (std::none_of (cloud.positions.begin (), cloud.positions.end (),
                     [] (const Eigen::Vector3f& p) { return (p.allFinite ()); }))
     throw DegenerateInput (path + ": holds no finite point");
-  return {cloud.width, cloud.height, std::move (cloud.positions)};
+  OrganizedCloud result = {cloud.width, cloud.height, std::move (cloud.positions), {}};
+  if (!cloud.colours.empty ())
+  {
+    result.picture = Picture (cloud.width, cloud.height);
+    result.picture.pixels = std::move (cloud.colours);
+  }
+  return (result);
 }
 
 void

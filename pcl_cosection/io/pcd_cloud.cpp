@@ -6,6 +6,7 @@
 #include "pcd_points.h"
 
 #include <pcl/cosection/common/error.h>
+#include <pcl/cosection/common/ignored_label.h>
 
 #include <pcl/PCLPointCloud2.h>
 
@@ -148,7 +149,7 @@ readLabels (const std::string& path, const PCLPointCloud2& cloud, const PcdField
     const std::int64_t label = column.integer (i);
     if (label > std::numeric_limits<std::int32_t>::max ())
       throw IoError (path + ": label " + std::to_string (label) + " is too large, the largest is 2147483647");
-    if (label >= 0)
+    if (label >= 0 && label != ignored_label)
       result.labels[i] = static_cast<std::uint32_t> (label);
     else if (result.positions[i].allFinite ())
     {
@@ -161,7 +162,7 @@ readLabels (const std::string& path, const PCLPointCloud2& cloud, const PcdField
 } // namespace
 
 SensorCloud
-readSensorCloud (const std::string& path, const PcdViewOptions& options)
+readSensorCloud (const std::string& path, const PcdViewOptions& options, bool with_labels)
 {
   const PcdHeader header = readPcdHeader (path);
   for (const char* name : {"x", "y", "z"})
@@ -187,7 +188,7 @@ readSensorCloud (const std::string& path, const PcdViewOptions& options)
         path, header, cloud, {"normal_x", "normal_y", "normal_z"},
         Eigen::Affine3d (Eigen::Affine3d::MatrixType (Eigen::Isometry3d (T_sensor_points.rotation ()).matrix ())));
   result.labels.assign (header.points, 1);
-  if (const PcdField* label = header.find ("label"))
+  if (const PcdField* label = with_labels ? header.find ("label") : nullptr)
   {
     result.has_labels = true;
     readLabels (path, cloud, *label, result);

@@ -30,12 +30,12 @@ struct SensorCloud
   Eigen::Isometry3d T_world_sensor = Eigen::Isometry3d::Identity ();
   bool has_viewpoint = false; ///< the file's is not the default one
   bool has_labels = false;
-  std::size_t ignored = 0; ///< points of a negative label
+  std::size_t ignored = 0; ///< points of a negative label, or of ignored_label
 };
 
-/** \brief Read the points of a PCD file; see readPcdView () for the fields and the errors. */
+/** \brief Read the points of a PCD file; see readPcdView () for the fields and the errors. \param[in] with_labels else they are not looked at */
 SensorCloud
-readSensorCloud (const std::string& path, const PcdViewOptions& options);
+readSensorCloud (const std::string& path, const PcdViewOptions& options, bool with_labels = true);
 
 } // namespace cosection
 } // namespace pcl

@@ -157,7 +157,7 @@ readPcdView (const std::string& path, const PcdViewOptions& options)
   result.has_colour = !cloud.colours.empty ();
   result.has_intensity = !cloud.intensities.empty ();
   if (cloud.ignored > 0)
-    result.warnings.push_back (path + ": " + std::to_string (cloud.ignored) + " points of negative label are ignored");
+    result.warnings.push_back (path + ": " + std::to_string (cloud.ignored) + " points of a negative label, or of 65535, are ignored");
   if (cloud.height > 1)
   {
     addRays (path, options, cloud, result);

@@ -24,13 +24,13 @@ run("${CMAKE_COMMAND}"
   "-DCMAKE_CXX_COMPILER_LAUNCHER=${CXX_LAUNCHER}"
   "-DCMAKE_BUILD_TYPE=${BUILD_TYPE}")
 run("${CMAKE_COMMAND}" --build "${WORK_DIR}/build")
-foreach(program IN ITEMS consumer reconstruct_sphere remove_ghost simulate_sphere)
+foreach(program IN ITEMS consumer detect_objects reconstruct_sphere remove_ghost simulate_sphere)
   run("${WORK_DIR}/build/${program}")
   message(STATUS "${run_output}")
 endforeach()
 
 if(TOOL)
-  foreach(suffix IN ITEMS "" _evaluate _simulate)
+  foreach(suffix IN ITEMS "" _evaluate _segment _simulate)
     run("${WORK_DIR}/prefix/${TOOL}${suffix}" --version)
     if(NOT run_output MATCHES "${VERSION}")
       message(FATAL_ERROR "the installed program ${TOOL}${suffix} says '${run_output}', not ${VERSION}")

@@ -7,6 +7,7 @@
 #include "surface/analytic_scene.h"
 
 #include <pcl/cosection/common/error.h>
+#include <pcl/cosection/common/ignored_label.h>
 #include <pcl/cosection/fusion/sequence_fusion.h>
 
 #include <gtest/gtest.h>
@@ -304,4 +305,17 @@ TEST_F (SequenceFusionTest, CanBeCancelled)
   known.camera = camera_poses_;
   for (const double until : {0.2, 0.7})
     EXPECT_THROW (SequenceFusion (known, every (3)).run ([&] (const std::string&, double done) { return done < until; }), Cancelled);
+}
+
+TEST_F (SequenceFusionTest, IgnoredPixelsAreNotCompleted)
+{
+  for (int n = 0; n < frames; ++n)
+  {
+    Image<std::uint16_t> mask = loadMaskImage (folder_.path (maskName (n)));
+    std::replace (mask.pixels.begin (), mask.pixels.end (), static_cast<std::uint16_t> (block), ignored_label);
+    saveMaskImage (mask, folder_.path (maskName (n)), true);
+  }
+  const FusionResult result = run (every (3));
+  EXPECT_EQ (result.objects.size (), 1u);
+  EXPECT_EQ (result.objects.count (ball), 1u);
 }

@@ -296,6 +296,10 @@ TEST_F (PcdView, LabelsOfAnyIntegerTypeAndDoubles)
   EXPECT_EQ (negative.objects.size (), 1u);
   ASSERT_FALSE (negative.warnings.empty ());
   EXPECT_NE (negative.warnings[0].find ("negative label"), std::string::npos);
+  const LabelledView ignored = read ("65535", "2", "U");
+  EXPECT_EQ (ignored.objects.size (), 1u);
+  EXPECT_EQ (ignored.objects.count (65535), 0u);
+  EXPECT_FALSE (ignored.warnings.empty ());
 }
 
 TEST_F (PcdView, BadFilesAreRefusedInOneLine)

@@ -106,6 +106,17 @@ TEST_F (Segment, LabelsAndKeepsTheRest)
   EXPECT_GT (summary["timings_s"]["total"], 0.0);
 }
 
+TEST_F (Segment, LeavesOutARegion)
+{
+  ToolRun run ({"in.pcd", "out.pcd", "--ignore-region", "60,0,40,120"}, folder_.file (""), {}, tool); // that the block is in
+  ASSERT_EQ (run.wait (), 0) << run.errors ();
+  EXPECT_EQ (run.output (), "wrote out.pcd: 0 objects on 1 plane\n");
+  Cloud out;
+  ASSERT_EQ (pcl::io::loadPCDFile (folder_.file ("out.pcd"), out), 0);
+  EXPECT_EQ (out (width / 2, height / 2).label, 65535u);
+  EXPECT_EQ (out (3, 3).label, 0u);
+}
+
 TEST_F (Segment, AddsTheFieldInMillimetres)
 {
   pcl::PointCloud<pcl::PointXYZ> cloud;

@@ -39,14 +39,7 @@ declareInput (CLI::App& app, GivenFusion& given)
   app.add_option ("--frames", given.frames, "Only the frames from A up to but without B, counted from 0 (default: all)")
       ->option_text ("A:B")
       ->group (group);
-  app.add_option ("--ignore-region", given.ignore_regions,
-                  "Do not read these pixels in any frame: column and row of a rectangle's corner, its width and height; repeatable")
-      ->option_text ("X,Y,W,H")
-      ->allow_extra_args (false)
-      ->group (group);
-  app.add_option ("--ignore-mask", given.ignore_mask, "Nor those that are not 0 in this PNG, of the depth's size, 8 or 16 bits")
-      ->option_text ("FILE")
-      ->group (group);
+  declareIgnoredArea (app, given.ignored);
   app.add_option ("--max-depth", given.max_depth, "Leave out readings that are farther away (default: 10)")
       ->option_text ("METRES")
       ->check (numberRange (0, unlimited, true))
@@ -83,8 +76,8 @@ declareSegmentation (CLI::App& app, GivenFusion& given)
 {
   app.add_option ("--segmentation", given.segmentation,
                   "Find the objects in every tenth frame instead of reading masks; geometric: what stands on planes; "
-                  "motion: what has begun to move")
-      ->option_text ("geometric|motion")
+                  "motion: what has begun to move; mask-rcnn: with a network")
+      ->option_text ("geometric|motion|mask-rcnn")
       ->check (CLI::IsMember (segmenterNames ()))
       ->group ("Known");
 }
@@ -163,20 +156,6 @@ toSource (const GivenFusion& given)
   return (source);
 }
 
-std::vector<std::array<double, 4>>
-parseRegions (const std::vector<std::string>& values)
-{
-  if (values.empty ())
-    return {};
-  const auto regions = parseQuadruples (values);
-  const auto isWhole = [] (double number, double least) { return number >= least && number <= 1e6 && number == std::floor (number); };
-  if (!regions || !std::all_of (regions->begin (), regions->end (), [&] (const std::array<double, 4>& region) {
-        return isWhole (region[0], 0.0) && isWhole (region[1], 0.0) && isWhole (region[2], 1.0) && isWhole (region[3], 1.0);
-      }))
-    throw UsageError ("--ignore-region must be x,y,width,height in whole pixels, such as 0,400,640,80");
-  return (*regions);
-}
-
 void
 setPaths (const GivenFusion& given, FusionSettings& settings)
 {
@@ -209,13 +188,21 @@ toSettings (const GivenFusion& given)
     throw UsageError ("--mask-ids needs --masks");
   if (!settings.object_trajectories.empty () && given.mask_ids == "per-frame")
     throw UsageError ("--object-trajectory needs objects with the same number in all masks, not --mask-ids per-frame");
-  settings.ignored_regions = parseRegions (given.ignore_regions);
-  settings.ignored_mask = given.ignore_mask;
+  settings.ignored = ignoredArea (given.ignored);
   settings.segmentation = given.segmentation;
   if (!settings.segmentation.empty () && !settings.masks.empty ())
     throw UsageError ("--masks and --segmentation exclude each other");
   if (!settings.segmentation.empty () && !settings.camera_trajectory.empty ())
     throw UsageError ("--segmentation needs tracking: it excludes --camera-trajectory");
+  const std::string of_network = anyNetworkOption (given.network);
+  if (settings.segmentation == "mask-rcnn")
+  {
+    if (given.network.model.empty ())
+      throw UsageError ("--segmentation mask-rcnn needs a network: --model FILE");
+    settings.network = networkSettings (given.network);
+  }
+  else if (!of_network.empty ())
+    throw UsageError (of_network + " needs --segmentation mask-rcnn");
   settings.preset = given.preset;
   settings.save_keyframes = given.save_keyframes;
   settings.json = given.json;
@@ -267,6 +254,7 @@ fusionText ()
       {
           {"pcl_cosection_fusion --masks masks sequence out", "camera and objects are tracked; a mask now and then is enough"},
           {"pcl_cosection_fusion --segmentation geometric sequence out", "without masks: what stands on planes"},
+          {"pcl_cosection_fusion --segmentation mask-rcnn --model net.onnx sequence out", "with a network of yours"},
           {"pcl_cosection_fusion kitchen room", "a room without objects"},
           {"pcl_cosection_fusion --config toys.txt toys out",
            "a simulated sequence with its true poses, with the options in toys.txt as below"},
@@ -285,6 +273,7 @@ declareFusionOptions (CLI::App& app, GivenFusion& given)
   declareInput (app, given);
   declareKnown (app, given);
   declareSegmentation (app, given);
+  declareNetworkOptions (app, given.network);
   declareVolumeOptions (app, given, "0.02, or a 128th of a small scene");
   declareMethodOptions (app, given);
   declareRun (app, given);

@@ -2,7 +2,9 @@
 // Copyright (c) 2026, the pcl_cosection authors
 #pragma once
 
+#include "ignored_area.h"
 #include "method_options.h"
+#include "network_options.h"
 #include "terminal.h"
 
 #include <pcl/cosection/fusion/sequence_fusion.h>
@@ -24,8 +26,8 @@ struct FusionSettings
   std::string masks;                              ///< folder; empty: there are no objects
   bool ids_per_frame = false;                     ///< asked for: a number of a mask means another object in the next
   std::string segmentation;                       ///< what finds objects without masks; empty: nothing
-  std::vector<std::array<double, 4>> ignored_regions; ///< x, y, width, height, pixels
-  std::string ignored_mask;                           ///< file; empty: none
+  std::optional<NetworkSettings> network;         ///< that finds them
+  IgnoredArea ignored;                            ///< of every image
   std::string preset;                             ///< empty: our own defaults
   bool save_keyframes = false;
   std::string json; ///< a further summary
@@ -40,8 +42,10 @@ fusionText ();
 /** \brief Options as the user gives them. */
 struct GivenFusion : GivenMethod
 {
-  std::vector<std::string> paths, intrinsics, object_trajectories, ignore_regions;
-  std::string format, depth_dir, camera_trajectory, masks, mask_ids, segmentation, frames, ignore_mask, json;
+  std::vector<std::string> paths, intrinsics, object_trajectories;
+  std::string format, depth_dir, camera_trajectory, masks, mask_ids, segmentation, frames, json;
+  GivenNetwork network;
+  GivenIgnoredArea ignored;
   std::optional<double> depth_scale, max_depth;
   std::optional<int> keyframe_every, max_views;
   bool save_keyframes = false, deterministic = false, verbose = false, quiet = false;

@@ -91,13 +91,23 @@ removeFiles (const fs::path& folder, Predicate&& isOurs)
     fs::remove (folder, ignored); // fails if it is not empty, as it should
 }
 
+/** \brief Files that are read; empty names are none. */
+std::vector<std::string>
+inputFiles (const FusionSettings& settings)
+{
+  std::vector<std::string> files{settings.camera_trajectory, settings.ignored.mask};
+  for (const auto& [id, file] : settings.object_trajectories)
+    files.push_back (file);
+  if (settings.network)
+    files.insert (files.end (), {settings.network->network.model, settings.network->network.config, settings.network->class_names});
+  return (files);
+}
+
 /** \throws UsageError if the further summary would overwrite an input, or what the run writes */
 void
 checkJson (const FusionSettings& settings)
 {
-  std::vector<std::string> inputs{settings.camera_trajectory, settings.ignored_mask};
-  for (const auto& [id, file] : settings.object_trajectories)
-    inputs.push_back (file);
+  std::vector<std::string> inputs = inputFiles (settings);
   inputs.erase (std::remove (inputs.begin (), inputs.end (), ""), inputs.end ());
   refuseToOverwrite (inputs, {settings.json});
   std::error_code failure;
@@ -124,8 +134,10 @@ parameters (const FusionSettings& settings)
   result["masks"] = settings.masks;
   result["mask_ids"] = settings.fusion.front_end.persistent_ids ? "persistent" : settings.ids_per_frame ? "per-frame" : "";
   result["segmentation"] = settings.segmentation;
-  result["ignored_regions"] = settings.ignored_regions;
-  result["ignored_mask"] = settings.ignored_mask;
+  if (settings.network)
+    result["network"] = networkJson (*settings.network);
+  result["ignored_regions"] = settings.ignored.regions;
+  result["ignored_mask"] = settings.ignored.mask;
   result["frames"] = {settings.fusion.frames.first,
                       settings.fusion.frames.last == FrameRange ().last ? Json () : Json (settings.fusion.frames.last)};
   result["preset"] = settings.preset.empty () ? "default" : settings.preset;
@@ -140,9 +152,8 @@ parameters (const FusionSettings& settings)
 
 FusionOutputs::FusionOutputs (const FusionSettings& settings) : folder_ (settings.output), json_ (settings.json)
 {
-  std::vector<std::string> inputs{settings.dataset, settings.camera_trajectory, settings.masks, settings.ignored_mask};
-  for (const auto& [id, file] : settings.object_trajectories)
-    inputs.push_back (file);
+  std::vector<std::string> inputs = inputFiles (settings);
+  inputs.insert (inputs.end (), {settings.dataset, settings.masks});
   for (const std::string& input : inputs)
     if (!input.empty () && isWithin (input, folder_))
       throw UsageError ("OUTPUT " + folder_ + " would overwrite the input " + input + "; give another folder");

@@ -5,17 +5,18 @@
 #include <pcl/cosection/common/error.h>
 #include <pcl/cosection/fusion/geometric_segmenter.h>
 #include <pcl/cosection/fusion/motion_segmenter.h>
+#include <pcl/cosection/fusion/network_segmenter.h>
 
 using namespace pcl::cosection;
 
 std::vector<std::string>
 segmenterNames ()
 {
-  return {"geometric", "motion"};
+  return {"geometric", "motion", "mask-rcnn"};
 }
 
 std::shared_ptr<FrameSegmenter>
-makeSegmenter (const std::string& name, int threads)
+makeSegmenter (const std::string& name, int threads, const std::optional<NetworkSettings>& network)
 {
   if (name == "geometric")
   {
@@ -28,6 +29,12 @@ makeSegmenter (const std::string& name, int threads)
     MotionSegmentationOptions options;
     options.threads = threads;
     return (std::make_shared<MotionSegmenter> (options));
+  }
+  if (name == "mask-rcnn" && network)
+  {
+    NetworkSettings settings = *network;
+    readClassNames (settings);
+    return (std::make_shared<NetworkSegmenter> (settings.network, settings.roles));
   }
   throw InvalidArgument ("there is no segmentation of the name " + name);
 }

@@ -14,17 +14,19 @@ segmentationText ()
 {
   static const ProgramText text = {
       "pcl_cosection_segment",
-      "find the objects in an organised point cloud by their geometry",
+      "find the objects in an organised point cloud",
       "pcl_cosection_segment [OPTIONS] INPUT.pcd OUTPUT.pcd",
-      "Finds the objects in a view: what stands on a table, a shelf or the floor, one label for each.",
+      "Finds the objects in a view, one label for each: by their geometry what stands on a table, a shelf or the floor, or by their colours with an "
+      "instance segmentation network of yours.",
       {"INPUT.pcd is an organised cloud in its sensor's frame, as a depth camera's driver gives it.",
        "OUTPUT.pcd is the same cloud with the field label: 0 background, 1 ... objects, the largest in the image "
-       "first. Width, "
+       "first, 65535 neither. Width, "
        "height, order, viewpoint and the other fields stay; labels of INPUT.pcd are replaced. pcl_cosection reads it."},
       {
           {"pcl_cosection_segment view.pcd labelled.pcd", "objects up to half a metre"},
           {"pcl_cosection_segment --max-object-size 0.8 view.pcd labelled.pcd", "larger ones, too"},
           {"pcl_cosection_segment in.pcd out.pcd && pcl_cosection out.pcd meshes", "from a view to closed meshes"},
+          {"pcl_cosection_segment --method mask-rcnn --model net.onnx in.pcd out.pcd", "with a network of yours"},
       },
       {"max-object-size = 0.8", "concave-angle = 0.35"},
   };
@@ -36,7 +38,11 @@ declareSegmentationOptions (CLI::App& app, GivenSegmentation& given)
 {
   const ObjectSegmentationOptions defaults;
   app.add_option ("paths", given.paths)->group ("")->configurable (false);
-  const std::string objects = "Objects";
+  app.add_option ("--method", given.method, "Find objects by geometry or with a network (default: geometric)")
+      ->option_text ("geometric|mask-rcnn")
+      ->check (oneOf ({"geometric", "mask-rcnn"}))
+      ->group ("Input");
+  const std::string objects = "Geometry";
   app.add_option ("--max-object-size", given.max_object_size,
                   "What is longer is furniture or room, metres" + byDefault (defaults.max_object_size_m))
       ->option_text ("METRES")
@@ -57,6 +63,7 @@ declareSegmentationOptions (CLI::App& app, GivenSegmentation& given)
       ->option_text ("AREA")
       ->check (numberRange (0.0, unlimited, true))
       ->group (objects);
+  declareNetworkOptions (app, given.network);
   const std::string input = "Input";
   app.add_option ("--scale", given.scale, "Multiplies coordinates: 0.001 for millimetres (default: 1)")
       ->option_text ("FACTOR")
@@ -64,6 +71,7 @@ declareSegmentationOptions (CLI::App& app, GivenSegmentation& given)
       ->group (input);
   app.add_flag ("--world-points", given.world_points, "Points are in the world frame, not in the sensor's")
       ->group (input);
+  declareIgnoredArea (app, given.ignored);
   app.add_option ("--json", given.json, "Write a summary for programs")->option_text ("FILE")->group ("Output");
   app.add_option ("--threads", given.threads, "Threads to use, without influence on results (default: all processors)")
       ->option_text ("N")
@@ -71,6 +79,33 @@ declareSegmentationOptions (CLI::App& app, GivenSegmentation& given)
       ->group ("General");
   declareGeneralOptions (app, "pcl_cosection_segment", given.verbose, given.quiet);
 }
+
+namespace
+{
+
+/** \brief The method, and that no option is of the other one. */
+void
+setMethod (const GivenSegmentation& given, SegmentSettings& settings)
+{
+  const std::string of_network = anyNetworkOption (given.network);
+  if (given.method != "mask-rcnn")
+  {
+    if (!of_network.empty ())
+      throw UsageError (of_network + " needs --method mask-rcnn");
+    return;
+  }
+  if (given.network.model.empty ())
+    throw UsageError ("--method mask-rcnn needs a network: --model FILE");
+  if (given.max_object_size || given.min_object_size || given.concave_angle || given.min_support_area)
+    throw UsageError (std::string (given.max_object_size    ? "--max-object-size"
+                                   : given.min_object_size  ? "--min-object-size"
+                                   : given.concave_angle    ? "--concave-angle"
+                                                            : "--min-support-area") +
+                      " needs --method geometric");
+  settings.network = networkSettings (given.network);
+}
+
+} // namespace
 
 std::optional<SegmentSettings>
 parseSegmentCommandLine (int argc, const char* const* argv)
@@ -96,7 +131,10 @@ parseSegmentCommandLine (int argc, const char* const* argv)
   if (settings.output.size () <= ending.size () ||
       settings.output.compare (settings.output.size () - ending.size (), ending.size (), ending) != 0)
     throw UsageError ("OUTPUT is \"" + settings.output + "\"; it must be the name of a .pcd file");
-  refuseToOverwrite ({settings.input}, {settings.output, settings.json});
+  setMethod (given, settings);
+  settings.ignored = ignoredArea (given.ignored);
+  refuseToOverwrite ({settings.input, settings.ignored.mask, given.network.model, given.network.model_config, given.network.class_names},
+                     {settings.output, settings.json});
   ObjectSegmentationOptions& options = settings.segmentation;
   options.max_object_size_m = given.max_object_size.value_or (options.max_object_size_m);
   options.min_object_size_m = given.min_object_size.value_or (options.min_object_size_m);

@@ -3,6 +3,8 @@
 #pragma once
 
 #include "arguments.h"
+#include "ignored_area.h"
+#include "network_options.h"
 #include "terminal.h"
 
 #include <pcl/cosection/segmentation/object_segmentation.h>
@@ -16,7 +18,9 @@ struct SegmentSettings
 {
   std::string input, output;
   std::string json;
+  std::optional<NetworkSettings> network; ///< none: by geometry
   pcl::cosection::ObjectSegmentationOptions segmentation;
+  IgnoredArea ignored;
   double scale = 1.0;
   bool world_points = false;
   Verbosity verbosity = Verbosity::Normal;
@@ -30,7 +34,9 @@ segmentationText ();
 struct GivenSegmentation
 {
   std::vector<std::string> paths;
-  std::string json;
+  std::string json, method;
+  GivenNetwork network;
+  GivenIgnoredArea ignored;
   std::optional<double> max_object_size, min_object_size, concave_angle, min_support_area, scale;
   std::optional<int> threads;
   bool world_points = false, verbose = false, quiet = false;

@@ -4,13 +4,13 @@
 
 #include <pcl/cosection/common/camera.h>
 #include <pcl/cosection/common/export.h>
+#include <pcl/cosection/common/ignored_label.h>
 #include <pcl/cosection/common/image.h>
 #include <pcl/cosection/io/rgbd_sequence.h>
 
 #include <Eigen/Geometry>
 
 #include <cstdint>
-#include <limits>
 #include <map>
 #include <optional>
 #include <string>
@@ -50,7 +50,7 @@ class PCL_COSECTION_EXPORT FrameSegmenter
 {
 public:
   /** \brief A pixel of something that is neither an object nor background, as a person: not tracked with, mapped or completed. */
-  static constexpr std::uint16_t ignored = std::numeric_limits<std::uint16_t>::max ();
+  static constexpr std::uint16_t ignored = ignored_label;
 
   virtual ~FrameSegmenter () = default;
 

@@ -4,6 +4,7 @@
 
 #include <pcl/cosection/common/export.h>
 #include <pcl/cosection/common/image.h>
+#include <pcl/cosection/io/mask_image.h>
 
 #include <cstdint>
 #include <string>
@@ -31,10 +32,6 @@ loadDepthImage (const std::string& path, double scale = 1000.0);
 /** \brief Write ids of instances as PNG: of 16 bits if \a wide, else of 8. \throws IoError, InvalidArgument if an id does not fit */
 PCL_COSECTION_EXPORT void
 saveMaskImage (const Image<std::uint16_t>& mask, const std::string& path, bool wide = false);
-
-/** \brief Read ids of instances from a PNG of one channel of 8 or 16 bits. \throws IoError */
-PCL_COSECTION_EXPORT Image<std::uint16_t>
-loadMaskImage (const std::string& path);
 
 /** \brief Read a colour image. \throws IoError */
 PCL_COSECTION_EXPORT Picture

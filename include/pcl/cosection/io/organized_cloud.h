@@ -3,6 +3,7 @@
 #pragma once
 
 #include <pcl/cosection/common/export.h>
+#include <pcl/cosection/common/image.h>
 #include <pcl/cosection/io/pcd_view.h>
 
 #include <Eigen/Core>
@@ -22,6 +23,7 @@ struct PCL_COSECTION_EXPORT OrganizedCloud
   int width = 0;
   int height = 0;
   std::vector<Eigen::Vector3f> points; ///< row by row, sensor frame, metres; NaN: no reading
+  Picture picture;                     ///< the colours; empty if the file has none
 };
 
 /** \brief Read an organised PCD file; of the options, the scale, the frame of the points and the memory count.

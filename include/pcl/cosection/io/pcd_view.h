@@ -60,7 +60,7 @@ struct PCL_COSECTION_EXPORT LabelledView
  * an unorganised one has its normals in the file, or gets them from pcl::NormalEstimationOMP, per label.
  * These are turned towards the viewpoint if the points were seen from there, which also gives a depth view
  * (drawRangeImage ()), else so that neighbours agree and bodies are on their inner side. Fields: x y z
- * (floating point), label (integer; negative: ignored), rgb or rgba, intensity (a number), normal_x normal_y
+ * (floating point), label (integer; negative or 65535: ignored), rgb or rgba, intensity (a number), normal_x normal_y
  * normal_z; others are skipped.
  *
  * \throws MemoryLimitExceeded before reading the points

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_cosection authors
+#pragma once
+
+#include "arguments.h"
+
+#include <nlohmann/json_fwd.hpp>
+
+#include <pcl/cosection/segmentation/instance_detector.h>
+#include <pcl/cosection/segmentation/instance_labels.h>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+/** \brief Options about a network, as the user gives them. */
+struct GivenNetwork
+{
+  std::string model, model_config, class_names, input_fit, input_order;
+  std::vector<std::string> classes, static_classes, ignored_classes, input_size, input_mean;
+  std::optional<double> score, input_scale;
+};
+
+/** \brief What the user asked for. */
+struct NetworkSettings
+{
+  pcl::cosection::InstanceDetectorOptions network; ///< without class names
+  pcl::cosection::ClassRoles roles;
+  std::string class_names; ///< file
+};
+
+/** \brief Declare them in the group "Network". */
+void
+declareNetworkOptions (CLI::App& app, GivenNetwork& given);
+
+/** \brief An option that was given; empty if there is none. */
+std::string
+anyNetworkOption (const GivenNetwork& given);
+
+/** \throws UsageError */
+NetworkSettings
+networkSettings (const GivenNetwork& given);
+
+/** \brief Read the class names, and find out whether they have the classes that were asked for.
+ * \throws UsageError, pcl::cosection::IoError */
+void
+readClassNames (NetworkSettings& settings);
+
+/** \brief For summaries: "model", "score", "classes", "static_classes", "ignore". */
+nlohmann::ordered_json
+networkJson (const NetworkSettings& settings);
