@@ -370,6 +370,8 @@ holdByRestingObjects (const ExpectedScene& scene, const DataAssociation& associa
   for (int round = 0; round < rounds; ++round)
   {
     std::vector<Piece> pieces = restingPieces (scene, association, pose);
+    if (pieces.empty ())
+      return result;
     if (part.points.size () >= min_points)
       pieces.push_back (part);
     const Pieces agreeing = mostThatAgree (pieces, poses, steady);
