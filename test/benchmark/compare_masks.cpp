@@ -212,7 +212,7 @@ runScene (const std::string& name, const fs::path& output, const std::vector<std
   for (const std::string& method : methods)
   {
     const auto make = [&] () -> std::shared_ptr<FrameSegmenter> {
-      return method == "true" ? std::make_shared<TrueMasks> (data) : makeSegmenter (method, 0);
+      return method == "true" ? std::make_shared<TrueMasks> (data) : makeSegmenter (method, 0, std::nullopt);
     };
     const FollowedSequence followed = follow (data, make ());
     const Completed run = complete (data, make ());
