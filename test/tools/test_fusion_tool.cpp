@@ -225,13 +225,13 @@ TEST_F (FusionTool, MasksOfSixteenBits)
   {
     Image<std::uint16_t> mask = loadMaskImage (entry.path ().string ());
     for (std::uint16_t& pixel : mask.pixels)
-      pixel = static_cast<std::uint16_t> (pixel == 0 ? 0 : 65533 + pixel);
+      pixel = static_cast<std::uint16_t> (pixel == 0 ? 0 : 65532 + pixel);
     saveMaskImage (mask, file ("wide/" + entry.path ().filename ().string ()), true);
   }
   ASSERT_EQ (run ({"--camera-trajectory", "sim/gt-cam-0.txt", "--masks", "wide", "--object-trajectory",
-                   "65534=sim/gt-ball-1.txt", "--resolution", "16", "sim", "out"}), 0) << errors_;
-  EXPECT_TRUE (exists ("out/mesh/object_65534.ply"));
-  EXPECT_TRUE (exists ("out/mesh/object_65535_tsdf.ply"));
+                   "65533=sim/gt-ball-1.txt", "--resolution", "16", "sim", "out"}), 0) << errors_;
+  EXPECT_TRUE (exists ("out/mesh/object_65533.ply"));
+  EXPECT_TRUE (exists ("out/mesh/object_65534_tsdf.ply")); // 65535 is no object
 }
 
 TEST_F (FusionTool, ALayoutWithPosesNeedsNoTrajectory)

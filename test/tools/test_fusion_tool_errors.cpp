@@ -5,6 +5,7 @@
 
 #include "fusion_command_line.h"
 #include "fusion_scene.h"
+#include "segmentation/spot_network.h"
 
 #include <pcl/cosection/io/image_io.h>
 #include <pcl/cosection/io/trajectory.h>
@@ -12,6 +13,7 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <fstream>
 #include <iterator>
 #include <sstream>
 
@@ -260,12 +262,16 @@ TEST_F (FusionToolErrors, TheExamplesWork)
     fs::create_directory_symlink (std::string (name) == "masks" ? "toys/mask" : "toys", file (name));
   fs::copy (file ("toys/gt-cam-0.txt"), file ("toys/groundtruth.txt"));
   fs::copy (file ("toys/gt-cam-0.txt"), file ("cam.txt"));
+  std::ofstream (file ("net.onnx"), std::ios::binary)
+      << affineOnnx (24, 18, colourNetwork (24, 18, {{1, -1, 0}, {-1, 0, 1}}, 0.15f));
   for (const UsageExample& example : fusionText ().examples)
   {
     std::istringstream in (example.command);
     Words words{std::istream_iterator<std::string> (in), {}};
     ASSERT_EQ (words.front (), "pcl_cosection_fusion");
     words.erase (words.begin ());
+    if (std::count (words.begin (), words.end (), "net.onnx") > 0)
+      words.insert (words.begin (), {"--input-size", "24,18"}); // of this network
     EXPECT_EQ (run (words), 0) << example.command << '\n' << errors_;
     EXPECT_TRUE (exists (words.back () + "/mesh/background.ply")) << example.command;
     fs::remove_all (file (words.back ()));
