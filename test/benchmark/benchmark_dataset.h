@@ -2,8 +2,7 @@
 // Copyright (c) 2026, the pcl_cosection authors
 #pragma once
 
-#include "scene_folders.h"
-
+#include <pcl/cosection/evaluation/scene_folders.h>
 #include <pcl/cosection/fusion/sequence_fusion.h>
 
 #include <filesystem>
@@ -18,7 +17,7 @@ struct BenchmarkDataset
   BenchmarkDataset&
   operator= (const BenchmarkDataset&) = delete;
 
-  ReadingNotes notes;
+  pcl::cosection::ReadingNotes notes;
   pcl::cosection::SceneRecord truth; ///< of the objects, those that have a mesh
   pcl::cosection::RgbdSequence images;
   pcl::cosection::MaskSequence masks;

@@ -8,9 +8,9 @@
 #include "option_values.h"
 #include "output_files.h"
 #include "run_report.h"
-#include "scene_folders.h"
 
 #include <pcl/cosection/common/error.h>
+#include <pcl/cosection/evaluation/scene_folders.h>
 
 #include <limits>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_cosection authors
-#include "scene_folders.h"
+#include <pcl/cosection/evaluation/scene_folders.h>
 
 #include <pcl/cosection/common/error.h>
 #include <pcl/cosection/evaluation/surface_samples.h>
@@ -13,7 +13,11 @@
 #include <regex>
 
 namespace fs = std::filesystem;
-using namespace pcl::cosection;
+
+namespace pcl
+{
+namespace cosection
+{
 
 namespace
 {
@@ -31,7 +35,7 @@ requireFolder (const std::string& folder, const std::string& what)
 std::string
 inFolder (const std::string& folder, const std::string& name)
 {
-  return ((fs::path (folder) / name).string ());
+  return (fs::path (folder) / name).string ();
 }
 
 /** \brief The files of a folder whose names match, with what the groups of the pattern are, by name. */
@@ -49,7 +53,7 @@ matchingFiles (const std::string& folder, const std::regex& pattern, std::vector
     if (std::regex_match (name, match, pattern))
       files.emplace_back (inFolder (folder, name), match);
   }
-  return (files);
+  return files;
 }
 
 /** \brief A mesh with its provenance if it has one; empty, and a warning, if it cannot be read. */
@@ -68,13 +72,13 @@ readMesh (const std::string& path, ReadingNotes& notes)
       mesh = loadMesh (path);
     }
     requireSurface (mesh, path.c_str ());
-    return (mesh);
+    return mesh;
   }
   catch (const Error& error)
   {
     notes.warnings.emplace_back (error.what ());
     notes.whole = false;
-    return (TriangleMesh ());
+    return TriangleMesh ();
   }
 }
 
@@ -83,13 +87,13 @@ readTrueMesh (const std::string& path, ReadingNotes& notes)
 {
   try
   {
-    return (loadMesh (path));
+    return loadMesh (path);
   }
   catch (const Error& error)
   {
     notes.warnings.emplace_back (error.what ());
     notes.whole = false;
-    return (TriangleMesh ());
+    return TriangleMesh ();
   }
 }
 
@@ -99,13 +103,13 @@ readPoses (const std::string& path, ReadingNotes& notes)
 {
   try
   {
-    return (loadTrajectory (path));
+    return loadTrajectory (path);
   }
   catch (const Error& error)
   {
     notes.warnings.emplace_back (error.what ());
     notes.whole = false;
-    return (std::vector<StampedPose> ());
+    return std::vector<StampedPose> ();
   }
 }
 
@@ -113,7 +117,7 @@ std::optional<PinholeCamera>
 readCalibration (const std::string& path, ReadingNotes& notes)
 {
   if (!fs::exists (path))
-    return (std::nullopt);
+    return std::nullopt;
   PinholeCamera camera;
   camera.width = 640;
   camera.height = 480;
@@ -131,13 +135,13 @@ readCalibration (const std::string& path, ReadingNotes& notes)
       camera.height = height;
     }
     camera.validate ();
-    return (camera);
+    return camera;
   }
   catch (const Error& error)
   {
     notes.warnings.push_back (path + ": " + error.what ());
     notes.whole = false;
-    return (std::nullopt);
+    return std::nullopt;
   }
 }
 
@@ -165,7 +169,7 @@ readRun (const std::string& folder, ReadingNotes& notes)
       object.mesh = readMesh (mesh, notes);
     run.objects.push_back (std::move (object));
   }
-  std::sort (run.objects.begin (), run.objects.end (), [] (const auto& a, const auto& b) { return (a.id < b.id); });
+  std::sort (run.objects.begin (), run.objects.end (), [] (const auto& a, const auto& b) { return a.id < b.id; });
   std::vector<std::string> mesh_names;
   for (const auto& [path, match] : matchingFiles (inFolder (folder, "mesh"), std::regex ("object_([0-9]{1,9})\\.ply"), mesh_names))
     if (!fs::exists (inFolder (folder, "trajectory/object_" + match[1].str () + ".txt")))
@@ -173,7 +177,7 @@ readRun (const std::string& folder, ReadingNotes& notes)
   const std::string background = inFolder (folder, "mesh/background.ply");
   if (fs::exists (background))
     run.background = readMesh (background, notes);
-  return (run);
+  return run;
 }
 
 SceneRecord
@@ -200,5 +204,8 @@ readTruth (const std::string& folder, ReadingNotes& notes)
   for (const char* name : {"gt-mesh/room.ply", "gt-mesh/background.ply"})
     if (truth.background.empty () && fs::exists (inFolder (folder, name)))
       truth.background = readTrueMesh (inFolder (folder, name), notes);
-  return (truth);
+  return truth;
 }
+
+} // namespace cosection
+} // namespace pcl
