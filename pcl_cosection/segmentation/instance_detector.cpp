@@ -2,6 +2,8 @@
 // Copyright (c) 2026, the pcl_cosection authors
 #include <pcl/cosection/segmentation/instance_detector.h>
 
+#include "onnx_input.h"
+
 #include "../common/file_bytes.h"
 
 #include <pcl/cosection/common/error.h>
@@ -70,9 +72,8 @@ endsIn (const std::string& path, const std::string& ending)
 }
 
 cv::dnn::Net
-readNetwork (const InstanceDetectorOptions& options)
+readNetwork (const std::string& model, const InstanceDetectorOptions& options)
 {
-  const std::string model = readBytes (options.model);
   const std::string config = options.config.empty () ? "" : readBytes (options.config);
   const OpenCvSettings settings (options.threads);
   cv::dnn::Net net;
@@ -153,6 +154,7 @@ struct InstanceDetector::Network
   InstanceDetectorOptions options;
   cv::dnn::Net net;
   std::vector<std::string> output_names;
+  std::optional<InputSize> input_size; ///< of the options, else of the file
 };
 
 void
@@ -180,7 +182,12 @@ InstanceDetector::InstanceDetector (const InstanceDetectorOptions& options)
   options.validate ();
   network_ = std::make_unique<Network> ();
   network_->options = options;
-  network_->net = readNetwork (options);
+  const std::string model = readBytes (options.model);
+  network_->net = readNetwork (model, options);
+  if (options.input_width > 0)
+    network_->input_size = InputSize{options.input_width, options.input_height};
+  else if (endsIn (options.model, ".onnx"))
+    network_->input_size = onnxInputSize (model);
   network_->output_names = outputNames (network_->net);
   if (network_->output_names.empty ())
     throw IoError (options.model + ": the network has no outputs");
@@ -207,11 +214,9 @@ InstanceDetector::detect (const Picture& picture)
   const InstanceDetectorOptions& options = network_->options;
   const NetworkOutputForm form = expectedForm (network_->output_names);
   const bool one_stage = form == NetworkOutputForm::Prototypes;
-  const bool sized = options.input_width > 0;
-  const ImagePlacement placement (picture.width, picture.height,
-                                  sized ? options.input_width : one_stage ? one_stage_input : picture.width,
-                                  sized ? options.input_height : one_stage ? one_stage_input : picture.height,
-                                  options.letterbox.value_or (one_stage));
+  const InputSize usual = one_stage ? InputSize{one_stage_input, one_stage_input} : InputSize{picture.width, picture.height};
+  const InputSize size = network_->input_size.value_or (usual);
+  const ImagePlacement placement (picture.width, picture.height, size.width, size.height, options.letterbox.value_or (one_stage));
   const double scale = options.scale.value_or (form == NetworkOutputForm::DetectionOut ? 1.0 : 1.0 / 255.0);
 
   const OpenCvSettings settings (options.threads);

@@ -7,6 +7,7 @@
 #include "../common/file_bytes.h"
 
 #include <pcl/cosection/common/error.h>
+#include <pcl/cosection/common/ignored_label.h>
 
 #include <cmath>
 #include <filesystem>
@@ -177,7 +178,7 @@ parseBody (SpecNode node, int number, const std::string& folder)
 {
   node.requireObject ();
   SceneBody body;
-  body.id = number == 0 ? 0 : node.whole ("id", number, 1, 65535);
+  body.id = number == 0 ? 0 : node.whole ("id", number, 1, ignored_label - 1);
   body.name = node.has ("name") ? node.field ("name").text () : number == 0 ? "room" : "object_" + std::to_string (body.id);
   body.pattern_size_m = node.number ("pattern_size", 0.0);
   const TriangleMesh::Colour colour = parseColour (

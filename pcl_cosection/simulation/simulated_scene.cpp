@@ -3,6 +3,7 @@
 #include <pcl/cosection/simulation/simulated_scene.h>
 
 #include <pcl/cosection/common/error.h>
+#include <pcl/cosection/common/ignored_label.h>
 #include <pcl/cosection/common/parallel.h>
 #include <pcl/cosection/volume/iso_surface.h>
 
@@ -176,9 +177,9 @@ SimulatedScene::validate () const
       throw InvalidArgument ("the background is called " + body.name + "; it must be room or background");
     if (body.id != 0 && (is_background_name || body.name == "cam"))
       throw InvalidArgument ("an object must not be called " + body.name + ": the files of the truth would be mistaken");
-    if (body.id < 0 || body.id > 65535 || !ids.insert (body.id).second)
+    if (body.id < 0 || body.id >= ignored_label || !ids.insert (body.id).second)
       throw InvalidArgument ("the id " + std::to_string (body.id) + " of " + body.name +
-                             " is used twice, or not from 1 to 65535");
+                             " is used twice, or not from 1 to 65534");
     if (!names.insert (body.name).second)
       throw InvalidArgument ("two objects are called " + body.name);
     if (body.parts.empty () && body.id != 0)

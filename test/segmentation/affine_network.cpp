@@ -86,12 +86,12 @@ tensorflowConstant (const std::string& name, const Shape& shape, int type, const
 } // namespace
 
 std::string
-affineOnnx (int width, int height, const std::vector<AffineOutput>& outputs)
+affineOnnx (int width, int height, const std::vector<AffineOutput>& outputs, bool fixed_size)
 {
   ProtobufMessage graph;
   graph.message (1, onnxNode ("Reshape", {"image", "row_shape"}, "row")).text (2, "affine");
   graph.message (5, onnxTensor ("row_shape", {2}, onnx_int64, rawBytes (Shape{1, -1})));
-  graph.message (11, onnxValue ("image", {1, 3, height, width}));
+  graph.message (11, onnxValue ("image", {1, 3, fixed_size ? height : 0, fixed_size ? width : 0}));
   for (const AffineOutput& output : outputs)
   {
     const std::string& name = output.name;

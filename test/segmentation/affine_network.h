@@ -24,9 +24,9 @@ struct AffineOutput
   Eigen::VectorXf bias;    ///< values of the output
 };
 
-/** \brief The bytes of an ONNX file with a network of such outputs. */
+/** \brief The bytes of an ONNX file with a network of such outputs. \param[in] fixed_size the file says the size of the input */
 std::string
-affineOnnx (int width, int height, const std::vector<AffineOutput>& outputs);
+affineOnnx (int width, int height, const std::vector<AffineOutput>& outputs, bool fixed_size = true);
 
 /** \brief The bytes of a frozen graph of TensorFlow with a network of such outputs, which have no more than three dimensions: of four, OpenCV may
  * reorder them. */

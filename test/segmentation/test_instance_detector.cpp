@@ -43,12 +43,12 @@ protected:
 
   /** \brief A network that finds spots, with what its form does not tell. */
   InstanceDetectorOptions
-  spotNetwork (NetworkOutputForm form, float brightest = 255.0f) const
+  spotNetwork (NetworkOutputForm form, float brightest = 255.0f, bool fixed_size = true) const
   {
     if (form != NetworkOutputForm::DetectionOut)
       brightest /= 255.0f;
     InstanceDetectorOptions options =
-        write ("spot.onnx", affineOnnx (SpotNetwork::width, SpotNetwork::height, SpotNetwork{form, brightest}.outputs ()));
+        write ("spot.onnx", affineOnnx (SpotNetwork::width, SpotNetwork::height, SpotNetwork{form, brightest}.outputs (), fixed_size));
     options.input_width = SpotNetwork::width;
     options.input_height = SpotNetwork::height;
     return (options);
@@ -158,19 +158,28 @@ TEST_P (Detector, FindsNothingInADarkPicture)
   EXPECT_TRUE (InstanceDetector (options).detect (test::spotPicture (4, 4)).empty ());
 }
 
+TEST_P (Detector, TakesTheSizeThatTheFileFixes)
+{
+  InstanceDetectorOptions options = spotNetwork (GetParam ());
+  options.input_width = options.input_height = 0;
+  options.letterbox = false;
+  const Picture picture = test::spotPicture (8, 6, red, 4);
+  expectSpot (InstanceDetector (options).detect (picture), picture, GetParam ());
+}
+
 INSTANTIATE_TEST_SUITE_P (Forms, Detector,
                           testing::Values (NetworkOutputForm::DetectionOut, NetworkOutputForm::BoxList, NetworkOutputForm::Prototypes));
 
-TEST_F (Detector, TakesTheImagesSizeUnlessItIsAOneStageNetwork)
+TEST_F (Detector, ElseTakesTheImagesSizeUnlessItIsAOneStageNetwork)
 {
   for (const NetworkOutputForm form : {NetworkOutputForm::DetectionOut, NetworkOutputForm::BoxList})
   {
-    InstanceDetectorOptions options = spotNetwork (form);
+    InstanceDetectorOptions options = spotNetwork (form, 255.0f, false);
     options.input_width = options.input_height = 0;
     const Picture picture = test::spotPicture (2, 4);
     expectSpot (InstanceDetector (options).detect (picture), picture, form);
   }
-  InstanceDetectorOptions options = spotNetwork (NetworkOutputForm::Prototypes);
+  InstanceDetectorOptions options = spotNetwork (NetworkOutputForm::Prototypes, 255.0f, false);
   options.input_width = options.input_height = 0;
   EXPECT_NE (failure (options).find ("640 x 640"), std::string::npos);
 }

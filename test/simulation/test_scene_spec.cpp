@@ -97,7 +97,7 @@ TEST (SceneSpec, EveryMistakeIsNamed)
       {"\"name\": \"ball\"", "\"name\": \"a\\u0000b\"", "\"a?b\" is no name for an object"},
       {"\"name\": \"ball\"", "\"name\": \"a\", \"name\": \"b\"", "has the field \"name\" twice in one object"},
       {"\"objects\"", "\"background\": {\"name\": \"wall\", \"parts\": []}, \"objects\"", "the background is called wall"},
-      {"\"name\": \"ball\"", "\"id\": 0", "objects[0].id must be a whole number from 1 to 65535"},
+      {"\"name\": \"ball\"", "\"id\": 0", "objects[0].id must be a whole number from 1 to 65534"},
       {"\"name\": \"ball\"", "\"colour\": [1, 2, 300]", "objects[0].colour[2] must be a whole number from 0 to 255"},
       {"{\"position\": [0, 0, 0.1]}", "", "objects[0].keys must have at least 1 element"},
       {"{\"position\": [0, 0, 0.1]}", "{\"position\": [0, 0, 0]}, {\"position\": [0, 0, 1]}",

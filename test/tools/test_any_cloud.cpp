@@ -171,6 +171,7 @@ TEST_F (AnyCloud, WrongTrajectoriesAreNamed)
   fails ("0=good.txt", 2, "ID=FILE");
   fails ("1.5=good.txt", 2, "ID=FILE");
   fails ("1=", 2, "ID=FILE");
+  fails ("65535=good.txt", 2, "label 65535 marks what is no object");
   EXPECT_EQ (run ({"--object-trajectory", "5=good.txt", "a.pcd", "out.ply"}), 0);
   EXPECT_NE (errors_.find ("good.txt: is not used, there is no object 5"), std::string::npos) << errors_;
 }

@@ -270,8 +270,6 @@ TEST_F (FusionToolErrors, TheExamplesWork)
     Words words{std::istream_iterator<std::string> (in), {}};
     ASSERT_EQ (words.front (), "pcl_cosection_fusion");
     words.erase (words.begin ());
-    if (std::count (words.begin (), words.end (), "net.onnx") > 0)
-      words.insert (words.begin (), {"--input-size", "24,18"}); // of this network
     EXPECT_EQ (run (words), 0) << example.command << '\n' << errors_;
     EXPECT_TRUE (exists (words.back () + "/mesh/background.ply")) << example.command;
     fs::remove_all (file (words.back ()));

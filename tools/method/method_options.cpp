@@ -4,6 +4,8 @@
 
 #include "option_values.h"
 
+#include <pcl/cosection/common/ignored_label.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -182,6 +184,8 @@ parseObjectFiles (const std::string& option, const std::vector<std::string>& val
         *id != std::floor (*id))
       throw UsageError (option + " must be ID=FILE with the number of an object, such as 2=cup.txt; it is \"" +
                         value + "\"");
+    if (*id == ignored_label)
+      throw UsageError (option + " " + value + ": label " + std::to_string (ignored_label) + " marks what is no object; number it otherwise");
     if (!files.emplace (static_cast<int> (*id), value.substr (equals + 1)).second)
       throw UsageError (option + " is given twice for object " + value.substr (0, equals));
   }
