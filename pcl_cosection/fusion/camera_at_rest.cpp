@@ -22,11 +22,14 @@ constexpr int blocks_of_sector = 4;      // along a side
 constexpr float brightness_sigma = 4.0f; // of 256, of a smoothed picture
 constexpr float most_sigmas = 3.0f;      // differences count no more
 constexpr double plain_difference = 20.0; // of a block's sums of squares: that of one good edge
-constexpr double plain_share = 0.5;       // of its differences' sizes: chance has both signs
+constexpr double plain_ratio = 2.2;       // of them: what explains a block leaves its noise; a motion that is known but roughly, not twice that
 constexpr float most_of_better = 1.5f;
-constexpr double least_majority = 2.0;
-constexpr double majority_to_stay = 1.5; // of votes for motion over those for rest, up to which a camera that rested goes on resting
-constexpr int least_votes = 2;
+constexpr double least_ratio_to_stay = 1.03; // of the sums of the whole image, when no blocks tell: the motion explains it so much worse
+constexpr std::ptrdiff_t least_sectors = 2;
+constexpr std::ptrdiff_t least_to_start = 3; // for a camera that rested to move: one that passes by is in two
+constexpr std::ptrdiff_t majority = 2;          // for a camera that moved
+constexpr std::ptrdiff_t majority_to_stay = 3;  // of sectors with motion, up to which a camera that rested goes on resting
+constexpr std::ptrdiff_t majority_to_start = 4; // of sectors with motion, above which it moves
 constexpr double largest_unseen_shift_px = 3.0; // where there is nothing to be seen that tells
 
 /** \brief Brightness without the noise of single pixels, so that it may be read between them. */
@@ -55,32 +58,30 @@ between (const Image<float>& image, double u, double v)
          b * ((1.0f - a) * image.at (i, j + 1) + a * image.at (i + 1, j + 1));
 }
 
-/** \brief What a block of the image says. */
-struct Ballot
+/** \brief Whether a block is explained up to the noise where the sum of squares is \a smaller, and not where it is \a larger. */
+bool
+isPlain (double smaller, double larger)
 {
-  double difference = 0.0; // of squares, at rest - moved
-  double size = 0.0;       // sum of those differences' sizes
+  return larger - smaller > plain_difference && larger > plain_ratio * smaller;
+}
 
-  /** \brief \param[in] at_rest difference of a pixel if the camera has not moved, in standard deviations
-   * \param[in] moved and if it has */
-  void
-  compare (float at_rest, float moved)
-  {
-    if (std::min (std::abs (at_rest), std::abs (moved)) > most_of_better)
-      return; // something else is seen there now
-    const float d = std::min (most_sigmas * most_sigmas, at_rest * at_rest) - std::min (most_sigmas * most_sigmas, moved * moved);
-    difference += d;
-    size += std::abs (d);
-  }
-
-  bool
-  isPlain () const
-  {
-    return std::abs (difference) > std::max (plain_difference, plain_share * size);
-  }
+/** \brief What a sector of the image has blocks for. */
+struct Sector
+{
+  bool rests = false;
+  bool moves = false;
 };
 
 } // namespace
+
+void
+CameraAtRest::Ballot::compare (float rest_sigmas, float motion_sigmas)
+{
+  if (std::min (std::abs (rest_sigmas), std::abs (motion_sigmas)) > most_of_better)
+    return; // something else is seen there now
+  at_rest += std::min (most_sigmas * most_sigmas, rest_sigmas * rest_sigmas);
+  moved += std::min (most_sigmas * most_sigmas, motion_sigmas * motion_sigmas);
+}
 
 void
 CameraAtRest::begin (const FrameCloud& cloud, const Picture& colour)
@@ -101,18 +102,14 @@ CameraAtRest::keep (const FrameCloud& cloud, const Eigen::Isometry3d& T_world_ca
   T_world_camera_ = T_world_camera;
 }
 
-bool
-CameraAtRest::isPreferredTo (const Eigen::Isometry3d& T_world_camera, const FrameCloud& cloud)
+std::vector<CameraAtRest::Ballot>
+CameraAtRest::compareBlocks (const FrameCloud& cloud, const Eigen::Isometry3d& T_now_then, const MovingParts& moving, double& mean_shift_px) const
 {
-  if (depth_.pixels.empty ())
-    return false;
   const bool coloured = !brightness_.pixels.empty () && !now_.pixels.empty ();
   const PinholeCamera& camera = cloud.camera;
-  const Eigen::Isometry3d T_now_then = T_world_camera.inverse () * T_world_camera_;
   const int step = std::max (1, camera.width / nodes_across);
-  const int block = std::max (step, camera.width / blocks_across);
-  const int columns = camera.width / block + 1;
-  std::vector<Ballot> ballots (static_cast<std::size_t> (columns) * (camera.height / block + 1));
+  const int block = std::max (step, (camera.width + blocks_across - 1) / blocks_across);
+  std::vector<Ballot> ballots (static_cast<std::size_t> (blocks_across) * (camera.height / block + 1));
   double shifts = 0.0; // pixels
   int compared = 0;
   for (int v = step / 2; v < camera.height; v += step)
@@ -129,7 +126,8 @@ CameraAtRest::isPreferredTo (const Eigen::Isometry3d& T_world_camera, const Fram
         continue;
       shifts += (pixel - Eigen::Vector2d (u, v)).norm ();
       ++compared;
-      Ballot& ballot = ballots[static_cast<std::size_t> (v / block) * columns + u / block];
+      Ballot& ballot = ballots[static_cast<std::size_t> (v / block) * blocks_across + u / block];
+      ballot.of_background += moving.moves (u, v) ? -1 : 1;
       if (coloured)
       {
         const float then = brightness_.at (u, v);
@@ -144,20 +142,44 @@ CameraAtRest::isPreferredTo (const Eigen::Isometry3d& T_world_camera, const Fram
         ballot.compare ((at_rest - z) / sigma, (moved - static_cast<float> (p.z ())) / sigma);
       }
     }
-  std::vector<int> sectors (static_cast<std::size_t> (columns / blocks_of_sector + 1) * (ballots.size () / columns / blocks_of_sector + 1), 0);
+  mean_shift_px = compared > 0 ? shifts / compared : 0.0;
+  return ballots;
+}
+
+bool
+CameraAtRest::isPreferredTo (const Eigen::Isometry3d& T_world_camera, const FrameCloud& cloud, const MovingParts& moving)
+{
+  if (depth_.pixels.empty ())
+    return false;
+  double shift_px = 0.0;
+  const std::vector<Ballot> ballots = compareBlocks (cloud, T_world_camera.inverse () * T_world_camera_, moving, shift_px);
+  constexpr int sectors_across = blocks_across / blocks_of_sector;
+  std::vector<Sector> sectors (sectors_across * (ballots.size () / blocks_across / blocks_of_sector + 1));
+  Ballot all;
   for (std::size_t n = 0; n < ballots.size (); ++n)
-    if (ballots[n].isPlain ())
-      sectors[n / columns / blocks_of_sector * (columns / blocks_of_sector + 1) + n % columns / blocks_of_sector] +=
-          ballots[n].difference < 0.0 ? 1 : -1;
-  const auto rest = std::count_if (sectors.begin (), sectors.end (), [] (int votes) { return votes > 0; });
-  const auto motion = std::count_if (sectors.begin (), sectors.end (), [] (int votes) { return votes < 0; });
-  // It goes on as it did, unless most say otherwise.
-  const double majority = rested_ ? 1.0 / majority_to_stay : least_majority;
-  const bool at_rest = rest >= least_votes && static_cast<double> (rest) > majority * static_cast<double> (motion);
-  const bool in_motion =
-      !at_rest && motion >= least_votes && static_cast<double> (motion) > least_majority * static_cast<double> (rest);
+  {
+    all.at_rest += ballots[n].at_rest;
+    all.moved += ballots[n].moved;
+    Sector& sector = sectors[n / blocks_across / blocks_of_sector * sectors_across + n % blocks_across / blocks_of_sector];
+    sector.rests |= isPlain (ballots[n].at_rest, ballots[n].moved);
+    sector.moves |= ballots[n].of_background > 0 && isPlain (ballots[n].moved, ballots[n].at_rest);
+  }
+  const auto rest = std::count_if (sectors.begin (), sectors.end (), [] (const Sector& sector) { return sector.rests; });
+  const auto motion = std::count_if (sectors.begin (), sectors.end (), [] (const Sector& sector) { return sector.moves; });
+  bool at_rest = false, in_motion = false;
+  if (rested_)
+  {
+    const bool nothing_starts = motion < least_to_start && all.moved > least_ratio_to_stay * all.at_rest;
+    at_rest = nothing_starts || (rest >= least_sectors && motion <= majority_to_stay * rest);
+    in_motion = !at_rest && motion >= least_to_start && motion > majority_to_start * rest;
+  }
+  else
+  {
+    at_rest = rest >= least_sectors && rest > majority * motion;
+    in_motion = motion >= least_sectors && motion > majority * rest;
+  }
   rests_ = at_rest || (rested_ && !in_motion);
-  moved_ = in_motion || (!at_rest && shifts > largest_unseen_shift_px * compared);
+  moved_ = in_motion || (!at_rest && shift_px > largest_unseen_shift_px);
   return at_rest;
 }
 

@@ -3,10 +3,13 @@
 #pragma once
 
 #include "frame_cloud.h"
+#include "moving_parts.h"
 
 #include <pcl/cosection/common/image.h>
 
 #include <Eigen/Geometry>
+
+#include <vector>
 
 namespace pcl
 {
@@ -16,8 +19,9 @@ namespace cosection
 /** \brief Tells a camera that moves from one before which something moves, by pictures.
  *
  * A frame is compared with one before it, brightness and depth, twice: pixel by pixel, as if the camera had not moved, and by where an estimate of
- * its motion puts them. Each sector of the image votes for what explains more of its blocks better, where the difference is plain: what moves by
- * itself is in few sectors, edges and texture of what rests in many. Without a plain majority, the camera goes on as it did: resting or moving. */
+ * its motion puts them. A block of the image tells where one of them explains it up to the noise and the other plainly does not; a sector of the image
+ * has such blocks or not. What rests as the camera does is in no sector while the camera moves, or in one by chance; what moves by itself may be
+ * in many. So a camera that rested goes on resting unless motion is in some times more sectors than rest, and begins to move when rest is hardly anywhere. */
 class CameraAtRest
 {
 public:
@@ -25,9 +29,10 @@ public:
   void
   begin (const FrameCloud& cloud, const Picture& colour);
 
-  /** \brief Whether the camera is still at T_world_camera (), rather than at \a T_world_camera. */
+  /** \brief Whether the camera is still at T_world_camera (), rather than at \a T_world_camera.
+   * \param[in] moving what does not say that it moved */
   bool
-  isPreferredTo (const Eigen::Isometry3d& T_world_camera, const FrameCloud& cloud);
+  isPreferredTo (const Eigen::Isometry3d& T_world_camera, const FrameCloud& cloud, const MovingParts& moving);
 
   /** \brief Compare what follows with this frame, unless the camera is still about where it was when the present one was seen. */
   void
@@ -41,6 +46,22 @@ public:
   }
 
 private:
+  /** \brief What a block of the image says. */
+  struct Ballot
+  {
+    double at_rest = 0.0;  // sums of squares of differences, in standard deviations
+    double moved = 0.0;
+    int of_background = 0; // pixels, less those of what moves by itself
+
+    /** \brief Add a pixel's differences if the camera has not moved, and if it has. */
+    void
+    compare (float rest_sigmas, float motion_sigmas);
+  };
+
+  /** \brief Row by row. \param[out] mean_shift_px from where pixels were to where the motion puts them */
+  std::vector<Ballot>
+  compareBlocks (const FrameCloud& cloud, const Eigen::Isometry3d& T_now_then, const MovingParts& moving, double& mean_shift_px) const;
+
   Image<float> depth_;      // of the frame that others are compared with
   Image<float> brightness_; // smoothed; empty without colours
   Image<float> now_;        // brightness of the frame that is looked at

@@ -74,7 +74,7 @@ CameraTracking::track (const FrameCloud& cloud, const std::vector<AssociatedMode
     const HeldPose held = holdByRestingObjects ({points, weights, models, objects, guess}, association_, observed.T_model_camera);
     estimate.T_model_camera = held.T_world_camera;
     estimate.observed_directions = std::max (estimate.observed_directions, held.directions);
-    const bool at_rest = at_rest_.isPreferredTo (estimate.T_model_camera, cloud);
+    const bool at_rest = at_rest_.isPreferredTo (estimate.T_model_camera, cloud, moving_);
     if (at_rest)
       estimate.T_model_camera = at_rest_.T_world_camera ();
     moving_.look (cloud, models, association_, estimate.T_model_camera);

@@ -65,10 +65,11 @@ public:
     return any_;
   }
 
-private:
+  /** \brief Whether the pixel shows something that moves. */
   bool
   moves (int u, int v) const;
 
+private:
   /** \brief The reading of a node, sensor frame. */
   const Eigen::Vector3f&
   pointAt (const FrameCloud& cloud, int i, int j) const;
