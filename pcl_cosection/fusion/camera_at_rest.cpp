@@ -105,7 +105,6 @@ CameraAtRest::keep (const FrameCloud& cloud, const Eigen::Isometry3d& T_world_ca
 std::vector<CameraAtRest::Ballot>
 CameraAtRest::compareBlocks (const FrameCloud& cloud, const Eigen::Isometry3d& T_now_then, const MovingParts& moving, double& mean_shift_px) const
 {
-  const bool coloured = !brightness_.pixels.empty () && !now_.pixels.empty ();
   const PinholeCamera& camera = cloud.camera;
   const int step = std::max (1, camera.width / nodes_across);
   const int block = std::max (step, (camera.width + blocks_across - 1) / blocks_across);
@@ -128,7 +127,7 @@ CameraAtRest::compareBlocks (const FrameCloud& cloud, const Eigen::Isometry3d& T
       ++compared;
       Ballot& ballot = ballots[static_cast<std::size_t> (v / block) * blocks_across + u / block];
       ballot.of_background += moving.moves (u, v) ? -1 : 1;
-      if (coloured)
+      if (coloured ())
       {
         const float then = brightness_.at (u, v);
         ballot.compare ((now_.at (u, v) - then) / brightness_sigma,
@@ -166,12 +165,14 @@ CameraAtRest::isPreferredTo (const Eigen::Isometry3d& T_world_camera, const Fram
   }
   const auto rest = std::count_if (sectors.begin (), sectors.end (), [] (const Sector& sector) { return sector.rests; });
   const auto motion = std::count_if (sectors.begin (), sectors.end (), [] (const Sector& sector) { return sector.moves; });
+  // Depth alone is the same where one slides along smooth surfaces: it says less for rest.
+  const std::ptrdiff_t to_stay = coloured () ? majority_to_stay : 1, to_start = coloured () ? majority_to_start : 1;
   bool at_rest = false, in_motion = false;
   if (rested_)
   {
     const bool nothing_starts = motion < least_to_start && all.moved > least_ratio_to_stay * all.at_rest;
-    at_rest = nothing_starts || (rest >= least_sectors && motion <= majority_to_stay * rest);
-    in_motion = !at_rest && motion >= least_to_start && motion > majority_to_start * rest;
+    at_rest = nothing_starts || (rest >= least_sectors && motion <= to_stay * rest);
+    in_motion = !at_rest && motion >= least_to_start && motion > to_start * rest;
   }
   else
   {

@@ -58,6 +58,12 @@ private:
     compare (float rest_sigmas, float motion_sigmas);
   };
 
+  bool
+  coloured () const
+  {
+    return !brightness_.pixels.empty () && !now_.pixels.empty ();
+  }
+
   /** \brief Row by row. \param[out] mean_shift_px from where pixels were to where the motion puts them */
   std::vector<Ballot>
   compareBlocks (const FrameCloud& cloud, const Eigen::Isometry3d& T_now_then, const MovingParts& moving, double& mean_shift_px) const;

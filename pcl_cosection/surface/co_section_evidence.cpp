@@ -2,6 +2,7 @@
 // Copyright (c) 2026, the pcl_cosection authors
 #include "co_section_run.h"
 
+#include "measured_surface.h"
 #include "volume_layout.h"
 
 #include <pcl/cosection/surface/free_space_votes.h>
@@ -98,6 +99,31 @@ CoSectionRun::readPoints (Object& object)
   body.points_read = all.size ();
 }
 
+void
+CoSectionRun::findPointsOf (const Object& object, std::vector<bool>& found) const
+{
+  const auto batches = scene_.batches.find (0);
+  if (!object.alive () || batches == scene_.batches.end ())
+    return;
+  const MeasuredSurface surface (object.points (), object.voxel_size_m);
+  const std::size_t first_view = firstView (object);
+  std::size_t begin = 0;
+  for (const PointBatch& batch : batches->second)
+  {
+    const std::size_t end = begin + batch.count;
+    const bool was_known = batch.view >= static_cast<int> (first_view);
+    const Eigen::Isometry3d T_world_object = pose (object, was_known ? static_cast<std::size_t> (batch.view) : first_view);
+    const double depth_vox = was_known ? MeasuredSurface::voxels_beside : MeasuredSurface::voxels_deep; // it may not have been quite at rest
+    if (T_world_object.matrix ().allFinite ())
+    {
+      const Eigen::Isometry3f T = T_world_object.inverse ().cast<float> ();
+      for (std::size_t n = begin; n < end; ++n)
+        found[n] = found[n] || surface.has ({T * scene_.background[n].position, T.linear () * scene_.background[n].normal}, depth_vox);
+    }
+    begin = end;
+  }
+}
+
 std::vector<OrientedPoint>
 CoSectionRun::backgroundAtRest () const
 {
@@ -109,9 +135,14 @@ CoSectionRun::backgroundAtRest () const
   std::transform (scene_.background.begin (), scene_.background.end (), positions.begin (),
                   [] (const OrientedPoint& point) { return point.position; });
   const std::vector<FreeSpaceVotes> votes = voteOnPoints (positions, views, 0.0, scene_.options.threads);
-  std::vector<OrientedPoint> at_rest;
+  std::vector<bool> moved (votes.size ());
   for (std::size_t n = 0; n < votes.size (); ++n)
-    if (votes[n].free < least_free_views || votes[n].free < free_share * votes[n].surface)
+    moved[n] = votes[n].free >= least_free_views && votes[n].free >= free_share * votes[n].surface;
+  for (const Object& object : objects_)
+    findPointsOf (object, moved);
+  std::vector<OrientedPoint> at_rest;
+  for (std::size_t n = 0; n < moved.size (); ++n)
+    if (!moved[n])
       at_rest.push_back (scene_.background[n]);
   return at_rest;
 }

@@ -41,15 +41,19 @@ CoSectionRun::surroundings (const Object& object) const
 {
   const double beta = scene_.options.beta_inter;
   IntersectionConstraint constraint (object.volume ().grid (), scene_.options.max_bound_vox, scene_.options.threads);
-  for (const Eigen::Isometry3d& T_world_object : relativePoses (object, nullptr))
-  {
+  const std::vector<Eigen::Isometry3d> poses = relativePoses (object, nullptr);
+  for (const Eigen::Isometry3d& T_world_object : poses)
     for (const Eigen::Vector4d& plane : object.planes)
       constraint.addHalfSpace (transformPlane (plane, T_world_object), object.volume ().freeSpace (), beta);
-    for (const SignedDistanceField::ConstPtr& body : background_)
-      constraint.addBody (*body, T_world_object, beta);
-    for (const Obstacle& body : bodies_)
-      for (const Eigen::Isometry3d& T_field_world : body.T_field_world)
-        constraint.addBody (*body.field, T_field_world * T_world_object, beta);
+  for (const SignedDistanceField::ConstPtr& body : background_)
+    constraint.addBody (*body, poses, beta);
+  for (const Obstacle& body : bodies_)
+  {
+    std::vector<Eigen::Isometry3d> T_field_object;
+    for (const Eigen::Isometry3d& T_field_world : body.T_field_world)
+      for (const Eigen::Isometry3d& T_world_object : poses)
+        T_field_object.push_back (T_field_world * T_world_object);
+    constraint.addBody (*body.field, T_field_object, beta);
   }
   return constraint;
 }
@@ -71,8 +75,7 @@ CoSectionRun::bounds (Object& object) const
       continue;
     const auto grown = object.beta.find (p);
     const double beta = options.beta_inter * (grown == object.beta.end () ? 1.0 : grown->second);
-    for (const Eigen::Isometry3d& T : relativePoses (object, &other))
-      constraint.addBody (other.told, T, beta);
+    constraint.addBody (other.told, relativePoses (object, &other), beta);
   }
   return constraint.bounds ();
 }

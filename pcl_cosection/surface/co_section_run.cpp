@@ -56,11 +56,17 @@ CoSectionRun::pose (const Object& object, std::size_t view) const
 Eigen::Isometry3d
 CoSectionRun::firstPose (const Object& object) const
 {
+  return pose (object, firstView (object));
+}
+
+std::size_t
+CoSectionRun::firstView (const Object& object) const
+{
   const std::size_t poses = object.input->T_world_object.size ();
   std::size_t view = 0;
   while (view + 1 < poses && !pose (object, view).matrix ().allFinite ())
     ++view;
-  return pose (object, view);
+  return view;
 }
 
 std::vector<std::pair<const DepthView*, Eigen::Isometry3d>>

@@ -95,6 +95,12 @@ private:
   /** \brief The first that is known. */
   Eigen::Isometry3d
   firstPose (const Object& object) const;
+  /** \brief That of the first pose that is known. */
+  std::size_t
+  firstView (const Object& object) const;
+  /** \brief Which points of the background are on the object's surface where it was, or began to be known. */
+  void
+  findPointsOf (const Object& object, std::vector<bool>& found) const;
   /** \brief The views that saw where the object is, or may be, and T_object_sensor; not those for free space only. */
   std::vector<std::pair<const DepthView*, Eigen::Isometry3d>>
   viewsOf (const Object& object) const;

@@ -2,6 +2,8 @@
 // Copyright (c) 2026, the pcl_cosection authors
 #include <pcl/cosection/surface/intersection_constraint.h>
 
+#include "../volume/inside_bricks.h"
+
 #include <pcl/cosection/common/parallel.h>
 
 #include <algorithm>
@@ -30,6 +32,21 @@ IntersectionConstraint::raise (std::size_t n, float distance_vox, float beta)
 void
 IntersectionConstraint::addBody (const SignedDistanceField& body, const Eigen::Isometry3d& T_body_grid, double beta)
 {
+  addBody (body, std::vector<Eigen::Isometry3d>{T_body_grid}, beta);
+}
+
+void
+IntersectionConstraint::addBody (const SignedDistanceField& body, const std::vector<Eigen::Isometry3d>& T_body_grid, double beta)
+{
+  const InsideBricks inside (body, threads_);
+  if (inside.any ())
+    for (const Eigen::Isometry3d& T : T_body_grid)
+      addBody (body, inside, T, beta);
+}
+
+void
+IntersectionConstraint::addBody (const SignedDistanceField& body, const InsideBricks& inside, const Eigen::Isometry3d& T_body_grid, double beta)
+{
   // Only the part of this grid that the body's volume covers.
   const Eigen::Isometry3d T_grid_body = T_body_grid.inverse ();
   Eigen::Vector3d low = Eigen::Vector3d::Constant (1e30);
@@ -55,13 +72,20 @@ IntersectionConstraint::addBody (const SignedDistanceField& body, const Eigen::I
   beta_.resize (grid_.size (), 0.0f);
   const auto to_voxels = static_cast<float> (1.0 / grid_.voxel_size_m);
   const Eigen::Vector3d step = T_body_grid.linear ().col (0) * (grid_.voxel_size_m / body.grid.voxel_size_m);
+  const double steps_per_voxel = 1.0 / step.cwiseAbs ().maxCoeff ();
   parallelFor (first.z (), last.z (), threads_, [&] (int k) {
     for (int j = first.y (); j < last.y (); ++j)
     {
       const Eigen::Vector3d start = body.grid.toVoxel (T_body_grid * grid_.center (0, j, k));
       for (int i = first.x (); i < last.x (); ++i)
       {
-        const auto u = body.sampleInside (start + i * step);
+        const Eigen::Vector3d v = start + i * step;
+        const int empty = inside.emptyVoxels (v);
+        if (empty > 0)
+          i += static_cast<int> (empty * steps_per_voxel - 0.01); // those are empty as well; less what rounding may do
+        if (empty >= 0)
+          continue;
+        const auto u = body.sampleInside (v);
         if (u)
           raise (grid_.index (i, j, k), -*u * to_voxels, static_cast<float> (beta));
       }

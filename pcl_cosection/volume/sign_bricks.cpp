@@ -2,6 +2,8 @@
 // Copyright (c) 2026, the pcl_cosection authors
 #include "sign_bricks.h"
 
+#include "brick_distances.h"
+
 #include "../common/multiversion.h"
 
 #include <pcl/cosection/common/parallel.h>
@@ -27,31 +29,13 @@ addSigns (const float* __restrict values, int count, std::int32_t* __restrict si
     signs[i] |= (values[i] > 0.0f ? positive : 0) | (values[i] <= 0.0f ? not_positive : 0);
 }
 
-/** \brief Each byte or that before or behind it by \a stride; \a count of them, in lines of \a length. */
-PCL_COSECTION_MULTIVERSION void
-dilate (const std::uint8_t* __restrict bytes, std::size_t count, std::size_t length, std::size_t stride,
-        std::uint8_t* __restrict dilated)
-{
-  const std::size_t line = length * stride;
-  for (std::size_t begin = 0; begin < count; begin += line)
-  {
-    const std::uint8_t* from = bytes + begin;
-    std::uint8_t* to = dilated + begin;
-    std::copy_n (from, line, to);
-    for (std::size_t i = stride; i < line; ++i)
-      to[i] |= from[i - stride];
-    for (std::size_t i = stride; i < line; ++i)
-      to[i - stride] |= from[i];
-  }
-}
-
 } // namespace
 
 SignBricks::SignBricks (const SignedDistanceField& field, int threads)
 : dims_ ((field.grid.dims.array () + (edge - 2)) / edge) // cells are one fewer than voxels
 , last_voxel_ (field.grid.dims.cast<double> ().array () - 1.0)
 {
-  measureDistances (findMixed (field, threads));
+  distances_ = brickDistances (findMixed (field, threads), dims_, max_distance);
 }
 
 std::vector<std::uint8_t>
@@ -93,27 +77,6 @@ SignBricks::surfaceBox () const
           high = high.cwiseMax (Eigen::Vector3i (i + 1, j + 1, k + 1));
         }
   return {Eigen::Vector3d ((edge * low).cast<double> ()), Eigen::Vector3d ((edge * high).cast<double> ().cwiseMin (last_voxel_))};
-}
-
-void
-SignBricks::measureDistances (std::vector<std::uint8_t> mixed)
-{
-  const std::size_t nx = dims_.x ();
-  const std::size_t ny = dims_.y ();
-  const std::size_t nz = dims_.z ();
-  distances_.assign (mixed.size (), 0);
-  std::vector<std::uint8_t> other (mixed.size ());
-  for (int distance = 0;; ++distance)
-  {
-    for (std::size_t b = 0; b < mixed.size (); ++b)
-      distances_[b] += !mixed[b];
-    if (distance + 1 == max_distance)
-      return;
-    dilate (mixed.data (), mixed.size (), nx, 1, other.data ());
-    dilate (other.data (), mixed.size (), ny, nx, mixed.data ());
-    dilate (mixed.data (), mixed.size (), nz, nx * ny, other.data ());
-    mixed.swap (other);
-  }
 }
 
 } // namespace cosection

@@ -58,9 +58,6 @@ private:
   std::vector<std::uint8_t>
   findMixed (const SignedDistanceField& field, int threads) const;
 
-  void
-  measureDistances (std::vector<std::uint8_t> mixed);
-
   Eigen::Vector3i dims_;        ///< bricks
   Eigen::Vector3d last_voxel_;
   std::vector<std::uint8_t> distances_;

@@ -12,13 +12,6 @@ namespace pcl
 namespace cosection
 {
 
-namespace
-{
-
-constexpr double surely_outside_voxels = 3.0; // that a value must exceed for all around it to be positive: more than a cell's diagonal
-
-} // namespace
-
 std::optional<float>
 SignedDistanceField::sample (const Eigen::Vector3d& p) const
 {
@@ -61,8 +54,7 @@ SignedDistanceField::sampleInside (const Eigen::Vector3d& v) const
   if (!((v.array () >= 0.0).all () && (v.array () <= grid.dims.cast<double> ().array () - 1.0).all ()))
     return std::nullopt;
   const Eigen::Array3i nearest = (v.array () + 0.5).cast<int> ();
-  const std::size_t n = grid.index (nearest.x (), nearest.y (), nearest.z ());
-  if ((!supported.empty () && supported[n] == 0) || values[n] > surely_outside_voxels * grid.voxel_size_m)
+  if (!mayBeInside (grid.index (nearest.x (), nearest.y (), nearest.z ())))
     return std::nullopt;
   const std::optional<float> value = sampleVoxel (v);
   return value && *value < 0.0f ? value : std::nullopt;

@@ -81,6 +81,36 @@ TEST_P (IntersectionConstraintTest, IsTheDepthInsideTheBody)
   EXPECT_GT (deepest, 3.0);
 }
 
+TEST_P (IntersectionConstraintTest, IsThatOfEachVoxelByItself)
+{
+  // Two small bodies in a large volume, of which a corner says nothing.
+  SignedDistanceField bodies = sampleField (sphere (0.02), 0.12, 0.0025);
+  for (std::size_t n = 0; n < bodies.values.size (); ++n)
+    bodies.values[n] = std::min (bodies.values[n], bodies.values[(n + bodies.values.size () / 3) % bodies.values.size ()]);
+  bodies.supported.assign (bodies.values.size (), 1);
+  std::fill (bodies.supported.begin (), bodies.supported.begin () + static_cast<std::ptrdiff_t> (bodies.supported.size () / 4), 0);
+  std::vector<Eigen::Isometry3d> poses;
+  for (int n = 0; n < 12; ++n)
+  {
+    poses.push_back (testPose () * Eigen::AngleAxisd (0.5 * n, Eigen::Vector3d (1.0, n, -2.0).normalized ()));
+    poses.back ().translation () += 0.01 * n * Eigen::Vector3d (1.0, -0.5, 0.3);
+  }
+  IntersectionConstraint constraint (grid_, cap_vox);
+  constraint.addBody (bodies, poses, beta);
+  const std::vector<LowerBound> bounds = constraint.bounds ();
+  ASSERT_EQ (bounds.size (), grid_.size ());
+  int inside = 0;
+  forEachVoxel (grid_, [&] (std::size_t n, const Eigen::Vector3d& p) {
+    double deepest = 0.0;
+    for (const Eigen::Isometry3d& T : poses)
+      if (const auto u = bodies.sampleInside (bodies.grid.toVoxel (T * p)))
+        deepest = std::max (deepest, std::min (cap_vox, -*u / grid_.voxel_size_m));
+    EXPECT_NEAR (bounds[n].distance (), deepest, quantum_vox) << p.transpose ();
+    inside += deepest > 0.0;
+  });
+  EXPECT_GT (inside, 100);
+}
+
 TEST_P (IntersectionConstraintTest, ScalesTheWeightsOfWhatIsThere)
 {
   IntersectionConstraint scaled (grid_, cap_vox);

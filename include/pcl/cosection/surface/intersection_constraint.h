@@ -16,6 +16,8 @@ namespace pcl
 namespace cosection
 {
 
+class InsideBricks;
+
 /** \brief d_inter of equation (4) on an object's grid: how deep each voxel lies inside other bodies, the
  * maximum over bodies and relative poses, in voxels of this grid. */
 class PCL_COSECTION_EXPORT IntersectionConstraint
@@ -29,6 +31,10 @@ public:
    * \param[in] beta weight of the constraint where this body's distance is the largest */
   void
   addBody (const SignedDistanceField& body, const Eigen::Isometry3d& T_body_grid, double beta);
+
+  /** \brief The same at many poses, with less work for each. */
+  void
+  addBody (const SignedDistanceField& body, const std::vector<Eigen::Isometry3d>& T_body_grid, double beta);
 
   /** \brief The half space n.x + d < 0 of \a plane (unit normal, this grid's frame), save for voxels seen
    * free. */
@@ -44,6 +50,9 @@ public:
   bounds () const;
 
 private:
+  void
+  addBody (const SignedDistanceField& body, const InsideBricks& inside, const Eigen::Isometry3d& T_body_grid, double beta);
+
   void
   raise (std::size_t n, float distance_vox, float beta);
 

@@ -77,8 +77,8 @@ struct PCL_COSECTION_EXPORT CoSectionOptions
   /** \brief Complete all of the background, not only what is near objects: with voxels of 2 cm unless given, smaller in small
    * scenes and larger where there would be more than 256^3. */
   bool whole_background = false;
-  /** \brief reconstruct () leaves out points of the background that views look through, more than a few by mistake would: of what moved away
-   * before it was known as an object. */
+  /** \brief reconstruct () leaves out points of the background that are of objects, before these were known as such: those that views look
+   * through, more than a few by mistake would, and those on the surface of an object where it was, or began. */
   bool leave_out_moved = false;
   bool compute_hull = false;   ///< also give the hull of each object as a mesh
   bool compute_bounds = false; ///< also give an inner and an outer bound of each object as meshes

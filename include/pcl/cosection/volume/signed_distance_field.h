@@ -39,6 +39,14 @@ struct PCL_COSECTION_EXPORT SignedDistanceField
   std::optional<float>
   sampleInside (const Eigen::Vector3d& v) const;
 
+  /** \brief Whether sampleInside () may have a value where voxel \a n is the nearest. */
+  bool
+  mayBeInside (std::size_t n) const
+  {
+    constexpr float surely_outside_voxels = 3.0f; // that a value must exceed for all around it to be positive: more than a cell's diagonal
+    return (supported.empty () || supported[n] != 0) && !(values[n] > surely_outside_voxels * static_cast<float> (grid.voxel_size_m));
+  }
+
 private:
   /** \brief As sample (), at voxel coordinates. */
   std::optional<float>
