@@ -7,6 +7,7 @@
 #include "fusion_command_line.h"
 #include "option_table.h"
 #include "program_text.h"
+#include "report_command_line.h"
 #include "segment_command_line.h"
 #include "simulate_command_line.h"
 
@@ -31,6 +32,13 @@ main (int argc, char** argv)
     GivenFusion given;
     declareFusionOptions (app, given);
     std::cout << manPage (app, fusionText ()) << std::flush;
+  }
+  else if (program == "pcl_cosection_report")
+  {
+    CLI::App app;
+    GivenReport given;
+    declareReportOptions (app, given);
+    std::cout << manPage (app, reportText ()) << std::flush;
   }
   else if (program == "pcl_cosection_segment")
   {

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_cosection authors
+#pragma once
+
+#include "run_folder.h"
+#include "run_truth.h"
+
+#include <Eigen/Core>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+/** \brief All that a report is made of. */
+struct ReportContent
+{
+  RunFolder run;
+  std::optional<RunTruth> truth;
+  std::string truth_folder; ///< empty: none was given
+  std::vector<ComparedRun> others;
+  std::vector<std::string> warnings; ///< about what was read
+  int threads = 0;                   ///< 0: all
+};
+
+/** \brief "truck" if the truth has a name for it, else "object 1". */
+std::string
+nameOf (const RunObject& object, const ReportContent& content);
+
+/** \brief What the run was made from: the last part of the dataset's name, or of the run's. */
+std::string
+titleOf (const ReportContent& content);
+
+/** \brief The class in the style sheet of the colour of an object, by its place. */
+std::string
+styleOf (std::size_t place);
+
+/** \brief The same colour: red, green, blue. */
+pcl::cosection::TriangleMesh::Colour
+colourOf (std::size_t place);
+
+/** \brief The last part of a path, whatever slashes it ends in. */
+std::string
+lastPartOf (const std::string& path);
+
+/** \brief "1 frame", "2 frames". */
+std::string
+counted (std::size_t count, const std::string& what);
