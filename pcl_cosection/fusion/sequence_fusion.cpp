@@ -92,6 +92,7 @@ FusionRun::FusionRun (const RgbdSequence& images, FrameKnowledge& knowledge, con
   frames_of_range_ = std::min (options.frames.last, images.size ()) - std::min (options.frames.first, images.size ());
   for (const char* stage : {"read", "tracking", "raycast", "segmentation", "integration", "keyframes", "updates"})
     result_.timings_s[stage] = 0.0;
+  result_.intrinsics = images.camera ();
   if (options.updates != KeyframeUpdates::None)
     thread_.emplace (backend_);
 }

@@ -122,11 +122,31 @@ checkJson (const FusionSettings& settings)
     requireWritable (settings.json);
 }
 
+/** \brief How the images were read, for who reads them again; what was found out is empty. */
+Json
+imagesJson (const SequenceSource& source)
+{
+  static const std::map<SequenceFormat, std::string> names = {
+      {SequenceFormat::Detect, ""}, {SequenceFormat::CoFusion, "cofusion"}, {SequenceFormat::Tum, "tum"}, {SequenceFormat::SevenScenes, "7scenes"}};
+  return {{"format", names.at (source.format)},
+          {"depth_dir", source.depth_folder},
+          {"depth_scale", source.depth_scale},
+          {"intrinsics", source.intrinsics ? Json (*source.intrinsics) : Json ()}};
+}
+
+Json
+cameraJson (const PinholeCamera& camera)
+{
+  return {{"width", camera.width}, {"height", camera.height}, {"fx", camera.fx},
+          {"fy", camera.fy},       {"cx", camera.cx},         {"cy", camera.cy}};
+}
+
 Json
 parameters (const FusionSettings& settings)
 {
   Json result;
   result["dataset"] = settings.dataset;
+  result["images"] = imagesJson (settings.source);
   result["camera_trajectory"] = settings.camera_trajectory;
   result["object_trajectories"] = Json::object ();
   for (const auto& [id, file] : settings.object_trajectories)
@@ -249,6 +269,7 @@ FusionOutputs::writeSummary (const FusionSettings& settings, const FusionResult&
   summary["frames"] = result.frames;
   summary["keyframes"] = result.keyframes;
   summary["kept_keyframes"] = result.kept_keyframes;
+  summary["camera"] = cameraJson (result.intrinsics);
   summary["parameters"] = parameters (settings);
   summary["objects"] = Json::array ();
   summary["failed"] = Json::array ();

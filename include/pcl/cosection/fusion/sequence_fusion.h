@@ -2,6 +2,7 @@
 // Copyright (c) 2026, the pcl_cosection authors
 #pragma once
 
+#include <pcl/cosection/common/camera.h>
 #include <pcl/cosection/common/export.h>
 #include <pcl/cosection/common/progress.h>
 #include <pcl/cosection/fusion/co_section_backend.h>
@@ -88,6 +89,7 @@ struct PCL_COSECTION_EXPORT FusionResult
 {
   SceneResult scene;
   std::vector<StampedPose> camera; ///< at the frames that were used
+  PinholeCamera intrinsics;        ///< of the images
   std::map<int, FusedObject> objects;
   std::size_t frames = 0;         ///< that were used
   std::size_t keyframes = 0;      ///< of them
