@@ -29,7 +29,8 @@ addTruth (ReportContent& content, Terminal& terminal)
   terminal.progress ("comparing with the truth", 0.1);
   try
   {
-    content.truth = compareWithTruth (content.run, content.truth_folder, content.threads);
+    content.truth = compareWithTruth (content.scene, content.truth_folder, content.threads);
+    measureErrors (content.scene, content.truth->truth, content.truth->evaluation, content.threads);
     content.warnings.insert (content.warnings.end (), content.truth->notes.begin (), content.truth->notes.end ());
     content.warnings.insert (content.warnings.end (), content.truth->evaluation.warnings.begin (), content.truth->evaluation.warnings.end ());
   }
@@ -55,7 +56,7 @@ addOtherRuns (ReportContent& content, const std::vector<std::string>& folders, T
     try
     {
       if (content.truth)
-        other.evaluation = compareWithTruth (other.run, content.truth_folder, content.threads).evaluation;
+        other.evaluation = compareWithTruth (sceneOf (other.run), content.truth_folder, content.threads).evaluation;
     }
     catch (const Error& error)
     {
@@ -82,6 +83,7 @@ run (const ReportSettings& settings, Terminal& terminal)
   content.threads = settings.threads;
   content.truth_folder = settings.truth;
   content.run = readRunFolder (settings.run);
+  content.scene = sceneOf (content.run);
   requireWritable (settings.output);
   content.warnings = content.run.notes;
   if (!content.run.failure.empty ())

@@ -2,7 +2,6 @@
 // Copyright (c) 2026, the pcl_cosection authors
 #include "report_content.h"
 
-#include <array>
 #include <filesystem>
 
 using namespace pcl::cosection;
@@ -10,9 +9,7 @@ using namespace pcl::cosection;
 namespace
 {
 
-/** \brief Of objects, by their place; report.css has the same as s1 to s8. */
-constexpr std::array<TriangleMesh::Colour, 8> object_colours = {
-    {{214, 96, 77}, {62, 126, 199}, {226, 164, 45}, {76, 158, 108}, {150, 104, 189}, {70, 171, 186}, {204, 104, 154}, {140, 112, 86}}};
+constexpr std::size_t colours = 10; ///< of instanceColour (), after which they repeat
 
 } // namespace
 
@@ -47,15 +44,9 @@ titleOf (const ReportContent& content)
 }
 
 std::string
-styleOf (std::size_t place)
+styleOf (int id)
 {
-  return ("s" + std::to_string (place % object_colours.size () + 1));
-}
-
-TriangleMesh::Colour
-colourOf (std::size_t place)
-{
-  return (object_colours[place % object_colours.size ()]);
+  return ("s" + std::to_string (static_cast<std::size_t> (id - 1) % colours + 1));
 }
 
 std::string

@@ -15,6 +15,7 @@
 struct ReportContent
 {
   RunFolder run;
+  pcl::cosection::RunScene scene; ///< of the run, to draw; with the errors of its vertices, if there is a truth
   std::optional<RunTruth> truth;
   std::string truth_folder; ///< empty: none was given
   std::vector<ComparedRun> others;
@@ -30,13 +31,9 @@ nameOf (const RunObject& object, const ReportContent& content);
 std::string
 titleOf (const ReportContent& content);
 
-/** \brief The class in the style sheet of the colour of an object, by its place. */
+/** \brief The class in the style sheet of instanceColour (id). */
 std::string
-styleOf (std::size_t place);
-
-/** \brief The same colour: red, green, blue. */
-pcl::cosection::TriangleMesh::Colour
-colourOf (std::size_t place);
+styleOf (int id);
 
 /** \brief The last part of a path, whatever slashes it ends in. */
 std::string

@@ -14,6 +14,7 @@
 
 #include <pcl/cosection/common/error.h>
 #include <pcl/cosection/version.h>
+#include <pcl/cosection/visualization/viewpoint.h>
 
 using namespace pcl::cosection;
 
@@ -67,7 +68,7 @@ writePictureKeys (HtmlWriter& html, const ReportContent& content)
   for (int n = 0; n < 4; ++n)
     html.open ("li").markup ("<i class=\"key p" + std::to_string (n) + "\"></i>").text (names[n]).close ("li");
   if (content.truth)
-    html.open ("li").markup ("<i class=\"scale\"></i>").text ("error, 0 to " + inMillimetres (content.truth->error_max_m) + " mm and more").close ("li");
+    html.open ("li").markup ("<i class=\"scale\"></i>").text ("error, 0 to " + inMillimetres (content.scene.error_max_m) + " mm and more").close ("li");
   html.close ("ul");
 }
 
@@ -75,7 +76,7 @@ void
 writePictures (HtmlWriter& html, const ReportContent& content, const ProgressCallback& progress)
 {
   const std::vector<RunObject>& objects = content.run.objects;
-  const Eigen::Vector3d up = upOf (content.run);
+  const Eigen::Vector3d up = content.run.camera.empty () ? Eigen::Vector3d::UnitZ () : upDirection (content.scene);
   Section section (html, "pictures", "Before and after");
   html.element ("p", "Left what was seen, the zero level of the truncated distances averaged over all frames; then what was completed. Above from the side of the "
                      "camera, below from behind.");
@@ -86,13 +87,12 @@ writePictures (HtmlWriter& html, const ReportContent& content, const ProgressCal
     const RunObject& object = objects[n];
     if (object.completed.empty () && object.seen.empty ())
       continue;
-    std::vector<double> errors_m;
-    if (content.truth && !object.completed.empty ())
-      errors_m = errorsOf (*content.truth, object.id, object.completed, content.threads);
+    const auto errors = content.scene.errors.find (object.id);
     const std::string name = nameOf (object, content);
-    html.open ("article").open ("h3").markup ("<i class=\"key " + styleOf (n) + "\"></i>").text (name).close ("h3").open ("div", {{"class", "panels"}});
+    html.open ("article").open ("h3").markup ("<i class=\"key " + styleOf (object.id) + "\"></i>").text (name).close ("h3").open ("div", {{"class", "panels"}});
     for (const CaptionedPicture& picture :
-         drawObject (object, directionsOf (object, content.run, up), errors_m, content.truth ? content.truth->error_max_m : 1.0, name))
+         drawObject (object, directionsOf (object, content.run, up), errors == content.scene.errors.end () ? std::vector<double> () : errors->second.completed,
+                     content.scene.error_max_m, name))
       writePicture (html, picture);
     html.close ("div").close ("article");
   }

@@ -182,14 +182,13 @@ writeObjectTable (HtmlWriter& html, const ReportContent& content)
 {
   HtmlTable table (html, "Objects",
                    {"Object", "Size (mm)", "Volume (ml)", "Closed", "Provenance", "Inside others (mm)", "Frames tracked", "Solver"});
-  for (std::size_t n = 0; n < content.run.objects.size (); ++n)
+  for (const RunObject& object : content.run.objects)
   {
-    const RunObject& object = content.run.objects[n];
     if (object.summary.is_null () && object.completed.empty () && object.seen.empty ())
       continue; // a trajectory alone
     const ObjectFacts facts = factsOf (object);
     const std::string name = nameOf (object, content), number = std::to_string (object.id);
-    table.row ({{name, "<i class=\"key " + styleOf (n) + "\"></i>" + (name == "object " + number ? "" : "<small>object " + number + "</small>")},
+    table.row ({{name, "<i class=\"key " + styleOf (object.id) + "\"></i>" + (name == "object " + number ? "" : "<small>object " + number + "</small>")},
                 {facts.size_mm},
                 {facts.volume_ml},
                 {facts.closed},

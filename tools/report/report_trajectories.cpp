@@ -5,6 +5,7 @@
 #include "svg_chart.h"
 
 #include <pcl/cosection/evaluation/trajectory_error.h>
+#include <pcl/cosection/visualization/viewpoint.h>
 
 #include <algorithm>
 #include <cmath>
@@ -78,7 +79,7 @@ pathsOf (const ReportContent& content)
 {
   const RunFolder& run = content.run;
   Eigen::Isometry3d T_chart_world = Eigen::Isometry3d::Identity ();
-  T_chart_world.linear () = levelled (upOf (run));
+  T_chart_world.linear () = levelled (content.run.camera.empty () ? Eigen::Vector3d::UnitZ () : upDirection (content.scene));
   Eigen::Isometry3d T_chart_truth = T_chart_world;
   if (content.truth)
     T_chart_truth = T_chart_world * content.truth->evaluation.camera.T_truth_estimate.inverse ();
@@ -91,13 +92,12 @@ pathsOf (const ReportContent& content)
       add (content.truth->truth.camera, T_chart_truth, Eigen::Vector3d::Zero (), camera.true_stamps, camera.true_places);
     paths.push_back (camera);
   }
-  for (std::size_t n = 0; n < run.objects.size (); ++n)
+  for (const RunObject& object : run.objects)
   {
-    const RunObject& object = run.objects[n];
     if (object.poses.empty ())
       continue;
     const Eigen::Vector3d middle = middleOf (object.completed.empty () ? object.seen : object.completed);
-    Path path{nameOf (object, content), styleOf (n), {}, {}, {}, {}};
+    Path path{nameOf (object, content), styleOf (object.id), {}, {}, {}, {}};
     add (object.poses, T_chart_world, middle, path.stamps, path.places);
     if (content.truth)
       if (const ObjectEvaluation* evaluation = evaluationOf (content.truth->evaluation, object.id))

@@ -205,15 +205,20 @@ readRunFolder (const std::string& path)
   return (run);
 }
 
-SceneRecord
-sceneRecord (const RunFolder& run)
+RunScene
+sceneOf (const RunFolder& run)
 {
-  SceneRecord record;
-  record.camera = run.camera;
-  record.intrinsics = run.intrinsics;
-  record.background = run.background;
+  RunScene scene;
+  scene.folder = run.path;
+  scene.run.camera = run.camera;
+  scene.run.intrinsics = run.intrinsics;
+  scene.run.background = run.background;
   for (const RunObject& object : run.objects)
     if (!object.poses.empty ())
-      record.objects.push_back ({object.id, std::to_string (object.id), object.poses, object.completed});
-  return (record);
+    {
+      scene.run.objects.push_back ({object.id, std::to_string (object.id), object.poses, object.completed});
+      if (!object.seen.empty ())
+        scene.tsdf[object.id] = object.seen;
+    }
+  return (scene);
 }

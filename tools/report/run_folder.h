@@ -8,6 +8,7 @@
 #include <pcl/cosection/common/triangle_mesh.h>
 #include <pcl/cosection/evaluation/run_evaluation.h>
 #include <pcl/cosection/io/trajectory.h>
+#include <pcl/cosection/visualization/run_scene.h>
 
 #include <optional>
 #include <string>
@@ -43,6 +44,6 @@ struct RunFolder
 RunFolder
 readRunFolder (const std::string& path);
 
-/** \brief What is compared with a truth. */
-pcl::cosection::SceneRecord
-sceneRecord (const RunFolder& run);
+/** \brief What of a run is compared with a truth, and drawn: what has poses. */
+pcl::cosection::RunScene
+sceneOf (const RunFolder& run);

@@ -2,7 +2,6 @@
 // Copyright (c) 2026, the pcl_cosection authors
 #include "run_truth.h"
 
-#include <pcl/cosection/evaluation/error_picture.h>
 #include <pcl/cosection/evaluation/scene_folders.h>
 #include <pcl/cosection/evaluation/surface_distance.h>
 
@@ -30,7 +29,7 @@ evaluationOf (const RunEvaluation& run, int id)
 }
 
 RunTruth
-compareWithTruth (const RunFolder& run, const std::string& dataset, int threads)
+compareWithTruth (const RunScene& run, const std::string& dataset, int threads)
 {
   RunTruth result;
   ReadingNotes notes;
@@ -39,20 +38,14 @@ compareWithTruth (const RunFolder& run, const std::string& dataset, int threads)
   RunOptions options;
   options.threads = threads;
   options.comparison.threads = threads;
-  result.evaluation = evaluateRun (result.truth, sceneRecord (run), options);
-  double largest_m = 0.0;
-  for (const RunObject& object : run.objects)
+  result.evaluation = evaluateRun (result.truth, run.run, options);
+  for (const ObjectEvaluation& object : result.evaluation.objects)
   {
-    const ObjectEvaluation* evaluation = evaluationOf (result.evaluation, object.id);
-    if (evaluation == nullptr)
-      continue;
-    largest_m = std::max (largest_m, evaluation->mesh.comparison.accuracy.p95);
-    const SceneRecord::Object* true_object = trueObject (result.truth, evaluation->truth_id);
-    if (true_object != nullptr && !object.seen.empty ())
-      result.seen[object.id] = compareMeshes (true_object->mesh, transformMesh (object.seen, evaluation->mesh.alignment.T_truth_estimate),
-                                              options.comparison);
+    const SceneRecord::Object* true_object = trueObject (result.truth, object.truth_id);
+    const TriangleMesh& seen = run.surface (object.id, SurfaceMode::Tsdf);
+    if (true_object != nullptr && !seen.empty ())
+      result.seen[object.id] = compareMeshes (true_object->mesh, transformMesh (seen, object.mesh.alignment.T_truth_estimate), options.comparison);
   }
-  result.error_max_m = roundErrorUp (largest_m);
   return (result);
 }
 

@@ -18,7 +18,6 @@ struct RunTruth
   pcl::cosection::SceneRecord truth;
   pcl::cosection::RunEvaluation evaluation;
   std::map<int, pcl::cosection::MeshComparison> seen; ///< of the TSDF meshes, in the alignment of the completed ones, by objects' ids
-  double error_max_m = 0.0; ///< end of a scale of all objects' errors
   std::vector<std::string> notes; ///< what of the truth is missing
 };
 
@@ -26,7 +25,7 @@ struct RunTruth
  * \throws pcl::cosection::IoError if the dataset has no truth
  * \throws pcl::cosection::DegenerateInput if the run has no camera that matches */
 RunTruth
-compareWithTruth (const RunFolder& run, const std::string& dataset, int threads);
+compareWithTruth (const pcl::cosection::RunScene& run, const std::string& dataset, int threads);
 
 /** \brief Another run, beside the one that a report is about. */
 struct ComparedRun

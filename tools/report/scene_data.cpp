@@ -5,6 +5,9 @@
 #include "mesh_embedding.h"
 #include "scene_directions.h"
 
+#include <pcl/cosection/visualization/scene_colours.h>
+#include <pcl/cosection/visualization/viewpoint.h>
+
 #include <algorithm>
 #include <cmath>
 #include <set>
@@ -15,7 +18,6 @@ namespace
 {
 
 constexpr double pose_steps = 1e5;    ///< per metre, and of quaternions
-constexpr double eye_distance = 1.15; ///< of the first view, in distances of the first camera
 
 /** \brief Written with few digits. */
 Json
@@ -84,34 +86,31 @@ shown (const ReportContent& content, const RunObject& object, const TriangleMesh
   const TriangleMesh small = forDisplay (mesh, most_triangles);
   if (!content.truth)
     return (embedMesh (small));
-  return (embedMesh (small, errorsOf (*content.truth, object.id, small, content.threads), content.truth->error_max_m));
+  return (embedMesh (small, errorsOf (*content.truth, object.id, small, content.threads), content.scene.error_max_m));
 }
 
-/** \brief Where the objects are in the middle of the sequence; the background's middle without objects. */
-Eigen::Vector3d
-targetOf (const RunFolder& run)
+/** \brief From where the first view is; without trajectories, around what is there. */
+Viewpoint
+firstView (const ReportContent& content)
 {
-  Eigen::Vector3d sum = Eigen::Vector3d::Zero ();
-  double count = 0.0;
-  for (const RunObject& object : run.objects)
-  {
-    const TriangleMesh& mesh = object.completed.empty () ? object.seen : object.completed;
-    if (mesh.empty ())
-      continue;
-    const Eigen::Isometry3d pose = object.poses.empty () ? Eigen::Isometry3d::Identity () : object.poses[object.poses.size () / 2].pose;
-    sum += pose * middleOf (mesh);
-    ++count;
-  }
-  return (count > 0.0 ? Eigen::Vector3d (sum / count) : middleOf (run.background));
-}
-
-/** \brief From where the first view is: behind and above the middle camera. */
-Eigen::Vector3d
-eyeOf (const RunFolder& run, const Eigen::Vector3d& target, const Eigen::Vector3d& up)
-{
-  if (!run.camera.empty ())
-    return (target + eye_distance * (run.camera[run.camera.size () / 2].pose.translation () - target));
-  return (target + 1.5 * (up + up.unitOrthogonal ()));
+  const bool has_objects = std::any_of (content.scene.run.objects.begin (), content.scene.run.objects.end (),
+                                        [] (const SceneRecord::Object& object) { return (!object.mesh.empty ()); });
+  if (!content.scene.run.camera.empty () && (has_objects || !content.run.background.empty ()))
+    return (overview (content.scene));
+  Eigen::AlignedBox3d box;
+  for (const RunObject& object : content.run.objects)
+    for (const Eigen::Vector3f& vertex : (object.completed.empty () ? object.seen : object.completed).vertices)
+      box.extend (vertex.cast<double> ());
+  if (box.isEmpty ())
+    for (const Eigen::Vector3f& vertex : content.run.background.vertices)
+      box.extend (vertex.cast<double> ());
+  if (box.isEmpty ())
+    box.extend (Eigen::Vector3d::Zero ());
+  Viewpoint view;
+  view.target = box.center ();
+  view.eye = box.center () + std::max (1e-3, box.diagonal ().norm ()) * Eigen::Vector3d (0.8, -1.0, 0.75);
+  view.up = Eigen::Vector3d::UnitZ ();
+  return (view);
 }
 
 } // namespace
@@ -121,29 +120,28 @@ sceneData (const ReportContent& content, const SceneBudget& budget)
 {
   const RunFolder& run = content.run;
   const std::vector<double> stamps = stampsOf (run, budget.frames);
-  const Eigen::Vector3d up = upOf (run), target = targetOf (run);
+  const Viewpoint view = firstView (content);
   Json json;
-  json["up"] = toJson (up);
-  json["target"] = toJson (target);
-  json["eye"] = toJson (eyeOf (run, target, up));
+  json["up"] = toJson (view.up);
+  json["target"] = toJson (view.target);
+  json["eye"] = toJson (view.eye);
   json["is_frame"] = std::all_of (stamps.begin (), stamps.end (), [] (double stamp) { return (stamp == std::floor (stamp) && stamp < 1e7); });
   json["stamps"] = stamps;
   json["camera"] = run.camera.empty () ? Json () : posesAt (run.camera, stamps);
   if (run.intrinsics)
     json["intrinsics"] = {{"fx", run.intrinsics->fx}, {"fy", run.intrinsics->fy}, {"cx", run.intrinsics->cx},
                           {"cy", run.intrinsics->cy}, {"width", run.intrinsics->width}, {"height", run.intrinsics->height}};
-  json["error_max_mm"] = content.truth ? Json (1000.0 * content.truth->error_max_m) : Json ();
+  json["error_max_mm"] = content.truth ? Json (1000.0 * content.scene.error_max_m) : Json ();
   json["background"] = run.background.empty () ? Json () : embedMesh (forDisplay (run.background, budget.background_triangles));
   json["objects"] = Json::array ();
   const std::size_t most = std::min (budget.object_triangles, budget.all_triangles / std::max<std::size_t> (1, run.objects.size ()));
-  for (std::size_t n = 0; n < run.objects.size (); ++n)
+  for (const RunObject& object : run.objects)
   {
-    const RunObject& object = run.objects[n];
     if (object.completed.empty () && object.seen.empty ())
       continue;
     json["objects"].push_back ({{"id", object.id},
                                 {"name", nameOf (object, content)},
-                                {"colour", colourOf (n)},
+                                {"colour", instanceColour (object.id)},
                                 {"poses", posesAt (object.poses, stamps)},
                                 {"completed", shown (content, object, object.completed, most)},
                                 {"seen", shown (content, object, object.seen, 2 * most / 3)}});

@@ -6,11 +6,6 @@
 
 #include <Eigen/Geometry>
 
-/** \brief What points up in the world of a run: the normal of the largest flat part of the background that faces up in the
- * camera's pictures, more or less; the mean up of the pictures where there is none. Unit. */
-Eigen::Vector3d
-upOf (const RunFolder& run);
-
 /** \brief How an object was seen, in its own frame. */
 struct ObjectDirections
 {

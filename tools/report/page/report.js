@@ -46,7 +46,6 @@
   // --- Colours --------------------------------------------------------------------------------------------------------
   const provenanceColours = [[190, 190, 190], [240, 150, 50], [80, 130, 220], [90, 180, 90]];
   const errorStops = [[62, 112, 200], [48, 168, 186], [118, 196, 104], [246, 214, 82], [238, 131, 48], [196, 30, 44]];
-  const confidenceStops = [[60, 30, 110], [190, 70, 100], [250, 220, 120]];
   const plain = [190, 192, 196];
 
   function between(stops, share) {
@@ -62,7 +61,7 @@
     if (mode === "provenance" && values)
       return function (v) { return provenanceColours[values[v]] || plain; };
     if (mode === "confidence" && values)
-      return function (v) { return between(confidenceStops, values[v] / 255); };
+      return function (v) { return between(errorStops, 1 - values[v] / 255); };
     if (mode === "error" && values)
       return function (v) { return between(errorStops, values[v] / 255); };
     const one = mode === "instance" ? instance : plain;
@@ -239,7 +238,7 @@
       ["observed", "inferred by smoothness", "bounded by free space", "bounded by another body"]
         .forEach(function (words, n) { entry("key p" + n, words); });
     if (mode.value === "confidence")
-      entry("scale grey", "far from any measurement … measured");
+      entry("scale turned", "confidence from 0 to 1, which is beside a reading");
     if (mode.value === "error")
       entry("scale", "0 to " + Number(data.error_max_mm.toPrecision(3)) + " mm and more");
     legend.parentNode.hidden = legend.childNodes.length === 0;
