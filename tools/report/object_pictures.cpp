@@ -46,30 +46,40 @@ fittingCamera (const TriangleMesh& mesh, const Eigen::Isometry3d& T_world_camera
   return {size, size, focal_length, focal_length, middle.x (), middle.y ()};
 }
 
+/** \brief Light from above on the left, and much from everywhere: hidden sides are to be seen. */
+double
+lightOn (const Eigen::Vector3f& normal)
+{
+  static const Eigen::Vector3f to_lamp = Eigen::Vector3f (-0.4f, -0.7f, -1.0f).normalized (); // x right, y down, z forward
+  constexpr double ambient = 0.56, lamp = 0.5;
+  return (ambient + lamp * std::max (0.0f, normal.dot (to_lamp)));
+}
+
 /** \brief The mean of the pixels that something covers; opaque as far as that is all of them. */
 void
-shrinkInto (const Picture& picture, const RasterImage& image, TransparentPicture& result, int top)
+shrinkInto (const RasterImage& image, TransparentPicture& result, int top)
 {
-  const int size = picture.width / oversampling;
+  const int size = image.width / oversampling;
   for (int v = 0; v < size; ++v)
     for (int u = 0; u < size; ++u)
     {
       int covered = 0;
-      Eigen::Vector3i sum = Eigen::Vector3i::Zero ();
+      Eigen::Vector3d sum = Eigen::Vector3d::Zero ();
       for (int n = 0; n < oversampling * oversampling; ++n)
       {
         const int x = u * oversampling + n % oversampling, y = v * oversampling + n / oversampling;
-        if (!std::isfinite (image.depth[static_cast<std::size_t> (y) * picture.width + x]))
+        const std::size_t pixel = static_cast<std::size_t> (y) * image.width + x;
+        if (!std::isfinite (image.depth[pixel]))
           continue;
         ++covered;
-        const auto& colour = picture.at (x, y);
-        sum += Eigen::Vector3i (colour[0], colour[1], colour[2]);
+        const TriangleMesh::Colour& colour = image.colours[pixel];
+        sum += lightOn (image.normals[pixel]) * Eigen::Vector3d (colour[0], colour[1], colour[2]);
       }
       if (covered == 0)
         continue;
-      const Eigen::Vector3i mean = sum / covered;
-      result.at (u, top + v) = {static_cast<std::uint8_t> (mean[0]), static_cast<std::uint8_t> (mean[1]), static_cast<std::uint8_t> (mean[2]),
-                                static_cast<std::uint8_t> (255 * covered / (oversampling * oversampling))};
+      const Eigen::Vector3d mean = (sum / covered).cwiseMin (255.0);
+      const auto byte = [] (double value) { return (static_cast<std::uint8_t> (std::lround (value))); };
+      result.at (u, top + v) = {byte (mean[0]), byte (mean[1]), byte (mean[2]), byte (255.0 * covered / (oversampling * oversampling))};
     }
 }
 
@@ -93,7 +103,7 @@ drawFrontAndBack (const TriangleMesh& mesh, const TriangleMesh& fit_to, const Ob
     const PinholeCamera camera = fittingCamera (fit_to, T_object_camera, oversampling * size_px);
     Rasterizer rasterizer (camera, T_object_camera, 1e-6);
     rasterizer.draw (mesh, 1, Eigen::Isometry3d::Identity (), plain);
-    shrinkInto (shade (rasterizer.image (), camera), rasterizer.image (), result, row * size_px);
+    shrinkInto (rasterizer.image (), result, row * size_px);
   }
   return (result);
 }

@@ -88,7 +88,7 @@ writeFacts (HtmlWriter& html, const ReportContent& content)
   if (content.truth)
     writeFact (html, inMillimetres (content.truth->evaluation.camera.ate_m.rmse), "mm", "camera ATE");
   if (knows_depth)
-    writeFact (html, inMillimetres (deepest_m), "mm", "deepest inside another");
+    writeFact (html, inMillimetres (deepest_m), "mm", "deepest overlap");
   if (const std::optional<double> rate = numberIn (content.run.summary, "frames_per_second"))
     writeFact (html, toText (*rate), "/s", "frames");
   html.close ("dl");

@@ -10,6 +10,7 @@
 #include "report_plots.h"
 #include "report_tables.h"
 #include "scene_data.h"
+#include "scene_panels.h"
 #include "text_table.h"
 
 #include <pcl/cosection/common/error.h>
@@ -68,7 +69,7 @@ writePictureKeys (HtmlWriter& html, const ReportContent& content)
   for (int n = 0; n < 4; ++n)
     html.open ("li").markup ("<i class=\"key p" + std::to_string (n) + "\"></i>").text (names[n]).close ("li");
   if (content.truth)
-    html.open ("li").markup ("<i class=\"scale\"></i>").text ("error, 0 to " + inMillimetres (content.scene.error_max_m) + " mm and more").close ("li");
+    html.open ("li").markup ("<i class=\"scale\"></i>").text ("error, 0 to " + toShortText (1000.0 * content.scene.error_max_m) + " mm and more").close ("li");
   html.close ("ul");
 }
 
@@ -81,6 +82,10 @@ writePictures (HtmlWriter& html, const ReportContent& content, const ProgressCal
   html.element ("p", "Left what was seen, the zero level of the truncated distances averaged over all frames; then what was completed. Above from the side of the "
                      "camera, below from behind.");
   writePictureKeys (html, content);
+  html.open ("div", {{"class", "panels scene"}});
+  for (const CaptionedPicture& picture : drawScenePanels (content))
+    writePicture (html, picture);
+  html.close ("div");
   for (std::size_t n = 0; n < objects.size (); ++n)
   {
     tell (progress, "drawing objects", 0.1 + 0.4 * static_cast<double> (n) / static_cast<double> (objects.size ()));

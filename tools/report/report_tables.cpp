@@ -117,7 +117,7 @@ HtmlTable::row (const std::vector<TableCell>& cells)
     if (n + 1 == cells.size () && cells.size () < header_.size ())
       attributes.emplace_back ("colspan", std::to_string (header_.size () - n));
     const std::string name = n == 0 ? "th" : "td";
-    html_.open (name, attributes).text (cells[n].text).markup (cells[n].markup).close (name);
+    html_.open (name, attributes).markup (cells[n].before).text (cells[n].text).markup (cells[n].after).close (name);
   }
   html_.close ("tr");
 }
@@ -188,7 +188,7 @@ writeObjectTable (HtmlWriter& html, const ReportContent& content)
       continue; // a trajectory alone
     const ObjectFacts facts = factsOf (object);
     const std::string name = nameOf (object, content), number = std::to_string (object.id);
-    table.row ({{name, "<i class=\"key " + styleOf (object.id) + "\"></i>" + (name == "object " + number ? "" : "<small>object " + number + "</small>")},
+    table.row ({{name, name == "object " + number ? "" : "<small>object " + number + "</small>", "<i class=\"key " + styleOf (object.id) + "\"></i>"},
                 {facts.size_mm},
                 {facts.volume_ml},
                 {facts.closed},

@@ -13,7 +13,8 @@
 struct TableCell
 {
   std::string text;
-  std::string markup = {}; ///< after the text
+  std::string after = {};  ///< markup behind the text
+  std::string before = {}; ///< and before it
 };
 
 /** \brief A table whose rows become blocks on narrow screens. Begins each row with a header. */

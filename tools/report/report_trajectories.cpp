@@ -195,9 +195,14 @@ writeTrajectories (HtmlWriter& html, const ReportContent& content)
     writeKey (html, path.style, path.name);
   if (content.truth)
     html.open ("li").markup ("<i class=\"key truth\"></i>").text ("truth").close ("li");
+  html.close ("ul").open ("ul", {{"class", "legend"}}).element ("li", "Over time:");
+  static const char* const axes[] = {"x", "y", "z (up)"};
+  static const char* const axis_styles[] = {"ax", "ay", "az"};
+  for (int axis = 0; axis < 3; ++axis)
+    writeKey (html, axis_styles[axis], axes[axis]);
   html.close ("ul").open ("div", {{"class", "charts"}});
 
-  LineChart above{"From above", "x (m)", "y (m)", {}, true, 340};
+  LineChart above{"From above", "x (m)", "y (m)", {}, true, 480};
   for (const Path& path : paths)
   {
     above.series.push_back ({path.style, lineOf (path.stamps, path.places, period, fromAbove, 0), false, true});
@@ -205,8 +210,6 @@ writeTrajectories (HtmlWriter& html, const ReportContent& content)
       above.series.push_back ({"truth", lineOf (path.true_stamps, path.true_places, period, fromAbove, 0), true, false});
   }
   writeChart (html, above);
-  static const char* const axes[] = {"x", "y", "z"};
-  static const char* const axis_styles[] = {"ax", "ay", "az"};
   for (std::size_t n = 0; n < paths.size (); ++n)
   {
     const Path& path = paths[n];
@@ -229,10 +232,6 @@ writeTrajectories (HtmlWriter& html, const ReportContent& content)
   html.close ("div");
   if (paths.size () > most_open)
     html.close ("details");
-  html.open ("ul", {{"class", "legend"}});
-  for (int axis = 0; axis < 3; ++axis)
-    writeKey (html, axis_styles[axis], std::string (axes[axis]) + (axis == 2 ? " (up)" : ""));
-  html.close ("ul");
   html.element ("p", "Rings are beginnings, dots are ends; where nothing was tracked the line is interrupted. Of objects, the middle of the mesh is shown.", {{"class", "note"}});
   return (true);
 }

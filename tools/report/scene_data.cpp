@@ -17,6 +17,7 @@ using namespace pcl::cosection;
 namespace
 {
 
+constexpr double nearer = 0.8;        ///< than a picture of everything: one may turn and move
 constexpr double pose_steps = 1e5;    ///< per metre, and of quaternions
 
 /** \brief Written with few digits. */
@@ -96,7 +97,11 @@ firstView (const ReportContent& content)
   const bool has_objects = std::any_of (content.scene.run.objects.begin (), content.scene.run.objects.end (),
                                         [] (const SceneRecord::Object& object) { return (!object.mesh.empty ()); });
   if (!content.scene.run.camera.empty () && (has_objects || !content.run.background.empty ()))
-    return (overview (content.scene));
+  {
+    Viewpoint view = overview (content.scene);
+    view.eye = view.target + nearer * (view.eye - view.target);
+    return (view);
+  }
   Eigen::AlignedBox3d box;
   for (const RunObject& object : content.run.objects)
     for (const Eigen::Vector3f& vertex : (object.completed.empty () ? object.seen : object.completed).vertices)

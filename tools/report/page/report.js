@@ -281,18 +281,24 @@
     const ahead = new THREE.Vector3(0, 0, 1).applyQuaternion(rotation);
     eye.position.set(pose[0], pose[1], pose[2]);
     controls.target.copy(eye.position).addScaledVector(ahead, distance);
-    if (data.intrinsics)
-      eye.fov = 2 * Math.atan(0.5 * data.intrinsics.height / data.intrinsics.fy) * 180 / Math.PI;
-    eye.updateProjectionMatrix();
+    setAngle();
     controls.update();
+  }
+
+  // The upright angle of view; wider where the view is narrow, so that the scene fits.
+  function setAngle() {
+    const camera = follow.checked ? data.intrinsics : null;
+    const upright = camera ? 0.5 * camera.height / camera.fy : Math.tan(Math.PI / 8);
+    const sideways = camera ? 0.5 * camera.width / camera.fx : 1.3 * upright;
+    eye.fov = 2 * Math.atan(Math.max(upright, sideways / eye.aspect)) * 180 / Math.PI;
+    eye.updateProjectionMatrix();
   }
 
   function resetView() {
     follow.checked = false;
-    eye.fov = 45;
     eye.position.fromArray(data.eye);
     controls.target.fromArray(data.target);
-    eye.updateProjectionMatrix();
+    setAngle();
     controls.update();
     drawSoon();
   }
@@ -328,7 +334,7 @@
     renderer.setPixelRatio(Math.min(window.devicePixelRatio || 1, 2));
     renderer.setSize(width, height, false);
     eye.aspect = width / height;
-    eye.updateProjectionMatrix();
+    setAngle();
     draw();
   }
 
