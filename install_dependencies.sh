@@ -17,9 +17,11 @@ packages=(
   # tools
   libcli11-dev
   nlohmann-json3-dev
+  libjs-three
   # tests, benchmarks, documentation
   libgtest-dev
   libbenchmark-dev
+  chromium
   doxygen
 )
 

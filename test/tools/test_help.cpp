@@ -9,6 +9,7 @@
 #include "fusion_command_line.h"
 #include "option_table.h"
 #include "program_text.h"
+#include "report_command_line.h"
 #include "scene_files.h"
 #include "segment_command_line.h"
 #include "simulate_command_line.h"
@@ -117,6 +118,17 @@ TEST_F (Help, SegmentationIsExplained)
   declareSegmentationOptions (app, given);
   const std::string screen = helpText (app, segmentationText ());
   EXPECT_GE (expectEverywhere (app, screen, manPage (app, segmentationText ()), "pcl_cosection_segment.md"), 12);
+  for (const std::string& line : linesOf (screen))
+    EXPECT_LE (line.size (), 80u) << line;
+}
+
+TEST_F (Help, ReportsAreExplained)
+{
+  CLI::App app;
+  GivenReport given;
+  declareReportOptions (app, given);
+  const std::string screen = helpText (app, reportText ());
+  EXPECT_GE (expectEverywhere (app, screen, manPage (app, reportText ()), "pcl_cosection_report.md"), 8);
   for (const std::string& line : linesOf (screen))
     EXPECT_LE (line.size (), 80u) << line;
 }

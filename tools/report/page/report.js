@@ -87,8 +87,8 @@
   const eye = new THREE.PerspectiveCamera(45, 1, 0.01, 200);
   eye.up.fromArray(data.up);
   const lamp = new THREE.DirectionalLight(0xffffff, 0.75);
-  lamp.position.set(0.3, 0.6, 1);
-  eye.add(lamp);
+  lamp.position.set(-0.4, 0.7, 1); // of the eye: from above on the left
+  eye.add(lamp, lamp.target);
   scene.add(eye, new THREE.AmbientLight(0xffffff, 0.42));
 
   const items = [];  // meshes: {object, mesh, colour, shape}
