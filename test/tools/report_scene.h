@@ -6,7 +6,7 @@
 
 #include <string>
 
-/** \brief A folder with the sequence sim and the run out of it, and out_none without constraints, both made once for all tests.
+/** \brief A folder with the sequence sim and the run out of it, made once for all tests.
  * pcl_cosection_report runs in that folder. */
 class ReportScene : public FusionScene
 {
@@ -15,6 +15,10 @@ protected:
   SetUpTestSuite ();
 
   ReportScene ();
+
+  /** \brief Make out_none, a run without constraints. */
+  void
+  makeOtherRun ();
 
   /** \brief Run the program. \return the exit status */
   int

@@ -13,6 +13,6 @@ struct EmbeddedFile
 
 extern const EmbeddedFile report_style;   ///< page/report.css
 extern const EmbeddedFile report_script;  ///< page/report.js
-extern const EmbeddedFile three_library;  ///< three.js
+extern const EmbeddedFile three_library;  ///< three.js; empty if the program was built without
 extern const EmbeddedFile orbit_controls; ///< its OrbitControls
 extern const EmbeddedFile three_notice;   ///< its licence, page/three_notice.txt

@@ -67,7 +67,7 @@ reportText ()
       {
           {"pcl_cosection_report things", "report.html in the current folder"},
           {"pcl_cosection_report --truth table -o things.html things", "with the errors"},
-          {"pcl_cosection_report --truth table --compare things_hull --compare things_none things", "an ablation"},
+          {"pcl_cosection_report --truth table --compare things_none things", "beside another run"},
       },
       {"truth = table", "output = things.html"},
   };

@@ -170,7 +170,8 @@ void
 writeFooter (HtmlWriter& html)
 {
   html.open ("footer").element ("p", "Written by pcl_cosection_report " PCL_COSECTION_VERSION ". This file loads nothing from anywhere.");
-  html.open ("details").element ("summary", "Licence of three.js, which draws the scene").open ("pre").text (std::string (three_notice.text)).close ("pre").close ("details");
+  if (!three_library.text.empty ())
+    html.open ("details").element ("summary", "Licence of three.js, which draws the scene").open ("pre").text (std::string (three_notice.text)).close ("pre").close ("details");
   html.close ("footer");
   for (const EmbeddedFile& script : {three_library, orbit_controls, report_script})
     html.open ("script").markup (script.text).close ("script");
@@ -192,7 +193,7 @@ reportPage (const ReportContent& content, const ProgressCallback& progress)
   if (!content.run.objects.empty ())
     writePictures (html, content, progress);
   tell (progress, "embedding meshes", 0.5);
-  if (has_meshes)
+  if (has_meshes && !three_library.text.empty ())
     writeInteractiveView (html, content);
   tell (progress, "writing tables", 0.95);
   const auto section = [&] (const char* id, const char* title, auto&& write) {
