@@ -9,6 +9,7 @@
 #include "mesh_embedding.h"
 #include "report_content.h"
 #include "scene_data.h"
+#include "scene_directions.h"
 #include "svg_chart.h"
 
 #include <pcl/cosection/visualization/scene_colours.h>
@@ -261,6 +262,20 @@ TEST (ReportPieces, ColoursAreThoseOfThePictures)
     std::snprintf (rule, sizeof (rule), ".%s { --c: #%02x%02x%02x }", styleOf (id).c_str (), colour[0], colour[1], colour[2]);
     EXPECT_NE (style.find (rule), std::string::npos) << rule;
   }
+}
+
+TEST (ReportPieces, SizesAreThoseOfThingsAsTheyStand)
+{
+  const Eigen::Vector3d up = Eigen::Vector3d (0.3, -0.5, 0.8).normalized ();
+  const Eigen::Vector3d x = up.unitOrthogonal (), y = up.cross (x);
+  TriangleMesh box; // 0.3 x 0.2 on the ground, 0.1 high, turned somehow
+  for (int corner = 0; corner < 8; ++corner)
+  {
+    const Eigen::Vector2d level = Eigen::Rotation2Dd (0.7) * Eigen::Vector2d (corner & 1 ? 0.3 : 0.0, corner & 2 ? 0.2 : 0.0);
+    box.vertices.push_back ((5.0 * x + level.x () * x + level.y () * y + (corner & 4 ? 0.1 : 0.0) * up).cast<float> ());
+  }
+  EXPECT_TRUE (standingSize (box, up).isApprox (Eigen::Vector3d (0.3, 0.2, 0.1), 1e-4)) << standingSize (box, up).transpose ();
+  EXPECT_EQ (standingSize (TriangleMesh (), up), Eigen::Vector3d (0, 0, 0));
 }
 
 TEST (ReportPieces, NamesOfFolders)

@@ -112,7 +112,9 @@ std::vector<CaptionedPicture>
 drawObject (const RunObject& object, const ObjectDirections& directions, const std::vector<double>& errors_m, double error_max_m, const std::string& name)
 {
   std::vector<CaptionedPicture> pictures;
-  const TriangleMesh& fit_to = object.completed.empty () ? object.seen : object.completed;
+  TriangleMesh fit_to; // both, as points
+  fit_to.vertices = object.completed.vertices;
+  fit_to.vertices.insert (fit_to.vertices.end (), object.seen.vertices.begin (), object.seen.vertices.end ());
   const auto add = [&] (const TriangleMesh& mesh, const std::string& caption, const std::string& what) {
     if (mesh.empty ())
       return;

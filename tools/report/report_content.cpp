@@ -2,6 +2,8 @@
 // Copyright (c) 2026, the pcl_cosection authors
 #include "report_content.h"
 
+#include <pcl/cosection/visualization/viewpoint.h>
+
 #include <filesystem>
 
 using namespace pcl::cosection;
@@ -20,6 +22,12 @@ nameOf (const RunObject& object, const ReportContent& content)
     if (const ObjectEvaluation* evaluation = evaluationOf (content.truth->evaluation, object.id))
       return (evaluation->truth_name);
   return ("object " + std::to_string (object.id));
+}
+
+Eigen::Vector3d
+upOf (const ReportContent& content)
+{
+  return (content.run.camera.empty () ? Eigen::Vector3d (Eigen::Vector3d::UnitZ ()) : upDirection (content.scene));
 }
 
 std::string

@@ -27,6 +27,10 @@ struct ReportContent
 std::string
 nameOf (const RunObject& object, const ReportContent& content);
 
+/** \brief What is above in the world of the run; z if nothing tells. Unit. */
+Eigen::Vector3d
+upOf (const ReportContent& content);
+
 /** \brief What the run was made from: the last part of the dataset's name, or of the run's. */
 std::string
 titleOf (const ReportContent& content);

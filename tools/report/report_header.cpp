@@ -19,6 +19,8 @@ sentence (const RunFolder& run)
   const std::size_t completed =
       static_cast<std::size_t> (std::count_if (run.objects.begin (), run.objects.end (), [] (const RunObject& object) { return (!object.completed.empty ()); }));
   std::string text = counted (completed, "completed object") + (run.background.empty () ? "" : " and the background");
+  if (completed == 0)
+    text = run.background.empty () ? "Nothing was completed" : "The background";
   const std::optional<double> frames = numberIn (run.summary, "frames"), seconds = numberIn (member (run.summary, "timings_s"), "total");
   if (frames)
     text += " from " + counted (static_cast<std::size_t> (std::max (0.0, *frames)), "frame");

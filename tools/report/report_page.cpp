@@ -15,7 +15,6 @@
 
 #include <pcl/cosection/common/error.h>
 #include <pcl/cosection/version.h>
-#include <pcl/cosection/visualization/viewpoint.h>
 
 using namespace pcl::cosection;
 
@@ -77,7 +76,7 @@ void
 writePictures (HtmlWriter& html, const ReportContent& content, const ProgressCallback& progress)
 {
   const std::vector<RunObject>& objects = content.run.objects;
-  const Eigen::Vector3d up = content.run.camera.empty () ? Eigen::Vector3d::UnitZ () : upDirection (content.scene);
+  const Eigen::Vector3d up = upOf (content);
   Section section (html, "pictures", "Before and after");
   html.element ("p", "Left what was seen, the zero level of the truncated distances averaged over all frames; then what was completed. Above from the side of the "
                      "camera, below from behind.");

@@ -2,6 +2,7 @@
 // Copyright (c) 2026, the pcl_cosection authors
 #include "report_tables.h"
 
+#include "scene_directions.h"
 #include "svg_chart.h"
 #include "text_table.h"
 
@@ -24,9 +25,11 @@ constexpr std::array<const char*, kinds> kind_names = {"observed", "inferred", "
 const char* const times = " \xC3\x97 ";
 
 std::string
-sizeText (const TriangleMesh& mesh)
+sizeText (const RunObject& object, const ReportContent& content)
 {
-  const Eigen::Vector3d size = millimetres * summarizeMesh (mesh).box.sizes ();
+  if (object.completed.empty ())
+    return (dash);
+  const Eigen::Vector3d size = millimetres * standingSize (object.completed, directionsOf (object, content.run, upOf (content)).up);
   return (toText (size.x ()) + times + toText (size.y ()) + times + toText (size.z ()));
 }
 
@@ -131,18 +134,14 @@ HtmlTable::end ()
 ObjectFacts
 factsOf (const RunObject& object)
 {
-  ObjectFacts facts = {dash, dash, dash, dash, dash, dash, std::nullopt};
+  ObjectFacts facts = {dash, dash, dash, dash, dash, std::nullopt};
   std::optional<double> volume_m3 = numberIn (object.summary, "volume_m3");
   facts.is_closed = flagIn (object.summary, "closed");
-  if (!object.completed.empty ())
+  if (!object.completed.empty () && !facts.is_closed)
   {
-    facts.size_mm = sizeText (object.completed);
-    if (!facts.is_closed)
-    {
-      const MeshSummary mesh = summarizeMesh (object.completed);
-      facts.is_closed = mesh.topology.closed_manifold;
-      volume_m3 = mesh.volume_m3;
-    }
+    const MeshSummary mesh = summarizeMesh (object.completed);
+    facts.is_closed = mesh.topology.closed_manifold;
+    volume_m3 = mesh.volume_m3;
   }
   if (volume_m3)
     facts.volume_ml = inMillilitres (*volume_m3);
@@ -189,7 +188,7 @@ writeObjectTable (HtmlWriter& html, const ReportContent& content)
     const ObjectFacts facts = factsOf (object);
     const std::string name = nameOf (object, content), number = std::to_string (object.id);
     table.row ({{name, name == "object " + number ? "" : "<small>object " + number + "</small>", "<i class=\"key " + styleOf (object.id) + "\"></i>"},
-                {facts.size_mm},
+                {sizeText (object, content)},
                 {facts.volume_ml},
                 {facts.closed},
                 {"", provenanceMarkup (object)},
@@ -202,7 +201,7 @@ writeObjectTable (HtmlWriter& html, const ReportContent& content)
   html.open ("p", {{"class", "note"}}).text ("Provenance, in this order: ");
   for (std::size_t n = 0; n < kinds; ++n)
     html.markup ("<i class=\"key p" + std::to_string (n) + "\"></i>").text (kind_names[n] + std::string (n + 1 < kinds ? ", " : ". "));
-  html.text ("Size: the box around the completed mesh in the object's own frame. Inside others: how deep the object remains inside another body.");
+  html.text ("Size: length, width and height of the box around the completed mesh as it stands. Inside others: how deep the object remains inside another body.");
   html.close ("p");
 }
 

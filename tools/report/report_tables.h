@@ -37,8 +37,7 @@ private:
 /** \brief What an object is like: by summary.json, else by its mesh. */
 struct ObjectFacts
 {
-  std::string size_mm; ///< "120 x 80 x 95"; all texts are "–" where it is not known
-  std::string volume_ml, closed, penetration_mm, frames, solver;
+  std::string volume_ml, closed, penetration_mm, frames, solver; ///< "–" where it is not known
   std::optional<bool> is_closed;
 };
 

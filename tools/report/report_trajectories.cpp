@@ -5,7 +5,6 @@
 #include "svg_chart.h"
 
 #include <pcl/cosection/evaluation/trajectory_error.h>
-#include <pcl/cosection/visualization/viewpoint.h>
 
 #include <algorithm>
 #include <cmath>
@@ -79,7 +78,7 @@ pathsOf (const ReportContent& content)
 {
   const RunFolder& run = content.run;
   Eigen::Isometry3d T_chart_world = Eigen::Isometry3d::Identity ();
-  T_chart_world.linear () = levelled (content.run.camera.empty () ? Eigen::Vector3d::UnitZ () : upDirection (content.scene));
+  T_chart_world.linear () = levelled (upOf (content));
   Eigen::Isometry3d T_chart_truth = T_chart_world;
   if (content.truth)
     T_chart_truth = T_chart_world * content.truth->evaluation.camera.T_truth_estimate.inverse ();

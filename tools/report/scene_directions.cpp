@@ -2,6 +2,9 @@
 // Copyright (c) 2026, the pcl_cosection authors
 #include "scene_directions.h"
 
+#include <opencv2/core.hpp>
+#include <opencv2/imgproc.hpp>
+
 #include <algorithm>
 #include <cmath>
 
@@ -29,6 +32,24 @@ middleOf (const TriangleMesh& mesh)
   for (const Eigen::Vector3f& vertex : mesh.vertices)
     box.extend (vertex.cast<double> ());
   return (box.isEmpty () ? Eigen::Vector3d (Eigen::Vector3d::Zero ()) : Eigen::Vector3d (box.center ()));
+}
+
+Eigen::Vector3d
+standingSize (const TriangleMesh& mesh, const Eigen::Vector3d& up)
+{
+  if (mesh.vertices.empty ())
+    return (Eigen::Vector3d::Zero ());
+  const Eigen::Vector3d x = up.unitOrthogonal (), y = up.cross (x);
+  std::vector<cv::Point2f> level;
+  Eigen::AlignedBox1d heights;
+  for (const Eigen::Vector3f& vertex : mesh.vertices)
+  {
+    const Eigen::Vector3d v = vertex.cast<double> ();
+    level.emplace_back (static_cast<float> (v.dot (x)), static_cast<float> (v.dot (y)));
+    heights.extend (Eigen::AlignedBox1d::VectorType (v.dot (up)));
+  }
+  const cv::Size2f area = cv::minAreaRect (level).size;
+  return {std::max (area.width, area.height), std::min (area.width, area.height), heights.sizes ()[0]};
 }
 
 ObjectDirections

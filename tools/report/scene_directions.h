@@ -21,6 +21,11 @@ directionsOf (const RunObject& object, const RunFolder& run, const Eigen::Vector
 const Eigen::Isometry3d*
 poseAt (const std::vector<pcl::cosection::StampedPose>& poses, double stamp);
 
+/** \brief Length, width and height (metres) of the smallest box around a mesh that stands upright; zero without vertices.
+ * \param[in] up in the frame of the mesh, unit */
+Eigen::Vector3d
+standingSize (const pcl::cosection::TriangleMesh& mesh, const Eigen::Vector3d& up);
+
 /** \brief The middle of the box around a mesh. */
 Eigen::Vector3d
 middleOf (const pcl::cosection::TriangleMesh& mesh);

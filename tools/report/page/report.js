@@ -86,10 +86,10 @@
   const scene = new THREE.Scene();
   const eye = new THREE.PerspectiveCamera(45, 1, 0.01, 200);
   eye.up.fromArray(data.up);
-  const lamp = new THREE.DirectionalLight(0xffffff, 0.75);
-  lamp.position.set(-0.4, 0.7, 1); // of the eye: from above on the left
+  const lamp = new THREE.DirectionalLight(0xffffff, 0.62);
+  lamp.position.set(-0.3, 0.3, 1); // of the eye: from above on the left
   eye.add(lamp, lamp.target);
-  scene.add(eye, new THREE.AmbientLight(0xffffff, 0.42));
+  scene.add(eye, new THREE.AmbientLight(0xffffff, 0.55));
 
   const items = [];  // meshes: {object, mesh, colour, shape}
   const movers = []; // what follows a trajectory: {node, poses}
