@@ -18,8 +18,8 @@ using namespace pcl::cosection;
 namespace
 {
 
-constexpr std::size_t display_triangles = 100000; // as pcl_cosection_viewer
-constexpr int repetitions = 3;
+constexpr std::size_t display_triangles = 30000; // as pcl_cosection_viewer
+constexpr int repetitions = 2;
 
 double
 framesPerSecond (RunWindow& window, std::size_t frames)
@@ -50,7 +50,7 @@ main (int argc, char** argv)
   {
     ReadingNotes notes;
     RunSceneOptions scene_options;
-    scene_options.background_triangles = display_triangles;
+    scene_options.triangles = display_triangles;
     RunScene scene = loadRunScene (argv[1], notes, scene_options);
     const std::size_t frames = scene.run.camera.size ();
     RunWindowOptions options;

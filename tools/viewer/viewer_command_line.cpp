@@ -18,7 +18,8 @@ namespace
 
 const std::vector<std::string> view_names = {"overview", "behind", "camera"};
 const std::vector<std::string> parts = {"objects", "background", "path", "frustum", "legend", "caption"};
-constexpr std::size_t most_triangles = 100000000;
+constexpr long most_triangles = 100000000;
+constexpr int window_triangles = 30000;
 
 std::string
 joined (const std::vector<std::string>& words)
@@ -79,8 +80,9 @@ declareView (CLI::App& app, GivenViewer& given)
       ->group (group);
   app.add_option ("--viewpoint", given.viewpoint, "A viewpoint that was saved in the window, instead")->option_text ("FILE")->group (group);
   app.add_option ("--size", given.size, "Of the picture or the window, pixels (default: 1280x720)")->option_text ("WxH")->group (group);
-  app.add_option ("--background-triangles", given.background_triangles,
-                  "Draw the background with so many triangles at most; 0: all (default: 100000)")
+  app.add_option ("--triangles", given.triangles,
+                  "Draw the background with at most so many triangles and each object with half as many; 0: with all (default: 30000 in a window, for "
+                  "speed; all in pictures)")
       ->option_text ("N")
       ->check (wholeRange (0, most_triangles))
       ->group (group);
@@ -169,7 +171,7 @@ toSettings (const GivenViewer& given)
   settings.stamp = given.frame;
   if (given.frame && !settings.record.empty ())
     throw UsageError ("--frame and --record exclude each other: every frame is recorded");
-  settings.background_triangles = static_cast<std::size_t> (given.background_triangles.value_or (static_cast<int> (settings.background_triangles)));
+  settings.triangles = static_cast<std::size_t> (given.triangles.value_or (settings.needsWindow () ? window_triangles : 0));
   settings.every = static_cast<std::size_t> (given.every.value_or (1));
   settings.threads = given.threads.value_or (0);
   SceneView& view = settings.view;

@@ -29,7 +29,7 @@ struct ViewerSettings
   std::string viewpoint;        ///< file; empty: \a choice
   ViewChoice choice = ViewChoice::Overview;
   std::optional<double> stamp;  ///< nothing: the last
-  std::size_t background_triangles = 100000; ///< 0: all
+  std::size_t triangles = 0;    ///< of each surface, at most; 0: all
   std::string screenshot;       ///< file; empty: none
   std::string record;           ///< folder; empty: none
   std::size_t every = 1;        ///< frames, to record
@@ -55,7 +55,7 @@ struct GivenViewer
   std::vector<std::string> paths, hidden;
   std::string truth, dataset, viewpoint, view, mode, colour, size, screenshot, record, follow;
   std::optional<double> frame;
-  std::optional<int> every, background_triangles, threads;
+  std::optional<int> every, triangles, threads;
   bool boxes = false, verbose = false, quiet = false;
 };
 

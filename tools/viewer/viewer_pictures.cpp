@@ -108,7 +108,7 @@ loadScene (const ViewerSettings& settings, Terminal& terminal)
 {
   ReadingNotes notes;
   RunSceneOptions options;
-  options.background_triangles = settings.background_triangles;
+  options.triangles = settings.triangles;
   RunScene scene = loadRunScene (settings.run, notes, options);
   if (!settings.truth.empty ())
   {

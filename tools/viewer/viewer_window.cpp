@@ -17,7 +17,6 @@
 
 #include <array>
 #include <filesystem>
-#include <iostream>
 
 namespace fs = std::filesystem;
 using namespace pcl::cosection;
@@ -40,12 +39,6 @@ class FollowedRun
 public:
   FollowedRun (const ViewerSettings& settings, Terminal& terminal) : settings_ (settings), terminal_ (terminal)
   {}
-
-  ~FollowedRun ()
-  {
-    std::error_code ignored;
-    fs::remove_all (settings_.follow, ignored); // of which nobody has a use any more
-  }
 
   FollowedRun (const FollowedRun&) = delete;
   FollowedRun&
@@ -146,7 +139,7 @@ showWindow (const ViewerSettings& settings, Terminal& terminal)
   options.view.surface = SurfaceMode::Tsdf;
   options.newScene = [&followed] { return (followed.next ()); };
   RunWindow window (emptyScene (), options);
-  std::cout << "ready" << std::endl; // who started this waits for it
+  saveText ("", (fs::path (settings.follow) / "ready").string ()); // who started this waits for it
   window.run ();
 }
 

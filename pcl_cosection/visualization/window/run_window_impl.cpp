@@ -211,9 +211,6 @@ RunWindow::Impl::takeScene (SceneUpdate update)
     frame_ = std::min (frame_, static_cast<std::size_t> (std::lower_bound (stamps_.begin (), stamps_.end (), shown) - stamps_.begin ()));
   actors_->setScene (*scene_);
   points_.reset ();
-  reader_.reset ();
-  if (options_.view.surface == SurfaceMode::Points)
-    options_.view.surface = SurfaceMode::Completed;
   options_.view.surface = update.surface.value_or (options_.view.surface);
   dynamic_cast<vtkSliderRepresentation*> (slider_->GetRepresentation ())->SetMaximumValue (static_cast<double> (std::max<std::size_t> (2, stamps_.size ())));
   if (slices_.object == 0)
