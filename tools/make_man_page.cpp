@@ -10,6 +10,7 @@
 #include "report_command_line.h"
 #include "segment_command_line.h"
 #include "simulate_command_line.h"
+#include "viewer_command_line.h"
 
 #include <iostream>
 
@@ -53,6 +54,13 @@ main (int argc, char** argv)
     GivenSimulation given;
     declareSimulationOptions (app, given);
     std::cout << manPage (app, simulationText ()) << std::flush;
+  }
+  else if (program == "pcl_cosection_viewer")
+  {
+    CLI::App app;
+    GivenViewer given;
+    declareViewerOptions (app, given);
+    std::cout << manPage (app, viewerText ()) << std::flush;
   }
   else
     return (2);

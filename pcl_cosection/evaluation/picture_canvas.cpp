@@ -78,7 +78,8 @@ PictureCanvas::drawScale (const cv::Rect& box, const CanvasScale& scale)
   const int n = oversampling_;
   for (int v = 0; v < box.height * n; ++v)
   {
-    const auto colour = errorColour (1.0 - static_cast<double> (v) / (box.height * n - 1));
+    const double share = static_cast<double> (v) / (box.height * n - 1);
+    const auto colour = errorColour (scale.upside_down ? share : 1.0 - share);
     cv::line (pixels_, cv::Point (box.x * n, box.y * n + v), cv::Point ((box.x + box.width) * n, box.y * n + v),
               cv::Scalar (colour[0], colour[1], colour[2]));
   }
@@ -91,7 +92,8 @@ PictureCanvas::drawScale (const cv::Rect& box, const CanvasScale& scale)
     const int y = box.y + box.height - box.height * step / steps;
     cv::line (pixels_, cv::Point ((box.x + box.width) * n, y * n), cv::Point ((box.x + box.width + 6) * n, y * n), ink, n,
               cv::LINE_AA);
-    write (shortText (scale.least + (scale.most - scale.least) * step / steps) + (step == steps && scale.more ? " +" : ""),
+    const double at = scale.upside_down ? steps - step : step;
+    write (shortText (scale.least + (scale.most - scale.least) * at / steps) + (step == steps && scale.more ? " +" : ""),
            box.x + box.width + 12, y + 5, label_size);
   }
 }

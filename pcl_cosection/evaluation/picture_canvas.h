@@ -19,9 +19,10 @@ namespace cosection
 struct CanvasScale
 {
   std::vector<std::string> title; ///< lines above it
-  double least = 0.0;             ///< at the lower end
-  double most = 1.0;              ///< at the upper end
+  double least = 0.0;             ///< of the first colour, at the lower end
+  double most = 1.0;              ///< of the last colour, at the upper end
   bool more = false;              ///< the upper end stands for larger values, too
+  bool upside_down = false;       ///< the first colour is at the upper end
 };
 
 /** \brief A picture with letters. Everything is drawn larger, for smooth edges; positions and sizes are pixels of the result. */

@@ -161,7 +161,11 @@ loadRunScene (const std::string& folder, ReadingNotes& notes, const RunSceneOpti
   scene.dataset = summary.dataset;
   scene.source = summary.source;
   loadTsdf (scene, notes);
-  simplify (scene.run.background, options.background_triangles);
+  simplify (scene.run.background, options.triangles);
+  for (SceneRecord::Object& object : scene.run.objects)
+    simplify (object.mesh, options.triangles / 2);
+  for (auto& [id, mesh] : scene.tsdf)
+    simplify (mesh, options.triangles / 2);
   if (!summary.is_there)
     notes.warnings.push_back (folder + ": has no summary.json: the run did not come to its end");
   return scene;

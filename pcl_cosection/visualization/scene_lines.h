@@ -3,6 +3,7 @@
 #pragma once
 
 #include <pcl/cosection/common/camera.h>
+#include <pcl/cosection/common/export.h>
 #include <pcl/cosection/common/triangle_mesh.h>
 #include <pcl/cosection/visualization/run_scene.h>
 
@@ -23,19 +24,19 @@ struct SceneLine
 };
 
 /** \brief The way of the camera up to a time. */
-std::vector<SceneLine>
+PCL_COSECTION_EXPORT std::vector<SceneLine>
 pathLines (const RunScene& scene, double stamp);
 
 /** \brief What a camera sees up to half a metre away, or less in small scenes. */
-std::vector<SceneLine>
+PCL_COSECTION_EXPORT std::vector<SceneLine>
 frustumLines (const RunScene& scene, const Eigen::Isometry3d& T_world_camera);
 
 /** \brief The box around an object, along the axes of its frame; nothing where it is not known. */
-std::vector<SceneLine>
+PCL_COSECTION_EXPORT std::vector<SceneLine>
 boxLines (const RunScene& scene, const SceneRecord::Object& object, SurfaceMode surface, double stamp);
 
 /** \brief Points of lines, so near each other that they touch in the picture of a camera. */
-void
+PCL_COSECTION_EXPORT void
 samplePoints (const std::vector<SceneLine>& lines, const PinholeCamera& camera, const Eigen::Isometry3d& T_world_camera,
               std::vector<Eigen::Vector3f>& points, std::vector<TriangleMesh::Colour>& colours);
 

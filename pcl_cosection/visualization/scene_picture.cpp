@@ -147,7 +147,7 @@ drawLegend (const ColourLegend& legend, const SceneView& view, PictureCanvas& ca
     const int height = std::min (260, view.height / 2);
     const cv::Rect bar (view.width - column_px, (view.height - height) / 2, bar_px, height);
     canvas.veil (cv::Rect (bar.x - margin_px, bar.y - 2 * line_px, column_px + margin_px, height + 3 * line_px));
-    canvas.drawScale (bar, {{legend.title}, legend.least, legend.most, legend.more});
+    canvas.drawScale (bar, {{legend.title}, legend.least, legend.most, legend.more, legend.most < legend.least});
     return;
   }
   if (legend.entries.empty ())

@@ -31,16 +31,6 @@ makeFolder (const fs::path& folder)
     throw IoError (folder.string () + ": the folder cannot be made" + (failure ? ": " + failure.message () : ""));
 }
 
-/** \brief Whether \a path is \a folder or lies in it. */
-bool
-isWithin (const std::string& path, const std::string& folder)
-{
-  std::error_code failure;
-  const fs::path inner = fs::weakly_canonical (path, failure);
-  const fs::path outer = fs::weakly_canonical (folder, failure);
-  return (std::mismatch (outer.begin (), outer.end (), inner.begin (), inner.end ()).first == outer.end ());
-}
-
 bool
 endsWith (const std::string& text, const std::string& ending)
 {

@@ -77,7 +77,7 @@ struct PCL_COSECTION_EXPORT RunScene
 /** \brief How much of a run to load. */
 struct PCL_COSECTION_EXPORT RunSceneOptions
 {
-  std::size_t background_triangles = 0; ///< decimate the background to so many, to draw it faster; 0: as it is
+  std::size_t triangles = 0; ///< decimate the background to so many, and each object to half as many, to draw them faster; 0: none
 };
 
 /** \brief Read what a run wrote: as readRun (), and mesh/object_ID_tsdf.ply, and of summary.json the camera and the dataset. Nothing is
