@@ -30,7 +30,7 @@ foreach(program IN ITEMS consumer detect_objects reconstruct_sphere remove_ghost
 endforeach()
 
 if(TOOL)
-  foreach(suffix IN ITEMS "" _evaluate _segment _simulate)
+  foreach(suffix IN ITEMS "" _evaluate _report _segment _simulate)
     run("${WORK_DIR}/prefix/${TOOL}${suffix}" --version)
     if(NOT run_output MATCHES "${VERSION}")
       message(FATAL_ERROR "the installed program ${TOOL}${suffix} says '${run_output}', not ${VERSION}")

@@ -134,6 +134,90 @@ TEST_F (ReportBrowser, ColoursAreThoseAskedFor)
   EXPECT_GT (pixelsOf (provenance, isOrange), 50u);
 }
 
+/** \brief A script, in a copy that allows it, does what a reader does, and notes what becomes of it. */
+TEST_F (ReportBrowser, ControlsWork)
+{
+  std::string html = page ({"--truth", "sim", "out"});
+  const std::size_t policy = html.find ("<meta http-equiv=\"Content-Security-Policy\"");
+  html.erase (policy, html.find ('>', policy) - policy + 1);
+  html.insert (html.find ("<title>"), "<script>window.requestAnimationFrame = (draw) => setTimeout (draw, 0);</script>"); // no display, no frames
+  html.insert (html.find ("</body>"), R"(<script>(async function () {
+    const notes = {}, view = document.getElementById ("view"), canvas = view.querySelector ("canvas");
+    const wait = (ms) => new Promise ((done) => setTimeout (done, ms));
+    const find = (selector, words) => Array.from (view.querySelectorAll (selector)).find ((e) => e.textContent.includes (words));
+    const change = async (element, event) => { element.dispatchEvent (new Event (event)); await wait (100); };
+    function picture () {
+      const copy = document.createElement ("canvas");
+      copy.width = canvas.width; copy.height = canvas.height;
+      const context = copy.getContext ("2d");
+      context.drawImage (canvas, 0, 0);
+      return context.getImageData (0, 0, copy.width, copy.height).data;
+    }
+    const covered = () => picture ().filter ((value, n) => n % 4 === 3 && value > 0).length;
+    const sum = () => picture ().reduce ((total, value, n) => (total * 31 + value) % 1000003, 0);
+    const slider = view.querySelector ("input[type=range]"), clock = view.querySelector ("output");
+    await wait (300);
+    notes.middle = clock.textContent;
+    slider.value = 0; await change (slider, "input");
+    notes.first = clock.textContent;
+    const first = sum ();
+    slider.value = 11; await change (slider, "input");
+    notes.last = clock.textContent;
+    notes.moved = sum () !== first;
+    const all = covered (), box = find ("label", "background").querySelector ("input");
+    box.checked = false; await change (box, "change");
+    notes.hidden = covered () < all / 2 && covered () > 0;
+    box.checked = true; await change (box, "change");
+    notes.shown = covered () === all;
+    const colour = find ("label", "Colour").querySelector ("select"), show = find ("label", "Show").querySelector ("select");
+    let before = sum ();
+    notes.colours = [];
+    for (const option of colour.options) {
+      colour.value = option.value; await change (colour, "change");
+      notes.colours.push (option.value + " " + view.querySelectorAll (".legend li").length + (sum () !== before ? " new" : ""));
+      before = sum ();
+    }
+    show.value = "seen"; await change (show, "change");
+    notes.seen = sum () !== before;
+    before = sum ();
+    const through = find ("label", "through").querySelector ("input");
+    through.checked = true; await change (through, "change");
+    notes.through = sum () !== before;
+    find ("button", "Reset").click (); await wait (100);
+    notes.reset = sum () === before && !through.checked;
+    const at = (x, y) => ({clientX: x, clientY: y, button: 0, bubbles: true, cancelable: true});
+    canvas.dispatchEvent (new MouseEvent ("mousedown", at (300, 300)));
+    document.dispatchEvent (new MouseEvent ("mousemove", at (380, 320)));
+    document.dispatchEvent (new MouseEvent ("mouseup", at (380, 320)));
+    await wait (100);
+    notes.turned = sum () !== before;
+    before = sum ();
+    canvas.dispatchEvent (new WheelEvent ("wheel", {deltaY: -300, cancelable: true})); await wait (100);
+    notes.nearer = sum () !== before;
+    canvas.blur (); await wait (50);
+    before = sum ();
+    canvas.dispatchEvent (new WheelEvent ("wheel", {deltaY: -300, cancelable: true})); await wait (100);
+    notes.page_scrolls = sum () === before;
+    const from = slider.value;
+    find ("button", "Play").click (); await wait (400);
+    notes.plays = slider.value !== from && find ("button", "Pause") !== undefined;
+    find ("button", "Pause").click ();
+    document.title = JSON.stringify (notes);
+  }) ().catch ((error) => { document.title = String (error); });</script>)");
+  writeFile (file ("script.html"), html);
+  const std::string document = open ("script.html", {"--virtual-time-budget=60000", "--dump-dom"});
+  EXPECT_EQ (console_, "");
+  std::smatch title;
+  ASSERT_TRUE (std::regex_search (document, title, std::regex ("<title>(\\{.*\\})</title>"))) << document.substr (document.find ("<title>"), 300);
+  const Json notes = Json::parse (title[1].str ());
+  EXPECT_EQ (notes["middle"], "frame 6");
+  EXPECT_EQ (notes["first"], "frame 0");
+  EXPECT_EQ (notes["last"], "frame 11");
+  EXPECT_EQ (notes["colours"], Json ({"colours 0", "provenance 4 new", "confidence 1 new", "instance 0 new", "error 1 new"}));
+  for (const char* name : {"moved", "hidden", "shown", "seen", "through", "reset", "turned", "nearer", "page_scrolls", "plays"})
+    EXPECT_EQ (notes[name], true) << name;
+}
+
 TEST_F (ReportBrowser, WithoutWebGlThereIsASentence)
 {
   page ({"out"});

@@ -152,6 +152,7 @@ compareErrors (HtmlWriter& html, const ReportContent& content, const std::vector
     table.row (cells);
   }
   table.end ();
+  html.element ("p", "The best of each number is bold. What was seen alone is accurate and not complete: it has no hidden sides.", {{"class", "note"}});
 }
 
 /** \brief Without truth: what each run says of itself. */
