@@ -32,7 +32,8 @@ addTruth (ReportContent& content, Terminal& terminal)
     content.truth = compareWithTruth (content.scene, content.truth_folder, content.threads);
     measureErrors (content.scene, content.truth->truth, content.truth->evaluation, content.threads);
     content.warnings.insert (content.warnings.end (), content.truth->notes.begin (), content.truth->notes.end ());
-    content.warnings.insert (content.warnings.end (), content.truth->evaluation.warnings.begin (), content.truth->evaluation.warnings.end ());
+    content.warnings.insert (content.warnings.end (), content.truth->evaluation.warnings.begin (),
+                             content.truth->evaluation.warnings.end ());
   }
   catch (const IoError&) // there is no truth
   {

@@ -108,7 +108,8 @@ ReportScene::cell (const std::string& page, const std::string& section, const st
     const std::regex cell_pattern ("<t[hd][^>]*>([\\s\\S]*?)</t[hd]>");
     for (std::sregex_iterator match (line.begin (), line.end (), cell_pattern), end; match != end; ++match)
       cells.push_back ((*match)[1]);
-    const std::string first = cells.empty () ? "" : withoutMarkup (std::regex_replace (cells[0], std::regex ("<small>.*</small>"), ""));
+    const std::string first =
+        cells.empty () ? "" : withoutMarkup (std::regex_replace (cells[0], std::regex ("<small>.*</small>"), ""));
     const auto place = static_cast<std::size_t> (std::find (header.begin (), header.end (), column) - header.begin ());
     if (first == row || first == row + "\n")
       return (place < cells.size () ? withoutMarkup (cells[place]) : "no column");

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_cosection authors
 
-// pcl_cosection_report as a user calls it: the numbers on the page are those of the run and of its evaluation; the run stays as it is.
+// pcl_cosection_report as a user calls it: the numbers on the page are those of the run and of its evaluation; the run stays as
+// it is.
 
 #include "html_writer.h"
 #include "report_command_line.h"
@@ -54,7 +55,8 @@ protected:
 std::string
 scoreText (const Json& object)
 {
-  return (inMillimetres (object["accuracy_m"]) + " / " + inMillimetres (object["completeness_m"]) + " / " + toText (object["f_score"]));
+  return (inMillimetres (object["accuracy_m"]) + " / " + inMillimetres (object["completeness_m"]) + " / " +
+          toText (object["f_score"]));
 }
 
 } // namespace
@@ -74,7 +76,8 @@ TEST_F (Report, ObjectsAreAsTheSummarySays)
     EXPECT_EQ (cell (html, "objects", name, "Solver").rfind (object["solver"]["iterations"].dump () + " iteration", 0), 0u);
     std::string shares;
     for (const char* kind : {"observed", "inferred", "hull", "intersection"})
-      shares += (shares.empty () ? "" : " \xC2\xB7 ") + std::to_string (std::lround (100.0 * object["provenance"][kind].get<double> ()));
+      shares += (shares.empty () ? "" : " \xC2\xB7 ") +
+                std::to_string (std::lround (100.0 * object["provenance"][kind].get<double> ()));
     EXPECT_NE (cell (html, "objects", name, "Provenance").find (shares + " %"), std::string::npos);
   }
   EXPECT_NE (html.find ("from 12 frames"), std::string::npos);
@@ -105,7 +108,8 @@ TEST_F (Report, ErrorsAreAsTheEvaluationSays)
     EXPECT_EQ (cell (html, "accuracy", name, "Inside others (mm)"), inMillimetres (object["penetration_m"]));
     EXPECT_EQ (cell (html, "accuracy", name, "ATE (mm)"), inMillimetres (object["ate_rmse_m"]));
     EXPECT_EQ (cell (html, "accuracy", name, "RPE (mm)"), inMillimetres (object["rpe_trans_rmse_m"]));
-    EXPECT_EQ (cell (html, "accuracy", name, "Tracked / visible"), object["frames_tracked_visible"].dump () + " / " + object["frames_visible"].dump ());
+    EXPECT_EQ (cell (html, "accuracy", name, "Tracked / visible"),
+               object["frames_tracked_visible"].dump () + " / " + object["frames_visible"].dump ());
     EXPECT_EQ (cell (html, "comparison", "this run", name), scoreText (object));
     EXPECT_EQ (cell (html, "comparison", "out_none", name), scoreText (none["objects"][n]));
     EXPECT_NE (scoreText (object), scoreText (none["objects"][n]));
@@ -120,7 +124,8 @@ TEST_F (Report, RunsCompareWithoutTruthToo)
   makeOtherRun ();
   const std::string html = page ({"out", "--compare", "out_none"});
   const Json object = json ("out_none/summary.json")["objects"][0];
-  EXPECT_EQ (cell (html, "comparison", "out_none", "object 1"), inMillilitres (object["volume_m3"]) + " / " + inMillimetres (object["penetration_m"]));
+  EXPECT_EQ (cell (html, "comparison", "out_none", "object 1"),
+             inMillilitres (object["volume_m3"]) + " / " + inMillimetres (object["penetration_m"]));
 }
 
 TEST_F (Report, TheRunStaysAsItIs)
@@ -217,7 +222,9 @@ TEST_F (Report, FailedRuns)
 {
   fs::remove_all (file ("out/mesh"));
   fs::remove_all (file ("out/trajectory"));
-  writeFile (file ("out/summary.json"), R"({"error": "no frame can be read", "objects": [], "failed": [], "warnings": [], "parameters": {"dataset": "a/b"}})");
+  writeFile (
+      file ("out/summary.json"),
+      R"({"error": "no frame can be read", "objects": [], "failed": [], "warnings": [], "parameters": {"dataset": "a/b"}})");
   const std::string html = page ({"out"});
   EXPECT_NE (errors_.find ("warning: the run failed: no frame can be read"), std::string::npos) << errors_;
   EXPECT_NE (html.find ("<strong>The run failed: </strong>\nno frame can be read"), std::string::npos);
@@ -231,8 +238,8 @@ TEST_F (Report, RunsWithoutSomeOfTheirFiles)
   fs::remove (file ("out/trajectory/object_2.txt"));
   fs::remove (file ("out/trajectory/camera.txt"));
   const std::string html = page ({"--truth", "sim", "out"});
-  for (const char* part : {"object_1.ply", "object 1 has no completed mesh", "object 2 has no trajectory", "there is no trajectory of the camera",
-                           "the run cannot be compared with the truth of sim"})
+  for (const char* part : {"object_1.ply", "object 1 has no completed mesh", "object 2 has no trajectory",
+                           "there is no trajectory of the camera", "the run cannot be compared with the truth of sim"})
   {
     EXPECT_NE (errors_.find (part), std::string::npos) << part << '\n' << errors_;
     EXPECT_NE (html.find (part), std::string::npos) << part;
@@ -248,7 +255,9 @@ TEST_F (Report, DamagedAndOddSummaries)
     page ({"out"});
     EXPECT_NE (errors_.find ("is not JSON as pcl_cosection_fusion writes it"), std::string::npos) << text;
   }
-  writeFile (file ("out/summary.json"), R"({"error": 5, "timings_s": {"total": "long", "read": []}, "frames": -3, "parameters": [1], "camera": {"fx": "wide"},
+  writeFile (
+      file ("out/summary.json"),
+      R"({"error": 5, "timings_s": {"total": "long", "read": []}, "frames": -3, "parameters": [1], "camera": {"fx": "wide"},
     "objects": [{"id": 1, "volume_m3": "much", "closed": 7, "provenance": [], "solver": 3}, {"id": "x"}, {"id": 1e300}, 5, null],
     "failed": [{"id": 9, "error": "too small"}, 7], "warnings": {"a": 1}, "events": [1, "begun"]})");
   const std::string html = page ({"out"});

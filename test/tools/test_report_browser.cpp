@@ -27,9 +27,18 @@ protected:
   std::string
   open (const std::string& name, const Words& more = {"--dump-dom"})
   {
-    Words words = {"--headless",          "--no-sandbox",       "--disable-dev-shm-usage",        "--use-angle=swiftshader", "--enable-unsafe-swiftshader",
-                   "--hide-scrollbars",   "--no-first-run",     "--user-data-dir=" + file ("profile"), "--host-resolver-rules=MAP * ~NOTFOUND", "--enable-logging=stderr",
-                   "--log-net-log=" + file ("net.json"), "--virtual-time-budget=8000"};
+    Words words = {"--headless",
+                   "--no-sandbox",
+                   "--disable-dev-shm-usage",
+                   "--use-angle=swiftshader",
+                   "--enable-unsafe-swiftshader",
+                   "--hide-scrollbars",
+                   "--no-first-run",
+                   "--user-data-dir=" + file ("profile"),
+                   "--host-resolver-rules=MAP * ~NOTFOUND",
+                   "--enable-logging=stderr",
+                   "--log-net-log=" + file ("net.json"),
+                   "--virtual-time-budget=8000"};
     words.insert (words.end (), more.begin (), more.end ());
     words.push_back ("file://" + file (name));
     ToolRun browser (words, file (""), {}, PCL_COSECTION_CHROMIUM);
@@ -90,7 +99,8 @@ TEST_F (ReportBrowser, ThePageIsWholeAndDraws)
   EXPECT_GT (drawnPixels (document), 5000);
   EXPECT_NE (document.find ("<canvas"), std::string::npos);
   EXPECT_EQ (document.find ("needs a browser with scripts"), std::string::npos); // the sentence made room for the view
-  for (const char* section : {"pictures", "scene", "objects", "accuracy", "comparison", "trajectories", "times", "warnings", "parameters"})
+  for (const char* section :
+       {"pictures", "scene", "objects", "accuracy", "comparison", "trajectories", "times", "warnings", "parameters"})
     EXPECT_NE (document.find ("<section id=\"" + std::string (section) + "\">"), std::string::npos) << section;
   EXPECT_NE (cell (document, "accuracy", "ball", "Accuracy (mm)"), "none");
   EXPECT_NE (document.find ("<option value=\"error\">"), std::string::npos);
@@ -108,8 +118,9 @@ TEST_F (ReportBrowser, NothingIsAskedOfAnybody)
   EXPECT_EQ (requests ()[0], "http://elsewhere.test/x.png");
   // Nor does the page allow any: not even to what somebody writes into it.
   std::string html = readFile (file ("report.html"));
-  html.insert (html.find ("<main>"), "<img src=\"http://elsewhere.test/x.png\"><script>document.title = 'changed'</script>"
-                                     "<link rel=\"stylesheet\" href=\"http://elsewhere.test/x.css\"><p onclick=\"1\" style=\"color: red\">");
+  html.insert (html.find ("<main>"),
+               "<img src=\"http://elsewhere.test/x.png\"><script>document.title = 'changed'</script>"
+               "<link rel=\"stylesheet\" href=\"http://elsewhere.test/x.css\"><p onclick=\"1\" style=\"color: red\">");
   writeFile (file ("changed.html"), html);
   const std::string document = open ("changed.html");
   EXPECT_EQ (requests (), Words ());
@@ -126,7 +137,9 @@ TEST_F (ReportBrowser, ColoursAreThoseAskedFor)
   html.erase (begin, end - begin);
   writeFile (file ("view.html"), html);
   const auto isRed = [] (const std::array<std::uint8_t, 3>& c) { return (c[0] > 90 && c[0] > 2 * c[1] && c[0] > 2 * c[2]); };
-  const auto isOrange = [] (const std::array<std::uint8_t, 3>& c) { return (c[0] > 110 && c[1] > c[2] * 3 / 2 && c[0] > c[1] * 5 / 4 && c[2] < 120); };
+  const auto isOrange = [] (const std::array<std::uint8_t, 3>& c) {
+    return (c[0] > 110 && c[1] > c[2] * 3 / 2 && c[0] > c[1] * 5 / 4 && c[2] < 120);
+  };
   const std::size_t real_red = pixelsOf (screenshot ("view.html#colour=colours"), isRed);
   EXPECT_GT (real_red, 500u); // the ball
   const Picture provenance = screenshot ("view.html#colour=provenance");
@@ -140,7 +153,8 @@ TEST_F (ReportBrowser, ControlsWork)
   std::string html = page ({"--truth", "sim", "out"});
   const std::size_t policy = html.find ("<meta http-equiv=\"Content-Security-Policy\"");
   html.erase (policy, html.find ('>', policy) - policy + 1);
-  html.insert (html.find ("<title>"), "<script>window.requestAnimationFrame = (draw) => setTimeout (draw, 0);</script>"); // no display, no frames
+  html.insert (html.find ("<title>"),
+               "<script>window.requestAnimationFrame = (draw) => setTimeout (draw, 0);</script>"); // no display, no frames
   html.insert (html.find ("</body>"), R"(<script>(async function () {
     const notes = {}, view = document.getElementById ("view"), canvas = view.querySelector ("canvas");
     const wait = (ms) => new Promise ((done) => setTimeout (done, ms));
@@ -208,7 +222,8 @@ TEST_F (ReportBrowser, ControlsWork)
   const std::string document = open ("script.html", {"--virtual-time-budget=60000", "--dump-dom"});
   EXPECT_EQ (console_, "");
   std::smatch title;
-  ASSERT_TRUE (std::regex_search (document, title, std::regex ("<title>(\\{.*\\})</title>"))) << document.substr (document.find ("<title>"), 300);
+  ASSERT_TRUE (std::regex_search (document, title, std::regex ("<title>(\\{.*\\})</title>")))
+      << document.substr (document.find ("<title>"), 300);
   const Json notes = Json::parse (title[1].str ());
   EXPECT_EQ (notes["middle"], "frame 6");
   EXPECT_EQ (notes["first"], "frame 0");
@@ -242,7 +257,8 @@ TEST_F (ReportBrowser, HostileTextsDoNothing)
 
 TEST_F (ReportBrowser, IncompleteRunsDrawToo)
 {
-  for (const auto& entry : {"out/summary.json", "out/trajectory/camera.txt", "out/trajectory/object_1.txt", "out/mesh/background.ply", "out/mesh/object_2.ply"})
+  for (const auto& entry : {"out/summary.json", "out/trajectory/camera.txt", "out/trajectory/object_1.txt",
+                            "out/mesh/background.ply", "out/mesh/object_2.ply"})
     std::filesystem::remove (file (entry));
   page ({"out"});
   const std::string document = open ("report.html");

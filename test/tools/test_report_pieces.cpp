@@ -64,7 +64,8 @@ sheet (std::uint32_t side)
   for (std::uint32_t v = 0; v < side; ++v)
     for (std::uint32_t u = 0; u < side; ++u)
     {
-      mesh.vertices.emplace_back (0.013f * static_cast<float> (u) - 1.0f, 0.007f * static_cast<float> (v), std::sin (0.1f * static_cast<float> (u + v)));
+      mesh.vertices.emplace_back (0.013f * static_cast<float> (u) - 1.0f, 0.007f * static_cast<float> (v),
+                                  std::sin (0.1f * static_cast<float> (u + v)));
       mesh.colours.push_back ({static_cast<std::uint8_t> (u), static_cast<std::uint8_t> (v), 200});
       mesh.provenance.push_back (static_cast<std::uint8_t> ((u + v) % 4));
       mesh.confidence.push_back (static_cast<float> (u) / static_cast<float> (side));
@@ -95,7 +96,8 @@ unembed (const Json& json)
     mesh.vertices.push_back (p.cast<float> ());
   }
   for (std::size_t t = 0; t < json["triangles"].get<std::size_t> (); ++t)
-    mesh.triangles.push_back ({numberAt (indices, 3 * t, index_bytes), numberAt (indices, 3 * t + 1, index_bytes), numberAt (indices, 3 * t + 2, index_bytes)});
+    mesh.triangles.push_back ({numberAt (indices, 3 * t, index_bytes), numberAt (indices, 3 * t + 1, index_bytes),
+                               numberAt (indices, 3 * t + 2, index_bytes)});
   return (mesh);
 }
 
@@ -103,7 +105,8 @@ unembed (const Json& json)
 
 TEST (ReportPieces, TextsAreNoMarkup)
 {
-  EXPECT_EQ (escapeHtml ("<script>alert('1' & \"2\")</script>"), "&lt;script&gt;alert(&#39;1&#39; &amp; &quot;2&quot;)&lt;/script&gt;");
+  EXPECT_EQ (escapeHtml ("<script>alert('1' & \"2\")</script>"),
+             "&lt;script&gt;alert(&#39;1&#39; &amp; &quot;2&quot;)&lt;/script&gt;");
   EXPECT_EQ (escapeHtml ("caf\xC3\xA9"), "caf\xC3\xA9");
   EXPECT_EQ (escapeHtml ("a\xFFz"), "a\xEF\xBF\xBDz");
   EXPECT_EQ (escapeHtml (std::string ("a\0z", 3)), "a\xEF\xBF\xBDz");
@@ -133,8 +136,13 @@ TEST (ReportPieces, JsonCannotEndItsScript)
 TEST (ReportPieces, Base64)
 {
   // RFC 4648, section 10.
-  const std::vector<std::pair<std::string, std::string>> examples = {{"", ""},         {"f", "Zg=="},         {"fo", "Zm8="},        {"foo", "Zm9v"},
-                                                                     {"foob", "Zm9vYg=="}, {"fooba", "Zm9vYmE="}, {"foobar", "Zm9vYmFy"}};
+  const std::vector<std::pair<std::string, std::string>> examples = {{"", ""},
+                                                                     {"f", "Zg=="},
+                                                                     {"fo", "Zm8="},
+                                                                     {"foo", "Zm9v"},
+                                                                     {"foob", "Zm9vYg=="},
+                                                                     {"fooba", "Zm9vYmE="},
+                                                                     {"foobar", "Zm9vYmFy"}};
   for (const auto& [bytes, letters] : examples)
     EXPECT_EQ (toBase64 (bytes.data (), bytes.size ()), letters);
 }
@@ -199,7 +207,8 @@ TEST (ReportPieces, MeshesForDisplayAreSmall)
 TEST (ReportPieces, TicksAreRound)
 {
   EXPECT_EQ (ticksBetween (0.0, 99.0, 6).size (), 5u); // 0 20 ... 80
-  for (const auto& [least, most] : std::vector<std::pair<double, double>>{{-0.31, 0.77}, {0.0, 1e-3}, {1e5, 1e5 + 7}, {-3.0, -2.0}})
+  for (const auto& [least, most] :
+       std::vector<std::pair<double, double>>{{-0.31, 0.77}, {0.0, 1e-3}, {1e5, 1e5 + 7}, {-3.0, -2.0}})
   {
     const std::vector<double> ticks = ticksBetween (least, most, 5);
     ASSERT_GE (ticks.size (), 2u);

@@ -26,26 +26,26 @@ escapeHtml (const std::string& text)
   for (const char c : asUtf8 (text))
     switch (c)
     {
-      case '&':
-        html += "&amp;";
-        break;
-      case '<':
-        html += "&lt;";
-        break;
-      case '>':
-        html += "&gt;";
-        break;
-      case '"':
-        html += "&quot;";
-        break;
-      case '\'':
-        html += "&#39;";
-        break;
-      case '\0':
-        html += "\xEF\xBF\xBD";
-        break;
-      default:
-        html += c;
+    case '&':
+      html += "&amp;";
+      break;
+    case '<':
+      html += "&lt;";
+      break;
+    case '>':
+      html += "&gt;";
+      break;
+    case '"':
+      html += "&quot;";
+      break;
+    case '\'':
+      html += "&#39;";
+      break;
+    case '\0':
+      html += "\xEF\xBF\xBD";
+      break;
+    default:
+      html += c;
     }
   return (html);
 }

@@ -68,7 +68,8 @@ asBytes (const std::vector<Value>& values, double one)
   for (const Value value : values)
   {
     const double share = static_cast<double> (value) / one;
-    bytes.add (static_cast<std::uint32_t> (std::lround (255.0 * (std::isfinite (share) ? std::clamp (share, 0.0, 1.0) : 1.0))), 1);
+    bytes.add (static_cast<std::uint32_t> (std::lround (255.0 * (std::isfinite (share) ? std::clamp (share, 0.0, 1.0) : 1.0))),
+               1);
   }
   return (bytes.letters ());
 }

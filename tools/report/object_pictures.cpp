@@ -5,6 +5,7 @@
 #include <pcl/cosection/evaluation/error_picture.h>
 #include <pcl/cosection/rendering/picture.h>
 #include <pcl/cosection/rendering/rasterizer.h>
+#include <pcl/cosection/visualization/viewpoint.h>
 
 #include <algorithm>
 #include <cmath>
@@ -15,23 +16,12 @@ namespace
 {
 
 constexpr int panel_px = 400;
-constexpr int oversampling = 2;        ///< each way
-constexpr double distance_radii = 4.0; ///< of the camera
-constexpr double filled = 0.94;        ///< of a panel
-constexpr double elevation_rad = 0.45; ///< of the camera at least
-constexpr double turn_rad = 2.6;       ///< from the front to the back
+constexpr int oversampling = 2;                         ///< each way
+constexpr double distance_radii = 4.0;                  ///< of the camera
+constexpr double filled = 0.94;                         ///< of a panel
+constexpr double elevation_rad = 0.45;                  ///< of the camera at least
+constexpr double turn_rad = 2.6;                        ///< from the front to the back
 constexpr TriangleMesh::Colour plain = {200, 200, 200}; ///< of a mesh without colours
-
-Eigen::Isometry3d
-cameraAt (const Eigen::Vector3d& eye, const Eigen::Vector3d& target, const Eigen::Vector3d& up)
-{
-  const Eigen::Vector3d forward = (target - eye).normalized ();
-  const Eigen::Vector3d right = forward.cross (up).normalized ();
-  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity ();
-  pose.linear () << right, forward.cross (right), forward;
-  pose.translation () = eye;
-  return (pose);
-}
 
 /** \brief A camera whose square picture a mesh fills. */
 PinholeCamera
@@ -79,7 +69,8 @@ shrinkInto (const RasterImage& image, TransparentPicture& result, int top)
         continue;
       const Eigen::Vector3d mean = (sum / covered).cwiseMin (255.0);
       const auto byte = [] (double value) { return (static_cast<std::uint8_t> (std::lround (value))); };
-      result.at (u, top + v) = {byte (mean[0]), byte (mean[1]), byte (mean[2]), byte (255.0 * covered / (oversampling * oversampling))};
+      result.at (u, top + v) = {byte (mean[0]), byte (mean[1]), byte (mean[2]),
+                                byte (255.0 * covered / (oversampling * oversampling))};
     }
 }
 
@@ -98,8 +89,9 @@ drawFrontAndBack (const TriangleMesh& mesh, const TriangleMesh& fit_to, const Ob
   TransparentPicture result (size_px, 2 * size_px, {255, 255, 255, 0});
   for (int row = 0; row < 2; ++row)
   {
-    const Eigen::Vector3d eye = box.center () + distance_radii * 0.5 * box.diagonal ().norm () * (Eigen::AngleAxisd (row * turn_rad, up) * front);
-    const Eigen::Isometry3d T_object_camera = cameraAt (eye, box.center (), up);
+    const Eigen::Vector3d eye =
+        box.center () + distance_radii * 0.5 * box.diagonal ().norm () * (Eigen::AngleAxisd (row * turn_rad, up) * front);
+    const Eigen::Isometry3d T_object_camera = Viewpoint{eye, box.center (), up}.pose ();
     const PinholeCamera camera = fittingCamera (fit_to, T_object_camera, oversampling * size_px);
     Rasterizer rasterizer (camera, T_object_camera, 1e-6);
     rasterizer.draw (mesh, 1, Eigen::Isometry3d::Identity (), plain);
@@ -109,7 +101,8 @@ drawFrontAndBack (const TriangleMesh& mesh, const TriangleMesh& fit_to, const Ob
 }
 
 std::vector<CaptionedPicture>
-drawObject (const RunObject& object, const ObjectDirections& directions, const std::vector<double>& errors_m, double error_max_m, const std::string& name)
+drawObject (const RunObject& object, const ObjectDirections& directions, const std::vector<double>& errors_m, double error_max_m,
+            const std::string& name)
 {
   std::vector<CaptionedPicture> pictures;
   TriangleMesh fit_to; // both, as points
@@ -119,8 +112,8 @@ drawObject (const RunObject& object, const ObjectDirections& directions, const s
     if (mesh.empty ())
       return;
     const TransparentPicture picture = drawFrontAndBack (mesh, fit_to, directions, panel_px);
-    pictures.push_back ({caption, name + ", " + what + ", from the side of the camera above and from behind below", picture.width, picture.height,
-                         dataUri (picture)});
+    pictures.push_back ({caption, name + ", " + what + ", from the side of the camera above and from behind below", picture.width,
+                         picture.height, dataUri (picture)});
   };
   add (object.seen, "Seen", "what was seen");
   add (object.completed, "Completed", "the completed mesh");

@@ -37,7 +37,9 @@ struct Score
   double accuracy_m = 0.0, completeness_m = 0.0, f_score = 0.0;
 
   explicit Score (const MeshComparison& comparison)
-      : accuracy_m (comparison.accuracy.mean), completeness_m (comparison.completeness.mean), f_score (comparison.f_score)
+      : accuracy_m (comparison.accuracy.mean)
+      , completeness_m (comparison.completeness.mean)
+      , f_score (comparison.f_score)
   {}
 };
 
@@ -57,9 +59,12 @@ struct BestScore
 std::string
 scoreMarkup (const Score& score, const BestScore& best)
 {
-  const auto marked = [] (const std::string& text, const std::string& winner) { return (text == winner ? "<b>" + text + "</b>" : text); };
-  return (marked (inMillimetres (score.accuracy_m), best.accuracy) + " / " + marked (inMillimetres (score.completeness_m), best.completeness) +
-          " / " + marked (toText (score.f_score), best.f_score));
+  const auto marked = [] (const std::string& text, const std::string& winner) {
+    return (text == winner ? "<b>" + text + "</b>" : text);
+  };
+  return (marked (inMillimetres (score.accuracy_m), best.accuracy) + " / " +
+          marked (inMillimetres (score.completeness_m), best.completeness) + " / " +
+          marked (toText (score.f_score), best.f_score));
 }
 
 BestScore
@@ -103,7 +108,8 @@ constraintsOf (const RunFolder& run)
 {
   const Json& parameters = member (run.summary, "parameters");
   const std::string preset = textIn (parameters, "preset"), constraints = textIn (parameters, "constraints");
-  return ((constraints.empty () ? "" : "constraints: " + constraints) + (preset.empty () || preset == "default" ? "" : ", preset " + preset));
+  return ((constraints.empty () ? "" : "constraints: " + constraints) +
+          (preset.empty () || preset == "default" ? "" : ", preset " + preset));
 }
 
 /** \brief Scores of another run for the true objects of this one's. */
@@ -143,16 +149,19 @@ compareErrors (HtmlWriter& html, const ReportContent& content, const std::vector
     for (MethodScores& method : methods)
       addMean (method);
   }
-  HtmlTable table (html, "Comparison with what was seen" + std::string (content.others.empty () ? "" : " and with other runs"), header, "scroll");
+  HtmlTable table (html, "Comparison with what was seen" + std::string (content.others.empty () ? "" : " and with other runs"),
+                   header, "scroll");
   for (const MethodScores& method : methods)
   {
-    std::vector<TableCell> cells{{method.name, method.remark.empty () ? "" : "<small>" + escapeHtml (method.remark) + "</small>"}};
+    std::vector<TableCell> cells{
+        {method.name, method.remark.empty () ? "" : "<small>" + escapeHtml (method.remark) + "</small>"}};
     for (std::size_t n = 0; n < method.scores.size (); ++n)
       cells.push_back (method.scores[n] ? TableCell{"", scoreMarkup (*method.scores[n], bestOf (methods, n))} : TableCell{dash});
     table.row (cells);
   }
   table.end ();
-  html.element ("p", "The best of each number is bold. What was seen alone is accurate and not complete: it has no hidden sides.", {{"class", "note"}});
+  html.element ("p", "The best of each number is bold. What was seen alone is accurate and not complete: it has no hidden sides.",
+                {{"class", "note"}});
 }
 
 /** \brief Without truth: what each run says of itself. */
@@ -167,7 +176,8 @@ compareSummaries (HtmlWriter& html, const ReportContent& content)
     std::vector<TableCell> cells{{name, "<small>" + escapeHtml (constraintsOf (run)) + "</small>"}};
     for (const RunObject& object : content.run.objects)
     {
-      const auto same = std::find_if (run.objects.begin (), run.objects.end (), [&] (const RunObject& o) { return (o.id == object.id); });
+      const auto same =
+          std::find_if (run.objects.begin (), run.objects.end (), [&] (const RunObject& o) { return (o.id == object.id); });
       const ObjectFacts facts = same == run.objects.end () ? factsOf (RunObject ()) : factsOf (*same);
       cells.push_back ({facts.volume_ml + " / " + facts.penetration_mm});
     }
@@ -185,11 +195,12 @@ void
 writeAccuracy (HtmlWriter& html, const ReportContent& content)
 {
   const RunEvaluation& run = content.truth->evaluation;
-  html.element ("p", "Camera: ATE " + inMillimetres (run.camera.ate_m.rmse) + " mm, RPE " + rpeText (run.camera, false) + " mm and " +
-                         rpeText (run.camera, true) + "\xC2\xB0, " + std::to_string (run.camera.matched) + " of " +
+  html.element ("p", "Camera: ATE " + inMillimetres (run.camera.ate_m.rmse) + " mm, RPE " + rpeText (run.camera, false) +
+                         " mm and " + rpeText (run.camera, true) + "\xC2\xB0, " + std::to_string (run.camera.matched) + " of " +
                          counted (run.camera.truth_poses, "pose") + '.');
-  HtmlTable table (html, "Accuracy", {"Object", "Accuracy (mm)", "Completeness (mm)", "F at 10 mm", "Volume", "Inside others (mm)", "ATE (mm)", "RPE (mm)",
-                                      "RPE (\xC2\xB0)", "Tracked / visible"});
+  HtmlTable table (html, "Accuracy",
+                   {"Object", "Accuracy (mm)", "Completeness (mm)", "F at 10 mm", "Volume", "Inside others (mm)", "ATE (mm)",
+                    "RPE (mm)", "RPE (\xC2\xB0)", "Tracked / visible"});
   for (const ObjectEvaluation& o : run.objects)
     table.row ({{o.truth_name},
                 {inMillimetres (o.mesh.comparison.accuracy.mean)},
@@ -206,10 +217,18 @@ writeAccuracy (HtmlWriter& html, const ReportContent& content)
                 {inMillimetres (run.background->comparison.accuracy.mean)},
                 {inMillimetres (run.background->comparison.completeness.mean)},
                 {toText (run.background->comparison.f_score)},
-                {dash}, {dash}, {dash}, {dash}, {dash}, {dash}});
+                {dash},
+                {dash},
+                {dash},
+                {dash},
+                {dash},
+                {dash}});
   table.end ();
-  html.element ("p", "Accuracy: mean distance from the completed mesh to the true one; completeness: from the true one to it; F: F-score at 10 mm. ATE and RPE: "
-                     "root mean squares of the absolute and the relative error of the trajectory, of objects in the camera's frame. Volume: the error of it.",
+  html.element ("p",
+                "Accuracy: mean distance from the completed mesh to the true one; completeness: from the true one to it; F: "
+                "F-score at 10 mm. ATE and RPE: "
+                "root mean squares of the absolute and the relative error of the trajectory, of objects in the camera's frame. "
+                "Volume: the error of it.",
                 {{"class", "note"}});
   for (const int id : run.unmatched)
     html.element ("p", "Object " + std::to_string (id) + " is none of the true objects.", {{"class", "note"}});

@@ -9,7 +9,7 @@
 void
 writeAccuracy (HtmlWriter& html, const ReportContent& content);
 
-/** \brief The run beside what was seen alone and other runs: errors where there is a truth, else volumes and penetrations. Writes nothing
- * where there is nothing to compare. \return whether there was */
+/** \brief The run beside what was seen alone and other runs: errors where there is a truth, else volumes and penetrations. Writes
+ * nothing where there is nothing to compare. \return whether there was */
 bool
 writeComparison (HtmlWriter& html, const ReportContent& content);

@@ -12,9 +12,9 @@
 /** \brief What the user of pcl_cosection_report asked for. */
 struct ReportSettings
 {
-  std::string run;                  ///< folder
-  std::string truth;                ///< dataset; empty: none
-  std::vector<std::string> others;  ///< folders of other runs
+  std::string run;                 ///< folder
+  std::string truth;               ///< dataset; empty: none
+  std::vector<std::string> others; ///< folders of other runs
   std::string output = "report.html";
   int threads = 0; ///< 0: all
   Verbosity verbosity = Verbosity::Normal;
@@ -36,7 +36,7 @@ struct GivenReport
 void
 declareReportOptions (CLI::App& app, GivenReport& given);
 
-/** \brief Read the command line. \return nothing if all that was asked for was printed \throws UsageError, also where the report would
- * be written over an input */
+/** \brief Read the command line. \return nothing if all that was asked for was printed \throws UsageError, also where the report
+ * would be written over an input */
 std::optional<ReportSettings>
 parseReportCommandLine (int argc, const char* const* argv);

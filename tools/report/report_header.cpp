@@ -16,12 +16,13 @@ namespace
 std::string
 sentence (const RunFolder& run)
 {
-  const std::size_t completed =
-      static_cast<std::size_t> (std::count_if (run.objects.begin (), run.objects.end (), [] (const RunObject& object) { return (!object.completed.empty ()); }));
+  const std::size_t completed = static_cast<std::size_t> (std::count_if (
+      run.objects.begin (), run.objects.end (), [] (const RunObject& object) { return (!object.completed.empty ()); }));
   std::string text = counted (completed, "completed object") + (run.background.empty () ? "" : " and the background");
   if (completed == 0)
     text = run.background.empty () ? "Nothing was completed" : "The background";
-  const std::optional<double> frames = numberIn (run.summary, "frames"), seconds = numberIn (member (run.summary, "timings_s"), "total");
+  const std::optional<double> frames = numberIn (run.summary, "frames"),
+                              seconds = numberIn (member (run.summary, "timings_s"), "total");
   if (frames)
     text += " from " + counted (static_cast<std::size_t> (std::max (0.0, *frames)), "frame");
   if (seconds)
@@ -103,10 +104,15 @@ writeBanner (HtmlWriter& html, const ReportContent& content)
   const Json& failed = member (content.run.summary, "failed");
   const std::size_t warnings = content.warnings.size () + textsIn (content.run.summary, "warnings").size ();
   if (!content.run.failure.empty ())
-    html.open ("p", {{"class", "banner failed"}, {"role", "alert"}}).element ("strong", "The run failed: ").text (content.run.failure).close ("p");
+    html.open ("p", {{"class", "banner failed"}, {"role", "alert"}})
+        .element ("strong", "The run failed: ")
+        .text (content.run.failure)
+        .close ("p");
   else if (content.run.summary.is_null ())
-    html.open ("p", {{"class", "banner failed"}, {"role", "alert"}}).element ("strong", "The run is incomplete: ")
-        .text ("it has no summary; below is what it left.").close ("p");
+    html.open ("p", {{"class", "banner failed"}, {"role", "alert"}})
+        .element ("strong", "The run is incomplete: ")
+        .text ("it has no summary; below is what it left.")
+        .close ("p");
   if (failed.is_array () && !failed.empty ())
     html.element ("p", counted (failed.size (), "object") + " failed; see the table of objects.", {{"class", "banner failed"}});
   if (warnings > 0)
@@ -124,7 +130,7 @@ writeHeader (HtmlWriter& html, const ReportContent& content)
   html.open ("p", {{"class", "note"}});
   const std::string how = method (parameters);
   html.text (how).text (how.empty () || content.run.date.empty () ? "" : " \xC2\xB7 ").text (content.run.date);
-  html.text (" \xC2\xB7 run ").element ("code", content.run.path);
+  html.text (how.empty () && content.run.date.empty () ? "" : " \xC2\xB7 ").text ("run ").element ("code", content.run.path);
   if (!content.truth_folder.empty ())
     html.text (" \xC2\xB7 truth ").element ("code", content.truth_folder);
   html.close ("p");

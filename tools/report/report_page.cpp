@@ -54,7 +54,10 @@ void
 writePicture (HtmlWriter& html, const CaptionedPicture& picture)
 {
   html.open ("figure")
-      .single ("img", {{"src", picture.uri}, {"alt", picture.alternative}, {"width", std::to_string (picture.width)}, {"height", std::to_string (picture.height)}})
+      .single ("img", {{"src", picture.uri},
+                       {"alt", picture.alternative},
+                       {"width", std::to_string (picture.width)},
+                       {"height", std::to_string (picture.height)}})
       .element ("figcaption", picture.caption)
       .close ("figure");
 }
@@ -68,7 +71,10 @@ writePictureKeys (HtmlWriter& html, const ReportContent& content)
   for (int n = 0; n < 4; ++n)
     html.open ("li").markup ("<i class=\"key p" + std::to_string (n) + "\"></i>").text (names[n]).close ("li");
   if (content.truth)
-    html.open ("li").markup ("<i class=\"scale\"></i>").text ("error, 0 to " + toShortText (1000.0 * content.scene.error_max_m) + " mm and more").close ("li");
+    html.open ("li")
+        .markup ("<i class=\"scale\"></i>")
+        .text ("error, 0 to " + toShortText (1000.0 * content.scene.error_max_m) + " mm and more")
+        .close ("li");
   html.close ("ul");
 }
 
@@ -78,7 +84,8 @@ writePictures (HtmlWriter& html, const ReportContent& content, const ProgressCal
   const std::vector<RunObject>& objects = content.run.objects;
   const Eigen::Vector3d up = upOf (content);
   Section section (html, "pictures", "Before and after");
-  html.element ("p", "Left what was seen, the zero level of the truncated distances averaged over all frames; then what was completed. Above from the side of the "
+  html.element ("p", "Left what was seen, the zero level of the truncated distances averaged over all frames; then what was "
+                     "completed. Above from the side of the "
                      "camera, below from behind.");
   writePictureKeys (html, content);
   html.open ("div", {{"class", "panels scene"}});
@@ -93,9 +100,15 @@ writePictures (HtmlWriter& html, const ReportContent& content, const ProgressCal
       continue;
     const auto errors = content.scene.errors.find (object.id);
     const std::string name = nameOf (object, content);
-    html.open ("article").open ("h3").markup ("<i class=\"key " + styleOf (object.id) + "\"></i>").text (name).close ("h3").open ("div", {{"class", "panels"}});
+    html.open ("article")
+        .open ("h3")
+        .markup ("<i class=\"key " + styleOf (object.id) + "\"></i>")
+        .text (name)
+        .close ("h3")
+        .open ("div", {{"class", "panels"}});
     for (const CaptionedPicture& picture :
-         drawObject (object, directionsOf (object, content.run, up), errors == content.scene.errors.end () ? std::vector<double> () : errors->second.completed,
+         drawObject (object, directionsOf (object, content.run, up),
+                     errors == content.scene.errors.end () ? std::vector<double> () : errors->second.completed,
                      content.scene.error_max_m, name))
       writePicture (html, picture);
     html.close ("div").close ("article");
@@ -109,11 +122,16 @@ writeInteractiveView (HtmlWriter& html, const ReportContent& content)
 {
   Section section (html, "scene", "The scene to turn");
   html.open ("div", {{"id", "view"}, {"class", "view"}})
-      .element ("p", "The interactive view needs a browser with scripts and WebGL. All else in this report can be read without.", {{"id", "no-view"}, {"class", "no-view"}})
+      .element ("p", "The interactive view needs a browser with scripts and WebGL. All else in this report can be read without.",
+                {{"id", "no-view"}, {"class", "no-view"}})
       .close ("div");
-  html.element ("p", "Drag to turn, drag with the right button or two fingers to move, pinch to come nearer; the wheel does so once the view has been clicked.",
+  html.element ("p",
+                "Drag to turn, drag with the right button or two fingers to move, pinch to come nearer; the wheel does so once "
+                "the view has been clicked.",
                 {{"class", "note screen-only"}});
-  html.open ("script", {{"type", "application/json"}, {"id", "scene-data"}}).markup (asScriptText (sceneData (content))).close ("script");
+  html.open ("script", {{"type", "application/json"}, {"id", "scene-data"}})
+      .markup (asScriptText (sceneData (content)))
+      .close ("script");
   section.end ();
 }
 
@@ -152,15 +170,19 @@ policySource (const EmbeddedFile& file)
 std::string
 contentPolicy ()
 {
-  return ("default-src 'none'; img-src data:; style-src" + policySource (report_style) + "; script-src" + policySource (three_library) +
-          policySource (orbit_controls) + policySource (report_script) + "; base-uri 'none'; form-action 'none'");
+  return ("default-src 'none'; img-src data:; style-src" + policySource (report_style) + "; script-src" +
+          policySource (three_library) + policySource (orbit_controls) + policySource (report_script) +
+          "; base-uri 'none'; form-action 'none'");
 }
 
 void
 writeHead (HtmlWriter& html, const std::string& title)
 {
-  html.open ("head").single ("meta", {{"charset", "utf-8"}}).single ("meta", {{"http-equiv", "Content-Security-Policy"}, {"content", contentPolicy ()}});
-  html.single ("meta", {{"name", "viewport"}, {"content", "width=device-width, initial-scale=1"}}).single ("meta", {{"name", "color-scheme"}, {"content", "light dark"}});
+  html.open ("head")
+      .single ("meta", {{"charset", "utf-8"}})
+      .single ("meta", {{"http-equiv", "Content-Security-Policy"}, {"content", contentPolicy ()}});
+  html.single ("meta", {{"name", "viewport"}, {"content", "width=device-width, initial-scale=1"}})
+      .single ("meta", {{"name", "color-scheme"}, {"content", "light dark"}});
   html.single ("meta", {{"name", "generator"}, {"content", "pcl_cosection_report " PCL_COSECTION_VERSION}});
   html.element ("title", title).open ("style").markup (report_style.text).close ("style").close ("head");
 }
@@ -168,9 +190,15 @@ writeHead (HtmlWriter& html, const std::string& title)
 void
 writeFooter (HtmlWriter& html)
 {
-  html.open ("footer").element ("p", "Written by pcl_cosection_report " PCL_COSECTION_VERSION ". This file loads nothing from anywhere.");
+  html.open ("footer").element ("p", "Written by pcl_cosection_report " PCL_COSECTION_VERSION
+                                     ". This file loads nothing from anywhere.");
   if (!three_library.text.empty ())
-    html.open ("details").element ("summary", "Licence of three.js, which draws the scene").open ("pre").text (std::string (three_notice.text)).close ("pre").close ("details");
+    html.open ("details")
+        .element ("summary", "Licence of three.js, which draws the scene")
+        .open ("pre")
+        .text (std::string (three_notice.text))
+        .close ("pre")
+        .close ("details");
   html.close ("footer");
   for (const EmbeddedFile& script : {three_library, orbit_controls, report_script})
     html.open ("script").markup (script.text).close ("script");

@@ -5,8 +5,8 @@
 #include "html_writer.h"
 #include "report_content.h"
 
-/** \brief Trajectories of the camera and of the objects' middles: from above, and each coordinate over time. Truth is dashed, brought into the
- * world of the run. \return whether there were any */
+/** \brief Trajectories of the camera and of the objects' middles: from above, and each coordinate over time. Truth is dashed,
+ * brought into the world of the run. \return whether there were any */
 bool
 writeTrajectories (HtmlWriter& html, const ReportContent& content);
 

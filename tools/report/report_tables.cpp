@@ -29,7 +29,8 @@ sizeText (const RunObject& object, const ReportContent& content)
 {
   if (object.completed.empty ())
     return (dash);
-  const Eigen::Vector3d size = millimetres * standingSize (object.completed, directionsOf (object, content.run, upOf (content)).up);
+  const Eigen::Vector3d size =
+      millimetres * standingSize (object.completed, directionsOf (object, content.run, upOf (content)).up);
   return (toText (size.x ()) + times + toText (size.y ()) + times + toText (size.z ()));
 }
 
@@ -97,9 +98,11 @@ valueText (const Json& value)
 } // namespace
 
 HtmlTable::HtmlTable (HtmlWriter& html, const std::string& caption, std::vector<std::string> header, const std::string& style)
-    : html_ (html), header_ (std::move (header))
+    : html_ (html)
+    , header_ (std::move (header))
 {
-  html_.open ("div", {{"class", "wide"}, {"tabindex", "0"}, {"role", "region"}, {"aria-label", caption}}).open ("table", {{"class", style}});
+  html_.open ("div", {{"class", "wide"}, {"tabindex", "0"}, {"role", "region"}, {"aria-label", caption}})
+      .open ("table", {{"class", style}});
   html_.element ("caption", caption).open ("thead").open ("tr");
   for (const std::string& name : header_)
     html_.element ("th", name, {{"scope", "col"}});
@@ -179,15 +182,17 @@ provenanceShares (const RunObject& object)
 void
 writeObjectTable (HtmlWriter& html, const ReportContent& content)
 {
-  HtmlTable table (html, "Objects",
-                   {"Object", "Size (mm)", "Volume (ml)", "Closed", "Provenance", "Inside others (mm)", "Frames tracked", "Solver"});
+  HtmlTable table (
+      html, "Objects",
+      {"Object", "Size (mm)", "Volume (ml)", "Closed", "Provenance", "Inside others (mm)", "Frames tracked", "Solver"});
   for (const RunObject& object : content.run.objects)
   {
     if (object.summary.is_null () && object.completed.empty () && object.seen.empty ())
       continue; // a trajectory alone
     const ObjectFacts facts = factsOf (object);
     const std::string name = nameOf (object, content), number = std::to_string (object.id);
-    table.row ({{name, name == "object " + number ? "" : "<small>object " + number + "</small>", "<i class=\"key " + styleOf (object.id) + "\"></i>"},
+    table.row ({{name, name == "object " + number ? "" : "<small>object " + number + "</small>",
+                 "<i class=\"key " + styleOf (object.id) + "\"></i>"},
                 {sizeText (object, content)},
                 {facts.volume_ml},
                 {facts.closed},
@@ -200,8 +205,10 @@ writeObjectTable (HtmlWriter& html, const ReportContent& content)
   table.end ();
   html.open ("p", {{"class", "note"}}).text ("Provenance, in this order: ");
   for (std::size_t n = 0; n < kinds; ++n)
-    html.markup ("<i class=\"key p" + std::to_string (n) + "\"></i>").text (kind_names[n] + std::string (n + 1 < kinds ? ", " : ". "));
-  html.text ("Size: length, width and height of the box around the completed mesh as it stands. Inside others: how deep the object remains inside another body.");
+    html.markup ("<i class=\"key p" + std::to_string (n) + "\"></i>")
+        .text (kind_names[n] + std::string (n + 1 < kinds ? ", " : ". "));
+  html.text ("Size: length, width and height of the box around the completed mesh as it stands. Inside others: how deep the "
+             "object remains inside another body.");
   html.close ("p");
 }
 

@@ -59,11 +59,15 @@ writeTimings (HtmlWriter& html, const ReportContent& content)
       continue;
     if (!stage.is_part && !stage.is_beside)
       known_s += *seconds;
-    writeStage (table, (stage.is_part ? "\xC2\xA0\xC2\xA0\xC2\xA0" : "") + std::string (stage.name), *seconds, *total_s, stage.is_part ? "part" : stage.is_beside ? "beside" : "stage");
+    writeStage (table, (stage.is_part ? "\xC2\xA0\xC2\xA0\xC2\xA0" : "") + std::string (stage.name), *seconds, *total_s,
+                stage.is_part     ? "part"
+                : stage.is_beside ? "beside"
+                                  : "stage");
   }
   for (const auto& [key, value] : timings.items ())
     if (key != "total" && value.is_number () &&
-        std::none_of (std::begin (stages), std::end (stages), [&, &key = key] (const Stage& stage) { return (key == stage.key); }))
+        std::none_of (std::begin (stages), std::end (stages),
+                      [&, &key = key] (const Stage& stage) { return (key == stage.key); }))
       writeStage (table, key, value.get<double> (), *total_s, "stage");
   if (*total_s - known_s > 0.005 * *total_s)
     writeStage (table, "the rest", *total_s - known_s, *total_s, "rest");

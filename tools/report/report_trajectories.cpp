@@ -15,7 +15,8 @@ using namespace pcl::cosection;
 namespace
 {
 
-constexpr double gap_periods = 1.5; ///< a longer time between poses interrupts the line
+constexpr double gap_periods = 1.5;  ///< a longer time between poses interrupts the line
+constexpr double least_height_m = 0.02; ///< of a chart over time: noise is not motion
 constexpr std::size_t most_open = 6; ///< charts over time; more are folded away
 
 /** \brief Where something was, in the frame of the charts: x and y level, z up. */
@@ -37,8 +38,8 @@ levelled (const Eigen::Vector3d& up)
 
 /** \brief Points of a line, interrupted where poses are missing. */
 std::vector<Eigen::Vector2d>
-lineOf (const std::vector<double>& stamps, const std::vector<Eigen::Vector3d>& places, double period, Eigen::Vector2d (*point) (double, const Eigen::Vector3d&, int),
-        int axis)
+lineOf (const std::vector<double>& stamps, const std::vector<Eigen::Vector3d>& places, double period,
+        Eigen::Vector2d (*point) (double, const Eigen::Vector3d&, int), int axis)
 {
   std::vector<Eigen::Vector2d> points;
   for (std::size_t n = 0; n < places.size (); ++n)
@@ -63,8 +64,8 @@ overTime (double stamp, const Eigen::Vector3d& place, int axis)
 }
 
 void
-add (const std::vector<StampedPose>& poses, const Eigen::Isometry3d& T_chart_world, const Eigen::Vector3d& middle, std::vector<double>& stamps,
-     std::vector<Eigen::Vector3d>& places)
+add (const std::vector<StampedPose>& poses, const Eigen::Isometry3d& T_chart_world, const Eigen::Vector3d& middle,
+     std::vector<double>& stamps, std::vector<Eigen::Vector3d>& places)
 {
   for (const StampedPose& pose : poses)
   {
@@ -102,7 +103,8 @@ pathsOf (const ReportContent& content)
       if (const ObjectEvaluation* evaluation = evaluationOf (content.truth->evaluation, object.id))
         for (const SceneRecord::Object& true_object : content.truth->truth.objects)
           if (true_object.id == evaluation->truth_id)
-            add (true_object.poses, T_chart_truth, evaluation->mesh.alignment.T_truth_estimate * middle, path.true_stamps, path.true_places);
+            add (true_object.poses, T_chart_truth, evaluation->mesh.alignment.T_truth_estimate * middle, path.true_stamps,
+                 path.true_places);
     paths.push_back (path);
   }
   return (paths);
@@ -213,8 +215,11 @@ writeTrajectories (HtmlWriter& html, const ReportContent& content)
   {
     const Path& path = paths[n];
     if (n == most_open)
-      html.close ("div").open ("details").element ("summary", "Charts of " + counted (paths.size () - most_open, "more object")).open ("div", {{"class", "charts"}});
-    LineChart chart{path.name + ": moved since the beginning", time, "moved (m)", {}, false, 220};
+      html.close ("div")
+          .open ("details")
+          .element ("summary", "Charts of " + counted (paths.size () - most_open, "more object"))
+          .open ("div", {{"class", "charts"}});
+    LineChart chart{path.name + ": moved since the beginning", time, "moved (m)", {}, false, 220, least_height_m};
     for (int axis = 0; axis < 3; ++axis)
     {
       const auto since = [&] (std::vector<Eigen::Vector3d> places) {
@@ -223,14 +228,19 @@ writeTrajectories (HtmlWriter& html, const ReportContent& content)
         return (places);
       };
       if (!path.true_places.empty ())
-        chart.series.push_back ({"truth", lineOf (path.true_stamps, since (path.true_places), period, overTime, axis), true, false});
-      chart.series.push_back ({axis_styles[axis], lineOf (path.stamps, since (path.places), period, overTime, axis), false, false});
+        chart.series.push_back (
+            {"truth", lineOf (path.true_stamps, since (path.true_places), period, overTime, axis), true, false});
+      chart.series.push_back (
+          {axis_styles[axis], lineOf (path.stamps, since (path.places), period, overTime, axis), false, false});
     }
     writeChart (html, chart);
   }
   html.close ("div");
   if (paths.size () > most_open)
     html.close ("details");
-  html.element ("p", "Rings are beginnings, dots are ends; where nothing was tracked the line is interrupted. Of objects, the middle of the mesh is shown.", {{"class", "note"}});
+  html.element ("p",
+                "Rings are beginnings, dots are ends; where nothing was tracked the line is interrupted. Of objects, the middle "
+                "of the mesh is shown.",
+                {{"class", "note"}});
   return (true);
 }

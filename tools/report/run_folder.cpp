@@ -37,7 +37,8 @@ bool
 hasAny (const fs::path& folder, const std::vector<std::string>& names)
 {
   std::error_code failure;
-  return (std::any_of (names.begin (), names.end (), [&] (const std::string& name) { return (fs::exists (folder / name, failure)); }));
+  return (std::any_of (names.begin (), names.end (),
+                       [&] (const std::string& name) { return (fs::exists (folder / name, failure)); }));
 }
 
 /** \brief Whether a file has one of the names that a run gives. */
@@ -65,14 +66,17 @@ requireRun (const std::string& path)
     return;
   if (hasAny (folder, {"gt-cam-0.txt", "calibration.txt", "associations.txt", "rgb.txt", "depth", "depth_noise"}))
     throw IoError (path + ": is a dataset, not a run; first run pcl_cosection_fusion " + path +
-                   " OUTPUT, then give OUTPUT (and --truth " + path + ")");
+                   " OUTPUT, then give OUTPUT" + (hasAny (folder, {"gt-cam-0.txt"}) ? ", and --truth " + path : ""));
   if (hasAny (folder, {"trajectory", "mesh"}) && !fs::is_empty (folder, failure))
     throw IoError (path + ": is a run in which nothing is left: no meshes, trajectories or summary.json");
   const std::vector<std::string> top = namesIn (folder);
   if (std::any_of (top.begin (), top.end (), isRunFile))
-    throw IoError (path + ": has meshes as pcl_cosection writes them, not a run of pcl_cosection_fusion with its folders mesh and trajectory");
-  throw IoError (path + (top.empty () ? ": is an empty folder" : ": is not a run: it has neither summary.json nor mesh/ nor trajectory/") +
-                 "; it must be what pcl_cosection_fusion wrote");
+    throw IoError (
+        path +
+        ": has meshes as pcl_cosection writes them, not a run of pcl_cosection_fusion with its folders mesh and trajectory");
+  throw IoError (
+      path + (top.empty () ? ": is an empty folder" : ": is not a run: it has neither summary.json nor mesh/ nor trajectory/") +
+      "; it must be what pcl_cosection_fusion wrote");
 }
 
 std::string
@@ -125,7 +129,10 @@ readSummary (RunFolder& run)
   const auto number = [&] (const char* key) { return (numberIn (camera, key).value_or (0.0)); };
   const PinholeCamera intrinsics{static_cast<int> (std::clamp (number ("width"), 0.0, 1e5)),
                                  static_cast<int> (std::clamp (number ("height"), 0.0, 1e5)),
-                                 number ("fx"), number ("fy"), number ("cx"), number ("cy")};
+                                 number ("fx"),
+                                 number ("fy"),
+                                 number ("cx"),
+                                 number ("cy")};
   if (intrinsics.width > 0 && intrinsics.height > 0 && intrinsics.fx > 0.0 && intrinsics.fy > 0.0)
     run.intrinsics = intrinsics;
 }

@@ -17,7 +17,8 @@ struct RunTruth
 {
   pcl::cosection::SceneRecord truth;
   pcl::cosection::RunEvaluation evaluation;
-  std::map<int, pcl::cosection::MeshComparison> seen; ///< of the TSDF meshes, in the alignment of the completed ones, by objects' ids
+  std::map<int, pcl::cosection::MeshComparison>
+      seen;                       ///< of the TSDF meshes, in the alignment of the completed ones, by objects' ids
   std::vector<std::string> notes; ///< what of the truth is missing
 };
 
@@ -39,7 +40,7 @@ struct ComparedRun
 const pcl::cosection::ObjectEvaluation*
 evaluationOf (const pcl::cosection::RunEvaluation& run, int id);
 
-/** \brief The distance of every vertex of a mesh in the frame of the estimated object to the true surface, metres; empty if there is no
- * counterpart. */
+/** \brief The distance of every vertex of a mesh in the frame of the estimated object to the true surface, metres; empty if there
+ * is no counterpart. */
 std::vector<double>
 errorsOf (const RunTruth& truth, int id, const pcl::cosection::TriangleMesh& mesh, int threads);

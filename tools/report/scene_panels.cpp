@@ -21,7 +21,8 @@ drawScenePanels (const ReportContent& content)
 {
   const RunScene& scene = content.scene;
   const std::vector<double> stamps = scene.stamps ();
-  const bool has_objects = std::any_of (scene.run.objects.begin (), scene.run.objects.end (), [] (const SceneRecord::Object& object) { return (!object.mesh.empty ()); });
+  const bool has_objects = std::any_of (scene.run.objects.begin (), scene.run.objects.end (),
+                                        [] (const SceneRecord::Object& object) { return (!object.mesh.empty ()); });
   if (stamps.empty () || !has_objects)
     return {};
   SceneView view;
@@ -33,7 +34,8 @@ drawScenePanels (const ReportContent& content)
     view.viewpoint = overview (scene, turn_rad);
     view.surface = surface;
     view.colour = colour;
-    pictures.push_back ({caption, "The scene: " + caption, width_px, height_px, dataUri (drawScene (scene, stamps[stamps.size () / 2], view))});
+    pictures.push_back (
+        {caption, "The scene: " + caption, width_px, height_px, dataUri (drawScene (scene, stamps[stamps.size () / 2], view))});
   };
   add (0.0, SurfaceMode::Tsdf, ColourMode::Real, "Seen, from the side of the camera");
   add (0.0, SurfaceMode::Completed, ColourMode::Real, "Completed, from the side of the camera");

@@ -16,7 +16,7 @@ namespace
 constexpr double width = 420.0;
 constexpr double left = 46.0, right = 12.0, top = 10.0, bottom = 38.0; ///< beside the field of the lines
 constexpr std::size_t most_points = 400;
-constexpr double least_range = 1e-3; ///< metres, or frames: what is smaller is a straight line
+constexpr double least_width = 1e-3; ///< metres, seconds or frames
 constexpr int bar_height_px = 10;
 
 std::string
@@ -39,8 +39,7 @@ tickText (double value, double step)
 /** \brief Where numbers are in the picture. */
 struct Axes
 {
-  Axes (const LineChart& chart)
-      : field_width (width - left - right), field_height (chart.height_px - top - bottom)
+  Axes (const LineChart& chart) : field_width (width - left - right), field_height (chart.height_px - top - bottom)
   {
     for (const ChartSeries& series : chart.series)
       for (const Eigen::Vector2d& point : series.points)
@@ -50,7 +49,7 @@ struct Axes
       box.extend (Eigen::Vector2d::Zero ());
     for (int axis = 0; axis < 2; ++axis)
     {
-      const double range = std::max (box.sizes ()[axis], least_range), middle = box.center ()[axis];
+      const double range = std::max (box.sizes ()[axis], axis == 0 ? least_width : chart.least_height), middle = box.center ()[axis];
       const double margin = axis == 0 && !chart.equal_axes ? 0.0 : 0.06 * range;
       box.min ()[axis] = middle - 0.5 * range - margin;
       box.max ()[axis] = middle + 0.5 * range + margin;
@@ -95,12 +94,14 @@ drawTicks (HtmlWriter& svg, const Axes& axes, const LineChart& chart)
   {
     const std::string y = number (axes.y (tick));
     svg.element ("line", "", {{"class", "grid"}, {"x1", number (left)}, {"x2", number (x_end)}, {"y1", y}, {"y2", y}});
-    svg.element ("text", tickText (tick, step (ys)), {{"x", number (left - 6)}, {"y", number (axes.y (tick) + 4)}, {"text-anchor", "end"}});
+    svg.element ("text", tickText (tick, step (ys)),
+                 {{"x", number (left - 6)}, {"y", number (axes.y (tick) + 4)}, {"text-anchor", "end"}});
   }
   svg.element ("text", chart.x_label,
                {{"x", number (left + 0.5 * axes.field_width)}, {"y", number (chart.height_px - 6.0)}, {"text-anchor", "middle"}});
-  svg.element ("text", chart.y_label,
-               {{"transform", "translate(12 " + number (top + 0.5 * axes.field_height) + ") rotate(-90)"}, {"text-anchor", "middle"}});
+  svg.element (
+      "text", chart.y_label,
+      {{"transform", "translate(12 " + number (top + 0.5 * axes.field_height) + ") rotate(-90)"}, {"text-anchor", "middle"}});
 }
 
 /** \brief At most so many of the points, the last one among them. Interruptions are kept. */
@@ -140,7 +141,11 @@ drawSeries (HtmlWriter& svg, const Axes& axes, const ChartSeries& series)
   if (!series.has_ends)
     return;
   const auto mark = [&] (const Eigen::Vector2d& at, const char* kind) {
-    svg.element ("circle", "", {{"class", kind + (" " + series.style)}, {"cx", number (axes.x (at.x ()))}, {"cy", number (axes.y (at.y ()))}, {"r", "3.5"}});
+    svg.element ("circle", "",
+                 {{"class", kind + (" " + series.style)},
+                  {"cx", number (axes.x (at.x ()))},
+                  {"cy", number (axes.y (at.y ()))},
+                  {"r", "3.5"}});
   };
   mark (*first, "ring");
   mark (*last, "dot");
@@ -171,7 +176,10 @@ drawLineChart (const LineChart& chart)
 {
   const Axes axes (chart);
   HtmlWriter svg;
-  svg.open ("svg", {{"class", "chart"}, {"viewBox", "0 0 " + number (width, "%.0f") + ' ' + std::to_string (chart.height_px)}, {"role", "img"}, {"aria-label", chart.title}});
+  svg.open ("svg", {{"class", "chart"},
+                    {"viewBox", "0 0 " + number (width, "%.0f") + ' ' + std::to_string (chart.height_px)},
+                    {"role", "img"},
+                    {"aria-label", chart.title}});
   drawTicks (svg, axes, chart);
   for (const ChartSeries& series : chart.series)
     drawSeries (svg, axes, series);
@@ -184,13 +192,19 @@ drawBar (const std::vector<BarPart>& parts, const std::string& title, int width_
 {
   HtmlWriter svg;
   const std::string height = std::to_string (bar_height_px);
-  svg.open ("svg", {{"class", "bar"}, {"viewBox", "0 0 " + std::to_string (width_px) + ' ' + height}, {"preserveAspectRatio", "none"}, {"role", "img"}, {"aria-label", title}});
+  svg.open ("svg", {{"class", "bar"},
+                    {"viewBox", "0 0 " + std::to_string (width_px) + ' ' + height},
+                    {"preserveAspectRatio", "none"},
+                    {"role", "img"},
+                    {"aria-label", title}});
   double at = 0.0;
   for (const BarPart& part : parts)
   {
     const double size = std::clamp (part.share, 0.0, 1.0) * width_px;
     if (size > 0.0)
-      svg.element ("rect", "", {{"class", part.style}, {"x", number (at, "%.2f")}, {"y", "0"}, {"width", number (size, "%.2f")}, {"height", height}});
+      svg.element (
+          "rect", "",
+          {{"class", part.style}, {"x", number (at, "%.2f")}, {"y", "0"}, {"width", number (size, "%.2f")}, {"height", height}});
     at += size;
   }
   svg.close ("svg");

@@ -24,6 +24,7 @@ struct LineChart
   std::vector<ChartSeries> series;
   bool equal_axes = false; ///< a metre is as long on both
   int height_px = 260;     ///< of 420 in width, at which letters have their size
+  double least_height = 1e-3; ///< of the upright axis: what moves less looks still
 };
 
 /** \brief The chart as an SVG element; scales with its width.
@@ -34,7 +35,7 @@ drawLineChart (const LineChart& chart);
 /** \brief A part of a bar. */
 struct BarPart
 {
-  std::string style; ///< its class in the style sheet
+  std::string style;  ///< its class in the style sheet
   double share = 0.0; ///< of the width, in [0, 1]
 };
 
