@@ -32,7 +32,7 @@ VirtualDisplay::VirtualDisplay ()
     dup2 (nothing, STDOUT_FILENO);
     dup2 (nothing, STDERR_FILENO);
     const std::string fd = std::to_string (ends[1]);
-    execlp ("Xvfb", "Xvfb", "-displayfd", fd.c_str (), "-screen", "0", "1280x800x24", "-nolisten", "tcp", nullptr);
+    execlp ("Xvfb", "Xvfb", "-displayfd", fd.c_str (), "-screen", "0", "1280x800x24", "-nolisten", "tcp", "-noreset", nullptr);
     _exit (127);
   }
   close (ends[1]);
