@@ -14,6 +14,7 @@ packages=(
   libvtk9-dev
   libeigen3-dev
   libopencv-dev
+  libx11-dev
   # tools
   libcli11-dev
   nlohmann-json3-dev
@@ -23,6 +24,8 @@ packages=(
   libbenchmark-dev
   chromium
   doxygen
+  xvfb
+  xdotool
 )
 
 if ! command -v dpkg-query > /dev/null; then

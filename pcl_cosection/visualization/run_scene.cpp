@@ -53,7 +53,8 @@ requireRun (const std::string& folder, const RunSummary& summary)
   const fs::path path (folder);
   if (!isThere (path / "trajectory" / "camera.txt") && !summary.error.empty ())
     throw IoError (folder + ": that run failed: " + summary.error);
-  if (isThere (path) && !isThere (path / "trajectory" / "camera.txt") && !isThere (path / "gt-cam-0.txt"))
+  std::error_code ignored;
+  if (fs::is_directory (path, ignored) && !isThere (path / "trajectory" / "camera.txt") && !isThere (path / "gt-cam-0.txt"))
     throw IoError (folder + ": has no trajectory/camera.txt: it is not what pcl_cosection_fusion wrote, or that run did not come to its end");
 }
 

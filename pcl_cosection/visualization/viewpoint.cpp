@@ -25,6 +25,7 @@ constexpr double raised_rad = 0.25;  ///< the overview, above the cameras
 constexpr double least_raised_rad = 0.4, most_raised_rad = 1.0; ///< above the floor
 constexpr double upward = 0.6;       ///< cosine of the angle up to which a normal may be the floor's
 constexpr double floor_share = 0.1;  ///< of the vertices, for a floor
+constexpr double behind_cameras = 1.8; ///< of their distance
 constexpr double beyond = 1.15;      ///< room around what is to be seen
 constexpr double least_radius_m = 0.05;
 constexpr double deepest_share = 0.02; ///< of a background's vertices, beyond its box at each end
@@ -186,7 +187,7 @@ overview (const RunScene& scene, double turn_rad)
   const Eigen::Vector3d direction = std::cos (raised_rad_now) * (Eigen::AngleAxisd (turn_rad, view.up) * level.normalized ()) +
                                     std::sin (raised_rad_now) * view.up;
   const double radius = std::max (least_radius_m, 0.5 * box.diagonal ().norm ());
-  view.eye = view.target + std::max (beyond * radius / std::sin (0.5 * view.angle_rad), back.norm ()) * direction;
+  view.eye = view.target + std::max (beyond * radius / std::sin (0.5 * view.angle_rad), behind_cameras * back.norm ()) * direction;
   return view;
 }
 

@@ -20,7 +20,6 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <utility>
 
 namespace fs = std::filesystem;
@@ -225,6 +224,25 @@ LiveView::show (const KeyframeReport& report)
   changed_.notify_all ();
 }
 
+LiveScene
+LiveView::takeChanges ()
+{
+  LiveScene changes;
+  changes.camera = scene_.camera;
+  changes.objects = scene_.objects;
+  for (const int id : scene_.changed_seen)
+    changes.seen[id] = scene_.seen[id];
+  for (const int id : scene_.changed_completed)
+    changes.completed[id] = scene_.completed[id];
+  if (scene_.changed_background)
+    changes.background = scene_.background;
+  std::swap (changes.changed_seen, scene_.changed_seen);
+  std::swap (changes.changed_completed, scene_.changed_completed);
+  std::swap (changes.changed_background, scene_.changed_background);
+  is_new_ = false;
+  return (changes);
+}
+
 void
 LiveView::writeSnapshots ()
 {
@@ -235,11 +253,7 @@ LiveView::writeSnapshots ()
     changed_.wait (lock, [this] { return (is_new_ || stop_); });
     if (stop_)
       return;
-    const LiveScene scene = scene_;
-    scene_.changed_seen.clear ();
-    scene_.changed_completed.clear ();
-    scene_.changed_background = false;
-    is_new_ = false;
+    const LiveScene scene = takeChanges ();
     lock.unlock ();
     try
     {

@@ -45,6 +45,9 @@ private:
   waitUntilReady ();
   bool
   hasEnded ();
+  /** \brief What is to be written; with the mutex. */
+  LiveScene
+  takeChanges ();
   void
   writeSnapshots ();
   /** \brief End the process and remove the snapshots. */

@@ -204,7 +204,7 @@ viewerText ()
       {
           {"pcl_cosection_viewer out", "a window"},
           {"pcl_cosection_viewer --screenshot scene.png out", "a picture of the last frame, without a display"},
-          {"pcl_cosection_viewer --screenshot hidden.png --view behind --colour provenance out",
+          {"pcl_cosection_viewer --view behind --colour provenance --screenshot a.png out",
            "the surfaces that the camera did not see, and why they are where they are"},
           {"pcl_cosection_viewer --colour error --truth toys --screenshot errors.png out", "the distance to the true surfaces"},
           {"pcl_cosection_viewer --record frames --view camera out", "pictures for a film, from where the camera was"},

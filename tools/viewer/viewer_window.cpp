@@ -17,6 +17,7 @@
 
 #include <array>
 #include <filesystem>
+#include <memory>
 
 namespace fs = std::filesystem;
 using namespace pcl::cosection;
@@ -117,9 +118,10 @@ windowOptions (const ViewerSettings& settings, Terminal& terminal)
 void
 showWindow (const ViewerSettings& settings, Terminal& terminal)
 {
+  std::shared_ptr<void> display; // kept while the run is loaded
   try
   {
-    requireDisplay ();
+    display = requireDisplay ();
   }
   catch (const IoError& error)
   {

@@ -14,20 +14,22 @@ namespace cosection
 {
 
 // VTK ends the process where there is no display.
-void
+std::shared_ptr<void>
 requireDisplay ()
 {
   const char* const name = std::getenv ("DISPLAY");
   if (name == nullptr || *name == '\0')
     throw IoError ("no window can be opened: there is no display, DISPLAY is not set");
-  Display* const display = XOpenDisplay (nullptr);
-  if (display == nullptr)
+  const std::shared_ptr<Display> display (XOpenDisplay (nullptr), [] (Display* d) {
+    if (d != nullptr)
+      XCloseDisplay (d);
+  });
+  if (!display)
     throw IoError ("no window can be opened: the display " + std::string (name) + " that DISPLAY names does not answer");
   int opcode = 0, event = 0, error = 0;
-  const bool has_opengl = XQueryExtension (display, "GLX", &opcode, &event, &error) != 0;
-  XCloseDisplay (display);
-  if (!has_opengl)
+  if (XQueryExtension (display.get (), "GLX", &opcode, &event, &error) == 0)
     throw IoError ("no window can be opened: the display " + std::string (name) + " has no OpenGL (GLX)");
+  return display;
 }
 
 } // namespace cosection

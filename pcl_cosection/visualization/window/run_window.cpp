@@ -29,7 +29,7 @@ RunWindow::RunWindow (RunScene scene, const RunWindowOptions& options)
   options.validate ();
   if (scene.run.camera.empty ())
     throw InvalidArgument ("a scene without frames cannot be shown");
-  requireDisplay ();
+  const std::shared_ptr<void> display = requireDisplay ();
   impl_ = std::make_unique<Impl> (std::move (scene), options);
 }
 

@@ -3,6 +3,7 @@
 #include "window_overlay.h"
 
 #include "key_bindings.h"
+#include "vtk_shapes.h"
 
 #include <pcl/cosection/evaluation/error_picture.h>
 
@@ -10,6 +11,7 @@
 #include <vtkLookupTable.h>
 #include <vtkNew.h>
 #include <vtkPlaneSource.h>
+#include <vtkPointData.h>
 #include <vtkPolyData.h>
 #include <vtkProperty2D.h>
 #include <vtkTextProperty.h>
@@ -105,6 +107,7 @@ WindowOverlay::WindowOverlay (vtkRenderer& renderer)
   entries_->SetBackgroundColor (behind.data ());
   entries_->SetBackgroundOpacity (veil);
   entries_->BorderOff ();
+  entries_->ScalarVisibilityOn ();
   entries_->SetPadding (4);
   entries_->GetEntryTextProperty ()->BoldOff ();
   entries_->GetEntryTextProperty ()->ItalicOff ();
@@ -150,14 +153,14 @@ WindowOverlay::setLegend (const ColourLegend& legend)
   constexpr double line_share = 0.042, width_share = 0.2, margin = 0.012;
   const auto count = static_cast<int> (std::min<std::size_t> (legend.entries.size (), 16));
   entries_->SetNumberOfEntries (count);
-  vtkNew<vtkPlaneSource> square;
-  square->Update ();
+  std::array<double, 3> text_colour = ink;
   for (int n = 0; n < count; ++n)
   {
     const LegendEntry& entry = legend.entries[static_cast<std::size_t> (n)];
-    std::array<double, 3> colour = {entry.colour[0] / 255.0, entry.colour[1] / 255.0, entry.colour[2] / 255.0};
-    entries_->SetEntry (n, square->GetOutput (), entry.text.c_str (), colour.data ());
-    entries_->SetEntryColor (n, colour.data ());
+    vtkNew<vtkPlaneSource> square; // which has the colour: that of the entry is the text's, too
+    square->Update ();
+    square->GetOutput ()->GetPointData ()->SetScalars (toColours (std::vector<TriangleMesh::Colour> (4, entry.colour)));
+    entries_->SetEntry (n, square->GetOutput (), entry.text.c_str (), text_colour.data ());
   }
   entries_->GetPositionCoordinate ()->SetCoordinateSystemToNormalizedViewport ();
   entries_->GetPositionCoordinate ()->SetValue (1.0 - margin - width_share, 1.0 - margin - line_share * count);

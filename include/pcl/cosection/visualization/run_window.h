@@ -18,8 +18,10 @@ namespace pcl
 namespace cosection
 {
 
-/** \brief \throws IoError that says why no window can be opened: there is no display, or it has no OpenGL. */
-PCL_COSECTION_EXPORT void
+/** \brief Connect to the display.
+ * \return the connection, to be kept until there is a window: a server may begin anew when its last client goes, and refuse the next meanwhile
+ * \throws IoError that says why no window can be opened: there is no display, or it has no OpenGL */
+PCL_COSECTION_EXPORT std::shared_ptr<void>
 requireDisplay ();
 
 /** \brief A scene in the place of the one that a window shows. */
