@@ -226,8 +226,8 @@ writeAccuracy (HtmlWriter& html, const ReportContent& content)
   table.end ();
   html.element ("p",
                 "Accuracy: mean distance from the completed mesh to the true one; completeness: from the true one to it; F: "
-                "F-score at 10 mm. ATE and RPE: "
-                "root mean squares of the absolute and the relative error of the trajectory, of objects in the camera's frame. "
+                "F-score at 10 mm. ATE and RPE: root mean squares of the absolute and the relative error of the trajectory, of "
+                "objects in the camera's frame. "
                 "Volume: the error of it.",
                 {{"class", "note"}});
   for (const int id : run.unmatched)

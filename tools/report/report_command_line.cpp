@@ -60,12 +60,10 @@ reportText ()
       "show a run in one HTML file",
       "pcl_cosection_report [OPTIONS] OUTPUT",
       "Writes one HTML file that shows what a run of pcl_cosection_fusion did: tables, pictures before and after, trajectories, "
-      "times, and the "
-      "meshes to turn and to play. It needs no network and can be sent, printed and read on a phone.",
+      "times, and the meshes to turn and to play. It needs no network and can be sent, printed and read on a phone.",
       {"OUTPUT is the folder that pcl_cosection_fusion wrote. It is only read.",
        "With --truth, DATASET is a folder with the truth as pcl_cosection_simulate writes it: accuracy, completeness and errors "
-       "of "
-       "trajectories come into the report. With --compare, other runs stand beside this one."},
+       "of trajectories come into the report. With --compare, other runs stand beside this one."},
       {
           {"pcl_cosection_report things", "report.html in the current folder"},
           {"pcl_cosection_report --truth table -o things.html things", "with the errors"},

@@ -21,7 +21,7 @@ using namespace pcl::cosection;
 namespace
 {
 
-/** \brief A part of the page, as long as it lives. */
+/** \brief A part of the page, from its making to its end (). */
 class Section
 {
 public:
@@ -85,8 +85,7 @@ writePictures (HtmlWriter& html, const ReportContent& content, const ProgressCal
   const Eigen::Vector3d up = upOf (content);
   Section section (html, "pictures", "Before and after");
   html.element ("p", "Left what was seen, the zero level of the truncated distances averaged over all frames; then what was "
-                     "completed. Above from the side of the "
-                     "camera, below from behind.");
+                     "completed. Above from the side of the camera, below from behind.");
   writePictureKeys (html, content);
   html.open ("div", {{"class", "panels scene"}});
   for (const CaptionedPicture& picture : drawScenePanels (content))
