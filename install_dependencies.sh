@@ -14,13 +14,18 @@ packages=(
   libvtk9-dev
   libeigen3-dev
   libopencv-dev
+  libx11-dev
   # tools
   libcli11-dev
   nlohmann-json3-dev
+  libjs-three
   # tests, benchmarks, documentation
   libgtest-dev
   libbenchmark-dev
+  chromium
   doxygen
+  xvfb
+  xdotool
 )
 
 if ! command -v dpkg-query > /dev/null; then

@@ -4,7 +4,11 @@ include(CMakePackageConfigHelpers)
 
 set(package_dir "${CMAKE_INSTALL_LIBDIR}/cmake/pcl_cosection")
 
-install(TARGETS pcl_cosection pcl_cosection_dnn pcl_cosection_rgbd
+set(libraries pcl_cosection pcl_cosection_dnn pcl_cosection_rgbd)
+if(TARGET pcl_cosection_visualization)
+  list(APPEND libraries pcl_cosection_visualization)
+endif()
+install(TARGETS ${libraries}
   EXPORT pcl_cosection-targets
   LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}"
   ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}"

@@ -7,8 +7,10 @@
 #include "fusion_command_line.h"
 #include "option_table.h"
 #include "program_text.h"
+#include "report_command_line.h"
 #include "segment_command_line.h"
 #include "simulate_command_line.h"
+#include "viewer_command_line.h"
 
 #include <iostream>
 
@@ -32,6 +34,13 @@ main (int argc, char** argv)
     declareFusionOptions (app, given);
     std::cout << manPage (app, fusionText ()) << std::flush;
   }
+  else if (program == "pcl_cosection_report")
+  {
+    CLI::App app;
+    GivenReport given;
+    declareReportOptions (app, given);
+    std::cout << manPage (app, reportText ()) << std::flush;
+  }
   else if (program == "pcl_cosection_segment")
   {
     CLI::App app;
@@ -45,6 +54,13 @@ main (int argc, char** argv)
     GivenSimulation given;
     declareSimulationOptions (app, given);
     std::cout << manPage (app, simulationText ()) << std::flush;
+  }
+  else if (program == "pcl_cosection_viewer")
+  {
+    CLI::App app;
+    GivenViewer given;
+    declareViewerOptions (app, given);
+    std::cout << manPage (app, viewerText ()) << std::flush;
   }
   else
     return (2);

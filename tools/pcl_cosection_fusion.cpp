@@ -7,6 +7,7 @@
 #include "fusion_command_line.h"
 #include "fusion_outputs.h"
 #include "interruption.h"
+#include "live_view.h"
 #include "segmenter_choice.h"
 #include "terminal.h"
 
@@ -110,13 +111,24 @@ fuse (const FusionSettings& settings, FusionOutputs& outputs, Terminal& terminal
   for (const std::string& warning : inputs.warnings)
     terminal.warning (warning);
   const SequenceFusion fusion = makeFusion (settings, inputs);
+  std::optional<LiveView> live;
+  if (settings.live)
+    live.emplace (settings.dataset, inputs.images.camera (), settings.output);
   outputs.begin (); // not before the inputs are there: a slip of the pen costs nothing
 
   const auto report = [&] (const std::string& stage, double fraction) {
     terminal.progress (stage, fraction);
     return (!interrupted ());
   };
-  FusionResult result = fusion.run (report, [&] (const KeyframeReport& keyframe) { outputs.writeKeyframe (keyframe); });
+  const auto on_keyframe = [&] (const KeyframeReport& keyframe) {
+    outputs.writeKeyframe (keyframe);
+    if (live)
+      live->show (keyframe);
+  };
+  SequenceFusion::FrameCallback on_frame;
+  if (live)
+    on_frame = [&live] (const FrameReport& frame) { live->show (frame); };
+  FusionResult result = fusion.run (report, on_keyframe, on_frame);
   for (const std::string& warning : result.warnings)
     terminal.warning (warning);
   for (const std::string& event : result.events)

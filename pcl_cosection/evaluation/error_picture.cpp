@@ -3,6 +3,7 @@
 #include <pcl/cosection/evaluation/error_picture.h>
 
 #include "creased_normals.h"
+#include "picture_canvas.h"
 
 #include <pcl/cosection/common/error.h>
 #include <pcl/cosection/evaluation/mesh_comparison.h>
@@ -10,12 +11,10 @@
 #include <pcl/cosection/rendering/rasterizer.h>
 
 #include <opencv2/core.hpp>
-#include <opencv2/imgproc.hpp>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 #include <string>
 
@@ -34,24 +33,6 @@ constexpr double ambient_light = 0.55; ///< much, for colours that can be told f
 constexpr double turn_rad = 2.6;      ///< between the columns
 constexpr int title_px = 48;
 constexpr int scale_px = 150;         ///< width of the column of the scale
-const cv::Scalar ink (45, 45, 45);
-
-using PictureMat = cv::Mat_<cv::Vec3b>; ///< red, green, blue, as in Picture
-
-void
-write (PictureMat& canvas, const std::string& text, int x, int y, double size)
-{
-  cv::putText (canvas, text, cv::Point (x * oversampling, y * oversampling), cv::FONT_HERSHEY_SIMPLEX,
-               size * oversampling, ink, 2, cv::LINE_AA);
-}
-
-std::string
-millimetres (double metres)
-{
-  char text[32];
-  std::snprintf (text, sizeof (text), "%.3g", 1000.0 * metres);
-  return text;
-}
 
 Eigen::Isometry3d
 cameraAt (const Eigen::Vector3d& eye, const Eigen::Vector3d& target, const Eigen::Vector3d& up)
@@ -79,7 +60,7 @@ fittingCamera (const std::array<TriangleMesh, 2>& meshes, const Eigen::Isometry3
 }
 
 /** \brief A mesh in the colours of its distance to a surface. */
-PictureMat
+PictureCanvas::Pixels
 drawPanel (const TriangleMesh& mesh, const SurfaceDistance& other, const PinholeCamera& camera,
            const Eigen::Isometry3d& T_world_camera, const ErrorPictureOptions& options)
 {
@@ -109,7 +90,7 @@ drawPanel (const TriangleMesh& mesh, const SurfaceDistance& other, const Pinhole
       point_of_pixel.push_back (point);
     }
   const std::vector<double> errors_m = other.of (points, options.threads);
-  PictureMat result (size, size, cv::Vec3b (255, 255, 255));
+  PictureCanvas::Pixels result (size, size, cv::Vec3b (255, 255, 255));
   for (std::size_t n = 0; n < pixels.size (); ++n)
   {
     const int u = static_cast<int> (pixels[n] % size), v = static_cast<int> (pixels[n] / size);
@@ -121,28 +102,6 @@ drawPanel (const TriangleMesh& mesh, const SurfaceDistance& other, const Pinhole
       result (v, u)[channel] = static_cast<std::uint8_t> (std::lround (light * colour[channel]));
   }
   return result;
-}
-
-void
-drawScale (PictureMat& canvas, const cv::Rect& box, double error_max_m)
-{
-  for (int v = 0; v < box.height * oversampling; ++v)
-  {
-    const auto colour = errorColour (1.0 - static_cast<double> (v) / (box.height * oversampling - 1));
-    cv::line (canvas, cv::Point (box.x * oversampling, box.y * oversampling + v),
-              cv::Point ((box.x + box.width) * oversampling, box.y * oversampling + v),
-              cv::Scalar (colour[0], colour[1], colour[2]));
-  }
-  write (canvas, "error", box.x, box.y - 36, 0.5);
-  write (canvas, "in mm", box.x, box.y - 16, 0.5);
-  constexpr int steps = 4;
-  for (int n = 0; n <= steps; ++n)
-  {
-    const int y = box.y + box.height - box.height * n / steps;
-    cv::line (canvas, cv::Point ((box.x + box.width) * oversampling, y * oversampling),
-              cv::Point ((box.x + box.width + 6) * oversampling, y * oversampling), ink, 2, cv::LINE_AA);
-    write (canvas, millimetres (error_max_m * n / steps) + (n == steps ? " +" : ""), box.x + box.width + 12, y + 5, 0.5);
-  }
 }
 
 } // namespace
@@ -210,7 +169,7 @@ drawErrorPicture (const TriangleMesh& truth, const TriangleMesh& reconstruction,
   const Eigen::Vector3d up = options.up.normalized (), front = options.front.normalized ();
   const int panel = options.panel_px;
   const int width = 2 * panel + scale_px, height = 2 * (panel + title_px);
-  PictureMat canvas (height * oversampling, width * oversampling, cv::Vec3b (255, 255, 255));
+  PictureCanvas canvas (width, height, oversampling);
 
   const SurfaceDistance to_truth (truth), to_reconstruction (reconstruction);
   const std::array<TriangleMesh, 2> meshes = {withCreasedNormals (reconstruction), withCreasedNormals (truth)};
@@ -224,22 +183,16 @@ drawErrorPicture (const TriangleMesh& truth, const TriangleMesh& reconstruction,
     const PinholeCamera camera = fittingCamera (meshes, T_world_camera, panel * oversampling);
     for (int row = 0; row < 2; ++row)
       drawPanel (meshes[row], *others[row], camera, T_world_camera, options)
-          .copyTo (canvas (cv::Rect (column * panel * oversampling,
-                                     (row * (panel + title_px) + title_px) * oversampling, panel * oversampling,
-                                     panel * oversampling)));
+          .copyTo (canvas.pixels () (cv::Rect (column * panel * oversampling,
+                                               (row * (panel + title_px) + title_px) * oversampling, panel * oversampling,
+                                               panel * oversampling)));
   }
   for (int row = 0; row < 2; ++row)
-    write (canvas, captions[row], 20, row * (panel + title_px) + 32, 0.62);
+    canvas.write (captions[row], 20, row * (panel + title_px) + 32, 0.62);
   const int scale_height = std::min (360, height / 2);
-  drawScale (canvas, cv::Rect (2 * panel + 20, (height - scale_height) / 2, 26, scale_height), options.error_max_m);
-
-  PictureMat small;
-  cv::resize (canvas, small, cv::Size (width, height), 0.0, 0.0, cv::INTER_AREA);
-  Picture picture (width, height);
-  for (int v = 0; v < height; ++v)
-    for (int u = 0; u < width; ++u)
-      picture.at (u, v) = {small (v, u)[0], small (v, u)[1], small (v, u)[2]};
-  return picture;
+  canvas.drawScale (cv::Rect (2 * panel + 20, (height - scale_height) / 2, 26, scale_height),
+                    {{"error", "in mm"}, 0.0, 1000.0 * options.error_max_m, true});
+  return canvas.picture ();
 }
 
 } // namespace cosection

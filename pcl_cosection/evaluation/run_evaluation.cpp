@@ -184,7 +184,8 @@ evaluateRun (const SceneRecord& truth, const SceneRecord& estimate, const RunOpt
   const auto true_objects = viewObjects (truth, max_difference_s, "true object", result.warnings);
   const auto objects = viewObjects (estimate, max_difference_s, "estimated object", result.warnings);
   const auto matches = matchObjects (true_objects, objects, max_difference_s, options.threads);
-  result.penetrations = measurePenetrations (estimate, max_difference_s, options);
+  if (options.measure_penetration)
+    result.penetrations = measurePenetrations (estimate, max_difference_s, options);
   const auto visible = visibleStamps (truth, max_difference_s);
   if (!truth.intrinsics)
     result.warnings.emplace_back ("the truth has no calibration: objects count as visible whenever they have a pose");

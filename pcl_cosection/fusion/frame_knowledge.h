@@ -54,6 +54,10 @@ public:
   virtual void
   map (const RgbdFrame& frame, const Eigen::Isometry3d& T_world_camera) = 0;
 
+  /** \brief What was seen of an object so far, its frame; empty if nothing. */
+  virtual TriangleMesh
+  seen (int id) const = 0;
+
   /** \brief A few words for who waits; may be empty. */
   virtual std::string
   status () const = 0;

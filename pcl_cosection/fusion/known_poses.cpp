@@ -47,6 +47,13 @@ public:
   void
   map (const RgbdFrame& frame, const Eigen::Isometry3d& T_world_camera) override;
 
+  TriangleMesh
+  seen (int id) const override
+  {
+    const auto found = tsdf_.find (id);
+    return found == tsdf_.end () || !found->second.volume () ? TriangleMesh () : found->second.volume ()->surfaceMesh ();
+  }
+
   std::string
   status () const override
   {

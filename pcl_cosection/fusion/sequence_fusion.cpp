@@ -36,7 +36,7 @@ class FusionRun
 {
 public:
   FusionRun (const RgbdSequence& images, FrameKnowledge& knowledge, const FusionOptions& options, const ProgressCallback& progress,
-             const SequenceFusion::KeyframeCallback& report);
+             const SequenceFusion::KeyframeCallback& report, const SequenceFusion::FrameCallback& report_frame);
 
   FusionResult
   run ();
@@ -72,6 +72,7 @@ private:
   const FusionOptions& options_;
   const ProgressCallback& progress_;
   const SequenceFusion::KeyframeCallback& report_;
+  const SequenceFusion::FrameCallback& report_frame_;
   FusionResult result_;
   CoSectionBackend backend_;
   std::optional<BackendThread> thread_; // has the backend, if there are updates
@@ -86,12 +87,15 @@ private:
 };
 
 FusionRun::FusionRun (const RgbdSequence& images, FrameKnowledge& knowledge, const FusionOptions& options,
-                      const ProgressCallback& progress, const SequenceFusion::KeyframeCallback& report)
-: images_ (images), knowledge_ (knowledge), options_ (options), progress_ (progress), report_ (report), backend_ (options.backend)
+                      const ProgressCallback& progress, const SequenceFusion::KeyframeCallback& report,
+                      const SequenceFusion::FrameCallback& report_frame)
+: images_ (images), knowledge_ (knowledge), options_ (options), progress_ (progress), report_ (report), report_frame_ (report_frame),
+  backend_ (options.backend)
 {
   frames_of_range_ = std::min (options.frames.last, images.size ()) - std::min (options.frames.first, images.size ());
   for (const char* stage : {"read", "tracking", "raycast", "segmentation", "integration", "keyframes", "updates"})
     result_.timings_s[stage] = 0.0;
+  result_.intrinsics = images.camera ();
   if (options.updates != KeyframeUpdates::None)
     thread_.emplace (backend_);
 }
@@ -195,6 +199,12 @@ FusionRun::use (const RgbdFrame& frame)
   if (!is_keyframe)
     timed ("keyframes", [&] { addFrame (frame, *T_world_camera); });
   knowledge_.map (frame, *T_world_camera);
+  if (report_frame_)
+  {
+    const auto& instances = knowledge_.instances ();
+    report_frame_ ({frame, *T_world_camera, T_world_object, instances ? &*instances : nullptr, is_keyframe,
+                    [this] (int id) { return knowledge_.seen (id); }});
+  }
   followUpdates (is_keyframe && options_.updates == KeyframeUpdates::InStep ? 0 : options_.backend.max_views);
 }
 
@@ -324,12 +334,12 @@ SequenceFusion::SequenceFusion (const TrackedSequence& sequence, const FusionOpt
 }
 
 FusionResult
-SequenceFusion::run (const ProgressCallback& progress, const KeyframeCallback& keyframe) const
+SequenceFusion::run (const ProgressCallback& progress, const KeyframeCallback& keyframe, const FrameCallback& frame) const
 {
   const std::unique_ptr<FrameKnowledge> knowledge =
       tracked_ ? makeTrackedPoses (*tracked_, options_) : makeKnownPoses (sequence_, options_);
   const RgbdSequence& images = tracked_ ? *tracked_->images : *sequence_.images;
-  return FusionRun (images, *knowledge, options_, progress, keyframe).run ();
+  return FusionRun (images, *knowledge, options_, progress, keyframe, frame).run ();
 }
 
 } // namespace cosection

@@ -85,6 +85,12 @@ public:
   map (const RgbdFrame&, const Eigen::Isometry3d&) override
   {}
 
+  TriangleMesh
+  seen (int id) const override
+  {
+    return fusion_.surfaceMesh (id);
+  }
+
   std::string
   status () const override;
 

@@ -1,6 +1,6 @@
 # Installs the build in BUILD_DIR below WORK_DIR, builds the project in this folder against what was
 # installed, and runs it. Started by CTest with -D for each of
-#   BUILD_DIR  WORK_DIR  GENERATOR  CXX_COMPILER  CXX_LAUNCHER  BUILD_TYPE  VERSION  TOOL
+#   BUILD_DIR  WORK_DIR  GENERATOR  CXX_COMPILER  CXX_LAUNCHER  BUILD_TYPE  VERSION  TOOL  VIEWER
 
 # Fails with what the command said unless it succeeds.
 function(run)
@@ -24,13 +24,17 @@ run("${CMAKE_COMMAND}"
   "-DCMAKE_CXX_COMPILER_LAUNCHER=${CXX_LAUNCHER}"
   "-DCMAKE_BUILD_TYPE=${BUILD_TYPE}")
 run("${CMAKE_COMMAND}" --build "${WORK_DIR}/build")
-foreach(program IN ITEMS consumer detect_objects reconstruct_sphere remove_ghost simulate_sphere)
+set(programs consumer detect_objects reconstruct_sphere remove_ghost simulate_sphere)
+if(VIEWER)
+  list(APPEND programs draw_scene)
+endif()
+foreach(program IN LISTS programs)
   run("${WORK_DIR}/build/${program}")
   message(STATUS "${run_output}")
 endforeach()
 
 if(TOOL)
-  foreach(suffix IN ITEMS "" _evaluate _segment _simulate)
+  foreach(suffix IN ITEMS "" _evaluate _report _segment _simulate _viewer)
     run("${WORK_DIR}/prefix/${TOOL}${suffix}" --version)
     if(NOT run_output MATCHES "${VERSION}")
       message(FATAL_ERROR "the installed program ${TOOL}${suffix} says '${run_output}', not ${VERSION}")

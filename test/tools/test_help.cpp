@@ -9,10 +9,12 @@
 #include "fusion_command_line.h"
 #include "option_table.h"
 #include "program_text.h"
+#include "report_command_line.h"
 #include "scene_files.h"
 #include "segment_command_line.h"
 #include "simulate_command_line.h"
 #include "tool_run.h"
+#include "viewer_command_line.h"
 
 #include <pcl/io/pcd_io.h>
 #include <pcl/point_types.h>
@@ -121,6 +123,17 @@ TEST_F (Help, SegmentationIsExplained)
     EXPECT_LE (line.size (), 80u) << line;
 }
 
+TEST_F (Help, ReportsAreExplained)
+{
+  CLI::App app;
+  GivenReport given;
+  declareReportOptions (app, given);
+  const std::string screen = helpText (app, reportText ());
+  EXPECT_GE (expectEverywhere (app, screen, manPage (app, reportText ()), "pcl_cosection_report.md"), 8);
+  for (const std::string& line : linesOf (screen))
+    EXPECT_LE (line.size (), 80u) << line;
+}
+
 TEST_F (Help, FusionIsExplained)
 {
   CLI::App app;
@@ -131,6 +144,22 @@ TEST_F (Help, FusionIsExplained)
   for (const std::string& topic : helpTopics (app))
   {
     const std::vector<std::string> lines = linesOf (helpText (app, fusionText (), topic));
+    EXPECT_LE (lines.size (), 24u) << topic;
+    for (const std::string& line : lines)
+      EXPECT_LE (line.size (), 80u) << line;
+  }
+}
+
+TEST_F (Help, ViewerIsExplained)
+{
+  CLI::App app;
+  GivenViewer given;
+  declareViewerOptions (app, given);
+  const std::string screen = helpText (app, viewerText ());
+  EXPECT_GE (expectEverywhere (app, screen, manPage (app, viewerText ()), "pcl_cosection_viewer.md"), 18);
+  for (const std::string& topic : helpTopics (app))
+  {
+    const std::vector<std::string> lines = linesOf (helpText (app, viewerText (), topic));
     EXPECT_LE (lines.size (), 24u) << topic;
     for (const std::string& line : lines)
       EXPECT_LE (line.size (), 80u) << line;

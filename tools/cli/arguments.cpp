@@ -58,9 +58,20 @@ optionNames (const CLI::App& app)
   return (names);
 }
 
+/** \brief Options that have a letter, as -o, one after the other. */
+std::string
+optionLetters (const CLI::App& app)
+{
+  std::string letters;
+  for (const CLI::Option* option : app.get_options ())
+    for (const std::string& name : option->get_snames ())
+      letters += name;
+  return (letters);
+}
+
 /** \brief CLI11 would take the value of an unknown option for an input. */
 void
-refuseUnknownOptions (const std::vector<std::string>& arguments, const std::vector<std::string>& names)
+refuseUnknownOptions (const std::vector<std::string>& arguments, const std::vector<std::string>& names, const std::string& letters)
 {
   for (const std::string& argument : arguments)
   {
@@ -70,7 +81,8 @@ refuseUnknownOptions (const std::vector<std::string>& arguments, const std::vect
     const bool is_option =
         name.size () > 1 && name[0] == '-' && !std::isdigit (static_cast<unsigned char> (name[1])) && name[1] != '.';
     const bool is_value = name == "-nan" || name == "-inf"; // refused later, by the option that it was given to
-    if (is_option && !is_value && name != "-h" && std::find (names.begin (), names.end (), name) == names.end ())
+    const bool is_letter = name.size () > 1 && name[1] != '-' && letters.find (name[1]) != std::string::npos;
+    if (is_option && !is_value && !(is_letter && (name.size () == 2 || name[1] != 'h')) && std::find (names.begin (), names.end (), name) == names.end ())
       throw UsageError (unknownOption (name, names));
   }
 }
@@ -104,7 +116,7 @@ parseArguments (CLI::App& app, const ProgramText& program, int argc, const char*
     }
   const std::vector<std::string> names = optionNames (app);
   app.config_formatter (std::make_shared<ConfigurationFile> (names));
-  refuseUnknownOptions (std::vector<std::string> (argv + 1, argv + argc), names);
+  refuseUnknownOptions (std::vector<std::string> (argv + 1, argv + argc), names, optionLetters (app));
   try
   {
     app.parse (argc, argv);

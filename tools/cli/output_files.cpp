@@ -11,6 +11,7 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
@@ -36,6 +37,15 @@ isSameFile (const std::string& first, const std::string& second)
   const fs::path behind_a = followLinks (a.string ()), behind_b = followLinks (b.string ());
   return (behind_a.filename () == behind_b.filename () &&
           fs::equivalent (folderOf (behind_a), folderOf (behind_b), failure) && !failure);
+}
+
+bool
+isWithin (const std::string& path, const std::string& folder)
+{
+  std::error_code failure;
+  const fs::path inner = fs::weakly_canonical (path, failure);
+  const fs::path outer = fs::weakly_canonical (folder, failure);
+  return (std::mismatch (outer.begin (), outer.end (), inner.begin (), inner.end ()).first == outer.end ());
 }
 
 void

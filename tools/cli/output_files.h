@@ -16,6 +16,10 @@ folderOf (const std::filesystem::path& path);
 bool
 isSameFile (const std::string& first, const std::string& second);
 
+/** \brief Whether \a path is \a folder or lies in it, be it through links. */
+bool
+isWithin (const std::string& path, const std::string& folder);
+
 /** \brief \throws UsageError if one of \a outputs is one of \a inputs, or two of them are the same; empty names are none. */
 void
 refuseToOverwrite (const std::vector<std::string>& inputs, const std::vector<std::string>& outputs);

@@ -103,6 +103,7 @@ declareRun (CLI::App& app, GivenFusion& given)
   app.add_flag ("--deterministic", given.deterministic,
                 "With --save-keyframes, wait for each keyframe, so that all are written; the last result is the same in any case")
       ->group (group);
+  app.add_flag ("--live", given.live, "Show it in a window while it runs, and the result then; without influence on that")->group (group);
   app.add_option ("--json", given.json, "Write the summary to this file as well")->option_text ("FILE")->group ("General");
   app.add_option ("--threads", given.threads, "Threads to use, without influence on results (default: all processors)")
       ->option_text ("N")
@@ -205,6 +206,7 @@ toSettings (const GivenFusion& given)
     throw UsageError (of_network + " needs --segmentation mask-rcnn");
   settings.preset = given.preset;
   settings.save_keyframes = given.save_keyframes;
+  settings.live = given.live;
   settings.json = given.json;
   settings.verbosity = given.quiet ? Verbosity::Quiet : given.verbose ? Verbosity::Verbose : Verbosity::Normal;
 

@@ -30,6 +30,7 @@ struct FusionSettings
   IgnoredArea ignored;                            ///< of every image
   std::string preset;                             ///< empty: our own defaults
   bool save_keyframes = false;
+  bool live = false;
   std::string json; ///< a further summary
   Verbosity verbosity = Verbosity::Normal;
   pcl::cosection::FusionOptions fusion;
@@ -48,7 +49,7 @@ struct GivenFusion : GivenMethod
   GivenIgnoredArea ignored;
   std::optional<double> depth_scale, max_depth;
   std::optional<int> keyframe_every, max_views;
-  bool save_keyframes = false, deterministic = false, verbose = false, quiet = false;
+  bool save_keyframes = false, deterministic = false, live = false, verbose = false, quiet = false;
 };
 
 void

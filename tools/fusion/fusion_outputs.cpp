@@ -31,16 +31,6 @@ makeFolder (const fs::path& folder)
     throw IoError (folder.string () + ": the folder cannot be made" + (failure ? ": " + failure.message () : ""));
 }
 
-/** \brief Whether \a path is \a folder or lies in it. */
-bool
-isWithin (const std::string& path, const std::string& folder)
-{
-  std::error_code failure;
-  const fs::path inner = fs::weakly_canonical (path, failure);
-  const fs::path outer = fs::weakly_canonical (folder, failure);
-  return (std::mismatch (outer.begin (), outer.end (), inner.begin (), inner.end ()).first == outer.end ());
-}
-
 bool
 endsWith (const std::string& text, const std::string& ending)
 {
@@ -122,11 +112,31 @@ checkJson (const FusionSettings& settings)
     requireWritable (settings.json);
 }
 
+/** \brief How the images were read, for who reads them again; what was found out is empty. */
+Json
+imagesJson (const SequenceSource& source)
+{
+  static const std::map<SequenceFormat, std::string> names = {
+      {SequenceFormat::Detect, ""}, {SequenceFormat::CoFusion, "cofusion"}, {SequenceFormat::Tum, "tum"}, {SequenceFormat::SevenScenes, "7scenes"}};
+  return {{"format", names.at (source.format)},
+          {"depth_dir", source.depth_folder},
+          {"depth_scale", source.depth_scale},
+          {"intrinsics", source.intrinsics ? Json (*source.intrinsics) : Json ()}};
+}
+
+Json
+cameraJson (const PinholeCamera& camera)
+{
+  return {{"width", camera.width}, {"height", camera.height}, {"fx", camera.fx},
+          {"fy", camera.fy},       {"cx", camera.cx},         {"cy", camera.cy}};
+}
+
 Json
 parameters (const FusionSettings& settings)
 {
   Json result;
   result["dataset"] = settings.dataset;
+  result["images"] = imagesJson (settings.source);
   result["camera_trajectory"] = settings.camera_trajectory;
   result["object_trajectories"] = Json::object ();
   for (const auto& [id, file] : settings.object_trajectories)
@@ -249,6 +259,7 @@ FusionOutputs::writeSummary (const FusionSettings& settings, const FusionResult&
   summary["frames"] = result.frames;
   summary["keyframes"] = result.keyframes;
   summary["kept_keyframes"] = result.kept_keyframes;
+  summary["camera"] = cameraJson (result.intrinsics);
   summary["parameters"] = parameters (settings);
   summary["objects"] = Json::array ();
   summary["failed"] = Json::array ();

@@ -44,6 +44,7 @@ struct PCL_COSECTION_EXPORT RunOptions
   TrajectoryOptions trajectory; ///< the alignment is that of the camera
   PenetrationOptions penetration = {2000, 3000, 0, 0.0, 64};
   RefinementOptions refinement;
+  bool measure_penetration = true; ///< of every pair of bodies, which takes longest
   bool refine = true;      ///< refine the alignment of each object on its observed surface
   int volume_frames = 5;   ///< at most so many frames for the volume of each penetration
   int threads = 0;         ///< 0: all

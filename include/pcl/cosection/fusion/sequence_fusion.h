@@ -2,6 +2,7 @@
 // Copyright (c) 2026, the pcl_cosection authors
 #pragma once
 
+#include <pcl/cosection/common/camera.h>
 #include <pcl/cosection/common/export.h>
 #include <pcl/cosection/common/progress.h>
 #include <pcl/cosection/fusion/co_section_backend.h>
@@ -88,6 +89,7 @@ struct PCL_COSECTION_EXPORT FusionResult
 {
   SceneResult scene;
   std::vector<StampedPose> camera; ///< at the frames that were used
+  PinholeCamera intrinsics;        ///< of the images
   std::map<int, FusedObject> objects;
   std::size_t frames = 0;         ///< that were used
   std::size_t keyframes = 0;      ///< of them
@@ -107,6 +109,18 @@ struct KeyframeReport
   const SceneResult& scene;
 };
 
+/** \brief What is known after a frame. */
+struct FrameReport
+{
+  const RgbdFrame& frame;
+  const Eigen::Isometry3d& T_world_camera;
+  const std::map<int, Eigen::Isometry3d>& T_world_object; ///< of the objects that are known in the frame
+  const Image<std::uint16_t>* instances;                  ///< id of the object, 0: background; empty: all is; null: not known
+  bool keyframe;                                          ///< its points are used
+  /** \brief What was seen of an object so far, its frame; empty if nothing. Takes some ten milliseconds; to be called while the report is there. */
+  std::function<TriangleMesh (int id)> seen;
+};
+
 /** \brief Goes through a sequence and completes the objects in it and the background. Poses and masks are known, or the camera and the
  * objects are tracked (DynamicFusion).
  *
@@ -123,6 +137,7 @@ class PCL_COSECTION_EXPORT SequenceFusion
 {
 public:
   using KeyframeCallback = std::function<void (const KeyframeReport&)>;
+  using FrameCallback = std::function<void (const FrameReport&)>;
 
   /** \throws InvalidArgument if an option is outside its domain, there are no images, the ignored pixels are not of their size, or no pose of
    * the camera is for any frame of the range */
@@ -133,9 +148,10 @@ public:
   explicit SequenceFusion (const TrackedSequence& sequence, const FusionOptions& options = {});
 
   /** \param[in] keyframe called after every update, if those are asked for; from the calling thread
+   * \param[in] frame called after every frame that is used, from the calling thread; without influence on the result
    * \throws IoError if no frame can be used, no mask, or no keyframe has a point; Cancelled */
   FusionResult
-  run (const ProgressCallback& progress = {}, const KeyframeCallback& keyframe = {}) const;
+  run (const ProgressCallback& progress = {}, const KeyframeCallback& keyframe = {}, const FrameCallback& frame = {}) const;
 
 private:
   KnownSequence sequence_;

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_cosection authors
+#pragma once
+
+#include <pcl/cosection/common/camera.h>
+#include <pcl/cosection/evaluation/scene_folders.h>
+#include <pcl/cosection/io/rgbd_sequence.h>
+
+#include <optional>
+#include <string>
+
+namespace pcl
+{
+namespace cosection
+{
+
+/** \brief What a run's summary.json says of its images. */
+struct RunSummary
+{
+  bool is_there = false;
+  std::string error;   ///< why the run failed; empty: it did not
+  std::string dataset; ///< that it has read
+  SequenceSource source;
+  std::optional<PinholeCamera> camera;
+};
+
+/** \brief Read summary.json. What is missing in it, as in those of earlier versions, stays empty. \param[out] notes if it cannot be read */
+RunSummary
+readRunSummary (const std::string& folder, ReadingNotes& notes);
+
+} // namespace cosection
+} // namespace pcl

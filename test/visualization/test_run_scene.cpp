@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_cosection authors
+
+#include "visualization/run_folder.h"
+
+#include <pcl/cosection/common/error.h>
+
+#include <gtest/gtest.h>
+
+namespace fs = std::filesystem;
+using namespace pcl::cosection;
+using namespace pcl::cosection::test;
+
+namespace
+{
+
+class RunSceneFolder : public testing::Test
+{
+protected:
+  RunSceneFolder ()
+  {
+    writeRun (movingScene (), run_);
+  }
+
+  RunScene
+  load ()
+  {
+    return loadRunScene (run_, notes_);
+  }
+
+  std::string
+  failure ()
+  {
+    return messageOf<IoError> ([this] { load (); });
+  }
+
+  TemporaryFolder folder_;
+  const std::string run_ = folder_.file ("run");
+  ReadingNotes notes_;
+};
+
+} // namespace
+
+TEST_F (RunSceneFolder, EverythingIsRead)
+{
+  const RunScene scene = load ();
+  EXPECT_TRUE (notes_.warnings.empty ()) << notes_.warnings.front ();
+  EXPECT_EQ (scene.stamps ().size (), 24u);
+  ASSERT_EQ (scene.run.objects.size (), 2u);
+  EXPECT_EQ (scene.camera ().width, 320);
+  EXPECT_EQ (scene.camera ().fx, 260.0);
+  EXPECT_EQ (scene.dataset, "images");
+  EXPECT_EQ (scene.source.format, SequenceFormat::Tum);
+  EXPECT_EQ (scene.source.depth_scale, 5000.0);
+  EXPECT_EQ (scene.surface (1, SurfaceMode::Completed).triangles.size (), movingScene ().objects[0].mesh.triangles.size ());
+  EXPECT_LT (scene.surface (1, SurfaceMode::Tsdf).triangles.size (), scene.surface (1, SurfaceMode::Completed).triangles.size ());
+  EXPECT_FALSE (scene.surface (1, SurfaceMode::Tsdf).empty ());
+  EXPECT_FALSE (scene.surface (RunScene::background, SurfaceMode::Tsdf).empty ());
+  EXPECT_TRUE (scene.surface (1, SurfaceMode::Points).empty ());
+  EXPECT_TRUE (scene.surface (9, SurfaceMode::Completed).empty ());
+}
+
+TEST_F (RunSceneFolder, PosesAreThoseOfTheNearestFrame)
+{
+  const SceneRecord truth = movingScene ();
+  const RunScene scene = movingRun ();
+  for (const double stamp : {3.0, 3.4, 2.6})
+  {
+    EXPECT_TRUE (scene.cameraAt (stamp)->isApprox (truth.camera[3].pose, 1e-9)) << stamp;
+    EXPECT_TRUE (scene.poseAt (scene.run.objects[1], stamp)->isApprox (truth.objects[1].poses[3].pose, 1e-9)) << stamp;
+  }
+  EXPECT_FALSE (scene.poseAt (scene.run.objects[1], 12.0)); // not known there
+  EXPECT_TRUE (scene.poseAt (scene.run.objects[0], 12.0));
+  EXPECT_FALSE (scene.cameraAt (24.0));
+  EXPECT_FALSE (scene.cameraAt (-0.6));
+}
+
+TEST_F (RunSceneFolder, NothingIsWritten)
+{
+  std::map<std::string, std::pair<std::string, fs::file_time_type>> before, after;
+  const auto look = [this] (auto& files) {
+    for (const auto& entry : fs::recursive_directory_iterator (run_))
+      files[entry.path ().string ()] = {entry.is_regular_file () ? readFile (entry.path ().string ()) : "", entry.last_write_time ()};
+  };
+  look (before);
+  load ();
+  look (after);
+  EXPECT_EQ (before.size (), 11u);
+  EXPECT_EQ (before, after);
+}
+
+TEST_F (RunSceneFolder, SurfacesAreDecimatedForDisplay)
+{
+  RunSceneOptions options;
+  options.triangles = 1000;
+  const RunScene scene = loadRunScene (run_, notes_, options);
+  EXPECT_EQ (scene.run.background.triangles.size (), 128u); // had fewer
+  EXPECT_LE (scene.run.objects[0].mesh.triangles.size (), 500u);
+  EXPECT_GT (scene.run.objects[0].mesh.triangles.size (), 400u);
+  EXPECT_TRUE (computeTopology (scene.run.objects[0].mesh).closed_manifold);
+}
+
+TEST_F (RunSceneFolder, OtherFoldersAreTold)
+{
+  fs::remove (run_ + "/trajectory/camera.txt");
+  EXPECT_NE (failure ().find ("no trajectory/camera.txt"), std::string::npos);
+  writeFile (run_ + "/summary.json", R"({"error": "no frame can be read"})");
+  EXPECT_NE (failure ().find ("that run failed: no frame can be read"), std::string::npos);
+  writeFile (run_ + "/gt-cam-0.txt", "");
+  fs::remove_all (run_ + "/trajectory");
+  fs::remove (run_ + "/summary.json");
+  EXPECT_NE (failure ().find ("is a dataset"), std::string::npos);
+  fs::remove_all (run_);
+  EXPECT_NE (failure ().find ("is no folder"), std::string::npos);
+}
+
+TEST_F (RunSceneFolder, WhatIsMissingIsTold)
+{
+  fs::remove (run_ + "/summary.json");
+  writeFile (run_ + "/mesh/object_1_tsdf.ply", "ply\nformat");
+  fs::remove (run_ + "/mesh/object_2.ply");
+  const RunScene scene = load ();
+  ASSERT_EQ (notes_.warnings.size (), 2u);
+  EXPECT_NE (notes_.warnings[0].find ("object_1_tsdf.ply"), std::string::npos);
+  EXPECT_NE (notes_.warnings[1].find ("summary.json"), std::string::npos);
+  EXPECT_FALSE (notes_.whole);
+  EXPECT_FALSE (scene.run.intrinsics);
+  EXPECT_EQ (scene.camera ().width, 640);
+  EXPECT_TRUE (scene.surface (2, SurfaceMode::Completed).empty ());
+  EXPECT_FALSE (scene.surface (2, SurfaceMode::Tsdf).empty ());
+}
+
+TEST_F (RunSceneFolder, AnySummaryIsBorne)
+{
+  for (const char* const text : {"", "[1, 2]", "{", R"({"camera": 3, "parameters": [], "error": {}})",
+                                 R"({"camera": {"width": -3, "height": 1e300, "fx": "a"}, "parameters": {"dataset": 7, "images": "x"}})"})
+  {
+    writeFile (run_ + "/summary.json", text);
+    const RunScene scene = load ();
+    EXPECT_FALSE (scene.run.intrinsics) << text;
+    EXPECT_EQ (scene.run.objects.size (), 2u) << text;
+  }
+}
+
+TEST (SceneErrors, AreTheDistanceToTheTruth)
+{
+  const SceneRecord truth = movingScene ();
+  RunScene scene;
+  scene.run = inOtherFrames (truth);
+  constexpr float error_m = 0.004f;
+  for (SceneRecord::Object& object : scene.run.objects)
+    if (object.id == 8) // the torus
+    {
+      const TriangleMesh thicker = torusMesh (0.12, 0.05 + error_m, 48, 24);
+      const Eigen::Isometry3d T_frame_object = object.poses[0].pose.inverse () * truth.camera[0].pose.inverse () * truth.objects[0].poses[0].pose;
+      object.mesh = transformMesh (thicker, T_frame_object);
+    }
+  measureErrors (scene, truth);
+  const std::vector<double>& torus = scene.surfaceErrors (8, SurfaceMode::Completed);
+  ASSERT_EQ (torus.size (), scene.surface (8, SurfaceMode::Completed).vertices.size ());
+  for (const double e : torus)
+    EXPECT_NEAR (e, error_m, 0.0012);
+  for (const double e : scene.surfaceErrors (7, SurfaceMode::Completed))
+    EXPECT_LT (e, 1e-4);
+  for (const double e : scene.surfaceErrors (RunScene::background, SurfaceMode::Tsdf))
+    EXPECT_LT (e, 1e-4);
+  EXPECT_TRUE (scene.surfaceErrors (8, SurfaceMode::Tsdf).empty ()); // there is none
+  EXPECT_GE (scene.error_max_m, 0.004);
+  EXPECT_LE (scene.error_max_m, 0.006);
+}

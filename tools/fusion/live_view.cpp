@@ -1,0 +1,273 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_cosection authors
+#include "live_view.h"
+
+#include "output_files.h"
+
+#include <pcl/cosection/common/error.h>
+
+#include <nlohmann/json.hpp>
+
+#include <fcntl.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <chrono>
+#include <csignal>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <utility>
+
+namespace fs = std::filesystem;
+using namespace pcl::cosection;
+
+namespace
+{
+
+const char* const viewer = "pcl_cosection_viewer";
+constexpr std::size_t background_parts = 16;
+constexpr int niceness = 10; ///< the run comes first
+constexpr std::chrono::milliseconds snapshot_every (200), look_every (20);
+constexpr std::chrono::seconds patience (60); ///< until the window is there
+
+std::string
+makeTemporaryFolder ()
+{
+  std::error_code failure;
+  std::string folder = (fs::temp_directory_path (failure) / "pcl_cosection_live_XXXXXX").string ();
+  if (failure || mkdtemp (folder.data ()) == nullptr)
+    throw IoError ("--live: no temporary folder can be made: " + (failure ? failure.message () : std::string (std::strerror (errno))));
+  return (folder);
+}
+
+/** \brief The viewer beside this program, else the one that is found by its name. */
+std::string
+viewerPath ()
+{
+  std::error_code failure;
+  const fs::path beside = fs::read_symlink ("/proc/self/exe", failure).parent_path () / viewer;
+  return (!failure && access (beside.c_str (), X_OK) == 0 ? beside.string () : viewer);
+}
+
+/** \brief What a process said last, without its name. */
+std::string
+lastLine (const std::string& path)
+{
+  std::ifstream file (path);
+  std::string line, last;
+  while (std::getline (file, line))
+    if (!line.empty ())
+      last = line;
+  const std::string before = "error: ";
+  const std::size_t place = last.find (before);
+  return (place == std::string::npos ? last : last.substr (place + before.size ()));
+}
+
+} // namespace
+
+LiveView::LiveView (const std::string& dataset, const PinholeCamera& camera, const std::string& output)
+    : camera_ (camera), folder_ (makeTemporaryFolder ())
+{
+  try
+  {
+    fs::create_directory (fs::path (folder_) / "mesh");
+    fs::create_directory (fs::path (folder_) / "trajectory");
+    const nlohmann::ordered_json summary = {{"camera",
+                                             {{"width", camera.width}, {"height", camera.height}, {"fx", camera.fx},
+                                              {"fy", camera.fy},       {"cx", camera.cx},         {"cy", camera.cy}}},
+                                            {"parameters", {{"dataset", dataset}}}};
+    saveJson (summary, (fs::path (folder_) / "summary.json").string ());
+    start (output);
+    waitUntilReady ();
+    thread_ = std::thread ([this] { writeSnapshots (); });
+  }
+  catch (...)
+  {
+    giveUp ();
+    throw;
+  }
+}
+
+LiveView::~LiveView ()
+{
+  {
+    const std::lock_guard<std::mutex> lock (mutex_);
+    stop_ = true;
+  }
+  changed_.notify_all ();
+  thread_.join ();
+  close (input_); // now the viewer turns to the result
+  std::error_code ignored;
+  fs::remove_all (folder_, ignored);
+}
+
+void
+LiveView::giveUp ()
+{
+  if (process_ > 0)
+  {
+    kill (process_, SIGTERM);
+    waitpid (process_, nullptr, 0);
+  }
+  if (input_ >= 0)
+    close (input_);
+  std::error_code ignored;
+  fs::remove_all (folder_, ignored);
+}
+
+void
+LiveView::start (const std::string& output)
+{
+  std::array<int, 2> ends;
+  if (pipe2 (ends.data (), O_CLOEXEC) != 0)
+    throw IoError (std::string ("--live: the viewer cannot be started: ") + std::strerror (errno));
+  input_ = ends[1];
+  const std::string path = viewerPath (), log = (fs::path (folder_) / "viewer.log").string ();
+  std::array<const char*, 6> words = {path.c_str (), "--follow", folder_.c_str (), "--", output.c_str (), nullptr};
+  process_ = fork ();
+  if (process_ == 0) // from here on only what a signal handler may call
+  {
+    const int to = open (log.c_str (), O_WRONLY | O_CREAT | O_TRUNC, 0600);
+    if (to < 0 || dup2 (ends[0], STDIN_FILENO) < 0 || dup2 (to, STDOUT_FILENO) < 0 || dup2 (to, STDERR_FILENO) < 0)
+      _exit (126);
+    setpriority (PRIO_PROCESS, 0, niceness);
+    execvp (words[0], const_cast<char* const*> (words.data ()));
+    _exit (127);
+  }
+  const int error = errno;
+  close (ends[0]);
+  if (process_ < 0)
+    throw IoError (std::string ("--live: the viewer cannot be started: ") + std::strerror (error));
+}
+
+bool
+LiveView::hasEnded ()
+{
+  if (process_ < 0)
+    return (true);
+  if (waitpid (process_, nullptr, WNOHANG) != process_)
+    return (false);
+  process_ = -1;
+  return (true);
+}
+
+void
+LiveView::waitUntilReady ()
+{
+  const fs::path ready = fs::path (folder_) / "ready";
+  const auto start = std::chrono::steady_clock::now ();
+  std::error_code ignored;
+  while (!fs::exists (ready, ignored))
+  {
+    if (hasEnded ())
+    {
+      const std::string why = lastLine ((fs::path (folder_) / "viewer.log").string ());
+      throw IoError ("--live: " + (why.empty () ? std::string ("there is no program ") + viewer : why.substr (0, why.find (';'))));
+    }
+    if (std::chrono::steady_clock::now () - start > patience)
+      throw IoError ("--live: the window does not open");
+    std::this_thread::sleep_for (look_every);
+  }
+}
+
+void
+LiveView::show (const FrameReport& report)
+{
+  if (is_over_)
+    return;
+  // Volumes change with the next frame, so that their surfaces are made here.
+  std::map<int, TriangleMesh> seen;
+  TriangleMesh background;
+  if (report.keyframe)
+  {
+    for (const auto& [id, pose] : report.T_world_object)
+      seen[id] = report.seen (id);
+    background = backgroundOf (report, camera_);
+  }
+  const std::lock_guard<std::mutex> lock (mutex_);
+  scene_.camera.push_back ({report.frame.stamp, report.T_world_camera});
+  for (const auto& [id, pose] : report.T_world_object)
+    scene_.objects[id].push_back ({report.frame.stamp, pose});
+  for (auto& [id, mesh] : seen)
+  {
+    scene_.seen[id] = std::move (mesh);
+    scene_.changed_seen.insert (id);
+  }
+  if (!background.empty ())
+  {
+    scene_.background.push_back (std::move (background));
+    if (scene_.background.size () > background_parts)
+      scene_.background.pop_front ();
+    scene_.changed_background = true;
+  }
+  is_new_ = true;
+  changed_.notify_all ();
+}
+
+void
+LiveView::show (const KeyframeReport& report)
+{
+  if (is_over_)
+    return;
+  const std::lock_guard<std::mutex> lock (mutex_);
+  for (const ObjectResult& object : report.scene.objects)
+    if (object.error.empty ())
+    {
+      scene_.completed[object.id] = object.mesh;
+      scene_.changed_completed.insert (object.id);
+    }
+  is_new_ = true;
+  changed_.notify_all ();
+}
+
+LiveScene
+LiveView::takeChanges ()
+{
+  LiveScene changes;
+  changes.camera = scene_.camera;
+  changes.objects = scene_.objects;
+  for (const int id : scene_.changed_seen)
+    changes.seen[id] = scene_.seen[id];
+  for (const int id : scene_.changed_completed)
+    changes.completed[id] = scene_.completed[id];
+  if (scene_.changed_background)
+    changes.background = scene_.background;
+  std::swap (changes.changed_seen, scene_.changed_seen);
+  std::swap (changes.changed_completed, scene_.changed_completed);
+  std::swap (changes.changed_background, scene_.changed_background);
+  is_new_ = false;
+  return (changes);
+}
+
+void
+LiveView::writeSnapshots ()
+{
+  setpriority (PRIO_PROCESS, static_cast<id_t> (gettid ()), niceness);
+  std::unique_lock<std::mutex> lock (mutex_);
+  while (true)
+  {
+    changed_.wait (lock, [this] { return (is_new_ || stop_); });
+    if (stop_)
+      return;
+    const LiveScene scene = takeChanges ();
+    lock.unlock ();
+    try
+    {
+      writeLiveScene (scene, folder_);
+    }
+    catch (const Error&)
+    {
+      is_over_ = true; // the disk is full: the run goes on
+    }
+    if (hasEnded ())
+      is_over_ = true; // the window was closed
+    lock.lock ();
+    if (is_over_)
+      return;
+    changed_.wait_for (lock, snapshot_every, [this] { return (stop_); });
+  }
+}

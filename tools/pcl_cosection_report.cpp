@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_cosection authors
+
+// Shows a run of pcl_cosection_fusion in one HTML file; see pcl_cosection_report --help.
+
+#include "exit_status.h"
+#include "interruption.h"
+#include "output_files.h"
+#include "report_command_line.h"
+#include "report_page.h"
+#include "terminal.h"
+
+#include <pcl/cosection/common/error.h>
+
+#include <cstdio>
+#include <new>
+
+using namespace pcl::cosection;
+
+namespace
+{
+
+/** \brief Compare with the truth, if there is any; a run that cannot be compared is reported all the same. */
+void
+addTruth (ReportContent& content, Terminal& terminal)
+{
+  if (content.truth_folder.empty ())
+    return;
+  terminal.progress ("comparing with the truth", 0.1);
+  try
+  {
+    content.truth = compareWithTruth (content.scene, content.truth_folder, content.threads);
+    measureErrors (content.scene, content.truth->truth, content.truth->evaluation, content.threads);
+    content.warnings.insert (content.warnings.end (), content.truth->notes.begin (), content.truth->notes.end ());
+    content.warnings.insert (content.warnings.end (), content.truth->evaluation.warnings.begin (),
+                             content.truth->evaluation.warnings.end ());
+  }
+  catch (const IoError&) // there is no truth
+  {
+    throw;
+  }
+  catch (const Error& error)
+  {
+    content.warnings.push_back ("the run cannot be compared with the truth of " + content.truth_folder + ": " + error.what ());
+  }
+}
+
+void
+addOtherRuns (ReportContent& content, const std::vector<std::string>& folders, Terminal& terminal)
+{
+  for (const std::string& folder : folders)
+  {
+    terminal.progress ("comparing with " + folder, 0.3);
+    ComparedRun other{lastPartOf (folder), readRunFolder (folder), std::nullopt};
+    for (const std::string& note : other.run.notes)
+      content.warnings.push_back (folder + ": " + note);
+    try
+    {
+      if (content.truth)
+        other.evaluation = compareWithTruth (sceneOf (other.run), content.truth_folder, content.threads).evaluation;
+    }
+    catch (const Error& error)
+    {
+      content.warnings.push_back (folder + " cannot be compared with the truth: " + error.what ());
+    }
+    content.others.push_back (std::move (other));
+  }
+}
+
+/** \brief "3 objects, 2.4 MB" */
+std::string
+describe (const ReportContent& content, std::size_t bytes)
+{
+  char size[32];
+  std::snprintf (size, sizeof (size), "%.1f MB", static_cast<double> (bytes) / 1e6);
+  return (counted (content.run.objects.size (), "object") + ", " + size);
+}
+
+void
+run (const ReportSettings& settings, Terminal& terminal)
+{
+  terminal.progress ("reading", 0.0);
+  ReportContent content;
+  content.threads = settings.threads;
+  content.truth_folder = settings.truth;
+  content.run = readRunFolder (settings.run);
+  content.scene = sceneOf (content.run);
+  requireWritable (settings.output);
+  content.warnings = content.run.notes;
+  if (!content.run.failure.empty ())
+    terminal.warning ("the run failed: " + content.run.failure);
+  addTruth (content, terminal);
+  addOtherRuns (content, settings.others, terminal);
+  for (const std::string& warning : content.warnings)
+    terminal.warning (warning);
+  const std::string page = reportPage (content, [&] (const std::string& stage, double fraction) {
+    terminal.progress (stage, 0.5 + 0.5 * fraction);
+    return (!interrupted ());
+  });
+  saveText (page, settings.output);
+  terminal.result ("wrote " + settings.output + ": " + describe (content, page.size ()));
+}
+
+} // namespace
+
+int
+main (int argc, char** argv)
+{
+  Terminal terminal ("pcl_cosection_report");
+  try
+  {
+    const std::optional<ReportSettings> settings = parseReportCommandLine (argc, argv);
+    if (!settings)
+      return (Success);
+    terminal.setVerbosity (settings->verbosity);
+    catchInterruptions ();
+    run (*settings, terminal);
+    return (Success);
+  }
+  catch (const UsageError& error)
+  {
+    terminal.error (error.what ());
+    return (WrongUsage);
+  }
+  catch (const Cancelled&)
+  {
+    terminal.error ("interrupted; nothing was written");
+    return (Interrupted);
+  }
+  catch (const std::bad_alloc&)
+  {
+    terminal.error ("out of memory");
+  }
+  catch (const std::exception& error)
+  {
+    terminal.error (error.what ());
+  }
+  return (Failure);
+}

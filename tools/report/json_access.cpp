@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_cosection authors
+#include "json_access.h"
+
+#include <cmath>
+
+const Json&
+member (const Json& json, const std::string& key)
+{
+  static const Json none;
+  if (!json.is_object ())
+    return (none);
+  const auto found = json.find (key);
+  return (found == json.end () ? none : *found);
+}
+
+std::optional<double>
+numberIn (const Json& json, const std::string& key)
+{
+  const Json& value = member (json, key);
+  if (!value.is_number () || !std::isfinite (value.get<double> ()))
+    return (std::nullopt);
+  return (value.get<double> ());
+}
+
+std::optional<bool>
+flagIn (const Json& json, const std::string& key)
+{
+  const Json& value = member (json, key);
+  return (value.is_boolean () ? std::optional<bool> (value.get<bool> ()) : std::nullopt);
+}
+
+std::string
+textIn (const Json& json, const std::string& key)
+{
+  const Json& value = member (json, key);
+  return (value.is_string () ? value.get<std::string> () : std::string ());
+}
+
+std::vector<std::string>
+textsIn (const Json& json, const std::string& key)
+{
+  std::vector<std::string> texts;
+  const Json& list = member (json, key);
+  if (list.is_array ())
+    for (const Json& value : list)
+      if (value.is_string ())
+        texts.push_back (value.get<std::string> ());
+  return (texts);
+}

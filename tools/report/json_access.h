@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_cosection authors
+#pragma once
+
+#include <nlohmann/json.hpp>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+/** \brief What a file of others holds: fields may be missing, or be of another type. */
+using Json = nlohmann::ordered_json;
+
+/** \brief A member; null if there is none. */
+const Json&
+member (const Json& json, const std::string& key);
+
+/** \brief A member that is a finite number. */
+std::optional<double>
+numberIn (const Json& json, const std::string& key);
+
+/** \brief A member that is true or false. */
+std::optional<bool>
+flagIn (const Json& json, const std::string& key);
+
+/** \brief A member that is text; empty if it is not. */
+std::string
+textIn (const Json& json, const std::string& key);
+
+/** \brief The texts in a member that is a list. */
+std::vector<std::string>
+textsIn (const Json& json, const std::string& key);

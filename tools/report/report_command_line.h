@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_cosection authors
+#pragma once
+
+#include "arguments.h"
+#include "terminal.h"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+/** \brief What the user of pcl_cosection_report asked for. */
+struct ReportSettings
+{
+  std::string run;                 ///< folder
+  std::string truth;               ///< dataset; empty: none
+  std::vector<std::string> others; ///< folders of other runs
+  std::string output = "report.html";
+  int threads = 0; ///< 0: all
+  Verbosity verbosity = Verbosity::Normal;
+};
+
+/** \brief What pcl_cosection_report says about itself. */
+const ProgramText&
+reportText ();
+
+/** \brief Options as the user gives them. */
+struct GivenReport
+{
+  std::vector<std::string> paths, others;
+  std::string truth, output;
+  std::optional<int> threads;
+  bool verbose = false, quiet = false;
+};
+
+void
+declareReportOptions (CLI::App& app, GivenReport& given);
+
+/** \brief Read the command line. \return nothing if all that was asked for was printed \throws UsageError, also where the report
+ * would be written over an input */
+std::optional<ReportSettings>
+parseReportCommandLine (int argc, const char* const* argv);

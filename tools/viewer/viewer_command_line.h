@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_cosection authors
+#pragma once
+
+#include "arguments.h"
+#include "terminal.h"
+
+#include <pcl/cosection/visualization/scene_picture.h>
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+/** \brief From where a picture is taken unless a viewpoint is given. */
+enum class ViewChoice
+{
+  Overview,
+  Behind, ///< what the cameras did not see
+  Camera, ///< with the camera of the run
+};
+
+/** \brief What the user of pcl_cosection_viewer asked for. */
+struct ViewerSettings
+{
+  std::string run;              ///< folder
+  std::string truth;            ///< dataset; empty: none
+  std::string dataset;          ///< of the input points; empty: the one that the run names
+  std::string viewpoint;        ///< file; empty: \a choice
+  ViewChoice choice = ViewChoice::Overview;
+  std::optional<double> stamp;  ///< nothing: the last
+  std::size_t triangles = 0;    ///< of each surface, at most; 0: all
+  std::string screenshot;       ///< file; empty: none
+  std::string record;           ///< folder; empty: none
+  std::size_t every = 1;        ///< frames, to record
+  std::string follow;           ///< folder of snapshots; empty: nothing is followed
+  int threads = 0;
+  Verbosity verbosity = Verbosity::Normal;
+  pcl::cosection::SceneView view; ///< without a viewpoint
+
+  bool
+  needsWindow () const
+  {
+    return (screenshot.empty () && record.empty ());
+  }
+};
+
+/** \brief What pcl_cosection_viewer says about itself. */
+const ProgramText&
+viewerText ();
+
+/** \brief Options as the user gives them. */
+struct GivenViewer
+{
+  std::vector<std::string> paths, hidden;
+  std::string truth, dataset, viewpoint, view, mode, colour, size, screenshot, record, follow;
+  std::optional<double> frame;
+  std::optional<int> every, triangles, threads;
+  bool boxes = false, verbose = false, quiet = false;
+};
+
+void
+declareViewerOptions (CLI::App& app, GivenViewer& given);
+
+/** \brief Read the command line. \return nothing if all that was asked for was printed \throws UsageError */
+std::optional<ViewerSettings>
+parseViewerCommandLine (int argc, const char* const* argv);
