@@ -5,6 +5,8 @@
 #include "creased_normals.h"
 #include "picture_canvas.h"
 
+#include "../rendering/look_at.h"
+
 #include <pcl/cosection/common/error.h>
 #include <pcl/cosection/evaluation/mesh_comparison.h>
 #include <pcl/cosection/evaluation/surface_distance.h>
@@ -33,17 +35,6 @@ constexpr double ambient_light = 0.55; ///< much, for colours that can be told f
 constexpr double turn_rad = 2.6;      ///< between the columns
 constexpr int title_px = 48;
 constexpr int scale_px = 150;         ///< width of the column of the scale
-
-Eigen::Isometry3d
-cameraAt (const Eigen::Vector3d& eye, const Eigen::Vector3d& target, const Eigen::Vector3d& up)
-{
-  const Eigen::Vector3d forward = (target - eye).normalized ();
-  const Eigen::Vector3d right = forward.cross (up).normalized ();
-  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity ();
-  pose.linear () << right, forward.cross (right), forward;
-  pose.translation () = eye;
-  return pose;
-}
 
 /** \brief A camera of a square picture that all vertices of the meshes fill. */
 PinholeCamera
@@ -179,7 +170,7 @@ drawErrorPicture (const TriangleMesh& truth, const TriangleMesh& reconstruction,
   {
     const Eigen::Vector3d eye = box.center () + distance_radii * radius_m *
                                                     (Eigen::AngleAxisd (column * turn_rad, up) * front);
-    const Eigen::Isometry3d T_world_camera = cameraAt (eye, box.center (), up);
+    const Eigen::Isometry3d T_world_camera = poseLookingAt (eye, box.center (), up);
     const PinholeCamera camera = fittingCamera (meshes, T_world_camera, panel * oversampling);
     for (int row = 0; row < 2; ++row)
       drawPanel (meshes[row], *others[row], camera, T_world_camera, options)

@@ -2,6 +2,8 @@
 // Copyright (c) 2026, the pcl_cosection authors
 #include <pcl/cosection/visualization/viewpoint.h>
 
+#include "../rendering/look_at.h"
+
 #include <pcl/cosection/common/atomic_file.h>
 #include <pcl/cosection/common/error.h>
 
@@ -107,12 +109,7 @@ toJson (const Eigen::Vector3d& v)
 Eigen::Isometry3d
 Viewpoint::pose () const
 {
-  const Eigen::Vector3d forward = (target - eye).normalized ();
-  const Eigen::Vector3d right = forward.cross (up).normalized ();
-  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity ();
-  pose.linear () << right, forward.cross (right), forward;
-  pose.translation () = eye;
-  return pose;
+  return poseLookingAt (eye, target, up);
 }
 
 PinholeCamera

@@ -110,7 +110,7 @@ LiveView::giveUp ()
 {
   if (process_ > 0)
   {
-    kill (process_, SIGTERM);
+    kill (process_, SIGKILL);
     waitpid (process_, nullptr, 0);
   }
   if (input_ >= 0)

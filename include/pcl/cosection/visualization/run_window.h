@@ -44,7 +44,7 @@ struct PCL_COSECTION_EXPORT RunWindowOptions
   /** \brief Called some five times a second: a scene that is new, or nothing. */
   std::function<std::optional<SceneUpdate> ()> newScene;
   std::function<bool ()> stop;                          ///< called likewise: whether to close the window
-  std::function<void (const std::string& line)> said;   ///< told what changed, in a line
+  std::function<void (const std::string& line)> said;   ///< told what changed, in a line: "frame 3 of 12", "wrote view.json"
   int threads = 0;                                      ///< for signed distances; 0: all
 
   /** \brief \throws InvalidArgument naming the first parameter outside its domain. */
@@ -55,7 +55,6 @@ struct PCL_COSECTION_EXPORT RunWindowOptions
 /** \brief A window in which a run is played: its background and objects along the trajectories. The key h shows what the others do.
  *
  * What SceneView describes is shown as drawScene () draws it; beyond that, cuts through the signed distance of a chosen object.
- * Lines that said () is told begin with "frame", "surfaces", "colours", "view", "object", "slices", "play" or "wrote".
  * For one thread, the one that made it.
  * \code
  * ReadingNotes notes;
