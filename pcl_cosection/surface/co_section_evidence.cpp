@@ -2,6 +2,7 @@
 // Copyright (c) 2026, the pcl_cosection authors
 #include "co_section_run.h"
 
+#include "left_overs.h"
 #include "measured_surface.h"
 #include "volume_layout.h"
 
@@ -24,6 +25,7 @@ constexpr double follow_tolerance = 0.5;      // of that of the solver: what one
 constexpr double max_voxel_size_change = 1.2; // until a body that is followed gets other voxels
 constexpr int least_free_views = 2;           // that look through a point of the background, for it to have moved ...
 constexpr double free_share = 0.25;           // ... and so many of those that see it there
+constexpr double left_over_cell_m = 0.02;
 constexpr double max_empty_share = 0.5;       // of a volume that was large enough for what was known before
 
 } // namespace
@@ -140,6 +142,7 @@ CoSectionRun::backgroundAtRest () const
     moved[n] = votes[n].free >= least_free_views && votes[n].free >= free_share * votes[n].surface;
   for (const Object& object : objects_)
     findPointsOf (object, moved);
+  takeLeftOvers (scene_.background, left_over_cell_m, moved);
   std::vector<OrientedPoint> at_rest;
   for (std::size_t n = 0; n < moved.size (); ++n)
     if (!moved[n])
