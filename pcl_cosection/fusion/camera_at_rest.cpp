@@ -25,6 +25,7 @@ constexpr double plain_difference = 20.0; // of a block's sums of squares: that 
 constexpr double plain_ratio = 2.2;       // of them: what explains a block leaves its noise; a motion that is known but roughly, not twice that
 constexpr float most_of_better = 1.5f;
 constexpr double least_ratio_to_stay = 1.03; // of the sums of the whole image, when no blocks tell: the motion explains it so much worse
+constexpr double most_ratio_to_rest = 1.25;  // rest explains it so much worse at most: what moves by itself is a part of the image
 constexpr std::ptrdiff_t least_sectors = 2;
 constexpr std::ptrdiff_t least_to_start = 3; // for a camera that rested to move: one that passes by is in two
 constexpr std::ptrdiff_t majority = 2;          // for a camera that moved
@@ -75,7 +76,7 @@ struct Sector
 } // namespace
 
 void
-CameraAtRest::Ballot::compare (float rest_sigmas, float motion_sigmas)
+CameraAtRest::Comparison::add (float rest_sigmas, float motion_sigmas)
 {
   if (std::min (std::abs (rest_sigmas), std::abs (motion_sigmas)) > most_of_better)
     return; // something else is seen there now
@@ -130,15 +131,15 @@ CameraAtRest::compareBlocks (const FrameCloud& cloud, const Eigen::Isometry3d& T
       if (coloured ())
       {
         const float then = brightness_.at (u, v);
-        ballot.compare ((now_.at (u, v) - then) / brightness_sigma,
-                        (between (now_, pixel.x (), pixel.y ()) - then) / brightness_sigma);
+        ballot.brightness.add ((now_.at (u, v) - then) / brightness_sigma,
+                               (between (now_, pixel.x (), pixel.y ()) - then) / brightness_sigma);
       }
       const float at_rest = cloud.depth.at (u, v);
       const float moved = cloud.depth.at (static_cast<int> (std::lround (pixel.x ())), static_cast<int> (std::lround (pixel.y ())));
       if (std::isfinite (at_rest) && std::isfinite (moved))
       {
         const auto sigma = static_cast<float> (std::sqrt (2.0) * depthNoiseSigma (z));
-        ballot.compare ((at_rest - z) / sigma, (moved - static_cast<float> (p.z ())) / sigma);
+        ballot.depth.add ((at_rest - z) / sigma, (moved - static_cast<float> (p.z ())) / sigma);
       }
     }
   mean_shift_px = compared > 0 ? shifts / compared : 0.0;
@@ -154,30 +155,33 @@ CameraAtRest::isPreferredTo (const Eigen::Isometry3d& T_world_camera, const Fram
   const std::vector<Ballot> ballots = compareBlocks (cloud, T_world_camera.inverse () * T_world_camera_, moving, shift_px);
   constexpr int sectors_across = blocks_across / blocks_of_sector;
   std::vector<Sector> sectors (sectors_across * (ballots.size () / blocks_across / blocks_of_sector + 1));
-  Ballot all;
+  Comparison all;
   for (std::size_t n = 0; n < ballots.size (); ++n)
   {
-    all.at_rest += ballots[n].at_rest;
-    all.moved += ballots[n].moved;
+    const Ballot& ballot = ballots[n];
+    all.at_rest += ballot.brightness.at_rest + ballot.depth.at_rest;
+    all.moved += ballot.brightness.moved + ballot.depth.moved;
     Sector& sector = sectors[n / blocks_across / blocks_of_sector * sectors_across + n % blocks_across / blocks_of_sector];
-    sector.rests |= isPlain (ballots[n].at_rest, ballots[n].moved);
-    sector.moves |= ballots[n].of_background > 0 && isPlain (ballots[n].moved, ballots[n].at_rest);
+    const Comparison& for_rest = coloured () ? ballot.brightness : ballot.depth;
+    sector.rests |= isPlain (for_rest.at_rest, for_rest.moved);
+    sector.moves |= ballot.of_background > 0 && isPlain (ballot.brightness.moved + ballot.depth.moved, ballot.brightness.at_rest + ballot.depth.at_rest);
   }
   const auto rest = std::count_if (sectors.begin (), sectors.end (), [] (const Sector& sector) { return sector.rests; });
   const auto motion = std::count_if (sectors.begin (), sectors.end (), [] (const Sector& sector) { return sector.moves; });
-  // Depth alone is the same where one slides along smooth surfaces: it says less for rest.
+  // Depth alone says less for rest.
   const std::ptrdiff_t to_stay = coloured () ? majority_to_stay : 1, to_start = coloured () ? majority_to_start : 1;
+  const bool may_rest = rest >= least_sectors && all.at_rest < most_ratio_to_rest * all.moved;
   bool at_rest = false, in_motion = false;
   if (rested_)
   {
     const bool nothing_starts = motion < least_to_start && all.moved > least_ratio_to_stay * all.at_rest;
-    at_rest = nothing_starts || (rest >= least_sectors && motion <= to_stay * rest);
+    at_rest = nothing_starts || (may_rest && motion <= to_stay * rest);
     in_motion = !at_rest && motion >= least_to_start && motion > to_start * rest;
   }
   else
   {
-    at_rest = rest >= least_sectors && rest > majority * motion;
-    in_motion = motion >= least_sectors && motion > majority * rest;
+    at_rest = may_rest && rest > majority * motion;
+    in_motion = !at_rest && motion >= least_sectors && motion > majority * rest;
   }
   rests_ = at_rest || (rested_ && !in_motion);
   moved_ = in_motion || (!at_rest && shift_px > largest_unseen_shift_px);

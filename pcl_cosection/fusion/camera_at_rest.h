@@ -20,7 +20,7 @@ namespace cosection
  *
  * A frame is compared with one before it, brightness and depth, twice: pixel by pixel, as if the camera had not moved, and by where an estimate of
  * its motion puts them. A block of the image tells where one of them explains it up to the noise and the other plainly does not; a sector of the image
- * has such blocks or not. What rests as the camera does is in no sector while the camera moves, or in one by chance; what moves by itself may be
+ * has such blocks or not. For rest, brightness tells: depth is the same where one slides along smooth surfaces. What rests as the camera does is in no sector while the camera moves, or in one by chance; what moves by itself may be
  * in many. So a camera that rested goes on resting unless motion is in some times more sectors than rest, and begins to move when rest is hardly anywhere. */
 class CameraAtRest
 {
@@ -46,16 +46,21 @@ public:
   }
 
 private:
+  /** \brief Sums of squares of differences, in standard deviations, if the camera has not moved and if it has. */
+  struct Comparison
+  {
+    double at_rest = 0.0;
+    double moved = 0.0;
+
+    void
+    add (float rest_sigmas, float motion_sigmas);
+  };
+
   /** \brief What a block of the image says. */
   struct Ballot
   {
-    double at_rest = 0.0;  // sums of squares of differences, in standard deviations
-    double moved = 0.0;
+    Comparison brightness, depth;
     int of_background = 0; // pixels, less those of what moves by itself
-
-    /** \brief Add a pixel's differences if the camera has not moved, and if it has. */
-    void
-    compare (float rest_sigmas, float motion_sigmas);
   };
 
   bool
