@@ -36,7 +36,7 @@ const char* const scene = R"({
 })";
 
 constexpr int rendered = 12;
-constexpr int frames = 450;
+constexpr int frames = 900;
 constexpr int mask_every = 10;
 
 /** \brief To and fro through what was rendered. */
@@ -109,5 +109,5 @@ TEST (LongSequence, MemoryDoesNotGrowWithItsLength)
   for (const ObjectResult& object : result.scene.objects)
     EXPECT_EQ (object.error, "");
   constexpr std::size_t image = 160 * 120 * sizeof (float);
-  EXPECT_LT (in_the_end, after_a_third + 100 * image) << "of the 300 frames between";
+  EXPECT_LT (in_the_end, after_a_third + 100 * image) << "of the 600 frames between";
 }

@@ -169,9 +169,11 @@ TEST_F (SegmentNetwork, BadInputIsOneLine)
 {
   const std::string model = test::readFile (folder_.file ("spot.onnx"));
   write ("cut.onnx", model.substr (0, model.size () / 2));
+  write ("any_size.onnx",
+         affineOnnx (SpotNetwork::width, SpotNetwork::height, SpotNetwork{NetworkOutputForm::Prototypes}.outputs (), false));
   EXPECT_NE (failure ({"in.pcd", "out.pcd", "--method", "mask-rcnn", "--model", "absent.onnx"}, 1).find ("absent.onnx"), std::string::npos);
   EXPECT_NE (failure ({"in.pcd", "out.pcd", "--method", "mask-rcnn", "--model", "cut.onnx"}, 1).find ("cut.onnx"), std::string::npos);
-  EXPECT_NE (failure ({"in.pcd", "out.pcd", "--method", "mask-rcnn", "--model", "spot.onnx"}, 1).find ("640 x 640"), std::string::npos);
+  EXPECT_NE (failure ({"in.pcd", "out.pcd", "--method", "mask-rcnn", "--model", "any_size.onnx"}, 1).find ("640 x 640"), std::string::npos);
   EXPECT_NE (failure (arguments ({"--class-names", "absent"}), 1).find ("absent"), std::string::npos);
   write ("two", "cup\nbottle\n");
   EXPECT_NE (failure (arguments ({"--class-names", "two"}), 1).find ("3 classes"), std::string::npos);
