@@ -15,8 +15,8 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
-#include <ctime>
 #include <filesystem>
+#include <ctime>
 
 using namespace pcl::cosection;
 
@@ -39,7 +39,7 @@ readImage (const char* path)
 {
   LabelledImage image;
   pcl::PointCloud<pcl::PointXYZL> cloud;
-  if (pcl::io::loadPCDFile (path, cloud) != 0 || !cloud.isOrganized ())
+  if (!std::filesystem::is_regular_file (path) || pcl::io::loadPCDFile (path, cloud) != 0 || !cloud.isOrganized ())
     return (image);
   image.width = static_cast<int> (cloud.width);
   image.height = static_cast<int> (cloud.height);
