@@ -26,6 +26,7 @@ constexpr double plain_ratio = 2.2;       // of them: what explains a block leav
 constexpr float most_of_better = 1.5f;
 constexpr double least_ratio_to_stay = 1.03; // of the sums of the whole image, when no blocks tell: the motion explains it so much worse
 constexpr double most_ratio_to_rest = 1.25;  // rest explains it so much worse at most: what moves by itself is a part of the image
+constexpr double growth_of_unexplained = 1.05; // from frame to frame, at most
 constexpr std::ptrdiff_t least_sectors = 2;
 constexpr std::ptrdiff_t least_to_start = 3; // for a camera that rested to move: one that passes by is in two
 constexpr std::ptrdiff_t majority = 2;          // for a camera that moved
@@ -96,6 +97,7 @@ void
 CameraAtRest::keep (const FrameCloud& cloud, const Eigen::Isometry3d& T_world_camera)
 {
   rested_ = rests_;
+  unexplained_ = unexplained_ > 0.0 ? std::min (unexplained_now_, growth_of_unexplained * unexplained_) : unexplained_now_;
   if (!moved_)
     return;
   depth_ = cloud.depth;
@@ -180,9 +182,10 @@ CameraAtRest::isPreferredTo (const Eigen::Isometry3d& T_world_camera, const Fram
   }
   else
   {
-    at_rest = may_rest && rest > majority * motion;
+    at_rest = may_rest && rest > majority * motion && all.at_rest < most_ratio_to_rest * unexplained_;
     in_motion = !at_rest && motion >= least_sectors && motion > majority * rest;
   }
+  unexplained_now_ = at_rest ? all.at_rest : all.moved;
   rests_ = at_rest || (rested_ && !in_motion);
   moved_ = in_motion || (!at_rest && shift_px > largest_unseen_shift_px);
   return at_rest;

@@ -77,6 +77,8 @@ private:
   Image<float> brightness_; // smoothed; empty without colours
   Image<float> now_;        // brightness of the frame that is looked at
   Eigen::Isometry3d T_world_camera_ = Eigen::Isometry3d::Identity ();
+  double unexplained_ = 0.0;     // sum of squares of the frames before, as they were believed: about that of noise
+  double unexplained_now_ = 0.0; // of the one that is looked at
   bool rested_ = true; // in the frame before
   bool rests_ = true;  // in the one that is looked at
   bool moved_ = true;  // since the one that others are compared with
