@@ -20,8 +20,10 @@ namespace cosection
  *
  * A frame is compared with one before it, brightness and depth, twice: pixel by pixel, as if the camera had not moved, and by where an estimate of
  * its motion puts them. A block of the image tells where one of them explains it up to the noise and the other plainly does not; a sector of the image
- * has such blocks or not. For rest, brightness tells: depth is the same where one slides along smooth surfaces. What rests as the camera does is in no sector while the camera moves, or in one by chance; what moves by itself may be
- * in many. So a camera that rested goes on resting unless motion is in some times more sectors than rest, and begins to move when rest is hardly anywhere. */
+ * has such blocks or not. For rest, brightness tells: depth is the same where one slides along smooth surfaces. What rests as the camera does is
+ * in no sector while the camera moves, or in one by chance; what moves by itself may be in many. So a camera that rested goes on resting unless motion
+ * is in some times more sectors than rest, or where no sectors tell and motion explains the image worse; it begins to move when rest is hardly
+ * anywhere. One that moved rests only if that explains the image up to what is usual: of two wrong answers, the better one is wrong, too. */
 class CameraAtRest
 {
 public:
