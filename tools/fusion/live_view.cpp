@@ -9,7 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include <fcntl.h>
-#include <sys/resource.h>
+#include <sched.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -30,7 +30,6 @@ namespace
 
 const char* const viewer = "pcl_cosection_viewer";
 constexpr std::size_t background_parts = 16;
-constexpr int niceness = 10; ///< the run comes first
 constexpr std::chrono::milliseconds snapshot_every (200), look_every (20);
 constexpr std::chrono::seconds patience (60); ///< until the window is there
 
@@ -42,6 +41,14 @@ makeTemporaryFolder ()
   if (failure || mkdtemp (folder.data ()) == nullptr)
     throw IoError ("--live: no temporary folder can be made: " + (failure ? failure.message () : std::string (std::strerror (errno))));
   return (folder);
+}
+
+/** \brief From here on, this thread runs only while a processor has nothing else to do: the run comes first. */
+void
+giveWay ()
+{
+  const sched_param none = {};
+  sched_setscheduler (0, SCHED_IDLE, &none);
 }
 
 /** \brief The viewer beside this program, else the one that is found by its name. */
@@ -134,7 +141,7 @@ LiveView::start (const std::string& output)
     const int to = open (log.c_str (), O_WRONLY | O_CREAT | O_TRUNC, 0600);
     if (to < 0 || dup2 (ends[0], STDIN_FILENO) < 0 || dup2 (to, STDOUT_FILENO) < 0 || dup2 (to, STDERR_FILENO) < 0)
       _exit (126);
-    setpriority (PRIO_PROCESS, 0, niceness);
+    giveWay ();
     execvp (words[0], const_cast<char* const*> (words.data ()));
     _exit (127);
   }
@@ -246,7 +253,7 @@ LiveView::takeChanges ()
 void
 LiveView::writeSnapshots ()
 {
-  setpriority (PRIO_PROCESS, static_cast<id_t> (gettid ()), niceness);
+  giveWay ();
   std::unique_lock<std::mutex> lock (mutex_);
   while (true)
   {
