@@ -3,7 +3,8 @@
 
 // compare_registration [TRIALS]: views of toys are registered from poses up to 10 degrees and 5 cm away, with a model of the object: by
 // SdfRegistration with its signed distance, by PCL's ICP and GICP with points and normals on the zero level set of the same signed
-// distance. A row of a table for each. One thread each: PCL's use one. The first trial also builds the search trees.
+// distance. A row of a table for each. One thread each: PCL's use one. The first trial also builds the search trees. For views with noise, also the
+// error from the true pose, beside the one that the information matrix expects of independent noise: less cannot be asked of any method.
 
 #include "tracking/tracking_scene.h"
 
@@ -20,8 +21,10 @@
 #include <cstdlib>
 #include <ctime>
 #include <exception>
+#include <iomanip>
 #include <iostream>
 #include <memory>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -118,9 +121,42 @@ printRow (const std::string& name, Registration& registration, const std::vector
   std::fflush (stdout);
 }
 
-void
+/** \brief Standard deviation of the angle, as the information matrix has it, radians. \param[in] center about which the shift is meant */
+double
+expectedAngle (const SdfAlignmentResult& result, const Eigen::Vector3d& center)
+{
+  using Matrix6d = SdfAlignmentResult::Matrix6d;
+  Matrix6d to_center = Matrix6d::Identity (); // (t', omega) about the centre to (t, omega) about the origin: t = t' + center x omega
+  to_center.topRightCorner<3, 3> () << 0.0, -center.z (), center.y (), center.z (), 0.0, -center.x (), -center.y (), center.x (), 0.0;
+  const Matrix6d covariance = result.rms_m * result.rms_m * (to_center.transpose () * result.information * to_center).inverse ();
+  return std::sqrt (covariance.bottomRightCorner<3, 3> ().trace ());
+}
+
+/** \brief From the true pose: how far noise moves it, and how far it may be expected to. */
+std::string
+describeLimit (const std::string& label, SdfRegistration<Point>& registration, const std::vector<View>& views, const Eigen::Vector3d& center)
+{
+  std::ostringstream text;
+  text << std::fixed << std::setprecision (2) << "From the true pose" << label << ", angle / its expected standard deviation in degrees:";
+  for (const View& view : views)
+  {
+    registration.setInputSource (view.cloud);
+    Cloud aligned;
+    registration.align (aligned, view.T_body_sensor.matrix ().cast<float> ());
+    Eigen::Isometry3d found;
+    found.matrix () = registration.getFinalTransformation ().cast<double> ();
+    const PoseError error (found, view.T_body_sensor, center);
+    constexpr double degrees = 180.0 / M_PI;
+    text << ' ' << degrees * error.angle_rad << " / " << degrees * expectedAngle (registration.getAlignment (), center);
+  }
+  return text.str ();
+}
+
+/** \brief Print the rows. \return the limits of the noise */
+std::string
 compare (const std::string& name, int trials)
 {
+  std::string limits;
   const SceneBody body = presetBody ("toys", name);
   const Eigen::Vector3d center = bodyCenter (body);
   const auto field = std::make_shared<SignedDistanceField> (bodyDistance (body, resolution));
@@ -153,7 +189,10 @@ compare (const std::string& name, int trials)
     gicp.setTransformationEpsilon (1e-5);
     gicp.setRotationEpsilon (1e-5);
     printRow ("`GeneralizedIterativeClosestPoint`" + label, gicp, views, center, trials);
+    if (noise)
+      limits = describeLimit (label, sdf, views, center);
   }
+  return limits;
 }
 
 } // namespace
@@ -170,8 +209,10 @@ main (int argc, char** argv)
   try
   {
     std::printf ("| | good | shift, median mm | 95 %% | angle, median deg | 95 %% | CPU time, median ms |\n|---|---|---|---|---|---|---|\n");
+    std::string limits;
     for (const char* name : {"truck", "car"})
-      compare (name, trials);
+      limits += '\n' + compare (name, trials) + '\n';
+    std::cout << limits;
     return 0;
   }
   catch (const std::exception& error)
