@@ -2,8 +2,6 @@
 // Copyright (c) 2026, the pcl_cosection authors
 #include "camera_at_rest.h"
 
-#include <opencv2/imgproc.hpp>
-
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -34,32 +32,6 @@ constexpr std::ptrdiff_t majority_to_stay = 3;  // of sectors with motion, up to
 constexpr std::ptrdiff_t majority_to_start = 4; // of sectors with motion, above which it moves
 constexpr double largest_unseen_shift_px = 3.0; // where there is nothing to be seen that tells
 
-/** \brief Brightness without the noise of single pixels, so that it may be read between them. */
-Image<float>
-smoothedBrightness (const Picture& colour)
-{
-  Image<float> result (colour.width, colour.height);
-  for (std::size_t n = 0; n < colour.pixels.size (); ++n)
-  {
-    const auto& rgb = colour.pixels[n];
-    result.pixels[n] = 0.299f * rgb[0] + 0.587f * rgb[1] + 0.114f * rgb[2];
-  }
-  cv::Mat view (result.height, result.width, CV_32F, result.pixels.data ());
-  cv::GaussianBlur (view, view, cv::Size (5, 5), 1.0);
-  return result;
-}
-
-float
-between (const Image<float>& image, double u, double v)
-{
-  const int i = std::min (image.width - 2, static_cast<int> (u));
-  const int j = std::min (image.height - 2, static_cast<int> (v));
-  const auto a = static_cast<float> (u - i);
-  const auto b = static_cast<float> (v - j);
-  return (1.0f - b) * ((1.0f - a) * image.at (i, j) + a * image.at (i + 1, j)) +
-         b * ((1.0f - a) * image.at (i, j + 1) + a * image.at (i + 1, j + 1));
-}
-
 /** \brief Whether a block is explained up to the noise where the sum of squares is \a smaller, and not where it is \a larger. */
 bool
 isPlain (double smaller, double larger)
@@ -86,9 +58,9 @@ CameraAtRest::Comparison::add (float rest_sigmas, float motion_sigmas)
 }
 
 void
-CameraAtRest::begin (const FrameCloud& cloud, const Picture& colour)
+CameraAtRest::begin (const FrameCloud& cloud)
 {
-  now_ = colour.pixels.size () == cloud.points.size () ? smoothedBrightness (colour) : Image<float> ();
+  now_ = cloud.brightness.empty () ? Image<float> () : cloud.brightness[0];
   rests_ = rested_;
   moved_ = true;
 }
@@ -134,7 +106,7 @@ CameraAtRest::compareBlocks (const FrameCloud& cloud, const Eigen::Isometry3d& T
       {
         const float then = brightness_.at (u, v);
         ballot.brightness.add ((now_.at (u, v) - then) / brightness_sigma,
-                               (between (now_, pixel.x (), pixel.y ()) - then) / brightness_sigma);
+                               (readBrightness (now_, pixel.x (), pixel.y ()).value - then) / brightness_sigma);
       }
       const float at_rest = cloud.depth.at (u, v);
       const float moved = cloud.depth.at (static_cast<int> (std::lround (pixel.x ())), static_cast<int> (std::lround (pixel.y ())));

@@ -29,7 +29,7 @@ class CameraAtRest
 public:
   /** \brief Begin to look at a frame. */
   void
-  begin (const FrameCloud& cloud, const Picture& colour);
+  begin (const FrameCloud& cloud);
 
   /** \brief Whether the camera is still at T_world_camera (), rather than at \a T_world_camera.
    * \param[in] moving what does not say that it moved */

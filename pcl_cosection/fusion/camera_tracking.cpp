@@ -21,8 +21,7 @@ constexpr PoseLimits limits{0.15, 0.26, 0.3, 0.1};
 constexpr SampleOptions background_samples{5000, 0.0, true};
 constexpr int rounds = 2;                  // without and with what is found to move
 constexpr double new_movers = 0.01;        // of the points' weight, from which on a second round is worth it
-constexpr double standard_pixels = 640.0 * 480.0;
-constexpr double correlated_pixels = 49.0; // the depth filter's window, in an image of so many
+constexpr int all_directions = 6;
 
 } // namespace
 
@@ -33,9 +32,9 @@ CameraTracking::CameraTracking (int max_points, const AssociationOptions& associ
 {}
 
 void
-CameraTracking::begin (const FrameCloud& cloud, const Picture& colour)
+CameraTracking::begin (const FrameCloud& cloud)
 {
-  at_rest_.begin (cloud, colour);
+  at_rest_.begin (cloud);
 }
 
 PoseEstimate
@@ -44,7 +43,7 @@ CameraTracking::track (const FrameCloud& cloud, const std::vector<AssociatedMode
 {
   const double pixels = static_cast<double> (cloud.camera.width) * cloud.camera.height;
   const int step = std::max (1, static_cast<int> (std::ceil (std::sqrt (pixels / max_points_) - 0.01)));
-  const double correlated = std::max (1.0, correlated_pixels * pixels / standard_pixels / (step * step));
+  const double correlated = std::max (1.0, correlatedReadings (cloud.camera) / (step * step));
   const std::vector<Eigen::Vector3f> points = cloud.sample (step);
   const TsdfVolume& background = *models[0].volume;
   PoseEstimate estimate;
@@ -55,6 +54,8 @@ CameraTracking::track (const FrameCloud& cloud, const std::vector<AssociatedMode
     return estimate;
   }
   std::vector<float> of_background = association_.probabilities (points, models, 0);
+  points_ = points;
+  const std::vector<float> probabilities = of_background;
   weighReadings (points, background.grid ().voxel_size_m, of_background);
   moving_.begin (cloud, guess);
   double left_out = 0.0;
@@ -62,18 +63,31 @@ CameraTracking::track (const FrameCloud& cloud, const std::vector<AssociatedMode
   {
     std::vector<float> weights = of_background;
     const double share = moving_.weigh (cloud.camera, points, weights);
+    of_background_ = probabilities;
+    moving_.weigh (cloud.camera, points, of_background_);
     if (round > 0 && std::abs (share - left_out) < new_movers)
       break;
     left_out = share;
     estimate.alignment = alignment_.align (points, weights, background, guess);
     const Eigen::Isometry3d& found = estimate.alignment.T_grid_sensor;
-    const ObservedMotion observed =
-        observedMotion (sampleSurface (points, weights, background, found, background_samples), before_, found, {correlated});
+    const std::vector<SurfaceSample> samples = sampleSurface (points, weights, background, found, background_samples);
+    const ObservedMotion observed = observedMotion (samples, before_, found, {correlated});
     estimate.T_model_camera = observed.T_model_camera;
     estimate.observed_directions = std::min (observed.directions, estimate.alignment.observed_directions);
-    const HeldPose held = holdByRestingObjects ({points, weights, models, objects, guess}, association_, observed.T_model_camera);
-    estimate.T_model_camera = held.T_world_camera;
-    estimate.observed_directions = std::max (estimate.observed_directions, held.directions);
+    // What the shape tells is believed here also where it is little: brightness says how much of it is noise.
+    const UncertainPose by_shape{observedMotion (samples, before_, found, {}).T_model_camera, observed.precision / correlated};
+    const auto by_brightness = brightness_.track (cloud, MotionChart (samples), by_shape, guess);
+    if (by_brightness)
+    {
+      estimate.T_model_camera = by_brightness->T_model_camera;
+      estimate.observed_directions = std::max (estimate.observed_directions, by_brightness->directions ());
+    }
+    if (!by_brightness || by_brightness->directions () < all_directions)
+    {
+      const HeldPose held = holdByRestingObjects ({points, weights, models, objects, guess}, association_, estimate.T_model_camera);
+      estimate.T_model_camera = held.T_world_camera;
+      estimate.observed_directions = std::max (estimate.observed_directions, held.directions);
+    }
     const bool at_rest = at_rest_.isPreferredTo (estimate.T_model_camera, cloud, moving_);
     if (at_rest)
       estimate.T_model_camera = at_rest_.T_world_camera ();
@@ -81,7 +95,7 @@ CameraTracking::track (const FrameCloud& cloud, const std::vector<AssociatedMode
     if (at_rest)
       break;
   }
-  estimate.doubt = doubtOf (estimate.alignment, guess, Eigen::Vector3d (0.0, 0.0, 1.0), points.size (), limits, frames_passed);
+  estimate.doubt = doubtOf (estimate.alignment, estimate.alignment.T_grid_sensor, guess, Eigen::Vector3d (0.0, 0.0, 1.0), points.size (), limits, frames_passed);
   return estimate;
 }
 
@@ -89,6 +103,7 @@ void
 CameraTracking::keep (const FrameCloud& cloud, const Eigen::Isometry3d& T_world_camera)
 {
   before_ = T_world_camera;
+  brightness_.keep (cloud, points_, of_background_, T_world_camera);
   moving_.keep (cloud, T_world_camera);
   at_rest_.keep (cloud, T_world_camera);
 }

@@ -2,6 +2,7 @@
 // Copyright (c) 2026, the pcl_cosection authors
 #pragma once
 
+#include "brightness_tracking.h"
 #include "camera_at_rest.h"
 #include "moving_parts.h"
 #include "pose_tracking.h"
@@ -21,15 +22,16 @@ namespace cosection
 /** \brief Tracks the camera against the background: frame to model, weighted by association, without what moves.
  *
  * Of the motion that is found, only what is observed and significant is believed (see observedMotion ()); and none where pictures say plainly
- * that the camera rests (see CameraAtRest). What the background leaves open, objects at rest may tell (see holdByRestingObjects ()). */
+ * that the camera rests (see CameraAtRest). What the background's shape leaves open, its brightness tells (see BrightnessTracking); and what that leaves
+ * open, objects at rest may tell (see holdByRestingObjects ()). */
 class CameraTracking
 {
 public:
   CameraTracking (int max_points, const AssociationOptions& association, int threads);
 
-  /** \brief Begin to look at a frame. \param[in] colour of the depth's size, or empty */
+  /** \brief Begin to look at a frame. */
   void
-  begin (const FrameCloud& cloud, const Picture& colour);
+  begin (const FrameCloud& cloud);
 
   /** \brief Where the camera is in that frame.
    * \param[in] models the background first, objects where they are expected relative to the camera at \a guess
@@ -62,6 +64,9 @@ private:
   DataAssociation association_;
   MovingParts moving_;
   CameraAtRest at_rest_;
+  BrightnessTracking brightness_;
+  std::vector<Eigen::Vector3f> points_;     // that were tracked last
+  std::vector<float> of_background_;        // their probabilities to be of the background and at rest
   Eigen::Isometry3d before_ = Eigen::Isometry3d::Identity (); // T_world_camera
   int max_points_;
 };

@@ -6,6 +6,9 @@
 #include <pcl/cosection/common/parallel.h>
 #include <pcl/cosection/fusion/bilateral_filter.h>
 
+#include <opencv2/imgproc.hpp>
+
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -79,6 +82,19 @@ makeFrameCloud (const Image<float>& depth, const PinholeCamera& camera, double m
   });
   cloud.readings = std::accumulate (readings.begin (), readings.end (), std::size_t (0));
   return cloud;
+}
+
+void
+addBrightness (const Picture& colour, int levels, FrameCloud& cloud)
+{
+  constexpr int reach = brightness_reach_px;
+  cloud.brightness = brightnessLevels (colour, levels);
+  const int width = cloud.camera.width, height = cloud.camera.height;
+  cloud.unmixed = Image<std::uint8_t> (width, height);
+  std::transform (cloud.reliable.pixels.begin (), cloud.reliable.pixels.end (), cloud.unmixed.pixels.begin (),
+                  [] (float z) { return static_cast<std::uint8_t> (std::isfinite (z)); });
+  cv::Mat view (height, width, CV_8U, cloud.unmixed.pixels.data ());
+  cv::erode (view, view, cv::Mat::ones (2 * reach + 1, 2 * reach + 1, CV_8U));
 }
 
 float

@@ -23,13 +23,13 @@ trackObjects (const PosedFrame& frame, const std::vector<AssociatedModel>& expec
   for (std::size_t m = 1; m < expected.size (); ++m)
   {
     TrackedObject& object = *objects[m - 1];
-    PoseEstimate estimate = tracking.trackObject (frame.cloud, expected, m, 1.0 + object.frames_not_tracked);
+    PoseEstimate estimate = tracking.trackObject (frame.cloud, expected, m, 1.0 + object.frames_not_tracked, object.brightness);
     if (!estimate.doubt.empty ())
     {
       // It may have stopped.
       std::vector<AssociatedModel> at_rest = expected;
       at_rest[m].T_model_sensor = object.T_world_object.inverse () * T_world_camera;
-      const PoseEstimate other = tracking.trackObject (frame.cloud, at_rest, m, 1.0 + object.frames_not_tracked);
+      const PoseEstimate other = tracking.trackObject (frame.cloud, at_rest, m, 1.0 + object.frames_not_tracked, object.brightness);
       if (other.doubt.empty () || other.visibility.confirmedShare () > estimate.visibility.confirmedShare ())
         estimate = other;
     }
@@ -46,6 +46,7 @@ trackObjects (const PosedFrame& frame, const std::vector<AssociatedModel>& expec
       else if (object.state == ObjectState::Tracked)
         object.last_motion.translation () = T_world_object.translation () - object.T_world_object.translation ();
       object.moveTo (T_world_object);
+      tracking.keep (frame.cloud, estimate.T_model_camera, object.brightness);
       object.state = ObjectState::Tracked;
       object.frames_not_tracked = 0;
       continue;

@@ -20,6 +20,7 @@ using Vector6d = Eigen::Matrix<double, 6, 1>;
 using Matrix6d = Eigen::Matrix<double, 6, 6>;
 
 constexpr double significance = 3.0; // standard deviations
+constexpr double least_sigma = 1e-4; // metres
 
 /** \brief Standard deviation of the distance of a point of weight 1, from the median. */
 double
@@ -67,6 +68,8 @@ observedMotion (const std::vector<SurfaceSample>& samples, const Eigen::Isometry
     const bool significant = along * along >= significance * significance * variance;
     result.directions += observed;
     result.held += observed && !significant;
+    if (observed)
+      result.precision += solver.eigenvalues ()[k] / std::max (sigma * sigma, least_sigma * least_sigma) * direction * direction.transpose ();
     if (!observed || !significant)
       held_directions.col (held_count++) = direction;
   }

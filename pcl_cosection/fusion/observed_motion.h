@@ -19,6 +19,9 @@ struct ObservedMotion
   Eigen::Isometry3d T_model_camera = Eigen::Isometry3d::Identity ();
   int directions = 0; ///< of six, those that are told
   int held = 0;       ///< of them, those in which the motion is within what noise would make of none
+  /** \brief Along directions that are told, the inverse of the covariance of independent readings, in the coordinates of the samples'
+   * chart, 1 / m^2. */
+  Eigen::Matrix<double, 6, 6> precision = Eigen::Matrix<double, 6, 6>::Zero ();
 };
 
 /** \brief What is expected of a motion. */

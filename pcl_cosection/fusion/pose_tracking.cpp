@@ -24,6 +24,9 @@ constexpr double min_found_confirmed = 0.7; // of one that comes back
 constexpr double min_in_view = 0.1;
 constexpr double min_tracked_in_view = 0.3; // what is left of an object at the image's border slides
 constexpr double tolerance_voxels = 2.0;
+constexpr int all_directions = 6;
+constexpr double standard_pixels = 640.0 * 480.0;
+constexpr double correlated_pixels = 49.0; // the depth filter's window, in an image of so many
 
 constexpr SampleOptions object_samples{1000, 1.5};
 constexpr MotionPrior object_motion{0.0, 10.0}; // what does not seem to turn does not
@@ -93,8 +96,8 @@ trackingOptions (int max_points, int threads)
 }
 
 std::string
-doubtOf (const SdfAlignmentResult& result, const Eigen::Isometry3d& guess, const Eigen::Vector3d& centre, std::size_t points,
-         const PoseLimits& limits, double frames_passed)
+doubtOf (const SdfAlignmentResult& result, const Eigen::Isometry3d& pose, const Eigen::Isometry3d& guess, const Eigen::Vector3d& centre,
+         std::size_t points, const PoseLimits& limits, double frames_passed)
 {
   if (result.stop == SdfAlignmentStop::TooFewPoints || result.stop == SdfAlignmentStop::NoGradient)
     return describe (result.stop);
@@ -102,11 +105,17 @@ doubtOf (const SdfAlignmentResult& result, const Eigen::Isometry3d& guess, const
     return line ("only ", result.points_with_distance, " of ", points, " points are where the model knows a surface");
   if (result.inlier_share < limits.min_inlier_share)
     return line ("only ", 100.0 * result.inlier_share, " % of the points fit");
-  const double shift = (result.T_grid_sensor * centre - guess * centre).norm ();
-  const double turn = Eigen::AngleAxisd (guess.linear ().transpose () * result.T_grid_sensor.linear ()).angle ();
+  const double shift = (pose * centre - guess * centre).norm ();
+  const double turn = Eigen::AngleAxisd (guess.linear ().transpose () * pose.linear ()).angle ();
   if (shift > limits.max_shift_m * frames_passed || turn > limits.max_turn_rad * frames_passed)
     return line ("it would have jumped by ", shift, " m and ", turn * 180.0 / M_PI, " degrees");
   return "";
+}
+
+double
+correlatedReadings (const PinholeCamera& camera)
+{
+  return std::max (1.0, correlated_pixels * camera.width * camera.height / standard_pixels);
 }
 
 void
@@ -122,7 +131,8 @@ PoseTracking::PoseTracking (int max_points, const AssociationOptions& associatio
 {}
 
 PoseEstimate
-PoseTracking::trackObject (const FrameCloud& cloud, std::vector<AssociatedModel> models, std::size_t target, double frames_passed)
+PoseTracking::trackObject (const FrameCloud& cloud, std::vector<AssociatedModel> models, std::size_t target, double frames_passed,
+                           BrightnessTracking& brightness)
 {
   const TsdfVolume& volume = *models[target].volume;
   const Eigen::Isometry3d guess = models[target].T_model_sensor;
@@ -131,23 +141,34 @@ PoseTracking::trackObject (const FrameCloud& cloud, std::vector<AssociatedModel>
   Eigen::Vector3d centre = Eigen::Vector3d::Zero ();
   for (int round = 0; round < object_rounds; ++round)
   {
-    const std::vector<Eigen::Vector3f> points = pointsNear (cloud, models[target]);
-    std::vector<float> weights = association_.probabilities (points, models, target);
+    points_ = pointsNear (cloud, models[target]);
+    probabilities_ = association_.probabilities (points_, models, target);
+    const std::vector<Eigen::Vector3f>& points = points_;
+    std::vector<float> weights = probabilities_;
     if (round == 0)
       centre = centroid (points, weights);
     weighReadings (points, volume.grid ().voxel_size_m, weights);
     estimate.alignment = object_.align (points, weights, volume, models[target].T_model_sensor);
+    const Eigen::Isometry3d& found = estimate.alignment.T_grid_sensor;
+    const std::vector<SurfaceSample> samples = sampleSurface (points, weights, volume, found, object_samples);
+    const ObservedMotion observed = observedMotion (samples, guess, found, object_motion);
+    // One that goes on being tracked may slide as far as it likes where its shape does not tell.
+    const Eigen::Isometry3d& meant = frames_passed > 1.0 ? found : observed.T_model_camera;
     estimate.doubt = estimate.alignment.points_with_distance < min_object_points
                          ? std::string (describe (SdfAlignmentStop::TooFewPoints))
-                         : doubtOf (estimate.alignment, guess, centre, points.size (), object_limits, frames_passed);
+                         : doubtOf (estimate.alignment, meant, guess, centre, points.size (), object_limits, frames_passed);
     if (!estimate.doubt.empty ())
       break;
-    const Eigen::Isometry3d& found = estimate.alignment.T_grid_sensor;
-    const ObservedMotion observed =
-        observedMotion (sampleSurface (points, weights, volume, found, object_samples), guess, found, object_motion);
     estimate.observed_directions = std::min (observed.directions, estimate.alignment.observed_directions);
-    models[target].T_model_sensor = observed.T_model_camera;
     estimate.T_model_camera = observed.T_model_camera;
+    const UncertainPose by_shape{observed.T_model_camera, observed.precision / correlatedReadings (cloud.camera)};
+    const auto by_brightness = brightness.track (cloud, MotionChart (samples), by_shape, guess);
+    if (by_brightness && estimate.observed_directions < all_directions)
+    {
+      estimate.T_model_camera = by_brightness->T_model_camera;
+      estimate.observed_directions = std::max (estimate.observed_directions, by_brightness->directions ());
+    }
+    models[target].T_model_sensor = estimate.T_model_camera;
   }
   estimate.visibility =
       checkVisibility (volume, estimate.T_model_camera, cloud, tolerance_voxels * volume.grid ().voxel_size_m);

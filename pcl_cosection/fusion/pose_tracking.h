@@ -2,6 +2,7 @@
 // Copyright (c) 2026, the pcl_cosection authors
 #pragma once
 
+#include "brightness_tracking.h"
 #include "frame_cloud.h"
 #include "visibility_check.h"
 
@@ -43,25 +44,38 @@ SdfAlignmentOptions
 trackingOptions (int max_points, int threads);
 
 /** \brief Why a pose is not believed; empty if it is.
+ * \param[in] pose T_model_camera, what of \a result is meant
  * \param[in] centre of what is tracked, sensor frame
  * \param[in] points how many there are */
 std::string
-doubtOf (const SdfAlignmentResult& result, const Eigen::Isometry3d& guess, const Eigen::Vector3d& centre, std::size_t points,
-         const PoseLimits& limits, double frames_passed);
+doubtOf (const SdfAlignmentResult& result, const Eigen::Isometry3d& pose, const Eigen::Isometry3d& guess, const Eigen::Vector3d& centre,
+         std::size_t points, const PoseLimits& limits, double frames_passed);
+
+/** \brief How many readings of neighbouring pixels err together, as they are filtered together. */
+double
+correlatedReadings (const PinholeCamera& camera);
 
 /** \brief Multiply weights of points by that of their readings. */
 void
 weighReadings (const std::vector<Eigen::Vector3f>& points, double voxel_size_m, std::vector<float>& weights);
 
-/** \brief Tracks objects relative to the camera: frame to model, weighted by association. */
+/** \brief Tracks objects relative to the camera: frame to model, weighted by association; by brightness where their shape does not tell. */
 class PoseTracking
 {
 public:
   PoseTracking (int max_points, const AssociationOptions& association, int threads);
 
-  /** \brief Track the model of number \a target from where it is among \a models. */
+  /** \brief Track the model of number \a target from where it is among \a models. \param[in,out] brightness of that model */
   PoseEstimate
-  trackObject (const FrameCloud& cloud, std::vector<AssociatedModel> models, std::size_t target, double frames_passed);
+  trackObject (const FrameCloud& cloud, std::vector<AssociatedModel> models, std::size_t target, double frames_passed,
+               BrightnessTracking& brightness);
+
+  /** \brief Believe where the object that was tracked last is: it may be compared with this frame later. */
+  void
+  keep (const FrameCloud& cloud, const Eigen::Isometry3d& T_model_camera, BrightnessTracking& brightness) const
+  {
+    brightness.keep (cloud, points_, probabilities_, T_model_camera);
+  }
 
   /** \brief Find an object at points of which all are said to be its own. \param[in] guess T_model_camera */
   PoseEstimate
@@ -71,6 +85,8 @@ public:
 private:
   SdfAlignment object_;
   DataAssociation association_;
+  std::vector<Eigen::Vector3f> points_; // of the object that was tracked last, sensor frame
+  std::vector<float> probabilities_;    // that they are its own
 };
 
 } // namespace cosection

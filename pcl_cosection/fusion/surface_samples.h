@@ -56,9 +56,23 @@ public:
   Vector6d
   slope (const SurfaceSample& sample) const
   {
+    return slope (sample.position, sample.normal);
+  }
+
+  /** \brief Derivative by the motion of what has a \a gradient at \a position. */
+  Vector6d
+  slope (const Eigen::Vector3d& position, const Eigen::Vector3d& gradient) const
+  {
     Vector6d slope;
-    slope << sample.normal, (sample.position - centre_).cross (sample.normal) / radius_;
+    slope << gradient, (position - centre_).cross (gradient) / radius_;
     return slope;
+  }
+
+  /** \brief Where a position is among the samples: from their centre, in units of their root mean square distance from it. */
+  Eigen::Vector3d
+  place (const Eigen::Vector3d& position) const
+  {
+    return (position - centre_) / radius_;
   }
 
   Vector6d

@@ -2,6 +2,8 @@
 // Copyright (c) 2026, the pcl_cosection authors
 #pragma once
 
+#include "brightness_tracking.h"
+
 #include <pcl/cosection/volume/tsdf_volume.h>
 
 #include <Eigen/Geometry>
@@ -68,6 +70,7 @@ struct TrackedObject
 
   int id;
   TsdfVolume volume;                                           ///< object frame
+  BrightnessTracking brightness;                               ///< of its surface
   Eigen::Isometry3d T_world_object;                            ///< the last good one
   Eigen::Vector3d first_place;                                 ///< world frame
   Eigen::Isometry3d last_motion = Eigen::Isometry3d::Identity (); ///< T_now_before, world frame
