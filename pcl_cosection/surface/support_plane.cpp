@@ -7,6 +7,7 @@
 #include <pcl/sample_consensus/ransac.h>
 #include <pcl/sample_consensus/sac_model_plane.h>
 
+#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 
 #include <algorithm>
@@ -21,8 +22,44 @@ namespace
 {
 
 constexpr double min_reach_m = 0.05;
+constexpr double line_sigma_m = 5e-4; // standard deviation of points on one line
 constexpr int max_ransac_iterations = 500;
 constexpr std::size_t max_points = 20000; // RANSAC sees an even subset of no more
+
+/** \brief PCL's model, whose samples of points that are almost on a line are drawn again without a word: among points
+ * that are some millimetres apart they are frequent, and no error. */
+class PlaneModel : public pcl::SampleConsensusModelPlane<pcl::PointXYZ>
+{
+public:
+  using SampleConsensusModelPlane::SampleConsensusModelPlane;
+
+protected:
+  bool
+  isSampleGood (const pcl::Indices& samples) const override
+  {
+    const Eigen::Vector3f p = (*input_)[samples[0]].getVector3fMap ();
+    const Eigen::Vector3f a = (*input_)[samples[1]].getVector3fMap () - p;
+    const Eigen::Vector3f b = (*input_)[samples[2]].getVector3fMap () - p;
+    return a.cross (b).stableNorm () >= Eigen::NumTraits<float>::dummy_precision (); // as PCL asks of them
+  }
+};
+
+/** \brief Whether there are planes through some points, which are not on one line. */
+bool
+spanPlane (const pcl::PointCloud<pcl::PointXYZ>& cloud, const pcl::Indices& indices)
+{
+  Eigen::Vector3d mean = Eigen::Vector3d::Zero ();
+  for (const pcl::index_t i : indices)
+    mean += cloud[i].getVector3fMap ().cast<double> () / static_cast<double> (indices.size ());
+  Eigen::Matrix3d scatter = Eigen::Matrix3d::Zero ();
+  for (const pcl::index_t i : indices)
+  {
+    const Eigen::Vector3d p = cloud[i].getVector3fMap ().cast<double> () - mean;
+    scatter += p * p.transpose () / static_cast<double> (indices.size ());
+  }
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen (scatter, Eigen::EigenvaluesOnly);
+  return eigen.eigenvalues ()[1] > line_sigma_m * line_sigma_m;
+}
 
 double
 height (const Eigen::Vector4d& plane, const OrientedPoint& point)
@@ -65,10 +102,10 @@ findSupportPlanes (const std::vector<OrientedPoint>& background, const std::vect
   pcl::Indices remaining (cloud->size ());
   for (std::size_t n = 0; n < remaining.size (); ++n)
     remaining[n] = static_cast<pcl::index_t> (n);
-  while (static_cast<int> (planes.size ()) < options.max_planes && remaining.size () >= std::max<std::size_t> (3, enough))
+  while (static_cast<int> (planes.size ()) < options.max_planes && remaining.size () >= std::max<std::size_t> (3, enough) &&
+         spanPlane (*cloud, remaining))
   {
-    const pcl::SampleConsensusModelPlane<pcl::PointXYZ>::Ptr model (
-        new pcl::SampleConsensusModelPlane<pcl::PointXYZ> (cloud, remaining));
+    const pcl::SampleConsensusModelPlane<pcl::PointXYZ>::Ptr model (new PlaneModel (cloud, remaining));
     pcl::RandomSampleConsensus<pcl::PointXYZ> ransac (model, options.inlier_distance_m);
     ransac.setMaxIterations (max_ransac_iterations);
     if (!ransac.computeModel ())

@@ -162,3 +162,15 @@ TEST (SupportPlaneNormals, PointToFreeSpace)
   ASSERT_EQ (planes.size (), 1u);
   expectPlane (planes[0], -Eigen::Vector3d::UnitZ (), Eigen::Vector3d::Zero ());
 }
+
+TEST (SupportPlane, NoPlaneInALine)
+{
+  std::vector<OrientedPoint> line = rectangle ({0.0, 0.0, 0.0}, {0.1, 0.0, 0.0}, {0.0, 0.1, 0.0}, 2000);
+  for (OrientedPoint& p : line)
+    p.position.tail<2> ().setZero ();
+  testing::internal::CaptureStderr ();
+  testing::internal::CaptureStdout ();
+  EXPECT_TRUE (findSupportPlanes (line, boxOn ({0.0, 0.0, 0.0})).empty ());
+  EXPECT_EQ (testing::internal::GetCapturedStdout (), "");
+  EXPECT_EQ (testing::internal::GetCapturedStderr (), "");
+}
