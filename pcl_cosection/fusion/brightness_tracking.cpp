@@ -37,8 +37,7 @@ constexpr double remembered_sigma_m = 2e-4; // of the pose of the frame that is 
 constexpr double hidden_sigmas = 4.0;      // of depth
 constexpr double hidden_share = 0.01;      // of depth: shapes and poses err, too
 constexpr double least_agreeing = 0.5;     // of the points, for brightness to be believed
-constexpr double least_addition = 0.25;    // to the precision along some direction, for brightness to be asked
-constexpr int least_directions = 3;        // or so many that it tells by itself: there is a pattern
+constexpr int least_directions = 3;        // of which a pattern tells; shading that is not even may seem to tell of one or two
 constexpr double worn = 0.8;               // below which another frame is remembered
 constexpr double largest_turn_rad = 0.35;  // from the frame that is remembered: light falls otherwise then
 constexpr double known_sigma_m = 2e-3;    // of what counts as told
@@ -81,15 +80,6 @@ int
 directionsOf (const Matrix6d& precision)
 {
   return static_cast<int> (std::lround (toldBy (precision).trace ()));
-}
-
-/** \brief Whether there is a direction of which one tells that is not told already, and better by far. */
-bool
-addsTo (const Matrix6d& known, const Matrix6d& more)
-{
-  const Matrix6d certain = known + Matrix6d::Identity () / (known_sigma_m * known_sigma_m);
-  const Eigen::GeneralizedSelfAdjointEigenSolver<Matrix6d> solver (more, certain, Eigen::EigenvaluesOnly);
-  return solver.info () == Eigen::Success && solver.eigenvalues ().maxCoeff () > least_addition;
 }
 
 /** \brief A point as it is seen: how bright it is and was, and how that changes with the model's motion. */
@@ -236,8 +226,7 @@ BrightnessTracking::track (const FrameCloud& cloud, const MotionChart& chart, co
   result.T_model_camera.linear () = Eigen::Quaterniond (result.T_model_camera.linear ()).normalized ().toRotationMatrix ();
   const Sums sums = compare (cloud, 0, chart, result.T_model_camera);
   agreeing_ = static_cast<double> (sums.agreeing) / static_cast<double> (points_.size ());
-  const bool tells = directionsOf (sums.precision) >= least_directions || addsTo (shape.precision, sums.precision);
-  if (!tells || agreeing_ < least_agreeing)
+  if (directionsOf (sums.precision) < least_directions || agreeing_ < least_agreeing)
     return std::nullopt;
   return result;
 }

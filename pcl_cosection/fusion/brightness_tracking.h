@@ -26,7 +26,7 @@ struct UncertainPose
   Eigen::Isometry3d T_model_camera = Eigen::Isometry3d::Identity ();
   Matrix6d precision = Matrix6d::Zero (); ///< inverse of the covariance of T_model_camera's left factor, in a chart's coordinates, 1 / m^2
 
-  /** \brief Of six, those in which it is known to a few millimetres. */
+  /** \brief Of six, those in which it is known to about two millimetres. */
   int
   directions () const;
 };

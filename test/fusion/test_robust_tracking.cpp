@@ -189,6 +189,34 @@ TEST (RobustTracking, ABallDoesNotTurnByItself)
     EXPECT_LT (Eigen::AngleAxisd (first.linear ().transpose () * frame.T_world_object.at (1).linear ()).angle (), 0.05);
 }
 
+TEST (RobustTracking, TheBrightnessOfABallTellsThatItTurns)
+{
+  TrackedScene scene (30);
+  scene.addBall (1, movingThing ({-0.1, 0.0, 0.0}, {0.1, 0.0, 0.0}, 0.8));
+  scene.paint (0.08);
+  const TrackedRun run = scene.run (only ({1}, 10));
+  ASSERT_EQ (run.framesOf (1), 30);
+  EXPECT_LT (run.objectError (1, scene.body (1)), object_limit_m);
+  const Eigen::Isometry3d& first = run.frames.front ().T_world_object.at (1);
+  const Eigen::Isometry3d true_first = scene.body (1).motion.at (run.times.front ());
+  for (std::size_t n = 0; n < run.frames.size (); ++n)
+  {
+    const Eigen::Matrix3d turned = run.frames[n].T_world_object.at (1).linear () * first.linear ().transpose ();
+    const Eigen::Matrix3d truly = scene.body (1).motion.at (run.times[n]).linear () * true_first.linear ().transpose ();
+    EXPECT_LT (Eigen::AngleAxisd (truly.transpose () * turned).angle (), 0.06) << n;
+  }
+}
+
+TEST (RobustTracking, ThePatternOfABareWallTellsWhereTheCameraIs)
+{
+  TrackedScene scene (30, TrackedScene::Surroundings::Wall);
+  scene.moveCamera ({-0.12, -0.85, 0.35}, {0.12, -0.85, 0.4});
+  scene.paint (0.15);
+  const TrackedRun run = scene.run (no_mask);
+  EXPECT_EQ (run.framesWithCamera (), 30);
+  EXPECT_LT (run.cameraError (), object_limit_m);
+}
+
 TEST (RobustTracking, ObjectsAtRestHoldTheCameraBeforeABareWall)
 {
   TrackedScene scene (30, TrackedScene::Surroundings::Wall);

@@ -240,6 +240,13 @@ TrackedScene::addBall (int id, const KeyedMotion& motion)
 }
 
 void
+TrackedScene::paint (double period_m)
+{
+  for (SceneBody& body : scene_.bodies)
+    body.pattern_size_m = period_m;
+}
+
+void
 TrackedScene::moveCamera (const Eigen::Vector3d& from, const Eigen::Vector3d& to)
 {
   scene_.camera_motion =

@@ -112,6 +112,10 @@ public:
   void
   addBall (int id, const KeyedMotion& motion);
 
+  /** \brief Give all that has been added a pattern of this period. */
+  void
+  paint (double period_m);
+
   /** \brief Along a line, looking at the middle of the floor. */
   void
   moveCamera (const Eigen::Vector3d& from, const Eigen::Vector3d& to);
