@@ -152,22 +152,19 @@ PoseTracking::trackObject (const FrameCloud& cloud, std::vector<AssociatedModel>
     const Eigen::Isometry3d& found = estimate.alignment.T_grid_sensor;
     const std::vector<SurfaceSample> samples = sampleSurface (points, weights, volume, found, object_samples);
     const ObservedMotion observed = observedMotion (samples, guess, found, object_motion);
-    // One that goes on being tracked may slide as far as it likes where its shape does not tell.
-    const Eigen::Isometry3d& meant = frames_passed > 1.0 ? found : observed.T_model_camera;
-    estimate.doubt = estimate.alignment.points_with_distance < min_object_points
-                         ? std::string (describe (SdfAlignmentStop::TooFewPoints))
-                         : doubtOf (estimate.alignment, meant, guess, centre, points.size (), object_limits, frames_passed);
-    if (!estimate.doubt.empty ())
-      break;
-    estimate.observed_directions = std::min (observed.directions, estimate.alignment.observed_directions);
-    estimate.T_model_camera = observed.T_model_camera;
     const UncertainPose by_shape{observed.T_model_camera, observed.precision / correlatedReadings (cloud.camera)};
     const auto by_brightness = brightness.track (cloud, MotionChart (samples), by_shape, guess);
-    if (by_brightness && estimate.observed_directions < all_directions)
-    {
-      estimate.T_model_camera = by_brightness->T_model_camera;
-      estimate.observed_directions = std::max (estimate.observed_directions, by_brightness->directions ());
-    }
+    const int told_by_shape = std::min (observed.directions, estimate.alignment.observed_directions);
+    const bool asked = by_brightness && told_by_shape < all_directions;
+    // Its distances alone may let it slide as far as they like where they do not tell.
+    estimate.doubt = estimate.alignment.points_with_distance < min_object_points
+                         ? std::string (describe (SdfAlignmentStop::TooFewPoints))
+                         : doubtOf (estimate.alignment, asked ? by_brightness->T_model_camera : found, guess, centre, points.size (),
+                                    object_limits, frames_passed);
+    if (!estimate.doubt.empty ())
+      break;
+    estimate.T_model_camera = asked ? by_brightness->T_model_camera : observed.T_model_camera;
+    estimate.observed_directions = asked ? std::max (told_by_shape, by_brightness->directions ()) : told_by_shape;
     models[target].T_model_sensor = estimate.T_model_camera;
   }
   estimate.visibility =
