@@ -156,7 +156,7 @@ PoseTracking::trackObject (const FrameCloud& cloud, std::vector<AssociatedModel>
     const auto by_brightness = brightness.track (cloud, MotionChart (samples), by_shape, guess);
     const int told_by_shape = std::min (observed.directions, estimate.alignment.observed_directions);
     const bool asked = by_brightness && told_by_shape < all_directions;
-    // Its distances alone may let it slide as far as they like where they do not tell.
+    // Distances alone let a pose slide where they do not tell.
     estimate.doubt = estimate.alignment.points_with_distance < min_object_points
                          ? std::string (describe (SdfAlignmentStop::TooFewPoints))
                          : doubtOf (estimate.alignment, asked ? by_brightness->T_model_camera : found, guess, centre, points.size (),
