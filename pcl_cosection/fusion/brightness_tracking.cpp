@@ -40,7 +40,7 @@ constexpr double least_agreeing = 0.5;     // of the points, for brightness to b
 constexpr int least_directions = 3;        // of which a pattern tells; shading that is not even may seem to tell of one or two
 constexpr double worn = 0.8;               // below which another frame is remembered
 constexpr double largest_turn_rad = 0.35;  // from the frame that is remembered: light falls otherwise then
-constexpr double known_sigma_m = 2e-3;    // of what counts as told
+constexpr double known_sigma_m = 2e-3;     // of what counts as told
 
 /** \brief The same place in an image of half the size, level by level. */
 Eigen::Vector2d
@@ -196,7 +196,7 @@ std::optional<UncertainPose>
 BrightnessTracking::track (const FrameCloud& cloud, const MotionChart& chart, const UncertainPose& shape, const Eigen::Isometry3d& guess)
 {
   agreeing_ = 0.0;
-  if (points_.size () < least_points || cloud.brightness.size () < levels)
+  if (points_.size () < least_points || cloud.brightness.size () < levels || shape.precision.isZero ())
     return std::nullopt;
   const Sums of_guess = compare (cloud, levels - 1, chart, guess), of_shape = compare (cloud, levels - 1, chart, shape.T_model_camera);
   const bool begin_there = of_guess.seen >= least_points && (of_shape.seen < least_points || of_guess.cost < of_shape.cost);

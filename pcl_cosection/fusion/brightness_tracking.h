@@ -42,7 +42,8 @@ struct UncertainPose
 class BrightnessTracking
 {
 public:
-  /** \brief Where brightness and shape together say that the model is; nothing where brightness says nothing, or contradicts itself.
+  /** \brief Where brightness and shape together say that the model is; nothing where the shape says nothing at all, where
+   * brightness tells of fewer than three directions, as it does of what has no pattern, or where it contradicts itself.
    * \param[in] shape what the shape says, in the coordinates of \a chart
    * \param[in] guess T_model_camera, another pose to begin with */
   std::optional<UncertainPose>

@@ -95,7 +95,8 @@ CameraTracking::track (const FrameCloud& cloud, const std::vector<AssociatedMode
     if (at_rest)
       break;
   }
-  estimate.doubt = doubtOf (estimate.alignment, estimate.alignment.T_grid_sensor, guess, Eigen::Vector3d (0.0, 0.0, 1.0), points.size (), limits, frames_passed);
+  estimate.doubt = doubtOf (estimate.alignment, estimate.alignment.T_grid_sensor, guess, Eigen::Vector3d (0.0, 0.0, 1.0), points.size (), limits,
+                            frames_passed);
   return estimate;
 }
 
