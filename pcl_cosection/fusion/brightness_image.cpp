@@ -25,7 +25,7 @@ viewOf (Image<float>& image)
 } // namespace
 
 BrightnessLevels
-brightnessLevels (const Picture& picture, int levels)
+brightnessLevels (const Picture& picture, std::size_t levels)
 {
   BrightnessLevels result (1, Image<float> (picture.width, picture.height));
   for (std::size_t n = 0; n < picture.pixels.size (); ++n)
@@ -35,7 +35,7 @@ brightnessLevels (const Picture& picture, int levels)
   }
   cv::Mat first = viewOf (result[0]);
   cv::GaussianBlur (first, first, cv::Size (5, 5), 1.0);
-  while (static_cast<int> (result.size ()) < levels && std::min (result.back ().width, result.back ().height) >= 2 * smallest_side)
+  while (result.size () < levels && std::min (result.back ().width, result.back ().height) >= 2 * smallest_side)
   {
     Image<float>& last = result.back ();
     Image<float> next (last.width / 2, last.height / 2);

@@ -4,6 +4,7 @@
 
 #include <pcl/cosection/common/image.h>
 
+#include <cstddef>
 #include <vector>
 
 namespace pcl
@@ -15,12 +16,15 @@ namespace cosection
  * size, every other half the size of the one before. */
 using BrightnessLevels = std::vector<Image<float>>;
 
+/** \brief How many levels tracking looks at. */
+constexpr std::size_t brightness_levels = 3;
+
 /** \brief How far around a place the first level's brightness between pixels is a mean of. */
 constexpr int brightness_reach_px = 3;
 
-/** \brief One level, if the picture is too small for more. */
+/** \brief Fewer levels, if the picture is too small for all. */
 BrightnessLevels
-brightnessLevels (const Picture& picture, int levels);
+brightnessLevels (const Picture& picture, std::size_t levels);
 
 /** \brief Brightness at a place within the image and how it changes per pixel. */
 struct BrightnessReading

@@ -196,13 +196,13 @@ std::optional<UncertainPose>
 BrightnessTracking::track (const FrameCloud& cloud, const MotionChart& chart, const UncertainPose& shape, const Eigen::Isometry3d& guess)
 {
   agreeing_ = 0.0;
-  if (points_.size () < least_points || cloud.brightness.size () < levels || shape.precision.isZero ())
+  if (points_.size () < least_points || cloud.brightness.size () < brightness_levels || shape.precision.isZero ())
     return std::nullopt;
-  const Sums of_guess = compare (cloud, levels - 1, chart, guess), of_shape = compare (cloud, levels - 1, chart, shape.T_model_camera);
+  const Sums of_guess = compare (cloud, brightness_levels - 1, chart, guess), of_shape = compare (cloud, brightness_levels - 1, chart, shape.T_model_camera);
   const bool begin_there = of_guess.seen >= least_points && (of_shape.seen < least_points || of_guess.cost < of_shape.cost);
   UncertainPose result;
   result.T_model_camera = begin_there ? guess : shape.T_model_camera;
-  for (std::size_t level = levels; level-- > 0;)
+  for (std::size_t level = brightness_levels; level-- > 0;)
     for (int step = 0; step < steps; ++step)
     {
       const Sums sums = compare (cloud, level, chart, result.T_model_camera);
@@ -236,7 +236,7 @@ BrightnessTracking::keep (const FrameCloud& cloud, const std::vector<Eigen::Vect
                           const Eigen::Isometry3d& T_model_camera)
 {
   const double turn = Eigen::AngleAxisd (T_model_camera_.linear ().transpose () * T_model_camera.linear ()).angle ();
-  if (cloud.brightness.size () < levels || (agreeing_ >= worn && turn < largest_turn_rad))
+  if (cloud.brightness.size () < brightness_levels || (agreeing_ >= worn && turn < largest_turn_rad))
     return;
   const std::size_t step = std::max<std::size_t> (1, points.size () / most_points);
   points_.clear ();
@@ -244,11 +244,11 @@ BrightnessTracking::keep (const FrameCloud& cloud, const std::vector<Eigen::Vect
   {
     const Eigen::Vector3d p = points[n].cast<double> ();
     const Eigen::Vector2d pixel = cloud.camera.project (p);
-    if (!(probabilities[n] >= least_probability) || !isWithin (cloud.brightness[levels - 1], atLevel (pixel, levels - 1)) ||
+    if (!(probabilities[n] >= least_probability) || !isWithin (cloud.brightness[brightness_levels - 1], atLevel (pixel, brightness_levels - 1)) ||
         !cloud.unmixed.at (static_cast<int> (std::lround (pixel.x ())), static_cast<int> (std::lround (pixel.y ()))))
       continue;
     Point point{T_model_camera * p, {}};
-    for (std::size_t level = 0; level < levels; ++level)
+    for (std::size_t level = 0; level < brightness_levels; ++level)
     {
       const Eigen::Vector2d place = atLevel (pixel, level);
       point.brightness[level] = readBrightness (cloud.brightness[level], place.x (), place.y ()).value;

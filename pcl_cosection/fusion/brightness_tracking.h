@@ -56,12 +56,10 @@ public:
         const Eigen::Isometry3d& T_model_camera);
 
 private:
-  static constexpr std::size_t levels = 3;
-
   struct Point
   {
     Eigen::Vector3d position; // model frame
-    std::array<float, levels> brightness;
+    std::array<float, brightness_levels> brightness;
   };
 
   /** \brief What the points say at a pose. */

@@ -21,7 +21,6 @@ constexpr PoseLimits limits{0.15, 0.26, 0.3, 0.1};
 constexpr SampleOptions background_samples{5000, 0.0, true};
 constexpr int rounds = 2;                  // without and with what is found to move
 constexpr double new_movers = 0.01;        // of the points' weight, from which on a second round is worth it
-constexpr int all_directions = 6;
 
 } // namespace
 

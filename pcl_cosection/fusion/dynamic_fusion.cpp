@@ -31,8 +31,6 @@ namespace
 constexpr std::size_t min_readings = 500;     // of an image of 640 x 480
 constexpr double min_readings_share = min_readings / (640.0 * 480.0);
 constexpr int mask_border_px = 2;              // beside an object, readings are mixed with its own
-constexpr int all_directions = 6;
-constexpr int brightness_levels = 3;
 
 } // namespace
 
@@ -309,7 +307,7 @@ DynamicFusion::Impl::process (const RgbdFrame& frame, const Image<std::uint16_t>
   timed ("tracking", [&] {
     cloud = makeFrameCloud (frame.depth, camera, options.max_depth_m, options.smooth_depth, options.threads);
     if (frame.colour.pixels.size () == frame.depth.pixels.size ())
-      addBrightness (frame.colour, brightness_levels, cloud);
+      addBrightness (frame.colour, cloud);
     if (static_cast<double> (cloud.readings) < min_readings_share * static_cast<double> (cloud.points.size ()))
     {
       log.add (frame.stamp, "there are hardly any readings: ", cloud.readings);

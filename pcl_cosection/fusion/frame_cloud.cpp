@@ -85,10 +85,10 @@ makeFrameCloud (const Image<float>& depth, const PinholeCamera& camera, double m
 }
 
 void
-addBrightness (const Picture& colour, int levels, FrameCloud& cloud)
+addBrightness (const Picture& colour, FrameCloud& cloud)
 {
   constexpr int reach = brightness_reach_px;
-  cloud.brightness = brightnessLevels (colour, levels);
+  cloud.brightness = brightnessLevels (colour, brightness_levels);
   const int width = cloud.camera.width, height = cloud.camera.height;
   cloud.unmixed = Image<std::uint8_t> (width, height);
   std::transform (cloud.reliable.pixels.begin (), cloud.reliable.pixels.end (), cloud.unmixed.pixels.begin (),

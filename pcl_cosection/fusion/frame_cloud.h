@@ -40,7 +40,7 @@ makeFrameCloud (const Image<float>& depth, const PinholeCamera& camera, double m
 
 /** \brief Look at the colours, too. \param[in] colour of the depth's size */
 void
-addBrightness (const Picture& colour, int levels, FrameCloud& cloud);
+addBrightness (const Picture& colour, FrameCloud& cloud);
 
 /** \brief How much a reading at depth \a z counts for a pose: the inverse of its variance, with that of a model whose voxels are so
  * large; 1 without noise. */

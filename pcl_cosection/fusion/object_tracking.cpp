@@ -11,7 +11,6 @@ namespace
 {
 
 constexpr double least_in_view = 0.3; // of an object's surface: with less of it to be seen, it is hidden, not lost
-constexpr int all_directions = 6;
 
 } // namespace
 

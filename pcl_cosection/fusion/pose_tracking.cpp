@@ -24,7 +24,6 @@ constexpr double min_found_confirmed = 0.7; // of one that comes back
 constexpr double min_in_view = 0.1;
 constexpr double min_tracked_in_view = 0.3; // what is left of an object at the image's border slides
 constexpr double tolerance_voxels = 2.0;
-constexpr int all_directions = 6;
 constexpr double standard_pixels = 640.0 * 480.0;
 constexpr double correlated_pixels = 49.0; // the depth filter's window, in an image of so many
 

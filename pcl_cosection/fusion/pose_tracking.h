@@ -20,6 +20,8 @@ namespace pcl
 namespace cosection
 {
 
+constexpr int all_directions = 6; ///< of a pose
+
 /** \brief Where a model is relative to the camera, and whether to believe it. */
 struct PoseEstimate
 {
