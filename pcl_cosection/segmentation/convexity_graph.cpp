@@ -15,6 +15,8 @@ namespace
 {
 
 constexpr int bridge_px = 5;           ///< pixels without a normal that may lie between two patches
+constexpr int gap_px = 1;              ///< pixels of these that may show something farther away
+constexpr float behind_sigmas = 6.0f;  ///< by so much, seen through a gap
 constexpr float against_limit = -2.0f; ///< evidence of one pixel of a deep concave edge
 constexpr float step_evidence = -0.5f; ///< of one pixel of a step between parallel surfaces
 constexpr float smooth_bend = 0.7f;    ///< largest angle between neighbouring patches of one smooth surface
@@ -42,6 +44,12 @@ evidenceOf (const SurfacePatch& a, const SurfacePatch& b, float concave_angle)
   return (std::clamp (1.0f - (angle - std::min (bend, smooth_bend)) / concave_angle, against_limit, 1.0f));
 }
 
+bool
+isBehind (const DepthGrid& grid, int i, int before)
+{
+  return (grid.points[i].z () - grid.points[before].z () > behind_sigmas * grid.sigma (before));
+}
+
 } // namespace
 
 PatchEvidence
@@ -49,17 +57,20 @@ convexityEvidence (const DepthGrid& grid, const PatchImage& image, float concave
 {
   std::map<std::pair<int, int>, int> border; // pixels
   const auto follow = [&] (int first, int stride, int steps) {
-    int last = -1, last_step = 0;
+    int last = -1, last_step = 0, gap = 0;
     for (int k = 0; k < steps; ++k)
     {
       const int i = first + k * stride;
+      if (grid.valid (i) && last >= 0 && isBehind (grid, i, last))
+        ++gap;
       if (image.patch_of[i] < 0 || !grid.hasNormal (i))
         continue;
-      if (last >= 0 && k - last_step <= bridge_px && image.patch_of[i] != image.patch_of[last] &&
+      if (last >= 0 && gap <= gap_px && k - last_step <= bridge_px && image.patch_of[i] != image.patch_of[last] &&
           grid.continuous (i, last, k - last_step))
         ++border[std::minmax (image.patch_of[i], image.patch_of[last])];
       last = i;
       last_step = k;
+      gap = 0;
     }
   };
   for (int v = 0; v < grid.height; ++v)

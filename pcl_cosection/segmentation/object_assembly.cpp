@@ -5,6 +5,7 @@
 #include "../common/disjoint_sets.h"
 #include "divided_pieces.h"
 #include "object_pieces.h"
+#include "piece_outline.h"
 
 namespace pcl
 {
@@ -21,6 +22,9 @@ constexpr float standing_m = 0.015f;       ///< what comes so near to its suppor
 constexpr float fragment_ratio = 0.1f;     ///< size of a cap or a knob relative to what it is on ...
 constexpr float fragment_factor = 6.0f;    ///< ... and relative to the smallest object
 constexpr float part_ratio = 0.5f;         ///< size of a part relative to what holds it
+constexpr float standing_out = 0.2f;       ///< share of the outline, beside the room, at which something stands out ...
+constexpr int standing_out_factor = 5;     ///< ... if it is smaller than so many of the smallest
+constexpr float edge_share = 0.3f;         ///< of the outline of an edge of the room
 constexpr float hollow_convexity = -0.5f;
 constexpr float hollow_turning = 0.2f;
 
@@ -28,10 +32,9 @@ constexpr float hollow_turning = 0.2f;
 class Assembly
 {
 public:
-  Assembly (const DepthGrid& grid, const std::vector<SupportSurface>& surfaces, const PatchImage& patches,
-            std::vector<int>& piece_of_patch)
+  Assembly (const DepthGrid& grid, const Room& room, const PatchImage& patches, std::vector<int>& piece_of_patch)
       : grid_ (grid)
-      , surfaces_ (surfaces)
+      , room_ (room)
       , patches_ (patches)
       , piece_of_patch_ (piece_of_patch)
   {
@@ -99,9 +102,10 @@ public:
   int
   keep (Good&& good)
   {
+    const std::vector<PieceOutline> outlines = outlinePieces (grid_, room_, pieceImage (), pieces_.size ());
     std::vector<int> kept;
     for (int k = 0; k < static_cast<int> (pieces_.size ()); ++k)
-      if (good (pieces_[k]))
+      if (good (pieces_[k], outlines[k]))
         kept.push_back (k);
     std::stable_sort (kept.begin (), kept.end (),
                       [&] (int a, int b) { return (pieces_[a].pixels > pieces_[b].pixels); });
@@ -114,15 +118,23 @@ public:
   }
 
 private:
-  void
-  measure ()
+  /** \brief One per pixel: its piece, or -1. */
+  std::vector<int>
+  pieceImage () const
   {
     std::vector<int> piece_of (patches_.patch_of.size (), -1);
     for (std::size_t i = 0; i < piece_of.size (); ++i)
       if (patches_.patch_of[i] >= 0)
         piece_of[i] = piece_of_patch_[patches_.patch_of[i]];
-    pieces_ = describePieces (grid_, surfaces_, piece_of);
-    borders_ = findBorders (grid_, surfaces_, piece_of);
+    return (piece_of);
+  }
+
+  void
+  measure ()
+  {
+    const std::vector<int> piece_of = pieceImage ();
+    pieces_ = describePieces (grid_, room_.surfaces, piece_of);
+    borders_ = findBorders (grid_, room_.surfaces, piece_of);
   }
 
   /** \brief Join each piece with the one for which \a vote (piece, other, border) is largest, and not 0. */
@@ -155,7 +167,7 @@ private:
   }
 
   const DepthGrid& grid_;
-  const std::vector<SupportSurface>& surfaces_;
+  const Room& room_;
   const PatchImage& patches_;
   std::vector<int>& piece_of_patch_;
   std::vector<Piece> pieces_;
@@ -165,19 +177,23 @@ private:
 } // namespace
 
 int
-assembleObjects (const DepthGrid& grid, const std::vector<SupportSurface>& surfaces, const PatchImage& patches,
+assembleObjects (const DepthGrid& grid, const Room& room, const PatchImage& patches,
                  const ObjectSegmentationOptions& options, std::vector<int>& piece_of_patch)
 {
   const auto min_size = static_cast<float> (options.min_object_size_m);
-  Assembly assembly (grid, surfaces, patches, piece_of_patch);
+  Assembly assembly (grid, room, patches, piece_of_patch);
   assembly.joinFragments (min_size * min_size);
   assembly.joinHollows ();
   assembly.joinParts ();
   assembly.joinDivided (static_cast<float> (options.max_object_size_m));
 
   const int min_pixels = min_pixels_vga * grid.width / 640 * grid.height / 480;
-  return (assembly.keep ([&] (const Piece& piece) {
-    return (piece.pixels >= (piece.edge_pixels > 0 ? edge_factor : 1) * min_pixels && piece.length_m >= min_size &&
+  return (assembly.keep ([&] (const Piece& piece, const PieceOutline& outline) {
+    const int around = outline.free + outline.held;
+    const bool small = piece.pixels < standing_out_factor * min_pixels;
+    return ((!small || outline.free >= standing_out * static_cast<float> (around)) &&
+            outline.edge <= edge_share * static_cast<float> (around) &&
+            piece.pixels >= (piece.edge_pixels > 0 ? edge_factor : 1) * min_pixels && piece.length_m >= min_size &&
             piece.length_m <= static_cast<float> (options.max_object_size_m) && piece.carried >= 0.5f &&
             piece.highest_m > above_noise_sigmas * piece.sigma_m &&
             piece.lowest_m < static_cast<float> (options.max_object_size_m));

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "depth_grid.h"
-#include "support_surfaces.h"
+#include "room_regions.h"
 #include "surface_patches.h"
 
 #include <pcl/cosection/segmentation/object_segmentation.h>
@@ -17,12 +17,13 @@ namespace cosection
 
 /** \brief Joins pieces to objects, and drops what is none. Joined are: fragments with what they touch most; parts that
  * are held from the side and stand on nothing; the inside of a hollow thing with its outside; pieces of one surface
- * that something nearer divides. Dropped are those that are too small, too large, or above no support.
+ * that something nearer divides. Dropped are those that are too small, too large, above no support, or that hardly
+ * stand out from the room.
  * \param[in,out] piece_of_patch one per patch: the piece it belongs to; then its object from 0, the largest in the
  * image first, or -1
  * \return number of objects */
 int
-assembleObjects (const DepthGrid& grid, const std::vector<SupportSurface>& surfaces, const PatchImage& patches,
+assembleObjects (const DepthGrid& grid, const Room& room, const PatchImage& patches,
                  const ObjectSegmentationOptions& options, std::vector<int>& piece_of_patch);
 
 } // namespace cosection

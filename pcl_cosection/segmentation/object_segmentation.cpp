@@ -5,7 +5,8 @@
 #include "convexity_graph.h"
 #include "depth_grid.h"
 #include "object_assembly.h"
-#include "support_surfaces.h"
+#include "room_edges.h"
+#include "room_regions.h"
 #include "surface_patches.h"
 
 #include <pcl/cosection/common/error.h>
@@ -50,16 +51,14 @@ columnPitch (const std::vector<Eigen::Vector3f>& points, int width, int height)
 
 /** \brief One per pixel: whether it is above the seen part of a support surface, on none of them, and not too high. */
 std::vector<char>
-pixelsAbove (const DepthGrid& grid, const std::vector<SupportSurface>& surfaces,
-             const ObjectSegmentationOptions& options)
+pixelsAbove (const DepthGrid& grid, const Room& room, const ObjectSegmentationOptions& options)
 {
-  const std::vector<char> on = pixelsOnSurfaces (grid, surfaces, options.threads);
-  std::vector<char> above (on.size (), 0);
+  std::vector<char> above (grid.points.size (), 0);
   const auto highest = static_cast<float> (seen_height * options.max_object_size_m);
-  parallelFor (0, static_cast<int> (on.size ()), options.threads, [&] (int i) {
-    if (!grid.valid (i) || on[i])
+  parallelFor (0, static_cast<int> (above.size ()), options.threads, [&] (int i) {
+    if (!grid.valid (i) || room.surface_of[i] >= 0)
       return;
-    for (const SupportSurface& surface : surfaces)
+    for (const SupportSurface& surface : room.surfaces)
     {
       const float height = surface.height (grid.points[i]);
       if (height > 0.0f && height < highest && surface.carries (grid, i, outline_margin_m))
@@ -104,21 +103,22 @@ segmentObjects (const std::vector<Eigen::Vector3f>& points, int width, int heigh
   normal_options.threads = options.threads;
   const std::vector<Eigen::Vector3f> normals = computeOrganizedNormals (points, width, height, {}, normal_options);
   const DepthGrid grid{points, normals, width, height, pitch};
-  const std::vector<SupportSurface> surfaces = findSupportSurfaces (
-      grid, static_cast<float> (options.max_object_size_m), static_cast<float> (options.min_support_area_m2));
-  if (surfaces.empty ())
+  const Room room = findRoom (grid, static_cast<float> (options.max_object_size_m),
+                              static_cast<float> (options.min_support_area_m2), options.threads);
+  if (room.surfaces.empty ())
     throw DegenerateInput ("no plane in view that objects could stand on");
 
-  const PatchImage patches = computeSurfacePatches (grid, pixelsAbove (grid, surfaces, options), options.threads);
+  PatchImage patches = computeSurfacePatches (grid, pixelsAbove (grid, room, options), options.threads);
+  removePatches (patches, findRoomEdges (grid, room, patches));
   const PatchEvidence evidence = convexityEvidence (grid, patches, static_cast<float> (options.concave_angle_rad));
   std::vector<int> object_of_patch = contractEdges (patches.patches.size (), evidence);
   ObjectSegmentation result;
-  result.objects = static_cast<std::uint32_t> (assembleObjects (grid, surfaces, patches, options, object_of_patch));
+  result.objects = static_cast<std::uint32_t> (assembleObjects (grid, room, patches, options, object_of_patch));
   result.labels.resize (points.size (), 0);
   for (std::size_t i = 0; i < points.size (); ++i)
     if (patches.patch_of[i] >= 0)
       result.labels[i] = static_cast<std::uint32_t> (object_of_patch[patches.patch_of[i]] + 1);
-  for (const SupportSurface& surface : surfaces)
+  for (const SupportSurface& surface : room.surfaces)
     result.support_planes.emplace_back (surface.normal.x (), surface.normal.y (), surface.normal.z (), surface.offset);
   return (result);
 }

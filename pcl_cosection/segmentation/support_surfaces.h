@@ -3,6 +3,7 @@
 #pragma once
 
 #include "depth_grid.h"
+#include "planar_blocks.h"
 
 #include <Eigen/Core>
 
@@ -36,11 +37,30 @@ struct SupportSurface
   float
   height (const DepthGrid& grid, int u, int v) const;
 
+  /** \brief Distance of pixel (u, v) in multiples of what noise and its normal allow. */
+  float
+  distance (const DepthGrid& grid, int u, int v) const;
+
+  /** \brief Foot of a point in the plane's axes. */
+  Eigen::Vector2f
+  place (const Eigen::Vector3f& p) const
+  {
+    return {axis_u.dot (p), axis_v.dot (p)};
+  }
+
   /** \brief Whether the foot of a pixel's point is inside of the outline, or no farther than \a margin_m from it; or in
    * reach of it where the camera does not look. */
   bool
   carries (const DepthGrid& grid, int pixel, float margin_m) const;
 };
+
+/** \brief Convex hull, counter-clockwise (A. M. Andrew's monotone chain, 1979). */
+std::vector<Eigen::Vector2f>
+convexHull (std::vector<Eigen::Vector2f> points);
+
+/** \brief A plane as far as its blocks reach. */
+SupportSurface
+makeSurface (const DepthGrid& grid, const BlockImage& image, const PlaneProposal& plane);
 
 /** \brief The planes of a view that are too large for an object, largest first. The first one may be as small as
  * \a min_area_m2, the others must be longer than \a max_object_size_m. */

@@ -20,17 +20,23 @@ namespace test
 SceneView
 viewOfTable (const std::string& objects, const Eigen::Vector3d& eye)
 {
+  return viewOfScene (R"({"type": "box", "size": [1.4, 0.9, 0.04], "position": [0, 0.1, -0.02]},
+      {"type": "box", "size": [1.4, 0.04, 1.0], "position": [0, 0.57, 0.46]},
+      {"type": "plane", "extent": 12, "position": [0, 0, -0.72]})",
+                      objects, eye, {0, 0.05, 0.05});
+}
+
+SceneView
+viewOfScene (const std::string& background, const std::string& objects, const Eigen::Vector3d& eye,
+             const Eigen::Vector3d& look_at)
+{
   std::ostringstream spec;
   spec << R"({"frames": 1, "camera": {"width": 640, "height": 480, "fx": 525, "fy": 525, "cx": 319.5, "cy": 239.5,
     "keys": [{"position": [)"
-       << eye.x () << ", " << eye.y () << ", " << eye.z () << R"(], "look_at": [0, 0.05, 0.05]}]},
-    "background": {"parts": [
-      {"type": "box", "size": [1.4, 0.9, 0.04], "position": [0, 0.1, -0.02]},
-      {"type": "box", "size": [1.4, 0.04, 1.0], "position": [0, 0.57, 0.46]},
-      {"type": "plane", "extent": 12, "position": [0, 0, -0.72]}]},
-    "objects": [)"
-       << objects << "]}";
-  const SimulatedScene scene = parseSceneSpec (spec.str (), "table");
+       << eye.x () << ", " << eye.y () << ", " << eye.z () << R"(], "look_at": [)" << look_at.x () << ", "
+       << look_at.y () << ", " << look_at.z () << R"(]}]}, "background": {"parts": [)" << background
+       << R"(]}, "objects": [)" << objects << "]}";
+  const SimulatedScene scene = parseSceneSpec (spec.str (), "scene");
   const SimulatedFrame frame = SceneRenderer (scene).render (0.0);
   const Image<float> depth = measureDepth (frame.depth, frame.normals, scene.camera, DepthNoise (), 1, 0);
   SceneView view;

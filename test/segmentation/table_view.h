@@ -33,6 +33,12 @@ struct SceneView
 SceneView
 viewOfTable (const std::string& objects, const Eigen::Vector3d& eye = {-0.3, -0.85, 0.65});
 
+/** \brief What a noisy camera sees of a scene.
+ * \param[in] background, objects descriptions of their shapes, the contents of "parts" and of "objects" of a scene's */
+SceneView
+viewOfScene (const std::string& background, const std::string& objects, const Eigen::Vector3d& eye,
+             const Eigen::Vector3d& look_at);
+
 /** \brief A box on the table, upright. */
 std::string
 boxOnTable (int id, const Eigen::Vector3d& size, const Eigen::Vector3d& foot, double yaw_deg);
