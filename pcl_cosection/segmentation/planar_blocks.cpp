@@ -60,7 +60,7 @@ private:
 };
 
 PlanarBlock
-planarBlock (const DepthGrid& grid, int row, int column)
+planarBlock (const DepthGrid& grid, bool grazing, int row, int column)
 {
   PlanarBlock block;
   Eigen::Vector3f centre = Eigen::Vector3f::Zero (), normal = Eigen::Vector3f::Zero ();
@@ -70,7 +70,7 @@ planarBlock (const DepthGrid& grid, int row, int column)
     for (int u = column * block_px; u < (column + 1) * block_px; ++u)
     {
       const int i = v * grid.width + u;
-      if (!grid.valid (i))
+      if (!grid.valid (i) || (!grazing && !grid.hasNormal (i)))
         continue;
       fit.add (grid.points[i]);
       centre += grid.points[i];
@@ -88,6 +88,8 @@ planarBlock (const DepthGrid& grid, int row, int column)
   block.sigma = static_cast<float> (depthNoiseSigma (block.centre.z ()));
   if (2 * with_normal >= block_px * block_px && normal.norm () >= flat_block * static_cast<float> (with_normal))
     block.normal = normal.normalized ();
+  else if (!grazing)
+    return block;
   else if (const auto fitted = fit.normal (block.centre.z (), grid.pitch))
     block.normal = *fitted;
   else
@@ -228,13 +230,13 @@ PlaneProposal::holds (const PlanarBlock& block) const
 }
 
 BlockImage
-findPlanarBlocks (const DepthGrid& grid)
+findPlanarBlocks (const DepthGrid& grid, bool grazing)
 {
   BlockImage image{grid.width / block_px, grid.height / block_px, {}};
   image.blocks.reserve (static_cast<std::size_t> (image.width) * image.height);
   for (int row = 0; row < image.height; ++row)
     for (int column = 0; column < image.width; ++column)
-      image.blocks.push_back (planarBlock (grid, row, column));
+      image.blocks.push_back (planarBlock (grid, grazing, row, column));
   return image;
 }
 

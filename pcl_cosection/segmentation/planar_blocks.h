@@ -31,9 +31,10 @@ struct BlockImage
 
 /** \brief Blocks are flat by their mean normal, or, where the surface is seen at too small an angle or from too far for
  * normals, by a plane through the inverse depths of all their pixels: these are linear in the image on a plane, and
- * their noise is the same at any angle. */
+ * their noise is the same at any angle.
+ * \param[in] grazing also find the latter */
 BlockImage
-findPlanarBlocks (const DepthGrid& grid);
+findPlanarBlocks (const DepthGrid& grid, bool grazing);
 
 /** \brief A plane that many blocks lie on. */
 struct PlaneProposal

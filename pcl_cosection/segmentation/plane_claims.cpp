@@ -28,7 +28,7 @@ PlaneClaims::PlaneClaims (const DepthGrid& grid, float max_object_size_m, float 
     , threads_ (threads)
     , surface_of_ (grid.points.size (), -1)
 {
-  const BlockImage image = findPlanarBlocks (grid);
+  const BlockImage image = findPlanarBlocks (grid, true);
   blocks_across_ = image.width;
   for (const PlaneProposal& plane : proposePlanes (image, max_object_size_m, min_area_m2))
   {

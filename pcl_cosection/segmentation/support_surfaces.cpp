@@ -137,7 +137,7 @@ makeSurface (const DepthGrid& grid, const BlockImage& image, const PlaneProposal
 std::vector<SupportSurface>
 findSupportSurfaces (const DepthGrid& grid, float max_object_size_m, float min_area_m2)
 {
-  const BlockImage image = findPlanarBlocks (grid);
+  const BlockImage image = findPlanarBlocks (grid, false);
   std::vector<SupportSurface> surfaces;
   for (const PlaneProposal& plane : proposePlanes (image, max_object_size_m, min_area_m2))
     if (plane.large || (surfaces.empty () && plane.area_m2 >= min_area_m2))
