@@ -227,7 +227,7 @@ DynamicFusion::Impl::segment (const RgbdFrame& frame, const FrameCloud& cloud, c
   if (!mask)
     found = findInstances (frame, cloud, segmentation.labels);
   if (!exact)
-    objects.uniteParts (frame.stamp, segmentation.labels, found, log);
+    objects.uniteParts (frame.stamp, cloud, T_world_camera, segmentation.labels, found, log);
   const bool shows_all = mask || !segmenter.isSet () || segmenter.findsAll ();
   if (!found.pixels.empty ())
     mask = &found;
@@ -243,7 +243,7 @@ DynamicFusion::Impl::segment (const RgbdFrame& frame, const FrameCloud& cloud, c
     for (const auto& [instance, id] : object_of)
       if (exact && before.count (id) == 0) // until now it was background
         background.volume ()->forget (cloud.depth, camera, T_world_camera, segmentation.labels, id);
-    objects.grow (masked, segmentation.labels, log);
+    objects.grow (frame.stamp, cloud, T_world_camera, segmentation.labels, log);
     camera_tracking.ignore (cloud, *mask, FrameSegmenter::ignored, T_world_camera);
     result.masked = true;
   }

@@ -6,6 +6,7 @@
 #include "object_map.h"
 
 #include <algorithm>
+#include <set>
 #include <utility>
 
 namespace pcl
@@ -56,9 +57,11 @@ ObjectMap::judge (double stamp, const ReconciledMask& mask, const Image<std::uin
 }
 
 void
-ObjectMap::uniteParts (double stamp, Image<std::uint16_t>& labels, Image<std::uint16_t>& mask, EventLog& log)
+ObjectMap::uniteParts (double stamp, const FrameCloud& cloud, const Eigen::Isometry3d& T_world_camera, Image<std::uint16_t>& labels,
+                       Image<std::uint16_t>& mask, EventLog& log)
 {
   unions_.follow (active_);
+  std::set<int> wholes;
   while (const std::optional<std::pair<int, int>> one = unions_.next ())
   {
     const auto find = [&] (int id) {
@@ -73,7 +76,16 @@ ObjectMap::uniteParts (double stamp, Image<std::uint16_t>& labels, Image<std::ui
     for (Image<std::uint16_t>* image : {&labels, &mask})
       std::replace (image->pixels.begin (), image->pixels.end (), static_cast<std::uint16_t> (part), static_cast<std::uint16_t> (whole));
     erase (part);
+    wholes.erase (part);
+    wholes.insert (whole);
   }
+  if (wholes.empty () || !mask.pixels.empty ())
+    return; // a mask does the rest
+  grow (stamp, cloud, T_world_camera, labels, log);
+  for (const auto& object : active_) // masks before have only counted against what was another object's
+    if (wholes.count (object->id) > 0)
+      object->volume.countForeground (cloud.reliable, cloud.camera, object->T_world_object.inverse () * T_world_camera, labels,
+                                      static_cast<std::uint16_t> (object->id));
 }
 
 } // namespace cosection

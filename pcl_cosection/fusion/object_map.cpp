@@ -332,21 +332,21 @@ ObjectMap::leaveToLost (const FrameCloud& cloud, const Eigen::Isometry3d& T_worl
 }
 
 void
-ObjectMap::grow (const MaskedFrame& frame, const Image<std::uint16_t>& labels, EventLog& log)
+ObjectMap::grow (double stamp, const FrameCloud& cloud, const Eigen::Isometry3d& T_world_camera, const Image<std::uint16_t>& labels,
+                 EventLog& log)
 {
   for (const auto& object : active_)
   {
     if (object->state != ObjectState::Tracked)
       continue;
     const std::vector<Eigen::Vector3f> points =
-        transformed (pointsOf (frame.cloud, labels, static_cast<std::uint16_t> (object->id)),
-                     object->T_world_object.inverse () * frame.T_world_camera);
+        transformed (pointsOf (cloud, labels, static_cast<std::uint16_t> (object->id)), object->T_world_object.inverse () * T_world_camera);
     const Eigen::Vector3i before = object->volume.grid ().dims;
     if (!growObjectVolume (object->volume, points, options_.max_object_resolution) && not_growing_.insert (object->id).second)
-      log.add (frame.stamp, "object ", object->id, " is larger than ", options_.max_object_resolution, " voxels: the rest is left out");
+      log.add (stamp, "object ", object->id, " is larger than ", options_.max_object_resolution, " voxels: the rest is left out");
     const Eigen::Vector3i& now = object->volume.grid ().dims;
     if (now != before)
-      log.add (frame.stamp, "the volume of object ", object->id, " grows to ", now.x (), " x ", now.y (), " x ", now.z (), " voxels");
+      log.add (stamp, "the volume of object ", object->id, " grows to ", now.x (), " x ", now.y (), " x ", now.z (), " voxels");
   }
 }
 

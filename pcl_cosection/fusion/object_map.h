@@ -73,9 +73,11 @@ public:
   void
   judge (double stamp, const ReconciledMask& mask, const Image<std::uint16_t>& labels, EventLog& log);
 
-  /** \brief Unite objects that are parts of one. \param[in,out] labels by association \param[in,out] mask may be empty */
+  /** \brief Unite objects that are parts of one, whose volume gets to know without a mask, too, that they are.
+   * \param[in,out] labels by association \param[in,out] mask may be empty */
   void
-  uniteParts (double stamp, Image<std::uint16_t>& labels, Image<std::uint16_t>& mask, EventLog& log);
+  uniteParts (double stamp, const FrameCloud& cloud, const Eigen::Isometry3d& T_world_camera, Image<std::uint16_t>& labels,
+              Image<std::uint16_t>& mask, EventLog& log);
 
   /** \brief Give up what is probably no object, and stop looking for what was not seen for long. */
   void
@@ -87,7 +89,7 @@ public:
 
   /** \brief Make room for what is labelled as an object's. */
   void
-  grow (const MaskedFrame& frame, const Image<std::uint16_t>& labels, EventLog& log);
+  grow (double stamp, const FrameCloud& cloud, const Eigen::Isometry3d& T_world_camera, const Image<std::uint16_t>& labels, EventLog& log);
 
 private:
   MaskMatches

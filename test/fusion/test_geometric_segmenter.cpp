@@ -177,11 +177,29 @@ TEST (InexactMasks, PartsThatMoveAsOneAreUnited)
   scene.addThing (1, motion);
   const TrackedRun run = scene.run (no_mask, everyFive (), std::make_shared<PointsOfTheWorld> ([&] (const Eigen::Vector3d& p, int frame) {
                                       const double x = motion.at (frame / 36.0).translation ().x ();
-                                      return !isThing (p, x) ? 0 : p.z () < 0.12 ? 1 : 2;
+                                      return !isThing (p, x) ? 0 : p.x () < x + 0.05 ? 1 : 2;
                                     }));
   EXPECT_EQ (run.found.size (), 1u);
   EXPECT_TRUE (run.said (" is a part of object "));
   EXPECT_GT (imageIou (run, 35, 1, run.foundAs (1)), 0.8);
+}
+
+TEST (InexactMasks, PartsThatAreUnitedBetweenMasksStayOne)
+{
+  for (const double end : {0.05, 0.25}) // the faster it moves, the sooner it is seen to be one
+  {
+    TrackedScene scene (36);
+    const KeyedMotion motion = along ({0.0, 0.3, 1.0}, {{-0.2, 0.0, 0.0}, {-0.2, 0.0, 0.0}, {end, 0.0, 0.0}});
+    scene.addThing (1, motion);
+    const TrackedRun run = scene.run (no_mask, everyFive (), std::make_shared<PointsOfTheWorld> ([&] (const Eigen::Vector3d& p, int frame) {
+                                        const double x = motion.at (frame / 36.0).translation ().x ();
+                                        return !isThing (p, x) ? 0 : p.x () < x + 0.05 ? 1 : 2;
+                                      }));
+    EXPECT_TRUE (run.said (" is a part of object ")) << end;
+    EXPECT_FALSE (run.said ("object 3 begins")) << end;
+    for (int frame = 23; frame < 36; ++frame)
+      EXPECT_GT (imageIou (run, frame, 1, 1), 0.8) << end << ", frame " << frame;
+  }
 }
 
 TEST (InexactMasks, WhatOneMaskShowedIsNoObject)
