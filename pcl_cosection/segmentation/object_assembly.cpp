@@ -97,19 +97,25 @@ public:
     join (sets);
   }
 
-  /** \brief Keep the pieces that \a good says, by the number of pixels. \return how many */
+  /** \brief Keep the pieces that \a good says and that are not longer, by the number of pixels. \return how many */
   template <typename Good>
   int
-  keep (Good&& good)
+  keep (float max_length_m, Good&& good)
   {
     const std::vector<PieceOutline> outlines = outlinePieces (grid_, room_, pieceImage (), pieces_.size ());
-    std::vector<int> kept;
+    std::vector<int> kept, number (pieces_.size (), no_object);
     for (int k = 0; k < static_cast<int> (pieces_.size ()); ++k)
       if (good (pieces_[k], outlines[k]))
-        kept.push_back (k);
+      {
+        // What the image's border cuts goes on, at least to where it stands.
+        const float unseen_m = pieces_[k].edge_pixels > 0 ? pieces_[k].lowest_m : 0.0f;
+        if (pieces_[k].length_m + unseen_m > max_length_m)
+          number[k] = too_long_object;
+        else
+          kept.push_back (k);
+      }
     std::stable_sort (kept.begin (), kept.end (),
                       [&] (int a, int b) { return (pieces_[a].pixels > pieces_[b].pixels); });
-    std::vector<int> number (pieces_.size (), -1);
     for (int n = 0; n < static_cast<int> (kept.size ()); ++n)
       number[kept[n]] = n;
     for (int& piece : piece_of_patch_)
@@ -188,15 +194,15 @@ assembleObjects (const DepthGrid& grid, const Room& room, const PatchImage& patc
   assembly.joinDivided (static_cast<float> (options.max_object_size_m));
 
   const int min_pixels = min_pixels_vga * grid.width / 640 * grid.height / 480;
-  return (assembly.keep ([&] (const Piece& piece, const PieceOutline& outline) {
+  const auto max_size = static_cast<float> (options.max_object_size_m);
+  return (assembly.keep (max_size, [&] (const Piece& piece, const PieceOutline& outline) {
     const int around = outline.free + outline.held;
     const bool small = piece.pixels < standing_out_factor * min_pixels;
     return ((!small || outline.free >= standing_out * static_cast<float> (around)) &&
             outline.edge <= edge_share * static_cast<float> (around) &&
             piece.pixels >= (piece.edge_pixels > 0 ? edge_factor : 1) * min_pixels && piece.length_m >= min_size &&
-            piece.length_m <= static_cast<float> (options.max_object_size_m) && piece.carried >= 0.5f &&
-            piece.highest_m > above_noise_sigmas * piece.sigma_m &&
-            piece.lowest_m < static_cast<float> (options.max_object_size_m));
+            piece.carried >= 0.5f && piece.highest_m > above_noise_sigmas * piece.sigma_m &&
+            piece.lowest_m < max_size);
   }));
 }
 

@@ -115,9 +115,14 @@ segmentObjects (const std::vector<Eigen::Vector3f>& points, int width, int heigh
   ObjectSegmentation result;
   result.objects = static_cast<std::uint32_t> (assembleObjects (grid, room, patches, options, object_of_patch));
   result.labels.resize (points.size (), 0);
+  result.too_long.resize (points.size (), 0);
   for (std::size_t i = 0; i < points.size (); ++i)
     if (patches.patch_of[i] >= 0)
-      result.labels[i] = static_cast<std::uint32_t> (object_of_patch[patches.patch_of[i]] + 1);
+    {
+      const int object = object_of_patch[patches.patch_of[i]];
+      result.labels[i] = object >= 0 ? static_cast<std::uint32_t> (object + 1) : 0;
+      result.too_long[i] = object == too_long_object;
+    }
   for (const SupportSurface& surface : room.surfaces)
     result.support_planes.emplace_back (surface.normal.x (), surface.normal.y (), surface.normal.z (), surface.offset);
   return (result);

@@ -32,6 +32,7 @@ struct PCL_COSECTION_EXPORT ObjectSegmentationOptions
 struct PCL_COSECTION_EXPORT ObjectSegmentation
 {
   std::vector<std::uint32_t> labels;           ///< one per point: 0 background or no reading, 1 ... objects
+  std::vector<std::uint8_t> too_long;          ///< one per point: 1 would be part of an object, but that is too long
   std::uint32_t objects = 0;                   ///< number of them, larger ones in the image first
   std::vector<Eigen::Vector4f> support_planes; ///< (n, d), n.x + d = 0, unit n towards the sensor; best seen first
 };
