@@ -2,6 +2,8 @@
 // Copyright (c) 2026, the pcl_cosection authors
 #include <pcl/cosection/fusion/geometric_segmenter.h>
 
+#include "length_memory.h"
+
 #include <pcl/cosection/common/error.h>
 
 #include <algorithm>
@@ -29,16 +31,27 @@ rawPoints (const ObservedFrame& frame)
 
 } // namespace
 
-GeometricSegmenter::GeometricSegmenter (const ObjectSegmentationOptions& options) : options_ (options)
+GeometricSegmenter::GeometricSegmenter (const ObjectSegmentationOptions& options)
+: options_ (options), too_long_ (std::make_unique<LengthMemory> ())
 {
   options.validate ();
+}
+
+GeometricSegmenter::~GeometricSegmenter () = default;
+
+void
+GeometricSegmenter::begin ()
+{
+  too_long_->clear ();
 }
 
 FrameInstances
 GeometricSegmenter::segment (const ObservedFrame& frame)
 try
 {
-  const ObjectSegmentation found = segmentObjects (rawPoints (frame), frame.camera.width, frame.camera.height, options_);
+  const std::vector<Eigen::Vector3f> points = rawPoints (frame);
+  ObjectSegmentation found = segmentObjects (points, frame.camera.width, frame.camera.height, options_);
+  too_long_->judge (points, frame.T_world_camera, found);
   FrameInstances instances;
   instances.mask = Image<std::uint16_t> (frame.camera.width, frame.camera.height, 0);
   std::transform (found.labels.begin (), found.labels.end (), instances.mask->pixels.begin (), [] (std::uint32_t label) {

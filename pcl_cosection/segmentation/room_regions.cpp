@@ -99,6 +99,8 @@ describeRoom (const DepthGrid& grid, const PlaneClaims& claims, const PlaneRegio
 Room
 findRoom (const DepthGrid& grid, float max_object_size_m, float min_area_m2, int threads)
 {
+  if (findSupportSurfaces (grid, max_object_size_m, min_area_m2).empty ())
+    return {{}, std::vector<int> (grid.points.size (), -1)};
   PlaneClaims claims (grid, max_object_size_m, min_area_m2, threads);
   claims.claim (false);
   PlaneRegions planes = dividePlanes (grid, claims.surfaces (), claims.surfaceOf (), max_object_size_m);

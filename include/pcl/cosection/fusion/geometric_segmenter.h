@@ -6,13 +6,15 @@
 #include <pcl/cosection/fusion/frame_segmenter.h>
 #include <pcl/cosection/segmentation/object_segmentation.h>
 
+#include <memory>
+
 namespace pcl
 {
 namespace cosection
 {
 
-/** \brief Finds objects in frames by their geometry alone: segmentObjects (). Each frame by itself; what it misses in one, as things at the
- * image's border or flat ones, it may find in the next.
+/** \brief Finds objects in frames by their geometry alone: segmentObjects (). What it misses in one, as things at the image's border or flat
+ * ones, it may find in the next; what most frames have shown to be too long for an object is none where another one shows but a part of it.
  *
  * \code
  * fusion.setSegmenter (std::make_shared<GeometricSegmenter> ());
@@ -22,6 +24,11 @@ class PCL_COSECTION_EXPORT GeometricSegmenter : public FrameSegmenter
 public:
   /** \throws InvalidArgument as ObjectSegmentationOptions::validate () */
   explicit GeometricSegmenter (const ObjectSegmentationOptions& options = {});
+
+  ~GeometricSegmenter () override;
+
+  void
+  begin () override;
 
   /** \brief Without a plane that objects could stand on, the frame tells nothing. */
   FrameInstances
@@ -41,6 +48,7 @@ public:
 
 private:
   ObjectSegmentationOptions options_;
+  std::unique_ptr<class LengthMemory> too_long_;
 };
 
 } // namespace cosection
