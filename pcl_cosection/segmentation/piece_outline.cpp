@@ -2,6 +2,8 @@
 // Copyright (c) 2026, the pcl_cosection authors
 #include "piece_outline.h"
 
+#include <utility>
+
 namespace pcl
 {
 namespace cosection
@@ -13,6 +15,8 @@ namespace
 constexpr int shadow_share = 16;       ///< share of the image's width that the shadow beside a thing may have
 constexpr float contact_sigmas = 3.0f; ///< height over a surface of what touches it ...
 constexpr float contact_px = 1.5f;     ///< ... and the width of so many pixels
+
+constexpr int least_run_px = 3;        ///< readings of both in a row; where they alternate there is no outline
 
 } // namespace
 
@@ -40,19 +44,26 @@ outlinePieces (const DepthGrid& grid, const Room& room, const std::vector<int>& 
       }
     }
   };
+  const auto sideOf = [&] (int i) { return (std::make_pair (piece_of[i], piece_of[i] < 0 ? room.surface_of[i] : -1)); };
   const auto follow = [&] (int first, int stride, int steps) {
-    int last = -1;
+    int begin = -1, last = -1, length = 0, before = -1; // of the run; last of the run before, if it is long enough
     for (int k = 0; k < steps; ++k)
     {
       const int i = first + k * stride;
       if (!grid.valid (i))
         continue;
-      if (last >= 0 && k - last <= grid.width / shadow_share)
+      if (last < 0 || sideOf (i) != sideOf (first + last * stride))
       {
-        meet (i, first + last * stride);
-        meet (first + last * stride, i);
+        before = length >= least_run_px ? last : -1;
+        begin = k;
+        length = 0;
       }
       last = k;
+      if (++length == least_run_px && before >= 0 && begin - before <= grid.width / shadow_share)
+      {
+        meet (first + begin * stride, first + before * stride);
+        meet (first + before * stride, first + begin * stride);
+      }
     }
   };
   for (int v = 0; v < grid.height; ++v)
