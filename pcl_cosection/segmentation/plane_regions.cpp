@@ -2,11 +2,12 @@
 // Copyright (c) 2026, the pcl_cosection authors
 #include "plane_regions.h"
 
+#include "region_extents.h"
+
 #include "../common/disjoint_sets.h"
 
 #include <array>
 #include <cmath>
-#include <limits>
 #include <set>
 
 namespace pcl
@@ -28,36 +29,8 @@ constexpr float free_share = 0.35f;   ///< of the border of a face that ends fre
 constexpr float longest_step = 8.0f;  ///< of a pixel on a plane seen at a small angle, relative to one that faces
 constexpr int seam_px = 3;            ///< readings on no plane that there may be at an edge
 constexpr float edge_cosine = 0.7f;   ///< between the normals of planes that meet at one
-constexpr int directions = 12;        ///< in which regions are measured, over half a turn
-
-/** \brief Extents of a region in its plane. */
-struct Extents
-{
-  std::array<float, directions> low, high;
-
-  Extents ()
-  {
-    low.fill (std::numeric_limits<float>::max ());
-    high.fill (std::numeric_limits<float>::lowest ());
-  }
-
-  void
-  add (int direction, float along)
-  {
-    low[direction] = std::min (low[direction], along);
-    high[direction] = std::max (high[direction], along);
-  }
-
-  /** \brief The longer side of the smallest rectangle. */
-  float
-  length () const
-  {
-    float least = std::numeric_limits<float>::max ();
-    for (int k = 0; k < directions / 2; ++k)
-      least = std::min (least, std::max (high[k] - low[k], high[k + directions / 2] - low[k + directions / 2]));
-    return (least);
-  }
-};
+constexpr int directions = RegionExtents::directions;
+constexpr int speck_px = 16;          ///< what is smaller does not tell how a region beside it ends
 
 class Division
 {
@@ -82,10 +55,10 @@ public:
     DisjointSets sets (surface_of_.size ());
     connect (sets);
     number (sets);
-    measureBorders ();
+    measureAllBorders ();
     joinBehind (max_object_size_m, sets);
     number (sets);
-    measureBorders ();
+    measureAllBorders ();
     measureEdges ();
     return {std::move (region_of_), std::move (regions_)};
   }
@@ -225,7 +198,7 @@ private:
   {
     regions_.clear ();
     region_of_.assign (surface_of_.size (), -1);
-    std::vector<Extents> extents;
+    std::vector<RegionExtents> extents;
     for (int i = 0; i < static_cast<int> (surface_of_.size ()); ++i)
     {
       if (surface_of_[i] < 0)
@@ -251,15 +224,29 @@ private:
       regions_[k].length_m = extents[k].length ();
   }
 
+  /** \brief Borders are measured beyond specks, as readings near an edge are, and those of the specks by themselves. */
   void
-  measureBorders ()
+  measureAllBorders ()
+  {
+    for (const bool specks : {false, true})
+      measureBorders (specks);
+  }
+
+  bool
+  isSpeck (int i) const
+  {
+    return (region_of_[i] >= 0 && regions_[region_of_[i]].pixels < speck_px);
+  }
+
+  void
+  measureBorders (bool specks)
   {
     alongLines ([&] (int first, int stride, int steps, int axis) {
       int last = -1;
       for (int k = 0; k < steps; ++k)
       {
         const int i = first + k * stride;
-        if (!grid_.valid (i))
+        if (!grid_.valid (i) || (!specks && isSpeck (i)))
           continue;
         const int j = first + last * stride;
         if (last >= 0 && region_of_[i] != region_of_[j] && k - last <= grid_.width / shadow_share)
@@ -271,8 +258,10 @@ private:
                 pixel = next;
             return (pixel);
           };
-          addBorder (i, beyond (last, -1), axis);
-          addBorder (j, beyond (k, 1), axis);
+          if (isSpeck (i) == specks)
+            addBorder (i, beyond (last, -1), axis);
+          if (isSpeck (j) == specks)
+            addBorder (j, beyond (k, 1), axis);
         }
         last = k;
       }
