@@ -41,9 +41,9 @@ struct PCL_COSECTION_EXPORT ObjectSegmentation
  *
  * Planes are taken for the room and its furniture as far as they are longer than an object, or enclosed: what is seen
  * beside them rises before them, as it does around the back of a shelf's compartment, while the face of an object ends
- * freely. What stands in front of them is divided into small patches of one orientation; neighbouring patches belong together where they meet smoothly or at a convex edge, and apart where
- * they meet at a concave one (S. C. Stein, M. Schoeler, J. Papon, F. Woergoetter, "Object Partitioning using Local
- * Convexity", CVPR 2014). The evidence of all edges is weighed by greedy additive edge contraction (M. Keuper et al.,
+ * freely. What stands in front of them is divided into small patches of one orientation; neighbouring patches belong
+ * together where they meet smoothly or at a convex edge, and apart where they meet at a concave one (S. C. Stein,
+ * M. Schoeler, J. Papon, F. Woergoetter, "Object Partitioning using Local Convexity", CVPR 2014). The evidence of all edges is weighed by greedy additive edge contraction (M. Keuper et al.,
  * "Efficient Decomposition of Image and Mesh Graphs by Lifted Multicuts", ICCV 2015), so that a few wrong edges do not
  * join two objects. Pieces of one surface that something in front divides, and the inside of hollow things, are put
  * together again.
