@@ -3,6 +3,7 @@
 
 // Tracks and completes the objects of an RGB-D sequence; see pcl_cosection_fusion --help.
 
+#include "class_summary.h"
 #include "exit_status.h"
 #include "fusion_command_line.h"
 #include "fusion_outputs.h"
@@ -40,11 +41,14 @@ describe (const std::exception& error)
 }
 
 std::string
-describe (const ObjectResult& object)
+describe (const ObjectResult& object, const std::optional<ClassScore>& best_class)
 {
   std::ostringstream text;
   text.precision (3);
-  text << "object " << object.id << ": " << object.mesh.vertices.size () << " vertices, "
+  text << "object " << object.id << ": ";
+  if (best_class)
+    text << classText (best_class->class_id, best_class->class_name, best_class->score) << ", ";
+  text << object.mesh.vertices.size () << " vertices, "
        << 1000.0 * computeMassProperties (object.mesh).volume_m3 << " litres, voxels of "
        << 1000.0 * object.signed_distance->grid.voxel_size_m << " mm";
   if (object.penetration_m > 0.0)
@@ -139,7 +143,10 @@ fuse (const FusionSettings& settings, FusionOutputs& outputs, Terminal& terminal
   bool all_good = true;
   for (const ObjectResult& object : result.scene.objects)
     if (object.error.empty ())
-      terminal.result (describe (object));
+    {
+      const auto fused = result.objects.find (object.id);
+      terminal.result (describe (object, fused == result.objects.end () ? std::nullopt : fused->second.best_class));
+    }
     else
     {
       all_good = false;

@@ -3,6 +3,7 @@
 
 // Finds the objects in a view; see pcl_cosection_segment --help.
 
+#include "class_summary.h"
 #include "exit_status.h"
 #include "found_objects.h"
 #include "output_files.h"
@@ -16,10 +17,7 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cmath>
-#include <iomanip>
 #include <optional>
-#include <sstream>
 
 using namespace pcl::cosection;
 
@@ -66,9 +64,7 @@ nameOf (const FoundObjects::Object& object)
 {
   if (!object.detected)
     return ("");
-  std::ostringstream text;
-  text << object.detected->class_name << ", score " << std::setprecision (2) << object.detected->score << ", ";
-  return (text.str ());
+  return (classText (object.detected->class_id, object.detected->class_name, object.detected->score) + ", ");
 }
 
 nlohmann::ordered_json
@@ -76,7 +72,7 @@ summaryOf (std::size_t label, const FoundObjects::Object& object)
 {
   nlohmann::ordered_json summary = {{"label", label}, {"points", object.points}};
   if (object.detected)
-    summary.update ({{"class", object.detected->class_name}, {"class_id", object.detected->class_id}, {"score", std::round (1e4 * object.detected->score) / 1e4}});
+    summary.update (classJson (object.detected->class_id, object.detected->class_name, object.detected->score));
   return (summary);
 }
 

@@ -286,6 +286,9 @@ TrackedScene::run (const MaskPolicy& masks, DynamicFusionOptions options, std::s
     run.masks.push_back (seen.mask);
   }
   run.found = fusion.foundObjects ();
+  for (int id = 0; id <= 100; ++id)
+    if (const std::optional<ClassScore> best = fusion.objectClass (id))
+      run.classes[id] = *best;
   run.events = fusion.events ();
   run.background = fusion.backgroundMesh ();
   return run;
