@@ -4,10 +4,11 @@
 // Finds the objects in a view; see pcl_cosection_segment --help.
 
 #include "class_summary.h"
-#include "exit_status.h"
 #include "found_objects.h"
 #include "output_files.h"
+#include "run_program.h"
 #include "segment_command_line.h"
+#include "stopwatch.h"
 #include "terminal.h"
 
 #include <nlohmann/json.hpp>
@@ -16,7 +17,6 @@
 #include <pcl/cosection/common/ignored_label.h>
 
 #include <algorithm>
-#include <chrono>
 #include <optional>
 
 using namespace pcl::cosection;
@@ -25,19 +25,6 @@ namespace
 {
 
 constexpr float large_depth_m = 100.0f; ///< what is farther is probably not in metres
-
-class Stopwatch
-{
-public:
-  double
-  seconds () const
-  {
-    return (std::chrono::duration<double> (std::chrono::steady_clock::now () - start_).count ());
-  }
-
-private:
-  const std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now ();
-};
 
 std::vector<std::string>
 warningsOf (const SegmentSettings& settings, const OrganizedCloud& cloud)
@@ -147,28 +134,12 @@ run (SegmentSettings settings, Terminal& terminal)
 int
 main (int argc, char** argv)
 {
-  Terminal terminal ("pcl_cosection_segment");
-  try
-  {
+  return (runProgram ({"pcl_cosection_segment"}, [&] (Terminal& terminal) {
     const std::optional<SegmentSettings> settings = parseSegmentCommandLine (argc, argv);
     if (!settings)
-      return (Success);
+      return (true);
     terminal.setVerbosity (settings->verbosity);
     run (*settings, terminal);
-    return (Success);
-  }
-  catch (const UsageError& error)
-  {
-    terminal.error (error.what ());
-    return (WrongUsage);
-  }
-  catch (const std::bad_alloc&)
-  {
-    terminal.error ("out of memory");
-  }
-  catch (const std::exception& error)
-  {
-    terminal.error (error.what ());
-  }
-  return (Failure);
+    return (true);
+  }));
 }
