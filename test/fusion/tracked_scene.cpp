@@ -2,6 +2,7 @@
 // Copyright (c) 2026, the pcl_cosection authors
 #include "fusion/tracked_scene.h"
 
+#include <pcl/cosection/common/look_at.h>
 #include <pcl/cosection/simulation/scene_renderer.h>
 
 #include <algorithm>
