@@ -56,7 +56,7 @@ ObjectMap::judge (double stamp, const ReconciledMask& mask, const Image<std::uin
 }
 
 void
-ObjectMap::uniteParts (double stamp, Image<std::uint16_t>& labels, Image<std::uint16_t>& mask, EventLog& log)
+ObjectMap::uniteParts (double stamp, Image<std::uint16_t>& labels, std::optional<Image<std::uint16_t>>& mask, EventLog& log)
 {
   unions_.follow (active_);
   while (const std::optional<std::pair<int, int>> one = unions_.next ())
@@ -70,8 +70,10 @@ ObjectMap::uniteParts (double stamp, Image<std::uint16_t>& labels, Image<std::ui
     const int part = second_is_larger ? one->first : one->second;
     log.add (stamp, "object ", part, " is a part of object ", whole);
     find (whole)->confirmed = find (whole)->confirmed || find (part)->confirmed;
-    for (Image<std::uint16_t>* image : {&labels, &mask})
-      std::replace (image->pixels.begin (), image->pixels.end (), static_cast<std::uint16_t> (part), static_cast<std::uint16_t> (whole));
+    find (whole)->classes.add (find (part)->classes);
+    for (Image<std::uint16_t>* image : {&labels, mask ? &*mask : nullptr})
+      if (image)
+        std::replace (image->pixels.begin (), image->pixels.end (), static_cast<std::uint16_t> (part), static_cast<std::uint16_t> (whole));
     erase (part);
   }
 }
