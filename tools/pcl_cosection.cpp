@@ -4,20 +4,19 @@
 // Completes the hidden surfaces of the objects in PCD views; see pcl_cosection --help.
 
 #include "command_line.h"
-#include "exit_status.h"
 #include "interruption.h"
 #include "json_summary.h"
 #include "output_target.h"
+#include "run_program.h"
 #include "scene_input.h"
+#include "stopwatch.h"
 #include "terminal.h"
 
 #include <pcl/cosection/common/error.h>
 #include <pcl/cosection/common/mesh_decimation.h>
 #include <pcl/cosection/surface/co_section.h>
 
-#include <chrono>
 #include <iomanip>
-#include <new>
 #include <sstream>
 #include <utility>
 
@@ -27,19 +26,7 @@ namespace
 {
 
 constexpr double read_share = 0.1; ///< of the progress bar
-
-class Stopwatch
-{
-public:
-  double
-  seconds () const
-  {
-    return (std::chrono::duration<double> (std::chrono::steady_clock::now () - start_).count ());
-  }
-
-private:
-  const std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now ();
-};
+const char* const out_of_memory = "out of memory; use larger voxels (--voxel-size, --background-voxel-size)";
 
 CoSection
 toScene (const Settings& settings, SceneInput input)
@@ -72,7 +59,7 @@ simplify (std::size_t max_faces, SceneResult& result)
 }
 
 std::string
-describe (const ObjectResult& object)
+summaryLine (const ObjectResult& object)
 {
   std::ostringstream text;
   text << "object " << object.id << ": " << object.mesh.vertices.size () << " vertices, " << std::setprecision (3)
@@ -82,14 +69,6 @@ describe (const ObjectResult& object)
   if (object.penetration_m > 0.0)
     text << ", " << 1000.0 * object.penetration_m << " mm inside another body";
   return (text.str ());
-}
-
-std::string
-describe (const std::exception& error)
-{
-  if (dynamic_cast<const std::bad_alloc*> (&error))
-    return ("out of memory; use larger voxels (--voxel-size, --background-voxel-size)");
-  return (error.what ());
 }
 
 /** \brief Read, complete, write. \return whether every object succeeded */
@@ -123,7 +102,7 @@ complete (const Settings& settings, const OutputTarget& target, std::vector<std:
   {
     if (object.error.empty ())
     {
-      terminal.result (describe (object));
+      terminal.result (summaryLine (object));
       continue;
     }
     all_good = false;
@@ -159,7 +138,7 @@ run (const Settings& settings, Terminal& terminal)
   catch (const std::exception& error)
   {
     if (!settings.json.empty ())
-      writeJsonOfFailure (settings, describe (error), warnings);
+      writeJsonOfFailure (settings, describe (error, out_of_memory), warnings);
     throw;
   }
 }
@@ -169,29 +148,12 @@ run (const Settings& settings, Terminal& terminal)
 int
 main (int argc, char** argv)
 {
-  Terminal terminal ("pcl_cosection");
-  try
-  {
+  return (runProgram ({"pcl_cosection", "interrupted, nothing was written", out_of_memory}, [&] (Terminal& terminal) {
     const std::optional<Settings> settings = parseCommandLine (argc, argv);
     if (!settings)
-      return (Success);
+      return (true);
     terminal.setVerbosity (settings->verbosity);
     catchInterruptions ();
-    return (run (*settings, terminal) ? Success : Failure);
-  }
-  catch (const UsageError& error)
-  {
-    terminal.error (error.what ());
-    return (WrongUsage);
-  }
-  catch (const Cancelled&)
-  {
-    terminal.error ("interrupted, nothing was written");
-    return (Interrupted);
-  }
-  catch (const std::exception& error)
-  {
-    terminal.error (describe (error));
-  }
-  return (Failure);
+    return (run (*settings, terminal));
+  }));
 }

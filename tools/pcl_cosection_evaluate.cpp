@@ -4,8 +4,7 @@
 
 #include "arguments.h"
 #include "evaluation_commands.h"
-#include "exit_status.h"
-#include "failure_json.h"
+#include "run_program.h"
 #include "suggestion.h"
 #include "terminal.h"
 
@@ -50,20 +49,8 @@ run (int argc, const char* const* argv, Terminal& terminal)
 int
 main (int argc, char** argv)
 {
-  Terminal terminal ("pcl_cosection_evaluate");
-  try
-  {
+  return (runProgram ({"pcl_cosection_evaluate"}, [&] (Terminal& terminal) {
     run (argc, argv, terminal);
-    return (Success);
-  }
-  catch (const UsageError& error)
-  {
-    terminal.error (error.what ());
-    return (WrongUsage);
-  }
-  catch (const std::exception& error)
-  {
-    terminal.error (describe (error));
-  }
-  return (Failure);
+    return (true);
+  }));
 }

@@ -3,12 +3,14 @@
 
 // Tracks and completes the objects of an RGB-D sequence; see pcl_cosection_fusion --help.
 
-#include "exit_status.h"
+#include "class_summary.h"
 #include "fusion_command_line.h"
 #include "fusion_outputs.h"
 #include "interruption.h"
 #include "live_view.h"
+#include "run_program.h"
 #include "segmenter_choice.h"
+#include "stopwatch.h"
 #include "terminal.h"
 
 #include <pcl/cosection/common/error.h>
@@ -16,8 +18,6 @@
 #include <pcl/cosection/io/trajectory.h>
 
 #include <algorithm>
-#include <chrono>
-#include <new>
 #include <sstream>
 
 using namespace pcl::cosection;
@@ -25,26 +25,18 @@ using namespace pcl::cosection;
 namespace
 {
 
-double
-secondsSince (std::chrono::steady_clock::time_point start)
-{
-  return (std::chrono::duration<double> (std::chrono::steady_clock::now () - start).count ());
-}
+const char* const out_of_memory =
+    "out of memory; use larger voxels (--voxel-size, --background-voxel-size) or fewer views (--max-views)";
 
 std::string
-describe (const std::exception& error)
-{
-  if (dynamic_cast<const std::bad_alloc*> (&error))
-    return ("out of memory; use larger voxels (--voxel-size, --background-voxel-size) or fewer views (--max-views)");
-  return (error.what ());
-}
-
-std::string
-describe (const ObjectResult& object)
+summaryLine (const ObjectResult& object, const std::optional<ClassScore>& best_class)
 {
   std::ostringstream text;
   text.precision (3);
-  text << "object " << object.id << ": " << object.mesh.vertices.size () << " vertices, "
+  text << "object " << object.id << ": ";
+  if (best_class)
+    text << classText (best_class->class_id, best_class->class_name, best_class->score) << ", ";
+  text << object.mesh.vertices.size () << " vertices, "
        << 1000.0 * computeMassProperties (object.mesh).volume_m3 << " litres, voxels of "
        << 1000.0 * object.signed_distance->grid.voxel_size_m << " mm";
   if (object.penetration_m > 0.0)
@@ -106,16 +98,16 @@ makeFusion (const FusionSettings& settings, const Inputs& inputs)
 bool
 fuse (const FusionSettings& settings, FusionOutputs& outputs, Terminal& terminal)
 {
-  const auto start = std::chrono::steady_clock::now ();
+  const Stopwatch total;
   const Inputs inputs (settings);
   for (const std::string& warning : inputs.warnings)
     terminal.warning (warning);
   const SequenceFusion fusion = makeFusion (settings, inputs);
   std::optional<LiveView> live;
-  const auto window_start = std::chrono::steady_clock::now ();
+  const Stopwatch opening;
   if (settings.live)
     live.emplace (settings.dataset, inputs.images.camera (), settings.output);
-  const double window_s = secondsSince (window_start);
+  const double window_s = opening.seconds ();
   outputs.begin (); // not before the inputs are there: a slip of the pen costs nothing
 
   const auto report = [&] (const std::string& stage, double fraction) {
@@ -139,7 +131,10 @@ fuse (const FusionSettings& settings, FusionOutputs& outputs, Terminal& terminal
   bool all_good = true;
   for (const ObjectResult& object : result.scene.objects)
     if (object.error.empty ())
-      terminal.result (describe (object));
+    {
+      const auto fused = result.objects.find (object.id);
+      terminal.result (summaryLine (object, fused == result.objects.end () ? std::nullopt : fused->second.best_class));
+    }
     else
     {
       all_good = false;
@@ -155,10 +150,10 @@ fuse (const FusionSettings& settings, FusionOutputs& outputs, Terminal& terminal
                     (result.warnings.empty () ? std::string () : "; " + result.warnings.back ()));
   }
 
-  const auto write_start = std::chrono::steady_clock::now ();
+  const Stopwatch writing;
   const std::vector<std::string> files = outputs.write (result);
-  result.timings_s["write"] = secondsSince (write_start);
-  result.timings_s["total"] = secondsSince (start) - window_s; // a window that opens is not yet the run
+  result.timings_s["write"] = writing.seconds ();
+  result.timings_s["total"] = total.seconds () - window_s; // a window that opens is not yet the run
   outputs.writeSummary (settings, result);
   for (const std::string& file : files)
     terminal.detail ("wrote " + file);
@@ -186,7 +181,7 @@ run (const FusionSettings& settings, Terminal& terminal)
   }
   catch (const std::exception& error)
   {
-    outputs.writeFailure (settings, describe (error));
+    outputs.writeFailure (settings, describe (error, out_of_memory));
     throw;
   }
 }
@@ -196,29 +191,12 @@ run (const FusionSettings& settings, Terminal& terminal)
 int
 main (int argc, char** argv)
 {
-  Terminal terminal ("pcl_cosection_fusion");
-  try
-  {
+  return (runProgram ({"pcl_cosection_fusion", "interrupted; what was written is whole", out_of_memory}, [&] (Terminal& terminal) {
     const std::optional<FusionSettings> settings = parseFusionCommandLine (argc, argv);
     if (!settings)
-      return (Success);
+      return (true);
     terminal.setVerbosity (settings->verbosity);
     catchInterruptions ();
-    return (run (*settings, terminal) ? Success : Failure);
-  }
-  catch (const UsageError& error)
-  {
-    terminal.error (error.what ());
-    return (WrongUsage);
-  }
-  catch (const Cancelled&)
-  {
-    terminal.error ("interrupted; what was written is whole");
-    return (Interrupted);
-  }
-  catch (const std::exception& error)
-  {
-    terminal.error (describe (error));
-  }
-  return (Failure);
+    return (run (*settings, terminal));
+  }));
 }

@@ -3,17 +3,16 @@
 
 // Shows a run of pcl_cosection_fusion in one HTML file; see pcl_cosection_report --help.
 
-#include "exit_status.h"
 #include "interruption.h"
 #include "output_files.h"
 #include "report_command_line.h"
 #include "report_page.h"
+#include "run_program.h"
 #include "terminal.h"
 
 #include <pcl/cosection/common/error.h>
 
 #include <cstdio>
-#include <new>
 
 using namespace pcl::cosection;
 
@@ -106,34 +105,13 @@ run (const ReportSettings& settings, Terminal& terminal)
 int
 main (int argc, char** argv)
 {
-  Terminal terminal ("pcl_cosection_report");
-  try
-  {
+  return (runProgram ({"pcl_cosection_report", "interrupted; nothing was written"}, [&] (Terminal& terminal) {
     const std::optional<ReportSettings> settings = parseReportCommandLine (argc, argv);
     if (!settings)
-      return (Success);
+      return (true);
     terminal.setVerbosity (settings->verbosity);
     catchInterruptions ();
     run (*settings, terminal);
-    return (Success);
-  }
-  catch (const UsageError& error)
-  {
-    terminal.error (error.what ());
-    return (WrongUsage);
-  }
-  catch (const Cancelled&)
-  {
-    terminal.error ("interrupted; nothing was written");
-    return (Interrupted);
-  }
-  catch (const std::bad_alloc&)
-  {
-    terminal.error ("out of memory");
-  }
-  catch (const std::exception& error)
-  {
-    terminal.error (error.what ());
-  }
-  return (Failure);
+    return (true);
+  }));
 }

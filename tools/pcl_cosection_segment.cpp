@@ -3,10 +3,12 @@
 
 // Finds the objects in a view; see pcl_cosection_segment --help.
 
-#include "exit_status.h"
+#include "class_summary.h"
 #include "found_objects.h"
 #include "output_files.h"
+#include "run_program.h"
 #include "segment_command_line.h"
+#include "stopwatch.h"
 #include "terminal.h"
 
 #include <nlohmann/json.hpp>
@@ -15,11 +17,7 @@
 #include <pcl/cosection/common/ignored_label.h>
 
 #include <algorithm>
-#include <chrono>
-#include <cmath>
-#include <iomanip>
 #include <optional>
-#include <sstream>
 
 using namespace pcl::cosection;
 
@@ -27,19 +25,6 @@ namespace
 {
 
 constexpr float large_depth_m = 100.0f; ///< what is farther is probably not in metres
-
-class Stopwatch
-{
-public:
-  double
-  seconds () const
-  {
-    return (std::chrono::duration<double> (std::chrono::steady_clock::now () - start_).count ());
-  }
-
-private:
-  const std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now ();
-};
 
 std::vector<std::string>
 warningsOf (const SegmentSettings& settings, const OrganizedCloud& cloud)
@@ -66,9 +51,7 @@ nameOf (const FoundObjects::Object& object)
 {
   if (!object.detected)
     return ("");
-  std::ostringstream text;
-  text << object.detected->class_name << ", score " << std::setprecision (2) << object.detected->score << ", ";
-  return (text.str ());
+  return (classText (object.detected->class_id, object.detected->class_name, object.detected->score) + ", ");
 }
 
 nlohmann::ordered_json
@@ -76,7 +59,7 @@ summaryOf (std::size_t label, const FoundObjects::Object& object)
 {
   nlohmann::ordered_json summary = {{"label", label}, {"points", object.points}};
   if (object.detected)
-    summary.update ({{"class", object.detected->class_name}, {"class_id", object.detected->class_id}, {"score", std::round (1e4 * object.detected->score) / 1e4}});
+    summary.update (classJson (object.detected->class_id, object.detected->class_name, object.detected->score));
   return (summary);
 }
 
@@ -151,28 +134,12 @@ run (SegmentSettings settings, Terminal& terminal)
 int
 main (int argc, char** argv)
 {
-  Terminal terminal ("pcl_cosection_segment");
-  try
-  {
+  return (runProgram ({"pcl_cosection_segment"}, [&] (Terminal& terminal) {
     const std::optional<SegmentSettings> settings = parseSegmentCommandLine (argc, argv);
     if (!settings)
-      return (Success);
+      return (true);
     terminal.setVerbosity (settings->verbosity);
     run (*settings, terminal);
-    return (Success);
-  }
-  catch (const UsageError& error)
-  {
-    terminal.error (error.what ());
-    return (WrongUsage);
-  }
-  catch (const std::bad_alloc&)
-  {
-    terminal.error ("out of memory");
-  }
-  catch (const std::exception& error)
-  {
-    terminal.error (error.what ());
-  }
-  return (Failure);
+    return (true);
+  }));
 }

@@ -3,10 +3,11 @@
 
 // Renders known scenes, with the truth; see pcl_cosection_simulate --help.
 
-#include "exit_status.h"
 #include "interruption.h"
 #include "output_files.h"
+#include "run_program.h"
 #include "simulate_command_line.h"
+#include "stopwatch.h"
 #include "terminal.h"
 
 #include <nlohmann/json.hpp>
@@ -17,7 +18,6 @@
 #include <pcl/cosection/simulation/sequence_writer.h>
 
 #include <algorithm>
-#include <chrono>
 #include <iostream>
 #include <sstream>
 
@@ -86,12 +86,9 @@ checkOutputs (const SimulateSettings& settings, const SimulatedScene& scene)
 void
 run (const SimulateSettings& settings, Terminal& terminal)
 {
-  const auto start = std::chrono::steady_clock::now ();
-  const auto seconds = [&start] {
-    return (std::chrono::duration<double> (std::chrono::steady_clock::now () - start).count ());
-  };
+  const Stopwatch stopwatch;
   const SimulatedScene scene = sceneOf (settings);
-  const double read_s = seconds ();
+  const double read_s = stopwatch.seconds ();
   checkOutputs (settings, scene);
   SequenceOptions options;
   options.first = settings.first_frame;
@@ -104,15 +101,15 @@ run (const SimulateSettings& settings, Terminal& terminal)
   const std::vector<std::string> warnings = warningsOf (scene, options, report);
   for (const std::string& warning : warnings)
     terminal.warning (warning);
-  const double check_s = seconds () - read_s;
+  const double check_s = stopwatch.seconds () - read_s;
 
   double truth_s = 0.0; // until the first frame
   writeSequence (scene, settings.output, options, [&] (const std::string& stage, double fraction) {
     if (stage == "frames" && truth_s == 0.0)
-      truth_s = seconds () - read_s - check_s;
+      truth_s = stopwatch.seconds () - read_s - check_s;
     return (report (stage, fraction));
   });
-  const double total_s = seconds ();
+  const double total_s = stopwatch.seconds ();
   const int frames = (options.last < 0 ? scene.frames : options.last) - options.first;
   const double render_s = total_s - read_s - check_s - truth_s;
   std::ostringstream text;
@@ -143,12 +140,10 @@ run (const SimulateSettings& settings, Terminal& terminal)
 int
 main (int argc, char** argv)
 {
-  Terminal terminal ("pcl_cosection_simulate");
-  try
-  {
+  return (runProgram ({"pcl_cosection_simulate", "interrupted, nothing was written"}, [&] (Terminal& terminal) {
     const std::optional<SimulateSettings> settings = parseSimulateCommandLine (argc, argv);
     if (!settings)
-      return (Success);
+      return (true);
     if (settings->list_presets)
       for (const ScenePreset& preset : scenePresets ())
         std::cout << preset.name << std::string (8 - std::min<std::size_t> (7, preset.name.size ()), ' ') << preset.meaning
@@ -161,25 +156,6 @@ main (int argc, char** argv)
       catchInterruptions ();
       run (*settings, terminal);
     }
-    return (Success);
-  }
-  catch (const UsageError& error)
-  {
-    terminal.error (error.what ());
-    return (WrongUsage);
-  }
-  catch (const Cancelled&)
-  {
-    terminal.error ("interrupted, nothing was written");
-    return (Interrupted);
-  }
-  catch (const std::bad_alloc&)
-  {
-    terminal.error ("out of memory");
-  }
-  catch (const std::exception& error)
-  {
-    terminal.error (error.what ());
-  }
-  return (Failure);
+    return (true);
+  }));
 }

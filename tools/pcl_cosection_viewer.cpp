@@ -3,18 +3,12 @@
 
 // Shows what pcl_cosection_fusion wrote, in a window or as pictures; see pcl_cosection_viewer --help.
 
-#include "exit_status.h"
 #include "interruption.h"
+#include "run_program.h"
 #include "terminal.h"
 #include "viewer_command_line.h"
 #include "viewer_pictures.h"
 #include "viewer_window.h"
-
-#include <pcl/cosection/common/error.h>
-
-#include <new>
-
-using namespace pcl::cosection;
 
 namespace
 {
@@ -33,34 +27,13 @@ run (const ViewerSettings& settings, Terminal& terminal)
 int
 main (int argc, char** argv)
 {
-  Terminal terminal ("pcl_cosection_viewer");
-  try
-  {
+  return (runProgram ({"pcl_cosection_viewer", "interrupted; what was written is whole"}, [&] (Terminal& terminal) {
     const std::optional<ViewerSettings> settings = parseViewerCommandLine (argc, argv);
     if (!settings)
-      return (Success);
+      return (true);
     terminal.setVerbosity (settings->verbosity);
     catchInterruptions ();
     run (*settings, terminal);
-    return (Success);
-  }
-  catch (const UsageError& error)
-  {
-    terminal.error (error.what ());
-    return (WrongUsage);
-  }
-  catch (const Cancelled&)
-  {
-    terminal.error ("interrupted; what was written is whole");
-    return (Interrupted);
-  }
-  catch (const std::bad_alloc&)
-  {
-    terminal.error ("out of memory");
-  }
-  catch (const std::exception& error)
-  {
-    terminal.error (error.what ());
-  }
-  return (Failure);
+    return (true);
+  }));
 }

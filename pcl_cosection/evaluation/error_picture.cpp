@@ -5,9 +5,8 @@
 #include "creased_normals.h"
 #include "picture_canvas.h"
 
-#include "../rendering/look_at.h"
-
 #include <pcl/cosection/common/error.h>
+#include <pcl/cosection/common/look_at.h>
 #include <pcl/cosection/evaluation/mesh_comparison.h>
 #include <pcl/cosection/evaluation/surface_distance.h>
 #include <pcl/cosection/rendering/rasterizer.h>
@@ -170,7 +169,7 @@ drawErrorPicture (const TriangleMesh& truth, const TriangleMesh& reconstruction,
   {
     const Eigen::Vector3d eye = box.center () + distance_radii * radius_m *
                                                     (Eigen::AngleAxisd (column * turn_rad, up) * front);
-    const Eigen::Isometry3d T_world_camera = poseLookingAt (eye, box.center (), up);
+    const Eigen::Isometry3d T_world_camera = lookAt (eye, box.center (), up);
     const PinholeCamera camera = fittingCamera (meshes, T_world_camera, panel * oversampling);
     for (int row = 0; row < 2; ++row)
       drawPanel (meshes[row], *others[row], camera, T_world_camera, options)

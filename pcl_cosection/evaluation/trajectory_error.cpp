@@ -2,6 +2,8 @@
 // Copyright (c) 2026, the pcl_cosection authors
 #include <pcl/cosection/evaluation/trajectory_error.h>
 
+#include "../io/stamp_span.h"
+
 #include <pcl/cosection/common/error.h>
 #include <pcl/cosection/evaluation/rigid_alignment.h>
 
@@ -22,15 +24,6 @@ namespace
 
 constexpr double rpe_span_share = 0.02; // by which the spans of pairs may differ
 constexpr double rounding = 1e-9; ///< relative, of stamps in text files
-
-std::string
-spanText (double begin_s, double end_s)
-{
-  std::ostringstream text;
-  text.precision (15);
-  text << begin_s << " to " << end_s;
-  return text.str ();
-}
 
 /** \brief The stamps of both trajectories in one list, from which matches are taken out. The nearest pair that remains is
  * always one of neighbours. */
@@ -240,8 +233,8 @@ compareTrajectories (const std::vector<StampedPose>& truth, const std::vector<St
     std::ostringstream limit;
     limit << error.max_difference_s;
     throw DegenerateInput ("no stamps match within " + limit.str () + ": the truth has " +
-                           spanText (error.truth_begin_s, error.truth_end_s) + ", the estimate " +
-                           spanText (error.estimate_begin_s, error.estimate_end_s));
+                           stampSpan (error.truth_begin_s, error.truth_end_s) + ", the estimate " +
+                           stampSpan (error.estimate_begin_s, error.estimate_end_s));
   }
   for (std::size_t n = 1; n < matches.size (); ++n)
   {

@@ -33,7 +33,8 @@ constexpr double as_bright = 8.0;          // the same: what differs by more is 
 constexpr double huber_sigmas = 1.345;
 constexpr double correlated = 48.0;        // points that err together, as pixels are smoothed and brightness is not quite constant
 constexpr double factor_unit = 64.0;       // of 256, so that the factor changes brightness about as much as the offset
-constexpr double remembered_sigma_m = 2e-4; // of the pose of the frame that is remembered
+constexpr double remembered_sigma_m = 3e-4; // of the pose of the frame that is remembered, and of depth against colour
+constexpr double shape_sigma_m = 1e-4;      // of the model's shape, by which many readings err together
 constexpr double hidden_sigmas = 4.0;      // of depth
 constexpr double hidden_share = 0.01;      // of depth: shapes and poses err, too
 constexpr double least_agreeing = 0.5;     // of the points, for brightness to be believed
@@ -80,6 +81,23 @@ int
 directionsOf (const Matrix6d& precision)
 {
   return static_cast<int> (std::lround (toldBy (precision).trace ()));
+}
+
+/** \brief A shape's precision with the errors of the model itself: the fewer readings tell of a direction, relative to the best told, the
+ * more likely it is that they are a misplaced edge and wrong together. */
+Matrix6d
+withErrorsOfModel (const Matrix6d& precision)
+{
+  const Eigen::SelfAdjointEigenSolver<Matrix6d> solver (precision);
+  const Vector6d& of_readings = solver.eigenvalues ();
+  Vector6d result = Vector6d::Zero ();
+  for (int k = 0; k < 6; ++k)
+    if (of_readings[k] > 0.0)
+    {
+      const double sigma = shape_sigma_m * of_readings[5] / of_readings[k];
+      result[k] = 1.0 / (1.0 / of_readings[k] + sigma * sigma);
+    }
+  return solver.eigenvectors () * result.asDiagonal () * solver.eigenvectors ().transpose ();
 }
 
 /** \brief A point as it is seen: how bright it is and was, and how that changes with the model's motion. */
@@ -200,6 +218,7 @@ BrightnessTracking::track (const FrameCloud& cloud, const MotionChart& chart, co
     return std::nullopt;
   const Sums of_guess = compare (cloud, brightness_levels - 1, chart, guess), of_shape = compare (cloud, brightness_levels - 1, chart, shape.T_model_camera);
   const bool begin_there = of_guess.seen >= least_points && (of_shape.seen < least_points || of_guess.cost < of_shape.cost);
+  const Matrix6d by_shape = withErrorsOfModel (shape.precision);
   UncertainPose result;
   result.T_model_camera = begin_there ? guess : shape.T_model_camera;
   for (std::size_t level = brightness_levels; level-- > 0;)
@@ -208,11 +227,11 @@ BrightnessTracking::track (const FrameCloud& cloud, const MotionChart& chart, co
       const Sums sums = compare (cloud, level, chart, result.T_model_camera);
       if (sums.seen < least_points)
         return std::nullopt;
-      result.precision = sums.precision + shape.precision;
+      result.precision = sums.precision + by_shape;
       const Vector6d from_shape = chart.coordinates (result.T_model_camera * shape.T_model_camera.inverse ());
       const double ridge = 1e-9 * result.precision.diagonal ().maxCoeff (); // along what neither tells, it stays
       const Vector6d move =
-          -(result.precision + ridge * Matrix6d::Identity ()).ldlt ().solve (sums.slope + shape.precision * from_shape);
+          -(result.precision + ridge * Matrix6d::Identity ()).ldlt ().solve (sums.slope + by_shape * from_shape);
       if (!move.allFinite ())
         return std::nullopt;
       result.T_model_camera = chart.motion (move) * result.T_model_camera;

@@ -2,8 +2,8 @@
 // Copyright (c) 2026, the pcl_cosection authors
 #include <pcl/cosection/fusion/dynamic_fusion.h>
 
-#include "background_model.h"
 #include "camera_tracking.h"
+#include "dynamic_fusion_options.h"
 #include "event_log.h"
 #include "frame_cloud.h"
 #include "frame_segmentation.h"
@@ -31,6 +31,7 @@ namespace
 constexpr std::size_t min_readings = 500;     // of an image of 640 x 480
 constexpr double min_readings_share = min_readings / (640.0 * 480.0);
 constexpr int mask_border_px = 2;              // beside an object, readings are mixed with its own
+constexpr double uncounted_object = 0.5; // foreground probability of what no mask showed yet
 
 } // namespace
 
@@ -44,8 +45,8 @@ struct DynamicFusion::Impl
   trackCamera (const FrameCloud& cloud, const RgbdFrame& frame);
   FrameSegmentation
   segment (const RgbdFrame& frame, const FrameCloud& cloud, const Image<std::uint16_t>* mask);
-  /** \brief What the segmenter finds, beside what is known; empty: it is not its turn, or it cannot tell. */
-  Image<std::uint16_t>
+  /** \brief What the segmenter finds, beside what is known; no mask: it is not its turn, or it cannot tell. */
+  FrameInstances
   findInstances (const RgbdFrame& frame, const FrameCloud& cloud, const Image<std::uint16_t>& labels);
   void
   integrate (const RgbdFrame& frame, const FrameCloud& cloud, const Image<std::uint16_t>& labels);
@@ -82,34 +83,6 @@ struct DynamicFusion::Impl
   std::size_t last_frame = 0;                                       // of that pose
   int frames_lost = 0;                                              // of the camera, in a row
 };
-
-namespace
-{
-
-BackgroundOptions
-backgroundOptions (const DynamicFusionOptions& options)
-{
-  BackgroundOptions background;
-  background.resolution = options.background_resolution;
-  background.voxel_size_m = options.background_voxel_size_m;
-  background.tsdf.truncation_vox = options.background_truncation_vox;
-  background.tsdf.max_weight = options.max_weight;
-  background.tsdf.foreground = options.objects;
-  background.tsdf.threads = options.threads;
-  return background;
-}
-
-AssociationOptions
-associationOptions (const DynamicFusionOptions& options)
-{
-  AssociationOptions association = options.association;
-  association.threads = options.threads;
-  return association;
-}
-
-constexpr double uncounted_object = 0.5; // foreground probability of what no mask showed yet
-
-} // namespace
 
 DynamicFusion::Impl::Impl (const PinholeCamera& camera, const DynamicFusionOptions& options)
 : camera (camera)
@@ -189,7 +162,7 @@ DynamicFusion::Impl::trackCamera (const FrameCloud& cloud, const RgbdFrame& fram
   return true;
 }
 
-Image<std::uint16_t>
+FrameInstances
 DynamicFusion::Impl::findInstances (const RgbdFrame& frame, const FrameCloud& cloud, const Image<std::uint16_t>& labels)
 {
   if (!segmenter.isSet ())
@@ -199,13 +172,15 @@ DynamicFusion::Impl::findInstances (const RgbdFrame& frame, const FrameCloud& cl
   for (const auto& object : objects.active ())
     if (object->state == ObjectState::Tracked)
       observed.T_world_object[object->id] = object->T_world_object;
-  const std::optional<Image<std::uint16_t>> instances = segmenter.see (observed, log);
-  if (!instances || segmenter.isExact ())
-    return instances.value_or (Image<std::uint16_t> ());
-  ReconciledMask reconciled = reconcile (*instances, labels, moving, cloud);
+  FrameInstances found = segmenter.see (observed, log);
+  if (!found.mask || segmenter.isExact ())
+    return found;
+  ReconciledMask reconciled = reconcile (*found.mask, labels, moving, cloud);
   objects.judge (frame.stamp, reconciled, labels, log);
   takeAlong (objects.moved (), labels, cloud, reconciled);
-  return std::move (reconciled.mask);
+  found.classes = carryOver (found, reconciled.mask, cloud);
+  found.mask = std::move (reconciled.mask);
+  return found;
 }
 
 FrameSegmentation
@@ -223,21 +198,21 @@ DynamicFusion::Impl::segment (const RgbdFrame& frame, const FrameCloud& cloud, c
   // Masks that are not exact do not take back what joined wrongly.
   FrameSegmentation segmentation =
       segmentFrame (cloud, known, idsOf (used), association, exact ? ObjectGrowth::Any : ObjectGrowth::Small);
-  Image<std::uint16_t> found; // empty: none
+  FrameInstances found;
   if (!mask)
     found = findInstances (frame, cloud, segmentation.labels);
   if (!exact)
-    objects.uniteParts (frame.stamp, cloud, T_world_camera, segmentation.labels, found, log);
+    objects.uniteParts (frame.stamp, cloud, T_world_camera, segmentation.labels, found.mask, log);
   const bool shows_all = mask || !segmenter.isSet () || segmenter.findsAll ();
-  if (!found.pixels.empty ())
-    mask = &found;
+  if (found.mask)
+    mask = &*found.mask;
   if (mask)
   {
-    const MaskedFrame masked{frame.stamp, cloud, *mask, T_world_camera, exact, shows_all};
+    const MaskedFrame masked{frame.stamp, cloud, *mask, found.classes, T_world_camera, exact, shows_all};
     const std::set<int> before = objects.found ();
     const auto object_of = objects.readMask (masked, segmentation.labels, tracking, log);
     if (!exact)
-      removeScraps (cloud, object_of, found);
+      removeScraps (cloud, object_of, *found.mask);
     known = models (T_world_camera, false, used);
     applyMask (cloud, *mask, object_of, known, idsOf (used), association, segmentation);
     for (const auto& [instance, id] : object_of)
@@ -376,6 +351,12 @@ TriangleMesh
 DynamicFusion::surfaceMesh (int id) const
 {
   return impl_->objects.surfaceMesh (id);
+}
+
+std::optional<ClassScore>
+DynamicFusion::objectClass (int id) const
+{
+  return impl_->objects.classOf (id);
 }
 
 TriangleMesh

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_cosection authors
-#include <pcl/cosection/fusion/dynamic_fusion.h>
+#include "dynamic_fusion_options.h"
 
 #include <pcl/cosection/common/error.h>
 
@@ -40,6 +40,27 @@ DynamicFusionOptions::validate () const
   check (max_objects >= 0 && max_objects <= 200, "max_objects must be in [0, 200]");
   check (first_pose.matrix ().allFinite (), "first_pose must be finite");
   check (threads >= 0, "threads must not be negative");
+}
+
+BackgroundOptions
+backgroundOptions (const DynamicFusionOptions& options)
+{
+  BackgroundOptions background;
+  background.resolution = options.background_resolution;
+  background.voxel_size_m = options.background_voxel_size_m;
+  background.tsdf.truncation_vox = options.background_truncation_vox;
+  background.tsdf.max_weight = options.max_weight;
+  background.tsdf.foreground = options.objects;
+  background.tsdf.threads = options.threads;
+  return background;
+}
+
+AssociationOptions
+associationOptions (const DynamicFusionOptions& options)
+{
+  AssociationOptions association = options.association;
+  association.threads = options.threads;
+  return association;
 }
 
 } // namespace cosection

@@ -2,30 +2,17 @@
 // Copyright (c) 2026, the pcl_cosection authors
 #include "frame_check.h"
 
+#include "../io/stamp_span.h"
+
 #include <pcl/cosection/common/error.h>
 #include <pcl/cosection/io/stamp_matching.h>
 
 #include <algorithm>
-#include <sstream>
 
 namespace pcl
 {
 namespace cosection
 {
-
-namespace
-{
-
-std::string
-spanText (double first, double last)
-{
-  std::ostringstream text;
-  text.precision (15);
-  text << first << " to " << last;
-  return text.str ();
-}
-
-} // namespace
 
 void
 requireFrames (const RgbdSequence& images, const FusionOptions& options)
@@ -51,8 +38,8 @@ requirePoses (const KnownSequence& sequence, const FrameRange& frames)
   const auto poses = posesAtStamps (sequence.camera, used, sequence.images->period ());
   if (std::none_of (poses.begin (), poses.end (), [] (const auto& pose) { return pose.has_value (); }))
     throw InvalidArgument ("the camera's trajectory has no pose for any frame: its stamps are " +
-                           spanText (sequence.camera.front ().stamp, sequence.camera.back ().stamp) + ", those of the frames " +
-                           spanText (used.front (), used.back ()) + "; they must be within half a frame of each other");
+                           stampSpan (sequence.camera.front ().stamp, sequence.camera.back ().stamp) + ", those of the frames " +
+                           stampSpan (used.front (), used.back ()) + "; they must be within half a frame of each other");
 }
 
 } // namespace cosection

@@ -5,6 +5,8 @@
 #include "frame_segmentation.h"
 #include "nobodys_regions.h"
 
+#include <pcl/cosection/fusion/mask_matching.h>
+
 #include <algorithm>
 #include <cmath>
 #include <vector>
@@ -166,6 +168,18 @@ takeAlong (const std::set<int>& moved, const Image<std::uint16_t>& labels, const
   for (std::size_t n = 0; n < nobodys.size (); ++n)
     if (nobodys[n] && mask.pixels[n] != 0 && taken_by[regions.of_pixel[n]] != 0)
       mask.pixels[n] = taken_by[regions.of_pixel[n]];
+}
+
+std::map<std::uint16_t, ClassScore>
+carryOver (const FrameInstances& found, const Image<std::uint16_t>& reconciled, const FrameCloud& cloud)
+{
+  std::map<std::uint16_t, ClassScore> classes;
+  if (found.classes.empty ())
+    return classes;
+  for (const auto& [instance, remaining] : matchMasks (*found.mask, reconciled, cloud.depth, half).object_of)
+    if (const auto detected = found.classes.find (instance); detected != found.classes.end ())
+      classes[remaining] = detected->second;
+  return classes;
 }
 
 void

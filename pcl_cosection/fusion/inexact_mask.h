@@ -5,6 +5,7 @@
 #include "frame_cloud.h"
 
 #include <pcl/cosection/common/image.h>
+#include <pcl/cosection/fusion/frame_segmenter.h>
 
 #include <cstdint>
 #include <map>
@@ -41,6 +42,11 @@ reconcile (const Image<std::uint16_t>& mask, const Image<std::uint16_t>& labels,
  * or that reaches the image's border, as a hand that moves it. */
 void
 takeAlong (const std::set<int>& moved, const Image<std::uint16_t>& labels, const FrameCloud& cloud, ReconciledMask& reconciled);
+
+/** \brief The classes of the instances that remain: of those that are what the segmenter showed, with an intersection over union of more than a half.
+ * \param[in] found by the segmenter \param[in] reconciled the same after reconcile () and takeAlong () */
+std::map<std::uint16_t, ClassScore>
+carryOver (const FrameInstances& found, const Image<std::uint16_t>& reconciled, const FrameCloud& cloud);
 
 /** \brief Remove instances without an object that do not touch one: they may be anything.
  * \param[in] object_of by instance, of those that have one */

@@ -58,7 +58,7 @@ ObjectMap::judge (double stamp, const ReconciledMask& mask, const Image<std::uin
 
 void
 ObjectMap::uniteParts (double stamp, const FrameCloud& cloud, const Eigen::Isometry3d& T_world_camera, Image<std::uint16_t>& labels,
-                       Image<std::uint16_t>& mask, EventLog& log)
+                       std::optional<Image<std::uint16_t>>& mask, EventLog& log)
 {
   unions_.follow (active_);
   std::set<int> wholes;
@@ -73,13 +73,15 @@ ObjectMap::uniteParts (double stamp, const FrameCloud& cloud, const Eigen::Isome
     const int part = second_is_larger ? one->first : one->second;
     log.add (stamp, "object ", part, " is a part of object ", whole);
     find (whole)->confirmed = find (whole)->confirmed || find (part)->confirmed;
-    for (Image<std::uint16_t>* image : {&labels, &mask})
-      std::replace (image->pixels.begin (), image->pixels.end (), static_cast<std::uint16_t> (part), static_cast<std::uint16_t> (whole));
+    find (whole)->classes.add (find (part)->classes);
+    for (Image<std::uint16_t>* image : {&labels, mask ? &*mask : nullptr})
+      if (image)
+        std::replace (image->pixels.begin (), image->pixels.end (), static_cast<std::uint16_t> (part), static_cast<std::uint16_t> (whole));
     erase (part);
     wholes.erase (part);
     wholes.insert (whole);
   }
-  if (wholes.empty () || !mask.pixels.empty ())
+  if (wholes.empty () || mask)
     return; // a mask does the rest
   grow (stamp, cloud, T_world_camera, labels, log);
   for (const auto& object : active_) // masks before have only counted against what was another object's

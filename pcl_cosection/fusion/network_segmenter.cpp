@@ -2,6 +2,10 @@
 // Copyright (c) 2026, the pcl_cosection authors
 #include <pcl/cosection/fusion/network_segmenter.h>
 
+#include <cstddef>
+#include <utility>
+#include <vector>
+
 namespace pcl
 {
 namespace cosection
@@ -19,7 +23,16 @@ NetworkSegmenter::segment (const ObservedFrame& frame)
   const Picture& picture = frame.images.colour;
   if (picture.pixels.empty ())
     return {std::nullopt, "there are frames without colour, in which the network finds nothing"};
-  return {labelInstances (detector_.detect (picture), picture.width, picture.height, roles_).labels, ""};
+  const std::vector<DetectedInstance> detected = detector_.detect (picture);
+  InstanceLabels labelled = labelInstances (detected, picture.width, picture.height, roles_);
+  FrameInstances found;
+  for (std::size_t n = 0; n < labelled.instances.size (); ++n)
+  {
+    const DetectedInstance& instance = detected[labelled.instances[n]];
+    found.classes[static_cast<std::uint16_t> (n + 1)] = {instance.class_id, instance.class_name, instance.score};
+  }
+  found.mask = std::move (labelled.labels);
+  return found;
 }
 
 } // namespace cosection

@@ -81,7 +81,7 @@ ObjectMap::found () const
     for (const auto& object : *objects)
       if (object->confirmed)
         ids.insert (object->id);
-  for (const auto& [id, surface] : surfaces_of_gone_)
+  for (const auto& [id, object] : gone_)
     ids.insert (id);
   return ids;
 }
@@ -96,15 +96,32 @@ ObjectMap::moved () const
   return ids;
 }
 
-TriangleMesh
-ObjectMap::surfaceMesh (int id) const
+const TrackedObject*
+ObjectMap::lookUp (int id) const
 {
   for (const Objects* objects : {&active_, &dormant_})
     for (const auto& object : *objects)
       if (object->id == id)
-        return object->volume.surfaceMesh ();
-  const auto gone = surfaces_of_gone_.find (id);
-  return gone != surfaces_of_gone_.end () ? gone->second : TriangleMesh ();
+        return object.get ();
+  return nullptr;
+}
+
+TriangleMesh
+ObjectMap::surfaceMesh (int id) const
+{
+  if (const TrackedObject* object = lookUp (id))
+    return object->volume.surfaceMesh ();
+  const auto gone = gone_.find (id);
+  return gone != gone_.end () ? gone->second.surface : TriangleMesh ();
+}
+
+std::optional<ClassScore>
+ObjectMap::classOf (int id) const
+{
+  if (const TrackedObject* object = lookUp (id))
+    return object->classes.best ();
+  const auto gone = gone_.find (id);
+  return gone != gone_.end () ? gone->second.best_class : std::nullopt;
 }
 
 MaskMatches
@@ -154,6 +171,15 @@ ObjectMap::countExistence (const MaskMatches& matches, bool shows_all)
              isExpectedInMask (pixels->second))
       ++object->missed;
   }
+}
+
+void
+ObjectMap::countClasses (const MaskedFrame& frame, const std::map<std::uint16_t, std::uint16_t>& object_of)
+{
+  for (const auto& object : active_)
+    for (const auto& [instance, id] : object_of)
+      if (const auto detected = frame.classes.find (instance); id == object->id && detected != frame.classes.end ())
+        object->classes.add (detected->second);
 }
 
 TrackedObject*
@@ -270,6 +296,7 @@ ObjectMap::readMask (const MaskedFrame& frame, const Image<std::uint16_t>& label
     if (object)
       matches.object_of[instance] = static_cast<std::uint16_t> (object->id);
   }
+  countClasses (frame, matches.object_of);
   return matches.object_of;
 }
 
@@ -306,7 +333,8 @@ ObjectMap::tidy (double stamp, const FrameSegmentation& segmentation, EventLog& 
       dormant_.push_back (std::move (*i));
       if (dormant_.size () > max_dormant)
       {
-        surfaces_of_gone_[dormant_.front ()->id] = dormant_.front ()->volume.surfaceMesh ();
+        const TrackedObject& oldest = *dormant_.front ();
+        gone_[oldest.id] = {oldest.volume.surfaceMesh (), oldest.classes.best ()};
         dormant_.erase (dormant_.begin ());
       }
       i = active_.erase (i);

@@ -16,6 +16,7 @@
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <optional>
 #include <set>
 #include <vector>
 
@@ -30,6 +31,7 @@ struct MaskedFrame
   double stamp;
   const FrameCloud& cloud;
   const Image<std::uint16_t>& mask;
+  const std::map<std::uint16_t, ClassScore>& classes; ///< of its instances, where they are known
   Eigen::Isometry3d T_world_camera;
   bool exact;     ///< its instances are objects (see FrameSegmenter::isExact ())
   bool shows_all; ///< an object that should be in the mask and is not is probably none
@@ -62,6 +64,10 @@ public:
   TriangleMesh
   surfaceMesh (int id) const;
 
+  /** \brief What one of them is; nothing if that is not known, or there is none of that number. */
+  std::optional<ClassScore>
+  classOf (int id) const;
+
   /** \brief Match the instances of a mask with objects; count which were seen and which missed; look for lost ones among
    * instances that match none; begin new objects with the others.
    * \param[in] labels what shows which object by association
@@ -74,10 +80,10 @@ public:
   judge (double stamp, const ReconciledMask& mask, const Image<std::uint16_t>& labels, EventLog& log);
 
   /** \brief Unite objects that are parts of one, whose volume gets to know without a mask, too, that they are.
-   * \param[in,out] labels by association \param[in,out] mask may be empty */
+   * \param[in,out] labels by association \param[in,out] mask there may be none */
   void
   uniteParts (double stamp, const FrameCloud& cloud, const Eigen::Isometry3d& T_world_camera, Image<std::uint16_t>& labels,
-              Image<std::uint16_t>& mask, EventLog& log);
+              std::optional<Image<std::uint16_t>>& mask, EventLog& log);
 
   /** \brief Give up what is probably no object, and stop looking for what was not seen for long. */
   void
@@ -96,6 +102,12 @@ private:
   match (const MaskedFrame& frame, const Image<std::uint16_t>& labels) const;
   void
   countExistence (const MaskMatches& matches, bool shows_all);
+  /** \brief Count the classes of instances for the objects that they show. */
+  void
+  countClasses (const MaskedFrame& frame, const std::map<std::uint16_t, std::uint16_t>& object_of);
+  /** \brief Of a number, if it is not gone. */
+  const TrackedObject*
+  lookUp (int id) const;
   /** \brief The object that an instance shows, of those that are not tracked. */
   TrackedObject*
   findAgain (const MaskedFrame& frame, const std::vector<Eigen::Vector3f>& points, std::uint16_t instance, PoseTracking& tracking);
@@ -114,13 +126,20 @@ private:
   void
   sortActive ();
 
+  /** \brief What is left of an object. */
+  struct GoneObject
+  {
+    TriangleMesh surface;
+    std::optional<ClassScore> best_class;
+  };
+
   DynamicFusionOptions options_;
   ObjectUnions unions_;
   std::size_t min_pixels_;
   TsdfOptions tsdf_;
   Objects active_;
   Objects dormant_;                            // not seen for long, but they may come back
-  std::map<int, TriangleMesh> surfaces_of_gone_; // of those before them, which are not looked for any more
+  std::map<int, GoneObject> gone_;             // those before them, which are not looked for any more
   std::set<int> not_growing_; // whose largest size was told
   int next_id_ = 1;
 };

@@ -154,16 +154,15 @@ PoseTracking::trackObject (const FrameCloud& cloud, std::vector<AssociatedModel>
     const UncertainPose by_shape{observed.T_model_camera, observed.precision / correlatedReadings (cloud.camera)};
     const auto by_brightness = brightness.track (cloud, MotionChart (samples), by_shape, guess);
     const int told_by_shape = std::min (observed.directions, estimate.alignment.observed_directions);
-    const bool asked = by_brightness && told_by_shape < all_directions;
     // Distances alone let a pose slide where they do not tell.
     estimate.doubt = estimate.alignment.points_with_distance < min_object_points
                          ? std::string (describe (SdfAlignmentStop::TooFewPoints))
-                         : doubtOf (estimate.alignment, asked ? by_brightness->T_model_camera : found, guess, centre, points.size (),
+                         : doubtOf (estimate.alignment, by_brightness ? by_brightness->T_model_camera : found, guess, centre, points.size (),
                                     object_limits, frames_passed);
     if (!estimate.doubt.empty ())
       break;
-    estimate.T_model_camera = asked ? by_brightness->T_model_camera : observed.T_model_camera;
-    estimate.observed_directions = asked ? std::max (told_by_shape, by_brightness->directions ()) : told_by_shape;
+    estimate.T_model_camera = by_brightness ? by_brightness->T_model_camera : observed.T_model_camera;
+    estimate.observed_directions = by_brightness ? std::max (told_by_shape, by_brightness->directions ()) : told_by_shape;
     models[target].T_model_sensor = estimate.T_model_camera;
   }
   estimate.visibility =

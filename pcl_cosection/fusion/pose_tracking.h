@@ -61,7 +61,7 @@ correlatedReadings (const PinholeCamera& camera);
 void
 weighReadings (const std::vector<Eigen::Vector3f>& points, double voxel_size_m, std::vector<float>& weights);
 
-/** \brief Tracks objects relative to the camera: frame to model, weighted by association; by brightness where their shape does not tell. */
+/** \brief Tracks objects relative to the camera: frame to model, weighted by association, by their shape and their brightness. */
 class PoseTracking
 {
 public:

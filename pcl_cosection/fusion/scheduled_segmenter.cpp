@@ -21,13 +21,13 @@ ScheduledSegmenter::set (std::shared_ptr<FrameSegmenter> segmenter)
     segmenter_->begin ();
 }
 
-std::optional<Image<std::uint16_t>>
+FrameInstances
 ScheduledSegmenter::see (const ObservedFrame& frame, EventLog& log)
 {
   if (frame.images.index < next_)
   {
     segmenter_->look (frame);
-    return std::nullopt;
+    return {};
   }
   next_ = frame.images.index + every_;
   FrameInstances found = segmenter_->segment (frame);
@@ -35,7 +35,10 @@ ScheduledSegmenter::see (const ObservedFrame& frame, EventLog& log)
     log.add (frame.images.stamp, found.note);
   if (found.mask && (found.mask->width != frame.camera.width || found.mask->height != frame.camera.height))
     throw InvalidArgument ("a segmenter's mask must be of the camera's size");
-  return std::move (found.mask);
+  for (const auto& [instance, detected] : found.classes)
+    if (!(detected.score >= 0.0 && detected.score <= 1.0))
+      throw InvalidArgument ("a segmenter's scores must be in [0, 1]");
+  return found;
 }
 
 } // namespace cosection

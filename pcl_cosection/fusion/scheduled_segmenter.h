@@ -9,7 +9,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
-#include <optional>
 #include <set>
 #include <string>
 
@@ -48,9 +47,9 @@ public:
     return !segmenter_ || segmenter_->isExact ();
   }
 
-  /** \brief Show a frame to the segmenter. \return the instances in it, if it is the segmenter's turn and it can tell
-   * \throws InvalidArgument if they are not of the camera's size */
-  std::optional<Image<std::uint16_t>>
+  /** \brief Show a frame to the segmenter. \return the instances in it; no mask: it is not the segmenter's turn, or it cannot tell
+   * \throws InvalidArgument if they are not of the camera's size, or the score of a class is not in [0, 1] */
+  FrameInstances
   see (const ObservedFrame& frame, EventLog& log);
 
 private:

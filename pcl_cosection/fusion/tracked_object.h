@@ -4,6 +4,7 @@
 
 #include "brightness_tracking.h"
 
+#include <pcl/cosection/fusion/class_evidence.h>
 #include <pcl/cosection/volume/tsdf_volume.h>
 
 #include <Eigen/Geometry>
@@ -83,6 +84,7 @@ struct TrackedObject
   int mask_id = 0;            ///< in the masks, if ids persist
   int seen = 0;               ///< in masks
   int missed = 0;
+  ClassEvidence classes;      ///< by what masks showed of it, where that is of known class
   int frames_not_tracked = 0; ///< since it was
   std::size_t pixels = 0;     ///< assigned to it when it was last tracked
   double range_m = 0.0;       ///< mean depth of those

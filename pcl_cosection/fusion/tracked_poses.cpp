@@ -165,6 +165,7 @@ TrackedPoses::finish (FusionResult& result)
     if (found.count (id) > 0)
     {
       object->second.tsdf = fusion_.surfaceMesh (id);
+      object->second.best_class = fusion_.objectClass (id);
       ++object;
       continue;
     }

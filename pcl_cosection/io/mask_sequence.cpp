@@ -3,31 +3,16 @@
 #include <pcl/cosection/io/mask_sequence.h>
 
 #include "numbered_files.h"
+#include "stamp_span.h"
 
 #include <pcl/cosection/common/error.h>
 #include <pcl/cosection/io/image_io.h>
 #include <pcl/cosection/io/stamp_matching.h>
 
-#include <sstream>
-
 namespace pcl
 {
 namespace cosection
 {
-
-namespace
-{
-
-std::string
-spanText (double first, double last)
-{
-  std::ostringstream text;
-  text.precision (15);
-  text << first << " to " << last;
-  return text.str ();
-}
-
-} // namespace
 
 MaskSequence::MaskSequence (const std::string& folder, const RgbdSequence& sequence)
 : half_period_ (0.5 * sequence.period ()), width_ (sequence.camera ().width), height_ (sequence.camera ().height)
@@ -48,8 +33,8 @@ MaskSequence::MaskSequence (const std::string& folder, const RgbdSequence& seque
     if (!matches[n])
       unmatched.push_back (paths_[n]);
   if (unmatched.size () == paths_.size ())
-    throw IoError (folder + ": no mask matches a frame; the masks have the stamps " + spanText (stamps_.front (), stamps_.back ()) +
-                   ", the frames " + spanText (sequence.stamp (0), sequence.stamp (sequence.size () - 1)));
+    throw IoError (folder + ": no mask matches a frame; the masks have the stamps " + stampSpan (stamps_.front (), stamps_.back ()) +
+                   ", the frames " + stampSpan (sequence.stamp (0), sequence.stamp (sequence.size () - 1)));
   if (!unmatched.empty ())
     warnings_.push_back (firstAndMore (unmatched) + (unmatched.size () == 1 ? " matches" : " match") + " no frame");
 }

@@ -3,6 +3,7 @@
 #include <pcl/cosection/simulation/keyed_motion.h>
 
 #include <pcl/cosection/common/error.h>
+#include <pcl/cosection/common/look_at.h>
 
 #include <algorithm>
 #include <cmath>
@@ -192,27 +193,6 @@ KeyedRotation::at (double time) const
   return (values_[n] * rotation (hermite (Eigen::Vector3d::Zero (), rates_[n].first, turns_[n], rates_[n].second,
                                           times_[n + 1] - times_[n], s)))
       .normalized ();
-}
-
-Eigen::Isometry3d
-lookAt (const Eigen::Vector3d& eye, const Eigen::Vector3d& target, const Eigen::Vector3d& up)
-{
-  Eigen::Matrix3d axes = Eigen::Matrix3d::Zero ();
-  axes.col (2) = target - eye;
-  if (!(axes.col (2).allFinite () && axes.col (2).norm () > 1e-9))
-    throw InvalidArgument ("look_at is where the camera is");
-  if (!(up.allFinite () && up.norm () > 1e-9))
-    throw InvalidArgument ("up must be a direction");
-  axes.col (2).normalize ();
-  axes.col (0) = axes.col (2).cross (up.stableNormalized ());
-  if (!(axes.col (0).norm () > 1e-6)) // straight up or down
-    axes.col (0) = axes.col (2).unitOrthogonal ();
-  axes.col (0).normalize ();
-  axes.col (1) = axes.col (2).cross (axes.col (0));
-  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity ();
-  pose.linear () = axes;
-  pose.translation () = eye;
-  return pose;
 }
 
 KeyedMotion::KeyedMotion (const Eigen::Isometry3d& pose)

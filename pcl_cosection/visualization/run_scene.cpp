@@ -159,6 +159,7 @@ loadRunScene (const std::string& folder, ReadingNotes& notes, const RunSceneOpti
   scene.folder = folder;
   scene.run = readRun (folder, notes);
   scene.run.intrinsics = summary.camera;
+  scene.classes = summary.classes;
   scene.dataset = summary.dataset;
   scene.source = summary.source;
   loadTsdf (scene, notes);

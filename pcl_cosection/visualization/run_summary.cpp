@@ -83,6 +83,23 @@ sourceOf (const Json& json)
   return source;
 }
 
+/** \brief By object; classes that have a number only have no name. */
+std::map<int, std::string>
+classesOf (const Json& objects)
+{
+  std::map<int, std::string> classes;
+  if (!objects.is_array ())
+    return classes;
+  for (const Json& object : objects)
+  {
+    const Json& id = fieldOf (object, "id");
+    const std::string name = textOf (object, "class");
+    if (id.is_number_integer () && name.find_first_not_of ("0123456789") != std::string::npos)
+      classes[id.get<int> ()] = name;
+  }
+  return classes;
+}
+
 } // namespace
 
 RunSummary
@@ -103,6 +120,7 @@ readRunSummary (const std::string& folder, ReadingNotes& notes)
   }
   summary.error = textOf (json, "error");
   summary.camera = cameraOf (fieldOf (json, "camera"));
+  summary.classes = classesOf (fieldOf (json, "objects"));
   const Json& parameters = fieldOf (json, "parameters");
   summary.dataset = textOf (parameters, "dataset");
   summary.source = sourceOf (fieldOf (parameters, "images"));

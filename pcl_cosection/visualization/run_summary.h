@@ -6,6 +6,7 @@
 #include <pcl/cosection/evaluation/scene_folders.h>
 #include <pcl/cosection/io/rgbd_sequence.h>
 
+#include <map>
 #include <optional>
 #include <string>
 
@@ -22,6 +23,7 @@ struct RunSummary
   std::string dataset; ///< that it has read
   SequenceSource source;
   std::optional<PinholeCamera> camera;
+  std::map<int, std::string> classes; ///< of objects, by their numbers
 };
 
 /** \brief Read summary.json. What is missing in it, as in those of earlier versions, stays empty. \param[out] notes if it cannot be read */

@@ -19,6 +19,23 @@ namespace
 constexpr TriangleMesh::Colour plain = {200, 200, 200};      ///< nothing is told
 constexpr TriangleMesh::Colour background_grey = {225, 222, 216};
 
+/** \brief ", cup"; nothing if that is not known. */
+std::string
+classIn (const RunScene& scene, int id)
+{
+  constexpr std::size_t longest = 20; // so that a legend stays narrow
+  const auto found = scene.classes.find (id);
+  if (found == scene.classes.end ())
+    return "";
+  const std::string& name = found->second;
+  if (name.size () <= longest)
+    return ", " + name;
+  std::size_t end = longest;
+  while (end > 0 && (static_cast<unsigned char> (name[end]) & 0xC0) == 0x80) // not within a letter of UTF-8
+    --end;
+  return ", " + name.substr (0, end) + "...";
+}
+
 } // namespace
 
 TriangleMesh::Colour
@@ -82,7 +99,7 @@ legendOf (const RunScene& scene, ColourMode colour)
     case ColourMode::Instance:
       legend.title = "instance";
       for (const SceneRecord::Object& object : scene.run.objects)
-        legend.entries.push_back ({instanceColour (object.id), "object " + object.name});
+        legend.entries.push_back ({instanceColour (object.id), "object " + object.name + classIn (scene, object.id)});
       break;
     case ColourMode::Provenance:
     {

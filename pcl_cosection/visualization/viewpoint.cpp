@@ -2,10 +2,9 @@
 // Copyright (c) 2026, the pcl_cosection authors
 #include <pcl/cosection/visualization/viewpoint.h>
 
-#include "../rendering/look_at.h"
-
 #include <pcl/cosection/common/atomic_file.h>
 #include <pcl/cosection/common/error.h>
+#include <pcl/cosection/common/look_at.h>
 
 #include <nlohmann/json.hpp>
 
@@ -109,7 +108,7 @@ toJson (const Eigen::Vector3d& v)
 Eigen::Isometry3d
 Viewpoint::pose () const
 {
-  return poseLookingAt (eye, target, up);
+  return lookAt (eye, target, up);
 }
 
 PinholeCamera

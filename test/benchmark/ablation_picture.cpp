@@ -2,6 +2,7 @@
 // Copyright (c) 2026, the pcl_cosection authors
 #include "ablation_picture.h"
 
+#include <pcl/cosection/common/look_at.h>
 #include <pcl/cosection/io/stamp_matching.h>
 #include <pcl/cosection/rendering/picture.h>
 #include <pcl/cosection/rendering/rasterizer.h>

@@ -21,7 +21,7 @@ tableWithThreeObjects ()
   scene.add (1, test::placed (test::sphere (0.06), Eigen::Vector3d (0.0, 0.0, 0.06)));
   scene.add (2, test::placed (test::box ({0.07, 0.04, 0.05}), Eigen::Vector3d (0.05, 0.16, 0.05)));
   scene.add (3, test::placed (test::cup (0.045, 0.1, 0.006), Eigen::Vector3d (0.0, -0.13, 0.0)));
-  return scene.render ({640, 480, 525.0, 525.0, 319.5, 239.5}, test::lookAt ({0.7, -0.1, 0.5}, {0.0, 0.0, 0.05}));
+  return scene.render ({640, 480, 525.0, 525.0, 319.5, 239.5}, lookAt ({0.7, -0.1, 0.5}, {0.0, 0.0, 0.05}));
 }
 
 void

@@ -25,7 +25,7 @@ keyframe (const test::AnalyticScene& scene, int n, const Eigen::Vector3d& target
 {
   const double angle = 0.25 * n;
   const Eigen::Vector3d eye = target + distance_m * Eigen::Vector3d (std::cos (angle), std::sin (angle), 0.7);
-  return scene.render ({640, 480, 525.0, 525.0, 319.5, 239.5}, test::lookAt (eye, target), 8.0);
+  return scene.render ({640, 480, 525.0, 525.0, 319.5, 239.5}, lookAt (eye, target), 8.0);
 }
 
 /** \brief With the noise of a sensor along every ray. */
@@ -106,7 +106,7 @@ updateBackground (benchmark::State& state)
   const auto look = [&] (const Eigen::Vector3d& eye, double azimuth, double elevation) {
     const Eigen::Vector3d ray (std::cos (azimuth) * std::cos (elevation), std::sin (azimuth) * std::cos (elevation),
                                std::sin (elevation));
-    views.push_back (scene.render (camera, test::lookAt (eye, eye + ray), 8.0));
+    views.push_back (scene.render (camera, lookAt (eye, eye + ray), 8.0));
     addNoise (views.back (), static_cast<unsigned> (views.size ()));
   };
   constexpr int directions = 9;

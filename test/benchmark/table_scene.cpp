@@ -46,7 +46,7 @@ makeTableScene (int resolution)
   camera.width = camera.height = static_cast<int> (pixels_per_voxel_edge * resolution);
   camera.fx = camera.fy = focal_length_per_width * camera.width;
   camera.cx = camera.cy = 0.5 * (camera.width - 1);
-  scene.seen = bodies.render (camera, test::lookAt ({0.5, -0.4, 0.5}, centre));
+  scene.seen = bodies.render (camera, lookAt ({0.5, -0.4, 0.5}, centre));
   return scene;
 }
 

@@ -4,6 +4,7 @@
 
 #include "evaluation/evaluation_meshes.h"
 
+#include <pcl/cosection/common/look_at.h>
 #include <pcl/cosection/evaluation/mesh_comparison.h>
 #include <pcl/cosection/evaluation/run_evaluation.h>
 
@@ -34,11 +35,7 @@ movingScene ()
   {
     const double t = n / 24.0;
     const Eigen::Vector3d eye (1.2 * std::cos (t), 1.2 * std::sin (t) - 0.3, 0.8 + 0.1 * std::sin (7.0 * t));
-    Eigen::Isometry3d camera = Eigen::Isometry3d::Identity ();
-    const Eigen::Vector3d forward = (-eye).normalized (), right = forward.cross (Eigen::Vector3d::UnitZ ()).normalized ();
-    camera.linear () << right, forward.cross (right), forward;
-    camera.translation () = eye;
-    scene.camera.push_back ({1.0 * n, camera});
+    scene.camera.push_back ({1.0 * n, lookAt (eye, Eigen::Vector3d::Zero ())});
     torus.poses.push_back ({1.0 * n, motion (1.5 * t, {1.0, 0.5, 2.0}, {-0.25 + 0.2 * t, 0.0, 0.3})});
     box.poses.push_back ({1.0 * n, motion (-t, {0.0, 0.0, 1.0}, {0.3, 0.3 * t - 0.1, 0.05})});
   }

@@ -67,12 +67,18 @@ TEST_F (Segmenter, LabelsWhatTheNetworkFinds)
   EXPECT_EQ (found.mask->at (9, 7), 1);
   EXPECT_EQ (count (found, 1), 24);
   EXPECT_EQ (count (found, 0), 24 * 16 - 24);
+  ASSERT_EQ (found.classes.size (), 1u);
+  EXPECT_EQ (found.classes.at (1).class_id, 2);
+  EXPECT_EQ (found.classes.at (1).class_name, "cup");
+  EXPECT_NEAR (found.classes.at (1).score, 0.9, 1e-6);
 }
 
 TEST_F (Segmenter, IgnoredClassesAreNeitherObjectsNorBackground)
 {
   EXPECT_EQ (count (segment ({{}, {}, {"cup"}}), FrameSegmenter::ignored), 24);
   EXPECT_EQ (count (segment ({{}, {"cup"}, {}}), 0), 24 * 16);
+  EXPECT_TRUE (segment ({{}, {}, {"cup"}}).classes.empty ());
+  EXPECT_TRUE (segment ({{}, {"cup"}, {}}).classes.empty ());
   EXPECT_THROW (segment ({{"bottle"}, {}, {}}), InvalidArgument);
 }
 

@@ -2,6 +2,7 @@
 // Copyright (c) 2026, the pcl_cosection authors
 #include "fusion/tracked_scene.h"
 
+#include <pcl/cosection/common/look_at.h>
 #include <pcl/cosection/simulation/scene_renderer.h>
 
 #include <algorithm>
@@ -286,6 +287,9 @@ TrackedScene::run (const MaskPolicy& masks, DynamicFusionOptions options, std::s
     run.masks.push_back (seen.mask);
   }
   run.found = fusion.foundObjects ();
+  for (int id = 0; id <= 100; ++id)
+    if (const std::optional<ClassScore> best = fusion.objectClass (id))
+      run.classes[id] = *best;
   run.events = fusion.events ();
   run.background = fusion.backgroundMesh ();
   return run;

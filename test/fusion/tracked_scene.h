@@ -6,6 +6,7 @@
 #include <pcl/cosection/simulation/simulated_scene.h>
 
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <set>
@@ -42,6 +43,7 @@ struct TrackedRun
   std::vector<double> times;                     ///< s
   std::vector<Image<std::uint16_t>> masks;       ///< true
   std::set<int> found;
+  std::map<int, ClassScore> classes;             ///< of any object of a number up to 100, as far as they are known
   std::vector<std::string> events;
   TriangleMesh background;
 

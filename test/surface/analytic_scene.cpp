@@ -65,19 +65,6 @@ gradient (const Distance& distance, const Eigen::Vector3d& p)
   return g.normalized ();
 }
 
-Eigen::Isometry3d
-lookAt (const Eigen::Vector3d& eye, const Eigen::Vector3d& target, const Eigen::Vector3d& up)
-{
-  Eigen::Matrix3d axes;
-  axes.col (2) = (target - eye).normalized ();
-  axes.col (0) = axes.col (2).cross (up).normalized ();
-  axes.col (1) = axes.col (2).cross (axes.col (0));
-  Eigen::Isometry3d T = Eigen::Isometry3d::Identity ();
-  T.linear () = axes;
-  T.translation () = eye;
-  return T;
-}
-
 void
 AnalyticScene::add (int label, Distance shape)
 {

@@ -5,6 +5,7 @@
 #include "volume/analytic_fields.h"
 
 #include <pcl/cosection/common/camera.h>
+#include <pcl/cosection/common/look_at.h>
 #include <pcl/cosection/surface/oriented_point.h>
 
 #include <Eigen/Geometry>
@@ -37,11 +38,6 @@ halfSpace (const Eigen::Vector4d& plane);
 /** \brief Direction of steepest ascent of a distance, by central differences. */
 Eigen::Vector3d
 gradient (const Distance& distance, const Eigen::Vector3d& p);
-
-/** \brief Pose of a sensor at \a eye that looks at \a target. */
-Eigen::Isometry3d
-lookAt (const Eigen::Vector3d& eye, const Eigen::Vector3d& target,
-        const Eigen::Vector3d& up = Eigen::Vector3d::UnitZ ());
 
 /** \brief A depth view, and what was seen in it. */
 struct RenderedView

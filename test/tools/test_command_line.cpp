@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_cosection authors
 #include "command_line.h"
+#include "frame_span.h"
 #include "option_values.h"
 #include "suggestion.h"
 
@@ -233,6 +234,19 @@ TEST (CommandLine, ConfigurationLineWithoutEqualsSign)
   const ConfigFile file ("resolution 64\n");
   EXPECT_EQ (usageError ("--config " + file.path + " a.pcd out"),
              "the configuration file has a line without \"=\": resolution 64");
+}
+
+TEST (CommandLine, SpansOfFrames)
+{
+  EXPECT_EQ (parseFrames ("3:50").first, 3u);
+  EXPECT_EQ (parseFrames ("3:50").last, 50u);
+  EXPECT_EQ (parseFrames (":50").first, 0u);
+  for (const char* to_the_end : {"3:", "0:", ":"})
+    EXPECT_FALSE (parseFrames (to_the_end).last) << to_the_end;
+  EXPECT_EQ (parseFrames ("7:1000000000").last, 1000000000u);
+  EXPECT_EQ (parseFrames ("1000000000000:", 1e12).first, 1000000000000u);
+  for (const char* wrong : {"", "3", "a:b", "3:2", "5:5", ":0", "-1:2", "1:2:3", "1.5:2", "nan:", ":inf", "1000000001:", ":1e300"})
+    EXPECT_THROW (parseFrames (wrong), UsageError) << wrong;
 }
 
 TEST (CommandLine, FormatsThatAreNotWritten)

@@ -286,6 +286,32 @@ TEST_F (Report, TextsOfFilesAreHarmless)
   EXPECT_NE (html.find ("&lt;b onclick=alert(5)&gt;"), std::string::npos);
 }
 
+TEST_F (Report, ObjectsAreCalledByTheirClasses)
+{
+  Json summary = json ("out/summary.json");
+  ASSERT_EQ (summary["objects"].size (), 2u);
+  const Json unknown = summary;
+  summary["objects"][0]["class"] = "sports ball";
+  summary["objects"][1]["class"] = "41"; // has no name
+  writeFile (file ("out/summary.json"), summary.dump ());
+  std::string html = page ({"out"});
+  EXPECT_NE (cell (html, "objects", "sports ball 1", "Closed"), "none");
+  EXPECT_NE (cell (html, "objects", "object 2", "Closed"), "none");
+  // What the truth calls them comes first.
+  html = page ({"--truth", "sim", "out"});
+  EXPECT_EQ (html.find ("sports ball"), std::string::npos);
+  for (const Json& odd : {Json (5), Json (""), Json ({"cup"}), Json ()})
+  {
+    summary = unknown;
+    summary["objects"][0]["class"] = odd;
+    writeFile (file ("out/summary.json"), summary.dump ());
+    EXPECT_NE (cell (page ({"out"}), "objects", "object 1", "Closed"), "none") << odd;
+  }
+  summary["objects"][0]["class"] = "<u onclick=alert(1)>";
+  writeFile (file ("out/summary.json"), summary.dump ());
+  EXPECT_EQ (page ({"out"}).find ("<u onclick"), std::string::npos);
+}
+
 TEST_F (Report, TheExamplesWork)
 {
   makeOtherRun ();

@@ -3,6 +3,7 @@
 #include "tracking_scene.h"
 
 #include <pcl/cosection/common/error.h>
+#include <pcl/cosection/common/look_at.h>
 #include <pcl/cosection/simulation/scene_renderer.h>
 #include <pcl/cosection/simulation/scene_spec.h>
 

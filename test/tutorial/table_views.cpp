@@ -2,10 +2,10 @@
 // Copyright (c) 2026, the pcl_cosection authors
 #include "table_views.h"
 
-#include "tools/demo/look_at.h"
 #include "tools/demo/shapes.h"
 
 #include <pcl/cosection/common/camera.h>
+#include <pcl/cosection/common/look_at.h>
 #include <pcl/cosection/rendering/picture.h>
 #include <pcl/cosection/rendering/rasterizer.h>
 

@@ -189,6 +189,13 @@ TEST (ScenePicture, ColoursTellWhatIsAskedFor)
   EXPECT_TRUE (legendOf (scene, ColourMode::Error).hasScale ());
   EXPECT_TRUE (legendOf (scene, ColourMode::Confidence).hasScale ());
   EXPECT_EQ (legendOf (scene, ColourMode::Instance).entries.size (), 2u);
+  scene.classes[2] = "cup";
+  EXPECT_EQ (legendOf (scene, ColourMode::Instance).entries[0].text, "object " + scene.run.objects[0].name);
+  EXPECT_EQ (legendOf (scene, ColourMode::Instance).entries[1].text, "object " + scene.run.objects[1].name + ", cup");
+  scene.classes[2] = std::string (200, 'x');
+  EXPECT_LT (legendOf (scene, ColourMode::Instance).entries[1].text.size (), 40u);
+  scene.classes[2] = "123456789012345678\u6C34\u676F"; // two letters of three bytes
+  EXPECT_NE (legendOf (scene, ColourMode::Instance).entries[1].text.find (", 123456789012345678..."), std::string::npos);
   EXPECT_TRUE (legendOf (scene, ColourMode::Real).entries.empty ());
 }
 

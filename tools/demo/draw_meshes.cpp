@@ -5,9 +5,8 @@
 // the first one: from the direction FRONT in the upper row, turned about UP in the lower one. UP and FRONT are vectors
 // such as 0,1,0. Vertices of known provenance are coloured by it.
 
-#include "look_at.h"
-
 #include <pcl/cosection/common/error.h>
+#include <pcl/cosection/common/look_at.h>
 #include <pcl/cosection/io/mesh_io.h>
 #include <pcl/cosection/rendering/picture.h>
 #include <pcl/cosection/rendering/rasterizer.h>

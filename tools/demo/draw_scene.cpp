@@ -5,9 +5,8 @@
 // meshes in the folder MESHES from there, and the meshes from behind, coloured by provenance. Up is where most of the
 // background faces.
 
-#include "look_at.h"
-
 #include <pcl/cosection/common/error.h>
+#include <pcl/cosection/common/look_at.h>
 #include <pcl/cosection/io/mesh_io.h>
 #include <pcl/cosection/rendering/picture.h>
 #include <pcl/cosection/rendering/rasterizer.h>

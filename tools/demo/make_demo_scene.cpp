@@ -4,10 +4,10 @@
 // make_demo_scene OUTPUT.pcd: renders the sample of the demo, a box, a ball and a bottle on a table, as a structured-light
 // camera sees them from one side. The same file every time.
 
-#include "look_at.h"
 #include "shapes.h"
 
 #include <pcl/cosection/common/camera.h>
+#include <pcl/cosection/common/look_at.h>
 #include <pcl/cosection/rendering/picture.h>
 #include <pcl/cosection/rendering/rasterizer.h>
 

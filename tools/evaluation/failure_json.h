@@ -4,13 +4,10 @@
 
 #include "evaluation_json.h"
 #include "output_files.h"
+#include "run_program.h"
 
 #include <exception>
 #include <string>
-
-/** \brief What is to be said of an error that ended a command. */
-std::string
-describe (const std::exception& error);
 
 /** \brief Run \a work; if it throws, leave {"error": ...} in the file \a json, unless that is empty, and throw on. */
 template <typename Work>

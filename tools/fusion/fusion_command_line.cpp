@@ -2,13 +2,13 @@
 // Copyright (c) 2026, the pcl_cosection authors
 #include "fusion_command_line.h"
 
+#include "frame_span.h"
 #include "option_values.h"
 #include "segmenter_choice.h"
 
 #include <pcl/cosection/common/error.h>
 
 #include <algorithm>
-#include <cmath>
 
 using namespace pcl::cosection;
 
@@ -113,29 +113,7 @@ declareRun (CLI::App& app, GivenFusion& given)
 }
 
 constexpr double coarsest_tracking_voxel_m = 0.02; // coarser ones lose small objects
-
-/** \brief "A:B", "A:" or ":B". */
-FrameRange
-parseFrames (const std::string& text)
-{
-  const std::size_t colon = text.find (':');
-  const auto number = [&] (const std::string& part, std::size_t otherwise) {
-    if (part.empty ())
-      return (otherwise);
-    const std::optional<double> value = parseNumber (part);
-    if (!value || !(*value >= 0.0 && *value <= 1e12) || *value != std::floor (*value))
-      throw UsageError ("--frames must be A:B, frames from A up to but without B, such as 0:50; it is \"" + text + "\"");
-    return (static_cast<std::size_t> (*value));
-  };
-  FrameRange frames;
-  if (colon == std::string::npos)
-    number ("x", 0);
-  frames.first = number (text.substr (0, colon), frames.first);
-  frames.last = number (text.substr (colon + 1), frames.last);
-  if (frames.last <= frames.first)
-    throw UsageError ("--frames " + text + " holds no frame");
-  return (frames);
-}
+constexpr double last_number = 1e12;                // of a frame
 
 SequenceSource
 toSource (const GivenFusion& given)
@@ -216,7 +194,10 @@ toSettings (const GivenFusion& given)
   fusion.backend.method.whole_background = defaults.whole_background;
   fusion.backend.method.min_points = defaults.min_points;
   if (!given.frames.empty ())
-    fusion.frames = parseFrames (given.frames);
+  {
+    const FrameSpan frames = parseFrames (given.frames, last_number);
+    fusion.frames = {frames.first, frames.last.value_or (fusion.frames.last)};
+  }
   fusion.keyframe_every = given.keyframe_every.value_or (fusion.keyframe_every);
   fusion.keyframe.max_depth_m = given.max_depth.value_or (fusion.keyframe.max_depth_m);
   fusion.keyframe.threads = fusion.backend.method.threads;

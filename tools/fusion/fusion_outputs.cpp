@@ -2,6 +2,7 @@
 // Copyright (c) 2026, the pcl_cosection authors
 #include "fusion_outputs.h"
 
+#include "class_summary.h"
 #include "method_json.h"
 #include "output_files.h"
 
@@ -273,6 +274,8 @@ FusionOutputs::writeSummary (const FusionSettings& settings, const FusionResult&
         entry["mask_ids"].push_back (object.id); // else they differ from mask to mask
       const auto fused = result.objects.find (object.id);
       entry["frames_tracked"] = fused == result.objects.end () ? 0 : fused->second.trajectory.size ();
+      if (fused != result.objects.end () && fused->second.best_class)
+        entry.update (classJson (fused->second.best_class->class_id, fused->second.best_class->class_name, fused->second.best_class->score));
       summary["objects"].push_back (entry);
     }
     else

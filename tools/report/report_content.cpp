@@ -21,7 +21,9 @@ nameOf (const RunObject& object, const ReportContent& content)
   if (content.truth)
     if (const ObjectEvaluation* evaluation = evaluationOf (content.truth->evaluation, object.id))
       return (evaluation->truth_name);
-  return ("object " + std::to_string (object.id));
+  const std::string name = textIn (object.summary, "class");
+  const bool is_number = name.find_first_not_of ("0123456789") == std::string::npos; // of a class without a name
+  return ((is_number ? "object" : name) + " " + std::to_string (object.id));
 }
 
 Eigen::Vector3d

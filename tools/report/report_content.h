@@ -23,7 +23,7 @@ struct ReportContent
   int threads = 0;                   ///< 0: all
 };
 
-/** \brief "truck" if the truth has a name for it, else "object 1". */
+/** \brief "truck" if the truth has a name for it; else "cup 1" if the run has found out its class; else "object 1". */
 std::string
 nameOf (const RunObject& object, const ReportContent& content);
 

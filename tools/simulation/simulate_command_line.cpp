@@ -2,13 +2,13 @@
 // Copyright (c) 2026, the pcl_cosection authors
 #include "simulate_command_line.h"
 
+#include "frame_span.h"
 #include "option_values.h"
 #include "suggestion.h"
 
 #include <pcl/cosection/simulation/scene_spec.h>
 
 #include <algorithm>
-#include <cmath>
 
 using namespace pcl::cosection;
 
@@ -30,27 +30,6 @@ requirePreset (const std::string& option, const std::string& name)
   const std::vector<std::string> names = presetNames ();
   if (std::find (names.begin (), names.end (), name) == names.end ())
     throw UsageError (option + ": there is no preset " + name + suggestion (name, names) + "; --list-presets names them");
-}
-
-/** \brief "A:B", "A:" or ":B". */
-void
-parseFrames (const std::string& text, SimulateSettings& settings)
-{
-  const std::size_t colon = text.find (':');
-  const auto number = [&] (const std::string& part, int otherwise) {
-    if (part.empty ())
-      return (otherwise);
-    const std::optional<double> value = parseNumber (part);
-    if (!value || !(*value >= 0.0 && *value <= 1e9) || *value != std::floor (*value))
-      throw UsageError ("--frames must be A:B, frames from A up to but without B, such as 0:50; it is \"" + text + "\"");
-    return (static_cast<int> (*value));
-  };
-  if (colon == std::string::npos)
-    number ("x", 0);
-  settings.first_frame = number (text.substr (0, colon), 0);
-  settings.last_frame = number (text.substr (colon + 1), -1);
-  if (settings.last_frame >= 0 && settings.last_frame <= settings.first_frame)
-    throw UsageError ("--frames " + text + " holds no frame");
 }
 
 void
@@ -154,7 +133,11 @@ parseSimulateCommandLine (int argc, const char* const* argv)
   settings.preset = given.preset;
   setPaths (given, settings);
   if (!given.frames.empty ())
-    parseFrames (given.frames, settings);
+  {
+    const FrameSpan frames = parseFrames (given.frames);
+    settings.first_frame = static_cast<int> (frames.first);
+    settings.last_frame = frames.last ? static_cast<int> (*frames.last) : -1;
+  }
   settings.seed = given.seed;
   settings.views_every = given.views_every;
   settings.no_noise = given.no_noise;

@@ -5,6 +5,7 @@
 #include <pcl/cosection/common/export.h>
 #include <pcl/cosection/common/image.h>
 #include <pcl/cosection/common/triangle_mesh.h>
+#include <pcl/cosection/fusion/class_evidence.h>
 #include <pcl/cosection/fusion/data_association.h>
 #include <pcl/cosection/fusion/frame_segmenter.h>
 #include <pcl/cosection/io/rgbd_sequence.h>
@@ -119,6 +120,10 @@ public:
   /** \brief What was seen of an object, its frame; empty if there is none. */
   TriangleMesh
   surfaceMesh (int id) const;
+
+  /** \brief What an object is, by the detections of it; nothing if there is no object of that number, or no segmenter has named its class. */
+  std::optional<ClassScore>
+  objectClass (int id) const;
 
   /** \brief What was seen of the background, world frame. */
   TriangleMesh

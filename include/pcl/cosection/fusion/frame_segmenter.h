@@ -6,6 +6,7 @@
 #include <pcl/cosection/common/export.h>
 #include <pcl/cosection/common/ignored_label.h>
 #include <pcl/cosection/common/image.h>
+#include <pcl/cosection/fusion/class_evidence.h>
 #include <pcl/cosection/io/rgbd_sequence.h>
 
 #include <Eigen/Geometry>
@@ -42,6 +43,8 @@ struct PCL_COSECTION_EXPORT FrameInstances
    * tells nothing. */
   std::optional<Image<std::uint16_t>> mask;
   std::string note; ///< what the user should know; the same one is told once
+  /** \brief What an instance is, by its number, where that is known. */
+  std::map<std::uint16_t, ClassScore> classes = {};
 };
 
 /** \brief Finds objects in frames while they are tracked, instead of masks from files. DynamicFusion calls it now and then, after what is

@@ -26,7 +26,7 @@ public:
   /** \throws InvalidArgument, IoError as InstanceDetector and ClassRoles::validate () */
   explicit NetworkSegmenter (const InstanceDetectorOptions& options, const ClassRoles& roles = {});
 
-  /** \brief A frame without colour tells nothing. \throws IoError if the network cannot be run */
+  /** \brief Instances with their classes. A frame without colour tells nothing. \throws IoError if the network cannot be run */
   FrameInstances
   segment (const ObservedFrame& frame) override;
 

@@ -82,6 +82,7 @@ struct PCL_COSECTION_EXPORT FusedObject
   std::vector<StampedPose> trajectory; ///< T_world_object at the frames at which it is known
   TriangleMesh tsdf;                   ///< open mesh of what was seen, object frame
   std::size_t points = 0;              ///< in all keyframes
+  std::optional<ClassScore> best_class; ///< what it is, if a segmenter has named its class
 };
 
 /** \brief What SequenceFusion makes of a sequence. */

@@ -56,11 +56,6 @@ private:
   std::vector<std::pair<Eigen::Vector3d, Eigen::Vector3d>> rates_; // of h at the ends of turn i, per second
 };
 
-/** \brief Pose of a sensor at \a eye that looks at \a target: z forward, x right, y down. \throws InvalidArgument if they are the
- * same place */
-PCL_COSECTION_EXPORT Eigen::Isometry3d
-lookAt (const Eigen::Vector3d& eye, const Eigen::Vector3d& target, const Eigen::Vector3d& up = Eigen::Vector3d::UnitZ ());
-
 /** \brief How a body or a camera moves. */
 class PCL_COSECTION_EXPORT KeyedMotion
 {

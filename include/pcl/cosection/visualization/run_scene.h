@@ -45,6 +45,7 @@ struct PCL_COSECTION_EXPORT RunScene
   std::map<int, TriangleMesh> tsdf;  ///< what was seen, by object; object frame
   std::map<int, VertexErrors> errors; ///< by object; see measureErrors ()
   double error_max_m = 0.01;         ///< at the red end of their colours
+  std::map<int, std::string> classes; ///< what objects are, by object, as far as the summary names them
   std::string dataset;               ///< that the run has read, as its summary names it; may be empty
   SequenceSource source;             ///< how it was read
 
@@ -80,7 +81,7 @@ struct PCL_COSECTION_EXPORT RunSceneOptions
   std::size_t triangles = 0; ///< decimate the background to so many, and each object to half as many, to draw them faster; 0: none
 };
 
-/** \brief Read what a run wrote: as readRun (), and mesh/object_ID_tsdf.ply, and of summary.json the camera and the dataset. Nothing is
+/** \brief Read what a run wrote: as readRun (), and mesh/object_ID_tsdf.ply, and of summary.json the camera, the dataset and the objects' classes. Nothing is
  * written.
  * \param[out] notes what is missing or cannot be read
  * \throws IoError naming the folder: it is not there, is a dataset or something else, or the run failed or did not come to its end */

@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_cosection authors
+
+// What the front end says objects are, of segmenters that name the classes of instances.
+
+#include "fusion/tracked_scene.h"
+
+#include <pcl/cosection/common/error.h>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <utility>
+
+using namespace pcl::cosection;
+using namespace pcl::cosection::test;
+
+namespace
+{
+
+constexpr double rounding = 1e-9;
+constexpr int every = 5; // frames, from one mask to the next
+
+const MaskPolicy no_mask = [] (int, const Image<std::uint16_t>&) -> std::optional<Image<std::uint16_t>> { return std::nullopt; };
+
+const ClassScore cup = {41, "cup", 0.9}, bowl = {45, "bowl", 0.8}, part = {7, "part", 0.6};
+
+/** \brief Labels points of the world as a function says, and names classes as another one does. */
+class NamingSegmenter : public FrameSegmenter
+{
+public:
+  using Label = std::function<int (const Eigen::Vector3d& world, int frame)>;
+  using Classes = std::function<std::map<std::uint16_t, ClassScore> (int frame)>;
+
+  NamingSegmenter (bool exact, Label label, Classes classes) : exact_ (exact), label_ (std::move (label)), classes_ (std::move (classes))
+  {}
+
+  FrameInstances
+  segment (const ObservedFrame& frame) override
+  {
+    const auto index = static_cast<int> (frame.images.index);
+    FrameInstances found;
+    found.mask = Image<std::uint16_t> (frame.camera.width, frame.camera.height, 0);
+    for (std::size_t n = 0; n < frame.points.size (); ++n)
+      if (std::isfinite (frame.points[n].z ()))
+        found.mask->pixels[n] = static_cast<std::uint16_t> (label_ (frame.T_world_camera * frame.points[n].cast<double> (), index));
+    found.classes = classes_ (index);
+    return found;
+  }
+
+  bool
+  findsAll () const override
+  {
+    return exact_;
+  }
+
+  bool
+  isExact () const override
+  {
+    return exact_;
+  }
+
+private:
+  bool exact_;
+  Label label_;
+  Classes classes_;
+};
+
+bool
+isThing (const Eigen::Vector3d& p, double x)
+{
+  return p.z () > 0.015 && p.z () < 0.3 && std::abs (p.x () - x) < 0.17 && std::abs (p.y ()) < 0.12;
+}
+
+TrackedRun
+runWith (const TrackedScene& scene, bool exact, NamingSegmenter::Label label, NamingSegmenter::Classes classes, const MaskPolicy& masks = no_mask)
+{
+  DynamicFusionOptions options;
+  options.segment_every = every;
+  return scene.run (masks, options, std::make_shared<NamingSegmenter> (exact, std::move (label), std::move (classes)));
+}
+
+} // namespace
+
+TEST (ObjectClasses, DetectionsAreCountedForTheObjectsThatTheyShow)
+{
+  TrackedScene scene (4 * every);
+  scene.addThing (1, along ({0.0}, {{-0.3, 0.0, 0.0}}));
+  scene.addThing (2, along ({0.0}, {{0.3, 0.0, 0.0}}));
+  // Instances have other numbers in each mask. The last one tells nothing of the left thing.
+  const auto left = [] (int frame) { return 1 + frame % 2; };
+  const TrackedRun run = runWith (
+      scene, true, [&] (const Eigen::Vector3d& p, int frame) { return isThing (p, -0.3) ? left (frame) : isThing (p, 0.3) ? 3 - left (frame) : 0; },
+      [&] (int frame) {
+        std::map<std::uint16_t, ClassScore> classes = {{3 - left (frame), part}, {99, cup}};
+        if (frame < 3 * every)
+          classes[left (frame)] = frame == every ? bowl : cup;
+        return classes;
+      });
+  ASSERT_EQ (run.found.size (), 2u);
+  ASSERT_EQ (run.classes.size (), 2u);
+  const ClassScore& of_left = run.classes.at (run.foundAs (1));
+  EXPECT_EQ (of_left.class_id, 41);
+  EXPECT_EQ (of_left.class_name, "cup");
+  EXPECT_NEAR (of_left.score, (0.9 + 0.9) / 3.0, rounding);
+  EXPECT_EQ (run.classes.at (run.foundAs (2)).class_name, "part");
+  EXPECT_NEAR (run.classes.at (run.foundAs (2)).score, 0.6, rounding);
+}
+
+TEST (ObjectClasses, WithoutNamesNothingIsKnown)
+{
+  TrackedScene scene (2);
+  scene.addThing (1, along ({0.0}, {{0.0, 0.0, 0.0}}));
+  const auto label = [] (const Eigen::Vector3d& p, int) { return isThing (p, 0.0) ? 1 : 0; };
+  const TrackedRun unnamed = runWith (scene, true, label, [] (int) { return std::map<std::uint16_t, ClassScore> (); });
+  EXPECT_EQ (unnamed.found.size (), 1u);
+  EXPECT_TRUE (unnamed.classes.empty ());
+  // Masks from files have no classes, whatever a segmenter would say.
+  const auto named = [] (int) { return std::map<std::uint16_t, ClassScore>{{1, cup}}; };
+  const TrackedRun masked = runWith (scene, true, label, named, [] (int, const Image<std::uint16_t>& truth) { return std::optional (truth); });
+  EXPECT_EQ (masked.found.size (), 1u);
+  EXPECT_TRUE (masked.classes.empty ());
+}
+
+TEST (ObjectClasses, APartThatOneMaskShowsSaysNothingOfTheWhole)
+{
+  TrackedScene scene (4 * every + 1);
+  scene.addThing (1, along ({0.0}, {{0.0, 0.0, 0.0}}));
+  const TrackedRun run = runWith (
+      scene, false,
+      [] (const Eigen::Vector3d& p, int frame) { return !isThing (p, 0.0) ? 0 : frame == 2 * every && p.x () > 0.08 ? 7 : 3; },
+      [] (int) { return std::map<std::uint16_t, ClassScore>{{3, cup}, {7, part}}; });
+  ASSERT_EQ (run.found.size (), 1u);
+  ASSERT_EQ (run.classes.size (), 1u);
+  EXPECT_EQ (run.classes.begin ()->second.class_name, "cup");
+  EXPECT_NEAR (run.classes.begin ()->second.score, 0.9, rounding);
+}
+
+TEST (ObjectClasses, UnitedPartsHaveTheDetectionsOfBoth)
+{
+  TrackedScene scene (36);
+  const KeyedMotion motion = along ({0.0, 0.3, 1.0}, {{-0.2, 0.0, 0.0}, {-0.2, 0.0, 0.0}, {0.25, 0.0, 0.0}});
+  scene.addThing (1, motion);
+  const TrackedRun run = runWith (
+      scene, false,
+      [&] (const Eigen::Vector3d& p, int frame) {
+        return !isThing (p, motion.at (frame / 36.0).translation ().x ()) ? 0 : p.z () < 0.12 ? 1 : 2;
+      },
+      [] (int) { return std::map<std::uint16_t, ClassScore>{{1, cup}, {2, part}}; });
+  ASSERT_EQ (run.found.size (), 1u);
+  ASSERT_TRUE (run.said (" is a part of object "));
+  ASSERT_EQ (run.classes.size (), 1u);
+  const ClassScore& united = run.classes.begin ()->second;
+  // The upper part is most of the thing in the image, so that it is what remains; the detections of the lower one said something else.
+  EXPECT_EQ (united.class_name, "part");
+  EXPECT_LT (united.score, 0.6 - rounding);
+  EXPECT_GT (united.score, 0.3);
+}
+
+TEST (ObjectClasses, WhatIsGivenUpIsNothing)
+{
+  TrackedScene scene (20);
+  const TrackedRun run = runWith (
+      scene, false, [] (const Eigen::Vector3d& p, int frame) { return frame == 0 && std::hypot (p.x (), p.y ()) < 0.25 && p.z () < 0.1 ? 1 : 0; },
+      [] (int) { return std::map<std::uint16_t, ClassScore>{{1, cup}}; });
+  ASSERT_TRUE (run.said ("only one mask showed it"));
+  EXPECT_TRUE (run.found.empty ());
+  EXPECT_TRUE (run.classes.empty ());
+}
+
+TEST (ObjectClasses, WhatIsNoScoreIsRefused)
+{
+  TrackedScene scene (1);
+  for (const double score : {-0.5, 1.5, std::numeric_limits<double>::quiet_NaN ()})
+    EXPECT_THROW (runWith (
+                      scene, true, [] (const Eigen::Vector3d&, int) { return 0; },
+                      [score] (int) { return std::map<std::uint16_t, ClassScore>{{1, {1, "cup", score}}}; }),
+                  InvalidArgument)
+        << score;
+}
