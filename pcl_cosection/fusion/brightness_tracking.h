@@ -35,7 +35,7 @@ struct UncertainPose
  *
  * Points of the model remember how bright they were in a frame. In another one they are projected to where a pose puts them, and the pose is looked for
  * that makes them as bright again, but for light that changes by one factor, one offset and one slope for all, together with what the shape says of the pose, each in
- * proportion to its precision: Gauss-Newton steps with Huber's weights, from coarse to fine images. Points that are hidden there, by the depth, have no
+ * proportion to its precision, and less where few readings of the shape tell: Gauss-Newton steps with Huber's weights, from coarse to fine images. Points that are hidden there, by the depth, have no
  * part. The frame that is compared with stays the same until much of it is no longer seen, so that errors do not add up from frame to frame.
  *
  * As the photometric part of F. Steinbruecker, J. Sturm, D. Cremers, "Real-Time Visual Odometry from Dense RGB-D Images", ICCV Workshops 2011. */
