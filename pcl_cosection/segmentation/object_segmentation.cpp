@@ -98,7 +98,7 @@ segmentObjects (const std::vector<Eigen::Vector3f>& points, int width, int heigh
                            std::to_string (width) + " x " + std::to_string (height));
   const float pitch = columnPitch (points, width, height);
   if (pitch <= 0.0f)
-    throw DegenerateInput ("the cloud has no readings");
+    throw DegenerateInput ("the cloud has no two neighbouring readings in a row of its image, in front of the camera");
   OrganizedNormalsOptions normal_options;
   normal_options.threads = options.threads;
   const std::vector<Eigen::Vector3f> normals = computeOrganizedNormals (points, width, height, {}, normal_options);
