@@ -308,8 +308,9 @@ CoSectionRun::prepareObject (Object& object)
     if (!scene_.options.use_symmetric_extent)
       standing.clear ();
     if (scene_.options.use_extent_prior)
-      for (std::size_t n = 0; n < std::min (resting.size (), standing.size ()); ++n)
-        volume.addHiddenSide (standing[n], object.points ());
+      for (const SymmetricExtent& extent : standing)
+        if (extent.copiesAreAlike ())
+          volume.addHiddenSide (extent, object.points ());
     if (scene_.options.use_extent_prior)
       volume.addExtentPrior (scene_.background.empty () ? ExtentPrior::cutOut () : ExtentPrior (), object.extents_m,
                              object.body->hidden, standing);

@@ -45,7 +45,7 @@ principalAxes (const std::vector<OrientedPoint>& points, const std::optional<Eig
   Eigen::Vector3d longest = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> (covariance).eigenvectors ().col (2);
   const Eigen::Vector3d upright = up ? *up : Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> (covariance).eigenvectors ().col (0);
   longest = (longest - upright.dot (longest) * upright).normalized ();
-  if (!longest.allFinite ())
+  if (!(longest.norm () > 0.5)) // all points are in one line along up
     longest = upright.unitOrthogonal ();
   Eigen::Matrix3d axes;
   axes << longest, upright.cross (longest), upright;

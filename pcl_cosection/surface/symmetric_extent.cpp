@@ -3,6 +3,7 @@
 #include <pcl/cosection/surface/symmetric_extent.h>
 
 #include "principal_axes.h"
+#include "surface_of_revolution.h"
 
 #include <Eigen/Cholesky>
 #include <Eigen/Geometry>
@@ -25,14 +26,11 @@ constexpr double stray_share = 0.002;    // of the points, may lie beyond a half
 constexpr double tie = 0.97;             // of the largest distance: pairs as far apart count as farthest too
 constexpr double face_share = 0.03;      // of the points: normals of so many make a direction
 constexpr double face_cosine = 0.966;    // 15 degrees
-constexpr int round_directions = 64;
-constexpr double round_share = 0.2;      // of these directions, next to each other, in which surface must face
-constexpr double round_cosine = 0.93;    // mean, between such a direction and the normals at its end
-constexpr double end_radius = 0.05;      // of the size: points at an end
-constexpr double round_tolerance = 0.03; // of the radius, root mean square
-constexpr double max_round_width = 1.1;  // diameter of the circle per size
 constexpr double rounding = 1e-6;        // relative: more than that of a row's values
-constexpr double round_rim = 1.05;       // of the radius: what is farther out is not part of what is round
+constexpr double right_angle_cosine = 0.15;
+constexpr double cuboid_cosine = 0.92;
+constexpr double cuboid_share = 0.85; // of the points
+constexpr double upright = 0.97;          // cosine
 constexpr double least_flat = 0.5;       // length of a unit vector along the plane, else it is no direction there
 
 /** \brief Directions evenly over the sphere, the same for either sense of each axis: those of a Fibonacci lattice in one octant, and
@@ -99,6 +97,25 @@ faceNormals (const std::vector<OrientedPoint>& points, const std::vector<Eigen::
   }
 }
 
+/** \brief Do nearly all points belong to faces at right angles, of two directions at least? */
+bool
+isCuboid (const std::vector<OrientedPoint>& points, const std::vector<Eigen::Vector3d>& faces)
+{
+  if (faces.empty ())
+    return false;
+  const auto across = [&] (const Eigen::Vector3d& n) { return std::abs (n.dot (faces[0])) < right_angle_cosine; };
+  const auto second = std::find_if (faces.begin (), faces.end (), across);
+  if (second == faces.end ())
+    return false;
+  const Eigen::Vector3d third = faces[0].cross (*second).normalized ();
+  const auto on_face = [&] (const OrientedPoint& p) {
+    const Eigen::Vector3d n = p.normal.cast<double> ();
+    return std::max ({std::abs (n.dot (faces[0])), std::abs (n.dot (*second)), std::abs (n.dot (third))}) > cuboid_cosine;
+  };
+  const std::ptrdiff_t count = std::count_if (points.begin (), points.end (), on_face);
+  return static_cast<double> (count) > cuboid_share * static_cast<double> (points.size ());
+}
+
 /** \brief The point that is farthest along a direction, but for strays. */
 class Farthest
 {
@@ -162,88 +179,6 @@ middleOfFarthest (const std::vector<Eigen::Vector3d>& ends)
   return weights > 0.0 ? Eigen::Vector3d (sum / weights) : ends.front ();
 }
 
-/** \brief The axis of something round. */
-struct RoundAxis
-{
-  Eigen::Vector3d point;
-  double radius; // largest, m
-};
-
-/** \brief The axis of something round, from the side that was seen. Its edges, where rays graze it, are badly seen, so that
- * the points farthest apart lie before the axis. What is round has n.c + r as its extent along any direction n in which some of its surface
- * faces; least squares give c and r.
- * \return nothing if these extents are not those of a circle */
-std::optional<RoundAxis>
-axisOfRound (const std::vector<OrientedPoint>& points, const Eigen::Matrix3d& axes, double size, Farthest& farthest)
-{
-  const Eigen::Vector3d x = axes.col (0);
-  const Eigen::Vector3d y = axes.col (1);
-  Eigen::Matrix3d normal_matrix = Eigen::Matrix3d::Zero ();
-  Eigen::Vector3d right_side = Eigen::Vector3d::Zero ();
-  std::vector<std::pair<Eigen::Vector3d, double>> equations;
-  std::vector<bool> faces (round_directions, false);
-  for (int k = 0; k < round_directions; ++k)
-  {
-    const double angle = 2.0 * M_PI * k / round_directions;
-    const Eigen::Vector3d direction = std::cos (angle) * x + std::sin (angle) * y;
-    const Eigen::Vector3d end = farthest.along (direction);
-    double facing = 0.0;
-    int count = 0;
-    for (const OrientedPoint& p : points)
-      if ((p.position.cast<double> () - end).norm () < end_radius * size)
-      {
-        facing += direction.dot (p.normal.cast<double> ());
-        ++count;
-      }
-    if (facing < round_cosine * count)
-      continue;
-    faces[k] = true;
-    const Eigen::Vector3d row (std::cos (angle), std::sin (angle), 1.0);
-    normal_matrix += row * row.transpose ();
-    right_side += direction.dot (end) * row;
-    equations.emplace_back (row, direction.dot (end));
-  }
-  int run = 0, longest = 0; // a box has faces in few directions next to each other
-  for (int k = 0; k < 2 * round_directions; ++k)
-  {
-    run = faces[k % round_directions] ? run + 1 : 0;
-    longest = std::max (longest, run);
-  }
-  if (longest < round_share * round_directions)
-    return std::nullopt;
-  const Eigen::Vector3d solution = normal_matrix.ldlt ().solve (right_side);
-  double error = 0.0;
-  for (const auto& [row, extent] : equations)
-    error += std::pow (row.dot (solution) - extent, 2) / static_cast<double> (equations.size ());
-  const double radius = solution[2];
-  if (!(radius > 0.0) || 2.0 * radius > max_round_width * size || std::sqrt (error) > round_tolerance * radius)
-    return std::nullopt;
-  return RoundAxis{solution[0] * x + solution[1] * y, radius};
-}
-
-/** \brief Extent along \a n, from the axis on, of what a thing becomes that is turned all around; of points no farther out than
- * what is round: handles stay where they are. */
-double
-turnedAllAround (const std::vector<OrientedPoint>& points, const RoundAxis& axis, const Eigen::Vector3d& up, const Eigen::Vector3d& n)
-{
-  const double rise = up.dot (n);
-  const double reach = (n - rise * up).norm ();
-  std::vector<double> extents;
-  for (const OrientedPoint& p : points)
-  {
-    const Eigen::Vector3d q = p.position.cast<double> () - axis.point;
-    const double height = up.dot (q);
-    const double radius = (q - height * up).norm ();
-    if (radius < round_rim * axis.radius)
-      extents.push_back (rise * height + reach * radius);
-  }
-  if (extents.empty ())
-    return -std::numeric_limits<double>::infinity ();
-  const auto end = extents.end () - 1 - static_cast<std::ptrdiff_t> (stray_share * static_cast<double> (extents.size ()));
-  std::nth_element (extents.begin (), end, extents.end ());
-  return *end;
-}
-
 } // namespace
 
 SymmetricExtent::SymmetricExtent (const std::vector<OrientedPoint>& points)
@@ -274,28 +209,27 @@ SymmetricExtent::build (const std::vector<OrientedPoint>& all, const std::option
   const std::vector<Eigen::Vector3d> even = evenDirections (even_directions, axes);
   Farthest farthest (points);
 
-  std::vector<Eigen::Vector3d> ends; // points that are farthest apart are farthest along some direction
-  for (const Eigen::Vector3d& direction : even)
-    if ((flatten * direction).norm () > least_flat)
-      ends.push_back (flatten * farthest.along ((flatten * direction).normalized ()));
-  center_ = middleOfFarthest (ends);
-  std::optional<RoundAxis> round;
-  std::optional<Eigen::Vector3d> foot;
-  if (up)
+  if (auto surface = SurfaceOfRevolution::fit (points, plane))
   {
-    double size = 0.0;
-    for (const Eigen::Vector3d& a : ends)
-      size = std::max (size, 2.0 * (a - center_).norm ());
-    round = axisOfRound (points, axes, size, farthest);
-    if (round)
-      center_ = round->point;
-    const double on_plane = -(*plane)[3];
-    if (up->dot (farthest.along (-*up)) > on_plane)
-      foot = center_ + (on_plane - up->dot (center_)) * *up;
+    center_ = surface->center ();
+    turn_ = 2.0 * surface->direction () * surface->direction ().transpose () - Eigen::Matrix3d::Identity ();
+    round_ = std::make_shared<const SurfaceOfRevolution> (std::move (*surface));
   }
+  else
+  {
+    std::vector<Eigen::Vector3d> ends; // points that are farthest apart are farthest along some direction
+    for (const Eigen::Vector3d& direction : even)
+      if ((flatten * direction).norm () > least_flat)
+        ends.push_back (flatten * farthest.along ((flatten * direction).normalized ()));
+    center_ = middleOfFarthest (ends);
+  }
+  std::optional<Eigen::Vector3d> foot;
+  if (up && (!round_ || std::abs (up->dot (round_->direction ())) > upright) && up->dot (farthest.along (-*up)) > -(*plane)[3])
+    foot = center_ - (up->dot (center_) + (*plane)[3]) * *up;
 
   std::vector<Eigen::Vector3d> directions = even;
-  for (const Eigen::Vector3d& normal : faceNormals (points, even))
+  const std::vector<Eigen::Vector3d> faces = faceNormals (points, even);
+  for (const Eigen::Vector3d& normal : faces)
   {
     directions.push_back (normal);
     directions.push_back (turn_ * normal);
@@ -304,20 +238,29 @@ SymmetricExtent::build (const std::vector<OrientedPoint>& all, const std::option
   {
     // The copy of p is turn (p - center) + center, and turn its own inverse.
     const Eigen::Vector3d turned = turn_ * n;
-    const double own = n.dot (farthest.along (n));
-    const double copied = turned.dot (farthest.along (turned) - center_) + n.dot (center_);
-    double extent = std::max (own, copied);
-    if (round)
-      extent = std::max (extent, turnedAllAround (points, *round, *up, n) + n.dot (center_));
+    const double copied = round_ ? round_->extent (n) : turned.dot (farthest.along (turned) - center_);
+    double extent = std::max (n.dot (farthest.along (n)), copied + n.dot (center_));
     if (foot)
       extent = std::max (extent, n.dot (*foot));
     half_spaces_.emplace_back (n, extent);
   }
+  standing_ = up.has_value ();
+  copies_alike_ = up || round_ || isCuboid (points, faces);
 }
 
 std::vector<OrientedPoint>
 SymmetricExtent::hiddenSide (const std::vector<OrientedPoint>& points, double reach) const
 {
+  if (round_)
+  {
+    std::vector<OrientedPoint> all = round_->turned (points);
+    if (!standing_)
+    {
+      const std::vector<OrientedPoint> ends = round_->flatEnds ();
+      all.insert (all.end (), ends.begin (), ends.end ());
+    }
+    return all;
+  }
   std::vector<OrientedPoint> copies;
   for (OrientedPoint p : points)
   {
@@ -367,6 +310,9 @@ SymmetricExtent::within (const Eigen::AlignedBox3d& box) const
   const double tolerance = rounding * (middle.norm () + half_sizes.norm ());
   SymmetricExtent needed;
   needed.center_ = center_;
+  needed.round_ = round_;
+  needed.copies_alike_ = copies_alike_;
+  needed.standing_ = standing_;
   needed.turn_ = turn_;
   for (const auto& [n, s] : half_spaces_)
     if (n.dot (middle) - s + n.cwiseAbs ().dot (half_sizes) >= least - tolerance)

@@ -177,3 +177,11 @@ TEST (SymmetricExtent, NoPointsSayNothing)
 {
   EXPECT_EQ (SymmetricExtent (std::vector<OrientedPoint> ()).beyond ({1.0, 2.0, 3.0}), 0.0);
 }
+
+TEST (SymmetricExtent, AVerticalLineIsNoWiderThanItIs)
+{
+  std::vector<OrientedPoint> points = observedBox ({1e-6, 1e-6, 0.1}, {-1.0, 0.0, 0.0});
+  for (OrientedPoint& p : points)
+    p.position.head<2> ().setZero ();
+  EXPECT_NEAR (SymmetricExtent (points, ground).beyond ({0.05, 0.0, 0.05}), 0.05, 0.002);
+}

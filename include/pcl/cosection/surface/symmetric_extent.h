@@ -7,6 +7,7 @@
 
 #include <Eigen/Geometry>
 
+#include <memory>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -16,15 +17,16 @@ namespace pcl
 namespace cosection
 {
 
+class SurfaceOfRevolution;
+
 /** \brief How far an object would reach if what is hidden of it looked like what was seen of it.
  *
  * Boxes, cans, bottles, bowls, vehicles: most things look from behind about as from the front. So what was
  * observed, S, is completed by a copy that is turned by half a revolution about an axis along the normal of the
  * plane on which the object rests, or, without such a plane, inverted through a point. The axis or point c is the
  * middle between the two observed points that are farthest apart (seen along the axis): of what is seen of a box,
- * these are opposite corners. If surface faces in at least a fifth of all directions n across the axis, next to each
- * other, and the extents of S along these are those of a circle, s (n) = n.c + r, then c is that circle's, and the
- * copies are those by all turns.
+ * these are opposite corners. If S is a surface of revolution, the axis is its own, whatever its direction, and the copies are those
+ * by all turns, but of a handle or a spout: what was seen in less than 50 degrees in a row stays where it is.
  *
  * The plausible region is the convex hull of S and its copy, as the intersection of half spaces { x : n_k.x <= s_k }
  * of fixed directions n_k and of those in which large parts of the surface face; s_k is the largest n_k.p of all
@@ -52,7 +54,8 @@ public:
   within (const Eigen::AlignedBox3d& box) const;
 
   /** \brief The copies, by half a revolution or through the point, of those of \a points that come to lie beyond the plausible
-   * region or less than \a reach (metres) inside it: where the hidden side is to be expected. */
+   * region or less than \a reach (metres) inside it: where the hidden side is to be expected. Of what is round, the copies to all sides,
+   * those of cavities too; and flat faces at the ends of straight walls, if no plane is known on which they end. */
   std::vector<OrientedPoint>
   hiddenSide (const std::vector<OrientedPoint>& points, double reach) const;
 
@@ -63,11 +66,22 @@ public:
     return center_;
   }
 
+  /** \brief Is the hidden side to be expected where hiddenSide () has it? Yes for what stands on a plane, is round or is bounded by faces at
+   * right angles; no for anything else, inverted through a point. */
+  bool
+  copiesAreAlike () const
+  {
+    return copies_alike_;
+  }
+
 private:
   SymmetricExtent () = default;
   void
   build (const std::vector<OrientedPoint>& points, const std::optional<Eigen::Vector4d>& plane);
 
+  bool standing_ = false; // on a plane
+  bool copies_alike_ = false;
+  std::shared_ptr<const SurfaceOfRevolution> round_; // null: it is not
   Eigen::Matrix3d turn_ = Eigen::Matrix3d::Identity ();
   Eigen::Vector3d center_ = Eigen::Vector3d::Zero ();
   std::vector<std::pair<Eigen::Vector3d, double>> half_spaces_; // n_k, s_k

@@ -1,0 +1,262 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_cosection authors
+
+// What SymmetricExtent makes of things that are round about an axis, and which others it takes to look alike from behind.
+
+#include "observed_box.h"
+
+#include <pcl/cosection/surface/symmetric_extent.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <random>
+
+using namespace pcl::cosection;
+using namespace pcl::cosection::test;
+
+namespace
+{
+
+constexpr double reach = 0.004;
+const Eigen::Vector4d ground (0.0, 0.0, 1.0, 0.0);
+
+/** \brief Distance from the axis, metres, and its derivative, at a height. */
+using Profile = std::function<std::pair<double, double> (double)>;
+
+std::pair<double, double>
+can (double /*height*/)
+{
+  return {0.04, 0.0};
+}
+
+/** \brief 20 cm high, with shoulders and a neck. */
+std::pair<double, double>
+bottle (double height)
+{
+  if (height < 0.12)
+    return {0.04, 0.0};
+  if (height < 0.16)
+    return {0.04 - 0.65 * (height - 0.12), -0.65};
+  return {0.014, 0.0};
+}
+
+OrientedPoint
+pointAt (const Eigen::Vector3d& position, const Eigen::Vector3d& normal)
+{
+  OrientedPoint point;
+  point.position = position.cast<float> ();
+  point.normal = normal.normalized ().cast<float> ();
+  return point;
+}
+
+/** \brief What a distant camera in direction \a view sees of a surface of revolution about z; hidden parts of itself included. */
+std::vector<OrientedPoint>
+observedRound (const Profile& profile, double bottom, double top, const Eigen::Vector3d& view, double side = 1.0)
+{
+  std::vector<OrientedPoint> points;
+  for (double height = bottom; height <= top; height += 0.002)
+  {
+    const auto [radius, slope] = profile (height);
+    for (double angle = 0.0; angle < 2.0 * M_PI; angle += 0.002 / std::max (0.002, radius))
+    {
+      const Eigen::Vector3d out (std::cos (angle), std::sin (angle), 0.0);
+      const Eigen::Vector3d normal = side * Eigen::Vector3d (out.x (), out.y (), -slope).normalized ();
+      if (normal.dot (view) > 0.1)
+        points.push_back (pointAt (radius * out + height * Eigen::Vector3d::UnitZ (), normal));
+    }
+  }
+  return points;
+}
+
+std::vector<OrientedPoint>
+moved (std::vector<OrientedPoint> points, const Eigen::Isometry3d& T)
+{
+  for (OrientedPoint& p : points)
+  {
+    p.position = (T * p.position.cast<double> ()).cast<float> ();
+    p.normal = (T.linear () * p.normal.cast<double> ()).cast<float> ();
+  }
+  return points;
+}
+
+/** \brief As depth images have them: positions off by a millimetre, normals by some degrees. */
+std::vector<OrientedPoint>
+noisy (std::vector<OrientedPoint> points)
+{
+  std::mt19937 random (1);
+  std::normal_distribution<float> normal;
+  for (OrientedPoint& p : points)
+  {
+    p.position += 0.001f * normal (random) * p.normal;
+    p.normal = (p.normal + 0.1f * Eigen::Vector3f (normal (random), normal (random), normal (random))).normalized ();
+  }
+  return points;
+}
+
+Eigen::Isometry3d
+anyPose ()
+{
+  return Eigen::Translation3d (0.3, -0.2, 0.7) * Eigen::AngleAxisd (1.1, Eigen::Vector3d (1.0, 2.0, -1.0).normalized ());
+}
+
+/** \brief Of the directions around z, in a frame, how many of 36 have a point at some height? */
+int
+sectorsOf (const std::vector<OrientedPoint>& points, const Eigen::Isometry3d& T, double lowest, double highest)
+{
+  std::vector<bool> seen (36, false);
+  for (const OrientedPoint& point : points)
+  {
+    const Eigen::Vector3d p = T.inverse () * point.position.cast<double> ();
+    if (p.z () > lowest && p.z () < highest)
+      seen[static_cast<std::size_t> (std::min (35.0, (std::atan2 (p.y (), p.x ()) / (2.0 * M_PI) + 0.5) * 36.0))] = true;
+  }
+  return static_cast<int> (std::count (seen.begin (), seen.end (), true));
+}
+
+} // namespace
+
+class RoundInAnyPose : public testing::TestWithParam<bool>
+{};
+
+TEST_P (RoundInAnyPose, BottleIsRoundAllAround)
+{
+  std::vector<OrientedPoint> points = moved (observedRound (bottle, 0.0, 0.2, {0.0, -1.0, 0.3}), anyPose ());
+  if (GetParam ())
+    points = noisy (points);
+  const double tolerance = GetParam () ? 0.006 : 0.001;
+  const SymmetricExtent extent (points);
+  EXPECT_TRUE (extent.copiesAreAlike ());
+  const std::vector<OrientedPoint> hidden = extent.hiddenSide (points, reach);
+  EXPECT_EQ (sectorsOf (hidden, anyPose (), 0.01, 0.05), 36);
+  EXPECT_EQ (sectorsOf (hidden, anyPose (), 0.17, 0.19), 36);
+  std::size_t wrong = 0;
+  for (const OrientedPoint& point : hidden)
+  {
+    const Eigen::Vector3d p = anyPose ().inverse () * point.position.cast<double> ();
+    if (p.z () < 0.005 || p.z () > 0.195) // ends
+      continue;
+    wrong += std::abs (p.head<2> ().norm () - bottle (p.z ()).first) > tolerance;
+  }
+  EXPECT_LT (wrong, hidden.size () / 50);
+  EXPECT_LE (extent.beyond (anyPose () * Eigen::Vector3d (0.0, 0.037, 0.1)), tolerance);
+  EXPECT_NEAR (extent.beyond (anyPose () * Eigen::Vector3d (0.0, 0.07, 0.1)), 0.03, 0.004 + tolerance);
+}
+
+INSTANTIATE_TEST_SUITE_P (Measured, RoundInAnyPose, testing::Bool (), [] (const auto& info) { return info.param ? "Noisy" : "Exact"; });
+
+TEST (RoundExtent, HandlesAreNotTurned)
+{
+  std::vector<OrientedPoint> points = observedRound (can, 0.0, 0.09, {0.0, -1.0, 0.3});
+  for (double angle = -1.2; angle < 1.2; angle += 0.05) // its outer edge, in a plane with the axis
+    for (double y = -0.004; y < 0.004; y += 0.001)
+    {
+      const Eigen::Vector3d out (std::cos (angle), 0.0, std::sin (angle));
+      points.push_back (pointAt (Eigen::Vector3d (0.045, y, 0.045) + 0.03 * out, out));
+    }
+  const SymmetricExtent extent (points);
+  ASSERT_TRUE (extent.copiesAreAlike ());
+  const std::vector<OrientedPoint> hidden = extent.hiddenSide (points, reach);
+  ASSERT_FALSE (hidden.empty ());
+  for (const OrientedPoint& p : hidden)
+    EXPECT_LT (p.position.head<2> ().norm (), 0.045f);
+  EXPECT_LE (extent.beyond ({0.07, 0.0, 0.045}), 0.001); // the handle itself
+  EXPECT_GT (extent.beyond ({-0.07, 0.0, 0.045}), 0.02);
+}
+
+TEST (RoundExtent, CansEndInAFlatFaceUnlessAPlaneIsKnown)
+{
+  const std::vector<OrientedPoint> points = observedRound (can, 0.0, 0.1, {0.0, -1.0, 0.0});
+  const auto facesDown = [] (const OrientedPoint& p) { return p.normal.z () < -0.9f; };
+  const std::vector<OrientedPoint> alone = SymmetricExtent (points).hiddenSide (points, reach);
+  EXPECT_GT (std::count_if (alone.begin (), alone.end (), facesDown), 100);
+  for (const OrientedPoint& p : alone)
+    EXPECT_TRUE (!facesDown (p) || std::abs (p.position.z ()) < 0.003f);
+  const std::vector<OrientedPoint> standing = SymmetricExtent (points, ground).hiddenSide (points, reach);
+  EXPECT_EQ (std::count_if (standing.begin (), standing.end (), facesDown), 0);
+}
+
+TEST (RoundExtent, BallsAreRoundBelowToo)
+{
+  constexpr double radius = 0.06;
+  const Profile ball = [&] (double height) {
+    const double r = std::sqrt (std::max (1e-9, radius * radius - height * height));
+    return std::pair (r, -height / r);
+  };
+  const std::vector<OrientedPoint> points = observedRound (ball, -radius + 0.001, radius - 0.001, {0.0, -0.3, 0.95});
+  const SymmetricExtent extent (points);
+  EXPECT_TRUE (extent.copiesAreAlike ());
+  EXPECT_LT (extent.center ().norm (), 0.002);
+  const std::vector<OrientedPoint> hidden = extent.hiddenSide (points, reach);
+  EXPECT_TRUE (std::any_of (hidden.begin (), hidden.end (), [&] (const OrientedPoint& p) { return p.position.z () < -0.95 * radius; }));
+  for (const OrientedPoint& p : hidden)
+    EXPECT_NEAR (p.position.norm (), radius, 0.002);
+  EXPECT_NEAR (extent.beyond ({0.0, 0.0, -radius - 0.03}), 0.03, 0.003);
+}
+
+TEST (RoundExtent, BowlsAndDomesAreNoBalls)
+{
+  constexpr double radius = 0.06;
+  const auto half = [&] (double middle) {
+    return [middle] (double height) {
+      const double h = height - middle;
+      const double r = std::sqrt (std::max (1e-9, radius * radius - h * h));
+      return std::pair (r, -h / r);
+    };
+  };
+  const Eigen::Vector3d view (0.0, -0.8, 0.6);
+  // Cut at their middle: open upwards, seen from outside and inside; and standing on the cut.
+  std::vector<OrientedPoint> bowl = observedRound (half (radius), 0.002, radius, view);
+  const std::vector<OrientedPoint> inside = observedRound (half (radius), 0.002, radius, view, -1.0);
+  bowl.insert (bowl.end (), inside.begin (), inside.end ());
+  const std::vector<OrientedPoint> dome = observedRound (half (0.0), 0.0, radius - 0.001, view);
+  for (const OrientedPoint& p : SymmetricExtent (bowl, ground).hiddenSide (bowl, reach))
+    EXPECT_LT (p.position.z (), radius + 0.002);
+  for (const OrientedPoint& p : SymmetricExtent (dome, ground).hiddenSide (dome, reach))
+    EXPECT_GT (p.position.z (), -0.002);
+}
+
+TEST (RoundExtent, OnlyCuboidsLookAlikeWhenInverted)
+{
+  const Eigen::Vector3d half_size (0.08, 0.05, 0.06);
+  const std::vector<OrientedPoint> box = observedBox (half_size, {-1.0, -1.0, 1.0});
+  const SymmetricExtent extent (moved (box, anyPose ()));
+  EXPECT_TRUE (extent.copiesAreAlike ());
+  const std::vector<OrientedPoint> hidden = extent.hiddenSide (moved (box, anyPose ()), reach);
+  EXPECT_GT (hidden.size (), box.size () / 2);
+  for (const OrientedPoint& p : hidden)
+    EXPECT_NEAR (((anyPose ().inverse () * p.position.cast<double> ()).cwiseAbs () - half_size).maxCoeff (), 0.0, 0.005);
+
+  // A wedge, like the front of a car: two sides, and a slope between them.
+  std::vector<OrientedPoint> wedge;
+  for (double x = -0.1; x < 0.1; x += 0.002)
+    for (double y = -0.05; y < 0.05; y += 0.002)
+      wedge.push_back (pointAt ({x, y, 0.05 - 0.5 * x}, {0.5, 0.0, 1.0}));
+  for (double x = -0.1; x < 0.1; x += 0.002)
+    for (double z = 0.0; z < 0.05 - 0.5 * x; z += 0.002)
+      wedge.push_back (pointAt ({x, -0.05, z}, {0.0, -1.0, 0.0}));
+  for (double y = -0.05; y < 0.05; y += 0.002)
+    for (double z = 0.0; z < 0.1; z += 0.002)
+      wedge.push_back (pointAt ({-0.1, y, z}, {-1.0, 0.0, 0.0}));
+  EXPECT_FALSE (SymmetricExtent (wedge).copiesAreAlike ());
+  EXPECT_TRUE (SymmetricExtent (wedge, ground).copiesAreAlike ());
+}
+
+TEST (RoundExtent, WhatTellsNothingIsNotRound)
+{
+  const auto finite = [] (const std::vector<OrientedPoint>& points) {
+    return std::isfinite (SymmetricExtent (points).beyond ({0.1, 0.2, 0.3})) &&
+           std::isfinite (SymmetricExtent (points, ground).beyond ({0.1, 0.2, 0.3}));
+  };
+  const std::vector<OrientedPoint> one_place (100, pointAt ({0.1, 0.1, 0.1}, {0.0, 0.0, 1.0}));
+  EXPECT_TRUE (finite (one_place));
+  EXPECT_FALSE (SymmetricExtent (one_place).copiesAreAlike ());
+  const std::vector<OrientedPoint> plate = observedBox ({0.1, 0.1, 0.001}, {0.0, 0.0, 1.0});
+  EXPECT_TRUE (finite (plate));
+  EXPECT_FALSE (SymmetricExtent (plate).copiesAreAlike ());
+  const std::vector<OrientedPoint> strip = observedRound (can, 0.0, 0.1, {0.0, -0.122, 0.0}); // 70 degrees of a can
+  EXPECT_TRUE (finite (strip));
+  EXPECT_FALSE (SymmetricExtent (strip).copiesAreAlike ());
+}
