@@ -21,7 +21,7 @@ class SurfaceOfRevolution
 public:
   /** \brief Of the points of one body. \param[in] plane what it stands on, (n, d) with n.x + d = 0, unit n towards it: an axis along n is
    * preferred to others that are about as good
-   * \return nothing if less than three quarters of the points belong to such a surface, or less than 80 degrees were seen of it */
+   * \return nothing if less than three quarters of the points belong to such a surface, or less than 70 degrees were seen of it */
   static std::optional<SurfaceOfRevolution>
   fit (const std::vector<OrientedPoint>& points, const std::optional<Eigen::Vector4d>& plane);
 

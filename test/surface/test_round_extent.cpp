@@ -256,7 +256,7 @@ TEST (RoundExtent, WhatTellsNothingIsNotRound)
   const std::vector<OrientedPoint> plate = observedBox ({0.1, 0.1, 0.001}, {0.0, 0.0, 1.0});
   EXPECT_TRUE (finite (plate));
   EXPECT_FALSE (SymmetricExtent (plate).copiesAreAlike ());
-  const std::vector<OrientedPoint> strip = observedRound (can, 0.0, 0.1, {0.0, -0.122, 0.0}); // 70 degrees of a can
+  const std::vector<OrientedPoint> strip = observedRound (can, 0.0, 0.1, {0.0, -0.1155, 0.0}); // 60 degrees of a can
   EXPECT_TRUE (finite (strip));
   EXPECT_FALSE (SymmetricExtent (strip).copiesAreAlike ());
 }
