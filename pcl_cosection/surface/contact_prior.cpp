@@ -20,6 +20,8 @@ namespace
 {
 
 constexpr int least_part_cells = 4; // of contact; less is a stray
+constexpr double lowest_free_vox = 3.0; // over the plane: what is seen free lower down cannot be told from it
+constexpr double highest_free_vox = 7.0;
 constexpr int closing_cells = 3; // gaps between points up to twice this wide are closed
 
 double
@@ -120,6 +122,24 @@ ContactPrior::patch (const VoxelGrid& grid, const Eigen::Vector4d& plane, const 
   for (const Eigen::Vector2d& p : contacts)
     touched.set (p);
   touched.close (closing_cells);
+  // How much of the space over a polygon, close to the plane, and below what was seen, or its copy.
+  const auto seenFree = [&] (const std::vector<Eigen::Vector2d>& polygon) {
+    std::size_t all = 0, free = 0;
+    for (int k = 0; k < grid.dims.z (); ++k)
+      for (int j = 0; j < grid.dims.y (); ++j)
+        for (int i = 0; i < grid.dims.x (); ++i)
+        {
+          const Eigen::Vector3d p = grid.center (i, j, k);
+          if (height (p) < lowest_free_vox * h || height (p) > highest_free_vox * h)
+            continue;
+          const Eigen::Vector2d q = flat (p);
+          if (!covered.at (q) || !inside (polygon, q))
+            continue;
+          ++all;
+          free += static_cast<std::size_t> (free_space[grid.index (i, j, k)] != 0);
+        }
+    return all == 0 ? 0.0 : static_cast<double> (free) / static_cast<double> (all);
+  };
   std::vector<std::vector<Eigen::Vector2d>> undersides;
   for (const std::vector<Eigen::Vector2d>& part : touched.parts ())
   {
@@ -133,16 +153,17 @@ ContactPrior::patch (const VoxelGrid& grid, const Eigen::Vector4d& plane, const 
         gap = std::min (gap, (a - turned (b)).norm ());
       }
     const bool completed = gap <= gap_per_length * length;
-    std::vector<Eigen::Vector2d> corners; // a voxel around the middles, which may lie on one line
+    std::vector<Eigen::Vector2d> own, both; // corners, a voxel around the middles, which may lie on one line
     for (const Eigen::Vector2d& p : part)
       for (const Eigen::Vector2d& corner : {Eigen::Vector2d (-h, -h), Eigen::Vector2d (h, -h),
                                             Eigen::Vector2d (-h, h), Eigen::Vector2d (h, h)})
       {
-        corners.emplace_back (p + corner);
-        if (completed)
-          corners.emplace_back (turned (p) + corner);
+        own.emplace_back (p + corner);
+        both.emplace_back (p + corner);
+        both.emplace_back (turned (p) + corner);
       }
-    undersides.push_back (convexHull (std::move (corners)));
+    both = convexHull (std::move (both));
+    undersides.push_back (completed && seenFree (both) < max_free_share ? both : convexHull (std::move (own)));
   }
 
   std::vector<std::uint8_t> patch (grid.size (), 0);

@@ -37,11 +37,16 @@ append (std::vector<OrientedPoint>& points, std::vector<OrientedPoint> more, con
 
 /** \brief Whether the voxel next to the floor at (x, y) is in the patch. */
 bool
-rests (const std::vector<OrientedPoint>& points, double x, double y)
+rests (const std::vector<OrientedPoint>& points, double x, double y, const Eigen::AlignedBox3d& seen_free = {})
 {
   const VoxelGrid grid = gridAroundTheFloor ();
-  const std::vector<std::uint8_t> patch = ContactPrior ().patch (grid, floor_plane, points, Eigen::Vector3d::Zero (),
-                                                                 std::vector<std::uint8_t> (grid.size (), 0));
+  std::vector<std::uint8_t> free_space (grid.size (), 0);
+  for (int k = 0; k < grid.dims.z (); ++k)
+    for (int j = 0; j < grid.dims.y (); ++j)
+      for (int i = 0; i < grid.dims.x (); ++i)
+        free_space[grid.index (i, j, k)] = seen_free.contains (grid.center (i, j, k));
+  const std::vector<std::uint8_t> patch =
+      ContactPrior ().patch (grid, floor_plane, points, Eigen::Vector3d::Zero (), free_space);
   const Eigen::Vector3i at = *grid.nearest ({x, y, 0.0});
   return !patch.empty () && patch[grid.index (at.x (), at.y (), at.z ())] != 0;
 }
@@ -69,6 +74,20 @@ TEST (ContactPrior, VehicleRestsOnItsWheels)
   EXPECT_FALSE (rests (points, 0.0, -0.06));
   EXPECT_FALSE (rests (points, 0.0, 0.0));
   EXPECT_FALSE (rests (points, 0.08, 0.0));
+}
+
+TEST (ContactPrior, CartRestsOnItsRollersIfLightIsSeenBetweenThem)
+{
+  std::vector<OrientedPoint> points;
+  append (points, observedBox ({0.12, 0.06, 0.03}, {-1.0, -1.0, 1.0}), {0.0, 0.0, 0.07}); // its body
+  append (points, observedBox ({0.02, 0.06, 0.02}, {-1.0, -1.0, 1.0}), {-0.05, 0.0, 0.02});
+  EXPECT_TRUE (rests (points, -0.06, -0.05));
+  EXPECT_TRUE (rests (points, 0.0, 0.0)); // as if it were a box
+  // From the near side, down to where the floor hides what is below.
+  const Eigen::AlignedBox3d light (Eigen::Vector3d (-0.025, -0.07, 0.01), Eigen::Vector3d (0.025, 0.0, 0.04));
+  EXPECT_TRUE (rests (points, -0.06, -0.05, light));
+  EXPECT_FALSE (rests (points, 0.0, 0.0, light));
+  EXPECT_FALSE (rests (points, 0.0, 0.03, light));
 }
 
 TEST (ContactPrior, LevelSurfaceCloseToThePlaneIsNoContact)

@@ -22,8 +22,8 @@ namespace cosection
  * stands on it, and smoothness alone lifts hidden undersides off. Contact is where observed surface that is not level comes down
  * to the plane; the level inside of a bowl does not. Each connected part K of it is completed by its copy K' that is turned by half a
  * revolution about the object's axis (SymmetricExtent), if the two are no farther apart than K is long: the front and the back edge
- * of a box, but not two wheels of a car. Below the convex hull of K and K' (of K alone otherwise), where there is
- * observed surface or its copy above, the object is taken to lie on the plane.
+ * of a box, but not two wheels of a car; nor if a tenth of the space close over the plane between them was seen free. Below the
+ * convex hull of K and K' (of K alone otherwise), where there is observed surface or its copy above, the object is taken to lie on the plane.
  * The result is a set of voxels next to the plane at which u = -height is to be preferred, with a weight far below that of
  * data. */
 struct PCL_COSECTION_EXPORT ContactPrior
@@ -31,6 +31,7 @@ struct PCL_COSECTION_EXPORT ContactPrior
   double contact_height_vox = 2.5; ///< points this near to the plane are contact
   double max_slope = 0.7;          ///< largest |n.plane| of the normal n of a point of contact
   double gap_per_length = 1.0;     ///< largest gap between a part and its copy, per length of the part
+  double max_free_share = 0.1;     ///< of the space 3 to 7 voxels over a part, its copy and what is between, may be seen free
   int min_contacts = 10;           ///< points; and cells of a voxel, of each part
   double reach_vox = 2.0;          ///< voxels up to this height above or below the plane are affected
 
