@@ -3,6 +3,7 @@
 
 // What SymmetricExtent makes of things that are round about an axis, and which others it takes to look alike from behind.
 
+#include "moved_points.h"
 #include "observed_box.h"
 
 #include <pcl/cosection/surface/symmetric_extent.h>
@@ -67,17 +68,6 @@ observedRound (const Profile& profile, double bottom, double top, const Eigen::V
       if (normal.dot (view) > 0.1)
         points.push_back (pointAt (radius * out + height * Eigen::Vector3d::UnitZ (), normal));
     }
-  }
-  return points;
-}
-
-std::vector<OrientedPoint>
-moved (std::vector<OrientedPoint> points, const Eigen::Isometry3d& T)
-{
-  for (OrientedPoint& p : points)
-  {
-    p.position = (T * p.position.cast<double> ()).cast<float> ();
-    p.normal = (T.linear () * p.normal.cast<double> ()).cast<float> ();
   }
   return points;
 }

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_cosection authors
+#include "moved_points.h"
+
 #include <pcl/cosection/surface/support_plane.h>
 
 #include <gtest/gtest.h>
@@ -10,6 +12,7 @@
 #include <random>
 
 using namespace pcl::cosection;
+using namespace pcl::cosection::test;
 
 namespace
 {
@@ -52,17 +55,6 @@ boxOn (const Eigen::Vector3d& base)
   for (const OrientedPoint& p :
        rectangle (base + Eigen::Vector3d (0.0, 0.0, 0.1), {0.05, 0.0, 0.0}, {0.0, 0.05, 0.0}, 800))
     points.push_back (p);
-  return points;
-}
-
-std::vector<OrientedPoint>
-moved (std::vector<OrientedPoint> points, const Eigen::Isometry3d& T)
-{
-  for (OrientedPoint& p : points)
-  {
-    p.position = (T * p.position.cast<double> ()).cast<float> ();
-    p.normal = (T.linear () * p.normal.cast<double> ()).cast<float> ();
-  }
   return points;
 }
 

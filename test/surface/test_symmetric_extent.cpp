@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_cosection authors
+#include "moved_points.h"
 #include "observed_box.h"
 
 #include <pcl/cosection/surface/symmetric_extent.h>
@@ -147,19 +148,14 @@ TEST (SymmetricExtent, MovesWithThePoints)
 {
   const Eigen::Isometry3d T =
       Eigen::Translation3d (0.3, -0.2, 0.7) * Eigen::AngleAxisd (0.8, Eigen::Vector3d (1.0, 2.0, -1.0).normalized ());
-  std::vector<OrientedPoint> points = observedBox (half_size, corner_view);
+  const std::vector<OrientedPoint> points = observedBox (half_size, corner_view);
   const SymmetricExtent still (points, under_box);
-  for (OrientedPoint& p : points)
-  {
-    p.position = (T * p.position.cast<double> ()).cast<float> ();
-    p.normal = (T.linear () * p.normal.cast<double> ()).cast<float> ();
-  }
   Eigen::Vector4d plane;
   plane << T.linear () * under_box.head<3> (), 0.0;
   plane[3] = under_box[3] - plane.head<3> ().dot (T.translation ());
-  const SymmetricExtent moved (points, plane);
+  const SymmetricExtent elsewhere (moved (points, T), plane);
   for (const Eigen::Vector3d& x : {Eigen::Vector3d (0.0, 0.08, 0.0), Eigen::Vector3d (0.11, 0.0, 0.0), Eigen::Vector3d (0.0, 0.0, 0.1)})
-    EXPECT_NEAR (moved.beyond (T * x), still.beyond (x), 0.004);
+    EXPECT_NEAR (elsewhere.beyond (T * x), still.beyond (x), 0.004);
 }
 
 TEST (SymmetricExtent, ARowIsItsPoints)
