@@ -213,7 +213,7 @@ axisOf (const Ball& ball, const std::vector<NormalLine>& lines)
   Eigen::Vector3d seen = Eigen::Vector3d::Zero ();
   for (const NormalLine& line : lines)
     seen += line.normal;
-  return {seen.norm () > 0.0 ? Eigen::Vector3d (seen.unitOrthogonal ().normalized ()) : Eigen::Vector3d::UnitX (), ball.center};
+  return {seen.norm () > 0.0 ? Eigen::Vector3d (seen.unitOrthogonal ()) : Eigen::Vector3d::UnitX (), ball.center};
 }
 
 } // namespace cosection

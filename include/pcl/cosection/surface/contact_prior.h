@@ -31,7 +31,7 @@ struct PCL_COSECTION_EXPORT ContactPrior
   double contact_height_vox = 2.5; ///< points this near to the plane are contact
   double max_slope = 0.7;          ///< largest |n.plane| of the normal n of a point of contact
   double gap_per_length = 1.0;     ///< largest gap between a part and its copy, per length of the part
-  double max_free_share = 0.1;     ///< of the space 3 to 7 voxels over a part, its copy and what is between, may be seen free
+  double max_free_share = 0.1;     ///< of the space 3 to 7 voxels over the plane between a part and its copy, seen free
   int min_contacts = 10;           ///< points; and cells of a voxel, of each part
   double reach_vox = 2.0;          ///< voxels up to this height above or below the plane are affected
 
