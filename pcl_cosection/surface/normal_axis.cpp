@@ -4,7 +4,6 @@
 
 #include "principal_axes.h"
 
-#include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 
@@ -29,9 +28,6 @@ constexpr double sideways = 0.4;          // sine between the axis and a normal
 constexpr double least_sideways = 0.2;    // of all normals
 constexpr double meeting_share = 0.75;    // of those that face sideways
 constexpr double upright_share = 0.1;     // less than that of the best axis: an upright one is as good
-constexpr double ball_share = 0.9;        // of the points
-constexpr double ball_deviation = 0.05;   // of the radius, root mean square
-constexpr double max_ball_radius = 1.0;   // of the size: of a larger ball too little was seen
 
 /** \brief Between axis and line, times the sine of the angle between them. */
 double
@@ -174,46 +170,6 @@ findAxis (const std::vector<NormalLine>& lines, const std::optional<Eigen::Vecto
     }
   }
   return best_share > meeting_share ? std::optional<Axis> (best) : std::nullopt;
-}
-
-std::optional<Ball>
-findBall (const std::vector<NormalLine>& lines)
-{
-  Eigen::Matrix3d left = Eigen::Matrix3d::Zero ();
-  Eigen::Vector3d right = Eigen::Vector3d::Zero ();
-  for (const NormalLine& line : lines)
-  {
-    const Eigen::Matrix3d across = Eigen::Matrix3d::Identity () - line.normal * line.normal.transpose ();
-    left += across;
-    right += across * line.position;
-  }
-  Ball ball{left.ldlt ().solve (right), 0.0};
-  for (const NormalLine& line : lines)
-    ball.radius += (line.position - ball.center).norm () / static_cast<double> (lines.size ());
-  if (!(ball.radius < max_ball_radius))
-    return std::nullopt;
-  std::size_t good = 0;
-  double deviation = 0.0;
-  for (const NormalLine& line : lines)
-  {
-    const Eigen::Vector3d from_center = line.position - ball.center;
-    good += from_center.dot (line.normal) > 0.0 &&
-            from_center.cross (line.normal).norm () < meeting_sine * ball.radius + meeting_reach;
-    deviation += std::pow (from_center.norm () - ball.radius, 2) / static_cast<double> (lines.size ());
-  }
-  if (static_cast<double> (good) < ball_share * static_cast<double> (lines.size ()) ||
-      std::sqrt (deviation) > ball_deviation * ball.radius)
-    return std::nullopt;
-  return ball;
-}
-
-Axis
-axisOf (const Ball& ball, const std::vector<NormalLine>& lines)
-{
-  Eigen::Vector3d seen = Eigen::Vector3d::Zero ();
-  for (const NormalLine& line : lines)
-    seen += line.normal;
-  return {seen.norm () > 0.0 ? Eigen::Vector3d (seen.unitOrthogonal ()) : Eigen::Vector3d::UnitX (), ball.center};
 }
 
 } // namespace cosection

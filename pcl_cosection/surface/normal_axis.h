@@ -40,12 +40,6 @@ struct Axis
   Eigen::Vector3d point;
 };
 
-struct Ball
-{
-  Eigen::Vector3d center;
-  double radius;
-};
-
 /** \brief Does a normal meet an axis, but for noise? */
 bool
 meets (const Axis& axis, const NormalLine& line);
@@ -63,15 +57,6 @@ facesSideways (const Eigen::Vector3d& direction, const Eigen::Vector3d& normal);
  * \return nothing if less than three quarters of the normals that face sideways meet any, or if few face sideways */
 std::optional<Axis>
 findAxis (const std::vector<NormalLine>& lines, const std::optional<Eigen::Vector3d>& up);
-
-/** \brief The ball whose surface the points are on.
- * \return nothing if they are not on a ball, inside it, or on too small a part of one */
-std::optional<Ball>
-findBall (const std::vector<NormalLine>& lines);
-
-/** \brief Of all axes of a ball one about which its seen side turns to the hidden one. */
-Axis
-axisOf (const Ball& ball, const std::vector<NormalLine>& lines);
 
 } // namespace cosection
 } // namespace pcl

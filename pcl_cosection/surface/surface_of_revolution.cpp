@@ -2,6 +2,7 @@
 // Copyright (c) 2026, the pcl_cosection authors
 #include "surface_of_revolution.h"
 
+#include "ball_fit.h"
 #include "normal_axis.h"
 
 #include <Eigen/Geometry>

@@ -186,6 +186,51 @@ TEST (RoundExtent, BallsAreRoundBelowToo)
   EXPECT_NEAR (extent.beyond ({0.0, 0.0, -radius - 0.03}), 0.03, 0.003);
 }
 
+TEST (RoundExtent, NoiseHidesNoBall)
+{
+  constexpr double radius = 0.04; // of some 600 points, as a camera sees it from 1.4 m
+  std::mt19937 random (1);
+  std::normal_distribution<float> normal;
+  std::vector<OrientedPoint> points;
+  const Eigen::Vector3d view = Eigen::Vector3d (1.0, 0.0, 0.5).normalized ();
+  while (points.size () < 600)
+  {
+    const Eigen::Vector3d n = Eigen::Vector3d (normal (random), normal (random), normal (random)).normalized ();
+    if (n.dot (view) < 0.25)
+      continue;
+    OrientedPoint point = pointAt (radius * n + 0.003 * normal (random) * view, n);
+    point.normal = (point.normal + 0.12f * Eigen::Vector3f (normal (random), normal (random), normal (random))).normalized ();
+    points.push_back (point);
+  }
+  for (const SymmetricExtent& extent : {SymmetricExtent (points), SymmetricExtent (points, {0.0, 0.0, 1.0, radius})})
+  {
+    ASSERT_TRUE (extent.copiesAreAlike ());
+    EXPECT_LT (extent.center ().norm (), 0.003);
+    EXPECT_NEAR (extent.beyond (-(radius + 0.03) * view), 0.03, 0.006);
+    const std::vector<OrientedPoint> hidden = extent.hiddenSide (points, 0.01);
+    const auto behind = [&] (const OrientedPoint& p) { return p.position.cast<double> ().dot (view) < -0.8 * radius; };
+    EXPECT_GT (std::count_if (hidden.begin (), hidden.end (), behind), 20);
+  }
+}
+
+TEST (RoundExtent, EggsAreNoBalls)
+{
+  constexpr double radius = 0.05, half_length = 0.065;
+  const Profile egg = [&] (double height) {
+    const double r = radius * std::sqrt (std::max (1e-9, 1.0 - std::pow (height / half_length, 2)));
+    return std::pair (r, -height * std::pow (radius / half_length, 2) / r);
+  };
+  const std::vector<OrientedPoint> points =
+      observedRound (egg, -half_length + 0.001, half_length - 0.001, Eigen::Vector3d (0.3, -0.9, 0.3).normalized ());
+  const SymmetricExtent extent (points);
+  ASSERT_TRUE (extent.copiesAreAlike ());
+  for (const OrientedPoint& p : extent.hiddenSide (points, reach))
+  {
+    const Eigen::Array3d q = p.position.cast<double> ().array () / Eigen::Array3d (radius, radius, half_length);
+    EXPECT_NEAR (q.matrix ().norm (), 1.0, 0.03);
+  }
+}
+
 TEST (RoundExtent, BowlsAndDomesAreNoBalls)
 {
   constexpr double radius = 0.06;
