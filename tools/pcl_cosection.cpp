@@ -34,6 +34,8 @@ toScene (const Settings& settings, SceneInput input)
   CoSection scene (settings.method);
   for (DepthView& view : input.views)
     scene.addView (std::move (view));
+  for (DepthView& view : input.free_space)
+    scene.addView (std::move (view), {}, ViewUse::FreeSpace);
   if (!input.background.empty ())
     scene.setBackground (std::move (input.background));
   for (auto& [label, object] : input.objects)

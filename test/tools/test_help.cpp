@@ -199,7 +199,8 @@ TEST_F (Help, TopicsAreGivenByTheProgram)
 TEST_F (Help, ExamplesWork)
 {
   const pcl::cosection::test::TemporaryFolder folder;
-  writeTableScene (folder.file ("table.pcd"));
+  for (const char* name : {"table.pcd", "other.pcd"})
+    writeTableScene (folder.file (name));
   for (const char* name : {"front.pcd", "left.pcd", "cropped.pcd"})
     writeSphere (folder.file (name), 3000);
   pcl::PointCloud<pcl::PointNormal> cloud;

@@ -65,6 +65,7 @@ toSettings (const Given& given)
   settings.save_sdf = given.save_sdf;
   if (given.max_faces)
     settings.max_faces = static_cast<std::size_t> (*given.max_faces);
+  settings.free_space = given.free_space;
   settings.obstacles = given.obstacles;
   settings.object_trajectories = parseObjectFiles ("--object-trajectory", given.object_trajectories);
   settings.verbosity = given.quiet ? Verbosity::Quiet : given.verbose ? Verbosity::Verbose : Verbosity::Normal;

@@ -29,6 +29,7 @@ struct Settings
   std::string preset;      ///< empty: our own defaults
   std::string constraints; ///< none, hull, intersection or all
   std::vector<Eigen::Vector4d> planes;
+  std::vector<std::string> free_space;                   ///< views of which nothing else is used
   std::vector<std::string> obstacles;                    ///< mesh files
   std::map<int, std::string> object_trajectories;        ///< files, by label
   pcl::cosection::PcdViewOptions reading;

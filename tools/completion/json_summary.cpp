@@ -25,6 +25,7 @@ parameters (const Settings& settings)
   result["planes"] = Json::array ();
   for (const Eigen::Vector4d& p : settings.planes)
     result["planes"].push_back ({p[0], p[1], p[2], p[3]});
+  result["free_space"] = settings.free_space;
   result["obstacles"] = settings.obstacles;
   result["object_trajectories"] = Json::object ();
   for (const auto& [label, file] : settings.object_trajectories)

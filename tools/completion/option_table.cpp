@@ -30,6 +30,12 @@ declareInput (CLI::App& app, Given& given)
       ->option_text ("ID=FILE")
       ->allow_extra_args (false)
       ->group (group);
+  app.add_option ("--free-space", given.free_space,
+                  "View that tells which space is free and nothing else: its labels and points are not used; "
+                  "numbered after the INPUTs; repeatable")
+      ->option_text ("VIEW.pcd")
+      ->allow_extra_args (false)
+      ->group (group);
 }
 
 void

@@ -102,6 +102,7 @@ OutputTarget::refuseToOverwrite (const Settings& settings) const
             std::any_of (own.begin (), own.end (), same));
   };
   std::vector<std::string> inputs = settings.inputs;
+  inputs.insert (inputs.end (), settings.free_space.begin (), settings.free_space.end ());
   inputs.insert (inputs.end (), settings.obstacles.begin (), settings.obstacles.end ());
   for (const auto& [label, file] : settings.object_trajectories)
     inputs.push_back (file);

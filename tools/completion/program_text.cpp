@@ -22,6 +22,8 @@ completionText ()
       "every labelled object of one organised view, and the table, into the folder meshes"},
      {"pcl_cosection front.pcd left.pcd cup.ply",
       "one object seen in two views (VIEWPOINT in each header), as one closed mesh"},
+     {"pcl_cosection --free-space other.pcd table.pcd carved",
+      "one labelled view, and what another one, without labels, saw free"},
      {"pcl_cosection --plane 0,0,1,0 --voxel-size 0.003 cropped.pcd cup.stl",
       "what stands on a known plane, z = 0 in the world, with voxels of 3 mm"},
      {"pcl_cosection --obstacle shelf.off --max-faces 2000 cropped.pcd cup.obj",

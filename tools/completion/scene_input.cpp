@@ -138,13 +138,18 @@ readScene (const Settings& settings, const ProgressCallback& progress)
   SceneInput scene;
   for (const std::string& file : settings.obstacles)
     scene.obstacles.push_back (readObstacle (file, scene.warnings));
-  const ObjectPoses poses (settings.object_trajectories, settings.inputs.size ());
+  const std::size_t files = settings.inputs.size () + settings.free_space.size ();
+  const ObjectPoses poses (settings.object_trajectories, files);
+  std::size_t begun = 0;
+  const auto report = [&] (const std::string& path) {
+    if (!progress ("reading " + std::filesystem::path (path).filename ().string (),
+                   static_cast<double> (begun++) / static_cast<double> (files)))
+      throw Cancelled ("interrupted");
+  };
   Labels labels;
   for (std::size_t i = 0; i < settings.inputs.size (); ++i)
   {
-    if (!progress ("reading " + std::filesystem::path (settings.inputs[i]).filename ().string (),
-                   static_cast<double> (i) / static_cast<double> (settings.inputs.size ())))
-      throw Cancelled ("interrupted");
+    report (settings.inputs[i]);
     LabelledView view = readPcdView (settings.inputs[i], withMemoryLeft (settings.reading, labels));
     std::move (view.warnings.begin (), view.warnings.end (), std::back_inserter (scene.warnings));
     if (isWholeImage (view))
@@ -155,6 +160,14 @@ readScene (const Settings& settings, const ProgressCallback& progress)
       scene.views.push_back (std::move (*view.view));
     else if (!poses.empty ()) // they come one per view
       scene.views.push_back (silentView ());
+  }
+  for (const std::string& path : settings.free_space)
+  {
+    report (path);
+    LabelledView view = readPcdView (path, withMemoryLeft (settings.reading, labels));
+    if (!view.view)
+      throw DegenerateInput (path + ": tells of no free space: it is no image of a pinhole camera, nor seen from its VIEWPOINT");
+    scene.free_space.push_back (std::move (*view.view));
   }
 
   std::vector<int> found;

@@ -17,7 +17,8 @@ struct SceneInput
 {
   std::map<int, pcl::cosection::ObjectInput> objects; ///< by label
   std::vector<pcl::cosection::OrientedPoint> background;
-  std::vector<pcl::cosection::DepthView> views;
+  std::vector<pcl::cosection::DepthView> views;      ///< of the INPUTs
+  std::vector<pcl::cosection::DepthView> free_space; ///< further views, of which nothing else is used
   std::vector<pcl::cosection::TriangleMesh> obstacles; ///< world frame
   std::vector<std::string> warnings;
 };
