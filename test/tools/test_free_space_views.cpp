@@ -176,4 +176,7 @@ TEST_F (FreeSpaceViews, BadOnesAreRefused)
   EXPECT_FALSE (fs::exists (folder_->file ("no")));
   EXPECT_EQ (run ({"--free-space", view (2), "--json", view (2), view (0), "no"}), 2) << errors_;
   EXPECT_EQ (run ({"--free-space"}), 2);
+  // In millimetres: said, as of an INPUT.
+  EXPECT_EQ (run ({"--scale", "1000", "--free-space", view (2), "--voxel-size", "10", view (0), "large"}), 0) << errors_;
+  EXPECT_NE (errors_.find (view (2) + ": extends over"), std::string::npos) << errors_;
 }

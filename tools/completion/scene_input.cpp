@@ -165,6 +165,7 @@ readScene (const Settings& settings, const ProgressCallback& progress)
   {
     report (path);
     LabelledView view = readPcdView (path, withMemoryLeft (settings.reading, labels));
+    std::move (view.warnings.begin (), view.warnings.end (), std::back_inserter (scene.warnings));
     if (!view.view)
       throw DegenerateInput (path + ": tells of no free space: it is no image of a pinhole camera, nor seen from its VIEWPOINT");
     scene.free_space.push_back (std::move (*view.view));
