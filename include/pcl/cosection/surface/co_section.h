@@ -72,7 +72,7 @@ struct PCL_COSECTION_EXPORT SceneResult
 enum class ViewUse
 {
   Full,      ///< free space, and where hidden parts of objects may be
-  FreeSpace, ///< free space only, which is all that a view between two similar ones adds
+  FreeSpace, ///< free space only, in whole voxels: of a view between two similar ones, or one that nobody has labelled
 };
 
 /** \brief What CoSection::update () computes. */
