@@ -331,13 +331,8 @@ CoSectionRun::finishObject (Object& object, UpdateOutput output)
   if (object.result->mesh.empty ())
     throw DegenerateInput ("its measurements determine no closed surface, or lie inside another body");
   transferAttributes (object.points (), object.volume ().grid (), object.result->mesh);
-  if (scene_.options.compute_hull)
-    object.result->hull = object.volume ().hullMesh ();
   if (scene_.options.compute_bounds)
-  {
     object.result->inner_bound = object.volume ().innerMesh (object.points ());
-    object.result->outer_bound = object.volume ().outerMesh ();
-  }
 }
 
 SceneResult
@@ -362,6 +357,8 @@ CoSectionRun::run (UpdateOutput output)
     for (Object& object : objects_)
       if (object.alive ())
         guarded (object, [&] { finishObject (object, output); });
+    if (output == UpdateOutput::Meshes && (scene_.options.compute_hull || scene_.options.compute_bounds))
+      findHulls ();
     for (Object& object : objects_)
       if (object.alive () && scene_.options.use_intersection)
         guarded (object, [&] { object.result->penetration_m = penetration (object); });

@@ -203,6 +203,16 @@ private:
   penetration (const Object& object) const;
   void
   finishObject (Object& object, UpdateOutput output);
+  /** \brief The planes that bound an object, world frame. */
+  std::vector<Eigen::Vector4d>
+  planesOf (const Object& object) const;
+  /** \brief A grid for an object's hull and mesh, on the lattice of its volume; that of its volume where more memory is not allowed.
+   * \param[in] unseen box of the hull */
+  VoxelGrid
+  hullGrid (const Object& object, const Eigen::AlignedBox3d& unseen, std::size_t used_bytes) const;
+  /** \brief Hulls and outer bounds of all objects that have a mesh. */
+  void
+  findHulls ();
 
   template <typename Function> void
   timed (const char* stage, Function&& f);

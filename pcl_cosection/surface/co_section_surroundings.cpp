@@ -55,6 +55,24 @@ CoSectionRun::warnIfCut (const Object& object, const Eigen::Vector4d& plane)
                                 " % of its points lie behind a plane that was given");
 }
 
+std::vector<Eigen::Vector4d>
+CoSectionRun::planesOf (const Object& object) const
+{
+  std::vector<Eigen::Vector4d> planes;
+  for (const Eigen::Vector4d& plane : scene_.planes)
+    planes.push_back (towards (object, plane));
+  if (!scene_.options.use_planes || scene_.background.empty ())
+    return planes;
+  std::vector<OrientedPoint> points = object.points ();
+  for (OrientedPoint& p : points)
+    p.position = (firstPose (object) * p.position.cast<double> ()).cast<float> ();
+  SupportPlaneOptions options;
+  options.inlier_distance_m = std::max (min_plane_inlier_m, plane_inlier_voxels * object.voxel_size_m);
+  for (const Eigen::Vector4d& plane : findSupportPlanes (scene_.background, points, options))
+    planes.push_back (plane);
+  return planes;
+}
+
 void
 CoSectionRun::findPlanes ()
 {
@@ -64,22 +82,9 @@ CoSectionRun::findPlanes ()
   {
     if (!object.alive ())
       continue;
-    for (const Eigen::Vector4d& plane : scene_.planes)
-    {
-      object.planes.push_back (towards (object, plane));
-      warnIfCut (object, object.planes.back ());
-    }
-    if (scene_.options.use_planes && !scene_.background.empty ())
-    {
-      std::vector<OrientedPoint> points = object.points ();
-      for (OrientedPoint& p : points)
-        p.position = (firstPose (object) * p.position.cast<double> ()).cast<float> ();
-      SupportPlaneOptions options;
-      options.inlier_distance_m =
-          std::max (min_plane_inlier_m, plane_inlier_voxels * object.voxel_size_m);
-      for (const Eigen::Vector4d& plane : findSupportPlanes (scene_.background, points, options))
-        object.planes.push_back (plane);
-    }
+    object.planes = planesOf (object);
+    for (std::size_t n = 0; n < scene_.planes.size (); ++n)
+      warnIfCut (object, object.planes[n]);
     const Eigen::Vector3d center = firstPose (object) * object.observed.center ();
     for (const Eigen::Vector4d& plane : object.planes)
     {

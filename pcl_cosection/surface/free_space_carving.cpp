@@ -103,9 +103,9 @@ FreeSpaceCarving::add (const FreeSpaceView& view, const Eigen::Isometry3d& T_gri
 }
 
 std::vector<float>
-FreeSpaceCarving::lowerBounds () const
+FreeSpaceCarving::lowerBounds (bool doubt_any) const
 {
-  const float doubt_vox = views_ > 1 ? single_view_doubt_vox : 0.0f; // a single one is as good as any
+  const float doubt_vox = doubt_any || views_ > 1 ? single_view_doubt_vox : 0.0f; // a single one is as good as any
   std::vector<float> bounds (bound_vox_.size ());
   for (std::size_t n = 0; n < bounds.size (); ++n)
   {

@@ -142,17 +142,9 @@ public:
   TriangleMesh
   closedMesh () const;
 
-  /** \brief Closed mesh of what no view saw free, inside the volume. */
-  TriangleMesh
-  hullMesh () const;
-
   /** \brief Closed mesh of the part of the minimiser's body that lies just behind points. */
   TriangleMesh
   innerMesh (const std::vector<OrientedPoint>& points) const;
-
-  /** \brief Closed mesh of the minimiser's body and all else that no view saw free. */
-  TriangleMesh
-  outerMesh () const;
 
   /** \brief Open mesh of the minimiser where it is supported, no farther from \a points and continued planes than evidence reaches. */
   TriangleMesh
@@ -164,9 +156,6 @@ private:
   forEachVoxel (Function&& f) const;
   float
   carvedValue (std::size_t n) const;
-  /** \brief Signed distance to the space that was seen free, positive in it, within some voxels. */
-  float
-  hullValue (std::size_t n) const;
   /** \brief Zero set of a field, value (n) in voxels. */
   template <typename Value> TriangleMesh
   closedMeshOf (Value&& value) const;

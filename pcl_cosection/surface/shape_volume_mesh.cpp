@@ -26,7 +26,6 @@ constexpr double hull_reach_vox = 1.5;
 constexpr float vouched_depth_vox = 3.0f;  // behind a measured surface, where matter is sure: the reach of its points
 constexpr float vouched_step_vox = 0.5f;
 constexpr float vouched_radius_vox = 0.75f; // closes the gaps between points
-constexpr float least_free_vox = 0.25f;    // of a voxel seen free, from the surface of the hull
 constexpr double half_cells_vox = 1.0;      // what is lost by taking a point and a vertex for their voxels' centres
 constexpr double confidence_scale_vox = 5.0;
 constexpr float border_voxels = 2.0f; // a closed surface stays so far inside its volume
@@ -48,14 +47,6 @@ keepOffBorder (SignedDistanceField& field)
 }
 
 } // namespace
-
-float
-ShapeVolume::hullValue (std::size_t n) const
-{
-  if (carved_.empty ())
-    return free_space_[n] ? 0.5f : -0.5f;
-  return free_space_[n] ? std::max (carved_[n], least_free_vox) : carved_[n];
-}
 
 template <typename Value> TriangleMesh
 ShapeVolume::closedMeshOf (Value&& value) const
@@ -95,12 +86,6 @@ ShapeVolume::closedMesh () const
 }
 
 TriangleMesh
-ShapeVolume::hullMesh () const
-{
-  return closedMeshOf ([this] (std::size_t n) { return hullValue (n); });
-}
-
-TriangleMesh
 ShapeVolume::innerMesh (const std::vector<OrientedPoint>& points) const
 {
   // Every point vouches for the voxels straight behind it.
@@ -116,12 +101,6 @@ ShapeVolume::innerMesh (const std::vector<OrientedPoint>& points) const
   const std::vector<float> distance = distanceTransform (grid_.dims, vouched, options_.threads);
   return observedParts (
       closedMeshOf ([&] (std::size_t n) { return std::max (carvedValue (n), distance[n] - vouched_radius_vox); }));
-}
-
-TriangleMesh
-ShapeVolume::outerMesh () const
-{
-  return closedMeshOf ([this] (std::size_t n) { return std::min (carvedValue (n), hullValue (n)); });
 }
 
 TriangleMesh

@@ -70,6 +70,39 @@ seenFree (const DepthView& view, const Eigen::Vector3d& p, double margin_m)
          p.z () < view.at (static_cast<int> (pixel.x ()), static_cast<int> (pixel.y ())) - margin_m; // NaN: no reading
 }
 
+/** \brief Whether any view sees a place free. */
+class AnySeesFree
+{
+public:
+  AnySeesFree (const HiddenPlaces::Views& views, double margin_m) : views_ (views), margin_m_ (margin_m)
+  {
+    for (const auto& [view, T_points_sensor] : views)
+      T_sensor_points_.push_back (T_points_sensor.inverse ());
+  }
+
+  bool
+  operator() (const Eigen::Vector3d& p) const
+  {
+    for (std::size_t v = 0; v < views_.size (); ++v)
+      if (seenFree (*views_[v].first, T_sensor_points_[v] * p, margin_m_))
+        return true;
+    return false;
+  }
+
+private:
+  const HiddenPlaces::Views& views_;
+  double margin_m_;
+  std::vector<Eigen::Isometry3d> T_sensor_points_;
+};
+
+/** \brief Whether a place is lower than \a height_m above any of the planes. */
+bool
+isBelow (const std::vector<Eigen::Vector4d>& planes, const Eigen::Vector3d& p, double height_m)
+{
+  return std::any_of (planes.begin (), planes.end (),
+                      [&] (const Eigen::Vector4d& plane) { return plane.head<3> ().dot (p) + plane[3] < height_m; });
+}
+
 std::string
 megabytes (std::size_t bytes)
 {
@@ -195,20 +228,7 @@ possibleBox (const std::vector<OrientedPoint>& points, const Eigen::AlignedBox3d
   };
   const float most = std::max ({allowed (Hidden::ByObject), allowed (Hidden::ByOther), allowed (Hidden::Nothing)});
   const double margin = 0.5 * cells.voxel_size_m + possible_margin_vox * voxel_size_m;
-  const auto below = [&] (const Eigen::Vector3d& p) {
-    return std::any_of (planes.begin (), planes.end (), [&] (const Eigen::Vector4d& plane) {
-      return plane.head<3> ().dot (p) + plane[3] < 0.5 * cells.voxel_size_m;
-    });
-  };
-  std::vector<Eigen::Isometry3d> T_sensor_points;
-  for (const auto& [view, T_points_sensor] : views)
-    T_sensor_points.push_back (T_points_sensor.inverse ());
-  const auto free = [&] (const Eigen::Vector3d& p) {
-    for (std::size_t v = 0; v < views.size (); ++v)
-      if (seenFree (*views[v].first, T_sensor_points[v] * p, cells.voxel_size_m))
-        return true;
-    return false;
-  };
+  const AnySeesFree free (views, cells.voxel_size_m);
   Eigen::AlignedBox3d box = observed;
   for (int k = 0; k < cells.dims.z (); ++k)
     for (int j = 0; j < cells.dims.y (); ++j)
@@ -216,7 +236,7 @@ possibleBox (const std::vector<OrientedPoint>& points, const Eigen::AlignedBox3d
       {
         const Eigen::Vector3d p = cells.center (i, j, k);
         const float away = distance[cells.index (i, j, k)];
-        if (away > most || box.contains (p) || below (p) || free (p))
+        if (away > most || box.contains (p) || isBelow (planes, p, 0.5 * cells.voxel_size_m) || free (p))
           continue;
         if (away <= allowed (places.at (p)))
           box.extend (p);
@@ -227,6 +247,52 @@ possibleBox (const std::vector<OrientedPoint>& points, const Eigen::AlignedBox3d
   };
   return {observed.min () - whole (observed.min () - box.min ()),
           observed.max () + whole (box.max () - observed.max ())};
+}
+
+Eigen::AlignedBox3d
+unseenBox (const std::vector<OrientedPoint>& points, const Eigen::AlignedBox3d& observed, const Eigen::AlignedBox3d& within,
+           double voxel_size_m, const HiddenPlaces::Views& views, const std::vector<Eigen::Vector4d>& planes, double layer_m)
+{
+  VoxelGrid cells;
+  cells.voxel_size_m = observed.sizes ().maxCoeff () / possible_cells;
+  cells.dims = (within.sizes () / cells.voxel_size_m).array ().ceil ().cast<int> () + 1;
+  cells.origin_m = within.min ();
+  const AnySeesFree free (views, cells.voxel_size_m);
+  const auto isUnseen = [&] (const Eigen::Vector3d& p) { // and no mere pixel without a reading
+    bool unseen = !free (p);
+    for (int side = 0; side < 6 && unseen; ++side)
+      unseen = !free (p + (side % 2 == 0 ? 0.5 : -0.5) * cells.voxel_size_m * Eigen::Vector3d::Unit (side / 2));
+    return unseen;
+  };
+  std::vector<bool> reached (cells.size (), false);
+  std::vector<Eigen::Vector3i> open;
+  Eigen::AlignedBox3d box = observed;
+  const auto reach = [&] (const Eigen::Vector3i& cell) {
+    reached[cells.index (cell.x (), cell.y (), cell.z ())] = true;
+    box.extend (cells.center (cell.x (), cell.y (), cell.z ()));
+    open.push_back (cell);
+  };
+  for (const OrientedPoint& point : points)
+    if (const auto cell = cells.nearest (point.position.cast<double> ()))
+      if (!reached[cells.index (cell->x (), cell->y (), cell->z ())])
+        reach (*cell);
+  while (!open.empty ())
+  {
+    const Eigen::Vector3i cell = open.back ();
+    open.pop_back ();
+    for (int side = 0; side < 6; ++side)
+    {
+      Eigen::Vector3i next = cell;
+      next[side / 2] += side % 2 == 0 ? -1 : 1;
+      if (!cells.contains (next.x (), next.y (), next.z ()) || reached[cells.index (next.x (), next.y (), next.z ())])
+        continue;
+      const Eigen::Vector3d p = cells.center (next.x (), next.y (), next.z ());
+      if (!isBelow (planes, p, layer_m) && isUnseen (p))
+        reach (next);
+    }
+  }
+  const double margin = cells.voxel_size_m + possible_margin_vox * voxel_size_m;
+  return {box.min ().array () - margin, box.max ().array () + margin};
 }
 
 Eigen::AlignedBox3d

@@ -45,6 +45,13 @@ possibleBox (const std::vector<OrientedPoint>& points, const Eigen::AlignedBox3d
              double voxel_size_m, const HiddenPlaces::Views& views, const HiddenPlaces& places,
              const std::vector<Eigen::Vector4d>& planes, int threads);
 
+/** \brief Box of the places in \a within that no view saw free and that hang together with points, with a margin; for ObjectHull.
+ * \param[in] views depth views and their sensors' poses in the points' frame
+ * \param[in] planes that are not crossed, nor the layer of \a layer_m on them followed; normals to the points' side */
+Eigen::AlignedBox3d
+unseenBox (const std::vector<OrientedPoint>& points, const Eigen::AlignedBox3d& observed, const Eigen::AlignedBox3d& within,
+           double voxel_size_m, const HiddenPlaces::Views& views, const std::vector<Eigen::Vector4d>& planes, double layer_m);
+
 /** \brief A grid of voxels of the given size over a box. \throws InvalidArgument */
 VoxelGrid
 layoutBox (const Eigen::AlignedBox3d& box, double voxel_size_m);

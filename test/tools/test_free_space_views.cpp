@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_cosection authors
 
-// Views that nobody has labelled: the program uses the space that they saw free.
+// Views that nobody has labelled, of which the program uses the space that they saw free; and what any view takes from hulls.
 
 #include "common/temporary_folder.h"
 #include "scene_files.h"
@@ -133,6 +133,28 @@ TEST_F (FreeSpaceViews, HullsShrinkWithEachView)
   for (std::size_t n = 0; n < first.size (); n += 2)
     EXPECT_LT (before[n], 0.995 * first[n]) << "hull of object " << n / 2 + 1;
   EXPECT_LT (before[5], 0.98 * first[5]) << "the hidden inside of the bowl";
+}
+
+TEST_F (FreeSpaceViews, MergedViewsShrinkHullsToo)
+{
+  for (const char* constraints : {"hull", "all"})
+  {
+    std::vector<std::string> arguments{"--save-hull", "--quiet", "--constraints", constraints};
+    std::vector<double> before;
+    for (int v = 0; v < views; ++v)
+    {
+      arguments.push_back (view (v));
+      std::vector<std::string> all = arguments;
+      all.push_back ("merged" + std::to_string (v));
+      ASSERT_EQ (run (all), 0) << errors_;
+      std::vector<double> now;
+      for (int id = 1; id <= objects; ++id)
+        now.push_back (volume (all.back () + "/object_" + std::to_string (id) + "_hull.ply"));
+      for (std::size_t n = 0; n < before.size (); ++n)
+        EXPECT_LE (now[n], 1.01 * before[n]) << "object " << n + 1 << ", " << v + 1 << " views";
+      before = now;
+    }
+  }
 }
 
 TEST_F (FreeSpaceViews, NeedNoLabelsAndTellNothingElse)

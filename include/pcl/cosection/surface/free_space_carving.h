@@ -34,9 +34,10 @@ public:
   add (const FreeSpaceView& view, const Eigen::Isometry3d& T_grid_sensor);
 
   /** \brief Distances in voxels within [-3, 3], positive in free space: near the boundary, lower bounds of a
-   * field that keeps out of it. */
+   * field that keeps out of it.
+   * \param[in] doubt_any doubt the only view as one of several, so that no bound is less for one more view */
   std::vector<float>
-  lowerBounds () const;
+  lowerBounds (bool doubt_any = false) const;
 
 private:
   static constexpr float nothing = -1e6f;
