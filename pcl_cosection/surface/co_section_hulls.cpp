@@ -88,7 +88,8 @@ CoSectionRun::findHulls ()
     const Eigen::AlignedBox3d& observed = object.observed;
     sought.layer_m = unseenLayer (views, observed.center (), object.voxel_size_m);
     VoxelGrid grid = object.volume ().grid ();
-    if (!views.empty () && options.padding <= 0.0)
+    // What surrounded a thing that was cut out is not unseen but gone.
+    if (!views.empty () && !scene_.background.empty () && options.padding <= 0.0)
     {
       const Eigen::Vector3d reach = Eigen::Vector3d::Constant (hull_reach * observed.sizes ().maxCoeff ());
       grid = hullGrid (object,

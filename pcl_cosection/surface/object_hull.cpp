@@ -26,6 +26,7 @@ constexpr float low_seed_reach_vox = 1.0f; // ... and in the layer on a plane
 constexpr float core_depth_vox = 2.0f;    // what is no farther inside is no way to elsewhere: single pixels without a reading leave rays
 constexpr float around_core_vox = 3.0f;   // what is so near the core is the hull's
 constexpr float layer_reach = 1.25f;      // of its thickness: as far the layer on a plane belongs to the hull above it
+constexpr float far_vox = 3.0f;           // distances are of no interest beyond
 constexpr float border_vox = 2.0f;        // a closed surface stays so far inside its volume
 constexpr float beside_vox = 1.5f;        // what bounds a place of the surface is so near
 
@@ -151,8 +152,8 @@ ObjectHull::finish (const std::vector<OrientedPoint>& points, const std::vector<
   forEachVoxel (grid_, threads, [&] (std::size_t n, int i, int j, int k) {
     const int border = std::min ({i, j, k, grid_.dims.x () - 1 - i, grid_.dims.y () - 1 - j, grid_.dims.z () - 1 - k});
     const float reach_vox = low[n] ? std::max (around_core_vox, layer_reach * layer_vox) : around_core_vox;
-    const float inside = std::max ({value[n], away_vox[n] - reach_vox, border_vox - static_cast<float> (border)});
-    hull_.values[n] = static_cast<float> (inside * grid_.voxel_size_m);
+    const float outside_vox = std::max ({value[n], away_vox[n] - reach_vox, border_vox - static_cast<float> (border)});
+    hull_.values[n] = static_cast<float> (std::min (outside_vox, far_vox) * grid_.voxel_size_m);
   });
 }
 

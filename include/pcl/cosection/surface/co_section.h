@@ -40,10 +40,10 @@ struct PCL_COSECTION_EXPORT ObjectResult
   TriangleMesh mesh;     ///< closed, object frame
   /** \brief If asked for: closed, object frame. The hull is all that may be the object: what no view saw free, above support planes,
    * as far as it hangs together with the object's points and lies no farther from them than the longest side of their box (in the
-   * object's volume if there are no views, a padding is given, or memory allows no more). It shrinks as views are added, also with
-   * their points, but for noise. The inner bound is where measured surfaces vouch for matter, a layer of three voxels
-   * behind them; the outer bound is the mesh and the hull. Up to a quarter of a voxel, inner_bound
-   * lies inside mesh, and mesh inside outer_bound; both are right to about a voxel and a half at sharp edges. */
+   * object's volume if there are no views or no background, a padding is given, or memory allows no more). It shrinks as views are
+   * added, also with their points, but for noise. The inner bound is where measured surfaces vouch for matter, a layer of three voxels
+   * behind them; the outer bound is the mesh and the hull. Up to a quarter of a voxel, inner_bound lies inside mesh, and mesh inside
+   * outer_bound; both are right to about a voxel and a half at sharp edges. */
   TriangleMesh hull, inner_bound, outer_bound;
   SignedDistanceField::Ptr signed_distance; ///< object frame
   std::size_t stray_points = 0; ///< left out, because they are a few and far from the others
