@@ -25,6 +25,15 @@ byDefault (const Value& value)
   return (text.str ());
 }
 
+/** \brief Replace a setting by what the user gave, if anything. */
+template <typename Target, typename Value>
+void
+override (Target& target, const std::optional<Value>& value)
+{
+  if (value)
+    target = *value;
+}
+
 /** \brief Accepts one of some words. */
 inline CLI::Validator
 oneOf (const std::vector<std::string>& words)

@@ -18,14 +18,6 @@ using namespace pcl::cosection;
 namespace
 {
 
-template <typename Target, typename Value>
-void
-override (Target& target, const std::optional<Value>& value)
-{
-  if (value)
-    target = *value;
-}
-
 void
 setPaths (const Given& given, Settings& settings)
 {

@@ -7,8 +7,6 @@ using namespace pcl::cosection;
 namespace
 {
 
-constexpr double degrees = 180.0 / M_PI;
-
 /** \brief NAME_m is the mean. */
 void
 addDistances (const std::string& name, const ErrorStatistics& statistics, Json& json)
@@ -71,7 +69,7 @@ addTrajectoryError (const TrajectoryError& error, Json& json)
 {
   addErrors ("ate", "m", error.ate_m, 1.0, json);
   addErrors ("rpe_trans", "m", error.rpe_trans_m, 1.0, json);
-  addErrors ("rpe_rot", "deg", error.rpe_rot_rad, degrees, json);
+  addErrors ("rpe_rot", "deg", error.rpe_rot_rad, degrees_per_rad, json);
   if (error.rpe_pairs == 0) // not an error of zero
     for (const char* name : {"rpe_trans_rmse_m", "rpe_trans_mean_m", "rpe_trans_median_m", "rpe_trans_max_m",
                              "rpe_rot_rmse_deg", "rpe_rot_mean_deg", "rpe_rot_median_deg", "rpe_rot_max_deg"})

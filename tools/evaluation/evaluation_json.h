@@ -9,9 +9,12 @@
 
 #include <nlohmann/json.hpp>
 
+#include <cmath>
 #include <string>
 
 using Json = nlohmann::ordered_json;
+
+constexpr double degrees_per_rad = 180.0 / M_PI;
 
 /** \brief [tx, ty, tz, qx, qy, qz, qw] */
 Json

@@ -143,18 +143,18 @@ print (const MeshSettings& settings, const MeshReport& report, Terminal& termina
 }
 
 Json
-toJson (const MeshSettings& settings, const MeshReport& report)
+reportJson (const MeshSettings& settings, const MeshReport& report)
 {
   Json json;
   addComparison (report.comparison, settings.f_threshold_m, json);
   json["closed"] = report.reconstruction.topology.closed_manifold;
   json["volume_error"] = report.volume_error ? Json (*report.volume_error) : Json ();
   addSurroundings (report.surroundings, json);
-  json["truth"] = ::toJson (report.truth);
+  json["truth"] = toJson (report.truth);
   json["truth"]["file"] = settings.common.paths[0];
-  json["reconstruction"] = ::toJson (report.reconstruction);
+  json["reconstruction"] = toJson (report.reconstruction);
   json["reconstruction"]["file"] = settings.common.paths[1];
-  json["T_truth_reconstruction"] = ::toJson (report.T_truth_reconstruction);
+  json["T_truth_reconstruction"] = toJson (report.T_truth_reconstruction);
   json["parameters"] = {{"samples", settings.samples},
                         {"seed", settings.seed},
                         {"align", settings.align},
@@ -250,7 +250,7 @@ compare (const MeshSettings& settings, Terminal& terminal)
   terminal.detail ("read " + toText (report.read_s) + " s, compared " + toText (report.compare_s) + " s, all " +
                    toText (report.total_s) + " s");
   if (!settings.common.json.empty ())
-    saveJson (toJson (settings, report), settings.common.json);
+    saveJson (reportJson (settings, report), settings.common.json);
   if (!settings.common.csv.empty ())
     saveText (toCsv (settings, report), settings.common.csv);
 }

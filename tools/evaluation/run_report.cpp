@@ -12,18 +12,16 @@ using namespace pcl::cosection;
 namespace
 {
 
-constexpr double degrees = 180.0 / M_PI;
-
 std::string
 rpeText (const TrajectoryError& error, bool rotation)
 {
   if (error.rpe_pairs == 0)
     return ("-");
-  return (rotation ? toText (degrees * error.rpe_rot_rad.rmse) : inMillimetres (error.rpe_trans_m.rmse));
+  return (rotation ? toText (degrees_per_rad * error.rpe_rot_rad.rmse) : inMillimetres (error.rpe_trans_m.rmse));
 }
 
 std::string
-nameOf (int id)
+bodyName (int id)
 {
   return (id == PairPenetration::background ? std::string ("background") : "object " + std::to_string (id));
 }
@@ -42,7 +40,7 @@ alignmentText (const FrameAlignment& alignment)
 {
   return ("median of " + std::to_string (alignment.frames) + (alignment.frames == 1 ? " pose" : " poses") +
           ", refined by " + inMillimetres (alignment.refinement.translation_m) + " mm and " +
-          toText (degrees * alignment.refinement.rotation_rad) + " degrees");
+          toText (degrees_per_rad * alignment.refinement.rotation_rad) + " degrees");
 }
 
 Json
@@ -51,7 +49,7 @@ alignmentJson (const FrameAlignment& alignment)
   return (Json{{"T_truth_estimate", toJson (alignment.T_truth_estimate)},
                {"frames", alignment.frames},
                {"refinement_m", alignment.refinement.translation_m},
-               {"refinement_deg", degrees * alignment.refinement.rotation_rad},
+               {"refinement_deg", degrees_per_rad * alignment.refinement.rotation_rad},
                {"refinement_limited", alignment.refinement.limited}});
 }
 
@@ -105,7 +103,7 @@ print (const RunEvaluation& run, const SceneRecord& truth, const RunSettings& se
   }
   for (const PairPenetration& pair : run.penetrations)
     if (pair.depth_m > 0.0)
-      terminal.result (nameOf (pair.first) + " and " + nameOf (pair.second) + ": " + inMillimetres (pair.depth_m) +
+      terminal.result (bodyName (pair.first) + " and " + bodyName (pair.second) + ": " + inMillimetres (pair.depth_m) +
                        " mm inside each other at " + toShortText (pair.stamp) +
                        (pair.volume_m3 ? ", " + inMillilitres (*pair.volume_m3) + " ml" : ""));
   for (const int id : run.unmatched)
@@ -182,9 +180,9 @@ runCsv (const RunEvaluation& run)
                      o.mesh.estimate.topology.closed_manifold ? "1" : "0",
                      o.mesh.volume_error ? toField (*o.mesh.volume_error) : "", toField (o.penetration_m),
                      toField (o.trajectory.ate_m.rmse), has_rpe ? toField (o.trajectory.rpe_trans_m.rmse) : "",
-                     has_rpe ? toField (degrees * o.trajectory.rpe_rot_rad.rmse) : "", std::to_string (o.frames_tracked),
+                     has_rpe ? toField (degrees_per_rad * o.trajectory.rpe_rot_rad.rmse) : "", std::to_string (o.frames_tracked),
                      std::to_string (o.frames_visible), toField (o.mesh.alignment.refinement.translation_m),
-                     toField (degrees * o.mesh.alignment.refinement.rotation_rad)});
+                     toField (degrees_per_rad * o.mesh.alignment.refinement.rotation_rad)});
   }
   return (text);
 }

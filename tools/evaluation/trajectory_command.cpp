@@ -21,8 +21,6 @@ using namespace pcl::cosection;
 namespace
 {
 
-constexpr double degrees = 180.0 / M_PI;
-
 std::string
 spanText (std::size_t poses, double begin, double end)
 {
@@ -50,7 +48,7 @@ print (const TrajectoryError& error, int delta, Terminal& terminal)
   if (error.rpe_pairs > 0)
   {
     row ("RPE (mm)", error.rpe_trans_m, 1000.0);
-    row ("RPE (degrees)", error.rpe_rot_rad, degrees);
+    row ("RPE (degrees)", error.rpe_rot_rad, degrees_per_rad);
   }
   for (const std::string& line : table.lines ())
     terminal.result (line);
@@ -91,7 +89,7 @@ compare (const TrajectorySettings& settings, Terminal& terminal)
                   csvRow ({settings.common.paths[0], settings.common.paths[1], std::to_string (error.matched),
                            toField (error.ate_m.rmse), toField (error.ate_m.max),
                            error.rpe_pairs > 0 ? toField (error.rpe_trans_m.rmse) : "",
-                           error.rpe_pairs > 0 ? toField (degrees * error.rpe_rot_rad.rmse) : ""}),
+                           error.rpe_pairs > 0 ? toField (degrees_per_rad * error.rpe_rot_rad.rmse) : ""}),
               settings.common.csv);
 }
 

@@ -40,7 +40,7 @@ endsWith (const std::string& text, const std::string& ending)
 
 /** \brief The stamp as trajectories have it. */
 std::string
-nameOf (double stamp)
+folderName (double stamp)
 {
   const bool whole = stamp == std::floor (stamp) && std::abs (stamp) < 1e15;
   std::ostringstream text;
@@ -210,7 +210,7 @@ FusionOutputs::removeEarlierRun () const
 void
 FusionOutputs::writeKeyframe (const KeyframeReport& keyframe) const
 {
-  const fs::path folder = fs::path (folder_) / "keyframes" / nameOf (keyframe.stamp);
+  const fs::path folder = fs::path (folder_) / "keyframes" / folderName (keyframe.stamp);
   makeFolder (folder);
   if (!keyframe.scene.background.empty ())
     saveMesh (keyframe.scene.background, (folder / "background.ply").string ());

@@ -11,19 +11,6 @@
 
 using namespace pcl::cosection;
 
-namespace
-{
-
-template <typename Target, typename Value>
-void
-override (Target& target, const std::optional<Value>& value)
-{
-  if (value)
-    target = *value;
-}
-
-} // namespace
-
 void
 declareVolumeOptions (CLI::App& app, GivenMethod& given, const std::string& background_default)
 {
