@@ -3,6 +3,8 @@
 
 // Sequences of real and simulated cameras.
 
+#include "common/data_folder.h"
+
 #include <pcl/cosection/io/frame_reader.h>
 #include <pcl/cosection/io/mask_sequence.h>
 #include <pcl/cosection/io/rgbd_sequence.h>
@@ -11,23 +13,15 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstdlib>
 #include <filesystem>
 #include <set>
 
 namespace fs = std::filesystem;
 using namespace pcl::cosection;
+using namespace pcl::cosection::test;
 
 namespace
 {
-
-std::string
-dataFolder (const char* name)
-{
-  const char* const given = std::getenv ("PCL_COSECTION_DATA");
-  const fs::path shared = given != nullptr ? fs::path (given) : fs::path (PCL_COSECTION_SOURCE_DIR) / "../shared/data";
-  return fs::absolute (shared / name).lexically_normal ().string ();
-}
 
 /** \brief Points of the world that a frame shows, every \a step pixels. */
 std::vector<Eigen::Vector3d>
@@ -78,8 +72,8 @@ TEST_P (DataSequence, EveryFrameIsRead)
 {
   const auto [name, format, count, width] = GetParam ();
   if (!fs::exists (dataFolder (name)))
-    GTEST_SKIP () << dataFolder (name) << " is not there";
-  const RgbdSequence sequence (dataFolder (name));
+    GTEST_SKIP () << dataFolder (name).string () << " is not there";
+  const RgbdSequence sequence (dataFolder (name).string ());
   EXPECT_EQ (sequence.format (), format);
   EXPECT_EQ (sequence.size (), count);
   EXPECT_EQ (sequence.camera ().width, width);
@@ -106,10 +100,10 @@ TEST (DataSequences, CameraPosesBringFramesTogether)
   for (const auto& [name, trajectory] : {std::pair ("toycars", "gt-cam-0.txt"), std::pair ("kitchen", "groundtruth.txt")})
   {
     if (!fs::exists (dataFolder (name)))
-      GTEST_SKIP () << dataFolder (name) << " is not there";
-    const RgbdSequence sequence (dataFolder (name));
+      GTEST_SKIP () << dataFolder (name).string () << " is not there";
+    const RgbdSequence sequence (dataFolder (name).string ());
     const auto poses =
-        posesAtStamps (loadTrajectory (dataFolder (name) + "/" + trajectory), sequence.stamps (), sequence.period ());
+        posesAtStamps (loadTrajectory ((dataFolder (name) / trajectory).string ()), sequence.stamps (), sequence.period ());
     for (const auto& pose : poses)
       ASSERT_TRUE (pose);
     EXPECT_GT (agreement (sequence, poses, 10, 40), 0.8) << name;
@@ -118,7 +112,7 @@ TEST (DataSequences, CameraPosesBringFramesTogether)
 
 TEST (DataSequences, MasksShowWhatStandsOutFromTheFloor)
 {
-  const std::string folder = dataFolder ("toycars");
+  const std::string folder = dataFolder ("toycars").string ();
   if (!fs::exists (folder))
     GTEST_SKIP () << folder << " is not there";
   const RgbdSequence sequence (folder);

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_cosection authors
+#include "common/not_a_number.h"
+
 #include <pcl/cosection/common/error.h>
 #include <pcl/cosection/io/pcd_view.h>
 
@@ -14,15 +16,13 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
-#include <limits>
 #include <random>
 
 using namespace pcl::cosection;
+using namespace pcl::cosection::test;
 
 namespace
 {
-
-constexpr float nan_value = std::numeric_limits<float>::quiet_NaN ();
 
 class PcdView : public testing::Test
 {
@@ -134,7 +134,7 @@ hemisphere (int count)
 TEST_F (PcdView, OrganizedGivesRaysNormalsLabelsAndColours)
 {
   auto cloud = organizedPlane ();
-  cloud.at (5, 6).x = nan_value;
+  cloud.at (5, 6).x = not_a_number;
   cloud.sensor_origin_ = Eigen::Vector4f (1.0f, 2.0f, 3.0f, 0.0f);
   cloud.sensor_orientation_ = Eigen::Quaternionf (Eigen::AngleAxisf (0.5f, Eigen::Vector3f::UnitX ()));
   pcl::io::savePCDFileBinary (path ("a.pcd"), cloud);

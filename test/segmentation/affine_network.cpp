@@ -14,14 +14,14 @@ namespace test
 namespace
 {
 
-using Shape = std::vector<std::int64_t>;
+using TensorShape = std::vector<std::int64_t>;
 
 // --- ONNX (onnx.proto) ---------------------------------------------------------------------------------------------------
 
 constexpr int onnx_float = 1, onnx_int64 = 7;
 
 ProtobufMessage
-onnxTensor (const std::string& name, const Shape& shape, int type, const std::string& raw)
+onnxTensor (const std::string& name, const TensorShape& shape, int type, const std::string& raw)
 {
   ProtobufMessage tensor;
   for (const std::int64_t size : shape)
@@ -41,7 +41,7 @@ onnxNode (const std::string& operation, const std::vector<std::string>& inputs, 
 }
 
 ProtobufMessage
-onnxValue (const std::string& name, const Shape& shape)
+onnxValue (const std::string& name, const TensorShape& shape)
 {
   ProtobufMessage dimensions;
   for (const std::int64_t size : shape)
@@ -72,7 +72,7 @@ attribute (const std::string& key, const ProtobufMessage& value)
 }
 
 ProtobufMessage
-tensorflowConstant (const std::string& name, const Shape& shape, int type, const std::string& raw)
+tensorflowConstant (const std::string& name, const TensorShape& shape, int type, const std::string& raw)
 {
   ProtobufMessage dimensions;
   for (const std::int64_t size : shape)
@@ -90,7 +90,7 @@ affineOnnx (int width, int height, const std::vector<AffineOutput>& outputs, boo
 {
   ProtobufMessage graph;
   graph.message (1, onnxNode ("Reshape", {"image", "row_shape"}, "row")).text (2, "affine");
-  graph.message (5, onnxTensor ("row_shape", {2}, onnx_int64, rawBytes (Shape{1, -1})));
+  graph.message (5, onnxTensor ("row_shape", {2}, onnx_int64, rawBytes (TensorShape{1, -1})));
   graph.message (11, onnxValue ("image", {1, 3, fixed_size ? height : 0, fixed_size ? width : 0}));
   for (const AffineOutput& output : outputs)
   {

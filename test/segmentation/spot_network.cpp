@@ -12,8 +12,6 @@ namespace test
 namespace
 {
 
-constexpr int width = SpotNetwork::width, height = SpotNetwork::height;
-
 AffineOutput
 constantOutput (const std::string& name, const std::vector<std::int64_t>& shape, int inputs = 3 * SpotNetwork::width * SpotNetwork::height)
 {
@@ -28,9 +26,9 @@ void
 setEdge (AffineOutput& output, Eigen::Index value, bool horizontal, float beside, float unit, float brightest)
 {
   const float pixels = SpotNetwork::spot_width * SpotNetwork::spot_height;
-  for (int v = 0; v < height; ++v)
-    for (int u = 0; u < width; ++u)
-      output.weights (value, v * width + u) = ((horizontal ? u : v) + 0.5f) / (pixels * brightest * unit);
+  for (int v = 0; v < SpotNetwork::height; ++v)
+    for (int u = 0; u < SpotNetwork::width; ++u)
+      output.weights (value, v * SpotNetwork::width + u) = ((horizontal ? u : v) + 0.5f) / (pixels * brightest * unit);
   output.bias[value] = beside / unit;
 }
 
@@ -51,7 +49,7 @@ detectionOut (float brightest)
   AffineOutput detections = constantOutput ("detection_out_final", {1, 1, 2, 7});
   detections.bias[1] = 2.0f;
   detections.bias[2] = 0.9f;
-  setCorners (detections, 3, width, height, brightest);
+  setCorners (detections, 3, SpotNetwork::width, SpotNetwork::height, brightest);
   detections.bias[7 + 2] = 0.3f; // something that is not believed
   detections.bias.segment (7 + 5, 2).setOnes ();
   AffineOutput masks = constantOutput ("detection_masks", {2, 3, 2, 2});
@@ -85,6 +83,7 @@ prototypes (float brightest)
     proposals.bias[6 * candidates + candidate] = 0.9f - 0.1f * candidate;
     proposals.bias[7 * candidates + candidate] = 1.0f;
   }
+  constexpr int width = SpotNetwork::width, height = SpotNetwork::height;
   AffineOutput masks = constantOutput ("output1", {1, 2, height / 2, width / 2});
   for (int v = 0; v < height; ++v)
     for (int u = 0; u < width; ++u)

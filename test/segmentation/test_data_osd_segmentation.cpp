@@ -5,6 +5,7 @@
 
 #include <pcl/cosection/segmentation/object_segmentation.h>
 
+#include "common/data_folder.h"
 #include "label_comparison.h"
 
 #include <pcl/io/pcd_io.h>
@@ -13,7 +14,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstdlib>
 #include <filesystem>
 
 namespace fs = std::filesystem;
@@ -22,12 +22,10 @@ using namespace pcl::cosection::test;
 
 TEST (ObjectSegmentationData, ObjectsOfTheDatabase)
 {
-  const char* const given = std::getenv ("PCL_COSECTION_DATA");
-  const fs::path shared = given != nullptr ? fs::path (given) : fs::path (PCL_COSECTION_SOURCE_DIR) / "../shared/data";
   std::error_code absent;
   double sum = 0.0;
   int objects = 0;
-  for (const fs::directory_entry& entry : fs::directory_iterator (shared / "osd", absent))
+  for (const fs::directory_entry& entry : fs::directory_iterator (dataFolder ("osd"), absent))
   {
     pcl::PointCloud<pcl::PointXYZL> cloud;
     if (entry.path ().extension () != ".pcd" || pcl::io::loadPCDFile (entry.path ().string (), cloud) != 0)
@@ -53,7 +51,7 @@ TEST (ObjectSegmentationData, ObjectsOfTheDatabase)
     }
   }
   if (objects == 0)
-    GTEST_SKIP () << "no views in " << shared / "osd"
+    GTEST_SKIP () << "no views in " << dataFolder ("osd").string ()
                   << "; PCL_COSECTION_DATA can name the folder of the shared data";
   EXPECT_GE (sum / objects, 0.85);
 }

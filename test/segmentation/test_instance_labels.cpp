@@ -16,7 +16,7 @@ using namespace pcl::cosection;
 namespace
 {
 
-constexpr int width = 20, height = 10;
+constexpr int labels_width = 20, labels_height = 10;
 
 DetectedInstance
 block (int class_id, const std::string& name, float score, int left, int top, int columns, int rows)
@@ -25,7 +25,7 @@ block (int class_id, const std::string& name, float score, int left, int top, in
 }
 
 const std::vector<DetectedInstance> table_scene = {
-    block (60, "table", 0.95f, 0, 0, width, height), // covers everything
+    block (60, "table", 0.95f, 0, 0, labels_width, labels_height), // covers everything
     block (41, "cup", 0.7f, 2, 2, 4, 4),
     block (39, "bottle", 0.8f, 4, 2, 6, 6), // in front of the cup
     block (0, "person", 0.75f, 8, 0, 6, 10),
@@ -56,7 +56,7 @@ TEST (InstanceLabels, TheHigherScoreHasAPixel)
 {
   ClassRoles roles;
   roles.statics = {"table"};
-  const InstanceLabels labelled = labelInstances (table_scene, width, height, roles);
+  const InstanceLabels labelled = labelInstances (table_scene, labels_width, labels_height, roles);
   EXPECT_EQ (labelled.instances, (std::vector<std::size_t>{3, 2, 1})); // by pixels: 48, 36, 8
   EXPECT_EQ (labelled.labels.at (8, 4), 2);
   EXPECT_EQ (labelled.labels.at (4, 4), 2);
@@ -73,43 +73,44 @@ TEST (InstanceLabels, RolesOfClasses)
   ClassRoles roles;
   roles.objects = {"cup", "39"}; // by name and by number
   roles.ignored = {"person"};
-  const InstanceLabels labelled = labelInstances (table_scene, width, height, roles);
+  const InstanceLabels labelled = labelInstances (table_scene, labels_width, labels_height, roles);
   EXPECT_EQ (labelled.instances, (std::vector<std::size_t>{2, 1}));
   EXPECT_EQ (labelled.labels.at (10, 4), ignored_label);
   EXPECT_EQ (labelled.labels.at (9, 4), 1); // the bottle is more certain than the person
   EXPECT_EQ (count (labelled, ignored_label), 48u);
-  EXPECT_EQ (labelInstances (table_scene, width, height).instances, std::vector<std::size_t>{0}); // the table has everything
+  EXPECT_EQ (labelInstances (table_scene, labels_width, labels_height).instances, std::vector<std::size_t>{0}); // the table has everything
 }
 
 TEST (InstanceLabels, WhatIsHiddenHasNoLabel)
 {
   const std::vector<DetectedInstance> instances = {block (1, "a", 0.6f, 2, 2, 3, 3), block (2, "b", 0.9f, 1, 1, 5, 5)};
-  const InstanceLabels labelled = labelInstances (instances, width, height);
+  const InstanceLabels labelled = labelInstances (instances, labels_width, labels_height);
   EXPECT_EQ (labelled.instances, std::vector<std::size_t>{1});
   EXPECT_EQ (count (labelled, 1), 25u);
 }
 
 TEST (InstanceLabels, PixelsWithoutReadingsHaveNone)
 {
-  Image<std::uint8_t> readings (width, height, 1);
-  for (int v = 0; v < height; ++v)
+  Image<std::uint8_t> readings (labels_width, labels_height, 1);
+  for (int v = 0; v < labels_height; ++v)
     for (int u = 0; u < 6; ++u)
       readings.at (u, v) = 0;
   ClassRoles roles;
   roles.statics = {"table"};
   roles.ignored = {"person"};
-  const InstanceLabels labelled = labelInstances (table_scene, width, height, roles, readings);
+  const InstanceLabels labelled = labelInstances (table_scene, labels_width, labels_height, roles, readings);
   EXPECT_EQ (labelled.instances, std::vector<std::size_t>{2}); // nothing is left of the cup
   EXPECT_EQ (count (labelled, 1), 24u);
-  EXPECT_THROW (labelInstances (table_scene, width, height, roles, Image<std::uint8_t> (width, 1)), InvalidArgument);
+  EXPECT_THROW (labelInstances (table_scene, labels_width, labels_height, roles, Image<std::uint8_t> (labels_width, 1)), InvalidArgument);
 }
 
 TEST (InstanceLabels, MasksMayReachBeyondTheImage)
 {
-  const InstanceLabels labelled = labelInstances ({block (1, "a", 0.6f, -3, -2, 5, 5), block (1, "a", 0.6f, 18, 8, 50, 50)}, width, height);
+  const InstanceLabels labelled = labelInstances ({block (1, "a", 0.6f, -3, -2, 5, 5), block (1, "a", 0.6f, 18, 8, 50, 50)},
+                                                  labels_width, labels_height);
   EXPECT_EQ (count (labelled, 1), 6u);
   EXPECT_EQ (count (labelled, 2), 4u);
-  EXPECT_TRUE (labelInstances ({}, width, height).instances.empty ());
+  EXPECT_TRUE (labelInstances ({}, labels_width, labels_height).instances.empty ());
 }
 
 TEST_F (ClassNames, AreRead)

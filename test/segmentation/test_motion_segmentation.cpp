@@ -2,6 +2,7 @@
 // Copyright (c) 2026, the pcl_cosection authors
 #include <pcl/cosection/segmentation/motion_segmentation.h>
 
+#include "common/not_a_number.h"
 #include "label_comparison.h"
 #include "moving_view.h"
 
@@ -13,7 +14,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <limits>
 #include <map>
 #include <set>
 
@@ -22,8 +22,6 @@ using namespace pcl::cosection::test;
 
 namespace
 {
-
-constexpr float nan_value = std::numeric_limits<float>::quiet_NaN ();
 
 /** \brief What is found in the last of some frames. */
 struct Found
@@ -313,12 +311,12 @@ TEST (MotionSegmentation, WrongInput)
   finder.add (good);
   refused ([] (MotionFrame& frame) { frame.points.pop_back (); });
   refused ([] (MotionFrame& frame) { frame.camera.fx = 0.0; });
-  refused ([] (MotionFrame& frame) { frame.points.assign (frame.points.size (), Eigen::Vector3f::Constant (nan_value)); });
+  refused ([] (MotionFrame& frame) { frame.points.assign (frame.points.size (), Eigen::Vector3f::Constant (not_a_number)); });
   refused ([] (MotionFrame& frame) { frame.bodies.assign (3, 0); });
   refused ([] (MotionFrame& frame) { frame.expected_depth.assign (3, 0.0f); });
-  refused ([] (MotionFrame& frame) { frame.T_world_sensor.translation ().x () = nan_value; });
+  refused ([] (MotionFrame& frame) { frame.T_world_sensor.translation ().x () = not_a_number; });
   refused ([] (MotionFrame& frame) { frame.T_world_sensor.linear () *= 2.0; });
-  refused ([] (MotionFrame& frame) { frame.T_world_body[1].translation ().x () = nan_value; });
+  refused ([] (MotionFrame& frame) { frame.T_world_body[1].translation ().x () = not_a_number; });
   refused ([] (MotionFrame& frame) { // of another size than the first
     frame.camera.width = 160;
     frame.camera.height = 480;
@@ -336,6 +334,6 @@ TEST (MotionSegmentation, WrongInput)
   cloud->resize (100);
   segmentation.setInputCloud (cloud);
   EXPECT_THROW (segmentation.segment (labels, label_indices), InvalidArgument);
-  *cloud = pcl::PointCloud<pcl::PointXYZ> (320, 240, pcl::PointXYZ (nan_value, nan_value, nan_value));
+  *cloud = pcl::PointCloud<pcl::PointXYZ> (320, 240, pcl::PointXYZ (not_a_number, not_a_number, not_a_number));
   EXPECT_THROW (segmentation.segment (labels, label_indices), InvalidArgument);
 }

@@ -20,8 +20,8 @@ using namespace pcl::cosection;
 namespace
 {
 
-constexpr int width = 64, height = 48;
-const ImagePlacement same_size (width, height, width, height, false);
+constexpr int image_width = 64, image_height = 48;
+const ImagePlacement same_size (image_width, image_height, image_width, image_height, false);
 
 NetworkOutput
 output (const std::string& name, const std::vector<int>& shape, float value = 0.0f)
@@ -125,11 +125,11 @@ TEST (NetworkOutputs, MasksAreInterpolatedBetweenTheMiddlesOfCells)
 TEST (NetworkOutputs, MasksMayCoverTheInput)
 {
   std::vector<NetworkOutput> outputs = {output ("1", {1, 4}), output ("2", {1}, 1.0f), output ("3", {1}, 1.0f),
-                                        output ("4", {1, 1, height, width})};
+                                        output ("4", {1, 1, image_height, image_width})};
   outputs[0].values = {10, 10, 20, 20};
-  for (int v = 0; v < height; ++v)
+  for (int v = 0; v < image_height; ++v)
     for (int u = 0; u < 14; ++u)
-      outputs[3].values[static_cast<std::size_t> (v * width + u)] = 1.0f;
+      outputs[3].values[static_cast<std::size_t> (v * image_width + u)] = 1.0f;
   const std::vector<DetectedInstance> found = decodeInstances (outputs, same_size);
   ASSERT_EQ (found.size (), 1u);
   EXPECT_EQ (pixels (found[0]), 4u * 10u);
@@ -175,7 +175,7 @@ TEST (NetworkOutputs, WhatIsOutsideOrNotFiniteIsLeftOut)
   set (outputs[0], 0, {0, 0, 1e30f, 1e30f, 1, 0.9f, false}); // larger than the image: as far as it is in it
   std::vector<DetectedInstance> found = decodeInstances (outputs, same_size);
   ASSERT_EQ (found.size (), 1u);
-  EXPECT_EQ (pixels (found[0]), static_cast<std::size_t> (width * height));
+  EXPECT_EQ (pixels (found[0]), static_cast<std::size_t> (image_width * image_height));
   std::fill (outputs[1].values.begin (), outputs[1].values.end (), nan);
   EXPECT_TRUE (decodeInstances (outputs, same_size).empty ());
 }

@@ -2,6 +2,7 @@
 // Copyright (c) 2026, the pcl_cosection authors
 #include <pcl/cosection/segmentation/object_segmentation.h>
 
+#include "common/not_a_number.h"
 #include "label_comparison.h"
 #include "table_view.h"
 
@@ -10,15 +11,12 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
 
 using namespace pcl::cosection;
 using namespace pcl::cosection::test;
 
 namespace
 {
-
-constexpr float nan_value = std::numeric_limits<float>::quiet_NaN ();
 
 /** \brief Each true object is found, and nothing else. */
 void
@@ -131,7 +129,7 @@ TEST (ObjectSegmentation, AnyNumberOfThreads)
 
 TEST (ObjectSegmentation, NothingToStandOn)
 {
-  std::vector<Eigen::Vector3f> points (64 * 48, Eigen::Vector3f::Constant (nan_value));
+  std::vector<Eigen::Vector3f> points (64 * 48, Eigen::Vector3f::Constant (not_a_number));
   EXPECT_THROW (segmentObjects (points, 64, 48), DegenerateInput);
   points[100] = Eigen::Vector3f (0, 0, 1);
   EXPECT_THROW (segmentObjects (points, 64, 48), DegenerateInput);
@@ -140,7 +138,7 @@ TEST (ObjectSegmentation, NothingToStandOn)
     const Eigen::Vector3f ray =
         Eigen::Vector3f (static_cast<float> (i % 64 - 32), static_cast<float> (i / 64 - 24), 60).normalized ();
     const float b = ray.z () * 0.5f, c = 0.25f - 0.01f;
-    points[i] = b * b > c ? Eigen::Vector3f (ray * (b - std::sqrt (b * b - c))) : Eigen::Vector3f::Constant (nan_value);
+    points[i] = b * b > c ? Eigen::Vector3f (ray * (b - std::sqrt (b * b - c))) : Eigen::Vector3f::Constant (not_a_number);
   }
   EXPECT_THROW (segmentObjects (points, 64, 48), DegenerateInput);
   EXPECT_THROW (segmentObjects (std::vector<Eigen::Vector3f> (64 * 48, Eigen::Vector3f::Zero ()), 64, 48),
@@ -152,7 +150,7 @@ TEST (ObjectSegmentation, WrongArguments)
   const std::vector<Eigen::Vector3f> points (12, Eigen::Vector3f (0, 0, 1));
   EXPECT_THROW (segmentObjects (points, 5, 3), InvalidArgument);
   EXPECT_THROW (segmentObjects (points, 0, 0), InvalidArgument);
-  for (const double wrong : {0.0, -1.0, static_cast<double> (nan_value)})
+  for (const double wrong : {0.0, -1.0, static_cast<double> (not_a_number)})
   {
     ObjectSegmentationOptions options;
     options.max_object_size_m = wrong;

@@ -53,7 +53,7 @@ cylinder (int id, double radius, double height, const Eigen::Vector3d& foot)
 
 /** \brief Each true object is found as it is, and no more than a few small pieces of the room. */
 void
-expectFound (const SceneView& view, double least_iou, std::size_t background_pixels = 0)
+expectFoundOnShelf (const SceneView& view, double least_iou, std::size_t background_pixels = 0)
 {
   const ObjectSegmentation found = segmentObjects (view.points, view.width, view.height);
   const LabelComparison comparison = compareLabels (view.labels, found.labels, view.valid);
@@ -72,7 +72,7 @@ TEST (ShelfSegmentation, FacesAlongTheShelf)
                               boxOnTable (4, {0.07, 0.07, 0.18}, {0.45, -0.05, 0.46}, 0) +
                               boxOnTable (5, {0.25, 0.15, 0.12}, {-0.3, -0.02, 0.11}, 0) +
                               cylinder (6, 0.05, 0.2, {0.1, -0.04, 0.11});
-  expectFound (viewOfScene (shelf ({0.1, 0.45, 0.8}), objects, {0, -1.3, 0.75}, {0, 0, 0.45}), 0.85, 700);
+  expectFoundOnShelf (viewOfScene (shelf ({0.1, 0.45, 0.8}), objects, {0, -1.3, 0.75}, {0, 0, 0.45}), 0.85, 700);
 }
 
 TEST (ShelfSegmentation, FlushWithTheFrontOfTheBoard)
@@ -81,7 +81,7 @@ TEST (ShelfSegmentation, FlushWithTheFrontOfTheBoard)
   const std::string objects = boxOnTable (1, {0.14, 0.3, 0.18}, {-0.35, 0, 0.41}, 0) +
                               boxOnTable (2, {0.2, 0.15, 0.1}, {-0.1, -0.075, 0.41}, 0) +
                               boxOnTable (3, {0.12, 0.2, 0.25}, {0.3, -0.05, 0.41}, 0);
-  expectFound (viewOfScene (shelf ({0.4, 0.8}, 1.0), objects, {0.3, -1.2, 0.9}, {0, 0, 0.6}), 0.75, 700);
+  expectFoundOnShelf (viewOfScene (shelf ({0.4, 0.8}, 1.0), objects, {0.3, -1.2, 0.9}, {0, 0, 0.6}), 0.75, 700);
 }
 
 TEST (ShelfSegmentation, AgainstTheBack)
@@ -89,7 +89,7 @@ TEST (ShelfSegmentation, AgainstTheBack)
   const std::string objects = boxOnTable (1, {0.15, 0.1, 0.12}, {-0.3, 0.1, 0.51}, 0) +
                               boxOnTable (2, {0.1, 0.05, 0.2}, {0.05, 0.125, 0.51}, 0) +
                               boxOnTable (3, {0.2, 0.2, 0.1}, {0.3, 0.05, 0.51}, 0);
-  expectFound (viewOfScene (shelf ({0.15, 0.5, 0.85}, 1.0), objects, {0.1, -1.1, 1.0}, {0, 0, 0.6}), 0.75, 700);
+  expectFoundOnShelf (viewOfScene (shelf ({0.15, 0.5, 0.85}, 1.0), objects, {0.1, -1.1, 1.0}, {0, 0, 0.6}), 0.75, 700);
 }
 
 TEST (ShelfSegmentation, SeenAtASmallAngle)
@@ -98,7 +98,7 @@ TEST (ShelfSegmentation, SeenAtASmallAngle)
   const std::string objects = boxOnTable (1, {0.12, 0.08, 0.2}, {-0.3, -0.02, 0.51}, 0) +
                               boxOnTable (2, {0.15, 0.1, 0.1}, {0.0, -0.05, 0.51}, 0) +
                               cylinder (3, 0.045, 0.15, {0.3, -0.02, 0.51});
-  expectFound (viewOfScene (shelf ({0.15, 0.5, 0.9}), objects, {-0.2, -1.2, 0.62}, {0, 0, 0.55}), 0.8, 700);
+  expectFoundOnShelf (viewOfScene (shelf ({0.15, 0.5, 0.9}), objects, {-0.2, -1.2, 0.62}, {0, 0, 0.55}), 0.8, 700);
 }
 
 TEST (ShelfSegmentation, EmptyShelvesHoldNothing)
@@ -120,7 +120,7 @@ TEST (ShelfSegmentation, ALegThatTheBorderCutsIsNoObject)
                            ", " + boxAt ({0.05, 0.05, 0.72}, {0.65, -0.05, 0.36});
   const SceneView view =
       viewOfScene (desk, boxOnTable (1, {0.4, 0.14, 0.05}, {-0.1, 0.1, 0.75}, 3), {-0.3, -0.95, 1.25}, {0, 0.1, 0.78});
-  expectFound (view, 0.85, 1200);
+  expectFoundOnShelf (view, 0.85, 1200);
 }
 
 TEST (ShelfSegmentation, FlushWithTheEdgeOfATable)
@@ -130,7 +130,7 @@ TEST (ShelfSegmentation, FlushWithTheEdgeOfATable)
                            boxAt ({1.4, 0.7, 0.03}, {0, 0.25, 0.735});
   const SceneView view =
       viewOfScene (desk, boxOnTable (1, {0.22, 0.15, 0.05}, {0.3, -0.025, 0.75}, 0), {0.2, -0.8, 1.0}, {0, 0.1, 0.8});
-  expectFound (view, 0.5, 1200);
+  expectFoundOnShelf (view, 0.5, 1200);
 }
 
 TEST (ShelfSegmentation, AnyNumberOfThreads)

@@ -10,7 +10,7 @@ using namespace pcl::cosection::test;
 namespace
 {
 
-const char* const scene = R"({
+const char* const coarse_scene = R"({
   "frames": 12,
   "camera": {"width": 120, "height": 90, "keys": [
     {"time": 0, "position": [-0.3, -0.7, 0.45], "look_at": [0, 0, 0.05]},
@@ -32,7 +32,7 @@ FusionScene::SetUpTestSuite ()
   if (rendered)
     return;
   rendered = std::make_unique<TemporaryFolder> ();
-  std::ofstream (rendered->file ("scene.json")) << scene;
+  std::ofstream (rendered->file ("scene.json")) << coarse_scene;
   ToolRun run ({"scene.json", "sim"}, rendered->file (""), {}, PCL_COSECTION_SIMULATE_TOOL);
   ASSERT_EQ (run.wait (), 0) << run.errors ();
 }

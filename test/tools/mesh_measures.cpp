@@ -35,7 +35,7 @@ distanceToSegment (const Eigen::Vector3d& p, const Eigen::Vector3d& a, const Eig
 
 /** \brief The numbers of the attribute \a name of an XML header. */
 std::vector<double>
-attribute (const std::string& xml, const std::string& name)
+xmlAttribute (const std::string& xml, const std::string& name)
 {
   std::vector<double> numbers;
   const std::string opening = name + "=\"";
@@ -264,9 +264,9 @@ readVolumeBox (const std::string& vti_path)
   std::string header (longest_header, '\0');
   file.read (header.data (), static_cast<std::streamsize> (longest_header));
   header.resize (static_cast<std::size_t> (file.gcount ()));
-  const std::vector<double> extent = attribute (header, "WholeExtent");
-  const std::vector<double> origin = attribute (header, "Origin");
-  const std::vector<double> spacing = attribute (header, "Spacing");
+  const std::vector<double> extent = xmlAttribute (header, "WholeExtent");
+  const std::vector<double> origin = xmlAttribute (header, "Origin");
+  const std::vector<double> spacing = xmlAttribute (header, "Spacing");
   if (extent.size () != 6 || origin.size () != 3 || spacing.size () != 3)
     return (std::nullopt);
   VolumeBox volume;

@@ -3,6 +3,7 @@
 
 // Real views of objects on a table, without truth: what any sensible completion of them must hold.
 
+#include "common/data_folder.h"
 #include "mesh_measures.h"
 #include "tool_run.h"
 
@@ -20,7 +21,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iomanip>
@@ -55,21 +55,13 @@ constexpr std::size_t least_table_points = 1000;
 constexpr std::size_t area_samples = 50000;
 constexpr unsigned seed = 1;
 
-fs::path
-dataFolder ()
-{
-  const char* const given = std::getenv ("PCL_COSECTION_DATA");
-  const fs::path shared = given != nullptr ? fs::path (given) : fs::path (PCL_COSECTION_SOURCE_DIR) / "../shared/data";
-  return (fs::absolute (shared / "osd").lexically_normal ());
-}
-
 /** \brief The views known to be there, and whatever else is. */
 std::set<std::string>
 viewNames ()
 {
   std::set<std::string> names = {"learn0", "learn20", "learn33", "test0", "test10", "test45"};
   std::error_code absent;
-  for (const fs::directory_entry& entry : fs::directory_iterator (dataFolder (), absent))
+  for (const fs::directory_entry& entry : fs::directory_iterator (dataFolder ("osd"), absent))
     if (entry.path ().extension () == ".pcd")
       names.insert (entry.path ().stem ().string ());
   return (names);
@@ -251,7 +243,7 @@ protected:
   void
   SetUp () override
   {
-    file_ = (dataFolder () / (GetParam () + ".pcd")).string ();
+    file_ = (dataFolder ("osd") / (GetParam () + ".pcd")).string ();
     if (!fs::exists (file_))
       GTEST_SKIP () << file_ << " is absent; PCL_COSECTION_DATA can name the folder of the shared data";
   }

@@ -3,6 +3,7 @@
 
 // The program with the clouds of PCL's own tests, which are no labelled views.
 
+#include "common/data_folder.h"
 #include "common/temporary_folder.h"
 #include "tool_run.h"
 
@@ -11,11 +12,11 @@
 
 #include <gtest/gtest.h>
 
-#include <cstdlib>
 #include <filesystem>
 
 namespace fs = std::filesystem;
 using namespace pcl::cosection;
+using namespace pcl::cosection::test;
 
 namespace
 {
@@ -27,13 +28,6 @@ struct Expected
   const char* warning;      ///< empty: none
 };
 
-fs::path
-dataFolder ()
-{
-  const char* const folder = std::getenv ("PCL_COSECTION_DATA");
-  return ((folder ? fs::path (folder) : fs::path (PCL_COSECTION_SOURCE_DIR) / "../shared/data") / "pcl");
-}
-
 class PclClouds : public testing::TestWithParam<Expected>
 {};
 
@@ -41,7 +35,7 @@ class PclClouds : public testing::TestWithParam<Expected>
 
 TEST_P (PclClouds, GiveASensibleMesh)
 {
-  const fs::path cloud = dataFolder () / GetParam ().file;
+  const fs::path cloud = dataFolder ("pcl") / GetParam ().file;
   if (!fs::exists (cloud))
     GTEST_SKIP () << "there is no " << cloud;
   const pcl::cosection::test::TemporaryFolder folder;

@@ -15,7 +15,7 @@ using namespace pcl::cosection::test;
 namespace
 {
 
-const char* const scene = R"({
+const char* const fine_scene = R"({
   "frames": 22,
   "camera": {"width": 240, "height": 180, "keys": [
     {"time": 0, "position": [-0.3, -0.7, 0.45], "look_at": [0, 0, 0.05]},
@@ -41,7 +41,7 @@ protected:
 
 TEST_F (FusionSegmentation, ObjectsAreFoundAndCompleted)
 {
-  writeFile (file ("scene.json"), scene); // that of the other tests is too coarse
+  writeFile (file ("scene.json"), fine_scene); // that of the other tests is too coarse
   ToolRun simulation ({"scene.json", "fine"}, file (""), {}, PCL_COSECTION_SIMULATE_TOOL);
   ASSERT_EQ (simulation.wait (), 0) << simulation.errors ();
   ASSERT_EQ (run ({"--segmentation", "geometric", "fine", "out"}), 0) << errors_;

@@ -18,7 +18,6 @@
 
 using namespace pcl::cosection::test;
 namespace fs = std::filesystem;
-using Json = nlohmann::json;
 
 namespace
 {
@@ -26,14 +25,14 @@ namespace
 class Report : public ReportScene
 {
 protected:
-  Json
+  nlohmann::json
   json (const std::string& name) const
   {
-    return (Json::parse (readFile (file (name))));
+    return (nlohmann::json::parse (readFile (file (name))));
   }
 
   /** \brief What pcl_cosection_evaluate says of a run. */
-  Json
+  nlohmann::json
   evaluation (const std::string& run) const
   {
     ToolRun tool ({"run", "--json", "evaluation.json", run, "sim"}, file (""), {}, PCL_COSECTION_EVALUATE);
@@ -53,7 +52,7 @@ protected:
 };
 
 std::string
-scoreText (const Json& object)
+scoreText (const nlohmann::json& object)
 {
   return (inMillimetres (object["accuracy_m"]) + " / " + inMillimetres (object["completeness_m"]) + " / " +
           toText (object["f_score"]));
@@ -64,9 +63,9 @@ scoreText (const Json& object)
 TEST_F (Report, ObjectsAreAsTheSummarySays)
 {
   const std::string html = page ({"out"});
-  const Json summary = json ("out/summary.json");
+  const nlohmann::json summary = json ("out/summary.json");
   ASSERT_EQ (summary["objects"].size (), 2u);
-  for (const Json& object : summary["objects"])
+  for (const nlohmann::json& object : summary["objects"])
   {
     const std::string name = "object " + object["id"].dump ();
     EXPECT_EQ (cell (html, "objects", name, "Volume (ml)"), inMillilitres (object["volume_m3"]));
@@ -87,7 +86,7 @@ TEST_F (Report, ObjectsAreAsTheSummarySays)
   EXPECT_EQ (cell (html, "times", "completing", "Seconds"), toText (summary["timings_s"]["final_solve"]));
   EXPECT_EQ (html.find ("id=\"accuracy\""), std::string::npos);
   EXPECT_EQ (html.find ("id=\"comparison\""), std::string::npos);
-  for (const Json& warning : summary["warnings"])
+  for (const nlohmann::json& warning : summary["warnings"])
     EXPECT_NE (html.find ("<li>" + escapeHtml (warning) + "</li>"), std::string::npos) << warning;
   EXPECT_EQ (html.find ("No warnings.") == std::string::npos, !summary["warnings"].empty ());
 }
@@ -96,11 +95,11 @@ TEST_F (Report, ErrorsAreAsTheEvaluationSays)
 {
   makeOtherRun ();
   const std::string html = page ({"--truth", "sim", "--compare", "out_none", "-o", "a.html", "out"});
-  const Json all = evaluation ("out"), none = evaluation ("out_none");
+  const nlohmann::json all = evaluation ("out"), none = evaluation ("out_none");
   ASSERT_EQ (all["objects"].size (), 2u);
   for (std::size_t n = 0; n < 2; ++n)
   {
-    const Json& object = all["objects"][n];
+    const nlohmann::json& object = all["objects"][n];
     const std::string name = object["truth"];
     EXPECT_EQ (cell (html, "accuracy", name, "Accuracy (mm)"), inMillimetres (object["accuracy_m"]));
     EXPECT_EQ (cell (html, "accuracy", name, "Completeness (mm)"), inMillimetres (object["completeness_m"]));
@@ -123,7 +122,7 @@ TEST_F (Report, RunsCompareWithoutTruthToo)
 {
   makeOtherRun ();
   const std::string html = page ({"out", "--compare", "out_none"});
-  const Json object = json ("out_none/summary.json")["objects"][0];
+  const nlohmann::json object = json ("out_none/summary.json")["objects"][0];
   EXPECT_EQ (cell (html, "comparison", "out_none", "object 1"),
              inMillilitres (object["volume_m3"]) + " / " + inMillimetres (object["penetration_m"]));
 }
@@ -270,12 +269,12 @@ TEST_F (Report, TextsOfFilesAreHarmless)
 {
   const std::string hostile = "<img src=x onerror=alert(1)>";
   fs::rename (file ("out"), file (hostile));
-  Json summary = json (hostile + "/summary.json");
+  nlohmann::json summary = json (hostile + "/summary.json");
   summary["warnings"] = {"</script><script>alert(2)</script>", "a\xFF\"'&z"};
   summary["parameters"]["dataset"] = "data/<b>bold";
   summary["parameters"]["</td><script>alert(3)</script>"] = "<i>";
   summary["events"] = {"<svg onload=alert(4)>"};
-  writeFile (file (hostile + "/summary.json"), summary.dump (-1, ' ', false, Json::error_handler_t::ignore));
+  writeFile (file (hostile + "/summary.json"), summary.dump (-1, ' ', false, nlohmann::json::error_handler_t::ignore));
   for (const char* kind : {"gt-ball-1.txt"})
     fs::rename (file (std::string ("sim/") + kind), file ("sim/gt-<b onclick=alert(5)>-1.txt"));
   fs::rename (file ("sim/gt-mesh/ball.ply"), file ("sim/gt-mesh/<b onclick=alert(5)>.ply"));
@@ -288,9 +287,9 @@ TEST_F (Report, TextsOfFilesAreHarmless)
 
 TEST_F (Report, ObjectsAreCalledByTheirClasses)
 {
-  Json summary = json ("out/summary.json");
+  nlohmann::json summary = json ("out/summary.json");
   ASSERT_EQ (summary["objects"].size (), 2u);
-  const Json unknown = summary;
+  const nlohmann::json unknown = summary;
   summary["objects"][0]["class"] = "sports ball";
   summary["objects"][1]["class"] = "41"; // has no name
   writeFile (file ("out/summary.json"), summary.dump ());
@@ -300,7 +299,7 @@ TEST_F (Report, ObjectsAreCalledByTheirClasses)
   // What the truth calls them comes first.
   html = page ({"--truth", "sim", "out"});
   EXPECT_EQ (html.find ("sports ball"), std::string::npos);
-  for (const Json& odd : {Json (5), Json (""), Json ({"cup"}), Json ()})
+  for (const nlohmann::json& odd : {nlohmann::json (5), nlohmann::json (""), nlohmann::json ({"cup"}), nlohmann::json ()})
   {
     summary = unknown;
     summary["objects"][0]["class"] = odd;

@@ -15,7 +15,6 @@
 
 using namespace pcl::cosection;
 using namespace pcl::cosection::test;
-using Json = nlohmann::json;
 
 namespace
 {
@@ -56,8 +55,8 @@ protected:
   requests () const
   {
     Words urls;
-    const Json log = Json::parse (readFile (file ("net.json")));
-    for (const Json& event : log["events"])
+    const nlohmann::json log = nlohmann::json::parse (readFile (file ("net.json")));
+    for (const nlohmann::json& event : log["events"])
       if (event.contains ("params") && event["params"].contains ("initiator") && event["params"]["initiator"] != "not an origin")
         urls.push_back (event["params"].value ("url", "?"));
     return (urls);
@@ -224,11 +223,11 @@ TEST_F (ReportBrowser, ControlsWork)
   std::smatch title;
   ASSERT_TRUE (std::regex_search (document, title, std::regex ("<title>(\\{.*\\})</title>")))
       << document.substr (document.find ("<title>"), 300);
-  const Json notes = Json::parse (title[1].str ());
+  const nlohmann::json notes = nlohmann::json::parse (title[1].str ());
   EXPECT_EQ (notes["middle"], "frame 6");
   EXPECT_EQ (notes["first"], "frame 0");
   EXPECT_EQ (notes["last"], "frame 11");
-  EXPECT_EQ (notes["colours"], Json ({"colours 0", "provenance 4 new", "confidence 1 new", "instance 0 new", "error 1 new"}));
+  EXPECT_EQ (notes["colours"], nlohmann::json ({"colours 0", "provenance 4 new", "confidence 1 new", "instance 0 new", "error 1 new"}));
   for (const char* name : {"moved", "hidden", "shown", "seen", "through", "reset", "turned", "nearer", "page_scrolls", "plays"})
     EXPECT_EQ (notes[name], true) << name;
 }
@@ -244,7 +243,7 @@ TEST_F (ReportBrowser, WithoutWebGlThereIsASentence)
 
 TEST_F (ReportBrowser, HostileTextsDoNothing)
 {
-  Json summary = Json::parse (readFile (file ("out/summary.json")));
+  nlohmann::json summary = nlohmann::json::parse (readFile (file ("out/summary.json")));
   summary["warnings"] = {"<script>document.title = 'changed'</script>", "<img src=x onerror=\"document.title='changed'\">"};
   summary["parameters"]["dataset"] = "</title><script>document.title = 'changed'</script>";
   writeFile (file ("out/summary.json"), summary.dump ());

@@ -24,7 +24,6 @@ using namespace pcl::cosection;
 namespace
 {
 
-const std::string tool = PCL_COSECTION_SEGMENT;
 constexpr int width = 160, height = 120;
 
 class Segment : public testing::Test
@@ -61,7 +60,7 @@ protected:
   std::string
   failure (const std::vector<std::string>& arguments, int status) const
   {
-    ToolRun run (arguments, folder_.file (""), {}, tool);
+    ToolRun run (arguments, folder_.file (""), {}, PCL_COSECTION_SEGMENT);
     EXPECT_EQ (run.wait (), status);
     const std::string errors = run.errors ();
     EXPECT_EQ (errors.rfind ("pcl_cosection_segment: error: ", 0), 0u) << errors;
@@ -78,7 +77,7 @@ protected:
 
 TEST_F (Segment, LabelsAndKeepsTheRest)
 {
-  ToolRun run ({"in.pcd", "out.pcd", "--json", "s.json"}, folder_.file (""), {}, tool);
+  ToolRun run ({"in.pcd", "out.pcd", "--json", "s.json"}, folder_.file (""), {}, PCL_COSECTION_SEGMENT);
   ASSERT_EQ (run.wait (), 0) << run.errors ();
   EXPECT_EQ (run.errors (), "");
   EXPECT_EQ (run.output (), "wrote out.pcd: 1 object on 1 plane\n");
@@ -108,7 +107,7 @@ TEST_F (Segment, LabelsAndKeepsTheRest)
 
 TEST_F (Segment, LeavesOutARegion)
 {
-  ToolRun run ({"in.pcd", "out.pcd", "--ignore-region", "60,0,40,120"}, folder_.file (""), {}, tool); // that the block is in
+  ToolRun run ({"in.pcd", "out.pcd", "--ignore-region", "60,0,40,120"}, folder_.file (""), {}, PCL_COSECTION_SEGMENT); // that the block is in
   ASSERT_EQ (run.wait (), 0) << run.errors ();
   EXPECT_EQ (run.output (), "wrote out.pcd: 0 objects on 1 plane\n");
   Cloud out;
@@ -124,7 +123,7 @@ TEST_F (Segment, AddsTheFieldInMillimetres)
   for (pcl::PointXYZ& p : cloud)
     p.getVector3fMap () *= 1000.0f;
   pcl::io::savePCDFileASCII (folder_.file ("in.pcd"), cloud);
-  ToolRun run ({"in.pcd", "out.pcd", "--scale", "0.001", "--quiet"}, folder_.file (""), {}, tool);
+  ToolRun run ({"in.pcd", "out.pcd", "--scale", "0.001", "--quiet"}, folder_.file (""), {}, PCL_COSECTION_SEGMENT);
   ASSERT_EQ (run.wait (), 0) << run.errors ();
   EXPECT_EQ (run.output (), "");
   pcl::PointCloud<pcl::PointXYZL> out;
@@ -136,7 +135,7 @@ TEST_F (Segment, AddsTheFieldInMillimetres)
 
 TEST_F (Segment, PclCosectionTakesIt)
 {
-  ToolRun run ({"in.pcd", "out.pcd"}, folder_.file (""), {}, tool);
+  ToolRun run ({"in.pcd", "out.pcd"}, folder_.file (""), {}, PCL_COSECTION_SEGMENT);
   ASSERT_EQ (run.wait (), 0) << run.errors ();
   ToolRun completion ({"out.pcd", "meshes", "--resolution", "24"}, folder_.file (""));
   EXPECT_EQ (completion.wait (), 0) << completion.errors ();

@@ -27,8 +27,6 @@ using test::SpotNetwork;
 namespace
 {
 
-const std::string tool = PCL_COSECTION_SEGMENT;
-
 class SegmentNetwork : public testing::Test
 {
 protected:
@@ -69,7 +67,7 @@ protected:
   std::map<std::uint32_t, std::size_t>
   labels (const std::vector<std::string>& words) const
   {
-    ToolRun run (words, folder_.file (""), {}, tool);
+    ToolRun run (words, folder_.file (""), {}, PCL_COSECTION_SEGMENT);
     EXPECT_EQ (run.wait (), 0) << run.errors ();
     EXPECT_EQ (run.errors (), "");
     Cloud out;
@@ -83,7 +81,7 @@ protected:
   std::string
   failure (const std::vector<std::string>& words, int status) const
   {
-    ToolRun run (words, folder_.file (""), {}, tool);
+    ToolRun run (words, folder_.file (""), {}, PCL_COSECTION_SEGMENT);
     EXPECT_EQ (run.wait (), status);
     const std::string errors = run.errors ();
     EXPECT_EQ (errors.rfind ("pcl_cosection_segment: error: ", 0), 0u) << errors;

@@ -23,8 +23,6 @@ using namespace pcl::cosection;
 namespace
 {
 
-const std::string tool = PCL_COSECTION_SIMULATE_TOOL;
-
 const char* const small = R"({
   "frames": 4,
   "camera": {"width": 64, "height": 48, "keys": [{"position": [0, -1, 0.5], "look_at": [0, 0, 0]}]},
@@ -46,7 +44,7 @@ protected:
   std::string
   failure (const std::vector<std::string>& arguments, int status) const
   {
-    ToolRun run (arguments, folder_.file (""), {}, tool);
+    ToolRun run (arguments, folder_.file (""), {}, PCL_COSECTION_SIMULATE_TOOL);
     EXPECT_EQ (run.wait (), status);
     const std::string errors = run.errors ();
     EXPECT_EQ (errors.rfind ("pcl_cosection_simulate: error: ", 0), 0u) << errors;
@@ -62,7 +60,7 @@ protected:
 TEST_F (Simulate, WritesASceneAndASummary)
 {
   writeScene ();
-  ToolRun run ({"scene.json", "out", "--json", "s.json", "--views-every", "2"}, folder_.file (""), {}, tool);
+  ToolRun run ({"scene.json", "out", "--json", "s.json", "--views-every", "2"}, folder_.file (""), {}, PCL_COSECTION_SIMULATE_TOOL);
   EXPECT_EQ (run.wait (), 0) << run.errors ();
   EXPECT_EQ (run.errors (), "");
   EXPECT_EQ (run.output ().rfind ("wrote out: 4 frames of 64 x 48, 1 object, ", 0), 0u) << run.output ();
@@ -79,23 +77,23 @@ TEST_F (Simulate, WritesASceneAndASummary)
 TEST_F (Simulate, SaysWhatPenetrates)
 {
   writeScene ("0.08");
-  ToolRun run ({"scene.json", "out"}, folder_.file (""), {}, tool);
+  ToolRun run ({"scene.json", "out"}, folder_.file (""), {}, PCL_COSECTION_SIMULATE_TOOL);
   EXPECT_EQ (run.wait (), 0);
   EXPECT_EQ (run.errors (), "pcl_cosection_simulate: warning: ball is inside room, by 20 mm at frame 0 (in 4 frames)\n");
 }
 
 TEST_F (Simulate, PresetsAreListedPrintedAndRendered)
 {
-  ToolRun list ({"--list-presets"}, folder_.file (""), {}, tool);
+  ToolRun list ({"--list-presets"}, folder_.file (""), {}, PCL_COSECTION_SIMULATE_TOOL);
   EXPECT_EQ (list.wait (), 0);
   for (const char* name : {"table", "toys", "stack"})
     EXPECT_NE (list.output ().find (std::string (name) + " "), std::string::npos);
-  ToolRun print ({"--print-preset", "stack"}, folder_.file (""), {}, tool);
+  ToolRun print ({"--print-preset", "stack"}, folder_.file (""), {}, PCL_COSECTION_SIMULATE_TOOL);
   EXPECT_EQ (print.wait (), 0);
   std::ofstream (folder_.file ("mine.json")) << print.output ();
-  ToolRun mine ({"--frames", "50:51", "mine.json", "mine"}, folder_.file (""), {}, tool);
+  ToolRun mine ({"--frames", "50:51", "mine.json", "mine"}, folder_.file (""), {}, PCL_COSECTION_SIMULATE_TOOL);
   EXPECT_EQ (mine.wait (), 0) << mine.errors ();
-  ToolRun preset ({"--frames", "50:51", "--preset", "stack", "preset"}, folder_.file (""), {}, tool);
+  ToolRun preset ({"--frames", "50:51", "--preset", "stack", "preset"}, folder_.file (""), {}, PCL_COSECTION_SIMULATE_TOOL);
   EXPECT_EQ (preset.wait (), 0) << preset.errors ();
   const auto bytes = [&] (const std::string& name) {
     std::ifstream in (folder_.file (name), std::ios::binary);

@@ -20,8 +20,6 @@ using namespace pcl::cosection::test;
 namespace
 {
 
-const PinholeCamera camera{320, 240, 262.5, 262.5, 159.5, 119.5};
-constexpr double distance_m = 0.7;
 constexpr int resolution = 64;
 constexpr int trials = 200;
 
@@ -48,7 +46,7 @@ alignPerturbed (const SdfTarget& target, const Eigen::Vector3d& center, const st
   {
     const BodyView& view = views[trial % views.size ()];
     const Eigen::Isometry3d guess = randomMotion (random, center, radians (10.0), 0.05) * view.T_body_sensor;
-    const SdfAlignmentResult result = alignment.align (view.points (camera), {}, target, guess);
+    const SdfAlignmentResult result = alignment.align (view.points (body_camera), {}, target, guess);
     const PoseError error (result.T_grid_sensor, view.T_body_sensor, center);
     outcome.converged += result.converged;
     outcome.good += error.shift_m < bounds.shift_m && error.angle_rad < bounds.angle_rad;
@@ -68,7 +66,7 @@ protected:
 
 TEST_P (SdfAlignmentOfToys, ConvergesFromTenDegreesAndFiveCentimetres)
 {
-  const auto views = renderBody (body_, camera, posesAroundBody (center_, distance_m, 10), false);
+  const auto views = renderBody (body_, body_camera, posesAroundBody (center_, body_distance_m, 10), false);
   const Outcome outcome = alignPerturbed (bodyDistance (body_, resolution), center_, views, {1e-3, radians (0.2)});
   EXPECT_GE (outcome.good, trials * 95 / 100);
   EXPECT_GE (outcome.converged, trials * 95 / 100);
@@ -76,7 +74,7 @@ TEST_P (SdfAlignmentOfToys, ConvergesFromTenDegreesAndFiveCentimetres)
 
 TEST_P (SdfAlignmentOfToys, ConvergesWithTheNoiseOfStructuredLight)
 {
-  const auto views = renderBody (body_, camera, posesAroundBody (center_, distance_m, 10), true);
+  const auto views = renderBody (body_, body_camera, posesAroundBody (center_, body_distance_m, 10), true);
   const Outcome outcome = alignPerturbed (bodyDistance (body_, resolution), center_, views, {2e-3, radians (0.5)});
   EXPECT_GE (outcome.good, trials * 95 / 100);
 }
@@ -88,16 +86,16 @@ TEST_P (SdfAlignmentOfToys, ConvergesInTheTsdfOfASequence)
   std::vector<Eigen::Isometry3d> integrated, between;
   for (int frame = 0; frame < 24; ++frame)
   {
-    integrated.push_back (poseOnCircle (center_, distance_m, radians (5.0 * frame)));
+    integrated.push_back (poseOnCircle (center_, body_distance_m, radians (5.0 * frame)));
     if (frame % 2 == 0)
-      between.push_back (poseOnCircle (center_, distance_m, radians (5.0 * frame + 2.5)));
+      between.push_back (poseOnCircle (center_, body_distance_m, radians (5.0 * frame + 2.5)));
   }
   TsdfOptions options;
   options.truncation_vox = 5.0;
-  const TsdfVolume volume = bodyTsdf (body_, camera, renderBody (body_, camera, integrated, false), resolution, options);
+  const TsdfVolume volume = bodyTsdf (body_, body_camera, renderBody (body_, body_camera, integrated, false), resolution, options);
   const double half_length_vox = 0.5 * resolution / 1.25; // the volume is a quarter larger
   const Bounds bounds{0.25 * volume.grid ().voxel_size_m, 0.25 / half_length_vox};
-  const Outcome outcome = alignPerturbed (volume, center_, renderBody (body_, camera, between, false), bounds);
+  const Outcome outcome = alignPerturbed (volume, center_, renderBody (body_, body_camera, between, false), bounds);
   EXPECT_GE (outcome.good, trials * 95 / 100);
 }
 
@@ -129,11 +127,11 @@ TEST_P (SdfAlignmentOfToys, IsTheSameForAnyNumberOfThreads)
 /** \brief By central differences of trilinear samples, at the pose found. */
 TEST_P (SdfAlignmentOfToys, InformationIsThatOfFiniteDifferences)
 {
-  const BodyView view = renderBody (body_, camera, {poseOnCircle (center_, distance_m, 1.0)}, false).front ();
+  const BodyView view = renderBody (body_, body_camera, {poseOnCircle (center_, body_distance_m, 1.0)}, false).front ();
   const std::vector<BodyView> integrated =
-      renderBody (body_, camera, {poseOnCircle (center_, distance_m, 0.9), poseOnCircle (center_, distance_m, 1.1)}, false);
-  const TsdfVolume volume = bodyTsdf (body_, camera, integrated, resolution);
-  const std::vector<Eigen::Vector3f> points = view.points (camera);
+      renderBody (body_, body_camera, {poseOnCircle (center_, body_distance_m, 0.9), poseOnCircle (center_, body_distance_m, 1.1)}, false);
+  const TsdfVolume volume = bodyTsdf (body_, body_camera, integrated, resolution);
+  const std::vector<Eigen::Vector3f> points = view.points (body_camera);
   std::vector<float> weights (points.size ());
   for (std::size_t n = 0; n < points.size (); ++n)
     weights[n] = 0.25f + static_cast<float> (n % 3);

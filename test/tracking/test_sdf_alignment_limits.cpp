@@ -3,6 +3,7 @@
 
 // Geometry that does not determine a pose, points that say nothing, and wrong arguments.
 
+#include "common/not_a_number.h"
 #include "tracking_scene.h"
 #include "volume/tsdf_views.h"
 
@@ -21,8 +22,6 @@ using namespace pcl::cosection::test;
 
 namespace
 {
-
-constexpr float not_a_number = std::numeric_limits<float>::quiet_NaN ();
 
 SignedDistanceField
 fieldOf (const std::function<double (const Eigen::Vector3d&)>& distance, int resolution = 48)

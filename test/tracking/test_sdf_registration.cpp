@@ -22,9 +22,6 @@ using namespace pcl::cosection::test;
 namespace
 {
 
-const PinholeCamera camera{320, 240, 262.5, 262.5, 159.5, 119.5};
-constexpr double distance_m = 0.7;
-
 using Cloud = pcl::PointCloud<pcl::PointXYZ>;
 
 Cloud::Ptr
@@ -57,10 +54,10 @@ protected:
   static BodyView
   viewFrom (const Eigen::Isometry3d& T_body_sensor)
   {
-    return renderBody (body (), camera, {T_body_sensor}, false).front ();
+    return renderBody (body (), body_camera, {T_body_sensor}, false).front ();
   }
 
-  SdfRegistrationTest () : view_ (viewFrom (poseOnCircle (center_, distance_m, 0.8))), points_ (view_.points (camera))
+  SdfRegistrationTest () : view_ (viewFrom (poseOnCircle (center_, body_distance_m, 0.8))), points_ (view_.points (body_camera))
   {
     std::mt19937 random (5);
     const Eigen::Isometry3d first = randomMotion (random, center_, radians (6.0), 0.04) * view_.T_body_sensor;
@@ -96,7 +93,7 @@ TEST_F (SdfRegistrationTest, EqualsTheAlignment)
   EXPECT_LT (base->getFitnessScore (), spacing_m * spacing_m);
 
   // As a TSDF volume it is set in the same way.
-  const auto volume = std::make_shared<TsdfVolume> (bodyTsdf (body (), camera, {view_}, 64));
+  const auto volume = std::make_shared<TsdfVolume> (bodyTsdf (body (), body_camera, {view_}, 64));
   const SdfAlignmentResult in_tsdf = SdfAlignment ().align (points_, {}, *volume, T_guess_);
   registration->setSignedDistance (volume);
   base->align (aligned, guess_);
@@ -108,7 +105,7 @@ TEST_F (SdfRegistrationTest, HonoursIndicesWeightsAndTheBase)
   auto cloud = cloudOf (points_);
   const auto last = static_cast<int> (cloud->size ());
   for (int n = 0; n < 3000; ++n)
-    cloud->push_back ({0.05f, 0.01f, static_cast<float> (distance_m)});
+    cloud->push_back ({0.05f, 0.01f, static_cast<float> (body_distance_m)});
   cloud->push_back ({std::numeric_limits<float>::quiet_NaN (), 0.0f, 0.0f});
   SdfRegistration<pcl::PointXYZ> registration;
   registration.setSignedDistance (field ());
@@ -180,7 +177,7 @@ TEST_F (SdfRegistrationTest, TrackerFollowsAndSaysWhenTheObjectIsLost)
   SdfTracker<pcl::PointXYZ> tracker;
   tracker.setSignedDistance (field ());
   const auto T_body_sensor = [&] (int frame) { // the sensor goes around the object, and nearer
-    return poseOnCircle (center_, distance_m - 0.01 * frame, radians (20.0 + 4.0 * frame));
+    return poseOnCircle (center_, body_distance_m - 0.01 * frame, radians (20.0 + 4.0 * frame));
   };
   tracker.setTrans (Eigen::Affine3f (T_body_sensor (0).inverse ().matrix ().cast<float> ()));
   EXPECT_TRUE (tracker.isLost ());
@@ -191,7 +188,7 @@ TEST_F (SdfRegistrationTest, TrackerFollowsAndSaysWhenTheObjectIsLost)
     tracker.setTrans (Eigen::Affine3f (T_body_sensor (0).inverse ().matrix ().cast<float> ()));
     for (int frame = 1; frame < 8; ++frame)
     {
-      tracker.setInputCloud (cloudOf (viewFrom (T_body_sensor (frame)).points (camera)));
+      tracker.setInputCloud (cloudOf (viewFrom (T_body_sensor (frame)).points (body_camera)));
       tracker.compute ();
       ASSERT_FALSE (tracker.isLost ()) << frame;
       const PoseError error (tracker.getPose ().inverse (), T_body_sensor (frame), center_);
@@ -214,7 +211,7 @@ TEST_F (SdfRegistrationTest, TrackerFollowsAndSaysWhenTheObjectIsLost)
   EXPECT_TRUE (tracker.isLost ());
   EXPECT_EQ (tracker.getResult ().weight, 0.0f);
   EXPECT_TRUE (tracker.getPose ().isApprox (last, 1e-12));
-  tracker.setInputCloud (cloudOf (viewFrom (T_body_sensor (8)).points (camera)));
+  tracker.setInputCloud (cloudOf (viewFrom (T_body_sensor (8)).points (body_camera)));
   tracker.compute ();
   EXPECT_FALSE (tracker.isLost ());
   tracker.setInputCloud (pcl::make_shared<Cloud> ());

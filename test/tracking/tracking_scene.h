@@ -21,6 +21,10 @@ namespace cosection
 namespace test
 {
 
+/** \brief A camera that sees a body well from a distance. */
+inline const PinholeCamera body_camera{320, 240, 262.5, 262.5, 159.5, 119.5};
+constexpr double body_distance_m = 0.7;
+
 /** \brief Depth image of one body, whose frame is that of the pose. */
 struct BodyView
 {

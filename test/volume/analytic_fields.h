@@ -40,6 +40,17 @@ box (const Eigen::Vector3d& half)
   };
 }
 
+/** \brief f (index of a voxel, its centre), of all voxels. */
+template <typename Function>
+void
+forEachVoxel (const VoxelGrid& grid, Function&& f)
+{
+  for (int k = 0; k < grid.dims.z (); ++k)
+    for (int j = 0; j < grid.dims.y (); ++j)
+      for (int i = 0; i < grid.dims.x (); ++i)
+        f (grid.index (i, j, k), grid.center (i, j, k));
+}
+
 /** \brief Samples of \a distance on a cube of the given half edge about the origin. */
 inline SignedDistanceField
 sampleField (const Distance& distance, double half_edge_m, double voxel_size_m)

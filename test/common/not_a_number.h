@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_cosection authors
+#pragma once
+
+#include <limits>
+
+namespace pcl
+{
+namespace cosection
+{
+namespace test
+{
+
+constexpr float not_a_number = std::numeric_limits<float>::quiet_NaN ();
+
+} // namespace test
+} // namespace cosection
+} // namespace pcl
