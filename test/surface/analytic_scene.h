@@ -21,6 +21,13 @@ namespace cosection
 namespace test
 {
 
+/** \brief A camera of few pixels, for tests of single views. */
+inline PinholeCamera
+smallCamera ()
+{
+  return {160, 120, 140.0, 140.0, 79.5, 59.5};
+}
+
 /** \brief A shape put somewhere. */
 Distance
 placed (const Distance& shape, const Eigen::Isometry3d& T_world_shape);

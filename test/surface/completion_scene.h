@@ -26,6 +26,9 @@ enum class Shape
 std::string
 nameOf (Shape shape);
 
+/** \brief What most tests complete tableScene () with. */
+constexpr double voxel_m = 0.005;
+
 /** \brief The shape on the table z = 0, about 12 cm large. */
 Distance
 onTable (Shape shape);
@@ -33,6 +36,9 @@ onTable (Shape shape);
 /** \brief Table (0) and the shape (1). */
 AnalyticScene
 tableScene (Shape shape);
+
+/** \brief The table of tableScene (). */
+inline const Eigen::Vector4d table_plane (0.0, 0.0, 1.0, 0.0);
 
 /** \brief A camera that fits tableScene ()'s object, and poses from which it sees it. */
 PinholeCamera

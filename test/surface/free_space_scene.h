@@ -24,12 +24,6 @@ namespace test
 
 using Points = pcl::PointCloud<pcl::PointXYZ>;
 
-inline PinholeCamera
-tableCamera ()
-{
-  return {160, 120, 140.0, 140.0, 79.5, 59.5};
-}
-
 /** \brief The table is z = 0. */
 inline AnalyticScene
 tableScene ()
@@ -59,7 +53,7 @@ renderTable (const AnalyticScene& scene, double noise = 0.0,
   std::vector<DepthView> views;
   for (const Eigen::Isometry3d& pose : poses)
   {
-    views.push_back (scene.render (tableCamera (), pose).view);
+    views.push_back (scene.render (smallCamera (), pose).view);
     for (float& z : views.back ().depth)
       z += static_cast<float> (noise * depthNoiseSigma (z) * gauss (generator));
   }

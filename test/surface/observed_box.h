@@ -15,6 +15,9 @@ namespace cosection
 namespace test
 {
 
+/** \brief What something stands on: the plane z = 0. */
+inline const Eigen::Vector4d ground (0.0, 0.0, 1.0, 0.0);
+
 /** \brief Points every \a spacing_m on those faces of a box about the origin that a camera in the direction \a seen_from sees. */
 inline std::vector<OrientedPoint>
 observedBox (const Eigen::Vector3d& half_size, const Eigen::Vector3d& seen_from, double spacing_m = 0.002)

@@ -16,7 +16,7 @@ namespace test
 namespace
 {
 
-constexpr float beta = 0.01f;
+constexpr float bound_weight = 0.01f;
 
 EnergyProblem
 randomProblem (const Eigen::Vector3i& dims)
@@ -72,9 +72,9 @@ makeProblem (ProblemKind kind, const Eigen::Vector3i& dims)
           problem.weighted_target[n] = static_cast<float> (problem.weight[n] * s);
         }
         else if (hull && seen && s >= 3.0)
-          problem.exterior[n] = LowerBound (static_cast<float> (s - 2.0), beta);
+          problem.exterior[n] = LowerBound (static_cast<float> (s - 2.0), bound_weight);
         if (bodies && p.z () < -radius)
-          problem.intersection[n] = LowerBound (static_cast<float> (std::min (5.0, -radius - p.z ())), beta);
+          problem.intersection[n] = LowerBound (static_cast<float> (std::min (5.0, -radius - p.z ())), bound_weight);
       }
   return problem;
 }

@@ -15,8 +15,6 @@ using namespace pcl::cosection::test;
 namespace
 {
 
-constexpr double voxel_m = 0.005;
-
 /** \brief Deepest that vertices of \a inner lie outside \a outer, voxels. */
 double
 protrusion (const TriangleMesh& inner, const TriangleMesh& outer, const VoxelGrid& grid)

@@ -15,8 +15,6 @@ using namespace pcl::cosection::test;
 namespace
 {
 
-constexpr double voxel_m = 0.005;
-
 /** \brief Shares of an object's surface where it cannot be. */
 struct Violations
 {

@@ -15,7 +15,6 @@ using namespace pcl::cosection::test;
 namespace
 {
 
-constexpr double voxel_m = 0.005;
 constexpr double reach_m = 4.0 * voxel_m; // distances beyond count as this
 
 template <typename T>

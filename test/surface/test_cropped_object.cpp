@@ -18,9 +18,6 @@ using namespace pcl::cosection::test;
 namespace
 {
 
-constexpr double voxel_m = 0.005;
-const Eigen::Vector4d table (0.0, 0.0, 1.0, 0.0);
-
 /** \brief What is left of a view when all but the object is set to no reading. */
 DepthView
 cropped (const RenderedView& seen)
@@ -89,7 +86,7 @@ TEST_P (CroppedObject, WithAPlaneIsAsWithTheTable)
   const DepthView unorganized = redrawn (seen_);
   for (const DepthView* view : {&organized, &unorganized})
   {
-    const ObjectResult object = completeCropped (seen_, view, &table);
+    const ObjectResult object = completeCropped (seen_, view, &table_plane);
     ASSERT_EQ (object.error, "");
     EXPECT_TRUE (computeTopology (object.mesh).closed_manifold);
     const double difference_m = meanDifference (object.mesh, with_table_);

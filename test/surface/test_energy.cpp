@@ -18,7 +18,7 @@ using namespace pcl::cosection::test;
 namespace
 {
 
-enum Bounds
+enum PresentBounds
 {
   no_bounds = 0,
   exterior = 1,
@@ -112,7 +112,7 @@ class EnergyTest : public testing::TestWithParam<EnergyCase>
 {};
 
 std::string
-caseName (const testing::TestParamInfo<EnergyCase>& info)
+energyCaseName (const testing::TestParamInfo<EnergyCase>& info)
 {
   const char* bounds[] = {"NoBounds", "Exterior", "Intersection", "Both"};
   const Eigen::Vector3i& d = info.param.dims;
@@ -178,7 +178,7 @@ INSTANTIATE_TEST_SUITE_P (Problems, EnergyTest,
                                            EnergyCase{{5, 4, 7}, intersection}, EnergyCase{{5, 4, 7}, both},
                                            EnergyCase{{1, 6, 9}, both}, EnergyCase{{17, 3, 2}, both},
                                            EnergyCase{{1, 1, 8}, both}),
-                          caseName);
+                          energyCaseName);
 
 TEST (Coarsening, AveragesDistancesByWeight)
 {

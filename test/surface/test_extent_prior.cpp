@@ -19,8 +19,6 @@ using namespace pcl::cosection::test;
 namespace
 {
 
-const Eigen::Vector4d table_plane (0.0, 0.0, 1.0, 0.0);
-
 constexpr int cell_px = 4; // of a silhouette
 
 using Views = std::vector<std::pair<const DepthView*, Eigen::Isometry3d>>;

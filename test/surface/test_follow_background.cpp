@@ -21,15 +21,15 @@ using namespace pcl::cosection::test;
 namespace
 {
 
-constexpr double voxel_m = 0.02;
-constexpr double near_vox = 2.0; // of the surface
+constexpr double background_voxel_m = 0.02;
 constexpr double half_length_m = 1.6;
 constexpr double half_width_m = 0.4;
 
 /** \brief Root mean square difference near the surface and near data, voxels; the second may have another grid. */
 double
-difference (const SignedDistanceField& a, const SignedDistanceField& b)
+differenceNearData (const SignedDistanceField& a, const SignedDistanceField& b)
 {
+  constexpr double near_vox = 2.0;
   const VoxelGrid& grid = a.grid;
   double sum = 0.0;
   std::size_t count = 0;
@@ -39,9 +39,9 @@ difference (const SignedDistanceField& a, const SignedDistanceField& b)
       {
         const std::size_t n = grid.index (i, j, k);
         const auto v = a.supported[n] ? b.sample (grid.center (i, j, k)) : std::nullopt;
-        if (!v || std::min (std::abs (a.values[n]), std::abs (static_cast<float> (*v))) > near_vox * voxel_m)
+        if (!v || std::min (std::abs (a.values[n]), std::abs (static_cast<float> (*v))) > near_vox * background_voxel_m)
           continue;
-        const double d = (a.values[n] - *v) / voxel_m;
+        const double d = (a.values[n] - *v) / background_voxel_m;
         sum += d * d;
         ++count;
       }
@@ -50,12 +50,12 @@ difference (const SignedDistanceField& a, const SignedDistanceField& b)
 }
 
 void
-expectSame (const SceneResult& followed, const SceneResult& fresh)
+expectSameBackground (const SceneResult& followed, const SceneResult& fresh)
 {
   ASSERT_EQ (followed.background_pieces.size (), 1u);
   ASSERT_EQ (fresh.background_pieces.size (), 1u);
   const double rms =
-      difference (*fresh.background_pieces[0].signed_distance, *followed.background_pieces[0].signed_distance);
+      differenceNearData (*fresh.background_pieces[0].signed_distance, *followed.background_pieces[0].signed_distance);
   std::printf ("solved %.0f %%, root mean square difference %.3f voxels\n",
                100.0 * followed.background_pieces[0].solved_share, rms);
   EXPECT_LT (rms, 0.1);
@@ -79,7 +79,7 @@ protected:
   {
     CoSectionOptions options;
     options.whole_background = true;
-    options.background_voxel_size_m = voxel_m;
+    options.background_voxel_size_m = background_voxel_m;
     options.threads = threads;
     return options;
   }
@@ -107,8 +107,8 @@ protected:
     std::vector<OrientedPoint> points = seen.points.at (0);
     points.erase (std::remove_if (points.begin (), points.end (),
                                   [] (const OrientedPoint& p) {
-                                    return std::abs (p.position.x ()) > half_length_m - voxel_m ||
-                                           std::abs (p.position.y ()) > half_width_m - voxel_m;
+                                    return std::abs (p.position.x ()) > half_length_m - background_voxel_m ||
+                                           std::abs (p.position.y ()) > half_width_m - background_voxel_m;
                                   }),
                   points.end ());
     return points;
@@ -130,7 +130,7 @@ protected:
     EXPECT_LT (followed.background_pieces[0].solved_share, 0.7);
     EXPECT_GT (followed.background_pieces[0].solved_share, 0.0);
     EXPECT_TRUE (followed.background_pieces[0].solver.converged ());
-    expectSame (followed, task.reconstruct ());
+    expectSameBackground (followed, task.reconstruct ());
   }
 
   AnalyticScene scene_;
@@ -183,7 +183,7 @@ TEST_F (FollowBackground, GrowsNotWithEveryView)
   EXPECT_EQ (grids[2].dims, grids[1].dims);
   EXPECT_EQ (grids[3].dims, grids[1].dims);
   EXPECT_EQ (grids[1].dims.tail<2> (), grids[0].dims.tail<2> ());
-  expectSame (followed, task.reconstruct ());
+  expectSameBackground (followed, task.reconstruct ());
 }
 
 /** \brief What never was there is taken away by a view without points. */
@@ -227,7 +227,7 @@ TEST_F (FollowBackground, NothingNewChangesNothing)
   const SceneResult before = task.update (UpdateOutput::Fields);
   const SceneResult after = task.update (UpdateOutput::Fields);
   EXPECT_LT (after.background_pieces.at (0).solved_share, 0.2);
-  EXPECT_LT (difference (*before.background_pieces.at (0).signed_distance, *after.background_pieces[0].signed_distance), 0.01);
+  EXPECT_LT (differenceNearData (*before.background_pieces.at (0).signed_distance, *after.background_pieces[0].signed_distance), 0.01);
 }
 
 TEST_F (FollowBackground, ErrorsOfManyUpdatesDoNotAddUp)

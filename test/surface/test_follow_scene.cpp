@@ -18,13 +18,11 @@ using namespace pcl::cosection::test;
 namespace
 {
 
-constexpr double voxel_m = 0.005;
-constexpr double near_vox = 2.0; // of the surface
-
 /** \brief Root mean square difference of two fields where either is near its surface, voxels of the first. */
 double
-difference (const SignedDistanceField& a, const SignedDistanceField& b)
+differenceNearSurface (const SignedDistanceField& a, const SignedDistanceField& b)
 {
+  constexpr double near_vox = 2.0;
   const VoxelGrid& grid = a.grid;
   double sum = 0.0;
   std::size_t count = 0;
@@ -73,14 +71,14 @@ show (const AnalyticScene& scene, int sensor, const Poses& T_world_object, CoSec
 
 /** \brief Compare each object of two results. */
 void
-expectSame (const SceneResult& followed, const SceneResult& fresh)
+expectSameObjects (const SceneResult& followed, const SceneResult& fresh)
 {
   ASSERT_EQ (followed.objects.size (), fresh.objects.size ());
   for (std::size_t o = 0; o < fresh.objects.size (); ++o)
   {
     ASSERT_EQ (followed.objects[o].error, "");
     ASSERT_EQ (fresh.objects[o].error, "");
-    const double rms = difference (*fresh.objects[o].signed_distance, *followed.objects[o].signed_distance);
+    const double rms = differenceNearSurface (*fresh.objects[o].signed_distance, *followed.objects[o].signed_distance);
     std::printf ("object %d: root mean square difference %.3f voxels near the surface\n", fresh.objects[o].id, rms);
     EXPECT_LT (rms, 0.1);
   }
@@ -114,11 +112,11 @@ TEST_P (FollowScene, UpdatesGiveWhatAFreshRunGives)
     EXPECT_TRUE (now.objects[0].mesh.empty ());
   }
   const SceneResult followed = task.update ();
-  expectSame (followed, task.reconstruct ());
+  expectSameObjects (followed, task.reconstruct ());
   EXPECT_TRUE (computeTopology (followed.objects[0].mesh).closed_manifold);
   ASSERT_EQ (followed.background_pieces.size (), 1u);
   const SceneResult fresh = task.reconstruct ();
-  EXPECT_LT (difference (*fresh.background_pieces.at (0).signed_distance, *followed.background_pieces[0].signed_distance), 0.1);
+  EXPECT_LT (differenceNearSurface (*fresh.background_pieces.at (0).signed_distance, *followed.background_pieces[0].signed_distance), 0.1);
 }
 
 /** \brief At first only the left part of it is there. */
@@ -134,7 +132,7 @@ TEST_P (FollowScene, AnObjectOutgrowsItsVolume)
   EXPECT_GT (after.center (after.dims.x () - 1, 0, 0).x (), before.center (before.dims.x () - 1, 0, 0).x ());
   const Eigen::Vector3d shift = (after.origin_m - before.origin_m) / voxel_m;
   EXPECT_LT ((shift.array () - shift.array ().round ()).abs ().maxCoeff (), 1e-6) << "another lattice";
-  expectSame (followed, task.reconstruct ());
+  expectSameObjects (followed, task.reconstruct ());
 }
 
 TEST_P (FollowScene, AnObjectThatIsGivenUpLeavesNothing)
@@ -159,7 +157,7 @@ TEST_P (FollowScene, AnObjectThatIsGivenUpLeavesNothing)
   EXPECT_EQ (task.update (UpdateOutput::Fields).objects.size (), 2u);
   task.removeObject (7);
   task.removeObject (8); // there is none
-  expectSame (task.update (), fresh);
+  expectSameObjects (task.update (), fresh);
 }
 
 TEST_P (FollowScene, ViewsThatAreGivenUpLeaveNothing)
@@ -187,7 +185,7 @@ TEST_P (FollowScene, ViewsAreGivenUpBetweenUpdates)
   task.update (UpdateOutput::Fields);
   task.removeViews ({false, true, false, true});
   const SceneResult followed = task.update ();
-  expectSame (followed, task.reconstruct ());
+  expectSameObjects (followed, task.reconstruct ());
 }
 
 /** \brief A few points over the object, left out until there are more of them; then they are given up. */
@@ -214,11 +212,11 @@ TEST_P (FollowScene, StrayPointsAreNoLongerOnesWhenThereAreMany)
   task.addPoints (1, patch (12));
   const SceneResult followed = task.update ();
   EXPECT_EQ (followed.objects.at (0).stray_points, 0u);
-  expectSame (followed, task.reconstruct ());
+  expectSameObjects (followed, task.reconstruct ());
   task.removeViews ({false, false, true});
   const SceneResult before = task.update ();
   EXPECT_EQ (before.objects.at (0).stray_points, 16u);
-  expectSame (before, task.reconstruct ());
+  expectSameObjects (before, task.reconstruct ());
 }
 
 INSTANTIATE_TEST_SUITE_P (Shapes, FollowScene, testing::Values (Shape::Sphere, Shape::Box, Shape::Cup),
@@ -243,7 +241,7 @@ TEST (FollowMovingScene, UpdatesGiveWhatAFreshRunGives)
     task.update (UpdateOutput::Fields);
   }
   const SceneResult followed = task.update ();
-  expectSame (followed, task.reconstruct ());
+  expectSameObjects (followed, task.reconstruct ());
   for (const ObjectResult& object : followed.objects)
     EXPECT_LT (object.penetration_m, 0.5 * 2.0 * voxel_m);
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_cosection authors
+#include "common/not_a_number.h"
 #include "free_space_scene.h"
 
 #include <pcl/cosection/common/error.h>
@@ -17,8 +18,6 @@ namespace
 {
 
 using Filter = FreeSpaceFilter<pcl::PointXYZ>;
-
-constexpr float not_a_number = std::numeric_limits<float>::quiet_NaN ();
 
 /** \brief Distance to the nearest surface; negative inside. */
 double
@@ -217,7 +216,7 @@ TEST (FreeSpaceFilter, MarginIsWhatItSays)
 {
   AnalyticScene wall;
   wall.add (0, halfSpace ({0.0, 0.0, -1.0, 1.0})); // one metre in front of the sensor
-  const DepthView view = wall.render (tableCamera (), Eigen::Isometry3d::Identity ()).view;
+  const DepthView view = wall.render (smallCamera (), Eigen::Isometry3d::Identity ()).view;
   auto cloud = pcl::make_shared<Points> ();
   for (int i = 0; i < 1000; ++i)
     cloud->push_back ({0.0f, 0.0f, 1.0f - 0.0001f * (i + 0.5f)}); // every tenth of a millimetre

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_cosection authors
+#include "common/not_a_number.h"
 #include "free_space_scene.h"
 
 #include <pcl/cosection/common/error.h>
@@ -27,8 +28,6 @@ namespace
 {
 
 using Filter = FreeSpaceFilter<pcl::PointXYZ>;
-
-constexpr float not_a_number = std::numeric_limits<float>::quiet_NaN ();
 
 /** \brief Three views, and their points with a ghost, with a point that is not finite in every hundred. */
 class FreeSpaceFilterPclTest : public testing::Test

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_cosection authors
+#include "common/not_a_number.h"
 #include "imls_sphere.h"
 #include "volume/analytic_fields.h"
 
@@ -15,8 +16,6 @@ using namespace pcl::cosection::test;
 
 namespace
 {
-
-constexpr float not_a_number = std::numeric_limits<float>::quiet_NaN ();
 
 /** \brief A sphere about the origin in front of a wall, as seen along z from \a distance_m. */
 pcl::PointCloud<pcl::PointXYZ>

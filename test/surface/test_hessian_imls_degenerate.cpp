@@ -1,21 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_cosection authors
+#include "common/not_a_number.h"
 #include "imls_sphere.h"
 
-#include <limits>
 #include <vector>
 
 // HessianIMLS on input that determines no surface: a message and nothing, never a crash.
 
 using namespace pcl::cosection;
 using namespace pcl::cosection::test;
-
-namespace
-{
-
-constexpr float not_a_number = std::numeric_limits<float>::quiet_NaN ();
-
-} // namespace
 
 TEST (HessianImlsDegenerate, NoInputCloud)
 {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_cosection authors
 #include "analytic_scene.h"
+#include "common/not_a_number.h"
 
 #include <pcl/cosection/surface/hull_constraint.h>
 
@@ -17,16 +18,9 @@ using namespace pcl::cosection::test;
 namespace
 {
 
-constexpr float nan_value = std::numeric_limits<float>::quiet_NaN ();
 constexpr double wall_m = 1.0;
 constexpr double ball_m = 0.6; // distance of the ball's centre
 constexpr double ball_radius_m = 0.08;
-
-PinholeCamera
-testCamera ()
-{
-  return {160, 120, 140.0, 140.0, 79.5, 59.5};
-}
 
 /** \brief A wall across the view and a ball in front of it; the sensor at the origin. */
 AnalyticScene
@@ -49,7 +43,7 @@ wallOnly ()
 DepthView
 rendered (const AnalyticScene& scene)
 {
-  return scene.render (testCamera (), Eigen::Isometry3d::Identity ()).view;
+  return scene.render (smallCamera (), Eigen::Isometry3d::Identity ()).view;
 }
 
 /** \brief A grid of a given number of voxels along each axis about a point. */
@@ -70,16 +64,6 @@ freeSpace (const VoxelGrid& grid, const std::vector<DepthView>& views, bool revi
   for (const DepthView& view : views)
     hull.add (FreeSpaceView (view), view.T_world_sensor);
   return hull.freeSpace (revise);
-}
-
-template <typename Function>
-void
-forEachVoxel (const VoxelGrid& grid, Function&& f)
-{
-  for (int k = 0; k < grid.dims.z (); ++k)
-    for (int j = 0; j < grid.dims.y (); ++j)
-      for (int i = 0; i < grid.dims.x (); ++i)
-        f (grid.index (i, j, k), grid.center (i, j, k));
 }
 
 /** \brief Range of the readings within a number of pixels of where a point is seen. */
@@ -168,7 +152,7 @@ TEST_P (HullConstraintTest, FollowsTheFootprint)
   std::size_t free_voxels = 0, wrongly_free = 0, clear = 0, wrongly_hull = 0;
   forEachVoxel (rim_, [&] (std::size_t n, const Eigen::Vector3d& p) {
     const int radius =
-        static_cast<int> (std::ceil (0.5 * std::sqrt (3.0) * rim_.voxel_size_m * testCamera ().fx / p.z ()));
+        static_cast<int> (std::ceil (0.5 * std::sqrt (3.0) * rim_.voxel_size_m * smallCamera ().fx / p.z ()));
     const Footprint own = footprint (view, p, radius);
     free_voxels += free_space[n] != 0;
     wrongly_free += free_space[n] && own.nearest - p.z () < margin (rim_, own.nearest) - 1e-6;
@@ -190,7 +174,7 @@ TEST_P (HullConstraintTest, SaysNothingWhereDepthIsMissing)
   for (int v = 0; v < view.camera.height; ++v)
     for (int u = 0; u < view.camera.width; ++u)
       if (u < 80)
-        view.depth[static_cast<std::size_t> (v) * view.camera.width + u] = nan_value;
+        view.depth[static_cast<std::size_t> (v) * view.camera.width + u] = not_a_number;
   const std::vector<std::uint8_t> free_space = freeSpace (grid_, {view});
   std::size_t left = 0, wrong = 0;
   forEachVoxel (grid_, [&] (std::size_t n, const Eigen::Vector3d& p) {
@@ -233,7 +217,7 @@ INSTANTIATE_TEST_SUITE_P (VoxelSizes, HullConstraintTest, testing::Values (0.001
 
 TEST (FreeSpaceViewTest, FindsSilhouettesButNotSlopes)
 {
-  const RenderedView ball = ballBeforeWall ().render (testCamera (), Eigen::Isometry3d::Identity ());
+  const RenderedView ball = ballBeforeWall ().render (smallCamera (), Eigen::Isometry3d::Identity ());
   const FreeSpaceView view (ball.view);
   for (int v = 0; v < 120; ++v)
     for (int u = 0; u + 1 < 160; ++u)

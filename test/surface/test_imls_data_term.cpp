@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_cosection authors
+#include "common/not_a_number.h"
+
 #include <pcl/cosection/surface/imls_data_term.h>
 
 #include <gtest/gtest.h>
@@ -11,11 +13,10 @@
 #include <random>
 
 using namespace pcl::cosection;
+using namespace pcl::cosection::test;
 
 namespace
 {
-
-constexpr float nan_value = std::numeric_limits<float>::quiet_NaN ();
 
 VoxelGrid
 testGrid ()
@@ -30,7 +31,7 @@ testGrid ()
 /** \brief f (squared distance in voxels, offset of the voxel from the point in voxels, its index). */
 template <typename Function>
 void
-forEachVoxel (const VoxelGrid& grid, const Eigen::Vector3d& point_vox, Function&& f)
+forEachOffset (const VoxelGrid& grid, const Eigen::Vector3d& point_vox, Function&& f)
 {
   for (int k = 0; k < grid.dims.z (); ++k)
     for (int j = 0; j < grid.dims.y (); ++j)
@@ -57,7 +58,7 @@ randomPoints (const VoxelGrid& grid, double sigma_vox, int number)
         Eigen::Vector3f (uniform (generator) - 0.5, uniform (generator) - 0.5, uniform (generator) - 0.5).normalized ();
     point.weight = static_cast<float> (uniform (generator));
     bool clear = true;
-    forEachVoxel (grid, grid.toVoxel (point.position.cast<double> ()), [&] (const Eigen::Vector3d& d, std::size_t) {
+    forEachOffset (grid, grid.toVoxel (point.position.cast<double> ()), [&] (const Eigen::Vector3d& d, std::size_t) {
       clear &= std::abs (d.norm () - 3.0 * sigma_vox) > 1e-3;
     });
     if (clear)
@@ -103,7 +104,7 @@ TEST_P (ImlsDataTermTest, EqualsTheDoubleLoop)
   const ImlsDataTerm data = gathered (grid, points, sigma);
   std::vector<double> weight (grid.size (), 0.0), target (grid.size (), 0.0), count (grid.size (), 0.0);
   for (const OrientedPoint& point : points)
-    forEachVoxel (grid, grid.toVoxel (point.position.cast<double> ()), [&] (const Eigen::Vector3d& d, std::size_t n) {
+    forEachOffset (grid, grid.toVoxel (point.position.cast<double> ()), [&] (const Eigen::Vector3d& d, std::size_t n) {
       if (d.norm () > 3.0 * sigma)
         return;
       const double w = point.weight * std::exp (-d.squaredNorm () / (sigma * sigma));
@@ -186,11 +187,11 @@ TEST (ImlsDataTermInvalid, PointsAreLeftOut)
   const VoxelGrid grid = testGrid ();
   const OrientedPoint good = pointAt (grid, 3, 3, 3);
   std::vector<OrientedPoint> bad (8, pointAt (grid, 4, 3, 3));
-  bad[0].position.x () = nan_value;
+  bad[0].position.x () = not_a_number;
   bad[1].position.z () = std::numeric_limits<float>::infinity ();
-  bad[2].normal.y () = nan_value;
+  bad[2].normal.y () = not_a_number;
   bad[3].weight = 0.0f;
-  bad[4].weight = nan_value;
+  bad[4].weight = not_a_number;
   bad[5].weight = -1.0f;
   bad[6].position.z () = 1e30f;
   bad[7].position += Eigen::Vector3f (0.0f, 0.0f, 50.0f);

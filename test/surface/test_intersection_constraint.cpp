@@ -18,7 +18,7 @@ namespace
 constexpr double cap_vox = 5.0;
 constexpr double quantum_vox = 1.0 / 512.0 + 1e-4; // of LowerBound, and rounding
 constexpr double beta = 0.01;
-constexpr double radius_m = 0.05;
+constexpr double body_radius_m = 0.05;
 
 VoxelGrid
 testGrid (double voxel_size_m)
@@ -39,21 +39,11 @@ testPose ()
   return T;
 }
 
-template <typename Function>
-void
-forEachVoxel (const VoxelGrid& grid, Function&& f)
-{
-  for (int k = 0; k < grid.dims.z (); ++k)
-    for (int j = 0; j < grid.dims.y (); ++j)
-      for (int i = 0; i < grid.dims.x (); ++i)
-        f (grid.index (i, j, k), grid.center (i, j, k));
-}
-
 class IntersectionConstraintTest : public testing::TestWithParam<double> // voxel size
 {
 protected:
   const VoxelGrid grid_ = testGrid (GetParam ());
-  const SignedDistanceField body_ = sampleField (sphere (radius_m), 0.06, 0.0025);
+  const SignedDistanceField body_ = sampleField (sphere (body_radius_m), 0.06, 0.0025);
 };
 
 } // namespace
@@ -69,7 +59,7 @@ TEST_P (IntersectionConstraintTest, IsTheDepthInsideTheBody)
   const double interpolation_vox = 0.001 / grid_.voxel_size_m;
   double deepest = 0.0;
   forEachVoxel (grid_, [&] (std::size_t n, const Eigen::Vector3d& p) {
-    const double depth = (radius_m - (T_body_grid * p).norm ()) / grid_.voxel_size_m;
+    const double depth = (body_radius_m - (T_body_grid * p).norm ()) / grid_.voxel_size_m;
     const double expected = std::clamp (depth, 0.0, cap_vox);
     EXPECT_NEAR (bounds[n].distance (), expected, quantum_vox + interpolation_vox) << p.transpose ();
     if (std::abs (depth) > interpolation_vox)

@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_cosection authors
+#include "analytic_scene.h"
+#include "common/not_a_number.h"
+
 #include <pcl/cosection/common/camera.h>
 #include <pcl/cosection/common/error.h>
 #include <pcl/cosection/surface/organized_normals.h>
@@ -13,17 +16,10 @@
 #include <random>
 
 using namespace pcl::cosection;
+using namespace pcl::cosection::test;
 
 namespace
 {
-
-constexpr float nan_value = std::numeric_limits<float>::quiet_NaN ();
-
-PinholeCamera
-testCamera ()
-{
-  return (PinholeCamera{160, 120, 140.0, 140.0, 79.5, 59.5});
-}
 
 /** \brief Depth at the ray (x, y, 1), NaN for none. */
 using DepthFunction = std::function<double (double x, double y)>;
@@ -72,7 +68,7 @@ TEST_P (TiltedPlane, HasItsNormalEverywhere)
 {
   const double tilt = GetParam () * M_PI / 180.0;
   const Eigen::Vector3d normal (std::sin (tilt), 0.0, std::cos (tilt));
-  const PinholeCamera camera = testCamera ();
+  const PinholeCamera camera = smallCamera ();
   const auto points = render (camera, planeDepth (normal, std::cos (tilt)));
   const auto normals = computeOrganizedNormals (points, camera.width, camera.height);
   int count = 0;
@@ -94,7 +90,7 @@ INSTANTIATE_TEST_SUITE_P (Degrees, TiltedPlane, testing::Values (0.0, 30.0, -50.
 TEST (OrganizedNormals, GrazingPlaneHasNone)
 {
   const double tilt = 88.0 * M_PI / 180.0;
-  const PinholeCamera camera = testCamera ();
+  const PinholeCamera camera = smallCamera ();
   const auto points = render (camera, planeDepth ({0.0, std::sin (tilt), std::cos (tilt)}, std::cos (tilt)));
   const auto normals = computeOrganizedNormals (points, camera.width, camera.height);
   for (int u = 0; u < camera.width; ++u)
@@ -144,7 +140,7 @@ class StepEdge : public testing::TestWithParam<double>
 TEST_P (StepEdge, DoesNotBendTheNormals)
 {
   const double step = GetParam ();
-  const PinholeCamera camera = testCamera ();
+  const PinholeCamera camera = smallCamera ();
   auto points = render (camera, [&] (double x, double) { return (x < 0.0 ? 1.0 : 1.0 + step); });
   const auto normals = computeOrganizedNormals (points, camera.width, camera.height);
   int found = 0;
@@ -164,7 +160,7 @@ INSTANTIATE_TEST_SUITE_P (Metres, StepEdge, testing::Values (0.06, 0.1, 0.5));
 
 TEST (OrganizedNormals, FlyingPixelsHaveNone)
 {
-  const PinholeCamera camera = testCamera ();
+  const PinholeCamera camera = smallCamera ();
   auto points = render (camera, [] (double x, double) { return (x < 0.0 ? 1.0 : 1.3); });
   for (int v = 0; v < camera.height; ++v) // column 80 hangs in the air between the two planes
     points[v * camera.width + 80] = camera.unproject (80, v, 1.15).cast<float> ();
@@ -176,7 +172,7 @@ TEST (OrganizedNormals, FlyingPixelsHaveNone)
 TEST (OrganizedNormals, LabelsSeparate)
 {
   // A roof: without labels its ridge is smoothed, with labels each side keeps its own normal.
-  const PinholeCamera camera = testCamera ();
+  const PinholeCamera camera = smallCamera ();
   const auto points = render (camera, [] (double x, double) { return (1.0 / (1.0 + 0.8 * std::abs (x))); });
   std::vector<std::uint32_t> labels (points.size ());
   for (std::size_t i = 0; i < points.size (); ++i)
@@ -194,12 +190,12 @@ TEST (OrganizedNormals, LabelsSeparate)
 
 TEST (OrganizedNormals, HolesAreHoles)
 {
-  const PinholeCamera camera = testCamera ();
+  const PinholeCamera camera = smallCamera ();
   auto points = render (camera, planeDepth ({0.0, 0.3, 1.0}, 1.0));
   std::mt19937 generator (3);
   for (auto& p : points)
     if (generator () % 4 == 0)
-      p.setConstant (nan_value);
+      p.setConstant (not_a_number);
   const auto normals = computeOrganizedNormals (points, camera.width, camera.height);
   int good = 0, readings = 0;
   for (std::size_t i = 0; i < points.size (); ++i)
@@ -217,7 +213,7 @@ TEST (OrganizedNormals, HolesAreHoles)
 
 TEST (OrganizedNormals, NothingReadNothingFound)
 {
-  const std::vector<Eigen::Vector3f> points (64 * 48, Eigen::Vector3f::Constant (nan_value));
+  const std::vector<Eigen::Vector3f> points (64 * 48, Eigen::Vector3f::Constant (not_a_number));
   for (const auto& n : computeOrganizedNormals (points, 64, 48))
     EXPECT_FALSE (valid (n));
   const std::vector<Eigen::Vector3f> origin (64 * 48, Eigen::Vector3f::Zero ());
@@ -227,7 +223,7 @@ TEST (OrganizedNormals, NothingReadNothingFound)
 
 TEST (OrganizedNormals, SameForAnyNumberOfThreads)
 {
-  const PinholeCamera camera = testCamera ();
+  const PinholeCamera camera = smallCamera ();
   const auto points = render (camera, planeDepth ({0.4, 0.3, 1.0}, 1.0), 1.0);
   OrganizedNormalsOptions options;
   options.threads = 1;

@@ -22,7 +22,6 @@ namespace
 {
 
 constexpr double reach = 0.004;
-const Eigen::Vector4d ground (0.0, 0.0, 1.0, 0.0);
 
 /** \brief Distance from the axis, metres, and its derivative, at a height. */
 using Profile = std::function<std::pair<double, double> (double)>;

@@ -16,7 +16,6 @@ using namespace pcl::cosection::test;
 namespace
 {
 
-constexpr double voxel_m = 0.005;
 constexpr int most_views = 5;
 
 double

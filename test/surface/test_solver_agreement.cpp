@@ -42,7 +42,7 @@ protected:
 };
 
 std::string
-caseName (const testing::TestParamInfo<AgreementCase>& info)
+agreementCaseName (const testing::TestParamInfo<AgreementCase>& info)
 {
   const Eigen::Vector3i& d = info.param.dims;
   return nameOf (info.param.kind) + std::to_string (d.x ()) + "x" + std::to_string (d.y ()) + "x" +
@@ -108,4 +108,4 @@ INSTANTIATE_TEST_SUITE_P (
                      AgreementCase{ProblemKind::All, {13, 9, 14}}, AgreementCase{ProblemKind::All, {1, 13, 12}},
                      AgreementCase{ProblemKind::Random, {24, 24, 24}}, AgreementCase{ProblemKind::Random, {5, 16, 11}},
                      AgreementCase{ProblemKind::Random, {2, 3, 24}}),
-    caseName);
+    agreementCaseName);

@@ -21,8 +21,6 @@ using namespace pcl::cosection::test;
 namespace
 {
 
-constexpr double voxel_m = 0.005;
-
 /** \brief A closed box. */
 TriangleMesh
 block (const Eigen::Vector3f& low, const Eigen::Vector3f& high)

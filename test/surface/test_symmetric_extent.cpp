@@ -18,7 +18,6 @@ namespace
 const Eigen::Vector3d half_size (0.08, 0.05, 0.06);
 const Eigen::Vector3d corner_view (-1.0, -1.0, 1.0);
 const Eigen::Vector4d under_box (0.0, 0.0, 1.0, half_size.z ());
-const Eigen::Vector4d ground (0.0, 0.0, 1.0, 0.0);
 
 /** \brief What a distant camera in direction \a view sees of a ball. */
 std::vector<OrientedPoint>

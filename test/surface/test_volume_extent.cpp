@@ -13,8 +13,6 @@ using namespace pcl::cosection::test;
 namespace
 {
 
-constexpr double voxel_m = 0.005;
-
 /** \brief Box of the centres of an object's voxels. */
 Eigen::AlignedBox3d
 volumeOf (const ObjectResult& object)
