@@ -19,7 +19,7 @@ namespace
 
 constexpr double rounding = 1e-12;
 
-const ClassScore cup = {41, "cup", 0.9}, faint_cup = {41, "cup", 0.5}, bowl = {45, "bowl", 0.8};
+const ClassScore clear_cup = {41, "cup", 0.9}, faint_cup = {41, "cup", 0.5}, clear_bowl = {45, "bowl", 0.8};
 
 ClassEvidence
 evidenceOf (const std::vector<ClassScore>& detections)
@@ -40,7 +40,7 @@ TEST (ClassEvidence, WithoutADetectionNothingIsKnown)
 
 TEST (ClassEvidence, OneDetectionIsBelieved)
 {
-  const ClassEvidence evidence = evidenceOf ({bowl});
+  const ClassEvidence evidence = evidenceOf ({clear_bowl});
   ASSERT_TRUE (evidence.best ());
   EXPECT_EQ (evidence.best ()->class_id, 45);
   EXPECT_EQ (evidence.best ()->class_name, "bowl");
@@ -49,7 +49,7 @@ TEST (ClassEvidence, OneDetectionIsBelieved)
 
 TEST (ClassEvidence, TheScoreIsTheMeanOverAllDetections)
 {
-  const ClassEvidence evidence = evidenceOf ({bowl, cup, faint_cup});
+  const ClassEvidence evidence = evidenceOf ({clear_bowl, clear_cup, faint_cup});
   EXPECT_EQ (evidence.detections (), 3u);
   EXPECT_EQ (evidence.best ()->class_name, "cup");
   EXPECT_NEAR (evidence.best ()->score, (0.9 + 0.5) / 3.0, rounding);
@@ -58,8 +58,8 @@ TEST (ClassEvidence, TheScoreIsTheMeanOverAllDetections)
 TEST (ClassEvidence, ScoresDecideNotTheirNumber)
 {
   const ClassScore hint = {7, "hat", 0.2};
-  EXPECT_EQ (evidenceOf ({hint, hint, hint, cup}).best ()->class_name, "cup");
-  EXPECT_EQ (evidenceOf ({hint, hint, hint, hint, hint, cup}).best ()->class_name, "hat");
+  EXPECT_EQ (evidenceOf ({hint, hint, hint, clear_cup}).best ()->class_name, "cup");
+  EXPECT_EQ (evidenceOf ({hint, hint, hint, hint, hint, clear_cup}).best ()->class_name, "hat");
 }
 
 TEST (ClassEvidence, OfEqualsTheSmallestNumberIsTaken)
@@ -74,8 +74,8 @@ TEST (ClassEvidence, OfEqualsTheSmallestNumberIsTaken)
 
 TEST (ClassEvidence, UnitedObjectsHaveAllDetections)
 {
-  ClassEvidence united = evidenceOf ({cup, bowl});
-  united.add (evidenceOf ({bowl, bowl, faint_cup}));
+  ClassEvidence united = evidenceOf ({clear_cup, clear_bowl});
+  united.add (evidenceOf ({clear_bowl, clear_bowl, faint_cup}));
   EXPECT_EQ (united.detections (), 5u);
   EXPECT_EQ (united.best ()->class_name, "bowl");
   EXPECT_NEAR (united.best ()->score, 3.0 * 0.8 / 5.0, rounding);
@@ -88,7 +88,7 @@ TEST (ClassEvidence, UnitedObjectsHaveAllDetections)
 
 TEST (ClassEvidence, WhatIsNoScoreIsRefused)
 {
-  ClassEvidence evidence = evidenceOf ({cup});
+  ClassEvidence evidence = evidenceOf ({clear_cup});
   for (const double score : {-0.1, 1.1, std::numeric_limits<double>::quiet_NaN (), std::numeric_limits<double>::infinity ()})
     EXPECT_THROW (evidence.add (ClassScore{1, "", score}), InvalidArgument) << score;
   EXPECT_EQ (evidence.detections (), 1u);

@@ -27,14 +27,6 @@ every (int n)
   };
 }
 
-std::optional<Image<std::uint16_t>>
-noMask (int, const Image<std::uint16_t>&)
-{
-  return std::nullopt;
-}
-
-constexpr double camera_limit_m = 0.004, object_limit_m = 0.010;
-
 } // namespace
 
 TEST (DynamicFusion, AMovingObjectBeforeAStaticCamera)

@@ -18,10 +18,6 @@ using namespace pcl::cosection::test;
 namespace
 {
 
-constexpr double camera_limit_m = 0.006, object_limit_m = 0.010; // its instances end above the floor
-
-const MaskPolicy no_mask = [] (int, const Image<std::uint16_t>&) -> std::optional<Image<std::uint16_t>> { return std::nullopt; };
-
 /** \brief Labels what stands on the middle of the floor. */
 class MiddleOfFloor : public FrameSegmenter
 {
@@ -91,12 +87,12 @@ TEST (FrameSegmenter, ItsInstancesBecomeObjectsThatAreTracked)
   const auto segmenter = std::make_shared<MiddleOfFloor> ();
   DynamicFusionOptions options;
   options.segment_every = 8;
-  const TrackedRun run = scene.run (no_mask, options, segmenter);
+  const TrackedRun run = scene.run (noMask, options, segmenter);
   EXPECT_EQ (segmenter->asked, 3);
   EXPECT_EQ (segmenter->looked, 21);
   EXPECT_EQ (segmenter->tracked, 1u);
   EXPECT_EQ (run.found.size (), 1u);
-  EXPECT_LT (run.cameraError (), camera_limit_m);
+  EXPECT_LT (run.cameraError (), segmented_camera_limit_m);
   ASSERT_EQ (run.framesOf (1), 24);
   EXPECT_LT (run.objectError (1, scene.body (1)), object_limit_m);
   for (int n = 0; n < 24; ++n)
@@ -118,7 +114,7 @@ TEST (FrameSegmenter, ItIsToldWhatMovesAndWhatNobodyExplains)
   TrackedScene scene (21);
   scene.addThing (1, movingThing ({-0.9, 0.0, 0.0}, {0.4, 0.0, 0.0}, 0.0));
   const auto segmenter = std::make_shared<MiddleOfFloor> (FrameSegmenter::ignored);
-  scene.run (no_mask, {}, segmenter);
+  scene.run (noMask, {}, segmenter);
   EXPECT_GT (segmenter->unassigned, 100u);
   EXPECT_GT (segmenter->moving, 100u);
 }
@@ -128,7 +124,7 @@ TEST (FrameSegmenter, WhatItCannotTellIsToldOnce)
   TrackedScene scene (21);
   const auto segmenter = std::make_shared<MiddleOfFloor> ();
   segmenter->silent = true;
-  const TrackedRun run = scene.run (no_mask, {}, segmenter);
+  const TrackedRun run = scene.run (noMask, {}, segmenter);
   EXPECT_EQ (segmenter->asked, 3);
   ASSERT_EQ (run.events.size (), 1u);
   EXPECT_NE (run.events[0].find ("it says nothing"), std::string::npos);
@@ -141,12 +137,12 @@ TEST (FrameSegmenter, WhatIsToBeIgnoredIsNeitherTrackedWithNorMapped)
   // It rests at first, so that nothing but the segmenter tells it from the background.
   TrackedScene scene (30);
   scene.addPerson (1, along ({0.0, 0.5, 1.0}, {{0.15, 0.0, 0.0}, {0.15, 0.0, 0.0}, {-0.2, 0.1, 0.0}}));
-  const TrackedRun run = scene.run (no_mask, {}, std::make_shared<MiddleOfFloor> (FrameSegmenter::ignored));
+  const TrackedRun run = scene.run (noMask, {}, std::make_shared<MiddleOfFloor> (FrameSegmenter::ignored));
   EXPECT_EQ (run.framesWithCamera (), 30);
-  EXPECT_LT (run.cameraError (), camera_limit_m);
+  EXPECT_LT (run.cameraError (), segmented_camera_limit_m);
   EXPECT_TRUE (run.found.empty ());
   // What is mapped of it is its outline, where readings fray.
-  EXPECT_LT (run.shareOfBackgroundInside (scene, 1, 0.03), 0.25 * scene.run (no_mask).shareOfBackgroundInside (scene, 1, 0.03));
+  EXPECT_LT (run.shareOfBackgroundInside (scene, 1, 0.03), 0.25 * scene.run (noMask).shareOfBackgroundInside (scene, 1, 0.03));
   for (int n = 0; n < 30; ++n)
     for (std::size_t pixel = 0; pixel < run.masks[n].pixels.size (); ++pixel)
       ASSERT_TRUE (run.frames[n].instances.pixels[pixel] == 0 || run.frames[n].instances.pixels[pixel] == TrackedFrame::unassigned);
@@ -155,7 +151,7 @@ TEST (FrameSegmenter, WhatIsToBeIgnoredIsNeitherTrackedWithNorMapped)
 TEST (FrameSegmenter, MasksOfAnotherSizeAreRefused)
 {
   TrackedScene scene (2);
-  EXPECT_THROW (scene.run (no_mask, {}, std::make_shared<WrongSize> ()), InvalidArgument);
+  EXPECT_THROW (scene.run (noMask, {}, std::make_shared<WrongSize> ()), InvalidArgument);
   DynamicFusionOptions options;
   options.segment_every = 0;
   EXPECT_THROW (options.validate (), InvalidArgument);

@@ -19,8 +19,6 @@ using namespace pcl::cosection::test;
 namespace
 {
 
-const MaskPolicy no_mask = [] (int, const Image<std::uint16_t>&) -> std::optional<Image<std::uint16_t>> { return std::nullopt; };
-
 /** \brief Labels points of the world as a function says; it may be wrong. */
 class PointsOfTheWorld : public FrameSegmenter
 {
@@ -66,12 +64,6 @@ everyFive ()
   return options;
 }
 
-bool
-isThing (const Eigen::Vector3d& p, double x)
-{
-  return p.z () > 0.015 && p.z () < 0.3 && std::abs (p.x () - x) < 0.17 && std::abs (p.y ()) < 0.12;
-}
-
 /** \brief Of the pixels that show a body or are labelled as the object, the share that is both. */
 double
 imageIou (const TrackedRun& run, int frame, int body, int id)
@@ -93,7 +85,7 @@ TEST (GeometricSegmenter, AThingThatMovesIsFoundAndFollowed)
   TrackedScene scene (36);
   scene.moveCamera ({-0.1, -1.3, 0.9}, {0.1, -1.25, 0.95});
   scene.addThing (1, along ({0.0, 0.3, 1.0}, {{-0.2, 0.0, 0.0}, {-0.2, 0.0, 0.0}, {0.2, 0.1, 0.0}}));
-  const TrackedRun run = scene.run (no_mask, everyFive (), std::make_shared<GeometricSegmenter> ());
+  const TrackedRun run = scene.run (noMask, everyFive (), std::make_shared<GeometricSegmenter> ());
   EXPECT_LT (run.cameraError (), 0.006);
   const int id = run.foundAs (1);
   ASSERT_GT (id, 0);
@@ -138,7 +130,7 @@ TEST (GeometricSegmenter, ResultsDoNotDependOnThreads)
     options.threads = threads;
     ObjectSegmentationOptions segmentation;
     segmentation.threads = threads;
-    runs.push_back (scene.run (no_mask, options, std::make_shared<GeometricSegmenter> (segmentation)));
+    runs.push_back (scene.run (noMask, options, std::make_shared<GeometricSegmenter> (segmentation)));
   }
   for (std::size_t n = 0; n < runs[0].frames.size (); ++n)
     EXPECT_EQ (runs[0].frames[n].instances.pixels, runs[1].frames[n].instances.pixels) << n;
@@ -148,7 +140,7 @@ TEST (InexactMasks, AnObjectThatFallsIntoPartsInOneMaskStaysOne)
 {
   TrackedScene scene (24);
   scene.addThing (1, along ({0.0}, {{0.0, 0.0, 0.0}}));
-  const TrackedRun run = scene.run (no_mask, everyFive (), std::make_shared<PointsOfTheWorld> ([] (const Eigen::Vector3d& p, int frame) {
+  const TrackedRun run = scene.run (noMask, everyFive (), std::make_shared<PointsOfTheWorld> ([] (const Eigen::Vector3d& p, int frame) {
                                       return !isThing (p, 0.0) ? 0 : frame == 10 && p.x () > 0.0 ? 7 : 3;
                                     }));
   EXPECT_EQ (run.found.size (), 1u);
@@ -161,7 +153,7 @@ TEST (InexactMasks, TwoObjectsThatAreOneInstanceOnceStayTwo)
   TrackedScene scene (24);
   scene.addThing (1, along ({0.0}, {{-0.15, 0.0, 0.0}}));
   scene.addThing (2, along ({0.0}, {{0.15, 0.0, 0.0}}));
-  const TrackedRun run = scene.run (no_mask, everyFive (), std::make_shared<PointsOfTheWorld> ([] (const Eigen::Vector3d& p, int frame) {
+  const TrackedRun run = scene.run (noMask, everyFive (), std::make_shared<PointsOfTheWorld> ([] (const Eigen::Vector3d& p, int frame) {
                                       const int label = isThing (p, -0.15) && p.x () < 0.0 ? 1 : isThing (p, 0.15) ? 2 : 0;
                                       return label > 0 && frame == 10 ? 9 : label;
                                     }));
@@ -175,7 +167,7 @@ TEST (InexactMasks, PartsThatMoveAsOneAreUnited)
   TrackedScene scene (36);
   const KeyedMotion motion = along ({0.0, 0.3, 1.0}, {{-0.2, 0.0, 0.0}, {-0.2, 0.0, 0.0}, {0.25, 0.0, 0.0}});
   scene.addThing (1, motion);
-  const TrackedRun run = scene.run (no_mask, everyFive (), std::make_shared<PointsOfTheWorld> ([&] (const Eigen::Vector3d& p, int frame) {
+  const TrackedRun run = scene.run (noMask, everyFive (), std::make_shared<PointsOfTheWorld> ([&] (const Eigen::Vector3d& p, int frame) {
                                       const double x = motion.at (frame / 36.0).translation ().x ();
                                       return !isThing (p, x) ? 0 : p.x () < x + 0.05 ? 1 : 2;
                                     }));
@@ -191,7 +183,7 @@ TEST (InexactMasks, PartsThatAreUnitedBetweenMasksStayOne)
     TrackedScene scene (36);
     const KeyedMotion motion = along ({0.0, 0.3, 1.0}, {{-0.2, 0.0, 0.0}, {-0.2, 0.0, 0.0}, {end, 0.0, 0.0}});
     scene.addThing (1, motion);
-    const TrackedRun run = scene.run (no_mask, everyFive (), std::make_shared<PointsOfTheWorld> ([&] (const Eigen::Vector3d& p, int frame) {
+    const TrackedRun run = scene.run (noMask, everyFive (), std::make_shared<PointsOfTheWorld> ([&] (const Eigen::Vector3d& p, int frame) {
                                         const double x = motion.at (frame / 36.0).translation ().x ();
                                         return !isThing (p, x) ? 0 : p.x () < x + 0.05 ? 1 : 2;
                                       }));
@@ -205,7 +197,7 @@ TEST (InexactMasks, PartsThatAreUnitedBetweenMasksStayOne)
 TEST (InexactMasks, WhatOneMaskShowedIsNoObject)
 {
   TrackedScene scene (20);
-  const TrackedRun run = scene.run (no_mask, everyFive (), std::make_shared<PointsOfTheWorld> ([] (const Eigen::Vector3d& p, int frame) {
+  const TrackedRun run = scene.run (noMask, everyFive (), std::make_shared<PointsOfTheWorld> ([] (const Eigen::Vector3d& p, int frame) {
                                       return frame == 0 && std::hypot (p.x (), p.y ()) < 0.25 && p.z () < 0.1 ? 1 : 0; // of the floor
                                     }));
   EXPECT_TRUE (run.found.empty ());
@@ -218,7 +210,7 @@ TEST (InexactMasks, WhatOneMaskShowedIsNoObject)
 TEST (InexactMasks, WhatTheBorderCutsBeginsNoObject)
 {
   TrackedScene scene (12);
-  const TrackedRun run = scene.run (no_mask, everyFive (), std::make_shared<PointsOfTheWorld> ([] (const Eigen::Vector3d& p, int) {
+  const TrackedRun run = scene.run (noMask, everyFive (), std::make_shared<PointsOfTheWorld> ([] (const Eigen::Vector3d& p, int) {
                                       return p.z () < 0.1 && p.y () < -0.3 ? 1 : 0; // the floor at the lower border
                                     }));
   EXPECT_TRUE (run.found.empty ());

@@ -36,7 +36,7 @@ const char* const scene = R"({
 })";
 
 constexpr int rendered = 12;
-constexpr int frames = 900;
+constexpr int played = 900;
 constexpr int mask_every = 10;
 
 /** \brief To and fro through what was rendered. */
@@ -78,7 +78,7 @@ TEST (LongSequence, MemoryDoesNotGrowWithItsLength)
   const SequenceFolder folder;
   writeSequence (parseSceneSpec (scene, "scene"), folder.path ("rendered"));
   fs::copy_file (folder.path ("rendered/calibration.txt"), folder.newPath ("long/calibration.txt"));
-  for (int n = 0; n < frames; ++n)
+  for (int n = 0; n < played; ++n)
   {
     const std::string name = SequenceFolder::fourDigits (n) + ".png";
     fs::create_symlink (folder.path ("rendered/depth_noise/Depth" + renderedName (n)), folder.newPath ("long/depth/Depth" + name));
@@ -101,7 +101,7 @@ TEST (LongSequence, MemoryDoesNotGrowWithItsLength)
   const FusionResult result =
       SequenceFusion (TrackedSequence (images, &masks), smallOptions ()).run (watch, [&] (const KeyframeReport&) { ++updates; });
 
-  EXPECT_EQ (result.frames, static_cast<std::size_t> (frames));
+  EXPECT_EQ (result.frames, static_cast<std::size_t> (played));
   EXPECT_LE (result.kept_keyframes, 4u);
   EXPECT_GE (updates, 1u);
   EXPECT_LE (updates, result.keyframes);

@@ -17,19 +17,16 @@ using namespace pcl::cosection::test;
 namespace
 {
 
-constexpr double camera_limit_m = 0.006, object_limit_m = 0.010;
 constexpr double misled_limit_m = 0.03; // before bare walls, by what moves and is not yet found
 // Of the background: what an object left before it was found goes as fast as free space is averaged in; what was where it is then, at once.
-constexpr double wrong_m = 0.04, wrong_share = 0.03, inside_share = 0.004;
-
-const MaskPolicy no_mask = [] (int, const Image<std::uint16_t>&) -> std::optional<Image<std::uint16_t>> { return std::nullopt; };
+constexpr double left_behind_share = 0.03, inside_share = 0.004;
 
 TrackedRun
 runByMotion (const TrackedScene& scene)
 {
   DynamicFusionOptions options;
   options.segment_every = 5;
-  return scene.run (no_mask, options, std::make_shared<MotionSegmenter> ());
+  return scene.run (noMask, options, std::make_shared<MotionSegmenter> ());
 }
 
 /** \brief Intersection over union of a body and the object it was found as, in the last frame. */
@@ -57,7 +54,7 @@ TEST (MotionSegmenter, NothingMoves)
   scene.addThing (1, along ({0.0}, {{-0.2, 0.0, 0.0}}));
   const TrackedRun run = runByMotion (scene);
   EXPECT_TRUE (run.found.empty ());
-  EXPECT_LT (run.cameraError (), camera_limit_m);
+  EXPECT_LT (run.cameraError (), segmented_camera_limit_m);
 }
 
 TEST (MotionSegmenter, AnObjectBeginsWhenItBeginsToMove)
@@ -100,5 +97,5 @@ TEST (MotionSegmenter, TwoMotionsAreTwoObjects)
   EXPECT_NE (run.foundAs (1), run.foundAs (2));
   EXPECT_GE (overlap (run, 1), 0.85);
   EXPECT_GE (overlap (run, 2), 0.85);
-  EXPECT_LT (run.shareOfBackgroundWrong (scene, wrong_m), wrong_share);
+  EXPECT_LT (run.shareOfBackgroundWrong (scene, wrong_m), left_behind_share);
 }

@@ -20,12 +20,10 @@ using namespace pcl::cosection::test;
 namespace
 {
 
-constexpr double rounding = 1e-9;
-constexpr int every = 5; // frames, from one mask to the next
+constexpr double score_rounding = 1e-9;
+constexpr int frames_per_mask = 5;
 
-const MaskPolicy no_mask = [] (int, const Image<std::uint16_t>&) -> std::optional<Image<std::uint16_t>> { return std::nullopt; };
-
-const ClassScore cup = {41, "cup", 0.9}, bowl = {45, "bowl", 0.8}, part = {7, "part", 0.6};
+const ClassScore cup_score = {41, "cup", 0.9}, bowl_score = {45, "bowl", 0.8}, part_score = {7, "part", 0.6};
 
 /** \brief Labels points of the world as a function says, and names classes as another one does. */
 class NamingSegmenter : public FrameSegmenter
@@ -68,17 +66,11 @@ private:
   Classes classes_;
 };
 
-bool
-isThing (const Eigen::Vector3d& p, double x)
-{
-  return p.z () > 0.015 && p.z () < 0.3 && std::abs (p.x () - x) < 0.17 && std::abs (p.y ()) < 0.12;
-}
-
 TrackedRun
-runWith (const TrackedScene& scene, bool exact, NamingSegmenter::Label label, NamingSegmenter::Classes classes, const MaskPolicy& masks = no_mask)
+runWith (const TrackedScene& scene, bool exact, NamingSegmenter::Label label, NamingSegmenter::Classes classes, const MaskPolicy& masks = noMask)
 {
   DynamicFusionOptions options;
-  options.segment_every = every;
+  options.segment_every = frames_per_mask;
   return scene.run (masks, options, std::make_shared<NamingSegmenter> (exact, std::move (label), std::move (classes)));
 }
 
@@ -86,7 +78,7 @@ runWith (const TrackedScene& scene, bool exact, NamingSegmenter::Label label, Na
 
 TEST (ObjectClasses, DetectionsAreCountedForTheObjectsThatTheyShow)
 {
-  TrackedScene scene (4 * every);
+  TrackedScene scene (4 * frames_per_mask);
   scene.addThing (1, along ({0.0}, {{-0.3, 0.0, 0.0}}));
   scene.addThing (2, along ({0.0}, {{0.3, 0.0, 0.0}}));
   // Instances have other numbers in each mask. The last one tells nothing of the left thing.
@@ -94,9 +86,9 @@ TEST (ObjectClasses, DetectionsAreCountedForTheObjectsThatTheyShow)
   const TrackedRun run = runWith (
       scene, true, [&] (const Eigen::Vector3d& p, int frame) { return isThing (p, -0.3) ? left (frame) : isThing (p, 0.3) ? 3 - left (frame) : 0; },
       [&] (int frame) {
-        std::map<std::uint16_t, ClassScore> classes = {{3 - left (frame), part}, {99, cup}};
-        if (frame < 3 * every)
-          classes[left (frame)] = frame == every ? bowl : cup;
+        std::map<std::uint16_t, ClassScore> classes = {{3 - left (frame), part_score}, {99, cup_score}};
+        if (frame < 3 * frames_per_mask)
+          classes[left (frame)] = frame == frames_per_mask ? bowl_score : cup_score;
         return classes;
       });
   ASSERT_EQ (run.found.size (), 2u);
@@ -104,9 +96,9 @@ TEST (ObjectClasses, DetectionsAreCountedForTheObjectsThatTheyShow)
   const ClassScore& of_left = run.classes.at (run.foundAs (1));
   EXPECT_EQ (of_left.class_id, 41);
   EXPECT_EQ (of_left.class_name, "cup");
-  EXPECT_NEAR (of_left.score, (0.9 + 0.9) / 3.0, rounding);
+  EXPECT_NEAR (of_left.score, (0.9 + 0.9) / 3.0, score_rounding);
   EXPECT_EQ (run.classes.at (run.foundAs (2)).class_name, "part");
-  EXPECT_NEAR (run.classes.at (run.foundAs (2)).score, 0.6, rounding);
+  EXPECT_NEAR (run.classes.at (run.foundAs (2)).score, 0.6, score_rounding);
 }
 
 TEST (ObjectClasses, WithoutNamesNothingIsKnown)
@@ -118,7 +110,7 @@ TEST (ObjectClasses, WithoutNamesNothingIsKnown)
   EXPECT_EQ (unnamed.found.size (), 1u);
   EXPECT_TRUE (unnamed.classes.empty ());
   // Masks from files have no classes, whatever a segmenter would say.
-  const auto named = [] (int) { return std::map<std::uint16_t, ClassScore>{{1, cup}}; };
+  const auto named = [] (int) { return std::map<std::uint16_t, ClassScore>{{1, cup_score}}; };
   const TrackedRun masked = runWith (scene, true, label, named, [] (int, const Image<std::uint16_t>& truth) { return std::optional (truth); });
   EXPECT_EQ (masked.found.size (), 1u);
   EXPECT_TRUE (masked.classes.empty ());
@@ -126,16 +118,16 @@ TEST (ObjectClasses, WithoutNamesNothingIsKnown)
 
 TEST (ObjectClasses, APartThatOneMaskShowsSaysNothingOfTheWhole)
 {
-  TrackedScene scene (4 * every + 1);
+  TrackedScene scene (4 * frames_per_mask + 1);
   scene.addThing (1, along ({0.0}, {{0.0, 0.0, 0.0}}));
   const TrackedRun run = runWith (
       scene, false,
-      [] (const Eigen::Vector3d& p, int frame) { return !isThing (p, 0.0) ? 0 : frame == 2 * every && p.x () > 0.08 ? 7 : 3; },
-      [] (int) { return std::map<std::uint16_t, ClassScore>{{3, cup}, {7, part}}; });
+      [] (const Eigen::Vector3d& p, int frame) { return !isThing (p, 0.0) ? 0 : frame == 2 * frames_per_mask && p.x () > 0.08 ? 7 : 3; },
+      [] (int) { return std::map<std::uint16_t, ClassScore>{{3, cup_score}, {7, part_score}}; });
   ASSERT_EQ (run.found.size (), 1u);
   ASSERT_EQ (run.classes.size (), 1u);
   EXPECT_EQ (run.classes.begin ()->second.class_name, "cup");
-  EXPECT_NEAR (run.classes.begin ()->second.score, 0.9, rounding);
+  EXPECT_NEAR (run.classes.begin ()->second.score, 0.9, score_rounding);
 }
 
 TEST (ObjectClasses, UnitedPartsHaveTheDetectionsOfBoth)
@@ -148,14 +140,14 @@ TEST (ObjectClasses, UnitedPartsHaveTheDetectionsOfBoth)
       [&] (const Eigen::Vector3d& p, int frame) {
         return !isThing (p, motion.at (frame / 36.0).translation ().x ()) ? 0 : p.z () < 0.12 ? 1 : 2;
       },
-      [] (int) { return std::map<std::uint16_t, ClassScore>{{1, cup}, {2, part}}; });
+      [] (int) { return std::map<std::uint16_t, ClassScore>{{1, cup_score}, {2, part_score}}; });
   ASSERT_EQ (run.found.size (), 1u);
   ASSERT_TRUE (run.said (" is a part of object "));
   ASSERT_EQ (run.classes.size (), 1u);
   const ClassScore& united = run.classes.begin ()->second;
   // The upper part is most of the thing in the image, so that it is what remains; the detections of the lower one said something else.
   EXPECT_EQ (united.class_name, "part");
-  EXPECT_LT (united.score, 0.6 - rounding);
+  EXPECT_LT (united.score, 0.6 - score_rounding);
   EXPECT_GT (united.score, 0.3);
 }
 
@@ -164,7 +156,7 @@ TEST (ObjectClasses, WhatIsGivenUpIsNothing)
   TrackedScene scene (20);
   const TrackedRun run = runWith (
       scene, false, [] (const Eigen::Vector3d& p, int frame) { return frame == 0 && std::hypot (p.x (), p.y ()) < 0.25 && p.z () < 0.1 ? 1 : 0; },
-      [] (int) { return std::map<std::uint16_t, ClassScore>{{1, cup}}; });
+      [] (int) { return std::map<std::uint16_t, ClassScore>{{1, cup_score}}; });
   ASSERT_TRUE (run.said ("only one mask showed it"));
   EXPECT_TRUE (run.found.empty ());
   EXPECT_TRUE (run.classes.empty ());

@@ -40,6 +40,18 @@ part (Shape::ConstPtr shape, const Eigen::Vector3d& position)
 
 } // namespace
 
+std::optional<Image<std::uint16_t>>
+noMask (int /*frame*/, const Image<std::uint16_t>& /*truth*/)
+{
+  return std::nullopt;
+}
+
+bool
+isThing (const Eigen::Vector3d& p, double x)
+{
+  return p.z () > 0.015 && p.z () < 0.3 && std::abs (p.x () - x) < 0.17 && std::abs (p.y ()) < 0.12;
+}
+
 Image<std::uint16_t>
 reshuffled (const Image<std::uint16_t>& mask, int frame)
 {

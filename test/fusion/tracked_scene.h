@@ -23,6 +23,21 @@ namespace test
 /** \brief The mask that the front end gets for a frame, made of the true one; nothing: none. */
 using MaskPolicy = std::function<std::optional<Image<std::uint16_t>> (int frame, const Image<std::uint16_t>& truth)>;
 
+/** \brief Never any. */
+std::optional<Image<std::uint16_t>>
+noMask (int frame, const Image<std::uint16_t>& truth);
+
+/** \brief How far the front end may be off, metres: the camera, the camera where a segmenter finds the objects, whose instances end above
+ * the floor, and an object. */
+constexpr double camera_limit_m = 0.004, segmented_camera_limit_m = 0.006, object_limit_m = 0.010;
+
+/** \brief A vertex of the background this far from the true one is wrong, metres. */
+constexpr double wrong_m = 0.04;
+
+/** \brief Whether a point of the world is of a thing, see TrackedScene::addThing (), that stands at (\a x, 0, 0). */
+bool
+isThing (const Eigen::Vector3d& p, double x);
+
 /** \brief The same instances with other numbers, which differ from frame to frame. */
 Image<std::uint16_t>
 reshuffled (const Image<std::uint16_t>& mask, int frame);
