@@ -49,6 +49,20 @@ if(PCL_COSECTION_SANITIZE)
   target_link_options(pcl_cosection_build_settings INTERFACE -fsanitize=address,undefined)
 endif()
 
+# compile_several_files_at_a_time(<target>): for tests and what programs share, never for what is installed. Who sets
+# CMAKE_UNITY_BUILD has what it says.
+function(compile_several_files_at_a_time target)
+  if(NOT PCL_COSECTION_UNITY_BUILD OR DEFINED CMAKE_UNITY_BUILD)
+    return()
+  endif()
+  set_target_properties(${target} PROPERTIES UNITY_BUILD ON)
+  if(NOT DEFINED CMAKE_UNITY_BUILD_BATCH_SIZE)
+    set_target_properties(${target} PROPERTIES UNITY_BUILD_BATCH_SIZE 6)
+  endif()
+  # GCC takes a test whose fixture is in an anonymous namespace for one of a header, as its file is an included one.
+  target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
+endfunction()
+
 if(PCL_COSECTION_FUZZER)
   if(NOT (PCL_COSECTION_SANITIZE AND CMAKE_CXX_COMPILER_ID MATCHES "Clang"))
     message(FATAL_ERROR "PCL_COSECTION_FUZZER needs Clang (-DCMAKE_CXX_COMPILER=clang++) and PCL_COSECTION_SANITIZE=ON")
