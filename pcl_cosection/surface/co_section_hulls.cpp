@@ -77,10 +77,7 @@ CoSectionRun::findHulls ()
   std::size_t used_bytes = bytesInUse ();
   const auto begin = [&] (Object& object) {
     Sought sought{&object, {}, 0.0, nullptr};
-    const std::vector<Eigen::Vector4d> planes = options.use_intersection ? object.planes : planesOf (object);
-    for (const Eigen::Isometry3d& T_world_object : relativePoses (object, nullptr))
-      for (const Eigen::Vector4d& plane : planes)
-        sought.planes.push_back (transformPlane (plane, T_world_object));
+    sought.planes = planesAt (object, options.use_intersection ? object.planes : planesOf (object), relativePoses (object, nullptr));
     HiddenPlaces::Views views;
     for (std::size_t v = 0; v < scene_.views.size (); ++v)
       if (const Eigen::Isometry3d T = sensorIn (object, v); T.matrix ().allFinite ())

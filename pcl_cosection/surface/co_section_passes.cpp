@@ -42,9 +42,8 @@ CoSectionRun::surroundings (const Object& object) const
   const double beta = scene_.options.beta_inter;
   IntersectionConstraint constraint (object.volume ().grid (), scene_.options.max_bound_vox, scene_.options.threads);
   const std::vector<Eigen::Isometry3d> poses = relativePoses (object, nullptr);
-  for (const Eigen::Isometry3d& T_world_object : poses)
-    for (const Eigen::Vector4d& plane : object.planes)
-      constraint.addHalfSpace (transformPlane (plane, T_world_object), object.volume ().freeSpace (), beta);
+  for (const Eigen::Vector4d& plane : planesAt (object, object.planes, poses))
+    constraint.addHalfSpace (plane, object.volume ().freeSpace (), beta);
   for (const SignedDistanceField::ConstPtr& body : background_)
     constraint.addBody (*body, poses, beta);
   for (const Obstacle& body : bodies_)
@@ -190,10 +189,10 @@ CoSectionRun::penetration (const Object& object, const SignedDistanceField& body
 double
 CoSectionRun::penetrationOfGivenPlanes (const Object& object) const
 {
-  std::vector<Eigen::Vector4d> planes;
+  std::vector<Eigen::Vector4d> given;
   for (const Eigen::Vector4d& plane : scene_.planes)
-    for (const Eigen::Isometry3d& T_world_object : relativePoses (object, nullptr))
-      planes.push_back (transformPlane (towards (object, plane), T_world_object));
+    given.push_back (towards (object, plane));
+  const std::vector<Eigen::Vector4d> planes = planesAt (object, given, relativePoses (object, nullptr));
   if (planes.empty ())
     return 0.0;
   return deepest (object, [&] (const Eigen::Vector3d& at) {

@@ -195,11 +195,11 @@ CoSectionRun::volumeBox (const Object& object) const
         Eigen::Vector3d::Constant (fraction * object.observed.sizes ().maxCoeff () + 2.0 * object.voxel_size_m);
     return {object.observed.min () - pad, object.observed.max () + pad};
   }
-  std::vector<Eigen::Vector4d> planes;
+  std::vector<Eigen::Isometry3d> poses;
   for (std::size_t v = 0; v < std::max<std::size_t> (1, object.input->T_world_object.size ()); ++v)
     if (pose (object, v).matrix ().allFinite ())
-      for (const Eigen::Vector4d& plane : object.planes)
-        planes.push_back (transformPlane (plane, pose (object, v)));
+      poses.push_back (pose (object, v));
+  const std::vector<Eigen::Vector4d> planes = planesAt (object, object.planes, poses);
   return possibleBox (object.points (), object.observed, object.extents_m, object.voxel_size_m, views, object.body->hidden,
                       planes, options.threads);
 }
@@ -265,24 +265,22 @@ CoSectionRun::restingPlanes (const Object& object) const
   const std::vector<OrientedPoint>& points = object.points ();
   const double reach_m = resting_reach * object.extents_m[1];
   const auto may_be_lower = static_cast<std::ptrdiff_t> (resting_share * static_cast<double> (points.size ()));
-  for (const Eigen::Isometry3d& T_world_object : relativePoses (object, nullptr))
-    for (const Eigen::Vector4d& in_world : object.planes)
-    {
-      const Eigen::Vector4d plane = transformPlane (in_world, T_world_object);
-      const bool known = std::any_of (resting.begin (), resting.end (), [&] (const Eigen::Vector4d& other) {
-        return plane.head<3> ().dot (other.head<3> ()) > same_resting_cosine;
+  for (const Eigen::Vector4d& plane : planesAt (object, object.planes, relativePoses (object, nullptr)))
+  {
+    const bool known = std::any_of (resting.begin (), resting.end (), [&] (const Eigen::Vector4d& other) {
+      return plane.head<3> ().dot (other.head<3> ()) > same_resting_cosine;
+    });
+    if (known)
+      continue;
+    const auto lower = [&] (double height_m) {
+      return std::count_if (points.begin (), points.end (), [&] (const OrientedPoint& p) {
+        return plane.head<3> ().dot (p.position.cast<double> ()) + plane[3] < height_m;
       });
-      if (known)
-        continue;
-      const auto lower = [&] (double height_m) {
-        return std::count_if (points.begin (), points.end (), [&] (const OrientedPoint& p) {
-          return plane.head<3> ().dot (p.position.cast<double> ()) + plane[3] < height_m;
-        });
-      };
-      if (lower (reach_m) > may_be_lower ||
-          (lower (hidden_foot_reach * object.extents_m[1]) > may_be_lower && footIsHidden (object, plane)))
-        resting.push_back (plane);
-    }
+    };
+    if (lower (reach_m) > may_be_lower ||
+        (lower (hidden_foot_reach * object.extents_m[1]) > may_be_lower && footIsHidden (object, plane)))
+      resting.push_back (plane);
+  }
   return resting;
 }
 

@@ -206,6 +206,10 @@ private:
   /** \brief The planes that bound an object, world frame. */
   std::vector<Eigen::Vector4d>
   planesOf (const Object& object) const;
+  /** \brief Planes of the world as the object sees them at some poses, without those to whose other side it has been taken: from a
+   * table to the floor. */
+  std::vector<Eigen::Vector4d>
+  planesAt (const Object& object, const std::vector<Eigen::Vector4d>& planes, const std::vector<Eigen::Isometry3d>& T_world_object) const;
   /** \brief A grid for an object's hull and mesh, on the lattice of its volume; that of its volume where more memory is not allowed.
    * \param[in] unseen box of the hull */
   VoxelGrid

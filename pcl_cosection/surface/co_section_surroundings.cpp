@@ -73,6 +73,23 @@ CoSectionRun::planesOf (const Object& object) const
   return planes;
 }
 
+std::vector<Eigen::Vector4d>
+CoSectionRun::planesAt (const Object& object, const std::vector<Eigen::Vector4d>& planes,
+                        const std::vector<Eigen::Isometry3d>& T_world_object) const
+{
+  const Eigen::Isometry3d first = firstPose (object);
+  const Eigen::Vector3d center = object.observed.center ();
+  std::vector<Eigen::Vector4d> seen;
+  for (const Eigen::Isometry3d& T : T_world_object)
+    for (const Eigen::Vector4d& plane : planes)
+    {
+      const Eigen::Vector4d local = transformPlane (plane, T);
+      if (local.head<3> ().dot (center) + local[3] > 0.0 || T.matrix () == first.matrix ())
+        seen.push_back (local);
+    }
+  return seen;
+}
+
 void
 CoSectionRun::findPlanes ()
 {

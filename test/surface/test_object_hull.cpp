@@ -125,6 +125,23 @@ TEST (ObjectHull, FollowsNoRaysOfSinglePixels)
   EXPECT_TRUE (boxOfMesh (some.hull).sizes ().isApprox (boxOfMesh (all.hull).sizes (), 0.1));
 }
 
+TEST (ObjectHull, WhatIsPutLowerIsNotCutByTheTable)
+{
+  RenderedView seen = tableScene (Shape::Box).render (tableCamera (), fromAbove ());
+  const ObjectResult rests = taskOf (seen, hullOptions ()).reconstruct ().objects.at (0);
+  CoSection task (hullOptions ());
+  task.addView (seen.view);
+  const Eigen::Isometry3d lower (Eigen::Translation3d (0.0, 0.0, -0.5));
+  seen.view.T_world_sensor = lower * seen.view.T_world_sensor; // the same sight of it, on the floor
+  task.addView (seen.view);
+  task.setBackground (seen.points.at (0));
+  task.addObject ({1, seen.points.at (1), {Eigen::Isometry3d::Identity (), lower}});
+  const ObjectResult moves = task.reconstruct ().objects.at (0);
+  ASSERT_EQ (moves.error, "");
+  EXPECT_NEAR (litres (moves.hull), litres (rests.hull), 0.1 * litres (rests.hull));
+  EXPECT_NEAR (litres (moves.mesh), litres (rests.mesh), 0.05 * litres (rests.mesh));
+}
+
 TEST (ObjectHull, IsTheVolumeWhereNothingIsKnown)
 {
   const RenderedView seen = tableScene (Shape::Sphere).render (tableCamera (), fromAbove ());
