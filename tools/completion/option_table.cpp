@@ -70,10 +70,11 @@ declareOutput (CLI::App& app, Given& given)
       ->check (wholeRange (4, 2147483647))
       ->group (output);
   app.add_flag ("--save-hull", given.save_hull,
-                "Write what no view saw free around each object (_hull)")->group (output);
+                "Write each object's hull: all that may be it, as no view "
+                  "saw it free (_hull)")->group (output);
   app.add_flag ("--save-bounds", given.save_bounds,
                 "Write bounds for collision checks: matter surely there "
-                  "(_inner), and all that may be the object (_outer)")->group (output);
+                  "(_inner), and the mesh with its hull (_outer)")->group (output);
   app.add_flag ("--save-sdf", given.save_sdf, "Write each object's signed distance beside its mesh (.vti)")
       ->group (output);
   app.add_option ("--json", given.json, "Write a summary for programs")->option_text ("FILE")->group (output);
