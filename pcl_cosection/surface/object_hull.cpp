@@ -100,15 +100,12 @@ ObjectHull::add (const FreeSpaceView& view, const Eigen::Isometry3d& T_object_se
   votes_.add (view, T_object_sensor);
   if (carving_)
     carving_->add (view, T_object_sensor);
-  seen_ = true;
 }
 
 std::vector<float>
 ObjectHull::distanceToFree () const
 {
-  std::vector<float> value (grid_.size (), -0.5f);
-  if (carving_ && seen_)
-    value = carving_->lowerBounds (true);
+  std::vector<float> value = carving_ ? carving_->lowerBounds (true) : std::vector<float> (grid_.size (), -0.5f);
   forEachVoxel (grid_, options_.threads, [&] (std::size_t n, int, int, int) {
     if (free_space_[n])
       value[n] = std::max (value[n], carving_ ? least_free_vox : 0.5f);

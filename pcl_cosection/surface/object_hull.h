@@ -64,7 +64,6 @@ private:
   CoSectionOptions options_;
   HullConstraint votes_;
   std::optional<FreeSpaceCarving> carving_;
-  bool seen_ = false;
   SignedDistanceField hull_;
   std::vector<std::uint8_t> free_space_;
   std::vector<float> data_distance_vox_;
