@@ -25,6 +25,7 @@ constexpr float observed_weight = 0.3f;        // sum of weights that makes a vo
 constexpr double continued_plane_weight = 0.5; // of the data term on a continued plane, as of a densely measured one
 constexpr float hidden_side_gap_vox = 2.0f; // nothing is expected where data is nearer
 constexpr double hidden_side_reach_vox = 0.7; // inside the plausible region; what is deeper may be a cavity
+constexpr double round_weight = 10.0; // of the hidden side of what is round, which is surely like that seen; in others' weights
 constexpr double continued_plane_gap_vox = 2.0; // planes are continued where no data is nearer
 constexpr float carving_reach_vox = 1.5f; // from the boundary of free space into the hull
 constexpr std::size_t bytes_per_voxel = 92;
@@ -186,7 +187,7 @@ ShapeVolume::addHiddenSide (const SymmetricExtent& plausible, const std::vector<
   term.weighted_target.assign (grid_.size (), 0.0f);
   term.count.assign (grid_.size (), 0.0f);
   term.add (grid_, expected, options_.sigma_vox, options_.threads);
-  const auto weight = static_cast<float> (options_.beta_extent);
+  const auto weight = static_cast<float> ((plausible.isRound () ? round_weight : 1.0) * options_.beta_extent);
   for (std::size_t n = 0; n < grid_.size (); ++n)
     if (!free_space_[n] && data_distance_vox_[n] >= hidden_side_gap_vox && term.weight[n] >= observed_weight)
     {

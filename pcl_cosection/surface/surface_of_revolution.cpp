@@ -2,6 +2,7 @@
 // Copyright (c) 2026, the pcl_cosection authors
 #include "surface_of_revolution.h"
 
+#include "axis_refinement.h"
 #include "ball_fit.h"
 #include "normal_axis.h"
 
@@ -10,6 +11,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 
 namespace pcl
 {
@@ -58,18 +60,30 @@ SurfaceOfRevolution::fit (const std::vector<OrientedPoint>& points, const std::o
   if (normals.lines.empty ())
     return std::nullopt;
   std::optional<Axis> axis;
+  bool is_ball = false;
   if (const std::optional<Ball> ball = findBall (normals.lines))
   {
     const double radius = normals.size * ball->radius;
     const Eigen::Vector3d center = normals.origin + normals.size * ball->center;
     if (!plane || plane->head<3> ().dot (center) + (*plane)[3] > (1.0 - sunk) * radius)
+    {
       axis = axisOf (*ball, normals.lines);
+      is_ball = true;
+    }
   }
   if (!axis)
     axis = findAxis (normals.lines, plane ? std::optional<Eigen::Vector3d> (plane->head<3> ()) : std::nullopt);
   if (!axis)
     return std::nullopt;
 
+  if (!is_ball)
+  {
+    std::vector<NormalLine> round;
+    std::copy_if (normals.lines.begin (), normals.lines.end (), std::back_inserter (round),
+                  [&] (const NormalLine& line) { return meets (*axis, line); });
+    const bool upright = plane && axis->direction == plane->head<3> ();
+    axis = refineAxis (*axis, round, !upright);
+  }
   std::vector<OrientedPoint> meeting;
   for (std::size_t n = 0; n < points.size (); ++n)
     if (meets (*axis, normals.lines[n]))

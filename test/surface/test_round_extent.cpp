@@ -136,6 +136,25 @@ TEST_P (RoundInAnyPose, BottleIsRoundAllAround)
 
 INSTANTIATE_TEST_SUITE_P (Measured, RoundInAnyPose, testing::Bool (), [] (const auto& info) { return info.param ? "Noisy" : "Exact"; });
 
+// Normals of depth images lean towards the camera, as they are means over patches that end where the thing does.
+TEST_P (RoundInAnyPose, LeaningNormalsDoNotMoveTheAxis)
+{
+  const Eigen::Vector3d view (0.0, -0.95, 0.3);
+  for (const Profile& profile : {Profile (can), Profile (bottle)})
+  {
+    std::vector<OrientedPoint> points = observedRound (profile, 0.0, 0.2, view);
+    for (OrientedPoint& point : points)
+      point.normal = (point.normal + 0.15f * view.cast<float> ()).normalized ();
+    points = moved (GetParam () ? noisy (points) : points, anyPose ());
+    const Eigen::Vector3d up = anyPose ().linear () * Eigen::Vector3d::UnitZ ();
+    const Eigen::Vector4d plane (up.x (), up.y (), up.z (), -up.dot (anyPose ().translation ()));
+    const Eigen::Vector3d standing = anyPose ().inverse () * SymmetricExtent (points, plane).center ();
+    EXPECT_LT (standing.head<2> ().norm (), 0.001);
+    const Eigen::Vector3d lifted = anyPose ().inverse () * SymmetricExtent (points).center ();
+    EXPECT_LT (lifted.head<2> ().norm (), 0.0015);
+  }
+}
+
 TEST (RoundExtent, HandlesAreNotTurned)
 {
   std::vector<OrientedPoint> points = observedRound (can, 0.0, 0.09, {0.0, -1.0, 0.3});

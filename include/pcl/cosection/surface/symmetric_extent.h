@@ -74,6 +74,13 @@ public:
     return copies_alike_;
   }
 
+  /** \brief Is it a surface of revolution? */
+  bool
+  isRound () const
+  {
+    return round_ != nullptr;
+  }
+
 private:
   SymmetricExtent () = default;
   void
