@@ -30,7 +30,7 @@ constexpr double farthest = 0.1;     // of the size, that the axis may be moved
 struct Sample
 {
   double height, radius;
-  Eigen::Vector4d change; // of the radius with a move along x and y, and with turns towards them
+  Eigen::Vector2d change; // of the radius with a move of the axis along x and y
 };
 
 /** \brief Replace the radii of one band by their deviations from a straight line over the heights, and their changes by those of the deviations. */
@@ -39,7 +39,7 @@ straighten (std::vector<Sample>& band)
 {
   const auto count = static_cast<double> (band.size ());
   double height = 0.0, radius = 0.0;
-  Eigen::Vector4d change = Eigen::Vector4d::Zero ();
+  Eigen::Vector2d change = Eigen::Vector2d::Zero ();
   for (const Sample& s : band)
   {
     height += s.height / count;
@@ -47,7 +47,7 @@ straighten (std::vector<Sample>& band)
     change += s.change / count;
   }
   double squares = ridge, slope = 0.0;
-  Eigen::Vector4d slopes = Eigen::Vector4d::Zero ();
+  Eigen::Vector2d slopes = Eigen::Vector2d::Zero ();
   for (Sample& s : band)
   {
     s.height -= height;
@@ -67,7 +67,7 @@ straighten (std::vector<Sample>& band)
 } // namespace
 
 Axis
-refineAxis (const Axis& first, const std::vector<NormalLine>& lines, bool turn)
+refineAxis (const Axis& first, const std::vector<NormalLine>& lines)
 {
   Axis axis = first;
   double scale = 0.0; // of a residual that counts half
@@ -84,12 +84,11 @@ refineAxis (const Axis& first, const std::vector<NormalLine>& lines, bool turn)
       const double radius = away.norm ();
       if (radius < least_radius || std::abs (line.normal.dot (away)) < wall * radius)
         continue;
-      const Eigen::Vector2d to (x.dot (away) / radius, y.dot (away) / radius);
       bands[{static_cast<int> (std::floor (height / band)), line.normal.dot (away) < 0.0}].push_back (
-          {height, radius, Eigen::Vector4d (-to.x (), -to.y (), -height * to.x (), -height * to.y ())});
+          {height, radius, Eigen::Vector2d (-x.dot (away) / radius, -y.dot (away) / radius)});
     }
-    Eigen::Matrix4d left = Eigen::Matrix4d::Zero ();
-    Eigen::Vector4d right = Eigen::Vector4d::Zero ();
+    Eigen::Matrix2d left = Eigen::Matrix2d::Zero ();
+    Eigen::Vector2d right = Eigen::Vector2d::Zero ();
     std::vector<double> residuals;
     for (auto& [key, samples] : bands)
     {
@@ -111,17 +110,10 @@ refineAxis (const Axis& first, const std::vector<NormalLine>& lines, bool turn)
     std::nth_element (residuals.begin (), half, residuals.end ());
     scale = outlier_scale * *half;
     left.diagonal ().array () += ridge * left.trace ();
-    Eigen::Vector4d change = Eigen::Vector4d::Zero ();
-    if (turn)
-      change = left.ldlt ().solve (right);
-    else
-      change.head<2> () = left.topLeftCorner<2, 2> ().ldlt ().solve (right.head<2> ());
+    const Eigen::Vector2d change = left.ldlt ().solve (right);
     axis.point += change[0] * x + change[1] * y;
-    axis.direction = (axis.direction + change[2] * x + change[3] * y).normalized ();
   }
-  const bool near = axis.point.allFinite () && (axis.point - first.point).norm () < farthest &&
-                    axis.direction.dot (first.direction) > 1.0 - farthest;
-  return near ? axis : first;
+  return (axis.point - first.point).norm () < farthest ? axis : first;
 }
 
 } // namespace cosection

@@ -81,8 +81,7 @@ SurfaceOfRevolution::fit (const std::vector<OrientedPoint>& points, const std::o
     std::vector<NormalLine> round;
     std::copy_if (normals.lines.begin (), normals.lines.end (), std::back_inserter (round),
                   [&] (const NormalLine& line) { return meets (*axis, line); });
-    const bool upright = plane && axis->direction == plane->head<3> ();
-    axis = refineAxis (*axis, round, !upright);
+    axis = refineAxis (*axis, round);
   }
   std::vector<OrientedPoint> meeting;
   for (std::size_t n = 0; n < points.size (); ++n)
