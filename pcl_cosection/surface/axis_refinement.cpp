@@ -70,11 +70,11 @@ Axis
 refineAxis (const Axis& first, const std::vector<NormalLine>& lines)
 {
   Axis axis = first;
+  const Eigen::Vector3d x = axis.direction.unitOrthogonal ();
+  const Eigen::Vector3d y = axis.direction.cross (x);
   double scale = 0.0; // of a residual that counts half
   for (int step = 0; step < steps; ++step)
   {
-    const Eigen::Vector3d x = axis.direction.unitOrthogonal ();
-    const Eigen::Vector3d y = axis.direction.cross (x);
     std::map<std::pair<int, bool>, std::vector<Sample>> bands; // by height and side
     for (const NormalLine& line : lines)
     {
@@ -112,8 +112,10 @@ refineAxis (const Axis& first, const std::vector<NormalLine>& lines)
     left.diagonal ().array () += ridge * left.trace ();
     const Eigen::Vector2d change = left.ldlt ().solve (right);
     axis.point += change[0] * x + change[1] * y;
+    if (!((axis.point - first.point).norm () < farthest)) // nor if that is no number
+      return first;
   }
-  return (axis.point - first.point).norm () < farthest ? axis : first;
+  return axis;
 }
 
 } // namespace cosection
