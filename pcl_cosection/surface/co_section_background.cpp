@@ -84,7 +84,7 @@ CoSectionRun::backgroundVoxelSize (const std::vector<Eigen::AlignedBox3d>& boxes
   double smallest = std::numeric_limits<double>::infinity ();
   for (const Object& object : objects_)
     if (object.alive ())
-      smallest = std::min (smallest, object.volume ().grid ().voxel_size_m);
+      smallest = std::min (smallest, object.voxel_size_m);
   const double side = boxes.empty () ? 0.0 : boxes.front ().sizes ().maxCoeff ();
   if (!scene_.options.whole_background)
     return std::isfinite (smallest) ? background_voxels_per_object_voxel * smallest : side / background_only_resolution;

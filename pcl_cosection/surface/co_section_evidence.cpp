@@ -6,9 +6,12 @@
 #include "measured_surface.h"
 #include "volume_layout.h"
 
+#include <pcl/cosection/common/error.h>
 #include <pcl/cosection/surface/free_space_votes.h>
+#include <pcl/cosection/surface/symmetric_extent.h>
 
 #include <algorithm>
+#include <limits>
 #include <optional>
 
 // The part of a run that gives bodies their volumes and lets them read what was measured.
@@ -25,6 +28,7 @@ constexpr double follow_tolerance = 0.5;      // of that of the solver: what one
 constexpr double max_voxel_size_change = 1.2; // until a body that is followed gets other voxels
 constexpr int least_free_views = 2;           // that look through a point of the background, for it to have moved ...
 constexpr double free_share = 0.25;           // ... and so many of those that see it there
+constexpr double max_sigma_vox = 10.0;        // as for the option
 constexpr double left_over_cell_m = 0.02;
 constexpr double max_empty_share = 0.5;       // of a volume that was large enough for what was known before
 
@@ -42,19 +46,49 @@ CoSectionRun::earlierGrid (const FollowedBody& body, int id) const
   return earlier && earlier->volume ? &earlier->grid () : nullptr;
 }
 
-void
-CoSectionRun::keepVoxelSize (Object& object) const
+double
+CoSectionRun::wallThickness (const Object& object) const
 {
-  const VoxelGrid* grid = earlierGrid (*object.body, object.input->id);
-  if (!grid)
-    return;
-  const double ratio = grid->voxel_size_m / object.voxel_size_m;
-  if (ratio > 1.0 / max_voxel_size_change && ratio < max_voxel_size_change)
-    object.voxel_size_m = grid->voxel_size_m;
+  const std::vector<OrientedPoint>& points = object.points ();
+  std::optional<Eigen::Vector4d> nearest;
+  double least_m = std::numeric_limits<double>::infinity ();
+  for (const Eigen::Vector4d& plane : planesAt (object, object.planes, {firstPose (object)}))
+  {
+    const double height_m = plane.head<3> ().dot (object.observed.center ()) + plane[3];
+    if (height_m < least_m)
+    {
+      least_m = height_m;
+      nearest = plane;
+    }
+  }
+  return (nearest ? SymmetricExtent (points, *nearest) : SymmetricExtent (points)).wallThickness ();
+}
+
+double
+CoSectionRun::gridVoxelSize (Object& object) const
+{
+  const CoSectionOptions& options = scene_.options;
+  double voxel_size_m = object.voxel_size_m;
+  if (options.voxel_size_m <= 0.0 && options.resolution <= 0 && options.use_extent_prior && options.use_symmetric_extent)
+  {
+    double& wall_m = object.body->wall_m;
+    if (const double now_m = wallThickness (object); now_m > 0.0)
+      wall_m = now_m;
+    if (wall_m > 0.0)
+      voxel_size_m = vesselVoxelSize (voxel_size_m, wall_m, object.observed);
+  }
+  if (const VoxelGrid* grid = earlierGrid (*object.body, object.input->id))
+  {
+    const double ratio = grid->voxel_size_m / voxel_size_m;
+    if (ratio > 1.0 / max_voxel_size_change && ratio < max_voxel_size_change)
+      return grid->voxel_size_m;
+  }
+  return voxel_size_m;
 }
 
 void
-CoSectionRun::place (FollowedBody& body, int id, const Eigen::AlignedBox3d& box, double voxel_size_m, bool carve)
+CoSectionRun::place (FollowedBody& body, int id, const Eigen::AlignedBox3d& box, double voxel_size_m, bool carve,
+                     double blur)
 {
   VoxelGrid grid = layoutBox (box, voxel_size_m);
   const VoxelGrid* earlier = earlierGrid (body, id);
@@ -74,6 +108,7 @@ CoSectionRun::place (FollowedBody& body, int id, const Eigen::AlignedBox3d& box,
   CoSectionOptions options = scene_.options;
   if (mode_ == Mode::Follow)
     options.solver.tolerance_vox *= follow_tolerance;
+  options.sigma_vox = std::min (max_sigma_vox, blur * options.sigma_vox);
   body.restart (grid, options, carve);
 }
 
@@ -83,7 +118,22 @@ CoSectionRun::createVolumes ()
   const bool carve = scene_.options.use_hull && scene_.options.carve_free_space && !scene_.views.empty ();
   for (Object& object : objects_)
     if (object.alive ())
-      guarded (object, [&] { place (*object.body, object.input->id, volumeBox (object), object.voxel_size_m, carve); });
+      guarded (object, [&] {
+        const auto place_with = [&] (double voxel_size_m) {
+          place (*object.body, object.input->id, volumeBox (object), voxel_size_m, carve, std::max (1.0, object.voxel_size_m / voxel_size_m));
+        };
+        const double voxel_size_m = gridVoxelSize (object);
+        try
+        {
+          place_with (voxel_size_m);
+        }
+        catch (const MemoryLimitExceeded&)
+        {
+          if (voxel_size_m >= object.voxel_size_m)
+            throw;
+          place_with (object.voxel_size_m); // thick walls rather than nothing
+        }
+      });
 }
 
 void

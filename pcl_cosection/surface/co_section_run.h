@@ -55,7 +55,7 @@ private:
     ObjectResult* result = nullptr;
     std::vector<OrientedPoint> kept;                 // its points, if some are stray; else empty
     Eigen::AlignedBox3d observed;                    // of its points
-    double voxel_size_m = 0.0;
+    double voxel_size_m = 0.0;                       // that its points support; its grid's may be finer
     Eigen::Vector3d extents_m = Eigen::Vector3d::Zero (); // observedExtents () of its points
     std::optional<DepthView> assumed;                // of its points, if the scene has no views; object frame
     FollowedBody* body = nullptr;
@@ -123,9 +123,12 @@ private:
   /** \brief Where a body had its voxels; null if it had none. \param[in] id 0: the background, -1: a piece of it */
   const VoxelGrid*
   earlierGrid (const FollowedBody& body, int id) const;
-  /** \brief Keep the size of the voxels of a body that is followed, unless it is very wrong. */
-  void
-  keepVoxelSize (Object& object) const;
+  /** \brief Of the wall of a vessel; 0: it is none. */
+  double
+  wallThickness (const Object& object) const;
+  /** \brief As the points support it; finer for the walls of vessels. That of a body that is followed stays, unless it is very wrong. */
+  double
+  gridVoxelSize (Object& object) const;
   void
   createVolumes ();
   Eigen::AlignedBox3d
@@ -160,9 +163,11 @@ private:
   solveBackground (UpdateOutput output);
   void
   solveBackground (FollowedBody& body, const std::vector<PlaneContinuation>& planes, UpdateOutput output);
-  /** \brief Give a body a volume that covers \a box, keeping the one it has where that does. */
+  /** \brief Give a body a volume that covers \a box, keeping the one it has where that does.
+   * \param[in] blur widens points' Gaussians, where voxels are finer than the points support */
   void
-  place (FollowedBody& body, int id, const Eigen::AlignedBox3d& box, double voxel_size_m, bool carve);
+  place (FollowedBody& body, int id, const Eigen::AlignedBox3d& box, double voxel_size_m, bool carve,
+         double blur = 1.0);
   /** \brief Let all bodies read what is new in the scene. */
   void
   gatherEvidence ();

@@ -3,6 +3,7 @@
 #include "shape_volume.h"
 
 #include "extent_bounds.h"
+#include "hidden_side_term.h"
 #include "local_solver.h"
 #include "solver_detail.h"
 
@@ -23,33 +24,10 @@ namespace
 
 constexpr float observed_weight = 0.3f;        // sum of weights that makes a voxel one with data: a point within 1.1 sigma
 constexpr double continued_plane_weight = 0.5; // of the data term on a continued plane, as of a densely measured one
-constexpr float hidden_side_gap_vox = 2.0f; // nothing is expected where data is nearer
-constexpr double hidden_side_reach_vox = 0.7; // inside the plausible region; what is deeper may be a cavity
-constexpr double round_weight = 10.0; // of the hidden side of what is round, which is surely like that seen; in others' weights
 constexpr double continued_plane_gap_vox = 2.0; // planes are continued where no data is nearer
 constexpr float carving_reach_vox = 1.5f; // from the boundary of free space into the hull
 constexpr std::size_t bytes_per_voxel = 92;
 constexpr double follow_margin_vox = 3.0; // what follows new evidence at full resolution reaches so far beyond what is supported
-
-/** \brief The first of the points in each eighth of a voxel: as many as a surface of weak targets needs, whatever the number of views. */
-std::vector<OrientedPoint>
-thinned (const VoxelGrid& grid, const std::vector<OrientedPoint>& points)
-{
-  VoxelGrid halves;
-  halves.dims = 2 * grid.dims;
-  halves.voxel_size_m = 0.5 * grid.voxel_size_m;
-  halves.origin_m = grid.origin_m - Eigen::Vector3d::Constant (0.5 * halves.voxel_size_m);
-  std::vector<bool> taken (halves.size (), false);
-  std::vector<OrientedPoint> first;
-  for (const OrientedPoint& point : points)
-    if (const auto cell = halves.nearest (point.position.cast<double> ()))
-      if (std::vector<bool>::reference here = taken[halves.index (cell->x (), cell->y (), cell->z ())]; !here)
-      {
-        here = true;
-        first.push_back (point);
-      }
-  return first;
-}
 
 } // namespace
 
@@ -176,24 +154,8 @@ ShapeVolume::addExtentPrior (const ExtentPrior& prior, const Eigen::Vector3d& ex
 void
 ShapeVolume::addHiddenSide (const SymmetricExtent& plausible, const std::vector<OrientedPoint>& points)
 {
-  if (options_.beta_extent <= 0.0)
-    return;
-  const std::vector<OrientedPoint> expected =
-      plausible.hiddenSide (thinned (grid_, points), hidden_side_reach_vox * grid_.voxel_size_m);
-  if (expected.empty ())
-    return;
-  ImlsDataTerm term;
-  term.weight.assign (grid_.size (), 0.0f);
-  term.weighted_target.assign (grid_.size (), 0.0f);
-  term.count.assign (grid_.size (), 0.0f);
-  term.add (grid_, expected, options_.sigma_vox, options_.threads);
-  const auto weight = static_cast<float> ((plausible.isRound () ? round_weight : 1.0) * options_.beta_extent);
-  for (std::size_t n = 0; n < grid_.size (); ++n)
-    if (!free_space_[n] && data_distance_vox_[n] >= hidden_side_gap_vox && term.weight[n] >= observed_weight)
-    {
-      problem_.weight[n] += weight;
-      problem_.weighted_target[n] += weight * term.weighted_target[n] / term.weight[n];
-    }
+  if (options_.beta_extent > 0.0)
+    cosection::addHiddenSide (problem_, grid_, plausible, points, {free_space_, data_distance_vox_}, options_);
 }
 
 void

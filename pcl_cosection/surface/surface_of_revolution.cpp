@@ -25,6 +25,7 @@ constexpr std::size_t least_points = 50;
 constexpr double round_share = 0.75; // of all points
 constexpr double sunk = 0.1;         // of the radius: no ball lies deeper in what it stands on
 constexpr double max_radius = 1.5;   // of the size
+constexpr double upright = 0.97;      // cosine between the axis and a plane's normal
 constexpr double cell_size = 0.05;   // of the size, of the profile
 constexpr int sectors = 36;          // around the axis
 constexpr int round_sectors = 5;     // in a row: what is seen in so many is no handle
@@ -93,6 +94,10 @@ SurfaceOfRevolution::fit (const std::vector<OrientedPoint>& points, const std::o
   if (!surface.findProfile (meeting, normals.size) ||
       static_cast<double> (surface.profile_.size ()) < round_share * static_cast<double> (points.size ()))
     return std::nullopt;
+  std::optional<StandingPlane> standing;
+  if (const double rise = plane ? plane->head<3> ().dot (surface.direction_) : 0.0; std::abs (rise) > upright)
+    standing = StandingPlane{-(plane->head<3> ().dot (surface.center_) + (*plane)[3]) / rise, rise > 0.0 ? 1.0 : -1.0};
+  surface.vessel_ = VesselProfile::find (surface.profile_, surface.cell_m_, standing);
   return surface;
 }
 
@@ -104,6 +109,16 @@ SurfaceOfRevolution::profileOf (const Eigen::Vector3d& position) const
   return {height, (q - height * direction_).norm ()};
 }
 
+Eigen::Vector2d
+SurfaceOfRevolution::profileNormalOf (const OrientedPoint& point) const
+{
+  const Eigen::Vector3d q = point.position.cast<double> () - center_;
+  const Eigen::Vector3d n = point.normal.cast<double> ();
+  const Eigen::Vector3d away = q - direction_.dot (q) * direction_;
+  const double radius = away.norm ();
+  return {direction_.dot (n), radius > 0.0 ? n.dot (away) / radius : 0.0};
+}
+
 bool
 SurfaceOfRevolution::findProfile (const std::vector<OrientedPoint>& points, double size)
 {
@@ -111,7 +126,7 @@ SurfaceOfRevolution::findProfile (const std::vector<OrientedPoint>& points, doub
   Eigen::AlignedBox2d box;
   for (const OrientedPoint& p : points)
   {
-    profile.push_back ({profileOf (p.position.cast<double> ()), direction_.dot (p.normal.cast<double> ())});
+    profile.push_back ({profileOf (p.position.cast<double> ()), profileNormalOf (p)});
     box.extend (profile.back ().position);
   }
   if (points.empty () || box.max ().y () > max_radius * size)
@@ -203,7 +218,7 @@ SurfaceOfRevolution::flatEnds () const
       if (std::abs (p.position.x () - end) < straight_length * radius && p.position.y () > outer_wall * radius)
       {
         ++near;
-        straight += std::abs (p.along) < straight_sine;
+        straight += std::abs (p.normal.x ()) < straight_sine;
       }
     if (near == 0 || static_cast<double> (straight) < straight_share * static_cast<double> (near))
       continue;
@@ -231,7 +246,7 @@ SurfaceOfRevolution::turned (const std::vector<OrientedPoint>& points) const
     for (OrientedPoint p : points)
     {
       const Eigen::Vector3d position = p.position.cast<double> ();
-      if (!holds (position))
+      if (!holds (position) || (vessel_ && !vessel_->holds ({profileOf (position), profileNormalOf (p)})))
         continue;
       p.position = (center_ + turn * (position - center_)).cast<float> ();
       p.normal = (turn * p.normal.cast<double> ()).cast<float> ();
@@ -239,6 +254,42 @@ SurfaceOfRevolution::turned (const std::vector<OrientedPoint>& points) const
     }
   }
   return copies;
+}
+
+VesselPart
+SurfaceOfRevolution::partOf (const OrientedPoint& point) const
+{
+  return vessel_ ? vessel_->partOf ({profileOf (point.position.cast<double> ()), profileNormalOf (point)}) : VesselPart::Outer;
+}
+
+double
+SurfaceOfRevolution::depthInCavity (const Eigen::Vector3d& position) const
+{
+  return vessel_ ? vessel_->depthInCavity (profileOf (position)) : 0.0;
+}
+
+std::vector<OrientedPoint>
+SurfaceOfRevolution::depths (double step_m) const
+{
+  std::vector<OrientedPoint> points;
+  if (!vessel_)
+    return points;
+  const Eigen::Vector3d x = direction_.unitOrthogonal ();
+  const Eigen::Vector3d y = direction_.cross (x);
+  for (const ProfilePoint& p : vessel_->depths (step_m))
+  {
+    const int count = std::max (1, static_cast<int> (std::ceil (2.0 * M_PI * p.position.y () / step_m)));
+    for (int i = 0; i < count; ++i)
+    {
+      const double angle = 2.0 * M_PI * i / count;
+      const Eigen::Vector3d away = std::cos (angle) * x + std::sin (angle) * y;
+      OrientedPoint point;
+      point.position = (center_ + p.position.x () * direction_ + p.position.y () * away).cast<float> ();
+      point.normal = (p.normal.x () * direction_ + p.normal.y () * away).cast<float> ();
+      points.push_back (point);
+    }
+  }
+  return points;
 }
 
 } // namespace cosection

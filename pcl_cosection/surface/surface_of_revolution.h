@@ -2,6 +2,8 @@
 // Copyright (c) 2026, the pcl_cosection authors
 #pragma once
 
+#include "vessel_profile.h"
+
 #include <pcl/cosection/surface/oriented_point.h>
 
 #include <Eigen/Core>
@@ -55,12 +57,26 @@ public:
   std::vector<OrientedPoint>
   flatEnds () const;
 
-private:
-  struct ProfilePoint
+  /** \brief What is known of its wall, if it is a vessel. */
+  const std::optional<VesselProfile>&
+  vessel () const
   {
-    Eigen::Vector2d position; // height along the axis, distance from it
-    double along;             // component of the normal along the axis
-  };
+    return vessel_;
+  }
+
+  /** \brief To which part of a vessel a point belongs; outer side if it is none. */
+  VesselPart
+  partOf (const OrientedPoint& point) const;
+
+  /** \brief How far a place in the cavity of a vessel is from the wall and the floor, metres; 0 elsewhere. */
+  double
+  depthInCavity (const Eigen::Vector3d& position) const;
+
+  /** \brief The depths of a vessel: lower part of the inner side, floor and bottom. \param[in] step_m between points */
+  std::vector<OrientedPoint>
+  depths (double step_m) const;
+
+private:
 
   SurfaceOfRevolution () = default;
   bool
@@ -71,6 +87,8 @@ private:
   indexOf (const Eigen::Vector2i& cell) const;
   Eigen::Vector2d
   profileOf (const Eigen::Vector3d& position) const; // height along the axis, distance from it
+  Eigen::Vector2d
+  profileNormalOf (const OrientedPoint& point) const; // component along the axis, away from it
 
   Eigen::Vector3d center_;
   Eigen::Vector3d direction_;
@@ -79,6 +97,7 @@ private:
   Eigen::Vector2d first_; // of all cells, height and distance
   std::vector<std::uint8_t> round_; // by cell
   std::vector<ProfilePoint> profile_; // of the points that are round
+  std::optional<VesselProfile> vessel_;
 };
 
 } // namespace cosection

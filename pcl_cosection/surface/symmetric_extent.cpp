@@ -254,11 +254,12 @@ SymmetricExtent::hiddenSide (const std::vector<OrientedPoint>& points, double re
   if (round_)
   {
     std::vector<OrientedPoint> all = round_->turned (points);
-    if (!standing_)
-    {
-      const std::vector<OrientedPoint> ends = round_->flatEnds ();
-      all.insert (all.end (), ends.begin (), ends.end ());
-    }
+    std::vector<OrientedPoint> ends;
+    if (round_->vessel ())
+      ends = round_->depths (reach);
+    else if (!standing_)
+      ends = round_->flatEnds ();
+    all.insert (all.end (), ends.begin (), ends.end ());
     return all;
   }
   std::vector<OrientedPoint> copies;
@@ -273,6 +274,30 @@ SymmetricExtent::hiddenSide (const std::vector<OrientedPoint>& points, double re
     copies.push_back (p);
   }
   return copies;
+}
+
+double
+SymmetricExtent::wallThickness () const
+{
+  return round_ && round_->vessel () ? round_->vessel ()->wallThickness () : 0.0;
+}
+
+bool
+SymmetricExtent::isRoundAt (const Eigen::Vector3d& position) const
+{
+  return round_ && round_->holds (position);
+}
+
+double
+SymmetricExtent::depthInCavity (const Eigen::Vector3d& position) const
+{
+  return round_ ? round_->depthInCavity (position) : 0.0;
+}
+
+VesselPart
+SymmetricExtent::partOf (const OrientedPoint& point) const
+{
+  return round_ ? round_->partOf (point) : VesselPart::Outer;
 }
 
 double

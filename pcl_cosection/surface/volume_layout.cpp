@@ -31,6 +31,8 @@ constexpr double points_per_voxel = 3.0;
 constexpr double least_points_per_voxel = 1.5; // where more would take the shape:
 constexpr int least_resolution = 16;           // voxels along the longest side
 constexpr double voxel_growth = 1.1;
+constexpr double voxels_per_wall = 2.0;
+constexpr double finest_vessel = 0.5; // of the voxels that the points support
 constexpr int min_axis = 8;      // voxels
 constexpr double max_axis = 8192; // voxels
 constexpr double min_extent_m = 1e-6;
@@ -198,6 +200,13 @@ objectVoxelSize (const std::vector<OrientedPoint>& points, const Eigen::AlignedB
     throw InvalidArgument (message.str ());
   }
   return h;
+}
+
+double
+vesselVoxelSize (double voxel_size_m, double wall_m, const Eigen::AlignedBox3d& box)
+{
+  const double finest = std::max (finest_vessel * voxel_size_m, box.sizes ().maxCoeff () / default_resolution);
+  return std::min (voxel_size_m, std::max (finest, wall_m / voxels_per_wall));
 }
 
 Eigen::AlignedBox3d

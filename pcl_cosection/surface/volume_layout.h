@@ -35,6 +35,11 @@ double
 objectVoxelSize (const std::vector<OrientedPoint>& points, const Eigen::AlignedBox3d& observed,
                  const CoSectionOptions& options);
 
+/** \brief Voxels of a vessel (SymmetricExtent::wallThickness ()): half as large as its wall is thick, if that is smaller than \a voxel_size_m,
+ * but no smaller than a 64th of the longest side. They may be finer than the points' spacing supports, as points are turned to all sides. */
+double
+vesselVoxelSize (double voxel_size_m, double wall_m, const Eigen::AlignedBox3d& observed);
+
 /** \brief Box of where an object may be, with a margin: where ExtentPrior asks for no distance, on the upper
  * side of all \a planes.
  * \param[in] extents_m observedExtents () of the points

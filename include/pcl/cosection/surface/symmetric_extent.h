@@ -19,6 +19,14 @@ namespace cosection
 
 class SurfaceOfRevolution;
 
+/** \brief Parts of the surface of what is round and hollow, a cup or a bowl. */
+enum class VesselPart
+{
+  Outer, ///< side of the wall, and the bottom
+  Inner, ///< side of the wall, and the floor
+  Rim
+};
+
 /** \brief How far an object would reach if what is hidden of it looked like what was seen of it.
  *
  * Boxes, cans, bottles, bowls, vehicles: most things look from behind about as from the front. So what was
@@ -55,7 +63,8 @@ public:
 
   /** \brief The copies, by half a revolution or through the point, of those of \a points that come to lie beyond the plausible
    * region or less than \a reach (metres) inside it: where the hidden side is to be expected. Of what is round, the copies to all sides,
-   * those of cavities too; and flat faces at the ends of straight walls, if no plane is known on which they end. */
+   * those of cavities too, and what views see least of a vessel, in steps of \a reach: the depths of its inner side, its floor and its
+   * bottom; and of what is no vessel flat faces at the ends of straight walls, if no plane is known on which they end. */
   std::vector<OrientedPoint>
   hiddenSide (const std::vector<OrientedPoint>& points, double reach) const;
 
@@ -80,6 +89,22 @@ public:
   {
     return round_ != nullptr;
   }
+
+  /** \brief Of what is round and hollow, a cup or a bowl: how thick its wall is, metres; 0 of anything else. */
+  double
+  wallThickness () const;
+
+  /** \brief Does a place belong to what is round, not to a handle of it? */
+  bool
+  isRoundAt (const Eigen::Vector3d& position) const;
+
+  /** \brief How far a place in the cavity of a vessel is from the wall and the floor, metres; 0 elsewhere. */
+  double
+  depthInCavity (const Eigen::Vector3d& position) const;
+
+  /** \brief On which part of a vessel's surface a point, or a copy of one, is; the outer side of what is none. */
+  VesselPart
+  partOf (const OrientedPoint& point) const;
 
 private:
   SymmetricExtent () = default;

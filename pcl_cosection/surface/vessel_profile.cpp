@@ -1,0 +1,246 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_cosection authors
+#include "vessel_profile.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <map>
+
+namespace pcl
+{
+namespace cosection
+{
+
+namespace
+{
+
+constexpr double sideways = 0.4;        // component of a wall's normal across the axis
+constexpr double level = 0.8;           // component of a floor's normal along the axis
+constexpr double leaning = 0.5;         // a normal that leans so towards the opening is of a floor or rim
+constexpr std::size_t least_points = 3; // of a side in a band
+constexpr std::size_t least_bands = 2;  // in which both sides are seen
+constexpr std::size_t least_floor = 10; // points of a floor
+constexpr double thickest = 0.35;       // of the outer radius: a wall
+constexpr double even = 0.5;            // of the thickness: how much that of a band may differ
+constexpr double noise_cells = 0.4;     // or so much
+constexpr double even_share = 0.7;      // of the bands
+constexpr double end_cells = 2.0;       // a side that ends nearer to the end of the other ends with it
+constexpr double open_wall = 0.5;       // of the thickness: an inner side that comes nearer to the bottom than that ...
+constexpr double open_cells = 0.25;     // ... and that is of a tube, as long as no floor is seen
+constexpr double narrow = 0.9;          // of the opening's radius: a bottom so narrow is that of a bowl, as there are few funnels
+constexpr double outer_strays = 0.002;  // of the points of a side, may lie lower
+constexpr double inner_strays = 0.01;
+constexpr double least_floor_steps = 3.0; // of thickness: less would vanish
+constexpr double narrowest = 0.5;       // of the lowest radius that is known: the bottom
+
+/** \brief But for some share of them. */
+double
+lowest (std::vector<double>& heights, double strays)
+{
+  const auto rank = heights.begin () + static_cast<std::ptrdiff_t> (strays * static_cast<double> (heights.size ()));
+  std::nth_element (heights.begin (), rank, heights.end ());
+  return *rank;
+}
+
+double
+middle (std::vector<double>& values)
+{
+  const auto half = values.begin () + static_cast<std::ptrdiff_t> (values.size () / 2);
+  std::nth_element (values.begin (), half, values.end ());
+  return *half;
+}
+
+} // namespace
+
+std::optional<VesselProfile>
+VesselProfile::find (const std::vector<ProfilePoint>& points, double cell_m, const std::optional<StandingPlane>& plane)
+{
+  VesselProfile vessel;
+  if (!vessel.findWall (points, cell_m) || !vessel.findBottom (points, cell_m, plane))
+    return std::nullopt;
+  return vessel;
+}
+
+VesselPart
+VesselProfile::partOf (const ProfilePoint& point) const
+{
+  const double along = opening_ * point.normal.x ();
+  if (along > level && opening_ * (rim_m_ - point.position.x ()) < noise_m_)
+    return VesselPart::Rim;
+  return point.normal.y () < leaning * along ? VesselPart::Inner : VesselPart::Outer;
+}
+
+bool
+VesselProfile::findWall (const std::vector<ProfilePoint>& points, double cell_m)
+{
+  struct Sides
+  {
+    std::vector<double> outer, inner; // radii
+  };
+  std::map<int, Sides> sides; // by band
+  for (const ProfilePoint& p : points)
+  {
+    Sides& band = sides[static_cast<int> (std::floor (p.position.x () / cell_m))];
+    if (p.normal.y () > sideways)
+      band.outer.push_back (p.position.y ());
+    else if (p.normal.y () < -sideways)
+      band.inner.push_back (p.position.y ());
+  }
+  std::vector<double> thickness, radii;
+  for (auto& [number, band] : sides)
+    if (band.outer.size () >= least_points && band.inner.size () >= least_points)
+    {
+      radii.push_back (middle (band.outer));
+      thickness.push_back (radii.back () - middle (band.inner));
+    }
+  if (thickness.size () < least_bands)
+    return false;
+  std::vector<double> sorted = thickness;
+  wall_m_ = middle (sorted);
+  noise_m_ = std::max (wall_m_, noise_cells * cell_m);
+  const double tolerance = std::max (even * wall_m_, noise_cells * cell_m);
+  const std::ptrdiff_t similar =
+      std::count_if (thickness.begin (), thickness.end (), [&] (double t) { return std::abs (t - wall_m_) <= tolerance; });
+  if (!(wall_m_ > 0.0) || wall_m_ > thickest * middle (radii) ||
+      static_cast<double> (similar) < even_share * static_cast<double> (thickness.size ()))
+    return false;
+  for (auto& [number, band] : sides)
+  {
+    const double height = (number + 0.5) * cell_m;
+    if (band.outer.size () >= least_points)
+      bands_.push_back ({height, middle (band.outer)});
+    else if (band.inner.size () >= least_points)
+      bands_.push_back ({height, middle (band.inner) + wall_m_});
+  }
+  return true;
+}
+
+bool
+VesselProfile::findBottom (const std::vector<ProfilePoint>& points, double cell_m, const std::optional<StandingPlane>& plane)
+{
+  // The same for both senses of the axis, until it is known where the opening is.
+  struct End
+  {
+    std::vector<double> outer, inner, floor; // heights, upwards from this end
+    double lowest_outer, lowest_inner;
+  };
+  const auto endBelow = [&] (double up) {
+    End end;
+    for (const ProfilePoint& p : points)
+      if (p.normal.y () > sideways)
+        end.outer.push_back (up * p.position.x ());
+      else if (p.normal.y () < -sideways)
+        end.inner.push_back (up * p.position.x ());
+    end.lowest_outer = lowest (end.outer, outer_strays);
+    end.lowest_inner = lowest (end.inner, inner_strays);
+    const double within = (up > 0.0 ? bands_.front () : bands_.back ()).outer - wall_m_;
+    for (const ProfilePoint& p : points)
+      if (up * p.normal.x () > level && p.position.y () < within && up * p.position.x () < end.lowest_inner + cell_m)
+        end.floor.push_back (up * p.position.x ());
+    return end;
+  };
+  const End first = endBelow (1.0);
+  const End second = endBelow (-1.0);
+  const double below = first.lowest_inner - first.lowest_outer;
+  const double above = second.lowest_inner - second.lowest_outer;
+  if (plane)
+    opening_ = plane->up;
+  else if (std::max (first.floor.size (), second.floor.size ()) >= least_floor)
+    opening_ = first.floor.size () >= second.floor.size () ? 1.0 : -1.0;
+  else if (std::max (above, below) > end_cells * cell_m)
+    opening_ = above < below ? 1.0 : -1.0;
+  else
+    opening_ = bands_.front ().outer < bands_.back ().outer ? 1.0 : -1.0;
+  if ((opening_ > 0.0 ? above : below) > end_cells * cell_m)
+    return false;
+  if (opening_ < 0.0)
+    std::reverse (bands_.begin (), bands_.end ());
+
+  End end = opening_ > 0.0 ? first : second;
+  const double bottom = plane ? plane->up * plane->height : end.lowest_outer;
+  const bool has_floor = end.floor.size () >= least_floor;
+  if (!has_floor && end.lowest_inner - bottom < std::max (open_wall * wall_m_, open_cells * cell_m) &&
+      bands_.front ().outer > narrow * bands_.back ().outer)
+    return false;
+  across_ = 0.0;
+  for (const ProfilePoint& p : points)
+    across_ += p.normal.y () > sideways ? p.normal.y () : 0.0;
+  across_ /= static_cast<double> (end.outer.size ());
+  bottom_m_ = opening_ * bottom;
+  lowest_outer_m_ = opening_ * std::max (bottom, end.lowest_outer);
+  lowest_inner_m_ = opening_ * end.lowest_inner;
+  rim_m_ = -opening_ * (opening_ > 0.0 ? second : first).lowest_outer;
+  floor_m_ = opening_ * (has_floor ? middle (end.floor) : std::min (bottom + across_ * wall_m_, end.lowest_inner));
+  return true;
+}
+
+double
+VesselProfile::outerAt (double height) const
+{
+  const auto above = std::find_if (bands_.begin (), bands_.end (),
+                                   [&] (const Band& band) { return opening_ * (band.height - height) >= 0.0; });
+  if (above == bands_.end ())
+    return bands_.back ().outer;
+  if (above != bands_.begin ())
+  {
+    const Band& low = *std::prev (above);
+    const double t = (height - low.height) / (above->height - low.height);
+    return (1.0 - t) * low.outer + t * above->outer;
+  }
+  if (bands_.size () < 2)
+    return above->outer;
+  const Band& lowest = bands_.front ();
+  const Band& other = bands_[std::max<std::size_t> (1, bands_.size () / 3)];
+  const double straight = lowest.outer + (other.outer - lowest.outer) / (other.height - lowest.height) * (height - lowest.height);
+  return std::clamp (straight, narrowest * lowest.outer, lowest.outer);
+}
+
+std::vector<ProfilePoint>
+VesselProfile::depths (double step_m) const
+{
+  std::vector<ProfilePoint> points;
+  const auto goDown = [&] (double from, double to, double less, double side) {
+    const double depth = opening_ * (from - to);
+    for (double up = 0.0; up < depth; up += step_m)
+    {
+      const double height = to + opening_ * up;
+      const double radius = outerAt (height) - less;
+      const double slope = (outerAt (height + step_m) - outerAt (height - step_m)) / (2.0 * step_m);
+      if (radius > 0.0)
+        points.push_back ({{height, radius}, side * Eigen::Vector2d (-slope, 1.0).normalized ()});
+    }
+  };
+  const double floor = opening_ * std::max (opening_ * floor_m_, opening_ * bottom_m_ + least_floor_steps * step_m);
+  goDown (lowest_outer_m_, bottom_m_, 0.0, 1.0);
+  goDown (lowest_inner_m_, floor, wall_m_, -1.0);
+  const double floor_radius = outerAt (floor) - wall_m_;
+  const double bottom_radius = outerAt (bottom_m_);
+  for (double radius = 0.0; radius < bottom_radius; radius += step_m)
+  {
+    if (radius < floor_radius)
+      points.push_back ({{floor, radius}, {opening_, 0.0}});
+    points.push_back ({{bottom_m_, radius}, {-opening_, 0.0}});
+  }
+  return points;
+}
+
+bool
+VesselProfile::holds (const ProfilePoint& point) const
+{
+  const double beyond = point.position.y () - outerAt (point.position.x ());
+  if (std::abs (point.normal.y ()) <= sideways)
+    return beyond <= 0.5 * noise_m_;
+  return std::abs (beyond + (point.normal.y () < 0.0 ? wall_m_ : 0.0)) <= noise_m_;
+}
+
+double
+VesselProfile::depthInCavity (const Eigen::Vector2d& position) const
+{
+  if (opening_ * (position.x () - rim_m_) > 0.0)
+    return 0.0;
+  return std::max (0.0, std::min (opening_ * (position.x () - floor_m_), outerAt (position.x ()) - wall_m_ - position.y ()));
+}
+
+} // namespace cosection
+} // namespace pcl
