@@ -141,7 +141,10 @@ addVessel (EnergyProblem& problem, const VoxelGrid& grid, const SymmetricExtent&
     problem.weighted_target[n] = static_cast<float> (weight * target);
   };
   parallelFor (0, grid.dims.z (), threadsForVoxels (options.threads, grid.size ()), [&] (int k) {
+    std::vector<float> beyond_m (static_cast<std::size_t> (grid.dims.x ())); // of a row
     for (int j = 0; j < grid.dims.y (); ++j)
+    {
+      plausible.beyond (grid.center (0, j, k), grid.voxel_size_m * Eigen::Vector3d::UnitX (), grid.dims.x (), beyond_m.data ());
       for (int i = 0; i < grid.dims.x (); ++i)
       {
         const std::size_t n = grid.index (i, j, k);
@@ -160,12 +163,13 @@ addVessel (EnergyProblem& problem, const VoxelGrid& grid, const SymmetricExtent&
           set (n, problem.weight[n], target);
         else if (problem.weight[n] <= 0.0f)
         {
-          const Eigen::Vector3d center = grid.center (i, j, k);
-          const double clearance_vox = std::max (plausible.depthInCavity (center), plausible.beyond (center)) / grid.voxel_size_m;
+          const double clearance_m = std::max<double> (plausible.depthInCavity (grid.center (i, j, k)), beyond_m[static_cast<std::size_t> (i)]);
+          const double clearance_vox = clearance_m / grid.voxel_size_m;
           if (clearance_vox > empty_margin_vox)
             set (n, empty_weight * options.beta_extent, std::min (clearance_vox, empty_far_vox));
         }
       }
+    }
   });
 }
 
