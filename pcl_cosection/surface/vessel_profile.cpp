@@ -98,10 +98,9 @@ VesselProfile::findWall (const std::vector<ProfilePoint>& points, double cell_m)
     return false;
   std::vector<double> sorted = thickness;
   wall_m_ = middle (sorted);
-  noise_m_ = std::max (wall_m_, noise_cells * cell_m);
-  const double tolerance = std::max (even * wall_m_, noise_cells * cell_m);
+  noise_m_ = std::max (even * wall_m_, noise_cells * cell_m);
   const std::ptrdiff_t similar =
-      std::count_if (thickness.begin (), thickness.end (), [&] (double t) { return std::abs (t - wall_m_) <= tolerance; });
+      std::count_if (thickness.begin (), thickness.end (), [&] (double t) { return std::abs (t - wall_m_) <= noise_m_; });
   if (!(wall_m_ > 0.0) || wall_m_ > thickest * middle (radii) ||
       static_cast<double> (similar) < even_share * static_cast<double> (thickness.size ()))
     return false;

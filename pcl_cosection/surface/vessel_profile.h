@@ -81,7 +81,7 @@ private:
 
   double opening_ = 1.0;    // sense along the axis, in which heights count up
   std::vector<Band> bands_; // upwards, where one of the sides at least was seen
-  double noise_m_ = 0.0;    // how far points may be from a side
+  double noise_m_ = 0.0;    // how far points may be from a side, and how much walls may differ
   double wall_m_ = 0.0;     // across the axis
   double across_ = 1.0;     // component of the outer side's normals across the axis
   double rim_m_ = 0.0;      // heights

@@ -48,7 +48,7 @@ struct PCL_COSECTION_EXPORT SolverOptions
 struct PCL_COSECTION_EXPORT CoSectionOptions
 {
   double voxel_size_m = 0.0; ///< h; 0: from \a resolution
-  int resolution = 0;        ///< voxels along the longest observed side; 0: 64, but no finer than the points' spacing allows
+  int resolution = 0;        ///< voxels along the longest observed side; 0: 64, but no finer than the points' spacing allows; twice as fine where a vessel's wall needs it
   /** \brief Volume beyond the observed box on each side, as a fraction of its longest side; 0: as far as the
    * extent prior lets the shape reach, or 0.3 without views, hull constraint or that prior. */
   double padding = 0.0;
