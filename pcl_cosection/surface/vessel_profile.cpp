@@ -228,8 +228,10 @@ bool
 VesselProfile::holds (const ProfilePoint& point) const
 {
   const double beyond = point.position.y () - outerAt (point.position.x ());
+  if (std::abs (point.normal.y ()) <= sideways && point.normal.x () * opening_ > 0.0)
+    return opening_ * (rim_m_ - point.position.x ()) < noise_m_ || beyond < -0.5 * wall_m_;
   if (std::abs (point.normal.y ()) <= sideways)
-    return beyond <= 0.5 * noise_m_;
+    return opening_ * (point.position.x () - bottom_m_) < noise_m_;
   return std::abs (beyond + (point.normal.y () < 0.0 ? wall_m_ : 0.0)) <= noise_m_;
 }
 

@@ -56,7 +56,7 @@ public:
   std::vector<ProfilePoint>
   depths (double step_m) const;
 
-  /** \brief Is a point on one of the sides of the wall, or level? Else it is of a handle. */
+  /** \brief Is a point on one of the sides of the wall, the rim, the floor or the bottom? Else it is of a handle. */
   bool
   holds (const ProfilePoint& point) const;
 
