@@ -72,7 +72,7 @@ public:
   double
   depthInCavity (const Eigen::Vector3d& position) const;
 
-  /** \brief The depths of a vessel: lower part of the inner side, floor and bottom. \param[in] step_m between points */
+  /** \brief The depths of a vessel: lower parts of both sides, floor and bottom. \param[in] step_m between points */
   std::vector<OrientedPoint>
   depths (double step_m) const;
 

@@ -63,7 +63,7 @@ public:
 
   /** \brief The copies, by half a revolution or through the point, of those of \a points that come to lie beyond the plausible
    * region or less than \a reach (metres) inside it: where the hidden side is to be expected. Of what is round, the copies to all sides,
-   * those of cavities too, and what views see least of a vessel, in steps of \a reach: the depths of its inner side, its floor and its
+   * those of cavities too, and what views see least of a vessel, in steps of \a reach: the depths of both its sides, its floor and its
    * bottom; and of what is no vessel flat faces at the ends of straight walls, if no plane is known on which they end. */
   std::vector<OrientedPoint>
   hiddenSide (const std::vector<OrientedPoint>& points, double reach) const;
