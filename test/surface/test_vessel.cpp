@@ -128,7 +128,11 @@ TEST (Vessel, ThinWallsComeOutAsThickAsTheyAre)
   EXPECT_NEAR (computeMassProperties (vessel.mesh).volume_m3 / truth_m3, 1.0, 0.15);
   EXPECT_LT (meanError (vessel.mesh, scene.shape (1)), 0.001);
   EXPECT_GT (meanError (anything.mesh, scene.shape (1)), 0.002);
-  options.voxel_size_m = 0.005;
   options.use_symmetric_extent = true;
+  options.max_memory_bytes = 70 * vessel.signed_distance->grid.size (); // thick walls rather than nothing
+  const ObjectResult in_little_memory = completeFrom (scene, {0}, options);
+  ASSERT_EQ (in_little_memory.error, "");
+  EXPECT_EQ (in_little_memory.signed_distance->grid.voxel_size_m, anything.signed_distance->grid.voxel_size_m);
+  options.voxel_size_m = 0.005;
   EXPECT_EQ (completeFrom (scene, {0}, options).signed_distance->grid.voxel_size_m, 0.005);
 }

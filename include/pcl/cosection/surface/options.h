@@ -52,7 +52,7 @@ struct PCL_COSECTION_EXPORT CoSectionOptions
   /** \brief Volume beyond the observed box on each side, as a fraction of its longest side; 0: as far as the
    * extent prior lets the shape reach, or 0.3 without views, hull constraint or that prior. */
   double padding = 0.0;
-  double background_voxel_size_m = 0.0; ///< 0: twice the smallest object voxel; see also \a whole_background
+  double background_voxel_size_m = 0.0; ///< 0: twice the smallest object voxel, not counting vessels' finer ones; see also \a whole_background
 
   bool use_hull = true;         ///< E_hull, equation (3)
   bool use_intersection = true; ///< E_inter, equation (5)
