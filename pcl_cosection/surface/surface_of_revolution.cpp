@@ -25,7 +25,6 @@ constexpr std::size_t least_points = 50;
 constexpr double round_share = 0.75; // of all points
 constexpr double sunk = 0.1;         // of the radius: no ball lies deeper in what it stands on
 constexpr double max_radius = 1.5;   // of the size
-constexpr double upright = 0.97;      // cosine between the axis and a plane's normal
 constexpr double cell_size = 0.05;   // of the size, of the profile
 constexpr int sectors = 36;          // around the axis
 constexpr int round_sectors = 5;     // in a row: what is seen in so many is no handle

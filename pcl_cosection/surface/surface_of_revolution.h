@@ -17,6 +17,9 @@ namespace pcl
 namespace cosection
 {
 
+/** \brief Cosine between an axis and a plane's normal, from which on it is upright. */
+constexpr double upright = 0.97;
+
 /** \brief What is round about some axis: a bottle, a can, a bowl, a ball, a mug but for its handle. */
 class SurfaceOfRevolution
 {

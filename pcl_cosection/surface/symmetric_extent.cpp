@@ -30,7 +30,6 @@ constexpr double rounding = 1e-6;        // relative: more than that of a row's 
 constexpr double right_angle_cosine = 0.15; // between faces
 constexpr double cuboid_cosine = 0.92;   // between a normal on a face and the face's
 constexpr double cuboid_share = 0.85;    // of the points, on faces at right angles
-constexpr double upright = 0.97;         // cosine between an axis and the plane's normal
 constexpr double least_flat = 0.5;       // length of a unit vector along the plane, else it is no direction there
 
 /** \brief Directions evenly over the sphere, the same for either sense of each axis: those of a Fibonacci lattice in one octant, and
