@@ -11,6 +11,7 @@
 #include <pcl/cosection/surface/symmetric_extent.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <optional>
 
@@ -29,6 +30,7 @@ constexpr double max_voxel_size_change = 1.2; // until a body that is followed g
 constexpr int least_free_views = 2;           // that look through a point of the background, for it to have moved ...
 constexpr double free_share = 0.25;           // ... and so many of those that see it there
 constexpr double max_sigma_vox = 10.0;        // as for the option
+constexpr double max_contradicted_share = 0.1; // of an object's points; good poses leave .005 to .02
 constexpr double left_over_cell_m = 0.02;
 constexpr double max_empty_share = 0.5;       // of a volume that was large enough for what was known before
 
@@ -222,11 +224,15 @@ CoSectionRun::gatherEvidence ()
     }
   });
   timed ("constraints", [&] {
+    if (mode_ == Mode::Once && scene_.options.use_hull)
+      for (Object& object : objects_)
+        if (object.alive ())
+          object.agreement.emplace (object.points ());
     for (std::size_t v = 0; v < scene_.views.size (); ++v)
     {
       const DepthView& depth = scene_.views[v].depth;
       std::optional<FreeSpaceView> view; // prepared once, for the first that asks
-      const auto show = [&] (FollowedBody& body, const Eigen::Isometry3d& T_body_sensor) {
+      const auto show = [&] (FollowedBody& body, ViewAgreement* agreement, const Eigen::Isometry3d& T_body_sensor) {
         if (body.views_read > v)
           return;
         body.views_read = v + 1;
@@ -235,16 +241,34 @@ CoSectionRun::gatherEvidence ()
         if (!view)
           view.emplace (depth);
         body.evidence->addView (*view, T_body_sensor, scene_.views[v].use == ViewUse::Full);
+        if (agreement)
+          agreement->add (*view, T_body_sensor, scene_.options.threads);
       };
       for (FollowedBody* body : backgroundBodies ())
         if (scene_.views[v].use != ViewUse::FreeSpace)
-          show (*body, depth.T_world_sensor);
+          show (*body, nullptr, depth.T_world_sensor);
       for (Object& object : objects_)
         if (object.alive () && scene_.options.use_hull)
-          guarded (object, [&] { show (*object.body, pose (object, v).inverse () * depth.T_world_sensor); });
+          guarded (object, [&] {
+            show (*object.body, object.agreement ? &*object.agreement : nullptr, pose (object, v).inverse () * depth.T_world_sensor);
+          });
       report ("free space", 0.05 * static_cast<double> (v + 1) / static_cast<double> (scene_.views.size ()));
     }
+    for (Object& object : objects_)
+      if (object.alive () && object.agreement)
+        judgeAgreement (object);
   });
+}
+
+void
+CoSectionRun::judgeAgreement (Object& object)
+{
+  object.result->contradicted_share = object.agreement->contradictedShare ();
+  object.agreement.reset ();
+  if (object.result->contradicted_share > max_contradicted_share)
+    result_.warnings.push_back ("object " + std::to_string (object.input->id) + ": views look through " +
+                                std::to_string (std::lround (100.0 * object.result->contradicted_share)) +
+                                " % of its points: a pose may be wrong, or it has moved");
 }
 
 } // namespace cosection

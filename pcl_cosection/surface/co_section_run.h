@@ -3,6 +3,7 @@
 #pragma once
 
 #include "co_section_state.h"
+#include "view_agreement.h"
 
 #include <pcl/cosection/surface/co_section.h>
 #include <pcl/cosection/surface/intersection_constraint.h>
@@ -58,6 +59,7 @@ private:
     double voxel_size_m = 0.0;                       // that its points support; its grid's may be finer
     Eigen::Vector3d extents_m = Eigen::Vector3d::Zero (); // observedExtents () of its points
     std::optional<DepthView> assumed;                // of its points, if the scene has no views; object frame
+    std::optional<ViewAgreement> agreement;          // of all views with its points
     FollowedBody* body = nullptr;
     std::vector<Eigen::Vector4d> planes;             // world
     SignedDistanceField field;                       // its shape, as far as known
@@ -139,8 +141,13 @@ private:
   /** \brief The plane with its normal to the side of most of the object's points. */
   Eigen::Vector4d
   towards (const Object& object, const Eigen::Vector4d& plane) const;
+  /** \brief Warn if what the user gave leaves no room for some of the object's points. \param[in] isCut of a point, object frame */
+  template <typename IsCut> void
+  warnIfCut (const Object& object, IsCut&& isCut, const std::string& where);
   void
-  warnIfCut (const Object& object, const Eigen::Vector4d& plane);
+  warnIfCutByPlanes (const Object& object);
+  void
+  warnIfCutByBodies ();
   void
   findPlanes ();
   /** \brief Turn bodies given as meshes into signed distances where the objects may be. */
@@ -171,6 +178,9 @@ private:
   /** \brief Let all bodies read what is new in the scene. */
   void
   gatherEvidence ();
+  /** \brief Tell how well views agree with the object's points, and warn if they do not. */
+  void
+  judgeAgreement (Object& object);
   /** \brief Points of the background without those that views look through. */
   std::vector<OrientedPoint>
   backgroundAtRest () const;

@@ -27,7 +27,8 @@ constexpr double plane_inlier_voxels = 2.0;
 constexpr double min_plane_inlier_m = 0.004;
 constexpr double same_plane_cosine = 0.999;
 constexpr double same_plane_m = 0.005;
-constexpr double max_share_behind = 0.05; // of an object's points, behind a plane that the user gave
+constexpr double cut_voxels = 2.0;        // so deep a point cannot be for its noise
+constexpr double max_share_behind = 0.05; // of an object's points, behind a plane or in a body that the user gave
 
 } // namespace
 
@@ -41,18 +42,49 @@ CoSectionRun::towards (const Object& object, const Eigen::Vector4d& plane) const
   return 2 * above < object.points ().size () ? Eigen::Vector4d (-plane) : plane;
 }
 
-void
-CoSectionRun::warnIfCut (const Object& object, const Eigen::Vector4d& plane)
+template <typename IsCut> void
+CoSectionRun::warnIfCut (const Object& object, IsCut&& isCut, const std::string& where)
 {
-  const Eigen::Vector4d local = transformPlane (plane, firstPose (object));
-  std::size_t behind = 0;
-  for (const OrientedPoint& p : object.points ())
-    behind += local.head<3> ().dot (p.position.cast<double> ()) + local[3] < -2.0 * object.voxel_size_m;
-  const double share = static_cast<double> (behind) / static_cast<double> (object.points ().size ());
+  const std::vector<OrientedPoint>& points = object.points ();
+  const auto cut = std::count_if (points.begin (), points.end (),
+                                  [&] (const OrientedPoint& p) { return isCut (p.position.cast<double> ()); });
+  const double share = static_cast<double> (cut) / static_cast<double> (points.size ());
   if (share > max_share_behind)
     result_.warnings.push_back ("object " + std::to_string (object.input->id) + ": " +
-                                std::to_string (std::lround (100.0 * share)) +
-                                " % of its points lie behind a plane that was given");
+                                std::to_string (std::lround (100.0 * share)) + " % of its points lie " + where);
+}
+
+void
+CoSectionRun::warnIfCutByPlanes (const Object& object)
+{
+  for (std::size_t n = 0; n < scene_.planes.size (); ++n)
+  {
+    const Eigen::Vector4d local = transformPlane (object.planes[n], firstPose (object));
+    warnIfCut (
+        object,
+        [&] (const Eigen::Vector3d& p) { return local.head<3> ().dot (p) + local[3] < -cut_voxels * object.voxel_size_m; },
+        "behind a plane that was given");
+  }
+}
+
+void
+CoSectionRun::warnIfCutByBodies ()
+{
+  for (const Object& object : objects_)
+  {
+    if (!object.alive ())
+      continue;
+    const Eigen::Isometry3d T_world_object = firstPose (object);
+    const auto is_inside = [&] (const Eigen::Vector3d& p) {
+      for (const Obstacle& body : bodies_)
+        for (const Eigen::Isometry3d& T_field_world : body.T_field_world)
+          if (const auto u = body.field->sampleSupported (T_field_world * (T_world_object * p)); u && *u < -cut_voxels * object.voxel_size_m)
+            return true;
+      return false;
+    };
+    if (!bodies_.empty ())
+      warnIfCut (object, is_inside, "inside a body that was given (an open mesh is solid behind its triangles)");
+  }
 }
 
 std::vector<Eigen::Vector4d>
@@ -100,8 +132,7 @@ CoSectionRun::findPlanes ()
     if (!object.alive ())
       continue;
     object.planes = planesOf (object);
-    for (std::size_t n = 0; n < scene_.planes.size (); ++n)
-      warnIfCut (object, object.planes[n]);
+    warnIfCutByPlanes (object);
     const Eigen::Vector3d center = firstPose (object) * object.observed.center ();
     for (const Eigen::Vector4d& plane : object.planes)
     {
@@ -175,6 +206,7 @@ CoSectionRun::sampleMeshes ()
       result_.warnings.push_back ("a body given as a mesh was left out: not enough memory");
     }
   }
+  warnIfCutByBodies ();
 }
 
 } // namespace cosection

@@ -2,10 +2,12 @@
 // Copyright (c) 2026, the pcl_cosection authors
 #include <pcl/cosection/surface/free_space_votes.h>
 
+#include <pcl/cosection/common/error.h>
 #include <pcl/cosection/common/parallel.h>
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 
 namespace pcl
 {
@@ -23,14 +25,14 @@ constexpr int min_support = 3;    ///< neighbours of the same depth: those that 
 class Witness
 {
 public:
-  Witness (const FreeSpaceView& view, double margin_m)
-  : view_ (view), depth_ (view.view ()), margin_m_ (margin_m), T_sensor_world_ (depth_.T_world_sensor.inverse ())
+  Witness (const FreeSpaceView& view, const Eigen::Isometry3d& T_points_sensor, double margin_m)
+  : view_ (view), depth_ (view.view ()), margin_m_ (margin_m), T_sensor_points_ (T_points_sensor.inverse ())
   {}
 
   void
   vote (const Eigen::Vector3f& point, FreeSpaceVotes& votes) const
   {
-    const Eigen::Vector3d p = T_sensor_world_ * point.cast<double> ();
+    const Eigen::Vector3d p = T_sensor_points_ * point.cast<double> ();
     if (!(p.z () > 0.0))
       return;
     const PinholeCamera& camera = depth_.camera;
@@ -96,7 +98,7 @@ private:
   const FreeSpaceView& view_;
   const DepthView& depth_;
   double margin_m_;
-  Eigen::Isometry3d T_sensor_world_;
+  Eigen::Isometry3d T_sensor_points_;
 };
 
 } // namespace
@@ -114,13 +116,23 @@ voteOnPoints (const std::vector<Eigen::Vector3f>& points, const std::vector<Free
   std::vector<Witness> witnesses;
   witnesses.reserve (views.size ());
   for (const FreeSpaceView& view : views)
-    witnesses.emplace_back (view, margin_m);
+    witnesses.emplace_back (view, view.view ().T_world_sensor, margin_m);
   std::vector<FreeSpaceVotes> votes (points.size ());
   parallelFor (0, static_cast<int> (points.size ()), threads, [&] (int i) {
     for (const Witness& witness : witnesses)
       witness.vote (points[i], votes[i]);
   });
   return votes;
+}
+
+void
+addVotes (const std::vector<Eigen::Vector3f>& points, const FreeSpaceView& view, const Eigen::Isometry3d& T_points_sensor,
+          std::vector<FreeSpaceVotes>& votes, double margin_m, int threads)
+{
+  if (votes.size () != points.size ())
+    throw InvalidArgument ("there are " + std::to_string (votes.size ()) + " votes for " + std::to_string (points.size ()) + " points");
+  const Witness witness (view, T_points_sensor, margin_m);
+  parallelFor (0, static_cast<int> (points.size ()), threads, [&] (int i) { witness.vote (points[i], votes[i]); });
 }
 
 } // namespace cosection

@@ -200,6 +200,28 @@ TEST (Surroundings, APlaneThroughTheObjectIsSaid)
   }
 }
 
+TEST (Surroundings, ABodyThroughTheObjectIsSaid)
+{
+  const Cropped box (Shape::Box);
+  TriangleMesh from_below = tableTop ();
+  for (TriangleMesh::Triangle& t : from_below.triangles)
+    std::swap (t[0], t[1]);
+  const auto is_said = [&] (const TriangleMesh& body) {
+    CoSection task (optionsFor (voxel_m));
+    task.addView (box.view);
+    task.addIntersection (body);
+    task.addObject ({1, box.seen.points.at (1), {}});
+    const SceneResult result = task.reconstruct ();
+    return std::any_of (result.warnings.begin (), result.warnings.end (), [] (const std::string& warning) {
+      return warning.find ("inside a body that was given") != std::string::npos;
+    });
+  };
+  EXPECT_FALSE (is_said (tableTop ()));
+  EXPECT_TRUE (is_said (from_below));
+  EXPECT_TRUE (is_said (block ({-0.5f, -0.5f, -0.1f}, {0.5f, 0.5f, 0.05f})));
+  EXPECT_FALSE (is_said (block ({-0.5f, -0.5f, -0.1f}, {0.5f, 0.5f, 0.0f})));
+}
+
 TEST (Surroundings, WhatBoundsNothingIsRefused)
 {
   EXPECT_THROW (CoSection ().addIntersection (TriangleMesh ()), InvalidArgument);

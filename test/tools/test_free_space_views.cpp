@@ -199,6 +199,23 @@ TEST_F (FreeSpaceViews, FollowTheInputsInTrajectories)
   EXPECT_GT (hull ({"--object-trajectory", "3=short.txt"}, "short"), 1.02 * free);
 }
 
+TEST_F (FreeSpaceViews, AWrongPoseIsSaid)
+{
+  std::ifstream right (folder_->file (view (2)), std::ios::binary);
+  std::ofstream wrong (folder_->file ("wrong.pcd"), std::ios::binary);
+  for (std::string line; line.rfind ("DATA", 0) != 0 && std::getline (right, line);)
+    wrong << (line.rfind ("VIEWPOINT", 0) == 0 ? "VIEWPOINT 0 0 0.8 0 1 0 0" : line) << "\n"; // from straight above
+  wrong << right.rdbuf ();
+  wrong.close ();
+  const auto warnings = [&] (const std::string& file) {
+    EXPECT_EQ (run ({"--free-space", file, "--json", "w.json", view (0), "w"}), 0) << errors_;
+    std::ifstream json (folder_->file ("w.json"));
+    return nlohmann::json::parse (json)["warnings"].dump ();
+  };
+  EXPECT_EQ (warnings (view (2)), "[]");
+  EXPECT_NE (warnings ("wrong.pcd").find ("views look through"), std::string::npos);
+}
+
 TEST_F (FreeSpaceViews, BadOnesAreRefused)
 {
   EXPECT_EQ (run ({"--free-space", "none.pcd", view (0), "no"}), 1);

@@ -71,6 +71,7 @@ objectJson (const ObjectResult& object)
   result["provenance"] = provenanceShares (object.mesh);
   result["penetration_m"] = object.penetration_m;
   result["stray_points"] = object.stray_points;
+  result["contradicted_share"] = object.contradicted_share;
   result["solver"] = solverJson (object.solver);
   return (result);
 }

@@ -5,6 +5,8 @@
 #include <pcl/cosection/common/export.h>
 #include <pcl/cosection/surface/hull_constraint.h>
 
+#include <Eigen/Geometry>
+
 #include <vector>
 
 namespace pcl
@@ -39,6 +41,15 @@ struct FreeSpaceVotes
 PCL_COSECTION_EXPORT std::vector<FreeSpaceVotes>
 voteOnPoints (const std::vector<Eigen::Vector3f>& points, const std::vector<FreeSpaceView>& views,
               double margin_m = 0.0, int threads = 0);
+
+/** \brief The same of one more view.
+ * \param[in] points any frame
+ * \param[in] T_points_sensor pose of the sensor in that frame, whatever that of the view
+ * \param[in,out] votes one per point, to which those of the view are added
+ * \throws InvalidArgument if there are not as many votes as points */
+PCL_COSECTION_EXPORT void
+addVotes (const std::vector<Eigen::Vector3f>& points, const FreeSpaceView& view, const Eigen::Isometry3d& T_points_sensor,
+          std::vector<FreeSpaceVotes>& votes, double margin_m = 0.0, int threads = 0);
 
 } // namespace cosection
 } // namespace pcl
