@@ -4,6 +4,7 @@
 
 #include "axis_refinement.h"
 #include "ball_fit.h"
+#include "footprint_axis.h"
 #include "normal_axis.h"
 
 #include <Eigen/Geometry>
@@ -73,24 +74,36 @@ SurfaceOfRevolution::fit (const std::vector<OrientedPoint>& points, const std::o
   }
   if (!axis)
     axis = findAxis (normals.lines, plane ? std::optional<Eigen::Vector3d> (plane->head<3> ()) : std::nullopt);
-  if (!axis)
-    return std::nullopt;
-
-  if (!is_ball)
+  if (axis && !is_ball)
   {
     std::vector<NormalLine> round;
     std::copy_if (normals.lines.begin (), normals.lines.end (), std::back_inserter (round),
                   [&] (const NormalLine& line) { return meets (*axis, line); });
     axis = refineAxis (*axis, round);
   }
+  std::optional<SurfaceOfRevolution> surface;
+  if (axis)
+    surface = about (*axis, normals, points, plane, seen_sectors);
+  if (surface || !plane)
+    return surface;
+  axis = findFootprintAxis (normals.lines, plane->head<3> ());
+  if (axis)
+    surface = about (*axis, normals, points, plane, 0);
+  return surface && surface->vessel_ ? surface : std::nullopt;
+}
+
+std::optional<SurfaceOfRevolution>
+SurfaceOfRevolution::about (const Axis& axis, const NormalLines& normals, const std::vector<OrientedPoint>& points,
+                            const std::optional<Eigen::Vector4d>& plane, int least_sectors)
+{
   std::vector<OrientedPoint> meeting;
   for (std::size_t n = 0; n < points.size (); ++n)
-    if (meets (*axis, normals.lines[n]))
+    if (meets (axis, normals.lines[n]))
       meeting.push_back (points[n]);
   SurfaceOfRevolution surface;
-  surface.direction_ = axis->direction;
-  surface.center_ = normals.origin + normals.size * axis->point;
-  if (!surface.findProfile (meeting, normals.size) ||
+  surface.direction_ = axis.direction;
+  surface.center_ = normals.origin + normals.size * axis.point;
+  if (!surface.findProfile (meeting, normals.size, least_sectors) ||
       static_cast<double> (surface.profile_.size ()) < round_share * static_cast<double> (points.size ()))
     return std::nullopt;
   std::optional<StandingPlane> standing;
@@ -119,7 +132,7 @@ SurfaceOfRevolution::profileNormalOf (const OrientedPoint& point) const
 }
 
 bool
-SurfaceOfRevolution::findProfile (const std::vector<OrientedPoint>& points, double size)
+SurfaceOfRevolution::findProfile (const std::vector<OrientedPoint>& points, double size, int least_sectors)
 {
   std::vector<ProfilePoint> profile;
   Eigen::AlignedBox2d box;
@@ -154,7 +167,7 @@ SurfaceOfRevolution::findProfile (const std::vector<OrientedPoint>& points, doub
     if (facesSideways (direction_, points[n].normal.cast<double> ()))
       seen_anywhere[sector] = true;
   }
-  if (longestRun (seen_anywhere) < seen_sectors)
+  if (longestRun (seen_anywhere) < least_sectors)
     return false;
   round_.resize (seen.size ());
   for (std::size_t c = 0; c < seen.size (); ++c)

@@ -2,6 +2,7 @@
 // Copyright (c) 2026, the pcl_cosection authors
 #pragma once
 
+#include "normal_axis.h"
 #include "vessel_profile.h"
 
 #include <pcl/cosection/surface/oriented_point.h>
@@ -26,7 +27,8 @@ class SurfaceOfRevolution
 public:
   /** \brief Of the points of one body. \param[in] plane what it stands on, (n, d) with n.x + d = 0, unit n towards it: an axis along n is
    * preferred to others that are about as good
-   * \return nothing if less than three quarters of the points belong to such a surface, or less than 70 degrees were seen of it */
+   * \return nothing if less than three quarters of the points belong to such a surface, or less than 70 degrees were seen of it; but a plate,
+   * which hardly faces sideways, may be round as seen from above */
   static std::optional<SurfaceOfRevolution>
   fit (const std::vector<OrientedPoint>& points, const std::optional<Eigen::Vector4d>& plane);
 
@@ -80,10 +82,13 @@ public:
   depths (double step_m) const;
 
 private:
-
   SurfaceOfRevolution () = default;
+  /** \brief About a known axis. \param[in] least_sectors around it in a row, in which points face sideways \return nothing if too few belong to it */
+  static std::optional<SurfaceOfRevolution>
+  about (const Axis& axis, const NormalLines& normals, const std::vector<OrientedPoint>& points, const std::optional<Eigen::Vector4d>& plane,
+         int least_sectors);
   bool
-  findProfile (const std::vector<OrientedPoint>& points, double size);
+  findProfile (const std::vector<OrientedPoint>& points, double size, int least_sectors);
   Eigen::Vector2i
   cellOf (const Eigen::Vector2d& profile) const;
   std::size_t

@@ -32,7 +32,26 @@ constexpr double narrow = 0.9;          // of the opening's radius: a bottom so 
 constexpr double outer_strays = 0.002;  // of the points of a side, may lie lower
 constexpr double inner_strays = 0.01;
 constexpr double least_floor_steps = 3.0; // of thickness: less would vanish
+constexpr double hardly_sideways = 0.2;   // as sideways, where the inside of what may be shallow is all that was seen ...
+constexpr double dish_outer_share = 0.05; // ... of all points, but for so many
+constexpr double dish_floor = 0.05;     // of the points, nearest to the axis, are on its floor
+constexpr double dish_band_cells = 0.5; // height of a band
+constexpr double thinnest_cells = 0.25; // a wall, as the plane is not known better
 constexpr double narrowest = 0.5;       // of the lowest radius that is known: the bottom
+
+/** \brief What was seen in a band of heights. */
+struct Sides
+{
+  std::vector<double> outer, inner; // radii
+  std::vector<double> through;      // of the inner side, and through the wall
+  double across = 0.0;              // sum of the normals' components
+
+  double
+  meanAcross () const
+  {
+    return across > 0.0 ? across / static_cast<double> (outer.size () + inner.size ()) : 1.0;
+  }
+};
 
 /** \brief But for some share of them. */
 double
@@ -57,16 +76,19 @@ std::optional<VesselProfile>
 VesselProfile::find (const std::vector<ProfilePoint>& points, double cell_m, const std::optional<StandingPlane>& plane)
 {
   VesselProfile vessel;
-  if (!vessel.findWall (points, cell_m) || !vessel.findBottom (points, cell_m, plane))
-    return std::nullopt;
-  return vessel;
+  if (vessel.findWall (points, cell_m) && vessel.findBottom (points, cell_m, plane))
+    return vessel;
+  VesselProfile dish;
+  if (plane && dish.findDish (points, cell_m, *plane))
+    return dish;
+  return std::nullopt;
 }
 
 VesselPart
 VesselProfile::partOf (const ProfilePoint& point) const
 {
   const double along = opening_ * point.normal.x ();
-  if (along > level && opening_ * (rim_m_ - point.position.x ()) < noise_m_)
+  if (along > level && opening_ * (rim_m_ - point.position.x ()) < rim_band_m_)
     return VesselPart::Rim;
   return point.normal.y () < leaning * along ? VesselPart::Inner : VesselPart::Outer;
 }
@@ -74,45 +96,68 @@ VesselProfile::partOf (const ProfilePoint& point) const
 bool
 VesselProfile::findWall (const std::vector<ProfilePoint>& points, double cell_m)
 {
-  struct Sides
-  {
-    std::vector<double> outer, inner; // radii
-  };
   std::map<int, Sides> sides; // by band
   for (const ProfilePoint& p : points)
   {
     Sides& band = sides[static_cast<int> (std::floor (p.position.x () / cell_m))];
-    if (p.normal.y () > sideways)
-      band.outer.push_back (p.position.y ());
-    else if (p.normal.y () < -sideways)
-      band.inner.push_back (p.position.y ());
+    if (std::abs (p.normal.y ()) <= sideways)
+      continue;
+    (p.normal.y () > 0.0 ? band.outer : band.inner).push_back (p.position.y ());
+    band.across += std::abs (p.normal.y ());
   }
   std::vector<double> thickness, radii;
   for (auto& [number, band] : sides)
     if (band.outer.size () >= least_points && band.inner.size () >= least_points)
     {
       radii.push_back (middle (band.outer));
-      thickness.push_back (radii.back () - middle (band.inner));
+      thickness.push_back ((radii.back () - middle (band.inner)) * band.meanAcross ());
     }
   if (thickness.size () < least_bands)
     return false;
   std::vector<double> sorted = thickness;
   wall_m_ = middle (sorted);
-  noise_m_ = std::max (even * wall_m_, noise_cells * cell_m);
+  noise_m_ = rim_band_m_ = std::max (even * wall_m_, noise_cells * cell_m);
   const std::ptrdiff_t similar =
       std::count_if (thickness.begin (), thickness.end (), [&] (double t) { return std::abs (t - wall_m_) <= noise_m_; });
   if (!(wall_m_ > 0.0) || wall_m_ > thickest * middle (radii) ||
       static_cast<double> (similar) < even_share * static_cast<double> (thickness.size ()))
     return false;
+  findBands (points, cell_m);
+  return true;
+}
+
+void
+VesselProfile::findBands (const std::vector<ProfilePoint>& points, double band_m)
+{
+  std::map<int, Sides> sides;
+  const auto bandAt = [&] (const Eigen::Vector2d& position) -> Sides& { return sides[static_cast<int> (std::floor (position.x () / band_m))]; };
+  for (const ProfilePoint& p : points)
+  {
+    if (std::abs (p.normal.y ()) <= hardly_sideways)
+      continue;
+    Sides& band = bandAt (p.position);
+    (p.normal.y () > 0.0 ? band.outer : band.inner).push_back (p.position.y ());
+    band.across += std::abs (p.normal.y ());
+    if (p.normal.y () > 0.0)
+      continue;
+    const Eigen::Vector2d through = p.position - wall_m_ * p.normal;
+    bandAt (through).through.push_back (through.y ());
+  }
   for (auto& [number, band] : sides)
   {
-    const double height = (number + 0.5) * cell_m;
+    const double height = (number + 0.5) * band_m;
+    const double wall_m = wall_m_ / band.meanAcross ();
+    const bool has_inner = band.inner.size () >= least_points;
     if (band.outer.size () >= least_points)
-      bands_.push_back ({height, middle (band.outer)});
-    else if (band.inner.size () >= least_points)
-      bands_.push_back ({height, middle (band.inner) + wall_m_});
+      bands_.push_back ({height, middle (band.outer), wall_m});
+    else if (band.through.size () >= least_points)
+    {
+      const double outer = middle (band.through);
+      bands_.push_back ({height, outer, has_inner ? outer - middle (band.inner) : wall_m});
+    }
+    else if (has_inner)
+      bands_.push_back ({height, middle (band.inner) + wall_m, wall_m});
   }
-  return true;
 }
 
 bool
@@ -133,7 +178,7 @@ VesselProfile::findBottom (const std::vector<ProfilePoint>& points, double cell_
         end.inner.push_back (up * p.position.x ());
     end.lowest_outer = lowest (end.outer, outer_strays);
     end.lowest_inner = lowest (end.inner, inner_strays);
-    const double within = (up > 0.0 ? bands_.front () : bands_.back ()).outer - wall_m_;
+    const double within = up > 0.0 ? bands_.front ().outer - bands_.front ().wall : bands_.back ().outer - bands_.back ().wall;
     for (const ProfilePoint& p : points)
       if (up * p.normal.x () > level && p.position.y () < within && up * p.position.x () < end.lowest_inner + cell_m)
         end.floor.push_back (up * p.position.x ());
@@ -162,16 +207,71 @@ VesselProfile::findBottom (const std::vector<ProfilePoint>& points, double cell_
   if (!has_floor && end.lowest_inner - bottom < std::max (open_wall * wall_m_, open_cells * cell_m) &&
       bands_.front ().outer > narrow * bands_.back ().outer)
     return false;
-  across_ = 0.0;
-  for (const ProfilePoint& p : points)
-    across_ += p.normal.y () > sideways ? p.normal.y () : 0.0;
-  across_ /= static_cast<double> (end.outer.size ());
   bottom_m_ = opening_ * bottom;
   lowest_outer_m_ = opening_ * std::max (bottom, end.lowest_outer);
   lowest_inner_m_ = opening_ * end.lowest_inner;
   rim_m_ = -opening_ * (opening_ > 0.0 ? second : first).lowest_outer;
-  floor_m_ = opening_ * (has_floor ? middle (end.floor) : std::min (bottom + across_ * wall_m_, end.lowest_inner));
+  floor_m_ = opening_ * (has_floor ? middle (end.floor) : std::min (bottom + wall_m_, end.lowest_inner));
   return true;
+}
+
+bool
+VesselProfile::findDish (const std::vector<ProfilePoint>& points, double cell_m, const StandingPlane& plane)
+{
+  std::vector<double> radii, inner; // heights are those over the plane
+  std::size_t outer = 0;
+  for (const ProfilePoint& p : points)
+  {
+    radii.push_back (p.position.y ());
+    outer += p.normal.y () > hardly_sideways;
+    if (p.normal.y () < -hardly_sideways)
+      inner.push_back (plane.up * (p.position.x () - plane.height));
+  }
+  if (inner.size () < least_floor || static_cast<double> (outer) > dish_outer_share * static_cast<double> (points.size ()))
+    return false;
+  const double innermost = lowest (radii, dish_floor);
+  const double radius = lowest (radii, 1.0 - inner_strays);
+  std::vector<double> floor;
+  for (const ProfilePoint& p : points)
+    if (p.position.y () <= innermost && plane.up * p.normal.x () > level)
+      floor.push_back (plane.up * (p.position.x () - plane.height));
+  if (floor.size () < least_floor)
+    return false;
+  wall_m_ = std::max (middle (floor), thinnest_cells * cell_m);
+  const double rim = lowest (inner, 1.0 - inner_strays);
+  if (wall_m_ > thickest * radius || wall_m_ > rim - wall_m_)
+    return false;
+
+  findBands (points, dish_band_cells * cell_m);
+  if (bands_.size () < least_bands)
+    return false;
+  opening_ = plane.up;
+  if (opening_ < 0.0)
+    std::reverse (bands_.begin (), bands_.end ());
+  for (std::size_t n = bands_.size () - 1; n > 0; --n) // it does not get wider downwards
+    bands_[n - 1].outer = std::min (bands_[n - 1].outer, bands_[n].outer);
+  noise_m_ = std::max (even * wall_m_, noise_cells * cell_m);
+  rim_band_m_ = noise_cells * cell_m;
+  bottom_m_ = plane.height;
+  floor_m_ = bottom_m_ + opening_ * wall_m_;
+  rim_m_ = lowest_outer_m_ = bottom_m_ + opening_ * rim;
+  lowest_inner_m_ = bottom_m_ + opening_ * lowest (inner, inner_strays);
+  return true;
+}
+
+double
+VesselProfile::innerAt (double height) const
+{
+  const auto above = std::find_if (bands_.begin (), bands_.end (),
+                                   [&] (const Band& band) { return opening_ * (band.height - height) >= 0.0; });
+  double wall = (above == bands_.end () ? bands_.back () : *above).wall;
+  if (above != bands_.end () && above != bands_.begin ())
+  {
+    const Band& low = *std::prev (above);
+    const double t = (height - low.height) / (above->height - low.height);
+    wall = (1.0 - t) * low.wall + t * above->wall;
+  }
+  return outerAt (height) - wall;
 }
 
 double
@@ -199,21 +299,22 @@ std::vector<ProfilePoint>
 VesselProfile::depths (double step_m) const
 {
   std::vector<ProfilePoint> points;
-  const auto goDown = [&] (double from, double to, double less, double side) {
+  const auto goDown = [&] (double from, double to, double side) {
+    const auto radiusAt = [&] (double height) { return side > 0.0 ? outerAt (height) : innerAt (height); };
     const double depth = opening_ * (from - to);
     for (double up = 0.0; up < depth; up += step_m)
     {
       const double height = to + opening_ * up;
-      const double radius = outerAt (height) - less;
-      const double slope = (outerAt (height + step_m) - outerAt (height - step_m)) / (2.0 * step_m);
+      const double radius = radiusAt (height);
+      const double slope = (radiusAt (height + step_m) - radiusAt (height - step_m)) / (2.0 * step_m);
       if (radius > 0.0)
         points.push_back ({{height, radius}, side * Eigen::Vector2d (-slope, 1.0).normalized ()});
     }
   };
   const double floor = opening_ * std::max (opening_ * floor_m_, opening_ * bottom_m_ + least_floor_steps * step_m);
-  goDown (lowest_outer_m_, bottom_m_, 0.0, 1.0);
-  goDown (lowest_inner_m_, floor, wall_m_, -1.0);
-  const double floor_radius = outerAt (floor) - wall_m_;
+  goDown (lowest_outer_m_, bottom_m_, 1.0);
+  goDown (lowest_inner_m_, floor, -1.0);
+  const double floor_radius = innerAt (floor);
   const double bottom_radius = outerAt (bottom_m_);
   for (double radius = 0.0; radius < bottom_radius; radius += step_m)
   {
@@ -229,10 +330,10 @@ VesselProfile::holds (const ProfilePoint& point) const
 {
   const double beyond = point.position.y () - outerAt (point.position.x ());
   if (std::abs (point.normal.y ()) <= sideways && point.normal.x () * opening_ > 0.0)
-    return opening_ * (rim_m_ - point.position.x ()) < noise_m_ || beyond < -0.5 * wall_m_;
+    return opening_ * (rim_m_ - point.position.x ()) < rim_band_m_ || beyond < -0.5 * wall_m_;
   if (std::abs (point.normal.y ()) <= sideways)
     return opening_ * (point.position.x () - bottom_m_) < noise_m_;
-  return std::abs (beyond + (point.normal.y () < 0.0 ? wall_m_ : 0.0)) <= noise_m_;
+  return std::abs (point.position.y () - (point.normal.y () < 0.0 ? innerAt (point.position.x ()) : outerAt (point.position.x ()))) <= noise_m_;
 }
 
 double
@@ -240,7 +341,7 @@ VesselProfile::depthInCavity (const Eigen::Vector2d& position) const
 {
   if (opening_ * (position.x () - rim_m_) > 0.0)
     return 0.0;
-  return std::max (0.0, std::min (opening_ * (position.x () - floor_m_), outerAt (position.x ()) - wall_m_ - position.y ()));
+  return std::max (0.0, std::min (opening_ * (position.x () - floor_m_), innerAt (position.x ()) - position.y ()));
 }
 
 } // namespace cosection

@@ -32,7 +32,7 @@ struct StandingPlane
  *
  * Of what is deep inside a vessel views see little, and of its bottom nothing. What is hidden is taken to go on as it was seen: the wall
  * is as thick as where both its sides were seen, down to the floor, which is level; and that is where it was seen, or as far above the bottom
- * as the wall is thick. */
+ * as the wall is thick. Of a dish, of which only the inside was seen, the wall is as thick as the floor is high above what it stands on. */
 class VesselProfile
 {
 public:
@@ -45,7 +45,7 @@ public:
   double
   wallThickness () const
   {
-    return across_ * wall_m_;
+    return wall_m_;
   }
 
   /** \brief To which part of the surface a point belongs, by its normal; and by its height, to the rim. */
@@ -69,21 +69,30 @@ private:
   {
     double height;
     double outer; // radius
+    double wall;  // across the axis
   };
 
   VesselProfile () = default;
   bool
   findWall (const std::vector<ProfilePoint>& points, double cell_m);
+  /** \brief Once it is known how thick the wall is. */
+  void
+  findBands (const std::vector<ProfilePoint>& points, double band_m);
   bool
   findBottom (const std::vector<ProfilePoint>& points, double cell_m, const std::optional<StandingPlane>& plane);
+  /** \brief Wall and bottom of what stands on a plane and shows nothing but its inside, down to its floor. */
+  bool
+  findDish (const std::vector<ProfilePoint>& points, double cell_m, const StandingPlane& plane);
   double
   outerAt (double height) const;
+  double
+  innerAt (double height) const;
 
   double opening_ = 1.0;    // sense along the axis, in which heights count up
   std::vector<Band> bands_; // upwards, where one of the sides at least was seen
   double noise_m_ = 0.0;    // how far points may be from a side, and how much walls may differ
-  double wall_m_ = 0.0;     // across the axis
-  double across_ = 1.0;     // component of the outer side's normals across the axis
+  double rim_band_m_ = 0.0; // how far below its height the rim may be
+  double wall_m_ = 0.0;     // from side to side
   double rim_m_ = 0.0;      // heights
   double bottom_m_ = 0.0;
   double floor_m_ = 0.0;

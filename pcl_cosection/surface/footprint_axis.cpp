@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_cosection authors
+#include "footprint_axis.h"
+
+#include <Eigen/Cholesky>
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace pcl
+{
+namespace cosection
+{
+
+namespace
+{
+
+constexpr int directions = 72;        // in which the farthest points are sought
+constexpr int sectors = 36;
+constexpr double stray_share = 0.002; // of all points, may lie farther out
+constexpr double sector_strays = 0.02; // of the points of a sector
+constexpr double round_reach = 0.05;  // of the radius: sectors whose points reach so far more or less are round
+constexpr int round_sectors = 27;
+
+using Points = std::vector<Eigen::Vector2d>;
+
+/** \brief The value that so many are above. */
+double
+quantile (std::vector<double>& values, double share_above)
+{
+  const auto rank = values.end () - 1 - static_cast<std::ptrdiff_t> (share_above * static_cast<double> (values.size ()));
+  std::nth_element (values.begin (), rank, values.end ());
+  return *rank;
+}
+
+/** \brief One of the points that are farthest in some direction each. */
+Points
+farthestOf (const Points& points)
+{
+  Points ends;
+  std::vector<std::size_t> order (points.size ());
+  for (std::size_t n = 0; n < order.size (); ++n)
+    order[n] = n;
+  const auto rank = order.begin () + static_cast<std::ptrdiff_t> (stray_share * static_cast<double> (points.size ()));
+  for (int d = 0; d < directions; ++d)
+  {
+    const double angle = 2.0 * M_PI * d / directions;
+    const Eigen::Vector2d direction (std::cos (angle), std::sin (angle));
+    const auto farther = [&] (std::size_t a, std::size_t b) {
+      const double along_a = direction.dot (points[a]), along_b = direction.dot (points[b]);
+      return along_a > along_b || (along_a == along_b && a < b);
+    };
+    std::nth_element (order.begin (), rank, order.end (), farther);
+    ends.push_back (points[*rank]);
+  }
+  return ends;
+}
+
+/** \brief The middle of the circle that is nearest to the points; algebraically. */
+Eigen::Vector2d
+circleCenter (const Points& points)
+{
+  Eigen::Matrix3d left = Eigen::Matrix3d::Zero ();
+  Eigen::Vector3d right = Eigen::Vector3d::Zero ();
+  for (const Eigen::Vector2d& p : points)
+  {
+    const Eigen::Vector3d row (2.0 * p.x (), 2.0 * p.y (), 1.0);
+    left += row * row.transpose ();
+    right += p.squaredNorm () * row;
+  }
+  return left.ldlt ().solve (right).head<2> ();
+}
+
+/** \brief Do the points reach equally far from a place in nearly all directions? */
+bool
+isRound (const Points& points, const Eigen::Vector2d& center)
+{
+  std::array<std::vector<double>, sectors> radii;
+  for (const Eigen::Vector2d& p : points)
+  {
+    const Eigen::Vector2d q = p - center;
+    const double turn = std::atan2 (q.y (), q.x ()) / (2.0 * M_PI) + 0.5;
+    radii[static_cast<std::size_t> (std::clamp (static_cast<int> (turn * sectors), 0, sectors - 1))].push_back (q.norm ());
+  }
+  std::vector<double> reaches;
+  for (std::vector<double>& sector : radii)
+    if (!sector.empty ())
+      reaches.push_back (quantile (sector, sector_strays));
+  std::vector<double> sorted = reaches;
+  const double radius = quantile (sorted, 0.5);
+  const auto alike = std::count_if (reaches.begin (), reaches.end (),
+                                    [&] (double reach) { return std::abs (reach - radius) < round_reach * radius; });
+  return alike >= round_sectors;
+}
+
+} // namespace
+
+std::optional<Axis>
+findFootprintAxis (const std::vector<NormalLine>& lines, const Eigen::Vector3d& up)
+{
+  if (lines.empty ())
+    return std::nullopt;
+  const Eigen::Vector3d x = up.unitOrthogonal ();
+  const Eigen::Vector3d y = up.cross (x);
+  Points points;
+  points.reserve (lines.size ());
+  for (const NormalLine& line : lines)
+    points.emplace_back (x.dot (line.position), y.dot (line.position));
+  const Eigen::Vector2d center = circleCenter (farthestOf (points));
+  if (!center.allFinite () || !isRound (points, center))
+    return std::nullopt;
+  return Axis{up, center.x () * x + center.y () * y};
+}
+
+} // namespace cosection
+} // namespace pcl
