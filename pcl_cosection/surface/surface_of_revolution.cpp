@@ -35,6 +35,7 @@ constexpr double straight_sine = 0.2;   // between the wall and the axis
 constexpr double straight_share = 0.8;  // of the wall's points
 constexpr double outer_wall = 0.9;      // of the radius
 constexpr int disc_rings = 24;
+constexpr double least_step = 0.05;  // of a cell: between points of what is deep inside a vessel
 constexpr int turns = 12;            // all around
 constexpr double stray_share = 0.002; // of the points, may lie farther out
 
@@ -288,9 +289,10 @@ SurfaceOfRevolution::depths (double step_m) const
     return points;
   const Eigen::Vector3d x = direction_.unitOrthogonal ();
   const Eigen::Vector3d y = direction_.cross (x);
-  for (const ProfilePoint& p : vessel_->depths (step_m))
+  const double step = std::max (step_m, least_step * cell_m_);
+  for (const ProfilePoint& p : vessel_->depths (step))
   {
-    const int count = std::max (1, static_cast<int> (std::ceil (2.0 * M_PI * p.position.y () / step_m)));
+    const int count = std::max (1, static_cast<int> (std::ceil (2.0 * M_PI * p.position.y () / step)));
     for (int i = 0; i < count; ++i)
     {
       const double angle = 2.0 * M_PI * i / count;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <iterator>
 #include <map>
 
 namespace pcl
@@ -62,6 +63,14 @@ lowest (std::vector<double>& heights, double strays)
   return *rank;
 }
 
+/** \brief Radius at the middle of the band of heights in which a point is, along the surface. */
+double
+radiusInBand (const ProfilePoint& p, double band_m)
+{
+  const double up = (std::floor (p.position.x () / band_m) + 0.5) * band_m - p.position.x ();
+  return p.position.y () - p.normal.x () / p.normal.y () * up;
+}
+
 double
 middle (std::vector<double>& values)
 {
@@ -102,7 +111,7 @@ VesselProfile::findWall (const std::vector<ProfilePoint>& points, double cell_m)
     Sides& band = sides[static_cast<int> (std::floor (p.position.x () / cell_m))];
     if (std::abs (p.normal.y ()) <= sideways)
       continue;
-    (p.normal.y () > 0.0 ? band.outer : band.inner).push_back (p.position.y ());
+    (p.normal.y () > 0.0 ? band.outer : band.inner).push_back (radiusInBand (p, cell_m));
     band.across += std::abs (p.normal.y ());
   }
   std::vector<double> thickness, radii;
@@ -136,12 +145,12 @@ VesselProfile::findBands (const std::vector<ProfilePoint>& points, double band_m
     if (std::abs (p.normal.y ()) <= hardly_sideways)
       continue;
     Sides& band = bandAt (p.position);
-    (p.normal.y () > 0.0 ? band.outer : band.inner).push_back (p.position.y ());
+    (p.normal.y () > 0.0 ? band.outer : band.inner).push_back (radiusInBand (p, band_m));
     band.across += std::abs (p.normal.y ());
     if (p.normal.y () > 0.0)
       continue;
-    const Eigen::Vector2d through = p.position - wall_m_ * p.normal;
-    bandAt (through).through.push_back (through.y ());
+    const ProfilePoint through{p.position - wall_m_ * p.normal, p.normal};
+    bandAt (through.position).through.push_back (radiusInBand (through, band_m));
   }
   for (auto& [number, band] : sides)
   {
@@ -188,12 +197,12 @@ VesselProfile::findBottom (const std::vector<ProfilePoint>& points, double cell_
   const End second = endBelow (-1.0);
   const double below = first.lowest_inner - first.lowest_outer;
   const double above = second.lowest_inner - second.lowest_outer;
-  if (plane)
-    opening_ = plane->up;
-  else if (std::max (first.floor.size (), second.floor.size ()) >= least_floor)
+  if (std::max (first.floor.size (), second.floor.size ()) >= least_floor)
     opening_ = first.floor.size () >= second.floor.size () ? 1.0 : -1.0;
   else if (std::max (above, below) > end_cells * cell_m)
     opening_ = above < below ? 1.0 : -1.0;
+  else if (plane)
+    opening_ = plane->up;
   else
     opening_ = bands_.front ().outer < bands_.back ().outer ? 1.0 : -1.0;
   if ((opening_ > 0.0 ? above : below) > end_cells * cell_m)
@@ -202,9 +211,11 @@ VesselProfile::findBottom (const std::vector<ProfilePoint>& points, double cell_
     std::reverse (bands_.begin (), bands_.end ());
 
   End end = opening_ > 0.0 ? first : second;
-  const double bottom = plane ? plane->up * plane->height : end.lowest_outer;
+  const bool is_standing = plane && plane->up == opening_; // and not upside down
+  const double bottom = is_standing ? plane->up * plane->height : end.lowest_outer;
   const bool has_floor = end.floor.size () >= least_floor;
-  if (!has_floor && end.lowest_inner - bottom < std::max (open_wall * wall_m_, open_cells * cell_m) &&
+  const double lower_end = end.lowest_outer - bottom < end_cells * cell_m ? std::max (bottom, end.lowest_outer) : bottom;
+  if (!has_floor && end.lowest_inner - lower_end < std::max (open_wall * wall_m_, open_cells * cell_m) &&
       bands_.front ().outer > narrow * bands_.back ().outer)
     return false;
   bottom_m_ = opening_ * bottom;
@@ -287,8 +298,6 @@ VesselProfile::outerAt (double height) const
     const double t = (height - low.height) / (above->height - low.height);
     return (1.0 - t) * low.outer + t * above->outer;
   }
-  if (bands_.size () < 2)
-    return above->outer;
   const Band& lowest = bands_.front ();
   const Band& other = bands_[std::max<std::size_t> (1, bands_.size () / 3)];
   const double straight = lowest.outer + (other.outer - lowest.outer) / (other.height - lowest.height) * (height - lowest.height);
