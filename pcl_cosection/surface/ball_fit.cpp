@@ -22,6 +22,7 @@ constexpr double outlier_scale = 0.04; // of the size: a distance from the surfa
 constexpr double facing_sine = 0.2;    // between a normal and the way from the centre
 constexpr double facing_reach = 0.02;  // of the size, more than that
 constexpr double facing_share = 0.8;   // of the points
+constexpr double inward_share = 0.05;  // of the points: more than that is of the inside of a bowl
 constexpr double max_deviation = 0.05; // of the radius, root mean square, without noise
 constexpr double max_noise = 0.15;     // of the radius, root mean square, of all points
 constexpr double max_radius = 1.0;     // of the size: of a larger ball too little was seen
@@ -133,16 +134,18 @@ findBall (const std::vector<NormalLine>& lines)
   ball = fittedBall (ball, lines);
   if (!(ball.radius < max_radius))
     return std::nullopt;
-  std::size_t good = 0;
+  std::size_t good = 0, inward = 0;
   BallDeviation deviation;
   for (const NormalLine& line : lines)
   {
     const Eigen::Vector3d from_center = line.position - ball.center;
-    good += from_center.dot (line.normal) > 0.0 &&
-            from_center.cross (line.normal).norm () < facing_sine * ball.radius + facing_reach;
+    const bool outward = from_center.dot (line.normal) > 0.0;
+    inward += !outward;
+    good += outward && from_center.cross (line.normal).norm () < facing_sine * ball.radius + facing_reach;
     deviation.add (from_center, from_center.norm () - ball.radius);
   }
   if (static_cast<double> (good) < facing_share * static_cast<double> (lines.size ()) ||
+      static_cast<double> (inward) > inward_share * static_cast<double> (lines.size ()) ||
       deviation.ofShape () > max_deviation * ball.radius || deviation.ofPoints () > max_noise * ball.radius)
     return std::nullopt;
   return ball;

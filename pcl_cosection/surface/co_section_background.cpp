@@ -89,8 +89,8 @@ CoSectionRun::backgroundVoxelSize (const std::vector<Eigen::AlignedBox3d>& boxes
   if (!scene_.options.whole_background)
     return std::isfinite (smallest) ? background_voxels_per_object_voxel * smallest : side / background_only_resolution;
   double voxel = std::min (whole_background_voxel_m, side / whole_background_resolution);
-  if (const VoxelGrid* earlier = earlierGrid (memory_.background, 0)) // stays, unless it is too small
-    voxel = earlier->voxel_size_m;
+  if (const FollowedBody* earlier = earlierBody (memory_.background, 0)) // stays, unless it is too small
+    voxel = earlier->grid ().voxel_size_m;
   while (((boxes.front ().sizes ().array () + 2.0 * whole_margin_vox * voxel) / voxel + 1.0).prod () > most_whole_voxels)
     voxel *= 2.0;
   return voxel;

@@ -26,7 +26,8 @@ namespace
 {
 
 constexpr double follow_tolerance = 0.5;      // of that of the solver: what one update leaves, the next begins with
-constexpr double max_voxel_size_change = 1.2; // until a body that is followed gets other voxels
+constexpr double max_change = 1.2;            // of voxels and of their points' Gaussians, until a body that is followed gets others
+constexpr int forgotten_after = 2;            // updates in which what was a vessel is none
 constexpr int least_free_views = 2;           // that look through a point of the background, for it to have moved ...
 constexpr double free_share = 0.25;           // ... and so many of those that see it there
 constexpr double max_sigma_vox = 10.0;        // as for the option
@@ -34,18 +35,25 @@ constexpr double max_contradicted_share = 0.1; // of an object's points; good po
 constexpr double left_over_cell_m = 0.02;
 constexpr double max_empty_share = 0.5;       // of a volume that was large enough for what was known before
 
+/** \brief Is what a body that is followed has near enough to what it should have? */
+bool
+isSimilar (double earlier, double wanted)
+{
+  return earlier > wanted / max_change && earlier < wanted * max_change;
+}
+
 } // namespace
 
-const VoxelGrid*
-CoSectionRun::earlierGrid (const FollowedBody& body, int id) const
+const FollowedBody*
+CoSectionRun::earlierBody (const FollowedBody& body, int id) const
 {
   if (body.volume)
-    return &body.grid ();
+    return &body;
   const auto followed = scene_.memory.objects.find (id);
   const FollowedBody* earlier = id == 0                               ? &scene_.memory.background
                                 : followed == scene_.memory.objects.end () ? nullptr
                                                                            : &followed->second;
-  return earlier && earlier->volume ? &earlier->grid () : nullptr;
+  return earlier && earlier->volume ? earlier : nullptr;
 }
 
 double
@@ -56,6 +64,8 @@ CoSectionRun::wallThickness (const Object& object) const
   double least_m = std::numeric_limits<double>::infinity ();
   for (const Eigen::Vector4d& plane : planesAt (object, object.planes, {firstPose (object)}))
   {
+    if (!mayRestOn (object, plane))
+      continue;
     const double height_m = plane.head<3> ().dot (object.observed.center ()) + plane[3];
     if (height_m < least_m)
     {
@@ -73,19 +83,24 @@ CoSectionRun::gridVoxelSize (Object& object) const
   double voxel_size_m = object.voxel_size_m;
   if (options.voxel_size_m <= 0.0 && options.resolution <= 0 && options.use_extent_prior && options.use_symmetric_extent)
   {
-    double& wall_m = object.body->wall_m;
-    if (const double now_m = wallThickness (object); now_m > 0.0)
-      wall_m = now_m;
-    if (wall_m > 0.0)
-      voxel_size_m = vesselVoxelSize (voxel_size_m, wall_m, object.observed);
+    const FollowedBody* earlier = earlierBody (*object.body, object.input->id);
+    const double earlier_m = earlier ? earlier->wall_m : 0.0;
+    FollowedBody& body = *object.body;
+    body.wall_m = wallThickness (object);
+    body.updates_without_wall = body.wall_m > 0.0 ? 0 : body.updates_without_wall + 1;
+    if (!(body.wall_m > 0.0) && body.updates_without_wall < forgotten_after) // it may be less plain for a while
+      body.wall_m = earlier_m;
+    if (body.wall_m > 0.0)
+      voxel_size_m = vesselVoxelSize (voxel_size_m, body.wall_m, object.observed);
   }
-  if (const VoxelGrid* grid = earlierGrid (*object.body, object.input->id))
-  {
-    const double ratio = grid->voxel_size_m / voxel_size_m;
-    if (ratio > 1.0 / max_voxel_size_change && ratio < max_voxel_size_change)
-      return grid->voxel_size_m;
-  }
-  return voxel_size_m;
+  return followedSize (object, voxel_size_m);
+}
+
+double
+CoSectionRun::followedSize (const Object& object, double voxel_size_m) const
+{
+  const FollowedBody* earlier = earlierBody (*object.body, object.input->id);
+  return earlier && isSimilar (earlier->grid ().voxel_size_m, voxel_size_m) ? earlier->grid ().voxel_size_m : voxel_size_m;
 }
 
 void
@@ -93,24 +108,28 @@ CoSectionRun::place (FollowedBody& body, int id, const Eigen::AlignedBox3d& box,
                      double blur)
 {
   VoxelGrid grid = layoutBox (box, voxel_size_m);
-  const VoxelGrid* earlier = earlierGrid (body, id);
-  if (earlier && earlier->voxel_size_m == voxel_size_m)
-  {
-    // On its lattice; the same as long as it is large enough and not much too large.
-    const Eigen::Vector3d first = earlier->toVoxel (box.min ()).array ().floor ();
-    const Eigen::Vector3d last = earlier->toVoxel (box.max ()).array ().ceil ();
-    if (body.volume && (first.array () >= 0.0).all () &&
-        (last.array () <= earlier->dims.cast<double> ().array () - 1.0).all () &&
-        (last - first + Eigen::Vector3d::Ones ()).prod () > max_empty_share * static_cast<double> (earlier->size ()))
-      return;
-    grid.origin_m = earlier->origin_m + voxel_size_m * first;
-    grid.dims = (last - first).cast<int> ().array () + 1;
-  }
-  checkMemory (grid, scene_.options.max_memory_bytes, bytesInUse () - (body.volume ? ShapeVolume::estimateBytes (body.grid ()) : 0));
   CoSectionOptions options = scene_.options;
   if (mode_ == Mode::Follow)
     options.solver.tolerance_vox *= follow_tolerance;
   options.sigma_vox = std::min (max_sigma_vox, blur * options.sigma_vox);
+  const FollowedBody* earlier = earlierBody (body, id);
+  if (earlier && earlier->grid ().voxel_size_m == voxel_size_m)
+  {
+    const double sigma_vox = earlier->volume->options ().sigma_vox;
+    const bool same_blur = isSimilar (sigma_vox, options.sigma_vox);
+    if (same_blur)
+      options.sigma_vox = sigma_vox;
+    // On its lattice; the same as long as it is large enough and not much too large.
+    const Eigen::Vector3d first = earlier->grid ().toVoxel (box.min ()).array ().floor ();
+    const Eigen::Vector3d last = earlier->grid ().toVoxel (box.max ()).array ().ceil ();
+    if (body.volume && same_blur && (first.array () >= 0.0).all () &&
+        (last.array () <= earlier->grid ().dims.cast<double> ().array () - 1.0).all () &&
+        (last - first + Eigen::Vector3d::Ones ()).prod () > max_empty_share * static_cast<double> (earlier->grid ().size ()))
+      return;
+    grid.origin_m = earlier->grid ().origin_m + voxel_size_m * first;
+    grid.dims = (last - first).cast<int> ().array () + 1;
+  }
+  checkMemory (grid, scene_.options.max_memory_bytes, bytesInUse () - (body.volume ? ShapeVolume::estimateBytes (body.grid ()) : 0));
   body.restart (grid, options, carve);
 }
 
@@ -133,7 +152,7 @@ CoSectionRun::createVolumes ()
         {
           if (voxel_size_m >= object.voxel_size_m)
             throw;
-          place_with (object.voxel_size_m); // thick walls rather than nothing
+          place_with (followedSize (object, object.voxel_size_m)); // thick walls rather than nothing
         }
       });
 }

@@ -257,13 +257,26 @@ CoSectionRun::footIsHidden (const Object& object, const Eigen::Vector4d& plane) 
   return true;
 }
 
+bool
+CoSectionRun::hasFootNear (const Object& object, const Eigen::Vector4d& plane, double reach) const
+{
+  const std::vector<OrientedPoint>& points = object.points ();
+  const std::ptrdiff_t lower = std::count_if (points.begin (), points.end (), [&] (const OrientedPoint& p) {
+    return plane.head<3> ().dot (p.position.cast<double> ()) + plane[3] < reach * object.extents_m[1];
+  });
+  return lower > static_cast<std::ptrdiff_t> (resting_share * static_cast<double> (points.size ()));
+}
+
+bool
+CoSectionRun::mayRestOn (const Object& object, const Eigen::Vector4d& plane) const
+{
+  return hasFootNear (object, plane, hidden_foot_reach);
+}
+
 std::vector<Eigen::Vector4d>
 CoSectionRun::restingPlanes (const Object& object) const
 {
   std::vector<Eigen::Vector4d> resting;
-  const std::vector<OrientedPoint>& points = object.points ();
-  const double reach_m = resting_reach * object.extents_m[1];
-  const auto may_be_lower = static_cast<std::ptrdiff_t> (resting_share * static_cast<double> (points.size ()));
   for (const Eigen::Vector4d& plane : planesAt (object, object.planes, relativePoses (object, nullptr)))
   {
     const bool known = std::any_of (resting.begin (), resting.end (), [&] (const Eigen::Vector4d& other) {
@@ -271,13 +284,7 @@ CoSectionRun::restingPlanes (const Object& object) const
     });
     if (known)
       continue;
-    const auto lower = [&] (double height_m) {
-      return std::count_if (points.begin (), points.end (), [&] (const OrientedPoint& p) {
-        return plane.head<3> ().dot (p.position.cast<double> ()) + plane[3] < height_m;
-      });
-    };
-    if (lower (reach_m) > may_be_lower ||
-        (lower (hidden_foot_reach * object.extents_m[1]) > may_be_lower && footIsHidden (object, plane)))
+    if (hasFootNear (object, plane, resting_reach) || (mayRestOn (object, plane) && footIsHidden (object, plane)))
       resting.push_back (plane);
   }
   return resting;

@@ -110,6 +110,12 @@ private:
   /** \brief The planes on which the object comes to rest in some view, object frame. */
   std::vector<Eigen::Vector4d>
   restingPlanes (const Object& object) const;
+  /** \brief Whether some of its points are lower over a plane, object frame, than \a reach of its middle extent. */
+  bool
+  hasFootNear (const Object& object, const Eigen::Vector4d& plane, double reach) const;
+  /** \brief Whether its lowest points are so near to a plane, object frame, that it rests there unless something is seen between. */
+  bool
+  mayRestOn (const Object& object, const Eigen::Vector4d& plane) const;
   /** \brief Whether between the foot of its axis on a plane and what was seen of it nothing is known to be, neither
    * free space nor another body. */
   bool
@@ -122,15 +128,18 @@ private:
   /** \brief What its views hide of the object; for the extent prior. */
   void
   findHidden (Object& object) const;
-  /** \brief Where a body had its voxels; null if it had none. \param[in] id 0: the background, -1: a piece of it */
-  const VoxelGrid*
-  earlierGrid (const FollowedBody& body, int id) const;
+  /** \brief The body with the voxels that it had; null if it had none. \param[in] id 0: the background, -1: a piece of it */
+  const FollowedBody*
+  earlierBody (const FollowedBody& body, int id) const;
   /** \brief Of the wall of a vessel; 0: it is none. */
   double
   wallThickness (const Object& object) const;
   /** \brief As the points support it; finer for the walls of vessels. That of a body that is followed stays, unless it is very wrong. */
   double
   gridVoxelSize (Object& object) const;
+  /** \brief That which it has, if it is near enough to the one wanted. */
+  double
+  followedSize (const Object& object, double voxel_size_m) const;
   void
   createVolumes ();
   Eigen::AlignedBox3d

@@ -26,6 +26,7 @@ FollowedBody::readAgain ()
     restart (VoxelGrid (volume->grid ()), CoSectionOptions (volume->options ()), evidence && evidence->carves ());
   hidden.clear ();
   stray.clear ();
+  wall_m = 0.0;
 }
 
 void

@@ -52,7 +52,8 @@ struct FollowedBody
   std::unique_ptr<ShapeEvidence> evidence;
   std::unique_ptr<ShapeVolume> volume;
   HiddenPlaces hidden;         // of an object
-  double wall_m = 0.0;         // of a vessel, if it was ever taken for one
+  double wall_m = 0.0;         // of a vessel; 0: it is none
+  int updates_without_wall = 0; // since it was one
   std::size_t points_read = 0;
   std::size_t views_read = 0;
   std::vector<bool> stray;     // which of its points are left out; as many as were known at the last update

@@ -75,7 +75,9 @@ SurfaceOfRevolution::fit (const std::vector<OrientedPoint>& points, const std::o
   }
   if (!axis)
     axis = findAxis (normals.lines, plane ? std::optional<Eigen::Vector3d> (plane->head<3> ()) : std::nullopt);
-  if (axis && !is_ball)
+  if (is_ball)
+    return about (*axis, normals, points, plane, seen_sectors, false);
+  if (axis)
   {
     std::vector<NormalLine> round;
     std::copy_if (normals.lines.begin (), normals.lines.end (), std::back_inserter (round),
@@ -84,18 +86,18 @@ SurfaceOfRevolution::fit (const std::vector<OrientedPoint>& points, const std::o
   }
   std::optional<SurfaceOfRevolution> surface;
   if (axis)
-    surface = about (*axis, normals, points, plane, seen_sectors);
+    surface = about (*axis, normals, points, plane, seen_sectors, true);
   if (surface || !plane)
     return surface;
   axis = findFootprintAxis (normals.lines, plane->head<3> ());
   if (axis)
-    surface = about (*axis, normals, points, plane, 0);
+    surface = about (*axis, normals, points, plane, 0, true);
   return surface && surface->vessel_ ? surface : std::nullopt;
 }
 
 std::optional<SurfaceOfRevolution>
 SurfaceOfRevolution::about (const Axis& axis, const NormalLines& normals, const std::vector<OrientedPoint>& points,
-                            const std::optional<Eigen::Vector4d>& plane, int least_sectors)
+                            const std::optional<Eigen::Vector4d>& plane, int least_sectors, bool may_be_vessel)
 {
   std::vector<OrientedPoint> meeting;
   for (std::size_t n = 0; n < points.size (); ++n)
@@ -107,6 +109,8 @@ SurfaceOfRevolution::about (const Axis& axis, const NormalLines& normals, const 
   if (!surface.findProfile (meeting, normals.size, least_sectors) ||
       static_cast<double> (surface.profile_.size ()) < round_share * static_cast<double> (points.size ()))
     return std::nullopt;
+  if (!may_be_vessel)
+    return surface;
   std::optional<StandingPlane> standing;
   if (const double rise = plane ? plane->head<3> ().dot (surface.direction_) : 0.0; std::abs (rise) > upright)
     standing = StandingPlane{-(plane->head<3> ().dot (surface.center_) + (*plane)[3]) / rise, rise > 0.0 ? 1.0 : -1.0};

@@ -73,7 +73,7 @@ public:
   VesselPart
   partOf (const OrientedPoint& point) const;
 
-  /** \brief How far a place in the cavity of a vessel is from the wall and the floor, metres; 0 elsewhere. */
+  /** \brief How far a place in the cavity of a vessel is from the wall, across the axis, and over the floor, the less of both; metres, 0 elsewhere. */
   double
   depthInCavity (const Eigen::Vector3d& position) const;
 
@@ -86,7 +86,7 @@ private:
   /** \brief About a known axis. \param[in] least_sectors around it in a row, in which points face sideways \return nothing if too few belong to it */
   static std::optional<SurfaceOfRevolution>
   about (const Axis& axis, const NormalLines& normals, const std::vector<OrientedPoint>& points, const std::optional<Eigen::Vector4d>& plane,
-         int least_sectors);
+         int least_sectors, bool may_be_vessel);
   bool
   findProfile (const std::vector<OrientedPoint>& points, double size, int least_sectors);
   Eigen::Vector2i

@@ -203,7 +203,10 @@ SymmetricExtent::build (const std::vector<OrientedPoint>& all, const std::option
   const Eigen::Matrix3d flatten = Eigen::Matrix3d::Identity () - along;
   std::vector<OrientedPoint> points;
   for (std::size_t p = 0; p < all.size (); p += all.size () / max_points + 1)
-    points.push_back (all[p]);
+    if (all[p].position.allFinite () && all[p].normal.allFinite ())
+      points.push_back (all[p]);
+  if (points.empty ())
+    return;
   const Eigen::Matrix3d axes = principalAxes (points, up);
   const std::vector<Eigen::Vector3d> even = evenDirections (even_directions, axes);
   Farthest farthest (points);

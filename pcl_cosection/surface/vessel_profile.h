@@ -60,7 +60,7 @@ public:
   bool
   holds (const ProfilePoint& point) const;
 
-  /** \brief How far a place in the cavity is from the wall and the floor, metres; 0 elsewhere. \param[in] position as in ProfilePoint */
+  /** \brief How far a place in the cavity is from the wall, across the axis, and over the floor, the less of both; metres, 0 elsewhere. \param[in] position as in ProfilePoint */
   double
   depthInCavity (const Eigen::Vector2d& position) const;
 

@@ -36,7 +36,7 @@ objectVoxelSize (const std::vector<OrientedPoint>& points, const Eigen::AlignedB
                  const CoSectionOptions& options);
 
 /** \brief Voxels of a vessel (SymmetricExtent::wallThickness ()): half as large as its wall is thick, if that is smaller than \a voxel_size_m,
- * but no smaller than a 64th of the longest side. They may be finer than the points' spacing supports, as points are turned to all sides. */
+ * but no smaller than half of \a voxel_size_m and a 64th of the longest side. They may be finer than the points' spacing supports, as points are turned to all sides. */
 double
 vesselVoxelSize (double voxel_size_m, double wall_m, const Eigen::AlignedBox3d& observed);
 

@@ -98,7 +98,7 @@ public:
   bool
   isRoundAt (const Eigen::Vector3d& position) const;
 
-  /** \brief How far a place in the cavity of a vessel is from the wall and the floor, metres; 0 elsewhere. */
+  /** \brief How far a place in the cavity of a vessel is from the wall, across the axis, and over the floor, the less of both; metres, 0 elsewhere. */
   double
   depthInCavity (const Eigen::Vector3d& position) const;
 
