@@ -52,6 +52,9 @@ constexpr double thin_quality = 0.01;
 /** \brief Thinner triangles are never made: when their corners are rounded to single precision they might flip. */
 constexpr double least_quality = 1e-3;
 
+/** \brief Of the volume of what is closed: with less than that thin walls lie on each other, or turn inside out. */
+constexpr double least_volume_share = 0.1;
+
 /** \brief Fraction of the way from \a a to \a b at which \a x lies. */
 double
 fractionAlong (const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& x)
@@ -379,7 +382,17 @@ decimate (const TriangleMesh& mesh, const DecimationOptions& options)
     throw InvalidArgument ("decimate: the mesh has " + std::to_string (topology.non_manifold_edges) +
                            " non-manifold edges and " + std::to_string (topology.non_manifold_vertices) +
                            " non-manifold vertices; it must be a manifold, with or without boundary");
-  return Decimator (mesh, options).run ();
+  DecimationOptions wanted = options;
+  TriangleMesh fewer = Decimator (mesh, wanted).run ();
+  if (!topology.closed_manifold)
+    return fewer;
+  const double volume_m3 = computeMassProperties (mesh).volume_m3;
+  while (computeMassProperties (fewer).volume_m3 / volume_m3 < least_volume_share && fewer.triangles.size () < mesh.triangles.size ())
+  {
+    wanted.max_triangles = 2 * std::max (wanted.max_triangles, fewer.triangles.size ());
+    fewer = wanted.max_triangles < mesh.triangles.size () ? Decimator (mesh, wanted).run () : mesh;
+  }
+  return fewer;
 }
 
 TriangleMesh

@@ -117,7 +117,8 @@ checkExtent (const std::string& path, const SensorCloud& cloud, LabelledView& re
     if (p.allFinite ())
       box.extend (p);
   if (box.isEmpty ())
-    throw DegenerateInput (path + ": none of its " + std::to_string (cloud.positions.size ()) + " points is finite");
+    throw DegenerateInput (path + ": none of its " + std::to_string (cloud.positions.size ()) + " points is finite" +
+                           (cloud.has_labels ? " and has a label that counts" : ""));
   const double extent = box.sizes ().maxCoeff ();
   if (extent > millimetre_extent)
   {

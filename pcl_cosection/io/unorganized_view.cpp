@@ -6,6 +6,7 @@
 #include "quiet_console.h"
 
 #include <pcl/cosection/common/parallel.h>
+#include <pcl/cosection/surface/free_space_votes.h>
 #include <pcl/cosection/surface/normal_orientation.h>
 #include <pcl/cosection/surface/range_image.h>
 
@@ -208,6 +209,25 @@ addNormals (const PcdViewOptions& options, std::uint32_t label, const std::vecto
     cloud.normals[members[k]] = normals[thinned.of[k]];
 }
 
+/** \brief Take the normals of points at depth edges, so that they are left out: between something and what is behind it a sensor measures what is
+ * nowhere. Points of the background are many, of objects those are believed that have neighbours of their depth. */
+void
+leaveOutFlyingPixels (const DepthView& view, int threads, SensorCloud& cloud)
+{
+  const FreeSpaceView seen (view);
+  const Eigen::Isometry3d T_points_view = cloud.T_world_sensor.inverse () * view.T_world_sensor;
+  std::vector<FreeSpaceVotes> votes (cloud.positions.size ());
+  addVotes (cloud.positions, seen, T_points_view, votes, 0.0, threads);
+  const auto is_at_edge = [&, T_view_points = T_points_view.inverse ()] (const Eigen::Vector3f& p) {
+    const Eigen::Vector2d pixel = view.camera.project (T_view_points * p.cast<double> ());
+    const Eigen::Vector2i at = (pixel.array () + 0.5).floor ().cast<int> ();
+    return at.x () >= 0 && at.x () < view.camera.width && at.y () >= 0 && at.y () < view.camera.height && seen.atEdge (at.x (), at.y ());
+  };
+  for (std::size_t i = 0; i < votes.size (); ++i)
+    if (cloud.positions[i].allFinite () && (votes[i].surface == 0 || (cloud.labels[i] == 0 && is_at_edge (cloud.positions[i]))))
+      cloud.normals[i].setConstant (nan_value);
+}
+
 /** \brief Turn normals that clearly point away from the viewpoint, which is the origin. \return their share */
 double
 turnTowardsViewpoint (float away, SensorCloud& cloud)
@@ -285,6 +305,7 @@ completeUnorganized (const std::string& path, const PcdViewOptions& options, Sen
   if (result.view)
   {
     turnTowardsViewpoint (0.0f, cloud);
+    leaveOutFlyingPixels (*result.view, options.threads, cloud);
     return;
   }
   result.warnings.push_back (path + ": where its points were seen from is not known; their normals were turned so that " +

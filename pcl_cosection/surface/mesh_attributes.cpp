@@ -32,7 +32,7 @@ transferAttributes (const std::vector<OrientedPoint>& points, const VoxelGrid& g
     return p.colour != TriangleMesh::Colour{0, 0, 0};
   });
   const bool measured = std::any_of (points.begin (), points.end (), [] (const OrientedPoint& p) {
-    return p.intensity != 0.0f;
+    return std::isfinite (p.intensity) && p.intensity != 0.0f;
   });
   if (!coloured && !measured)
     return;
@@ -40,11 +40,10 @@ transferAttributes (const std::vector<OrientedPoint>& points, const VoxelGrid& g
   for (const OrientedPoint& point : points)
   {
     const auto at = grid.nearest (point.position.cast<double> ());
-    if (!at)
+    if (!at || (measured && !std::isfinite (point.intensity)))
       continue;
     AttributeSum& voxel = voxels[grid.index (at->x (), at->y (), at->z ())];
-    voxel.sum += Eigen::Vector4d (point.colour[0], point.colour[1], point.colour[2],
-                                  std::isfinite (point.intensity) ? point.intensity : 0.0);
+    voxel.sum += Eigen::Vector4d (point.colour[0], point.colour[1], point.colour[2], measured ? point.intensity : 0.0f);
     voxel.count += 1.0;
   }
 

@@ -159,9 +159,9 @@ private:
   /** \brief Zero set of a field, value (n) in voxels. */
   template <typename Value> TriangleMesh
   closedMeshOf (Value&& value) const;
-  /** \brief Without parts that have no data. */
-  static TriangleMesh
-  observedParts (const TriangleMesh& mesh);
+  /** \brief Without parts that have no data, and without crumbs. */
+  TriangleMesh
+  observedParts (const TriangleMesh& mesh) const;
   std::vector<std::uint8_t>
   supported () const;
   void

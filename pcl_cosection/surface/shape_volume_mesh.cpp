@@ -28,6 +28,7 @@ constexpr float vouched_step_vox = 0.5f;
 constexpr float vouched_radius_vox = 0.75f; // closes the gaps between points
 constexpr double half_cells_vox = 1.0;      // what is lost by taking a point and a vertex for their voxels' centres
 constexpr double confidence_scale_vox = 5.0;
+constexpr double crumb_voxels = 3.0;  // long: what is smaller, beside something larger, is noise
 constexpr float border_voxels = 2.0f; // a closed surface stays so far inside its volume
 
 /** \brief Raise a field near the border so that its zero set stays inside. */
@@ -66,16 +67,30 @@ ShapeVolume::closedMeshOf (Value&& value) const
 }
 
 TriangleMesh
-ShapeVolume::observedParts (const TriangleMesh& mesh)
+ShapeVolume::observedParts (const TriangleMesh& mesh) const
 {
   const std::vector<int> component = labelComponents (mesh);
-  std::vector<bool> observed (component.empty () ? 0 : *std::max_element (component.begin (), component.end ()) + 1, false);
+  const std::size_t count = component.empty () ? 0 : *std::max_element (component.begin (), component.end ()) + 1;
+  std::vector<bool> observed (count, false);
+  std::vector<Eigen::AlignedBox3f> boxes (count);
   for (std::size_t v = 0; v < mesh.vertices.size (); ++v)
+  {
+    boxes[component[v]].extend (mesh.vertices[v]);
     if (mesh.provenance[v] == static_cast<std::uint8_t> (Provenance::Observed))
       observed[component[v]] = true;
+  }
+  const auto length = [&] (std::size_t c) { return boxes[c].sizes ().maxCoeff (); };
+  float longest = 0.0f;
+  for (std::size_t c = 0; c < count; ++c)
+    if (observed[c])
+      longest = std::max (longest, length (c));
+  const float crumb = std::min (longest, static_cast<float> (crumb_voxels * grid_.voxel_size_m));
   std::vector<bool> keep (mesh.triangles.size ());
   for (std::size_t t = 0; t < keep.size (); ++t)
-    keep[t] = observed[component[mesh.triangles[t][0]]];
+  {
+    const auto c = static_cast<std::size_t> (component[mesh.triangles[t][0]]);
+    keep[t] = observed[c] && length (c) >= crumb;
+  }
   return extractTriangles (mesh, keep);
 }
 

@@ -41,7 +41,8 @@ struct PCL_COSECTION_EXPORT DecimationOptions
  * characteristic and its boundaries. No component disappears, and no triangle flips, so the surface hardly ever cuts
  * through itself unless the target is near the least that its handles allow. If the target cannot be reached
  * under these conditions (a closed component has no less than 4 triangles, one with handles needs more), the result is
- * the smallest that was reached.
+ * the smallest that was reached. Of a closed mesh whose volume would shrink to less than a tenth, as with thin walls that fall onto each
+ * other, or be turned inside out, more triangles are left.
  *
  * Normals are computed anew, from the triangles and their angles at each vertex. Colours, intensity and confidence are
  * interpolated along the collapsed edges, provenance is that of the nearer end. Empty arrays stay empty. Vertices that
