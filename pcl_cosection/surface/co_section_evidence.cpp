@@ -59,7 +59,6 @@ CoSectionRun::earlierBody (const FollowedBody& body, int id) const
 double
 CoSectionRun::wallThickness (const Object& object) const
 {
-  const std::vector<OrientedPoint>& points = object.points ();
   std::optional<Eigen::Vector4d> nearest;
   double least_m = std::numeric_limits<double>::infinity ();
   for (const Eigen::Vector4d& plane : planesAt (object, object.planes, {firstPose (object)}))
@@ -73,7 +72,7 @@ CoSectionRun::wallThickness (const Object& object) const
       nearest = plane;
     }
   }
-  return (nearest ? SymmetricExtent (points, *nearest) : SymmetricExtent (points)).wallThickness ();
+  return extentOf (object, nearest).wallThickness ();
 }
 
 double

@@ -30,6 +30,7 @@ constexpr double max_stray_share = 0.2;    // more are no exception
 constexpr double resting_reach = 0.15;     // of the middle observed extent: what is as low over a plane rests on it
 constexpr double hidden_foot_reach = 0.5;  // of the middle observed extent: what is as low rests on it, if that may be
 constexpr double resting_share = 0.01;     // of the points, which may be lower
+constexpr std::ptrdiff_t least_ground = 20; // points of the background, seen through what would be a vessel else
 constexpr double same_resting_cosine = 0.995; // planes of two views on which it rests the same way
 
 } // namespace
@@ -290,6 +291,29 @@ CoSectionRun::restingPlanes (const Object& object) const
   return resting;
 }
 
+SymmetricExtent
+CoSectionRun::extentOf (const Object& object, const std::optional<Eigen::Vector4d>& plane) const
+{
+  if (!plane)
+    return SymmetricExtent (object.points ());
+  const SymmetricExtent extent (object.points (), *plane);
+  if (!(extent.wallThickness () > 0.0))
+    return extent;
+  const Eigen::Vector3d up = plane->head<3> ();
+  const double near_m = object.voxel_size_m;
+  const double floor_m = extent.wallThickness () + 2.0 * near_m;
+  const auto is_at_floor = [&] (const Eigen::Vector3d& p, double reach_m) {
+    return std::abs (up.dot (p) + (*plane)[3]) < reach_m && extent.depthInCavity (p + floor_m * up) > near_m;
+  };
+  const Eigen::Isometry3d T_object_world = firstPose (object).inverse ();
+  const auto ground = std::count_if (scene_.background.begin (), scene_.background.end (), [&] (const OrientedPoint& p) {
+    return is_at_floor (T_object_world * p.position.cast<double> (), near_m);
+  });
+  const auto floor = std::count_if (object.points ().begin (), object.points ().end (),
+                                    [&] (const OrientedPoint& p) { return is_at_floor (p.position.cast<double> (), floor_m); });
+  return ground >= least_ground && ground > floor ? extent.withoutFloor () : extent;
+}
+
 void
 CoSectionRun::prepareObject (Object& object)
 {
@@ -303,12 +327,12 @@ CoSectionRun::prepareObject (Object& object)
     std::vector<SymmetricExtent> standing;
     const std::vector<Eigen::Vector4d> resting = restingPlanes (object);
     for (const Eigen::Vector4d& plane : resting)
-      standing.emplace_back (object.points (), plane);
+      standing.push_back (extentOf (object, plane));
     if (scene_.options.use_contact_prior)
       for (std::size_t n = 0; n < resting.size (); ++n)
         volume.addContactPrior (object.points (), resting[n], standing[n].center ());
     if (standing.empty ())
-      standing.emplace_back (object.points ());
+      standing.push_back (extentOf (object, std::nullopt));
     if (!scene_.options.use_symmetric_extent)
       standing.clear ();
     if (scene_.options.use_extent_prior)

@@ -7,6 +7,7 @@
 
 #include <pcl/cosection/surface/co_section.h>
 #include <pcl/cosection/surface/intersection_constraint.h>
+#include <pcl/cosection/surface/symmetric_extent.h>
 
 #include <pcl/cosection/common/error.h>
 
@@ -131,6 +132,9 @@ private:
   /** \brief The body with the voxels that it had; null if it had none. \param[in] id 0: the background, -1: a piece of it */
   const FollowedBody*
   earlierBody (const FollowedBody& body, int id) const;
+  /** \brief Of its points; a tube, if the background is seen where a vessel would have its floor. \param[in] plane it stands on, object frame */
+  SymmetricExtent
+  extentOf (const Object& object, const std::optional<Eigen::Vector4d>& plane) const;
   /** \brief Of the wall of a vessel; 0: it is none. */
   double
   wallThickness (const Object& object) const;

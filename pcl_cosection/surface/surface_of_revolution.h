@@ -69,6 +69,16 @@ public:
     return vessel_;
   }
 
+  /** \brief The same; a vessel open at both ends. */
+  SurfaceOfRevolution
+  withoutFloor () const
+  {
+    SurfaceOfRevolution tube = *this;
+    if (vessel_)
+      tube.vessel_ = vessel_->withoutFloor ();
+    return tube;
+  }
+
   /** \brief To which part of a vessel a point belongs; outer side if it is none. */
   VesselPart
   partOf (const OrientedPoint& point) const;

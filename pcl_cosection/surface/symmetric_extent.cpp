@@ -284,6 +284,15 @@ SymmetricExtent::wallThickness () const
   return round_ && round_->vessel () ? round_->vessel ()->wallThickness () : 0.0;
 }
 
+SymmetricExtent
+SymmetricExtent::withoutFloor () const
+{
+  SymmetricExtent open = *this;
+  if (round_)
+    open.round_ = std::make_shared<const SurfaceOfRevolution> (round_->withoutFloor ());
+  return open;
+}
+
 bool
 SymmetricExtent::isRoundAt (const Eigen::Vector3d& position) const
 {

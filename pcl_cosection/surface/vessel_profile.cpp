@@ -322,7 +322,9 @@ VesselProfile::depths (double step_m) const
   };
   const double floor = opening_ * std::max (opening_ * floor_m_, opening_ * bottom_m_ + least_floor_steps * step_m);
   goDown (lowest_outer_m_, bottom_m_, 1.0);
-  goDown (lowest_inner_m_, floor, -1.0);
+  goDown (lowest_inner_m_, has_floor_ ? floor : bottom_m_, -1.0);
+  if (!has_floor_)
+    return points;
   const double floor_radius = innerAt (floor);
   const double bottom_radius = outerAt (bottom_m_);
   for (double radius = 0.0; radius < bottom_radius; radius += step_m)
@@ -350,7 +352,9 @@ VesselProfile::depthInCavity (const Eigen::Vector2d& position) const
 {
   if (opening_ * (position.x () - rim_m_) > 0.0)
     return 0.0;
-  return std::max (0.0, std::min (opening_ * (position.x () - floor_m_), innerAt (position.x ()) - position.y ()));
+  const double over_floor = opening_ * (position.x () - floor_m_);
+  const double from_wall = innerAt (position.x ()) - position.y ();
+  return over_floor > 0.0 ? std::max (0.0, has_floor_ ? std::min (over_floor, from_wall) : from_wall) : 0.0;
 }
 
 } // namespace cosection

@@ -48,6 +48,16 @@ public:
     return wall_m_;
   }
 
+  /** \brief The same wall, open at both ends. */
+  VesselProfile
+  withoutFloor () const
+  {
+    VesselProfile tube = *this;
+    tube.has_floor_ = false;
+    tube.floor_m_ = bottom_m_;
+    return tube;
+  }
+
   /** \brief To which part of the surface a point belongs, by its normal; and by its height, to the rim. */
   VesselPart
   partOf (const ProfilePoint& point) const;
@@ -96,6 +106,7 @@ private:
   double rim_m_ = 0.0;      // heights
   double bottom_m_ = 0.0;
   double floor_m_ = 0.0;
+  bool has_floor_ = true;
   double lowest_outer_m_ = 0.0; // of what was seen
   double lowest_inner_m_ = 0.0;
 };

@@ -94,6 +94,10 @@ public:
   double
   wallThickness () const;
 
+  /** \brief The same; a vessel open at both ends, which is a tube. */
+  SymmetricExtent
+  withoutFloor () const;
+
   /** \brief Does a place belong to what is round, not to a handle of it? */
   bool
   isRoundAt (const Eigen::Vector3d& position) const;
