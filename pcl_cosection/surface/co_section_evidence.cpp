@@ -4,6 +4,7 @@
 
 #include "left_overs.h"
 #include "measured_surface.h"
+#include "point_groups.h"
 #include "volume_layout.h"
 
 #include <pcl/cosection/common/error.h>
@@ -260,7 +261,7 @@ CoSectionRun::gatherEvidence ()
           view.emplace (depth);
         body.evidence->addView (*view, T_body_sensor, scene_.views[v].use == ViewUse::Full);
         if (agreement)
-          agreement->add (*view, T_body_sensor, scene_.options.threads);
+          agreement->add (static_cast<int> (v), *view, T_body_sensor, scene_.options.threads);
       };
       for (FollowedBody* body : backgroundBodies ())
         if (scene_.views[v].use != ViewUse::FreeSpace)
@@ -279,14 +280,26 @@ CoSectionRun::gatherEvidence ()
 }
 
 void
+CoSectionRun::warnIfFarApart (const Object& object)
+{
+  const double gap_m = gapBetweenGroups (object.points (), object.observed);
+  if (gap_m > 0.0)
+    result_.warnings.push_back ("object " + std::to_string (object.input->id) + ": its points lie in groups " +
+                                std::to_string (std::lround (100.0 * gap_m)) +
+                                " cm apart, each smaller than that: a pose may be wrong, or two things have one label");
+}
+
+void
 CoSectionRun::judgeAgreement (Object& object)
 {
-  object.result->contradicted_share = object.agreement->contradictedShare ();
+  const auto [share, view] = object.agreement->worst ();
+  object.result->contradicted_share = share;
+  if (share > max_contradicted_share)
+    result_.warnings.push_back ("object " + std::to_string (object.input->id) + ": view " +
+                                std::to_string (view) + " looks through " +
+                                std::to_string (std::lround (100.0 * share)) +
+                                " % of its points there: a pose may be wrong, or it has moved");
   object.agreement.reset ();
-  if (object.result->contradicted_share > max_contradicted_share)
-    result_.warnings.push_back ("object " + std::to_string (object.input->id) + ": views look through " +
-                                std::to_string (std::lround (100.0 * object.result->contradicted_share)) +
-                                " % of its points: a pose may be wrong, or it has moved");
 }
 
 } // namespace cosection

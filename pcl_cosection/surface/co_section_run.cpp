@@ -138,6 +138,7 @@ CoSectionRun::observeObjects ()
       object.observed = observedBox (object.points (), scene_.options.threads);
       object.voxel_size_m = objectVoxelSize (object.points (), object.observed, scene_.options);
       leaveOutStrays (object);
+      warnIfFarApart (object);
       object.extents_m = observedExtents (object.points (), scene_.options.threads);
       if (scene_.options.use_extent_prior && viewsOf (object).empty ())
         object.assumed = assumeView (object.points ());

@@ -191,6 +191,8 @@ private:
   /** \brief Let all bodies read what is new in the scene. */
   void
   gatherEvidence ();
+  void
+  warnIfFarApart (const Object& object);
   /** \brief Tell how well views agree with the object's points, and warn if they do not. */
   void
   judgeAgreement (Object& object);

@@ -13,6 +13,8 @@ namespace
 {
 
 constexpr std::size_t most_samples = 2000;
+constexpr double bad_views = 0.05;  // of all views, may contradict
+constexpr double least_asked = 0.1; // of the points, about which a view must say something
 
 } // namespace
 
@@ -21,22 +23,34 @@ ViewAgreement::ViewAgreement (const std::vector<OrientedPoint>& points)
   const std::size_t stride = (points.size () + most_samples - 1) / most_samples;
   for (std::size_t p = 0; p < points.size (); p += stride)
     positions_.push_back (points[p].position);
-  votes_.resize (positions_.size ());
 }
 
 void
-ViewAgreement::add (const FreeSpaceView& view, const Eigen::Isometry3d& T_points_sensor, int threads)
+ViewAgreement::add (int number, const FreeSpaceView& view, const Eigen::Isometry3d& T_points_sensor, int threads)
 {
-  addVotes (positions_, view, T_points_sensor, votes_, 0.0, threads);
+  std::vector<FreeSpaceVotes> votes (positions_.size ());
+  addVotes (positions_, view, T_points_sensor, votes, 0.0, threads);
+  int free = 0, surface = 0;
+  for (const FreeSpaceVotes& vote : votes)
+  {
+    free += vote.free;
+    surface += vote.surface;
+  }
+  if (free + surface < least_asked * static_cast<double> (positions_.size ()))
+    return;
+  of_views_.push_back ({static_cast<double> (free) / (free + surface), number});
 }
 
-double
-ViewAgreement::contradictedShare () const
+ViewAgreement::Contradiction
+ViewAgreement::worst () const
 {
-  const auto contradicted = std::count_if (votes_.begin (), votes_.end (), [] (const FreeSpaceVotes& votes) {
-    return votes.free > 0 && votes.free >= votes.surface;
+  if (of_views_.empty ())
+    return {};
+  std::vector<Contradiction> sorted = of_views_;
+  std::sort (sorted.begin (), sorted.end (), [] (const Contradiction& a, const Contradiction& b) {
+    return a.share > b.share || (a.share == b.share && a.view < b.view);
   });
-  return votes_.empty () ? 0.0 : static_cast<double> (contradicted) / static_cast<double> (votes_.size ());
+  return sorted[static_cast<std::size_t> (bad_views * static_cast<double> (sorted.size ()))];
 }
 
 } // namespace cosection

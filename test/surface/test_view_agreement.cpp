@@ -24,7 +24,7 @@ bool
 isSaid (const SceneResult& result)
 {
   return std::any_of (result.warnings.begin (), result.warnings.end (),
-                      [] (const std::string& warning) { return warning.find ("views look through") != std::string::npos; });
+                      [] (const std::string& warning) { return warning.find ("looks through") != std::string::npos; });
 }
 
 /** \brief The shape on its table from several sides; of the second view it is said to be elsewhere by \a error. */

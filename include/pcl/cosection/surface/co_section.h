@@ -47,8 +47,8 @@ struct PCL_COSECTION_EXPORT ObjectResult
   TriangleMesh hull, inner_bound, outer_bound;
   SignedDistanceField::Ptr signed_distance; ///< object frame
   std::size_t stray_points = 0; ///< left out, because they are a few and far from the others
-  /** \brief Of its points: those that as many views look through as see a surface there, which wrong poses and motion do; told by
-   * CoSection::reconstruct () where seen free space is used. */
+  /** \brief Of its points that a view sees or looks through, the share of the latter, for the view of which it is largest (of many views, one
+   * in twenty may be worse): wrong poses and motion make it so. Told by CoSection::reconstruct () where seen free space is used. */
   double contradicted_share = 0.0;
   SolverSummary solver;            ///< of the last pass; its iterations are those of all passes at full resolution
   double penetration_m = 0.0; ///< deepest place of its surface in supported parts of another body
