@@ -213,7 +213,7 @@ readSensorCloud (const std::string& path, const PcdViewOptions& options, bool wi
     for (std::size_t i = 0; i < result.intensities.size (); ++i)
     {
       const double value = intensity->type == 'F' ? column.real (i) : static_cast<double> (column.integer (i));
-      result.intensities[i] = std::isfinite (static_cast<float> (value)) ? static_cast<float> (value) : 0.0f;
+      result.intensities[i] = std::isfinite (static_cast<float> (value)) ? static_cast<float> (value) : nan_value;
     }
   }
   return (result);

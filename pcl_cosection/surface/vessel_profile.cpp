@@ -33,6 +33,7 @@ constexpr double narrow = 0.9;          // of the opening's radius: a bottom so 
 constexpr double outer_strays = 0.002;  // of the points of a side, may lie lower
 constexpr double inner_strays = 0.01;
 constexpr double least_floor_steps = 3.0; // of thickness: less would vanish
+constexpr double least_side = 0.1;      // of the points of a band, on a side
 constexpr double hardly_sideways = 0.2;   // as sideways, where the inside of what may be shallow is all that was seen ...
 constexpr double dish_outer_share = 0.05; // ... of all points, but for so many
 constexpr double dish_floor = 0.05;     // of the points, nearest to the axis, are on its floor
@@ -45,6 +46,7 @@ struct Sides
 {
   std::vector<double> outer, inner; // radii
   std::vector<double> through;      // of the inner side, and through the wall
+  std::size_t points = 0;           // of both sides and of neither
   double across = 0.0;              // sum of the normals' components
 
   double
@@ -142,9 +144,10 @@ VesselProfile::findBands (const std::vector<ProfilePoint>& points, double band_m
   const auto bandAt = [&] (const Eigen::Vector2d& position) -> Sides& { return sides[static_cast<int> (std::floor (position.x () / band_m))]; };
   for (const ProfilePoint& p : points)
   {
+    Sides& band = bandAt (p.position);
+    ++band.points;
     if (std::abs (p.normal.y ()) <= hardly_sideways)
       continue;
-    Sides& band = bandAt (p.position);
     (p.normal.y () > 0.0 ? band.outer : band.inner).push_back (radiusInBand (p, band_m));
     band.across += std::abs (p.normal.y ());
     if (p.normal.y () > 0.0)
@@ -156,10 +159,11 @@ VesselProfile::findBands (const std::vector<ProfilePoint>& points, double band_m
   {
     const double height = (number + 0.5) * band_m;
     const double wall_m = wall_m_ / band.meanAcross ();
-    const bool has_inner = band.inner.size () >= least_points;
-    if (band.outer.size () >= least_points)
+    const std::size_t least = std::max (least_points, static_cast<std::size_t> (least_side * static_cast<double> (band.points))); // others are noise of a floor
+    const bool has_inner = band.inner.size () >= least;
+    if (band.outer.size () >= least)
       bands_.push_back ({height, middle (band.outer), wall_m});
-    else if (band.through.size () >= least_points)
+    else if (band.through.size () >= least)
     {
       const double outer = middle (band.through);
       bands_.push_back ({height, outer, has_inner ? outer - middle (band.inner) : wall_m});
@@ -311,11 +315,12 @@ VesselProfile::depths (double step_m) const
   const auto goDown = [&] (double from, double to, double side) {
     const auto radiusAt = [&] (double height) { return side > 0.0 ? outerAt (height) : innerAt (height); };
     const double depth = opening_ * (from - to);
-    for (double up = 0.0; up < depth; up += step_m)
+    double slope = 0.0;
+    for (double up = 0.0; up < depth; up += step_m / std::hypot (1.0, slope))
     {
       const double height = to + opening_ * up;
       const double radius = radiusAt (height);
-      const double slope = (radiusAt (height + step_m) - radiusAt (height - step_m)) / (2.0 * step_m);
+      slope = (radiusAt (height + step_m) - radiusAt (height - step_m)) / (2.0 * step_m);
       if (radius > 0.0)
         points.push_back ({{height, radius}, side * Eigen::Vector2d (-slope, 1.0).normalized ()});
     }

@@ -12,6 +12,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <set>
+#include <utility>
 
 using namespace pcl::cosection;
 
@@ -52,6 +54,32 @@ sheetMesh (std::uint32_t n, Inside&& inside)
         mesh.triangles.push_back ({at (i, j), at (i + 1, j), at (i + 1, j + 1)});
         mesh.triangles.push_back ({at (i, j), at (i + 1, j + 1), at (i, j + 1)});
       }
+  return mesh;
+}
+
+/** \brief A closed sheet, thin and bent like a bowl. */
+TriangleMesh
+shellMesh (double thickness)
+{
+  TriangleMesh mesh = sheetMesh (30, [] (double x, double y) { return std::hypot (x - 0.5, y - 0.5) < 0.5; });
+  const auto count = static_cast<std::uint32_t> (mesh.vertices.size ());
+  const std::vector<TriangleMesh::Triangle> top = mesh.triangles;
+  std::set<std::pair<std::uint32_t, std::uint32_t>> edges;
+  for (const auto& t : top)
+    for (int c = 0; c < 3; ++c)
+      edges.insert ({t[c], t[(c + 1) % 3]});
+  for (Eigen::Vector3f& v : mesh.vertices)
+    v.z () = 2.0f * ((v.x () - 0.5f) * (v.x () - 0.5f) + (v.y () - 0.5f) * (v.y () - 0.5f));
+  for (std::uint32_t v = 0; v < count; ++v)
+    mesh.vertices.push_back (mesh.vertices[v] - static_cast<float> (thickness) * Eigen::Vector3f::UnitZ ());
+  for (const auto& t : top)
+    mesh.triangles.push_back ({t[0] + count, t[2] + count, t[1] + count});
+  for (const auto& [a, b] : edges)
+    if (edges.count ({b, a}) == 0)
+    {
+      mesh.triangles.push_back ({b, a, a + count});
+      mesh.triangles.push_back ({b, a + count, b + count});
+    }
   return mesh;
 }
 
@@ -364,4 +392,21 @@ TEST (MeshDecimation, RefusesBadInput)
   broken = mesh;
   broken.confidence.resize (3);
   EXPECT_THROW (decimate (broken, 8), InvalidArgument);
+}
+
+TEST (Decimation, ThinWallsAreNotTurnedInsideOut)
+{
+  for (const double thickness : {0.01, 0.03})
+  {
+    const TriangleMesh shell = shellMesh (thickness);
+    const double volume = computeMassProperties (shell).volume_m3;
+    ASSERT_GT (volume, 0.0);
+    for (const std::size_t faces : {4, 10, 20, 40, 100, 400})
+    {
+      const TriangleMesh small = decimate (shell, faces);
+      EXPECT_TRUE (computeTopology (small).closed_manifold) << faces;
+      EXPECT_GT (computeMassProperties (small).volume_m3, 0.1 * volume) << faces;
+      EXPECT_LT (small.triangles.size (), shell.triangles.size ()) << faces;
+    }
+  }
 }

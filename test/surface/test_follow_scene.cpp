@@ -119,6 +119,23 @@ TEST_P (FollowScene, UpdatesGiveWhatAFreshRunGives)
   EXPECT_LT (differenceNearSurface (*fresh.background_pieces.at (0).signed_distance, *followed.background_pieces[0].signed_distance), 0.1);
 }
 
+/** \brief With voxels as points ask for them: of a vessel they are finer, and its points' Gaussians wider as long as points are few. */
+TEST (FollowScene, VoxelsAndGaussiansFollowThePoints)
+{
+  AnalyticScene scene;
+  scene.add (0, halfSpace ({0.0, 0.0, 1.0, 0.0}));
+  scene.add (1, cup (0.045, 0.09, 0.005));
+  CoSection task (optionsFor (0.0));
+  for (int sensor = 0; sensor < 4; ++sensor)
+  {
+    show (scene, sensor, {}, task);
+    const SceneResult followed = task.update ();
+    const SceneResult fresh = task.reconstruct ();
+    expectSameObjects (followed, fresh);
+    EXPECT_EQ (followed.objects.at (0).signed_distance->grid.voxel_size_m, fresh.objects.at (0).signed_distance->grid.voxel_size_m);
+  }
+}
+
 /** \brief At first only the left part of it is there. */
 TEST_P (FollowScene, AnObjectOutgrowsItsVolume)
 {

@@ -108,6 +108,23 @@ TEST_P (ViewAgreement, WhatMovesNeedsPoses)
 INSTANTIATE_TEST_SUITE_P (Shapes, ViewAgreement, testing::Values (Shape::Sphere, Shape::Box, Shape::Torus, Shape::Cup),
                           [] (const auto& info) { return nameOf (info.param); });
 
+TEST (ViewAgreement, GroupsFarApartAreSaid)
+{
+  for (const double aside_m : {0.0, 0.05, 1.0})
+  {
+    const RenderedView seen = tableScene (Shape::Box).render (tableCamera (), around (0));
+    std::vector<OrientedPoint> points = seen.points.at (1);
+    const std::vector<OrientedPoint> again = moved (points, Eigen::Isometry3d (Eigen::Translation3d (aside_m, 0.0, 0.0)));
+    points.insert (points.end (), again.begin (), again.end ());
+    CoSection task (optionsFor (0.02));
+    task.addObject ({1, points, {}});
+    const SceneResult result = task.reconstruct ();
+    const bool is_said = std::any_of (result.warnings.begin (), result.warnings.end (),
+                                      [] (const std::string& warning) { return warning.find ("cm apart") != std::string::npos; });
+    EXPECT_EQ (is_said, aside_m > 0.5) << aside_m;
+  }
+}
+
 TEST (FreeSpaceVotes, OfOneViewMoreAreAdded)
 {
   const AnalyticScene scene = tableScene (Shape::Box);

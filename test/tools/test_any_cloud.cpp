@@ -285,3 +285,62 @@ TEST_F (AnyCloud, PointsCountForTheMemoryAllowed)
   EXPECT_FALSE (fs::exists (path ("out.ply")));
   EXPECT_EQ (run ({"--max-memory", "500M", "ball.pcd", "out.ply"}), 0) << errors_;
 }
+
+// A view without its missing readings, as filters leave it: its flying pixels are not to make walls between things.
+TEST_F (AnyCloud, UnorganisedViewsAreAsGoodAsOrganisedOnes)
+{
+  const nlohmann::json at = {{{"position", {0.0, 0.0, 0.0505}}}};
+  nlohmann::json keys;
+  for (int v = 0; v < 3; ++v)
+    keys.push_back ({{"time", v}, {"position", {0.8 * std::cos (2.1 * v), 0.8 * std::sin (2.1 * v), 0.5}}, {"look_at", {0.0, 0.0, 0.05}}});
+  std::ofstream (path ("scene.json")) << nlohmann::json{
+      {"frames", 3}, {"rate", 1}, {"camera", {{"keys", keys}}}, {"views", {{"every", 1}}},
+      {"background", {{"parts", {{{"type", "plane"}, {"extent", 3}}}}}},
+      {"objects", {{{"name", "ball"}, {"shape", {{"type", "sphere"}, {"radius", 0.05}}}, {"keys", at}}}}};
+  ToolRun simulate ({"scene.json", "sim"}, folder_.file (""), {}, PCL_COSECTION_SIMULATE_TOOL);
+  ASSERT_EQ (simulate.wait (), 0) << simulate.errors ();
+  std::vector<std::string> organised, unorganised;
+  for (int v = 0; v < 3; ++v)
+  {
+    organised.push_back ("sim/views/View000" + std::to_string (v) + ".pcd");
+    unorganised.push_back ("u" + std::to_string (v) + ".pcd");
+    pcl::PointCloud<pcl::PointXYZL> all, finite;
+    pcl::io::loadPCDFile (path (organised.back ()), all);
+    finite.sensor_origin_ = all.sensor_origin_;
+    finite.sensor_orientation_ = all.sensor_orientation_;
+    for (const pcl::PointXYZL& point : all)
+      if (std::isfinite (point.z))
+        finite.push_back (point);
+    pcl::io::savePCDFileBinary (path (unorganised.back ()), finite);
+  }
+  organised.insert (organised.end (), {"--quiet", "o"});
+  unorganised.insert (unorganised.end (), {"--quiet", "u"});
+  ASSERT_EQ (run (organised), 0) << errors_;
+  ASSERT_EQ (run (unorganised), 0) << errors_;
+  const double truth = 4.0 / 3.0 * M_PI * std::pow (0.05, 3);
+  EXPECT_NEAR (volume ("o/object_1.ply"), truth, 0.03 * truth);
+  EXPECT_NEAR (volume ("u/object_1.ply"), truth, 0.05 * truth);
+}
+
+// A reading of intensity may be missing.
+TEST_F (AnyCloud, MissingIntensitiesDoNotCount)
+{
+  writeSphere (path ("ball.pcd"), 3000);
+  pcl::PointCloud<pcl::PointNormal> ball;
+  pcl::io::loadPCDFile (path ("ball.pcd"), ball);
+  pcl::PointCloud<pcl::PointXYZINormal> measured;
+  for (std::size_t i = 0; i < ball.size (); ++i)
+  {
+    pcl::PointXYZINormal p;
+    p.getVector3fMap () = ball[i].getVector3fMap ();
+    p.getNormalVector3fMap () = ball[i].getNormalVector3fMap ();
+    p.intensity = i % 3 == 0 ? std::numeric_limits<float>::quiet_NaN () : 7.5f;
+    measured.push_back (p);
+  }
+  pcl::io::savePCDFileBinary (path ("measured.pcd"), measured);
+  ASSERT_EQ (run ({"--quiet", "measured.pcd", "m.ply"}), 0) << errors_;
+  const TriangleMesh mesh = loadPlyMesh (path ("m.ply"));
+  ASSERT_EQ (mesh.intensity.size (), mesh.vertices.size ());
+  for (const float intensity : mesh.intensity)
+    ASSERT_FLOAT_EQ (intensity, 7.5f);
+}
