@@ -156,7 +156,7 @@ private:
     }
     const auto& v = header_.viewpoint;
     if (!good || !(std::hypot (std::hypot (v[3], v[4]), std::hypot (v[5], v[6])) > 1e-6))
-      fail (path_, "VIEWPOINT must be tx ty tz qw qx qy qz with a quaternion that is not zero");
+      fail (path_, "VIEWPOINT must be tx ty tz qw qx qy qz of finite numbers, with a quaternion that is not zero");
   }
 
   void

@@ -43,7 +43,6 @@ limitFiles (rlim_t bytes)
 {
   return ([bytes] {
     const rlimit limit = {bytes, bytes};
-    std::signal (SIGXFSZ, SIG_IGN); // a program inherits that; writing fails instead
     setrlimit (RLIMIT_FSIZE, &limit);
   });
 }

@@ -26,6 +26,7 @@ catchInterruptions ()
   sigemptyset (&action.sa_mask);
   sigaction (SIGINT, &action, nullptr);
   sigaction (SIGTERM, &action, nullptr);
+  std::signal (SIGXFSZ, SIG_IGN); // writing fails instead, as on a full disk
 }
 
 bool

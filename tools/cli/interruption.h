@@ -2,7 +2,8 @@
 // Copyright (c) 2026, the pcl_cosection authors
 #pragma once
 
-/** \brief From now on, the first SIGINT or SIGTERM only sets a flag; a second one ends the program at once. */
+/** \brief From now on, the first SIGINT or SIGTERM only sets a flag; a second one ends the program at once. A file larger
+ * than the system's limit is an error of writing. */
 void
 catchInterruptions ();
 
