@@ -6,7 +6,7 @@
 #include "quiet_console.h"
 
 #include <pcl/cosection/common/parallel.h>
-#include <pcl/cosection/surface/free_space_votes.h>
+#include <pcl/cosection/surface/hull_constraint.h>
 #include <pcl/cosection/surface/normal_orientation.h>
 #include <pcl/cosection/surface/range_image.h>
 
@@ -209,23 +209,22 @@ addNormals (const PcdViewOptions& options, std::uint32_t label, const std::vecto
     cloud.normals[members[k]] = normals[thinned.of[k]];
 }
 
-/** \brief Take the normals of points at depth edges, so that they are left out: between something and what is behind it a sensor measures what is
- * nowhere. Points of the background are many, of objects those are believed that have neighbours of their depth. */
+/** \brief Take the normals of points of the background at depth edges, so that they are left out: between something and what is behind it a sensor
+ * measures what is nowhere, and walls of such points would stand between things. Those of objects are too few to do without. */
 void
-leaveOutFlyingPixels (const DepthView& view, int threads, SensorCloud& cloud)
+leaveOutFlyingPixels (const DepthView& view, SensorCloud& cloud)
 {
   const FreeSpaceView seen (view);
-  const Eigen::Isometry3d T_points_view = cloud.T_world_sensor.inverse () * view.T_world_sensor;
-  std::vector<FreeSpaceVotes> votes (cloud.positions.size ());
-  addVotes (cloud.positions, seen, T_points_view, votes, 0.0, threads);
-  const auto is_at_edge = [&, T_view_points = T_points_view.inverse ()] (const Eigen::Vector3f& p) {
-    const Eigen::Vector2d pixel = view.camera.project (T_view_points * p.cast<double> ());
+  const Eigen::Isometry3d T_view_points = view.T_world_sensor.inverse () * cloud.T_world_sensor;
+  for (std::size_t i = 0; i < cloud.positions.size (); ++i)
+  {
+    if (cloud.labels[i] != 0 || !cloud.positions[i].allFinite ())
+      continue;
+    const Eigen::Vector2d pixel = view.camera.project (T_view_points * cloud.positions[i].cast<double> ());
     const Eigen::Vector2i at = (pixel.array () + 0.5).floor ().cast<int> ();
-    return at.x () >= 0 && at.x () < view.camera.width && at.y () >= 0 && at.y () < view.camera.height && seen.atEdge (at.x (), at.y ());
-  };
-  for (std::size_t i = 0; i < votes.size (); ++i)
-    if (cloud.positions[i].allFinite () && (votes[i].surface == 0 || (cloud.labels[i] == 0 && is_at_edge (cloud.positions[i]))))
+    if (at.x () >= 0 && at.x () < view.camera.width && at.y () >= 0 && at.y () < view.camera.height && seen.atEdge (at.x (), at.y ()))
       cloud.normals[i].setConstant (nan_value);
+  }
 }
 
 /** \brief Turn normals that clearly point away from the viewpoint, which is the origin. \return their share */
@@ -305,7 +304,7 @@ completeUnorganized (const std::string& path, const PcdViewOptions& options, Sen
   if (result.view)
   {
     turnTowardsViewpoint (0.0f, cloud);
-    leaveOutFlyingPixels (*result.view, options.threads, cloud);
+    leaveOutFlyingPixels (*result.view, cloud);
     return;
   }
   result.warnings.push_back (path + ": where its points were seen from is not known; their normals were turned so that " +

@@ -130,7 +130,7 @@ addVessel (EnergyProblem& problem, const VoxelGrid& grid, const SymmetricExtent&
     return PartOfWall (grid, pick (measured, [&] (const OrientedPoint& p) { return isOfPart (p) && isRound (p); }), pick (expected, isOfPart),
                        free, options);
   };
-  const PartOfWall outer = find (VesselPart::Outer);
+  const PartOfWall outer = find (VesselPart::Outer), bottom = find (VesselPart::Bottom);
   const PartOfWall inner = find (VesselPart::Inner);
   const PartOfWall rim = find (VesselPart::Rim);
   const ImlsDataTerm handles = termOf (grid, pick (measured, [&] (const OrientedPoint& p) { return !isRound (p); }), options);
@@ -150,13 +150,14 @@ addVessel (EnergyProblem& problem, const VoxelGrid& grid, const SymmetricExtent&
         const std::size_t n = grid.index (i, j, k);
         if (free[n] || handles.weight[n] >= near_weight)
           continue;
-        const double from_outer = outer.distance (n);
+        const PartOfWall& outside = outer.distance (n) > bottom.distance (n) ? outer : bottom;
+        const double from_outside = outside.distance (n);
         const double from_inner = inner.distance (n);
         const double from_rim = rim.distance (n);
-        const double lacking = std::max (0.0, wall_vox + from_outer + from_inner); // of the wall; none, unless both sides are known
-        const double from_sides = std::max (from_outer, from_inner) - 0.5 * lacking;
+        const double lacking = std::max (0.0, wall_vox + from_outside + from_inner); // of the wall; none, unless both sides are known
+        const double from_sides = std::max (from_outside, from_inner) - 0.5 * lacking;
         const double target = std::max (from_sides, from_rim);
-        const PartOfWall& nearer = from_rim > from_sides ? rim : from_outer > from_inner ? outer : inner;
+        const PartOfWall& nearer = from_rim > from_sides ? rim : from_outside > from_inner ? outside : inner;
         if (nearer.isExpected (n))
           set (n, vessel_weight * options.beta_extent, target);
         else if (problem.weight[n] > 0.0f && std::isfinite (target))

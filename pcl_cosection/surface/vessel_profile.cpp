@@ -101,6 +101,8 @@ VesselProfile::partOf (const ProfilePoint& point) const
   const double along = opening_ * point.normal.x ();
   if (along > level && opening_ * (rim_m_ - point.position.x ()) < rim_band_m_)
     return VesselPart::Rim;
+  if (along < -level && opening_ * (point.position.x () - bottom_m_) < rim_band_m_)
+    return VesselPart::Bottom;
   return point.normal.y () < leaning * along ? VesselPart::Inner : VesselPart::Outer;
 }
 

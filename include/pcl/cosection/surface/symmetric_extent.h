@@ -22,9 +22,10 @@ class SurfaceOfRevolution;
 /** \brief Parts of the surface of what is round and hollow, a cup or a bowl. */
 enum class VesselPart
 {
-  Outer, ///< side of the wall, and the bottom
+  Outer, ///< side of the wall
   Inner, ///< side of the wall, and the floor
-  Rim
+  Rim,
+  Bottom
 };
 
 /** \brief How far an object would reach if what is hidden of it looked like what was seen of it.
