@@ -32,7 +32,7 @@ constexpr int forgotten_after = 2;            // updates in which what was a ves
 constexpr int least_free_views = 2;           // that look through a point of the background, for it to have moved ...
 constexpr double free_share = 0.25;           // ... and so many of those that see it there
 constexpr double max_sigma_vox = 10.0;        // as for the option
-constexpr double max_contradicted_share = 0.1; // of an object's points; good poses leave .005 to .02
+constexpr double max_contradicted_share = 0.1; // of an object's points; good poses leave .03 or less
 constexpr double left_over_cell_m = 0.02;
 constexpr double max_empty_share = 0.5;       // of a volume that was large enough for what was known before
 

@@ -136,7 +136,7 @@ VesselProfile::findWall (const std::vector<ProfilePoint>& points, double cell_m)
       static_cast<double> (similar) < even_share * static_cast<double> (thickness.size ()))
     return false;
   findBands (points, cell_m);
-  return true;
+  return bands_.size () >= least_bands;
 }
 
 void
