@@ -12,8 +12,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <set>
-#include <utility>
 
 using namespace pcl::cosection;
 
@@ -34,53 +32,6 @@ distanceFromSphere (const TriangleMesh& mesh, double radius)
       farthest = std::max (farthest, std::abs ((corners * weights).norm () - radius));
   }
   return farthest;
-}
-
-/** \brief The square [0, 1] x [0, 1] of n x n cells in the plane z = 0; \a inside (x, y) says which cells, by their
- * middles, there are. */
-template <typename Inside>
-TriangleMesh
-sheetMesh (std::uint32_t n, Inside&& inside)
-{
-  TriangleMesh mesh;
-  for (std::uint32_t j = 0; j <= n; ++j)
-    for (std::uint32_t i = 0; i <= n; ++i)
-      mesh.vertices.emplace_back (static_cast<float> (i) / n, static_cast<float> (j) / n, 0.0f);
-  const auto at = [n] (std::uint32_t i, std::uint32_t j) { return j * (n + 1) + i; };
-  for (std::uint32_t j = 0; j < n; ++j)
-    for (std::uint32_t i = 0; i < n; ++i)
-      if (inside ((i + 0.5) / n, (j + 0.5) / n))
-      {
-        mesh.triangles.push_back ({at (i, j), at (i + 1, j), at (i + 1, j + 1)});
-        mesh.triangles.push_back ({at (i, j), at (i + 1, j + 1), at (i, j + 1)});
-      }
-  return mesh;
-}
-
-/** \brief A closed sheet, thin and bent like a bowl. */
-TriangleMesh
-shellMesh (double thickness)
-{
-  TriangleMesh mesh = sheetMesh (30, [] (double x, double y) { return std::hypot (x - 0.5, y - 0.5) < 0.5; });
-  const auto count = static_cast<std::uint32_t> (mesh.vertices.size ());
-  const std::vector<TriangleMesh::Triangle> top = mesh.triangles;
-  std::set<std::pair<std::uint32_t, std::uint32_t>> edges;
-  for (const auto& t : top)
-    for (int c = 0; c < 3; ++c)
-      edges.insert ({t[c], t[(c + 1) % 3]});
-  for (Eigen::Vector3f& v : mesh.vertices)
-    v.z () = 2.0f * ((v.x () - 0.5f) * (v.x () - 0.5f) + (v.y () - 0.5f) * (v.y () - 0.5f));
-  for (std::uint32_t v = 0; v < count; ++v)
-    mesh.vertices.push_back (mesh.vertices[v] - static_cast<float> (thickness) * Eigen::Vector3f::UnitZ ());
-  for (const auto& t : top)
-    mesh.triangles.push_back ({t[0] + count, t[2] + count, t[1] + count});
-  for (const auto& [a, b] : edges)
-    if (edges.count ({b, a}) == 0)
-    {
-      mesh.triangles.push_back ({b, a, a + count});
-      mesh.triangles.push_back ({b, a + count, b + count});
-    }
-  return mesh;
 }
 
 double
@@ -188,7 +139,7 @@ TEST (MeshDecimation, FindsTheCornersOfABox)
 
 TEST (MeshDecimation, KeepsTheBoundaryOfASheet)
 {
-  const TriangleMesh sheet = sheetMesh (20, [] (double, double) { return true; });
+  const TriangleMesh sheet = test::sheetMesh (20, [] (double, double) { return true; });
   for (const std::size_t target : {200, 50, 10, 2})
   {
     const TriangleMesh result = decimate (sheet, target);
@@ -204,7 +155,7 @@ TEST (MeshDecimation, KeepsTheBoundaryOfASheet)
 TEST (MeshDecimation, KeepsHolesApart)
 {
   // Two square holes beside each other, as bands of one cell between and around them would let boundaries touch.
-  const TriangleMesh sheet = sheetMesh (18, [] (double x, double y) {
+  const TriangleMesh sheet = test::sheetMesh (18, [] (double x, double y) {
     return std::min (std::abs (x - 0.27), std::abs (x - 0.73)) > 0.2 || std::abs (y - 0.5) > 0.3;
   });
   ASSERT_EQ (computeTopology (sheet).euler, -1);
@@ -398,7 +349,7 @@ TEST (Decimation, ThinWallsAreNotTurnedInsideOut)
 {
   for (const double thickness : {0.01, 0.03})
   {
-    const TriangleMesh shell = shellMesh (thickness);
+    const TriangleMesh shell = test::shellMesh (thickness);
     const double volume = computeMassProperties (shell).volume_m3;
     ASSERT_GT (volume, 0.0);
     for (const std::size_t faces : {4, 10, 20, 40, 100, 400})
