@@ -2,6 +2,7 @@
 // Copyright (c) 2026, the pcl_cosection authors
 #include "co_section_run.h"
 
+#include "implied_support.h"
 #include "volume_layout.h"
 
 #include <pcl/cosection/common/error.h>
@@ -147,6 +148,9 @@ CoSectionRun::findPlanes ()
       if (!known)
         result_.planes.push_back (plane);
     }
+    if (object.planes.empty () && scene_.background.empty () && scene_.bodies.empty () && !(extentOf (object, std::nullopt).wallThickness () > 0.0))
+      if (const std::optional<Eigen::Vector4d> implied = impliedSupport (object.points ()))
+        object.planes.push_back (transformPlane (*implied, firstPose (object).inverse ()));
   }
 }
 

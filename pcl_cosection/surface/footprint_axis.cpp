@@ -3,6 +3,7 @@
 #include "footprint_axis.h"
 
 #include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 
 #include <algorithm>
@@ -23,8 +24,13 @@ constexpr double stray_share = 0.002; // of all points, may lie farther out
 constexpr double sector_strays = 0.02; // of the points of a sector
 constexpr double round_reach = 0.05;  // of the radius: sectors whose points reach so far more or less are round
 constexpr int round_sectors = 27;
+constexpr double least_facing = 0.2;  // length of the mean normal of what mostly faces one way
+constexpr int rim_rounds = 5;
+constexpr int plane_rounds = 20;
+constexpr double plane_reach = 0.02;  // of the size: points so far from the level plane count little
 
 using Points = std::vector<Eigen::Vector2d>;
+using Points3 = std::vector<Eigen::Vector3d>;
 
 /** \brief The value that so many are above. */
 double
@@ -35,11 +41,27 @@ quantile (std::vector<double>& values, double share_above)
   return *rank;
 }
 
-/** \brief One of the points that are farthest in some direction each. */
-Points
+/** \brief Points as seen from above. */
+struct Footprint
+{
+  Footprint (const std::vector<NormalLine>& lines, const Eigen::Vector3d& up)
+  : x (up.unitOrthogonal ())
+  , y (up.cross (x))
+  {
+    points.reserve (lines.size ());
+    for (const NormalLine& line : lines)
+      points.emplace_back (x.dot (line.position), y.dot (line.position));
+  }
+
+  Eigen::Vector3d x, y;
+  Points points;
+};
+
+/** \brief Indices of points that are farthest in some direction each. */
+std::vector<std::size_t>
 farthestOf (const Points& points)
 {
-  Points ends;
+  std::vector<std::size_t> ends;
   std::vector<std::size_t> order (points.size ());
   for (std::size_t n = 0; n < order.size (); ++n)
     order[n] = n;
@@ -53,7 +75,7 @@ farthestOf (const Points& points)
       return along_a > along_b || (along_a == along_b && a < b);
     };
     std::nth_element (order.begin (), rank, order.end (), farther);
-    ends.push_back (points[*rank]);
+    ends.push_back (*rank);
   }
   return ends;
 }
@@ -102,16 +124,67 @@ findFootprintAxis (const std::vector<NormalLine>& lines, const Eigen::Vector3d& 
 {
   if (lines.empty ())
     return std::nullopt;
-  const Eigen::Vector3d x = up.unitOrthogonal ();
-  const Eigen::Vector3d y = up.cross (x);
-  Points points;
-  points.reserve (lines.size ());
-  for (const NormalLine& line : lines)
-    points.emplace_back (x.dot (line.position), y.dot (line.position));
-  const Eigen::Vector2d center = circleCenter (farthestOf (points));
-  if (!center.allFinite () || !isRound (points, center))
+  const Footprint footprint (lines, up);
+  Points ends;
+  for (const std::size_t n : farthestOf (footprint.points))
+    ends.push_back (footprint.points[n]);
+  const Eigen::Vector2d center = circleCenter (ends);
+  if (!center.allFinite () || !isRound (footprint.points, center))
     return std::nullopt;
-  return Axis{up, center.x () * x + center.y () * y};
+  return Axis{up, center.x () * footprint.x + center.y () * footprint.y};
+}
+
+std::vector<std::size_t>
+outermost (const std::vector<NormalLine>& lines, const Eigen::Vector3d& up)
+{
+  return farthestOf (Footprint (lines, up).points);
+}
+
+Eigen::Vector3d
+planeNormal (const Points3& points, Eigen::Vector3d normal)
+{
+  Eigen::Vector3d center = Eigen::Vector3d::Zero ();
+  for (const Eigen::Vector3d& p : points)
+    center += p / static_cast<double> (points.size ());
+  for (int round = 0; round < plane_rounds; ++round)
+  {
+    Eigen::Vector3d sum = Eigen::Vector3d::Zero ();
+    Eigen::Matrix3d products = Eigen::Matrix3d::Zero ();
+    double weights = 0.0;
+    for (const Eigen::Vector3d& p : points)
+    {
+      const double off = normal.dot (p - center) / plane_reach;
+      const double weight = 1.0 / (1.0 + off * off);
+      sum += weight * (p - center);
+      products += weight * (p - center) * (p - center).transpose ();
+      weights += weight;
+    }
+    const Eigen::Vector3d mean = sum / weights;
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver (products / weights - mean * mean.transpose ());
+    const Eigen::Vector3d least = solver.eigenvectors ().col (0);
+    normal = least.dot (normal) < 0.0 ? Eigen::Vector3d (-least) : least;
+    center += mean;
+  }
+  return normal;
+}
+
+std::optional<Eigen::Vector3d>
+rimNormal (const std::vector<NormalLine>& lines)
+{
+  Eigen::Vector3d up = Eigen::Vector3d::Zero ();
+  for (const NormalLine& line : lines)
+    up += line.normal;
+  if (up.norm () < least_facing * static_cast<double> (lines.size ()))
+    return std::nullopt;
+  up.normalize ();
+  for (int round = 0; round < rim_rounds; ++round)
+  {
+    Points3 rim;
+    for (const std::size_t n : outermost (lines, up))
+      rim.push_back (lines[n].position);
+    up = planeNormal (rim, up);
+  }
+  return up;
 }
 
 } // namespace cosection

@@ -4,8 +4,10 @@
 
 #include "axis_refinement.h"
 #include "ball_fit.h"
+#include "dish_profile.h"
 #include "footprint_axis.h"
 #include "normal_axis.h"
+#include "vessel_profile.h"
 
 #include <Eigen/Geometry>
 
@@ -36,6 +38,7 @@ constexpr double straight_share = 0.8;  // of the wall's points
 constexpr double outer_wall = 0.9;      // of the radius
 constexpr int disc_rings = 24;
 constexpr double least_step = 0.05;  // of a cell: between points of what is deep inside a vessel
+constexpr double better_share = 0.02; // of the points, that another axis explains: it is better
 constexpr int turns = 12;            // all around
 constexpr double stray_share = 0.002; // of the points, may lie farther out
 
@@ -61,38 +64,50 @@ SurfaceOfRevolution::fit (const std::vector<OrientedPoint>& points, const std::o
   const NormalLines normals = normalLinesOf (points);
   if (normals.lines.empty ())
     return std::nullopt;
-  std::optional<Axis> axis;
-  bool is_ball = false;
   if (const std::optional<Ball> ball = findBall (normals.lines))
   {
     const double radius = normals.size * ball->radius;
     const Eigen::Vector3d center = normals.origin + normals.size * ball->center;
     if (!plane || plane->head<3> ().dot (center) + (*plane)[3] > (1.0 - sunk) * radius)
-    {
-      axis = axisOf (*ball, normals.lines);
-      is_ball = true;
-    }
+      return about (axisOf (*ball, normals.lines), normals, points, plane, seen_sectors, false);
   }
-  if (!axis)
-    axis = findAxis (normals.lines, plane ? std::optional<Eigen::Vector3d> (plane->head<3> ()) : std::nullopt);
-  if (is_ball)
-    return about (*axis, normals, points, plane, seen_sectors, false);
-  if (axis)
-  {
+  const auto withAxisAlong = [&] (const std::optional<Eigen::Vector3d>& direction) -> std::optional<SurfaceOfRevolution> {
+    const std::optional<Axis> axis = findAxis (normals.lines, direction);
+    if (!axis)
+      return std::nullopt;
     std::vector<NormalLine> round;
     std::copy_if (normals.lines.begin (), normals.lines.end (), std::back_inserter (round),
                   [&] (const NormalLine& line) { return meets (*axis, line); });
-    axis = refineAxis (*axis, round);
-  }
-  std::optional<SurfaceOfRevolution> surface;
-  if (axis)
-    surface = about (*axis, normals, points, plane, seen_sectors, true);
-  if (surface || !plane)
-    return surface;
-  axis = findFootprintAxis (normals.lines, plane->head<3> ());
-  if (axis)
-    surface = about (*axis, normals, points, plane, 0, true);
-  return surface && surface->vessel_ ? surface : std::nullopt;
+    return about (refineAxis (*axis, round), normals, points, plane, seen_sectors, true);
+  };
+  std::optional<Eigen::Vector3d> up;
+  if (plane)
+    up = plane->head<3> ();
+  std::optional<SurfaceOfRevolution> best = withAxisAlong (up);
+  if (best && plane)
+    return best;
+
+  // Curved like a ball, or too shallow for an axis: which way is up must be known.
+  const auto share = [&] (const std::optional<SurfaceOfRevolution>& surface) { return surface && surface->vessel_ ? surface->heldByVessel () : 0.0; };
+  double best_share = share (best);
+  const auto compare = [&] (const std::optional<SurfaceOfRevolution>& other) {
+    if (const double other_share = share (other); other_share > best_share + better_share)
+    {
+      best = other;
+      best_share = other_share;
+    }
+  };
+  if (!plane)
+    up = rimNormal (normals.lines);
+  if (!up)
+    return best;
+  if (!plane)
+    compare (withAxisAlong (up));
+  if (best_share > 0.0)
+    return best;
+  if (const std::optional<Axis> axis = findFootprintAxis (normals.lines, *up))
+    compare (about (*axis, normals, points, plane, 0, true));
+  return best;
 }
 
 std::optional<SurfaceOfRevolution>
@@ -115,6 +130,8 @@ SurfaceOfRevolution::about (const Axis& axis, const NormalLines& normals, const 
   if (const double rise = plane ? plane->head<3> ().dot (surface.direction_) : 0.0; std::abs (rise) > upright)
     standing = StandingPlane{-(plane->head<3> ().dot (surface.center_) + (*plane)[3]) / rise, rise > 0.0 ? 1.0 : -1.0};
   surface.vessel_ = VesselProfile::find (surface.profile_, surface.cell_m_, standing);
+  if (!surface.vessel_)
+    surface.vessel_ = DishProfile::find (surface.profile_, surface.cell_m_, standing);
   return surface;
 }
 
@@ -215,6 +232,13 @@ SurfaceOfRevolution::extent (const Eigen::Vector3d& n) const
   const auto end = extents.end () - 1 - static_cast<std::ptrdiff_t> (stray_share * static_cast<double> (extents.size ()));
   std::nth_element (extents.begin (), end, extents.end ());
   return *end;
+}
+
+double
+SurfaceOfRevolution::heldByVessel () const
+{
+  const auto held = std::count_if (profile_.begin (), profile_.end (), [this] (const ProfilePoint& p) { return vessel_->holds (p); });
+  return static_cast<double> (held) / static_cast<double> (profile_.size ());
 }
 
 std::vector<OrientedPoint>

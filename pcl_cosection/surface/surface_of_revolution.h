@@ -3,7 +3,7 @@
 #pragma once
 
 #include "normal_axis.h"
-#include "vessel_profile.h"
+#include "wall_profile.h"
 
 #include <pcl/cosection/surface/oriented_point.h>
 
@@ -63,10 +63,10 @@ public:
   flatEnds () const;
 
   /** \brief What is known of its wall, if it is a vessel. */
-  const std::optional<VesselProfile>&
+  const WallProfile*
   vessel () const
   {
-    return vessel_;
+    return vessel_.get ();
   }
 
   /** \brief The same; a vessel open at both ends. */
@@ -99,6 +99,9 @@ private:
          int least_sectors, bool may_be_vessel);
   bool
   findProfile (const std::vector<OrientedPoint>& points, double size, int least_sectors);
+  /** \brief Share of the points that are on the sides of the vessel. */
+  double
+  heldByVessel () const;
   Eigen::Vector2i
   cellOf (const Eigen::Vector2d& profile) const;
   std::size_t
@@ -115,7 +118,7 @@ private:
   Eigen::Vector2d first_; // of all cells, height and distance
   std::vector<std::uint8_t> round_; // by cell
   std::vector<ProfilePoint> profile_; // of the points that are round
-  std::optional<VesselProfile> vessel_;
+  std::shared_ptr<const WallProfile> vessel_; // none if it is not hollow
 };
 
 } // namespace cosection

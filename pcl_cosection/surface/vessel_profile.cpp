@@ -35,10 +35,6 @@ constexpr double inner_strays = 0.01;
 constexpr double least_floor_steps = 3.0; // of thickness: less would vanish
 constexpr double least_side = 0.1;      // of the points of a band, on a side
 constexpr double hardly_sideways = 0.2;   // as sideways, where the inside of what may be shallow is all that was seen ...
-constexpr double dish_outer_share = 0.05; // ... of all points, but for so many
-constexpr double dish_floor = 0.05;     // of the points, nearest to the axis, are on its floor
-constexpr double dish_band_cells = 0.5; // height of a band
-constexpr double thinnest_cells = 0.25; // a wall, as the plane is not known better
 constexpr double narrowest = 0.5;       // of the lowest radius that is known: the bottom
 
 /** \brief What was seen in a band of heights. */
@@ -83,16 +79,20 @@ middle (std::vector<double>& values)
 
 } // namespace
 
-std::optional<VesselProfile>
+std::shared_ptr<const VesselProfile>
 VesselProfile::find (const std::vector<ProfilePoint>& points, double cell_m, const std::optional<StandingPlane>& plane)
 {
-  VesselProfile vessel;
-  if (vessel.findWall (points, cell_m) && vessel.findBottom (points, cell_m, plane))
-    return vessel;
-  VesselProfile dish;
-  if (plane && dish.findDish (points, cell_m, *plane))
-    return dish;
-  return std::nullopt;
+  auto vessel = std::make_shared<VesselProfile> ();
+  return vessel->findWall (points, cell_m) && vessel->findBottom (points, cell_m, plane) ? vessel : nullptr;
+}
+
+std::shared_ptr<const WallProfile>
+VesselProfile::withoutFloor () const
+{
+  auto tube = std::make_shared<VesselProfile> (*this);
+  tube->has_floor_ = false;
+  tube->floor_m_ = bottom_m_;
+  return tube;
 }
 
 VesselPart
@@ -218,61 +218,20 @@ VesselProfile::findBottom (const std::vector<ProfilePoint>& points, double cell_
 
   End end = opening_ > 0.0 ? first : second;
   const bool is_standing = plane && plane->up == opening_; // and not upside down
-  const double bottom = is_standing ? plane->up * plane->height : end.lowest_outer;
+  double bottom = is_standing ? plane->up * plane->height : end.lowest_outer;
   const bool has_floor = end.floor.size () >= least_floor;
   const double lower_end = end.lowest_outer - bottom < end_cells * cell_m ? std::max (bottom, end.lowest_outer) : bottom;
   if (!has_floor && end.lowest_inner - lower_end < std::max (open_wall * wall_m_, open_cells * cell_m) &&
       bands_.front ().outer > narrow * bands_.back ().outer)
     return false;
+  const double floor = has_floor ? middle (end.floor) : end.lowest_inner;
+  if (!is_standing)
+    bottom = std::min (bottom, floor - wall_m_);
   bottom_m_ = opening_ * bottom;
   lowest_outer_m_ = opening_ * std::max (bottom, end.lowest_outer);
   lowest_inner_m_ = opening_ * end.lowest_inner;
   rim_m_ = -opening_ * (opening_ > 0.0 ? second : first).lowest_outer;
-  floor_m_ = opening_ * (has_floor ? middle (end.floor) : std::min (bottom + wall_m_, end.lowest_inner));
-  return true;
-}
-
-bool
-VesselProfile::findDish (const std::vector<ProfilePoint>& points, double cell_m, const StandingPlane& plane)
-{
-  std::vector<double> radii, inner; // heights are those over the plane
-  std::size_t outer = 0;
-  for (const ProfilePoint& p : points)
-  {
-    radii.push_back (p.position.y ());
-    outer += p.normal.y () > hardly_sideways;
-    if (p.normal.y () < -hardly_sideways)
-      inner.push_back (plane.up * (p.position.x () - plane.height));
-  }
-  if (inner.size () < least_floor || static_cast<double> (outer) > dish_outer_share * static_cast<double> (points.size ()))
-    return false;
-  const double innermost = lowest (radii, dish_floor);
-  const double radius = lowest (radii, 1.0 - inner_strays);
-  std::vector<double> floor;
-  for (const ProfilePoint& p : points)
-    if (p.position.y () <= innermost && plane.up * p.normal.x () > level)
-      floor.push_back (plane.up * (p.position.x () - plane.height));
-  if (floor.size () < least_floor)
-    return false;
-  wall_m_ = std::max (middle (floor), thinnest_cells * cell_m);
-  const double rim = lowest (inner, 1.0 - inner_strays);
-  if (wall_m_ > thickest * radius || wall_m_ > rim - wall_m_)
-    return false;
-
-  findBands (points, dish_band_cells * cell_m);
-  if (bands_.size () < least_bands)
-    return false;
-  opening_ = plane.up;
-  if (opening_ < 0.0)
-    std::reverse (bands_.begin (), bands_.end ());
-  for (std::size_t n = bands_.size () - 1; n > 0; --n) // it does not get wider downwards
-    bands_[n - 1].outer = std::min (bands_[n - 1].outer, bands_[n].outer);
-  noise_m_ = std::max (even * wall_m_, noise_cells * cell_m);
-  rim_band_m_ = noise_cells * cell_m;
-  bottom_m_ = plane.height;
-  floor_m_ = bottom_m_ + opening_ * wall_m_;
-  rim_m_ = lowest_outer_m_ = bottom_m_ + opening_ * rim;
-  lowest_inner_m_ = bottom_m_ + opening_ * lowest (inner, inner_strays);
+  floor_m_ = opening_ * (has_floor ? floor : std::min (bottom + wall_m_, end.lowest_inner));
   return true;
 }
 

@@ -2,10 +2,9 @@
 // Copyright (c) 2026, the pcl_cosection authors
 #pragma once
 
-#include <pcl/cosection/surface/symmetric_extent.h>
+#include "wall_profile.h"
 
-#include <Eigen/Core>
-
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -14,65 +13,40 @@ namespace pcl
 namespace cosection
 {
 
-/** \brief A point of a surface of revolution in the half plane that its axis bounds. */
-struct ProfilePoint
-{
-  Eigen::Vector2d position; // height along the axis, distance from it
-  Eigen::Vector2d normal;   // component along the axis, away from it
-};
-
-/** \brief A plane across the axis on which a surface of revolution stands. */
-struct StandingPlane
-{
-  double height; // along the axis
-  double up;     // 1 or -1: the sense of the axis in which the surface is
-};
-
 /** \brief The profile of a vessel: a wall of even thickness between an outer and an inner side, round about an axis and open at one of its ends.
  *
  * Of what is deep inside a vessel views see little, and of its bottom nothing. What is hidden is taken to go on as it was seen: the wall
  * is as thick as where both its sides were seen, down to the floor, which is level; and that is where it was seen, or as far above the bottom
- * as the wall is thick. Of a dish, of which only the inside was seen, the wall is as thick as the floor is high above what it stands on. */
-class VesselProfile
+ * as the wall is thick. */
+class VesselProfile : public WallProfile
 {
 public:
   /** \param[in] points of the whole surface \param[in] cell_m height of the bands in which the sides are compared
    * \return nothing if it is not hollow, its walls differ in thickness, or both its ends are open */
-  static std::optional<VesselProfile>
+  static std::shared_ptr<const VesselProfile>
   find (const std::vector<ProfilePoint>& points, double cell_m, const std::optional<StandingPlane>& plane);
 
-  /** \brief Across the wall, metres. */
   double
-  wallThickness () const
+  wallThickness () const override
   {
     return wall_m_;
   }
 
-  /** \brief The same wall, open at both ends. */
-  VesselProfile
-  withoutFloor () const
-  {
-    VesselProfile tube = *this;
-    tube.has_floor_ = false;
-    tube.floor_m_ = bottom_m_;
-    return tube;
-  }
+  std::shared_ptr<const WallProfile>
+  withoutFloor () const override;
 
-  /** \brief To which part of the surface a point belongs, by its normal; and by its height, to the rim. */
   VesselPart
-  partOf (const ProfilePoint& point) const;
+  partOf (const ProfilePoint& point) const override;
 
-  /** \brief What views see least of: the lower parts of both sides, floor and bottom. \param[in] step_m between points */
+  /** \brief The lower parts of both sides, floor and bottom. */
   std::vector<ProfilePoint>
-  depths (double step_m) const;
+  depths (double step_m) const override;
 
-  /** \brief Is a point on one of the sides of the wall, the rim, the floor or the bottom? Else it is of a handle. */
   bool
-  holds (const ProfilePoint& point) const;
+  holds (const ProfilePoint& point) const override;
 
-  /** \brief How far a place in the cavity is from the wall, across the axis, and over the floor, the less of both; metres, 0 elsewhere. \param[in] position as in ProfilePoint */
   double
-  depthInCavity (const Eigen::Vector2d& position) const;
+  depthInCavity (const Eigen::Vector2d& position) const override;
 
 private:
   struct Band // of heights
@@ -82,7 +56,6 @@ private:
     double wall;  // across the axis
   };
 
-  VesselProfile () = default;
   bool
   findWall (const std::vector<ProfilePoint>& points, double cell_m);
   /** \brief Once it is known how thick the wall is. */
@@ -90,9 +63,6 @@ private:
   findBands (const std::vector<ProfilePoint>& points, double band_m);
   bool
   findBottom (const std::vector<ProfilePoint>& points, double cell_m, const std::optional<StandingPlane>& plane);
-  /** \brief Wall and bottom of what stands on a plane and shows nothing but its inside, down to its floor. */
-  bool
-  findDish (const std::vector<ProfilePoint>& points, double cell_m, const StandingPlane& plane);
   double
   outerAt (double height) const;
   double
