@@ -63,6 +63,7 @@ private:
     std::optional<ViewAgreement> agreement;          // of all views with its points
     FollowedBody* body = nullptr;
     std::vector<Eigen::Vector4d> planes;             // world
+    bool plane_is_implied = false;                   // a guess, which bounds the estimate but not what may be
     SignedDistanceField field;                       // its shape, as far as known
     SignedDistanceField told;                        // what its neighbours are told of it
     std::unique_ptr<IntersectionConstraint> surroundings; // background, planes and bodies, which stay as they are

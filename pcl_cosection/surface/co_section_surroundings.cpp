@@ -148,9 +148,14 @@ CoSectionRun::findPlanes ()
       if (!known)
         result_.planes.push_back (plane);
     }
-    if (object.planes.empty () && scene_.background.empty () && scene_.bodies.empty () && !(extentOf (object, std::nullopt).wallThickness () > 0.0))
-      if (const std::optional<Eigen::Vector4d> implied = impliedSupport (object.points ()))
-        object.planes.push_back (transformPlane (*implied, firstPose (object).inverse ()));
+    const bool is_alone = object.planes.empty () && scene_.background.empty () && scene_.bodies.empty ();
+    if (!is_alone || !scene_.options.use_extent_prior || extentOf (object, std::nullopt).wallThickness () > 0.0)
+      continue;
+    if (const std::optional<Eigen::Vector4d> implied = impliedSupport (object.points ()))
+    {
+      object.planes.push_back (transformPlane (*implied, firstPose (object).inverse ()));
+      object.plane_is_implied = true;
+    }
   }
 }
 

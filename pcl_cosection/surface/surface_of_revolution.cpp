@@ -38,7 +38,6 @@ constexpr double straight_share = 0.8;  // of the wall's points
 constexpr double outer_wall = 0.9;      // of the radius
 constexpr int disc_rings = 24;
 constexpr double least_step = 0.05;  // of a cell: between points of what is deep inside a vessel
-constexpr double better_share = 0.02; // of the points, that another axis explains: it is better
 constexpr int turns = 12;            // all around
 constexpr double stray_share = 0.002; // of the points, may lie farther out
 
@@ -69,50 +68,42 @@ SurfaceOfRevolution::fit (const std::vector<OrientedPoint>& points, const std::o
     const double radius = normals.size * ball->radius;
     const Eigen::Vector3d center = normals.origin + normals.size * ball->center;
     if (!plane || plane->head<3> ().dot (center) + (*plane)[3] > (1.0 - sunk) * radius)
-      return about (axisOf (*ball, normals.lines), normals, points, plane, seen_sectors, false);
+      return about (axisOf (*ball, normals.lines), normals, points, plane, seen_sectors, Hollow::None);
   }
-  const auto withAxisAlong = [&] (const std::optional<Eigen::Vector3d>& direction) -> std::optional<SurfaceOfRevolution> {
+  const auto withAxisAlong = [&] (const std::optional<Eigen::Vector3d>& direction, Hollow hollow) -> std::optional<SurfaceOfRevolution> {
     const std::optional<Axis> axis = findAxis (normals.lines, direction);
     if (!axis)
       return std::nullopt;
     std::vector<NormalLine> round;
     std::copy_if (normals.lines.begin (), normals.lines.end (), std::back_inserter (round),
                   [&] (const NormalLine& line) { return meets (*axis, line); });
-    return about (refineAxis (*axis, round), normals, points, plane, seen_sectors, true);
+    return about (refineAxis (*axis, round), normals, points, plane, seen_sectors, hollow);
   };
   std::optional<Eigen::Vector3d> up;
   if (plane)
     up = plane->head<3> ();
-  std::optional<SurfaceOfRevolution> best = withAxisAlong (up);
-  if (best && plane)
-    return best;
+  const std::optional<SurfaceOfRevolution> surface = withAxisAlong (up, Hollow::Any);
+  if (surface && (plane || surface->vessel_))
+    return surface;
 
   // Curved like a ball, or too shallow for an axis: which way is up must be known.
-  const auto share = [&] (const std::optional<SurfaceOfRevolution>& surface) { return surface && surface->vessel_ ? surface->heldByVessel () : 0.0; };
-  double best_share = share (best);
-  const auto compare = [&] (const std::optional<SurfaceOfRevolution>& other) {
-    if (const double other_share = share (other); other_share > best_share + better_share)
-    {
-      best = other;
-      best_share = other_share;
-    }
-  };
+  Hollow hollow = Hollow::Any;
   if (!plane)
+  {
     up = rimNormal (normals.lines);
-  if (!up)
-    return best;
-  if (!plane)
-    compare (withAxisAlong (up));
-  if (best_share > 0.0)
-    return best;
-  if (const std::optional<Axis> axis = findFootprintAxis (normals.lines, *up))
-    compare (about (*axis, normals, points, plane, 0, true));
-  return best;
+    hollow = Hollow::Dish; // about an axis that is a little wrong, rings look like vessels
+    if (const auto dish = up ? withAxisAlong (up, hollow) : std::nullopt; dish && dish->vessel_)
+      return dish;
+  }
+  if (const auto axis = up ? findFootprintAxis (normals.lines, *up) : std::nullopt)
+    if (const auto dish = about (*axis, normals, points, plane, 0, hollow); dish && dish->vessel_)
+      return dish;
+  return surface;
 }
 
 std::optional<SurfaceOfRevolution>
 SurfaceOfRevolution::about (const Axis& axis, const NormalLines& normals, const std::vector<OrientedPoint>& points,
-                            const std::optional<Eigen::Vector4d>& plane, int least_sectors, bool may_be_vessel)
+                            const std::optional<Eigen::Vector4d>& plane, int least_sectors, Hollow hollow)
 {
   std::vector<OrientedPoint> meeting;
   for (std::size_t n = 0; n < points.size (); ++n)
@@ -124,12 +115,13 @@ SurfaceOfRevolution::about (const Axis& axis, const NormalLines& normals, const 
   if (!surface.findProfile (meeting, normals.size, least_sectors) ||
       static_cast<double> (surface.profile_.size ()) < round_share * static_cast<double> (points.size ()))
     return std::nullopt;
-  if (!may_be_vessel)
+  if (hollow == Hollow::None)
     return surface;
   std::optional<StandingPlane> standing;
   if (const double rise = plane ? plane->head<3> ().dot (surface.direction_) : 0.0; std::abs (rise) > upright)
     standing = StandingPlane{-(plane->head<3> ().dot (surface.center_) + (*plane)[3]) / rise, rise > 0.0 ? 1.0 : -1.0};
-  surface.vessel_ = VesselProfile::find (surface.profile_, surface.cell_m_, standing);
+  if (hollow == Hollow::Any)
+    surface.vessel_ = VesselProfile::find (surface.profile_, surface.cell_m_, standing);
   if (!surface.vessel_)
     surface.vessel_ = DishProfile::find (surface.profile_, surface.cell_m_, standing);
   return surface;
@@ -232,13 +224,6 @@ SurfaceOfRevolution::extent (const Eigen::Vector3d& n) const
   const auto end = extents.end () - 1 - static_cast<std::ptrdiff_t> (stray_share * static_cast<double> (extents.size ()));
   std::nth_element (extents.begin (), end, extents.end ());
   return *end;
-}
-
-double
-SurfaceOfRevolution::heldByVessel () const
-{
-  const auto held = std::count_if (profile_.begin (), profile_.end (), [this] (const ProfilePoint& p) { return vessel_->holds (p); });
-  return static_cast<double> (held) / static_cast<double> (profile_.size ());
 }
 
 std::vector<OrientedPoint>

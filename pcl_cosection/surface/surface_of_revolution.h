@@ -10,6 +10,7 @@
 #include <Eigen/Core>
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -92,16 +93,20 @@ public:
   depths (double step_m) const;
 
 private:
+  enum class Hollow // what a surface may be
+  {
+    None,
+    Dish,
+    Any
+  };
+
   SurfaceOfRevolution () = default;
   /** \brief About a known axis. \param[in] least_sectors around it in a row, in which points face sideways \return nothing if too few belong to it */
   static std::optional<SurfaceOfRevolution>
   about (const Axis& axis, const NormalLines& normals, const std::vector<OrientedPoint>& points, const std::optional<Eigen::Vector4d>& plane,
-         int least_sectors, bool may_be_vessel);
+         int least_sectors, Hollow hollow);
   bool
   findProfile (const std::vector<OrientedPoint>& points, double size, int least_sectors);
-  /** \brief Share of the points that are on the sides of the vessel. */
-  double
-  heldByVessel () const;
   Eigen::Vector2i
   cellOf (const Eigen::Vector2d& profile) const;
   std::size_t

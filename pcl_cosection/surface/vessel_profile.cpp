@@ -34,7 +34,7 @@ constexpr double outer_strays = 0.002;  // of the points of a side, may lie lowe
 constexpr double inner_strays = 0.01;
 constexpr double least_floor_steps = 3.0; // of thickness: less would vanish
 constexpr double least_side = 0.1;      // of the points of a band, on a side
-constexpr double hardly_sideways = 0.2;   // as sideways, where the inside of what may be shallow is all that was seen ...
+constexpr double hardly_sideways = 0.2; // as sideways, once it is known how thick the wall is
 constexpr double narrowest = 0.5;       // of the lowest radius that is known: the bottom
 
 /** \brief What was seen in a band of heights. */
@@ -235,38 +235,36 @@ VesselProfile::findBottom (const std::vector<ProfilePoint>& points, double cell_
   return true;
 }
 
-double
-VesselProfile::innerAt (double height) const
+VesselProfile::Band
+VesselProfile::bandAt (double height) const
 {
   const auto above = std::find_if (bands_.begin (), bands_.end (),
                                    [&] (const Band& band) { return opening_ * (band.height - height) >= 0.0; });
-  double wall = (above == bands_.end () ? bands_.back () : *above).wall;
-  if (above != bands_.end () && above != bands_.begin ())
+  if (above == bands_.end ())
+    return {height, bands_.back ().outer, bands_.back ().wall};
+  if (above != bands_.begin ())
   {
     const Band& low = *std::prev (above);
     const double t = (height - low.height) / (above->height - low.height);
-    wall = (1.0 - t) * low.wall + t * above->wall;
+    return {height, (1.0 - t) * low.outer + t * above->outer, (1.0 - t) * low.wall + t * above->wall};
   }
-  return outerAt (height) - wall;
+  const Band& lowest = bands_.front ();
+  const Band& other = bands_[std::max<std::size_t> (1, bands_.size () / 3)];
+  const double straight = lowest.outer + (other.outer - lowest.outer) / (other.height - lowest.height) * (height - lowest.height);
+  return {height, std::clamp (straight, narrowest * lowest.outer, lowest.outer), lowest.wall};
 }
 
 double
 VesselProfile::outerAt (double height) const
 {
-  const auto above = std::find_if (bands_.begin (), bands_.end (),
-                                   [&] (const Band& band) { return opening_ * (band.height - height) >= 0.0; });
-  if (above == bands_.end ())
-    return bands_.back ().outer;
-  if (above != bands_.begin ())
-  {
-    const Band& low = *std::prev (above);
-    const double t = (height - low.height) / (above->height - low.height);
-    return (1.0 - t) * low.outer + t * above->outer;
-  }
-  const Band& lowest = bands_.front ();
-  const Band& other = bands_[std::max<std::size_t> (1, bands_.size () / 3)];
-  const double straight = lowest.outer + (other.outer - lowest.outer) / (other.height - lowest.height) * (height - lowest.height);
-  return std::clamp (straight, narrowest * lowest.outer, lowest.outer);
+  return bandAt (height).outer;
+}
+
+double
+VesselProfile::innerAt (double height) const
+{
+  const Band band = bandAt (height);
+  return band.outer - band.wall;
 }
 
 std::vector<ProfilePoint>

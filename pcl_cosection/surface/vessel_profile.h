@@ -63,6 +63,9 @@ private:
   findBands (const std::vector<ProfilePoint>& points, double band_m);
   bool
   findBottom (const std::vector<ProfilePoint>& points, double cell_m, const std::optional<StandingPlane>& plane);
+  /** \brief Between the bands that are known, and beyond. */
+  Band
+  bandAt (double height) const;
   double
   outerAt (double height) const;
   double

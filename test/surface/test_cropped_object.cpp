@@ -9,8 +9,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <limits>
+#include <utility>
+#include <vector>
 
 using namespace pcl::cosection;
 using namespace pcl::cosection::test;
@@ -129,6 +132,64 @@ TEST_P (CroppedObject, AloneClosesWithoutSwelling)
     EXPECT_GE (volume_m3, ball ? 0.67 * truth_m3_ : torus ? 0.75 * truth_m3_ : 0.8 * volume_with_table_m3);
     EXPECT_LE (outside_m, outside_with_table_m + voxel_m);
     EXPECT_LE (error_m, ball ? 1.8 * voxel_m : error_with_table_m + voxel_m);
+  }
+}
+
+// Of what is open little more than the inside is seen. Without its table nothing says how far below its floor it ends.
+TEST (OpenObject, AloneClosesWithoutSwelling)
+{
+  using Corner = Eigen::Vector2d;
+  const auto round = [] (double wall, std::vector<Corner> inside) { // a wall of even thickness below a profile of radii and heights
+    return [=] (const Eigen::Vector3d& p) {
+      const Corner q (p.head<2> ().norm (), p.z ());
+      double least = std::numeric_limits<double>::infinity ();
+      for (std::size_t n = 0; n + 1 < inside.size (); ++n)
+      {
+        const Corner along = inside[n + 1] - inside[n];
+        const double t = std::clamp (along.dot (q - inside[n]) / along.squaredNorm (), 0.0, 1.0);
+        least = std::min (least, (inside[n] + t * along - q).norm ());
+      }
+      return least - 0.5 * wall;
+    };
+  };
+  const auto box = [] (const Eigen::Vector3d& p, const Eigen::Vector3d& half) {
+    const Eigen::Array3d out = p.cwiseAbs () - half;
+    return out.max (0.0).matrix ().norm () + std::min (0.0, out.maxCoeff ());
+  };
+  const std::pair<const char*, Distance> things[] = {
+      {"plate", round (0.005, {{0.0, 0.004}, {0.07, 0.004}, {0.08, 0.016}, {0.115, 0.018}})},
+      {"bowl", round (0.005, {{0.0, 0.003}, {0.03, 0.003}, {0.05, 0.012}, {0.065, 0.025}, {0.075, 0.045}})},
+      {"tray", [box] (const Eigen::Vector3d& p) {
+         return std::max (box (p - Eigen::Vector3d (0.0, 0.0, 0.015), {0.1, 0.07, 0.015}),
+                          -box (p - Eigen::Vector3d (0.0, 0.0, 0.055), {0.095, 0.065, 0.05}));
+       }}};
+  for (const auto& [name, shape] : things)
+  {
+    AnalyticScene scene;
+    scene.add (0, halfSpace ({0.0, 0.0, 1.0, 0.0}));
+    scene.add (1, shape);
+    CoSection task (optionsFor (0.0));
+    std::vector<OrientedPoint> points;
+    for (int n = 0; n < 3; ++n)
+    {
+      const RenderedView seen = scene.render (tableCamera (), around (n));
+      task.addView (cropped (seen));
+      points.insert (points.end (), seen.points.at (1).begin (), seen.points.at (1).end ());
+    }
+    task.addObject ({1, points, {}});
+    const ObjectResult alone = task.reconstruct ().objects.at (0);
+    const ObjectResult with_table = completeFrom (scene, {0, 1, 2}, optionsFor (0.0));
+    ASSERT_EQ (alone.error + with_table.error, "") << name;
+    EXPECT_TRUE (computeTopology (alone.mesh).closed_manifold) << name;
+    const double truth_m3 = computeMassProperties (extractIsoSurface (sampleField (scene.shape (1), 0.15, 0.002))).volume_m3;
+    const double volume_m3 = computeMassProperties (alone.mesh).volume_m3;
+    const double outside_m = farthestOutside (alone.mesh, scene.shape (1));
+    const double outside_with_table_m = farthestOutside (with_table.mesh, scene.shape (1));
+    std::printf ("%s: at most %.1f mm outside, %.2f of the true volume; with the table %.1f mm, %.2f\n", name, 1e3 * outside_m,
+                 volume_m3 / truth_m3, 1e3 * outside_with_table_m, computeMassProperties (with_table.mesh).volume_m3 / truth_m3);
+    EXPECT_GE (volume_m3, 0.7 * truth_m3) << name;
+    EXPECT_LE (volume_m3, 1.3 * truth_m3) << name;
+    EXPECT_LE (outside_m, outside_with_table_m + voxel_m) << name;
   }
 }
 

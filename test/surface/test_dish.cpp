@@ -71,13 +71,15 @@ wholeCup (double inner_end)
   return points;
 }
 
-/** \brief How many of the points that are expected are in a disc about the axis at a height. */
+/** \brief How many of the points that are expected are in a disc about the axis at a height, if the thing is at \a pose. */
 std::ptrdiff_t
-discAt (double height, const SymmetricExtent& extent, const std::vector<OrientedPoint>& points)
+discAt (double height, const SymmetricExtent& extent, const std::vector<OrientedPoint>& points,
+        const Eigen::Isometry3d& pose = Eigen::Isometry3d::Identity ())
 {
   const std::vector<OrientedPoint> hidden = extent.hiddenSide (points, 0.002);
   return std::count_if (hidden.begin (), hidden.end (), [&] (const OrientedPoint& p) {
-    return p.position.head<2> ().norm () < 0.02f && std::abs (p.position.z () - height) < 0.001;
+    const Eigen::Vector3d q = pose.inverse () * p.position.cast<double> ();
+    return q.head<2> ().norm () < 0.02 && std::abs (q.z () - height) < 0.001;
   });
 }
 
@@ -114,7 +116,38 @@ TEST (Dish, WhatIsNoneIsLeftAlone)
 {
   EXPECT_EQ (SymmetricExtent (observedTray (0.004, 0.02), ground).wallThickness (), 0.0);
   EXPECT_EQ (SymmetricExtent (observedPlate (0.04, 0.02), ground).wallThickness (), 0.0); // on something, or a solid pedestal
-  EXPECT_EQ (SymmetricExtent (observedPlate (0.004, 0.02)).wallThickness (), 0.0);        // on nothing that is known
+}
+
+TEST (Dish, OnNothingThatIsKnownItsWallIsAsUsual)
+{
+  for (const Eigen::Isometry3d& pose : {Eigen::Isometry3d (Eigen::Isometry3d::Identity ()), Eigen::Isometry3d (anyPose ())})
+  {
+    const std::vector<OrientedPoint> points = moved (noisy (observedPlate (0.0, 0.02)), pose);
+    const SymmetricExtent plate (points);
+    EXPECT_NEAR (plate.wallThickness (), 0.04 * rim_radius, 0.0005);
+    EXPECT_GT (discAt (-plate.wallThickness (), plate, points, pose), 100);
+  }
+}
+
+// As those of dinner plates: nothing of it faces sideways.
+TEST (Dish, ARimMayBeLevel)
+{
+  const double floor = 0.004, depth = 0.015, end = 0.14;
+  std::vector<OrientedPoint> points = observedPlate (floor, depth);
+  for (double radius = rim_radius; radius < end; radius += 0.002)
+    for (double angle = 0.0; angle < 2.0 * M_PI; angle += 0.002 / radius)
+      points.push_back (pointAt ({radius * std::cos (angle), radius * std::sin (angle), floor + depth}, Eigen::Vector3d::UnitZ ()));
+  points = noisy (points);
+  const SymmetricExtent plate (points, ground);
+  EXPECT_NEAR (plate.wallThickness (), floor, 0.0005);
+  std::ptrdiff_t under = 0;
+  for (const OrientedPoint& p : plate.hiddenSide (points, 0.002))
+    if (std::abs (p.position.head<2> ().norm () - 0.12f) < 0.005f && p.normal.z () < -0.9f)
+    {
+      ++under;
+      EXPECT_NEAR (p.position.z (), depth, 0.001);
+    }
+  EXPECT_GT (under, 100);
 }
 
 TEST (Dish, ComesOutThin)
