@@ -47,7 +47,8 @@ double
 distanceFrom (const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Vector2d& p)
 {
   const Eigen::Vector2d along = b - a;
-  const double t = std::clamp (along.dot (p - a) / along.squaredNorm (), 0.0, 1.0);
+  const double length_2 = along.squaredNorm ();
+  const double t = length_2 > 0.0 ? std::clamp (along.dot (p - a) / length_2, 0.0, 1.0) : 0.0;
   return (a + t * along - p).norm ();
 }
 
