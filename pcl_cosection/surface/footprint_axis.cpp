@@ -21,9 +21,9 @@ namespace
 constexpr int directions = 72;        // in which the farthest points are sought
 constexpr int sectors = 36;
 constexpr double stray_share = 0.002; // of all points, may lie farther out
-constexpr double sector_strays = 0.02; // of the points of a sector
-constexpr double round_reach = 0.05;  // of the radius: sectors whose points reach so far more or less are round
-constexpr int round_sectors = 27;
+constexpr double sector_strays = 0.05; // of the points of a sector
+constexpr double round_reach = 0.065; // of the radius: sectors whose points reach so far more or less are round
+constexpr int round_sectors = 22;    // noise turns some that are round away
 constexpr double least_facing = 0.2;  // length of the mean normal of what mostly faces one way
 constexpr int rim_rounds = 5;
 constexpr int plane_rounds = 20;
