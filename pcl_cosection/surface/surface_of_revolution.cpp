@@ -38,6 +38,7 @@ constexpr double straight_share = 0.8;  // of the wall's points
 constexpr double outer_wall = 0.9;      // of the radius
 constexpr int disc_rings = 24;
 constexpr double least_step = 0.05;  // of a cell: between points of what is deep inside a vessel
+constexpr double slender_wall = 0.2; // of the radius
 constexpr int turns = 12;            // all around
 constexpr double stray_share = 0.002; // of the points, may lie farther out
 
@@ -87,16 +88,16 @@ SurfaceOfRevolution::fit (const std::vector<OrientedPoint>& points, const std::o
     return surface;
 
   // Curved like a ball, or too shallow for an axis: which way is up must be known.
-  Hollow hollow = Hollow::Any;
   if (!plane)
   {
     up = rimNormal (normals.lines);
-    hollow = Hollow::Dish; // about an axis that is a little wrong, rings look like vessels
-    if (const auto dish = up ? withAxisAlong (up, hollow) : std::nullopt; dish && dish->vessel_)
-      return dish;
+    // About an axis that is a little wrong, rings look like vessels with thick walls.
+    if (const auto other = up ? withAxisAlong (up, Hollow::Any) : std::nullopt;
+        other && other->vessel_ && other->vessel_->wallThickness () < slender_wall * other->radius ())
+      return other;
   }
   if (const auto axis = up ? findFootprintAxis (normals.lines, *up) : std::nullopt)
-    if (const auto dish = about (*axis, normals, points, plane, 0, hollow); dish && dish->vessel_)
+    if (const auto dish = about (*axis, normals, points, plane, 0, plane ? Hollow::Any : Hollow::Dish); dish && dish->vessel_)
       return dish;
   return surface;
 }
@@ -210,6 +211,15 @@ SurfaceOfRevolution::holds (const Eigen::Vector3d& position) const
   const Eigen::Vector2d cell = ((profileOf (position) - first_) / cell_m_).array ().floor ();
   return (cell.array () >= 0.0).all () && (cell.array () < cells_.cast<double> ().array ()).all () &&
          round_[indexOf (cell.cast<int> ())];
+}
+
+double
+SurfaceOfRevolution::radius () const
+{
+  double radius = 0.0;
+  for (const ProfilePoint& p : profile_)
+    radius = std::max (radius, p.position.y ());
+  return radius;
 }
 
 double

@@ -107,6 +107,9 @@ private:
          int least_sectors, Hollow hollow);
   bool
   findProfile (const std::vector<OrientedPoint>& points, double size, int least_sectors);
+  /** \brief Of all that is round, metres. */
+  double
+  radius () const;
   Eigen::Vector2i
   cellOf (const Eigen::Vector2d& profile) const;
   std::size_t
