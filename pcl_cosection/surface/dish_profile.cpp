@@ -97,7 +97,11 @@ DishProfile::find (const std::vector<ProfilePoint>& points, double cell_m, const
   dish->noise_m_ = std::max ({0.5 * dish->wall_m_, noise_cells * cell_m, noise_spreads * quantile (off, 0.5)});
   double rim = dish->floor_m_;
   for (const Place& place : dish->inside_)
+  {
     rim = std::max (rim, place.position.x ());
+    if (place.position.x () < dish->floor_m_ + 0.5 * dish->wall_m_)
+      dish->foot_m_ = std::max (dish->foot_m_, (place.position - dish->wall_m_ * place.normal).y ());
+  }
   const auto is_beyond = [&] (const ProfilePoint& p) {
     const double over = dish->heightOver (dish->upright (p.position));
     return over > dish->noise_m_ || over < -dish->wall_m_ - dish->noise_m_;
@@ -186,7 +190,6 @@ DishProfile::depths (double step_m) const
   const auto add = [&] (const Eigen::Vector2d& position, const Eigen::Vector2d& normal) {
     points.push_back ({upright (position), upright (normal)});
   };
-  double foot = 0.0; // radius of the floor
   for (std::size_t n = 0; n + 1 < inside_.size (); ++n)
   {
     const Place& first = inside_[n];
@@ -202,18 +205,16 @@ DishProfile::depths (double step_m) const
       const Eigen::Vector2d normal = ((1.0 - t) * first.normal + t * second.normal).normalized ();
       add (inside, normal);
       const Eigen::Vector2d outside = inside - wall_m_ * normal;
-      if (inside.x () < floor_m_ + 0.5 * wall_m_)
-        foot = std::max (foot, outside.y ());
-      else if (outside.x () > bottom_m_ && outside.y () > 0.0)
+      if (inside.x () >= floor_m_ + 0.5 * wall_m_ && outside.x () > bottom_m_ && outside.y () > 0.0)
         add (outside, -normal);
     }
   }
   for (double across = 0.0; across < wall_m_; across += step_m)
     add (inside_.back ().position - across * inside_.back ().normal, outwards_);
-  for (double radius = 0.0; radius < foot; radius += step_m)
+  for (double radius = 0.0; radius < foot_m_; radius += step_m)
     add ({bottom_m_, radius}, -Eigen::Vector2d::UnitX ());
   for (double height = bottom_m_; height < floor_m_ - wall_m_; height += step_m)
-    add ({height, foot}, Eigen::Vector2d::UnitY ());
+    add ({height, foot_m_}, Eigen::Vector2d::UnitY ());
   return points;
 }
 
@@ -230,6 +231,14 @@ DishProfile::depthInCavity (const Eigen::Vector2d& position) const
   const Eigen::Vector2d place = upright (position);
   const Eigen::Vector2d& rim = inside_.back ().position;
   return place.x () > rim.x () || place.y () > rim.y () ? 0.0 : std::max (0.0, heightOver (place));
+}
+
+double
+DishProfile::depthUnder (const Eigen::Vector2d& position) const
+{
+  const Eigen::Vector2d place = upright (position);
+  const double from_wall = -heightOver (place) - wall_m_;
+  return std::max (0.0, std::min (from_wall, place.y () - foot_m_));
 }
 
 } // namespace cosection

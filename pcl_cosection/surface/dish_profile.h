@@ -50,6 +50,9 @@ public:
   double
   depthInCavity (const Eigen::Vector2d& position) const override;
 
+  double
+  depthUnder (const Eigen::Vector2d& position) const override;
+
 private:
   /** \brief A place of the inside, upwards from the bottom, and its normal. */
   struct Place
@@ -76,6 +79,7 @@ private:
   double noise_m_ = 0.0;      // how far points may be from a side
   double floor_m_ = 0.0;      // heights
   double bottom_m_ = 0.0;
+  double foot_m_ = 0.0;       // radius of the floor
 };
 
 } // namespace cosection

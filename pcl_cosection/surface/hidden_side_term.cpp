@@ -164,7 +164,9 @@ addVessel (EnergyProblem& problem, const VoxelGrid& grid, const SymmetricExtent&
           set (n, problem.weight[n], target);
         else if (problem.weight[n] <= 0.0f)
         {
-          const double clearance_m = std::max<double> (plausible.depthInCavity (grid.center (i, j, k)), beyond_m[static_cast<std::size_t> (i)]);
+          const Eigen::Vector3d place = grid.center (i, j, k);
+          const double clearance_m =
+              std::max<double> ({plausible.depthInCavity (place), plausible.depthUnder (place), beyond_m[static_cast<std::size_t> (i)]});
           const double clearance_vox = clearance_m / grid.voxel_size_m;
           if (clearance_vox > empty_margin_vox)
             set (n, empty_weight * options.beta_extent, std::min (clearance_vox, empty_far_vox));

@@ -29,6 +29,8 @@ constexpr float vouched_radius_vox = 0.75f; // closes the gaps between points
 constexpr double half_cells_vox = 1.0;      // what is lost by taking a point and a vertex for their voxels' centres
 constexpr double confidence_scale_vox = 5.0;
 constexpr double crumb_voxels = 3.0;  // long: what is smaller, beside something larger, is noise
+constexpr float lump_length = 0.33f;  // of the longest part's
+constexpr double lump_share = 0.5;    // of the share of vertices that is observed of the part seen best
 constexpr float border_voxels = 2.0f; // a closed surface stays so far inside its volume
 
 /** \brief Raise a field near the border so that its zero set stays inside. */
@@ -71,25 +73,31 @@ ShapeVolume::observedParts (const TriangleMesh& mesh) const
 {
   const std::vector<int> component = labelComponents (mesh);
   const std::size_t count = component.empty () ? 0 : *std::max_element (component.begin (), component.end ()) + 1;
-  std::vector<bool> observed (count, false);
+  std::vector<std::size_t> all (count, 0), observed (count, 0); // vertices
   std::vector<Eigen::AlignedBox3f> boxes (count);
   for (std::size_t v = 0; v < mesh.vertices.size (); ++v)
   {
     boxes[component[v]].extend (mesh.vertices[v]);
-    if (mesh.provenance[v] == static_cast<std::uint8_t> (Provenance::Observed))
-      observed[component[v]] = true;
+    ++all[component[v]];
+    observed[component[v]] += mesh.provenance[v] == static_cast<std::uint8_t> (Provenance::Observed);
   }
   const auto length = [&] (std::size_t c) { return boxes[c].sizes ().maxCoeff (); };
   float longest = 0.0f;
   for (std::size_t c = 0; c < count; ++c)
-    if (observed[c])
+    if (observed[c] > 0)
       longest = std::max (longest, length (c));
   const float crumb = std::min (longest, static_cast<float> (crumb_voxels * grid_.voxel_size_m));
+  const auto share = [&] (std::size_t c) { return static_cast<double> (observed[c]) / static_cast<double> (all[c]); };
+  const std::ptrdiff_t best = observed.empty () ? 0 : std::max_element (observed.begin (), observed.end ()) - observed.begin ();
+  // What sensors see at the edge of something, between it and what is behind, makes lumps of which little more than that is observed.
+  const auto is_lump = [&] (std::size_t c) {
+    return length (c) < lump_length * longest && share (c) < lump_share * share (static_cast<std::size_t> (best));
+  };
   std::vector<bool> keep (mesh.triangles.size ());
   for (std::size_t t = 0; t < keep.size (); ++t)
   {
     const auto c = static_cast<std::size_t> (component[mesh.triangles[t][0]]);
-    keep[t] = observed[c] && length (c) >= crumb;
+    keep[t] = observed[c] > 0 && length (c) >= crumb && !is_lump (c);
   }
   return extractTriangles (mesh, keep);
 }

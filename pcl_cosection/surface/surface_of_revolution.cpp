@@ -304,6 +304,12 @@ SurfaceOfRevolution::depthInCavity (const Eigen::Vector3d& position) const
   return vessel_ ? vessel_->depthInCavity (profileOf (position)) : 0.0;
 }
 
+double
+SurfaceOfRevolution::depthUnder (const Eigen::Vector3d& position) const
+{
+  return vessel_ ? vessel_->depthUnder (profileOf (position)) : 0.0;
+}
+
 std::vector<OrientedPoint>
 SurfaceOfRevolution::depths (double step_m) const
 {

@@ -88,6 +88,10 @@ public:
   double
   depthInCavity (const Eigen::Vector3d& position) const;
 
+  /** \brief How far a place under a dish is from its wall and foot, metres; 0 elsewhere, and for other vessels. */
+  double
+  depthUnder (const Eigen::Vector3d& position) const;
+
   /** \brief The depths of a vessel: lower parts of both sides, floor and bottom. \param[in] step_m between points */
   std::vector<OrientedPoint>
   depths (double step_m) const;

@@ -305,6 +305,12 @@ SymmetricExtent::depthInCavity (const Eigen::Vector3d& position) const
   return round_ ? round_->depthInCavity (position) : 0.0;
 }
 
+double
+SymmetricExtent::depthUnder (const Eigen::Vector3d& position) const
+{
+  return round_ ? round_->depthUnder (position) : 0.0;
+}
+
 VesselPart
 SymmetricExtent::partOf (const OrientedPoint& point) const
 {

@@ -57,6 +57,13 @@ public:
   /** \brief How far a place in the cavity is from the wall and the floor, the less of both; metres, 0 elsewhere. \param[in] position as in ProfilePoint */
   virtual double
   depthInCavity (const Eigen::Vector2d& position) const = 0;
+
+  /** \brief How far a place under a dish is from its wall and foot, metres; 0 elsewhere, and for other vessels. */
+  virtual double
+  depthUnder (const Eigen::Vector2d& /*position*/) const
+  {
+    return 0.0;
+  }
 };
 
 } // namespace cosection

@@ -107,6 +107,10 @@ public:
   double
   depthInCavity (const Eigen::Vector3d& position) const;
 
+  /** \brief How far a place under a dish is from its wall and foot, metres; 0 elsewhere, and for other vessels. */
+  double
+  depthUnder (const Eigen::Vector3d& position) const;
+
   /** \brief On which part of a vessel's surface a point, or a copy of one, is; the outer side of what is none. */
   VesselPart
   partOf (const OrientedPoint& point) const;
