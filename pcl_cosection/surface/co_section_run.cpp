@@ -27,11 +27,6 @@ constexpr double same_pose_voxels = 0.5;
 constexpr std::size_t bytes_per_field_voxel = sizeof (float) + sizeof (std::uint8_t);
 constexpr double stray_reach_voxels = 3.0; // of a point in the data term
 constexpr double max_stray_share = 0.2;    // more are no exception
-constexpr double resting_reach = 0.15;     // of the middle observed extent: what is as low over a plane rests on it
-constexpr double hidden_foot_reach = 0.5;  // of the middle observed extent: what is as low rests on it, if that may be
-constexpr double resting_share = 0.01;     // of the points, which may be lower
-constexpr std::ptrdiff_t least_ground = 20; // points of the background, seen through what would be a vessel else
-constexpr double same_resting_cosine = 0.995; // planes of two views on which it rests the same way
 
 } // namespace
 
@@ -233,88 +228,6 @@ CoSectionRun::bytesInUse () const
   return bytes + points * sizeof (OrientedPoint);
 }
 
-bool
-CoSectionRun::footIsHidden (const Object& object, const Eigen::Vector4d& plane) const
-{
-  const Eigen::Vector3d up = plane.head<3> ();
-  const std::vector<OrientedPoint>& points = object.points ();
-  double lowest_m = std::numeric_limits<double>::infinity ();
-  for (const OrientedPoint& p : points)
-    lowest_m = std::min (lowest_m, up.dot (p.position.cast<double> ()) + plane[3]);
-  Eigen::Vector3d foot = SymmetricExtent (points, plane).center ();
-  foot -= (up.dot (foot) + plane[3]) * up;
-  const VoxelGrid& grid = object.body->grid ();
-  for (double height_m = 0.0; height_m < lowest_m; height_m += 0.5 * grid.voxel_size_m)
-  {
-    const Eigen::Vector3d p = foot + height_m * up;
-    const auto at = grid.nearest (p);
-    if (at && object.body->volume->freeSpace ()[grid.index (at->x (), at->y (), at->z ())])
-      return false;
-    for (const Object& other : objects_)
-      if (&other != &object && other.alive ())
-        for (const Eigen::Isometry3d& T_other_object : relativePoses (object, &other))
-          if (other.observed.contains (T_other_object * p))
-            return false;
-  }
-  return true;
-}
-
-bool
-CoSectionRun::hasFootNear (const Object& object, const Eigen::Vector4d& plane, double reach) const
-{
-  const std::vector<OrientedPoint>& points = object.points ();
-  const std::ptrdiff_t lower = std::count_if (points.begin (), points.end (), [&] (const OrientedPoint& p) {
-    return plane.head<3> ().dot (p.position.cast<double> ()) + plane[3] < reach * object.extents_m[1];
-  });
-  return lower > static_cast<std::ptrdiff_t> (resting_share * static_cast<double> (points.size ()));
-}
-
-bool
-CoSectionRun::mayRestOn (const Object& object, const Eigen::Vector4d& plane) const
-{
-  return hasFootNear (object, plane, hidden_foot_reach);
-}
-
-std::vector<Eigen::Vector4d>
-CoSectionRun::restingPlanes (const Object& object) const
-{
-  std::vector<Eigen::Vector4d> resting;
-  for (const Eigen::Vector4d& plane : planesAt (object, object.planes, relativePoses (object, nullptr)))
-  {
-    const bool known = std::any_of (resting.begin (), resting.end (), [&] (const Eigen::Vector4d& other) {
-      return plane.head<3> ().dot (other.head<3> ()) > same_resting_cosine;
-    });
-    if (known)
-      continue;
-    if (hasFootNear (object, plane, resting_reach) || (mayRestOn (object, plane) && footIsHidden (object, plane)))
-      resting.push_back (plane);
-  }
-  return resting;
-}
-
-SymmetricExtent
-CoSectionRun::extentOf (const Object& object, const std::optional<Eigen::Vector4d>& plane) const
-{
-  if (!plane)
-    return SymmetricExtent (object.points ());
-  const SymmetricExtent extent (object.points (), *plane);
-  if (!(extent.wallThickness () > 0.0))
-    return extent;
-  const Eigen::Vector3d up = plane->head<3> ();
-  const double near_m = object.voxel_size_m;
-  const double floor_m = extent.wallThickness () + 2.0 * near_m;
-  const auto is_at_floor = [&] (const Eigen::Vector3d& p, double reach_m) {
-    return std::abs (up.dot (p) + (*plane)[3]) < reach_m && extent.depthInCavity (p + floor_m * up) > near_m;
-  };
-  const Eigen::Isometry3d T_object_world = firstPose (object).inverse ();
-  const auto ground = std::count_if (scene_.background.begin (), scene_.background.end (), [&] (const OrientedPoint& p) {
-    return is_at_floor (T_object_world * p.position.cast<double> (), near_m);
-  });
-  const auto floor = std::count_if (object.points ().begin (), object.points ().end (),
-                                    [&] (const OrientedPoint& p) { return is_at_floor (p.position.cast<double> (), floor_m); });
-  return ground >= least_ground && ground > floor ? extent.withoutFloor () : extent;
-}
-
 void
 CoSectionRun::prepareObject (Object& object)
 {
@@ -325,24 +238,7 @@ CoSectionRun::prepareObject (Object& object)
       object.body->evidence.reset ();
     if (!volume.hasData ())
       throw DegenerateInput ("no usable measurements: all of its points lie in space that was seen free");
-    std::vector<SymmetricExtent> standing;
-    const std::vector<Eigen::Vector4d> resting = restingPlanes (object);
-    for (const Eigen::Vector4d& plane : resting)
-      standing.push_back (extentOf (object, plane));
-    if (scene_.options.use_contact_prior)
-      for (std::size_t n = 0; n < resting.size (); ++n)
-        volume.addContactPrior (object.points (), resting[n], standing[n].center ());
-    if (standing.empty ())
-      standing.push_back (extentOf (object, std::nullopt));
-    if (!scene_.options.use_symmetric_extent)
-      standing.clear ();
-    if (scene_.options.use_extent_prior)
-      for (const SymmetricExtent& extent : standing)
-        if (extent.copiesAreAlike ())
-          volume.addHiddenSide (extent, object.points ());
-    if (scene_.options.use_extent_prior)
-      volume.addExtentPrior (scene_.background.empty () ? ExtentPrior::cutOut () : ExtentPrior (), object.extents_m,
-                             object.body->hidden, standing);
+    addPriors (object);
     if (mode_ == Mode::Once || object.assumed)
       object.body->hidden.clear ();
   });
@@ -359,6 +255,7 @@ CoSectionRun::finishObject (Object& object, UpdateOutput output)
   object.result->mesh = object.volume ().closedMesh ();
   if (object.result->mesh.empty ())
     throw DegenerateInput ("its measurements determine no closed surface, or lie inside another body");
+  markGuesses (object, object.result->mesh);
   transferAttributes (object.points (), object.volume ().grid (), object.result->mesh);
   if (scene_.options.compute_bounds)
     object.result->inner_bound = object.volume ().innerMesh (object.points ());

@@ -109,6 +109,14 @@ private:
   std::vector<std::pair<const DepthView*, Eigen::Isometry3d>>
   viewsOf (const Object& object) const;
 
+  bool
+  nothingIsKnownAround () const;
+  /** \brief Of what is alone, the plane on which it seems to have stood, if any. */
+  void
+  implyPlane (Object& object) const;
+  /** \brief A plane that was guessed is no body: what it bounds is inferred. */
+  void
+  markGuesses (const Object& object, TriangleMesh& mesh) const;
   /** \brief The planes on which the object comes to rest in some view, object frame. */
   std::vector<Eigen::Vector4d>
   restingPlanes (const Object& object) const;
@@ -232,6 +240,9 @@ private:
   penetrationOfSurroundings (const Object& object) const;
   double
   penetration (const Object& object) const;
+  /** \brief What is expected of its hidden sides. */
+  void
+  addPriors (Object& object);
   void
   finishObject (Object& object, UpdateOutput output);
   /** \brief The planes that bound an object, world frame. */

@@ -2,7 +2,6 @@
 // Copyright (c) 2026, the pcl_cosection authors
 #include "co_section_run.h"
 
-#include "implied_support.h"
 #include "volume_layout.h"
 
 #include <pcl/cosection/common/error.h>
@@ -148,14 +147,8 @@ CoSectionRun::findPlanes ()
       if (!known)
         result_.planes.push_back (plane);
     }
-    const bool is_alone = object.planes.empty () && scene_.background.empty () && scene_.bodies.empty ();
-    if (!is_alone || !scene_.options.use_extent_prior || extentOf (object, std::nullopt).wallThickness () > 0.0)
-      continue;
-    if (const std::optional<Eigen::Vector4d> implied = impliedSupport (object.points ()))
-    {
-      object.planes.push_back (transformPlane (*implied, firstPose (object).inverse ()));
-      object.plane_is_implied = true;
-    }
+    if (object.planes.empty () && nothingIsKnownAround ())
+      implyPlane (object);
   }
 }
 

@@ -3,6 +3,7 @@
 #include "dish_profile.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <limits>
@@ -28,6 +29,9 @@ constexpr double least_reach = 0.1;     // of a part's length
 constexpr double usual_wall = 0.04;     // of the radius: of crockery
 constexpr double thickest = 0.065;
 constexpr double least_rise = 1.0;      // of the wall's thickness: what rises less is a disc
+constexpr double lid_rise = 0.12;       // of the radius: where a border rises less, but steeply, a lid of something is as likely
+constexpr double steep = 2.0;           // rise of a border, of its breadth
+constexpr std::array<double, 2> border = {0.2, 0.8}; // of the rise, between these
 constexpr double highest_floor = 0.35;  // of the radius, over what it stands on: else it stands on something, or is solid
 constexpr double thinnest_cells = 0.25; // a wall, as planes are not known better
 constexpr double noise_cells = 0.4;     // how far points may be from a side, at least; of the wall, half
@@ -107,6 +111,8 @@ DishProfile::find (const std::vector<ProfilePoint>& points, double cell_m, const
     return over > dish->noise_m_ || over < -dish->wall_m_ - dish->noise_m_;
   };
   const std::ptrdiff_t beyond = std::count_if (points.begin (), points.end (), is_beyond);
+  if (!plane && rim - dish->floor_m_ < lid_rise * radius && dish->isSteep (rim))
+    return nullptr;
   if (rim - dish->floor_m_ < least_rise * dish->wall_m_ || static_cast<double> (beyond) > beyond_share * static_cast<double> (points.size ()))
     return nullptr;
   return dish;
@@ -118,7 +124,7 @@ DishProfile::findInside (const std::vector<ProfilePoint>& points, double step_m)
   // The inside goes outwards and upwards, so it is divided by the sum of radius and height.
   struct Part
   {
-    std::vector<double> heights, radii;
+    std::vector<double> outwards, upwards; // sum of radius and height, and their difference: medians of both are near a point
     Eigen::Vector2d normal = Eigen::Vector2d::Zero (); // sum
   };
   std::map<int, Part> parts;
@@ -128,13 +134,16 @@ DishProfile::findInside (const std::vector<ProfilePoint>& points, double step_m)
     if (normal.y () >= leaning * normal.x ())
       continue;
     Part& part = parts[static_cast<int> (std::floor ((position.x () + position.y ()) / (M_SQRT2 * step_m)))];
-    part.heights.push_back (position.x ());
-    part.radii.push_back (position.y ());
+    part.outwards.push_back (position.x () + position.y ());
+    part.upwards.push_back (position.x () - position.y ());
     part.normal += normal;
   }
   for (const auto& [number, part] : parts)
-    if (part.heights.size () >= least_points && part.normal.norm () > 0.0)
-      inside_.push_back ({{quantile (part.heights, 0.5), quantile (part.radii, 0.5)}, part.normal.normalized ()});
+    if (part.outwards.size () >= least_points && part.normal.norm () > 0.0)
+    {
+      const double outwards = quantile (part.outwards, 0.5), upwards = quantile (part.upwards, 0.5);
+      inside_.push_back ({{0.5 * (outwards + upwards), 0.5 * (outwards - upwards)}, part.normal.normalized ()});
+    }
   if (inside_.size () < least_parts)
     return false;
 
@@ -145,10 +154,30 @@ DishProfile::findInside (const std::vector<ProfilePoint>& points, double step_m)
   for (const ProfilePoint& p : points)
     if (const Eigen::Vector2d q = upright (p.position) - last.position; q.norm () < 2.0 * step_m)
       along.push_back (outwards_.dot (q));
+  if (along.empty ())
+    return false;
   const double reach = quantile (along, 1.0 - edge_strays);
   if (reach > least_reach * step_m)
     inside_.push_back ({last.position + reach * outwards_, last.normal});
   return true;
+}
+
+bool
+DishProfile::isSteep (double rim) const
+{
+  std::array<double, 2> radii{};
+  for (std::size_t b = 0; b < border.size (); ++b)
+  {
+    const double height = floor_m_ + border[b] * (rim - floor_m_);
+    const auto above = std::find_if (inside_.begin (), inside_.end (), [&] (const Place& place) { return place.position.x () >= height; });
+    radii[b] = above == inside_.end () ? inside_.back ().position.y () : above->position.y ();
+    if (above != inside_.begin () && above != inside_.end ())
+    {
+      const Eigen::Vector2d low = std::prev (above)->position, high = above->position;
+      radii[b] -= (high.x () - height) / (high.x () - low.x ()) * (high.y () - low.y ());
+    }
+  }
+  return (border[1] - border[0]) * (rim - floor_m_) > steep * (radii[1] - radii[0]);
 }
 
 double

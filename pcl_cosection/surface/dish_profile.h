@@ -61,6 +61,9 @@ private:
     Eigen::Vector2d normal;
   };
 
+  /** \brief Does the border rise more steeply than crockery does? \param[in] rim height */
+  bool
+  isSteep (double rim) const;
   bool
   findInside (const std::vector<ProfilePoint>& points, double step_m);
   Eigen::Vector2d

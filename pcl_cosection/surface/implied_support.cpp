@@ -22,6 +22,7 @@ namespace
 
 constexpr std::size_t least_points = 50;
 constexpr double usual_wall = 0.04;   // of the radius
+constexpr double lid_rise = 0.12;     // of the radius: what has a lower border may be the lid of something
 constexpr double facing_down = -0.3;  // component of a normal upwards
 constexpr double down_share = 0.05;   // of all points: of what is open, no more face down
 constexpr double level = 0.9;         // component of a floor's normal upwards
@@ -141,7 +142,7 @@ impliedSupport (const std::vector<OrientedPoint>& points)
     return std::nullopt;
   const double floor = quantile (heights, 0.5);
   const double wall = usual_wall * around.radius ();
-  if (around.sectorsHigherThan (floor + wall) < higher_sectors)
+  if (around.sectorsHigherThan (floor + std::max (wall, lid_rise * around.radius ())) < higher_sectors)
     return std::nullopt;
   std::vector<double> all;
   for (const NormalLine& line : normals.lines)

@@ -88,6 +88,7 @@ ShapeVolume::prepare (const ShapeEvidence& evidence, const std::vector<PlaneCont
 {
   changed_ = true;
   free_space_ = evidence.freeSpace ();
+  empty_ = free_space_;
   carved_ = evidence.carvedBounds ();
   evidence.data ().average (options_.weighting, problem_.weight, problem_.weighted_target, options_.threads);
   data_.resize (grid_.size ());
@@ -135,6 +136,14 @@ ShapeVolume::prepare (const ShapeEvidence& evidence, const std::vector<PlaneCont
 }
 
 void
+ShapeVolume::setOpenPlaces (const std::vector<std::uint8_t>& open)
+{
+  empty_ = free_space_;
+  for (std::size_t n = 0; n < open.size (); ++n)
+    empty_[n] |= open[n] && !data_[n];
+}
+
+void
 ShapeVolume::addExtentPrior (const ExtentPrior& prior, const Eigen::Vector3d& extents_m, HiddenPlaces& places,
                              const std::vector<SymmetricExtent>& plausible)
 {
@@ -144,8 +153,12 @@ ShapeVolume::addExtentPrior (const ExtentPrior& prior, const Eigen::Vector3d& ex
   std::vector<std::uint8_t> bounded (grid_.size ());
   for (std::size_t n = 0; n < grid_.size (); ++n)
     bounded[n] = static_cast<bool> (problem_.exterior[n]);
-  const std::vector<float> bounds =
+  std::vector<float> bounds =
       extentBounds (prior, grid_, data_distance_vox_, extents_m, places, plausible, bounded, options_.threads);
+  const auto side_vox = static_cast<float> (prior.side_factor * extents_m[1] / grid_.voxel_size_m);
+  for (std::size_t n = 0; n < grid_.size (); ++n)
+    if (!bounded[n] && empty_[n] && !free_space_[n])
+      bounds[n] = std::max (bounds[n], data_distance_vox_[n] - side_vox);
   for (std::size_t n = 0; n < grid_.size (); ++n)
     if (bounds[n] > 0.0f)
       problem_.exterior[n] = LowerBound (bounds[n], static_cast<float> (options_.beta_extent));
@@ -155,7 +168,7 @@ void
 ShapeVolume::addHiddenSide (const SymmetricExtent& plausible, const std::vector<OrientedPoint>& points)
 {
   if (options_.beta_extent > 0.0)
-    cosection::addHiddenSide (problem_, grid_, plausible, points, {free_space_, data_distance_vox_}, options_);
+    cosection::addHiddenSide (problem_, grid_, plausible, points, {empty_, data_distance_vox_}, options_);
 }
 
 void
@@ -164,7 +177,7 @@ ShapeVolume::addContactPrior (const std::vector<OrientedPoint>& points, const Ei
 {
   if (options_.beta_contact <= 0.0)
     return;
-  const std::vector<std::uint8_t> patch = ContactPrior ().patch (grid_, plane, points, center, free_space_);
+  const std::vector<std::uint8_t> patch = ContactPrior ().patch (grid_, plane, points, center, empty_);
   for (std::size_t n = 0; n < patch.size (); ++n)
   {
     if (!patch[n] || data_[n])

@@ -61,6 +61,10 @@ public:
   void
   prepare (const ShapeEvidence& evidence, const std::vector<PlaneContinuation>& planes = {});
 
+  /** \brief Expect nothing where views show that the object is not, though they have no readings there: 1 per such voxel; after prepare (). */
+  void
+  setOpenPlaces (const std::vector<std::uint8_t>& open);
+
   /** \brief Add the pull that prevents swelling; after prepare (). \param[in] extents_m observedExtents () of the points */
   void
   addExtentPrior (const ExtentPrior& prior, const Eigen::Vector3d& extents_m, HiddenPlaces& places,
@@ -171,6 +175,7 @@ private:
   CoSectionOptions options_;
   EnergyProblem problem_;
   std::vector<std::uint8_t> free_space_;
+  std::vector<std::uint8_t> empty_; // there, and where nothing is expected
   std::vector<std::uint8_t> data_;          // 1 where points are near
   std::vector<std::uint8_t> continued_;     // 1 on continued planes; empty: there are none
   std::vector<float> data_distance_vox_;

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 // The part of a volume that turns its field into meshes.
 
@@ -31,6 +32,7 @@ constexpr double confidence_scale_vox = 5.0;
 constexpr double crumb_voxels = 3.0;  // long: what is smaller, beside something larger, is noise
 constexpr float lump_length = 0.33f;  // of the longest part's
 constexpr double lump_share = 0.5;    // of the share of vertices that is observed of the part seen best
+constexpr double lump_vertices = 0.02; // of all that are observed
 constexpr float border_voxels = 2.0f; // a closed surface stays so far inside its volume
 
 /** \brief Raise a field near the border so that its zero set stays inside. */
@@ -87,11 +89,12 @@ ShapeVolume::observedParts (const TriangleMesh& mesh) const
     if (observed[c] > 0)
       longest = std::max (longest, length (c));
   const float crumb = std::min (longest, static_cast<float> (crumb_voxels * grid_.voxel_size_m));
+  const std::size_t all_observed = std::accumulate (observed.begin (), observed.end (), std::size_t (0));
   const auto share = [&] (std::size_t c) { return static_cast<double> (observed[c]) / static_cast<double> (all[c]); };
   const std::ptrdiff_t best = observed.empty () ? 0 : std::max_element (observed.begin (), observed.end ()) - observed.begin ();
   // What sensors see at the edge of something, between it and what is behind, makes lumps of which little more than that is observed.
   const auto is_lump = [&] (std::size_t c) {
-    return length (c) < lump_length * longest && share (c) < lump_share * share (static_cast<std::size_t> (best));
+    return static_cast<double> (observed[c]) < lump_vertices * static_cast<double> (all_observed) && length (c) < lump_length * longest && share (c) < lump_share * share (static_cast<std::size_t> (best));
   };
   std::vector<bool> keep (mesh.triangles.size ());
   for (std::size_t t = 0; t < keep.size (); ++t)

@@ -39,6 +39,8 @@ constexpr double outer_wall = 0.9;      // of the radius
 constexpr int disc_rings = 24;
 constexpr double least_step = 0.05;  // of a cell: between points of what is deep inside a vessel
 constexpr double slender_wall = 0.2; // of the radius
+constexpr double thick_wall = 0.3;
+constexpr double better = 1.02;      // of the points: so many more must an axis hold to be told by the rim
 constexpr int turns = 12;            // all around
 constexpr double stray_share = 0.002; // of the points, may lie farther out
 
@@ -57,7 +59,7 @@ longestRun (const std::array<bool, sectors>& seen)
 } // namespace
 
 std::optional<SurfaceOfRevolution>
-SurfaceOfRevolution::fit (const std::vector<OrientedPoint>& points, const std::optional<Eigen::Vector4d>& plane)
+SurfaceOfRevolution::fit (const std::vector<OrientedPoint>& points, const std::optional<Eigen::Vector4d>& plane, bool alone)
 {
   if (points.size () < least_points)
     return std::nullopt;
@@ -83,17 +85,21 @@ SurfaceOfRevolution::fit (const std::vector<OrientedPoint>& points, const std::o
   std::optional<Eigen::Vector3d> up;
   if (plane)
     up = plane->head<3> ();
-  const std::optional<SurfaceOfRevolution> surface = withAxisAlong (up, Hollow::Any);
-  if (surface && (plane || surface->vessel_))
+  std::optional<SurfaceOfRevolution> surface = withAxisAlong (up, plane || alone ? Hollow::Any : Hollow::Vessel);
+  // About an axis that is a little wrong, rings look like vessels with thick walls.
+  const auto is_thicker = [] (const SurfaceOfRevolution& s, double wall) { return s.vessel_->wallThickness () >= wall * s.radius (); };
+  if (!plane && surface && surface->vessel_ && is_thicker (*surface, thick_wall))
+    surface->vessel_.reset ();
+  if ((surface && (plane || surface->vessel_)) || (!plane && !alone))
     return surface;
 
   // Curved like a ball, or too shallow for an axis: which way is up must be known.
   if (!plane)
   {
     up = rimNormal (normals.lines);
-    // About an axis that is a little wrong, rings look like vessels with thick walls.
     if (const auto other = up ? withAxisAlong (up, Hollow::Any) : std::nullopt;
-        other && other->vessel_ && other->vessel_->wallThickness () < slender_wall * other->radius ())
+        other && other->vessel_ && !is_thicker (*other, slender_wall) &&
+        (!surface || static_cast<double> (other->profile_.size ()) > better * static_cast<double> (surface->profile_.size ())))
       return other;
   }
   if (const auto axis = up ? findFootprintAxis (normals.lines, *up) : std::nullopt)
@@ -121,9 +127,9 @@ SurfaceOfRevolution::about (const Axis& axis, const NormalLines& normals, const 
   std::optional<StandingPlane> standing;
   if (const double rise = plane ? plane->head<3> ().dot (surface.direction_) : 0.0; std::abs (rise) > upright)
     standing = StandingPlane{-(plane->head<3> ().dot (surface.center_) + (*plane)[3]) / rise, rise > 0.0 ? 1.0 : -1.0};
-  if (hollow == Hollow::Any)
+  if (hollow != Hollow::Dish)
     surface.vessel_ = VesselProfile::find (surface.profile_, surface.cell_m_, standing);
-  if (!surface.vessel_)
+  if (!surface.vessel_ && hollow != Hollow::Vessel && (standing || !plane))
     surface.vessel_ = DishProfile::find (surface.profile_, surface.cell_m_, standing);
   return surface;
 }

@@ -28,10 +28,11 @@ class SurfaceOfRevolution
 public:
   /** \brief Of the points of one body. \param[in] plane what it stands on, (n, d) with n.x + d = 0, unit n towards it: an axis along n is
    * preferred to others that are about as good
+   * \param[in] alone nothing around it is known: without a plane, a dish may be told by its rim
    * \return nothing if less than three quarters of the points belong to such a surface, or less than 70 degrees were seen of it; but a plate,
    * which hardly faces sideways, may be round as seen from above */
   static std::optional<SurfaceOfRevolution>
-  fit (const std::vector<OrientedPoint>& points, const std::optional<Eigen::Vector4d>& plane);
+  fit (const std::vector<OrientedPoint>& points, const std::optional<Eigen::Vector4d>& plane, bool alone = true);
 
   /** \brief A point of the axis, in the middle of what was seen along it. */
   const Eigen::Vector3d&
@@ -100,6 +101,7 @@ private:
   enum class Hollow // what a surface may be
   {
     None,
+    Vessel, // with a wall of which both sides were seen
     Dish,
     Any
   };

@@ -180,18 +180,18 @@ middleOfFarthest (const std::vector<Eigen::Vector3d>& ends)
 
 } // namespace
 
-SymmetricExtent::SymmetricExtent (const std::vector<OrientedPoint>& points)
+SymmetricExtent::SymmetricExtent (const std::vector<OrientedPoint>& points, bool alone)
 {
-  build (points, std::nullopt);
+  build (points, std::nullopt, alone);
 }
 
 SymmetricExtent::SymmetricExtent (const std::vector<OrientedPoint>& points, const Eigen::Vector4d& plane)
 {
-  build (points, plane);
+  build (points, plane, false);
 }
 
 void
-SymmetricExtent::build (const std::vector<OrientedPoint>& all, const std::optional<Eigen::Vector4d>& plane)
+SymmetricExtent::build (const std::vector<OrientedPoint>& all, const std::optional<Eigen::Vector4d>& plane, bool alone)
 {
   if (all.empty ())
     return;
@@ -211,7 +211,7 @@ SymmetricExtent::build (const std::vector<OrientedPoint>& all, const std::option
   const std::vector<Eigen::Vector3d> even = evenDirections (even_directions, axes);
   Farthest farthest (points);
 
-  if (auto surface = SurfaceOfRevolution::fit (points, plane))
+  if (auto surface = SurfaceOfRevolution::fit (points, plane, alone))
   {
     center_ = surface->center ();
     turn_ = 2.0 * surface->direction () * surface->direction ().transpose () - Eigen::Matrix3d::Identity ();

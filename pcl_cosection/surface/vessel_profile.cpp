@@ -163,15 +163,16 @@ VesselProfile::findBands (const std::vector<ProfilePoint>& points, double band_m
     const double wall_m = wall_m_ / band.meanAcross ();
     const std::size_t least = std::max (least_points, static_cast<std::size_t> (least_side * static_cast<double> (band.points))); // others are noise of a floor
     const bool has_inner = band.inner.size () >= least;
+    const auto add = [&] (double outer, double wall) { bands_.push_back ({height, std::max (0.0, outer), wall}); };
     if (band.outer.size () >= least)
-      bands_.push_back ({height, middle (band.outer), wall_m});
+      add (middle (band.outer), wall_m);
     else if (band.through.size () >= least)
     {
       const double outer = middle (band.through);
-      bands_.push_back ({height, outer, has_inner ? outer - middle (band.inner) : wall_m});
+      add (outer, has_inner ? outer - middle (band.inner) : wall_m);
     }
     else if (has_inner)
-      bands_.push_back ({height, middle (band.inner) + wall_m, wall_m});
+      add (middle (band.inner) + wall_m, wall_m);
   }
 }
 

@@ -43,8 +43,9 @@ enum class VesselPart
 class PCL_COSECTION_EXPORT SymmetricExtent
 {
 public:
-  /** \brief Inverted through a point. \param[in] points the object's, of one frame */
-  explicit SymmetricExtent (const std::vector<OrientedPoint>& points);
+  /** \brief Inverted through a point. \param[in] points the object's, of one frame
+   * \param[in] alone nothing around it is known: of dishes, the rim may then tell which way is up */
+  explicit SymmetricExtent (const std::vector<OrientedPoint>& points, bool alone = true);
 
   /** \brief Turned about an axis along the normal of what the object stands on. If nothing that was seen comes down to it, the object
    * touches it where the axis does. \param[in] plane (n, d) with n.x + d = 0, unit n towards the object */
@@ -118,7 +119,7 @@ public:
 private:
   SymmetricExtent () = default;
   void
-  build (const std::vector<OrientedPoint>& points, const std::optional<Eigen::Vector4d>& plane);
+  build (const std::vector<OrientedPoint>& points, const std::optional<Eigen::Vector4d>& plane, bool alone);
 
   bool standing_ = false; // on a plane
   bool copies_alike_ = false;

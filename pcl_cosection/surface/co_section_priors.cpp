@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_cosection authors
+#include "co_section_run.h"
+
+#include "contact_edge.h"
+#include "implied_support.h"
+#include "open_places.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+// The part of a run that adds what is expected of hidden sides.
+
+namespace pcl
+{
+namespace cosection
+{
+
+namespace
+{
+
+constexpr std::size_t most_points = 10000; // an even subset of no more tells of planes
+constexpr double guess_reach_voxels = 2.0; // of a plane that was guessed: what it bounds
+constexpr double resting_reach = 0.15;     // of the middle observed extent: what is as low over a plane rests on it
+constexpr double hidden_foot_reach = 0.5;  // of the middle observed extent: what is as low rests on it, if that may be
+constexpr double resting_share = 0.01;     // of the points, which may be lower
+constexpr std::ptrdiff_t least_ground = 20; // points of the background, seen through what would be a vessel else
+constexpr double same_resting_cosine = 0.995; // planes of two views on which it rests the same way
+
+} // namespace
+
+bool
+CoSectionRun::nothingIsKnownAround () const
+{
+  return scene_.planes.empty () && scene_.background.empty () && scene_.bodies.empty () && scene_.meshes.empty ();
+}
+
+void
+CoSectionRun::implyPlane (Object& object) const
+{
+  if (!scene_.options.use_extent_prior)
+    return;
+  const SymmetricExtent extent = extentOf (object, std::nullopt);
+  if (extent.wallThickness () > 0.0)
+    return;
+  const std::vector<OrientedPoint>& all = object.points ();
+  std::vector<OrientedPoint> points;
+  for (std::size_t p = 0; p < all.size (); p += all.size () / most_points + 1)
+    if (all[p].position.allFinite () && all[p].normal.allFinite ())
+      points.push_back (all[p]);
+  std::optional<Eigen::Vector4d> plane = impliedSupport (points);
+  // Of a box that one view shows three hidden sides are alike, and inverted it is known as well.
+  const std::vector<std::pair<const DepthView*, Eigen::Isometry3d>> views = viewsOf (object);
+  const bool is_box = extent.copiesAreAlike () && !extent.isRound ();
+  if (!plane && (views.size () > 1 || !is_box))
+    plane = planeOfContact (points, views);
+  if (!plane)
+    return;
+  object.planes.push_back (transformPlane (*plane, firstPose (object).inverse ()));
+  object.plane_is_implied = true;
+}
+
+void
+CoSectionRun::markGuesses (const Object& object, TriangleMesh& mesh) const
+{
+  if (!object.plane_is_implied)
+    return;
+  const Eigen::Vector4d plane = transformPlane (object.planes.front (), firstPose (object));
+  for (std::size_t v = 0; v < mesh.vertices.size (); ++v)
+    if (mesh.provenance[v] == static_cast<std::uint8_t> (Provenance::Intersection) &&
+        std::abs (plane.head<3> ().dot (mesh.vertices[v].cast<double> ()) + plane[3]) < guess_reach_voxels * object.voxel_size_m)
+      mesh.provenance[v] = static_cast<std::uint8_t> (Provenance::Inferred);
+}
+
+bool
+CoSectionRun::footIsHidden (const Object& object, const Eigen::Vector4d& plane) const
+{
+  const Eigen::Vector3d up = plane.head<3> ();
+  const std::vector<OrientedPoint>& points = object.points ();
+  double lowest_m = std::numeric_limits<double>::infinity ();
+  for (const OrientedPoint& p : points)
+    lowest_m = std::min (lowest_m, up.dot (p.position.cast<double> ()) + plane[3]);
+  Eigen::Vector3d foot = SymmetricExtent (points, plane).center ();
+  foot -= (up.dot (foot) + plane[3]) * up;
+  const VoxelGrid& grid = object.body->grid ();
+  for (double height_m = 0.0; height_m < lowest_m; height_m += 0.5 * grid.voxel_size_m)
+  {
+    const Eigen::Vector3d p = foot + height_m * up;
+    const auto at = grid.nearest (p);
+    if (at && object.body->volume->freeSpace ()[grid.index (at->x (), at->y (), at->z ())])
+      return false;
+    for (const Object& other : objects_)
+      if (&other != &object && other.alive ())
+        for (const Eigen::Isometry3d& T_other_object : relativePoses (object, &other))
+          if (other.observed.contains (T_other_object * p))
+            return false;
+  }
+  return true;
+}
+
+bool
+CoSectionRun::hasFootNear (const Object& object, const Eigen::Vector4d& plane, double reach) const
+{
+  const std::vector<OrientedPoint>& points = object.points ();
+  const std::ptrdiff_t lower = std::count_if (points.begin (), points.end (), [&] (const OrientedPoint& p) {
+    return plane.head<3> ().dot (p.position.cast<double> ()) + plane[3] < reach * object.extents_m[1];
+  });
+  return lower > static_cast<std::ptrdiff_t> (resting_share * static_cast<double> (points.size ()));
+}
+
+bool
+CoSectionRun::mayRestOn (const Object& object, const Eigen::Vector4d& plane) const
+{
+  return hasFootNear (object, plane, hidden_foot_reach);
+}
+
+std::vector<Eigen::Vector4d>
+CoSectionRun::restingPlanes (const Object& object) const
+{
+  std::vector<Eigen::Vector4d> resting;
+  for (const Eigen::Vector4d& plane : planesAt (object, object.planes, relativePoses (object, nullptr)))
+  {
+    const bool known = std::any_of (resting.begin (), resting.end (), [&] (const Eigen::Vector4d& other) {
+      return plane.head<3> ().dot (other.head<3> ()) > same_resting_cosine;
+    });
+    if (known)
+      continue;
+    if (hasFootNear (object, plane, resting_reach) || (mayRestOn (object, plane) && footIsHidden (object, plane)))
+      resting.push_back (plane);
+  }
+  return resting;
+}
+
+SymmetricExtent
+CoSectionRun::extentOf (const Object& object, const std::optional<Eigen::Vector4d>& plane) const
+{
+  if (!plane)
+    return SymmetricExtent (object.points (), nothingIsKnownAround ());
+  const SymmetricExtent extent (object.points (), *plane);
+  if (!(extent.wallThickness () > 0.0))
+    return extent;
+  const Eigen::Vector3d up = plane->head<3> ();
+  const double near_m = object.voxel_size_m;
+  const double floor_m = extent.wallThickness () + 2.0 * near_m;
+  const auto is_at_floor = [&] (const Eigen::Vector3d& p, double reach_m) {
+    return std::abs (up.dot (p) + (*plane)[3]) < reach_m && extent.depthInCavity (p + floor_m * up) > near_m;
+  };
+  const Eigen::Isometry3d T_object_world = firstPose (object).inverse ();
+  const auto ground = std::count_if (scene_.background.begin (), scene_.background.end (), [&] (const OrientedPoint& p) {
+    return is_at_floor (T_object_world * p.position.cast<double> (), near_m);
+  });
+  const auto floor = std::count_if (object.points ().begin (), object.points ().end (),
+                                    [&] (const OrientedPoint& p) { return is_at_floor (p.position.cast<double> (), floor_m); });
+  return ground >= least_ground && ground > floor ? extent.withoutFloor () : extent;
+}
+
+void
+CoSectionRun::addPriors (Object& object)
+{
+  ShapeVolume& volume = object.volume ();
+  const bool is_cut_out = scene_.background.empty ();
+  std::vector<SymmetricExtent> standing;
+  const std::vector<Eigen::Vector4d> resting = restingPlanes (object);
+  for (const Eigen::Vector4d& plane : resting)
+    standing.push_back (extentOf (object, plane));
+  if (standing.empty ())
+    standing.push_back (extentOf (object, std::nullopt));
+  const bool is_round = std::any_of (standing.begin (), standing.end (), [] (const SymmetricExtent& extent) { return extent.isRound (); });
+  if (is_cut_out && !is_round) // guesses are worth less
+    volume.setOpenPlaces (findOpenPlaces (volume.grid (), viewsOf (object), object.points (), scene_.options.threads));
+  if (scene_.options.use_contact_prior)
+    for (std::size_t n = 0; n < resting.size (); ++n)
+      volume.addContactPrior (object.points (), resting[n], standing[n].center ());
+  if (!scene_.options.use_extent_prior)
+    return;
+  if (!scene_.options.use_symmetric_extent)
+    standing.clear ();
+  for (const SymmetricExtent& extent : standing)
+    if (extent.copiesAreAlike ())
+      volume.addHiddenSide (extent, object.points ());
+  volume.addExtentPrior (is_cut_out ? ExtentPrior::cutOut () : ExtentPrior (), object.extents_m, object.body->hidden, standing);
+}
+
+} // namespace cosection
+} // namespace pcl
