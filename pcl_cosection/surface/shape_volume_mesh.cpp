@@ -94,7 +94,8 @@ ShapeVolume::observedParts (const TriangleMesh& mesh) const
   const std::ptrdiff_t best = observed.empty () ? 0 : std::max_element (observed.begin (), observed.end ()) - observed.begin ();
   // What sensors see at the edge of something, between it and what is behind, makes lumps of which little more than that is observed.
   const auto is_lump = [&] (std::size_t c) {
-    return static_cast<double> (observed[c]) < lump_vertices * static_cast<double> (all_observed) && length (c) < lump_length * longest && share (c) < lump_share * share (static_cast<std::size_t> (best));
+    return static_cast<double> (observed[c]) < lump_vertices * static_cast<double> (all_observed) && length (c) < lump_length * longest &&
+           share (c) < lump_share * share (static_cast<std::size_t> (best));
   };
   std::vector<bool> keep (mesh.triangles.size ());
   for (std::size_t t = 0; t < keep.size (); ++t)

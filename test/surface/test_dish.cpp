@@ -12,6 +12,8 @@
 
 #include <gtest/gtest.h>
 
+#include <random>
+
 using namespace pcl::cosection;
 using namespace pcl::cosection::test;
 
@@ -116,6 +118,45 @@ TEST (Dish, WhatIsNoneIsLeftAlone)
 {
   EXPECT_EQ (SymmetricExtent (observedTray (0.004, 0.02), ground).wallThickness (), 0.0);
   EXPECT_EQ (SymmetricExtent (observedPlate (0.04, 0.02), ground).wallThickness (), 0.0); // on something, or a solid pedestal
+}
+
+TEST (Dish, AloneItIsNoLid)
+{
+  EXPECT_EQ (SymmetricExtent (observedPlate (0.0, 0.02), false).wallThickness (), 0.0); // something is known around it, but no plane
+  const Profile recess = [] (double /*height*/) { return std::pair (floor_radius, 0.0); };
+  std::vector<OrientedPoint> tin = observedRound (recess, 0.0, 0.006, Eigen::Vector3d (0.3, 0.0, 1.0), -1.0);
+  for (double radius = 0.001; radius < floor_radius + 0.004; radius += 0.001)
+    for (double angle = 0.0; angle < 2.0 * M_PI; angle += 0.001 / radius)
+      tin.push_back (pointAt ({radius * std::cos (angle), radius * std::sin (angle), radius > floor_radius ? 0.006 : 0.0}, Eigen::Vector3d::UnitZ ()));
+  EXPECT_EQ (SymmetricExtent (tin).wallThickness (), 0.0);
+}
+
+// Rings of equally many points on profiles with steps: in some, as far out and up as each other are places far apart.
+TEST (Dish, AnyStepsWillDo)
+{
+  std::mt19937 random (1);
+  const auto between = [&random] (double low, double high) { return std::uniform_real_distribution<double> (low, high) (random); };
+  for (int thing = 0; thing < 200; ++thing)
+  {
+    std::vector<OrientedPoint> points;
+    Eigen::Vector2d end (0.0, between (0.0, 0.1)); // radius, height
+    const int turns = 10 + static_cast<int> (between (0.0, 60.0));
+    for (int step = 0; step < 6; ++step)
+    {
+      const Eigen::Vector2d start = end;
+      end = {std::max (0.001, end.x () + between (-0.01, 0.05)), end.y () + between (-0.05, 0.05)};
+      const Eigen::Vector2d along = (end - start).normalized ();
+      for (int n = 0; n < 10 * turns; ++n)
+      {
+        const Eigen::Vector2d at = start + (n / turns) / 10.0 * (end - start);
+        const Eigen::Vector3d out (std::cos (2.0 * M_PI * n / turns), std::sin (2.0 * M_PI * n / turns), 0.0);
+        points.push_back (pointAt (at.x () * out + at.y () * Eigen::Vector3d::UnitZ (), -along.y () * out + along.x () * Eigen::Vector3d::UnitZ ()));
+      }
+    }
+    for (const SymmetricExtent& extent : {SymmetricExtent (points), SymmetricExtent (points, ground)})
+      for (const OrientedPoint& p : extent.hiddenSide (points, 0.002))
+        ASSERT_TRUE (p.position.allFinite () && p.normal.allFinite ()) << thing;
+  }
 }
 
 TEST (Dish, OnNothingThatIsKnownItsWallIsAsUsual)

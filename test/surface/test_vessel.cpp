@@ -100,6 +100,26 @@ TEST (Vessel, TubesAndWhatIsSolidAreNoVessels)
   EXPECT_EQ (SymmetricExtent (ring, {0.0, 0.0, 1.0, radius}).wallThickness (), 0.0);
 }
 
+// What one view shows of it: its hole has no floor, and its inner side no wall that the outer one is parallel to.
+TEST (Vessel, ARingIsNone)
+{
+  for (const double tube : {0.025, 0.03})
+    for (const double rise : {0.6, 0.8, 1.0, 1.2})
+    {
+      const Eigen::Vector3d view (0.0, -std::cos (rise), std::sin (rise));
+      std::vector<OrientedPoint> ring;
+      for (double along = 0.0; along < 2.0 * M_PI; along += 0.02)
+        for (double across = 0.0; across < 2.0 * M_PI; across += 0.1)
+        {
+          const Eigen::Vector3d out (std::cos (along), std::sin (along), 0.0);
+          const Eigen::Vector3d normal = std::cos (across) * out + std::sin (across) * Eigen::Vector3d::UnitZ ();
+          if (normal.dot (view) > 0.2)
+            ring.push_back (pointAt (0.1 * out + tube * normal, normal));
+        }
+      EXPECT_EQ (SymmetricExtent (noisy (ring)).wallThickness (), 0.0) << tube << ", " << rise;
+    }
+}
+
 TEST (Vessel, AFloorThatWasSeenIsWhereItWasSeen)
 {
   std::vector<OrientedPoint> points = observedCup (0.012);
