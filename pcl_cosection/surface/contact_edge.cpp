@@ -230,12 +230,19 @@ private:
     return *rank;
   }
 
+  /** \brief What is level may end at a sharp edge. */
+  static bool
+  mayEnd (const Cell& cell, const Plane& plane)
+  {
+    return cell.facing > 0.0 && plane.up.dot (cell.normal) < level;
+  }
+
   std::vector<const Cell*>
   endsNear (const Plane& plane, double distance) const
   {
     std::vector<const Cell*> near;
     for (const Cell& cell : cells_)
-      if (cell.facing > 0.0 && plane.up.dot (cell.position) - plane.height < distance)
+      if (mayEnd (cell, plane) && plane.up.dot (cell.position) - plane.height < distance)
         near.push_back (&cell);
     return near;
   }
@@ -318,7 +325,7 @@ private:
     double cosines = 0.0, squares = 0.0;
     for (const Cell* cell : lowest)
     {
-      if (!cell || !(cell->facing > 0.0))
+      if (!cell || !mayEnd (*cell, plane))
         continue;
       if (plane.up.dot (cell->position) - plane.height < reach * edge_)
       {
@@ -326,7 +333,7 @@ private:
         cosines += cell->facing;
         squares += std::pow (plane.up.dot (cell->lowest (plane.up)) - plane.height, 2);
       }
-      else if (plane.up.dot (cell->normal) < level)
+      else
         ++other;
     }
     return touching >= least_sectors && other <= other_sectors * touching && squares < max_roughness * max_roughness * touching &&
