@@ -31,7 +31,7 @@ constexpr double neighbour_reach = 2.3; // cells
 constexpr std::size_t least_neighbours = 4; // else it is a stray
 constexpr double open_angle = 2.3;      // without neighbours: of a border
 constexpr std::array<double, 2> beyond = {1.0, 1.6}; // cells: there the surface would go on
-constexpr double least_facing = 0.4;          // cosine of what a sensor sees well
+constexpr double least_facing = 0.4;    // cosine of what a sensor sees well
 constexpr double flat_ridge = 0.5;      // cells squared: of few neighbours a bend is not believed
 constexpr int directions = 800;
 constexpr double stray_share = 0.01;    // of the points, may lie behind the plane
@@ -45,16 +45,22 @@ constexpr double least_spread = 0.1;    // of the size, in both directions along
 constexpr int sectors = 36;
 constexpr int least_sectors = 9;
 constexpr double other_sectors = 0.2;   // of those, may end elsewhere
-constexpr double max_roughness = 0.028; // of the size, root mean square of where it ends
-constexpr double mean_facing = 0.5;      // of what touches, seen by several sensors, whose silhouettes are not on one plane
-constexpr double single_facing = 0.53;  // by one
-constexpr double sure_facing = 0.7;
 constexpr double silhouette_rise = 0.8; // of all sensors' distances, over the plane
 constexpr double least_height = 0.15;   // of the size: what is flatter may be a face of it
 constexpr double level = 0.7;           // component of a normal upwards: what ends there may have a sharp edge
 constexpr double facing_down = -0.5;
 constexpr double down_share = 0.02;     // of all points: of what stands, no more is seen from below
 constexpr double least_rise = 0.15;     // of a sensor's distance, over the plane; else an edge that hides it may make it
+
+struct Demand // on contact
+{
+  double roughness; // of the size, root mean square of where it ends; no more
+  double facing;    // mean, more
+};
+
+constexpr Demand of_one_sensor = {0.028, 0.53};
+constexpr Demand of_several = {0.04, 0.5}; // their silhouettes are not on one plane
+constexpr Demand of_silhouettes = {0.028, 0.7};
 
 using Views = HiddenPlaces::Views;
 
@@ -336,8 +342,9 @@ private:
       else
         ++other;
     }
-    return touching >= least_sectors && other <= other_sectors * touching && squares < max_roughness * max_roughness * touching &&
-           cosines > (mayBeSilhouette (plane) ? sure_facing : sensors_.size () > 1 ? mean_facing : single_facing) * touching;
+    const Demand& demand = mayBeSilhouette (plane) ? of_silhouettes : sensors_.size () > 1 ? of_several : of_one_sensor;
+    return touching >= least_sectors && other <= other_sectors * touching && squares < demand.roughness * demand.roughness * touching &&
+           cosines > demand.facing * touching;
   }
 
   const std::vector<NormalLine>& lines_;
