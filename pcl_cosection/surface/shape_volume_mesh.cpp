@@ -7,6 +7,7 @@
 #include <pcl/cosection/volume/iso_surface.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -30,9 +31,14 @@ constexpr float vouched_radius_vox = 0.75f; // closes the gaps between points
 constexpr double half_cells_vox = 1.0;      // what is lost by taking a point and a vertex for their voxels' centres
 constexpr double confidence_scale_vox = 5.0;
 constexpr double crumb_voxels = 3.0;  // long: what is smaller, beside something larger, is noise
-constexpr float lump_length = 0.33f;  // of the longest part's
-constexpr double lump_share = 0.5;    // of the share of vertices that is observed of the part seen best
-constexpr double lump_vertices = 0.02; // of all that are observed
+struct Lump // a part that is no more than noise: all of this holds
+{
+  float length;  // less, of the longest part's
+  double share;  // of its vertices less are observed, of the share of the part seen best
+  double weight; // less of all that are observed
+};
+
+constexpr std::array<Lump, 2> lumps = {{{0.33f, 0.5, 0.02}, {1.0f, 0.3, 0.04}}};
 constexpr float border_voxels = 2.0f; // a closed surface stays so far inside its volume
 
 /** \brief Raise a field near the border so that its zero set stays inside. */
@@ -94,8 +100,10 @@ ShapeVolume::observedParts (const TriangleMesh& mesh) const
   const std::ptrdiff_t best = observed.empty () ? 0 : std::max_element (observed.begin (), observed.end ()) - observed.begin ();
   // What sensors see at the edge of something, between it and what is behind, makes lumps of which little more than that is observed.
   const auto is_lump = [&] (std::size_t c) {
-    return static_cast<double> (observed[c]) < lump_vertices * static_cast<double> (all_observed) && length (c) < lump_length * longest &&
-           share (c) < lump_share * share (static_cast<std::size_t> (best));
+    return std::any_of (lumps.begin (), lumps.end (), [&] (const Lump& lump) {
+      return length (c) < lump.length * longest && share (c) < lump.share * share (static_cast<std::size_t> (best)) &&
+             static_cast<double> (observed[c]) < lump.weight * static_cast<double> (all_observed);
+    });
   };
   std::vector<bool> keep (mesh.triangles.size ());
   for (std::size_t t = 0; t < keep.size (); ++t)
