@@ -21,6 +21,7 @@ namespace
 {
 
 constexpr std::size_t most_points = 10000; // an even subset of no more tells of planes
+constexpr double along_axis = 0.9;         // cosine: what is round ends across its axis
 constexpr double guess_reach_voxels = 2.0; // of a plane that was guessed: what it bounds
 constexpr double resting_reach = 0.15;     // of the middle observed extent: what is as low over a plane rests on it
 constexpr double hidden_foot_reach = 0.5;  // of the middle observed extent: what is as low rests on it, if that may be
@@ -39,7 +40,7 @@ CoSectionRun::nothingIsKnownAround () const
 void
 CoSectionRun::implyPlane (Object& object) const
 {
-  if (!scene_.options.use_extent_prior)
+  if (!scene_.options.use_extent_prior || !scene_.options.use_planes)
     return;
   const SymmetricExtent extent = extentOf (object, std::nullopt);
   if (extent.wallThickness () > 0.0)
@@ -50,15 +51,17 @@ CoSectionRun::implyPlane (Object& object) const
     if (all[p].position.allFinite () && all[p].normal.allFinite ())
       points.push_back (all[p]);
   std::optional<Eigen::Vector4d> plane = impliedSupport (points);
-  // Of a box that one view shows three hidden sides are alike, and inverted it is known as well.
-  const std::vector<std::pair<const DepthView*, Eigen::Isometry3d>> views = viewsOf (object);
-  const bool is_box = extent.copiesAreAlike () && !extent.isRound ();
-  if (!plane && (views.size () > 1 || !is_box))
-    plane = planeOfContact (points, views);
+  if (!plane && !extent.isFaceted ()) // flat faces end at edges as they do where they touch something
+  {
+    plane = planeOfContact (points, viewsOf (object));
+    if (const std::optional<Eigen::Vector3d> axis = extent.axisDirection (); plane && axis && std::abs (axis->dot (plane->head<3> ())) < along_axis)
+      plane.reset ();
+  }
   if (!plane)
     return;
   object.planes.push_back (transformPlane (*plane, firstPose (object).inverse ()));
   object.plane_is_implied = true;
+  object.result->guessed_plane = object.planes.front ();
 }
 
 void
@@ -169,7 +172,7 @@ CoSectionRun::addPriors (Object& object)
   const bool is_round = std::any_of (standing.begin (), standing.end (), [] (const SymmetricExtent& extent) { return extent.isRound (); });
   if (is_cut_out && !is_round) // guesses are worth less
     volume.setOpenPlaces (findOpenPlaces (volume.grid (), viewsOf (object), object.points (), scene_.options.threads));
-  if (scene_.options.use_contact_prior)
+  if (scene_.options.use_contact_prior && !object.plane_is_implied) // that ends where it was seen to
     for (std::size_t n = 0; n < resting.size (); ++n)
       volume.addContactPrior (object.points (), resting[n], standing[n].center ());
   if (!scene_.options.use_extent_prior)

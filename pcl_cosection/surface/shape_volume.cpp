@@ -26,7 +26,7 @@ constexpr float observed_weight = 0.3f;        // sum of weights that makes a vo
 constexpr double continued_plane_weight = 0.5; // of the data term on a continued plane, as of a densely measured one
 constexpr double continued_plane_gap_vox = 2.0; // planes are continued where no data is nearer
 constexpr float carving_reach_vox = 1.5f; // from the boundary of free space into the hull
-constexpr std::size_t bytes_per_voxel = 92;
+constexpr std::size_t bytes_per_voxel = 93;
 constexpr double follow_margin_vox = 3.0; // what follows new evidence at full resolution reaches so far beyond what is supported
 
 } // namespace

@@ -71,7 +71,12 @@ SurfaceOfRevolution::fit (const std::vector<OrientedPoint>& points, const std::o
     const double radius = normals.size * ball->radius;
     const Eigen::Vector3d center = normals.origin + normals.size * ball->center;
     if (!plane || plane->head<3> ().dot (center) + (*plane)[3] > (1.0 - sunk) * radius)
-      return about (axisOf (*ball, normals.lines), normals, points, plane, seen_sectors, Hollow::None);
+    {
+      std::optional<SurfaceOfRevolution> surface = about (axisOf (*ball, normals.lines), normals, points, plane, seen_sectors, Hollow::None);
+      if (surface)
+        surface->is_ball_ = true;
+      return surface;
+    }
   }
   const auto withAxisAlong = [&] (const std::optional<Eigen::Vector3d>& direction, Hollow hollow) -> std::optional<SurfaceOfRevolution> {
     const std::optional<Axis> axis = findAxis (normals.lines, direction);

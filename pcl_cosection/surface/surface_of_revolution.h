@@ -48,6 +48,13 @@ public:
     return direction_;
   }
 
+  /** \brief Round about any axis. */
+  bool
+  isBall () const
+  {
+    return is_ball_;
+  }
+
   /** \brief Does a point lie on what is round, in any direction from the axis? */
   bool
   holds (const Eigen::Vector3d& position) const;
@@ -127,6 +134,7 @@ private:
 
   Eigen::Vector3d center_;
   Eigen::Vector3d direction_;
+  bool is_ball_ = false;
   double cell_m_ = 0.0; // edge of the cells of the profile
   Eigen::Vector2i cells_;
   Eigen::Vector2d first_; // of all cells, height and distance

@@ -26,6 +26,8 @@ constexpr double stray_share = 0.002;    // of the points, may lie beyond a half
 constexpr double tie = 0.97;             // of the largest distance: pairs as far apart count as farthest too
 constexpr double face_share = 0.03;      // of the points: normals of so many make a direction
 constexpr double face_cosine = 0.966;    // 15 degrees
+constexpr std::size_t few_faces = 3;     // the largest
+constexpr double few_faces_share = 0.7;  // of the points
 constexpr double rounding = 1e-6;        // relative: more than that of a row's values
 constexpr double right_angle_cosine = 0.15; // between faces
 constexpr double cuboid_cosine = 0.92;   // between a normal on a face and the face's
@@ -94,6 +96,18 @@ faceNormals (const std::vector<OrientedPoint>& points, const std::vector<Eigen::
       if (bins[b].dot (faces.back ()) > face_cosine)
         counts[b] = 0;
   }
+}
+
+/** \brief Do few faces make up most of the points? */
+bool
+isFew (const std::vector<OrientedPoint>& points, const std::vector<Eigen::Vector3d>& faces)
+{
+  const auto on_face = [&] (const OrientedPoint& p) {
+    const auto is_its = [&] (const Eigen::Vector3d& face) { return face.dot (p.normal.cast<double> ()) > face_cosine; };
+    return std::any_of (faces.begin (), faces.begin () + static_cast<std::ptrdiff_t> (std::min (few_faces, faces.size ())), is_its);
+  };
+  const std::ptrdiff_t count = std::count_if (points.begin (), points.end (), on_face);
+  return static_cast<double> (count) > few_faces_share * static_cast<double> (points.size ());
 }
 
 /** \brief Do nearly all points belong to faces at right angles, of two directions at least? */
@@ -246,6 +260,7 @@ SymmetricExtent::build (const std::vector<OrientedPoint>& all, const std::option
       extent = std::max (extent, n.dot (*foot));
     half_spaces_.emplace_back (n, extent);
   }
+  faceted_ = isFew (points, faces);
   standing_ = up.has_value ();
   copies_alike_ = up || round_ || isCuboid (points, faces);
 }
@@ -276,6 +291,12 @@ SymmetricExtent::hiddenSide (const std::vector<OrientedPoint>& points, double re
     copies.push_back (p);
   }
   return copies;
+}
+
+std::optional<Eigen::Vector3d>
+SymmetricExtent::axisDirection () const
+{
+  return round_ && !round_->isBall () ? std::optional<Eigen::Vector3d> (round_->direction ()) : std::nullopt;
 }
 
 double
@@ -355,6 +376,7 @@ SymmetricExtent::within (const Eigen::AlignedBox3d& box) const
   needed.round_ = round_;
   needed.copies_alike_ = copies_alike_;
   needed.standing_ = standing_;
+  needed.faceted_ = faceted_;
   needed.turn_ = turn_;
   for (const auto& [n, s] : half_spaces_)
     if (n.dot (middle) - s + n.cwiseAbs ().dot (half_sizes) >= least - tolerance)

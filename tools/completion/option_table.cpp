@@ -54,7 +54,7 @@ declareSurroundings (CLI::App& app, Given& given)
       ->option_text ("MESH")
       ->allow_extra_args (false)
       ->group (group);
-  app.add_flag ("--no-planes", given.no_planes, "Do not look for support planes in the background")->group (group);
+  app.add_flag ("--no-planes", given.no_planes, "Do not look for support planes in the background, nor guess them")->group (group);
 }
 
 void

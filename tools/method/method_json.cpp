@@ -72,6 +72,8 @@ objectJson (const ObjectResult& object)
   result["penetration_m"] = object.penetration_m;
   result["stray_points"] = object.stray_points;
   result["contradicted_share"] = object.contradicted_share;
+  if (object.guessed_plane)
+    result["guessed_plane"] = std::vector<double> (object.guessed_plane->data (), object.guessed_plane->data () + 4);
   result["solver"] = solverJson (object.solver);
   return (result);
 }

@@ -14,6 +14,7 @@
 #include <cstddef>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -50,6 +51,9 @@ struct PCL_COSECTION_EXPORT ObjectResult
   /** \brief Of its points that a view sees or looks through, the share of the latter, for the view of which it is largest (of many views, one
    * in twenty may be worse): wrong poses and motion make it so. Told by CoSection::reconstruct () where seen free space is used. */
   double contradicted_share = 0.0;
+  /** \brief Of an object around which nothing is known, the plane on which it seems to have stood, world frame, n.x + d = 0, unit n towards it:
+   * guessed from where it ends, or how it is open. It bounds the mesh. */
+  std::optional<Eigen::Vector4d> guessed_plane;
   SolverSummary solver;            ///< of the last pass; its iterations are those of all passes at full resolution
   double penetration_m = 0.0; ///< deepest place of its surface in supported parts of another body
 };

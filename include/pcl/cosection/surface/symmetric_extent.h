@@ -92,6 +92,17 @@ public:
     return round_ != nullptr;
   }
 
+  /** \brief Direction of the axis about which it is round; nothing for a ball, which has many, and for what is not round. */
+  std::optional<Eigen::Vector3d>
+  axisDirection () const;
+
+  /** \brief Do a few flat faces make up most of what was seen? */
+  bool
+  isFaceted () const
+  {
+    return faceted_;
+  }
+
   /** \brief Of what is round and hollow, a cup or a bowl: how thick its wall is, metres; 0 of anything else. */
   double
   wallThickness () const;
@@ -123,6 +134,7 @@ private:
 
   bool standing_ = false; // on a plane
   bool copies_alike_ = false;
+  bool faceted_ = false;
   std::shared_ptr<const SurfaceOfRevolution> round_; // null: it is not
   Eigen::Matrix3d turn_ = Eigen::Matrix3d::Identity ();
   Eigen::Vector3d center_ = Eigen::Vector3d::Zero ();
