@@ -5,6 +5,7 @@
 #include <pcl/cosection/common/parallel.h>
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 
 namespace pcl
@@ -28,6 +29,10 @@ public:
   , size_ ((view.camera.width + cell_px - 1) / cell_px, (view.camera.height + cell_px - 1) / cell_px)
   , cells_ (static_cast<std::size_t> (size_.x ()) * size_.y (), 0)
   {
+    for (int v = 0; v < view.camera.height; ++v) // readings without a normal are of something, too
+      for (int u = 0; u < view.camera.width; ++u)
+        if (std::isfinite (view.at (u, v)))
+          mark (Eigen::Array2i (u, v) / cell_px);
     for (const OrientedPoint& point : points)
       if (const auto pixel = pixelOf (T_sensor_object_ * point.position.cast<double> ()))
         mark (*pixel / cell_px);
