@@ -155,10 +155,18 @@ ShapeVolume::addExtentPrior (const ExtentPrior& prior, const Eigen::Vector3d& ex
     bounded[n] = static_cast<bool> (problem_.exterior[n]);
   std::vector<float> bounds =
       extentBounds (prior, grid_, data_distance_vox_, extents_m, places, plausible, bounded, options_.threads);
-  const auto side_vox = static_cast<float> (prior.side_factor * extents_m[1] / grid_.voxel_size_m);
-  for (std::size_t n = 0; n < grid_.size (); ++n)
-    if (!bounded[n] && empty_[n] && !free_space_[n])
-      bounds[n] = std::max (bounds[n], data_distance_vox_[n] - side_vox);
+  if (empty_ != free_space_)
+  {
+    // An open place is no farther from the surface than from the nearest place that is not open.
+    std::vector<std::uint8_t> closed (grid_.size ());
+    for (std::size_t n = 0; n < grid_.size (); ++n)
+      closed[n] = !empty_[n];
+    const std::vector<float> depth_vox = distanceTransform (grid_.dims, closed, options_.threads);
+    const auto side_vox = static_cast<float> (prior.side_factor * extents_m[1] / grid_.voxel_size_m);
+    for (std::size_t n = 0; n < grid_.size (); ++n)
+      if (!bounded[n] && empty_[n] && !free_space_[n])
+        bounds[n] = std::max (bounds[n], std::min (data_distance_vox_[n] - side_vox, depth_vox[n]));
+  }
   for (std::size_t n = 0; n < grid_.size (); ++n)
     if (bounds[n] > 0.0f)
       problem_.exterior[n] = LowerBound (bounds[n], static_cast<float> (options_.beta_extent));
