@@ -77,7 +77,7 @@ CoSectionRun::findHulls ()
   std::size_t used_bytes = bytesInUse ();
   const auto begin = [&] (Object& object) {
     Sought sought{&object, {}, 0.0, nullptr};
-    if (!object.plane_is_implied)
+    if (!object.plane_is_guessed)
       sought.planes = planesAt (object, options.use_intersection ? object.planes : planesOf (object), relativePoses (object, nullptr));
     HiddenPlaces::Views views;
     for (std::size_t v = 0; v < scene_.views.size (); ++v)

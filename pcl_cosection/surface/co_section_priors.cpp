@@ -38,7 +38,7 @@ CoSectionRun::nothingIsKnownAround () const
 }
 
 void
-CoSectionRun::implyPlane (Object& object) const
+CoSectionRun::guessPlane (Object& object) const
 {
   if (!scene_.options.use_extent_prior || !scene_.options.use_planes)
     return;
@@ -60,14 +60,14 @@ CoSectionRun::implyPlane (Object& object) const
   if (!plane)
     return;
   object.planes.push_back (transformPlane (*plane, firstPose (object).inverse ()));
-  object.plane_is_implied = true;
+  object.plane_is_guessed = true;
   object.result->guessed_plane = object.planes.front ();
 }
 
 void
 CoSectionRun::markGuesses (const Object& object, TriangleMesh& mesh) const
 {
-  if (!object.plane_is_implied)
+  if (!object.plane_is_guessed)
     return;
   const Eigen::Vector4d plane = transformPlane (object.planes.front (), firstPose (object));
   for (std::size_t v = 0; v < mesh.vertices.size (); ++v)
@@ -170,9 +170,9 @@ CoSectionRun::addPriors (Object& object)
   if (standing.empty ())
     standing.push_back (extentOf (object, std::nullopt));
   const bool is_round = std::any_of (standing.begin (), standing.end (), [] (const SymmetricExtent& extent) { return extent.isRound (); });
-  if (is_cut_out && !is_round) // guesses are worth less
+  if (scene_.options.use_extent_prior && is_cut_out && !is_round) // guesses are worth less
     volume.setOpenPlaces (findOpenPlaces (volume.grid (), viewsOf (object), object.points (), scene_.options.threads));
-  if (scene_.options.use_contact_prior && !object.plane_is_implied) // that ends where it was seen to
+  if (scene_.options.use_contact_prior && !object.plane_is_guessed) // that ends where it was seen to
     for (std::size_t n = 0; n < resting.size (); ++n)
       volume.addContactPrior (object.points (), resting[n], standing[n].center ());
   if (!scene_.options.use_extent_prior)

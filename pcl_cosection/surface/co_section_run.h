@@ -63,7 +63,7 @@ private:
     std::optional<ViewAgreement> agreement;          // of all views with its points
     FollowedBody* body = nullptr;
     std::vector<Eigen::Vector4d> planes;             // world
-    bool plane_is_implied = false;                   // a guess, which bounds the estimate but not what may be
+    bool plane_is_guessed = false;                   // a guess, which bounds the estimate but not what may be
     SignedDistanceField field;                       // its shape, as far as known
     SignedDistanceField told;                        // what its neighbours are told of it
     std::unique_ptr<IntersectionConstraint> surroundings; // background, planes and bodies, which stay as they are
@@ -113,7 +113,7 @@ private:
   nothingIsKnownAround () const;
   /** \brief Of what is alone, the plane on which it seems to have stood, if any. */
   void
-  implyPlane (Object& object) const;
+  guessPlane (Object& object) const;
   /** \brief A plane that was guessed is no body: what it bounds is inferred. */
   void
   markGuesses (const Object& object, TriangleMesh& mesh) const;

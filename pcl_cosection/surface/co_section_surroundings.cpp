@@ -148,7 +148,7 @@ CoSectionRun::findPlanes ()
         result_.planes.push_back (plane);
     }
     if (object.planes.empty () && nothingIsKnownAround ())
-      implyPlane (object);
+      guessPlane (object);
   }
 }
 

@@ -4,6 +4,7 @@
 
 #include "../common/sphere_directions.h"
 #include "normal_axis.h"
+#include "pixel_of.h"
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
@@ -197,14 +198,8 @@ private:
   isOpen (const Eigen::Vector3d& p, double depth_m, const Views::value_type& view)
   {
     const Eigen::Vector3d q = view.second.inverse () * p;
-    if (!(q.z () > 0.0))
-      return false;
-    const PinholeCamera& camera = view.first->camera;
-    const Eigen::Vector2d pixel = camera.project (q) + Eigen::Vector2d::Constant (0.5);
-    if (!(pixel.x () >= 0.0 && pixel.y () >= 0.0 && pixel.x () < camera.width && pixel.y () < camera.height))
-      return false;
-    const double z = view.first->at (static_cast<int> (pixel.x ()), static_cast<int> (pixel.y ()));
-    return !(z < q.z () - depth_m); // no reading: not a number
+    const std::optional<Eigen::Array2i> pixel = pixelOf (view.first->camera, q);
+    return pixel && !(view.first->at (pixel->x (), pixel->y ()) < q.z () - depth_m); // no reading: not a number
   }
 
   /** \brief Are all sensors above a plane? If it leads to one, an edge that hides something may make it. */

@@ -2,11 +2,12 @@
 // Copyright (c) 2026, the pcl_cosection authors
 #include "open_places.h"
 
+#include "pixel_of.h"
+
 #include <pcl/cosection/common/parallel.h>
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
 namespace pcl
 {
@@ -34,7 +35,7 @@ public:
         if (std::isfinite (view.at (u, v)))
           mark (Eigen::Array2i (u, v) / cell_px);
     for (const OrientedPoint& point : points)
-      if (const auto pixel = pixelOf (T_sensor_object_ * point.position.cast<double> ()))
+      if (const auto pixel = pixelOf (view.camera, T_sensor_object_ * point.position.cast<double> ()))
         mark (*pixel / cell_px);
     fill ();
   }
@@ -43,7 +44,7 @@ public:
   isOpen (const Eigen::Vector3d& place) const
   {
     const Eigen::Vector3d q = T_sensor_object_ * place;
-    const auto pixel = pixelOf (q);
+    const auto pixel = pixelOf (view_.camera, q);
     return pixel && cells_[indexOf (*pixel / cell_px)] == outside &&
            !(view_.at (pixel->x (), pixel->y ()) < q.z ()); // no reading: not a number
   }
@@ -51,17 +52,6 @@ public:
 private:
   static constexpr std::uint8_t object = 1;
   static constexpr std::uint8_t outside = 2;
-
-  std::optional<Eigen::Array2i>
-  pixelOf (const Eigen::Vector3d& q) const
-  {
-    if (!(q.z () > 0.0))
-      return std::nullopt;
-    const Eigen::Array2d pixel = view_.camera.project (q).array () + 0.5;
-    if (!(pixel >= 0.0).all () || !(pixel.x () < view_.camera.width) || !(pixel.y () < view_.camera.height))
-      return std::nullopt;
-    return pixel.cast<int> ();
-  }
 
   std::size_t
   indexOf (const Eigen::Array2i& cell) const

@@ -2,6 +2,8 @@
 // Copyright (c) 2026, the pcl_cosection authors
 #include "silhouette.h"
 
+#include "pixel_of.h"
+
 #include <algorithm>
 
 namespace pcl
@@ -25,13 +27,11 @@ Silhouette::Silhouette (const PinholeCamera& camera, const Eigen::Isometry3d& T_
 bool
 Silhouette::find (const Eigen::Vector3d& p, int& u, int& v) const
 {
-  if (!(p.z () > 0.0))
+  const std::optional<Eigen::Array2i> pixel = pixelOf (camera_, p);
+  if (!pixel)
     return false;
-  const Eigen::Vector2d pixel = camera_.project (p) + Eigen::Vector2d::Constant (0.5);
-  if (!(pixel.x () >= 0.0 && pixel.y () >= 0.0 && pixel.x () < camera_.width && pixel.y () < camera_.height))
-    return false;
-  u = static_cast<int> (pixel.x ());
-  v = static_cast<int> (pixel.y ());
+  u = pixel->x ();
+  v = pixel->y ();
   return true;
 }
 

@@ -98,9 +98,9 @@ faceNormals (const std::vector<OrientedPoint>& points, const std::vector<Eigen::
   }
 }
 
-/** \brief Do few faces make up most of the points? */
+/** \brief Do the largest few faces make up most of the points? */
 bool
-isFew (const std::vector<OrientedPoint>& points, const std::vector<Eigen::Vector3d>& faces)
+prevail (const std::vector<OrientedPoint>& points, const std::vector<Eigen::Vector3d>& faces)
 {
   const auto on_face = [&] (const OrientedPoint& p) {
     const auto is_its = [&] (const Eigen::Vector3d& face) { return face.dot (p.normal.cast<double> ()) > face_cosine; };
@@ -260,7 +260,7 @@ SymmetricExtent::build (const std::vector<OrientedPoint>& all, const std::option
       extent = std::max (extent, n.dot (*foot));
     half_spaces_.emplace_back (n, extent);
   }
-  faceted_ = isFew (points, faces);
+  faceted_ = prevail (points, faces);
   standing_ = up.has_value ();
   copies_alike_ = up || round_ || isCuboid (points, faces);
 }

@@ -3,8 +3,8 @@
 #include "volume_layout.h"
 
 #include "extent_bounds.h"
+#include "pixel_of.h"
 #include "ranked_values.h"
-
 #include "shape_volume.h"
 
 #include <pcl/cosection/common/error.h>
@@ -65,11 +65,8 @@ occupiedVoxels (const std::vector<OrientedPoint>& points, const Eigen::AlignedBo
 bool
 seenFree (const DepthView& view, const Eigen::Vector3d& p, double margin_m)
 {
-  if (!(p.z () > 0.0))
-    return false;
-  const Eigen::Vector2d pixel = view.camera.project (p) + Eigen::Vector2d::Constant (0.5);
-  return pixel.x () >= 0.0 && pixel.y () >= 0.0 && pixel.x () < view.camera.width && pixel.y () < view.camera.height &&
-         p.z () < view.at (static_cast<int> (pixel.x ()), static_cast<int> (pixel.y ())) - margin_m; // NaN: no reading
+  const std::optional<Eigen::Array2i> pixel = pixelOf (view.camera, p);
+  return pixel && p.z () < view.at (pixel->x (), pixel->y ()) - margin_m; // NaN: no reading
 }
 
 /** \brief Whether any view sees a place free. */

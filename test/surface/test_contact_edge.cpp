@@ -3,6 +3,7 @@
 
 // What stood on something that was cropped away ends where it stood, and where views looked past it there is nothing.
 
+#include "lowest_vertex.h"
 #include "surrounding_views.h"
 
 #include <gtest/gtest.h>
@@ -89,15 +90,6 @@ double
 volumeOf (const Distance& shape)
 {
   return computeMassProperties (extractIsoSurface (sampleField (shape, 0.15, 0.002))).volume_m3;
-}
-
-float
-lowest (const TriangleMesh& mesh)
-{
-  float z = std::numeric_limits<float>::infinity ();
-  for (const Eigen::Vector3f& v : mesh.vertices)
-    z = std::min (z, v.z ());
-  return z;
 }
 
 struct Thing

@@ -3,6 +3,7 @@
 
 // Objects whose table was cropped away before: a plane says where it was, or nothing does.
 
+#include "lowest_vertex.h"
 #include "surrounding_views.h"
 
 #include <pcl/cosection/surface/range_image.h>
@@ -96,10 +97,7 @@ TEST_P (CroppedObject, WithAPlaneIsAsWithTheTable)
     std::printf ("%s, %s: %.2f mm on average from the mesh with the table's points\n", nameOf (GetParam ()).c_str (),
                  view == &organized ? "organised" : "unorganised", 1e3 * difference_m);
     EXPECT_LE (difference_m, voxel_m);
-    float lowest = 0.0f;
-    for (const Eigen::Vector3f& v : object.mesh.vertices)
-      lowest = std::min (lowest, v.z ());
-    EXPECT_GE (lowest, -0.7 * voxel_m); // half a voxel where the surface crosses the grid's edges
+    EXPECT_GE (lowest (object.mesh), -0.7 * voxel_m); // half a voxel where the surface crosses the grid's edges
     EXPECT_LE (object.penetration_m, 0.6 * voxel_m);
   }
 }

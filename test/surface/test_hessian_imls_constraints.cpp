@@ -2,6 +2,7 @@
 // Copyright (c) 2026, the pcl_cosection authors
 #include "common/not_a_number.h"
 #include "imls_sphere.h"
+#include "lowest_vertex.h"
 #include "volume/analytic_fields.h"
 
 #include <pcl/cosection/common/error.h>
@@ -46,15 +47,6 @@ sensorAbove (double distance_m)
   T.linear () = Eigen::AngleAxisd (M_PI, Eigen::Vector3d::UnitX ()).toRotationMatrix ();
   T.translation ().z () = distance_m;
   return T;
-}
-
-float
-lowest (const TriangleMesh& mesh)
-{
-  float z = std::numeric_limits<float>::infinity ();
-  for (const Eigen::Vector3f& v : mesh.vertices)
-    z = std::min (z, v.z ());
-  return z;
 }
 
 SignedDistanceField::ConstPtr

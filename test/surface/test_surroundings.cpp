@@ -3,6 +3,7 @@
 
 // What stands around objects, given as planes and meshes: a table, a wall, a shelf, a bin.
 
+#include "lowest_vertex.h"
 #include "surrounding_views.h"
 
 #include <pcl/cosection/common/error.h>
@@ -80,15 +81,6 @@ completeAmong (const Cropped& object, Surround&& surround)
   surround (task);
   task.addObject ({1, object.seen.points.at (1), {}});
   return task.reconstruct ().objects.at (0);
-}
-
-float
-lowest (const TriangleMesh& mesh, int axis)
-{
-  float least = std::numeric_limits<float>::infinity ();
-  for (const Eigen::Vector3f& v : mesh.vertices)
-    least = std::min (least, v[axis]);
-  return least;
 }
 
 float
