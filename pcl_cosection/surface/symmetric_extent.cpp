@@ -2,6 +2,8 @@
 // Copyright (c) 2026, the pcl_cosection authors
 #include <pcl/cosection/surface/symmetric_extent.h>
 
+#include "faces.h"
+#include "open_box.h"
 #include "principal_axes.h"
 #include "surface_of_revolution.h"
 
@@ -11,6 +13,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace pcl
 {
@@ -24,110 +27,8 @@ constexpr int even_directions = 162;      // about
 constexpr std::size_t max_points = 4000; // an even subset of no more
 constexpr double stray_share = 0.002;    // of the points, may lie beyond a half space
 constexpr double tie = 0.97;             // of the largest distance: pairs as far apart count as farthest too
-constexpr double face_share = 0.03;      // of the points: normals of so many make a direction
-constexpr double face_cosine = 0.966;    // 15 degrees
-constexpr std::size_t few_faces = 3;     // the largest
-constexpr double few_faces_share = 0.7;  // of the points
 constexpr double rounding = 1e-6;        // relative: more than that of a row's values
-constexpr double right_angle_cosine = 0.15; // between faces
-constexpr double cuboid_cosine = 0.92;   // between a normal on a face and the face's
-constexpr double cuboid_share = 0.85;    // of the points, on faces at right angles
 constexpr double least_flat = 0.5;       // length of a unit vector along the plane, else it is no direction there
-
-/** \brief Directions evenly over the sphere, the same for either sense of each axis: those of a Fibonacci lattice in one octant, and
- * their mirror images. */
-std::vector<Eigen::Vector3d>
-evenDirections (int count, const Eigen::Matrix3d& axes)
-{
-  std::vector<Eigen::Vector3d> directions;
-  const double golden = M_PI * (3.0 - std::sqrt (5.0));
-  for (int n = 0; n < count; ++n)
-  {
-    const double z = 1.0 - (2.0 * n + 1.0) / count;
-    const double r = std::sqrt (1.0 - z * z);
-    const Eigen::Vector3d direction (r * std::cos (golden * n), r * std::sin (golden * n), z);
-    if ((direction.array () < 0.0).any ())
-      continue;
-    for (int octant = 0; octant < 8; ++octant)
-    {
-      const Eigen::Array3d sense ((octant & 1) ? -1.0 : 1.0, (octant & 2) ? -1.0 : 1.0, (octant & 4) ? -1.0 : 1.0);
-      directions.push_back (axes * (sense * direction.array ()).matrix ());
-    }
-  }
-  return directions;
-}
-
-/** \brief Mean normals of all large patches that face one way. */
-std::vector<Eigen::Vector3d>
-faceNormals (const std::vector<OrientedPoint>& points, const std::vector<Eigen::Vector3d>& bins)
-{
-  std::vector<Eigen::Vector3d> sums (bins.size (), Eigen::Vector3d::Zero ());
-  std::vector<int> counts (bins.size (), 0);
-  for (const OrientedPoint& point : points)
-  {
-    const Eigen::Vector3d n = point.normal.cast<double> ();
-    std::size_t nearest = 0;
-    double largest = bins[0].dot (n);
-    for (std::size_t b = 1; b < bins.size (); ++b)
-      if (const double cosine = bins[b].dot (n); cosine > largest)
-      {
-        nearest = b;
-        largest = cosine;
-      }
-    sums[nearest] += n;
-    ++counts[nearest];
-  }
-  std::vector<Eigen::Vector3d> faces;
-  while (true)
-  {
-    const std::ptrdiff_t fullest = std::max_element (counts.begin (), counts.end ()) - counts.begin ();
-    if (counts[fullest] < face_share * static_cast<double> (points.size ()))
-      return faces;
-    const Eigen::Vector3d rough = sums[fullest].normalized ();
-    Eigen::Vector3d sum = Eigen::Vector3d::Zero ();
-    for (const OrientedPoint& point : points)
-      if (point.normal.cast<double> ().dot (rough) > face_cosine)
-        sum += point.normal.cast<double> ();
-    counts[fullest] = 0;
-    if (!(sum.norm () > 0.0))
-      continue;
-    faces.push_back (sum.normalized ());
-    for (std::size_t b = 0; b < bins.size (); ++b)
-      if (bins[b].dot (faces.back ()) > face_cosine)
-        counts[b] = 0;
-  }
-}
-
-/** \brief Do the largest few faces make up most of the points? */
-bool
-prevail (const std::vector<OrientedPoint>& points, const std::vector<Eigen::Vector3d>& faces)
-{
-  const auto on_face = [&] (const OrientedPoint& p) {
-    const auto is_its = [&] (const Eigen::Vector3d& face) { return face.dot (p.normal.cast<double> ()) > face_cosine; };
-    return std::any_of (faces.begin (), faces.begin () + static_cast<std::ptrdiff_t> (std::min (few_faces, faces.size ())), is_its);
-  };
-  const std::ptrdiff_t count = std::count_if (points.begin (), points.end (), on_face);
-  return static_cast<double> (count) > few_faces_share * static_cast<double> (points.size ());
-}
-
-/** \brief Do nearly all points belong to faces at right angles, of two directions at least? */
-bool
-isCuboid (const std::vector<OrientedPoint>& points, const std::vector<Eigen::Vector3d>& faces)
-{
-  if (faces.empty ())
-    return false;
-  const auto across = [&] (const Eigen::Vector3d& n) { return std::abs (n.dot (faces[0])) < right_angle_cosine; };
-  const auto second = std::find_if (faces.begin (), faces.end (), across);
-  if (second == faces.end ())
-    return false;
-  const Eigen::Vector3d third = faces[0].cross (*second).normalized ();
-  const auto on_face = [&] (const OrientedPoint& p) {
-    const Eigen::Vector3d n = p.normal.cast<double> ();
-    return std::max ({std::abs (n.dot (faces[0])), std::abs (n.dot (*second)), std::abs (n.dot (third))}) > cuboid_cosine;
-  };
-  const std::ptrdiff_t count = std::count_if (points.begin (), points.end (), on_face);
-  return static_cast<double> (count) > cuboid_share * static_cast<double> (points.size ());
-}
 
 /** \brief The point that is farthest along a direction, but for strays. */
 class Farthest
@@ -192,6 +93,17 @@ middleOfFarthest (const std::vector<Eigen::Vector3d>& ends)
   return weights > 0.0 ? Eigen::Vector3d (sum / weights) : ends.front ();
 }
 
+std::shared_ptr<const ProfileSurface>
+profileSurfaceOf (const std::vector<OrientedPoint>& points, const std::vector<Eigen::Vector3d>& faces, const std::optional<Eigen::Vector4d>& plane,
+                  bool alone)
+{
+  std::optional<SurfaceOfRevolution> round = SurfaceOfRevolution::fit (points, plane, alone);
+  if (!round || !round->vessel ())
+    if (std::optional<OpenBox> box = OpenBox::fit (points, faces, plane))
+      return std::make_shared<const OpenBox> (std::move (*box));
+  return round ? std::make_shared<const SurfaceOfRevolution> (std::move (*round)) : nullptr;
+}
+
 } // namespace
 
 SymmetricExtent::SymmetricExtent (const std::vector<OrientedPoint>& points, bool alone)
@@ -225,11 +137,12 @@ SymmetricExtent::build (const std::vector<OrientedPoint>& all, const std::option
   const std::vector<Eigen::Vector3d> even = evenDirections (even_directions, axes);
   Farthest farthest (points);
 
-  if (auto surface = SurfaceOfRevolution::fit (points, plane, alone))
+  const std::vector<Eigen::Vector3d> faces = faceNormals (points, even);
+  round_ = profileSurfaceOf (points, faces, plane, alone);
+  if (round_)
   {
-    center_ = surface->center ();
-    turn_ = 2.0 * surface->direction () * surface->direction ().transpose () - Eigen::Matrix3d::Identity ();
-    round_ = std::make_shared<const SurfaceOfRevolution> (std::move (*surface));
+    center_ = round_->center ();
+    turn_ = 2.0 * round_->direction () * round_->direction ().transpose () - Eigen::Matrix3d::Identity ();
   }
   else
   {
@@ -244,7 +157,6 @@ SymmetricExtent::build (const std::vector<OrientedPoint>& all, const std::option
     foot = center_ - (up->dot (center_) + (*plane)[3]) * *up;
 
   std::vector<Eigen::Vector3d> directions = even;
-  const std::vector<Eigen::Vector3d> faces = faceNormals (points, even);
   for (const Eigen::Vector3d& normal : faces)
   {
     directions.push_back (normal);
@@ -270,7 +182,7 @@ SymmetricExtent::hiddenSide (const std::vector<OrientedPoint>& points, double re
 {
   if (round_)
   {
-    std::vector<OrientedPoint> all = round_->turned (points);
+    std::vector<OrientedPoint> all = round_->copies (points);
     std::vector<OrientedPoint> ends;
     if (round_->vessel ())
       ends = round_->depths (reach);
@@ -310,7 +222,7 @@ SymmetricExtent::withoutFloor () const
 {
   SymmetricExtent open = *this;
   if (round_)
-    open.round_ = std::make_shared<const SurfaceOfRevolution> (round_->withoutFloor ());
+    open.round_ = round_->withoutFloor ();
   return open;
 }
 

@@ -17,7 +17,7 @@ namespace pcl
 namespace cosection
 {
 
-class SurfaceOfRevolution;
+class ProfileSurface;
 
 /** \brief Parts of the surface of what is round and hollow, a cup or a bowl. */
 enum class VesselPart
@@ -135,7 +135,7 @@ private:
   bool standing_ = false; // on a plane
   bool copies_alike_ = false;
   bool faceted_ = false;
-  std::shared_ptr<const SurfaceOfRevolution> round_; // null: it is not
+  std::shared_ptr<const ProfileSurface> round_; // null: it has none
   Eigen::Matrix3d turn_ = Eigen::Matrix3d::Identity ();
   Eigen::Vector3d center_ = Eigen::Vector3d::Zero ();
   std::vector<std::pair<Eigen::Vector3d, double>> half_spaces_; // n_k, s_k
