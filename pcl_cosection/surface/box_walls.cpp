@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 namespace pcl
 {
@@ -101,7 +102,8 @@ public:
       excess += half_sizes_[w % 2] - ends[w];
       ++known;
     }
-    if (known < least_walls || inner < least_inner)
+    const bool may_lack_one = bottom || floor_.size () >= least_points; // else it may be open to that side
+    if (known < (may_lack_one ? least_walls : walls_.size ()) || inner < least_inner)
       return std::nullopt;
     for (std::size_t w = 0; w < walls_.size (); ++w)
       if (!(ends[w] > 0.0))
@@ -155,7 +157,29 @@ private:
     return heights;
   }
 
-  /** \brief As where both sides are seen; else as the floor. */
+  /** \brief Of the widths, by what walls seen from one side leave; of both, as strays add to them, the less. */
+  double
+  leftByWidths () const
+  {
+    double least = std::numeric_limits<double>::infinity ();
+    for (std::size_t axis = 0; axis < 2; ++axis)
+    {
+      double left = 2.0 * half_sizes_[static_cast<Eigen::Index> (axis)];
+      int inner = 0, seen = 0;
+      for (const Wall& wall : {walls_[axis], walls_[axis + 2]})
+        if (const bool is_outer = wall.outer.isSeen (); is_outer || wall.inner.isSeen ())
+        {
+          left -= (is_outer ? wall.outer : wall.inner).place ();
+          inner += !is_outer;
+          ++seen;
+        }
+      if (seen == 2 && inner > 0)
+        least = std::min (least, left / inner);
+    }
+    return std::isfinite (least) ? std::max (0.0, least) : 0.0;
+  }
+
+  /** \brief As where both sides are seen; else as the floor; else what remains of the widths. */
   double
   wallThickness (const std::optional<double>& bottom)
   {
@@ -171,7 +195,7 @@ private:
       return std::max (0.0, sum / weights);
     std::vector<double> heights = outerHeights ();
     if (floor_.size () < least_points || (!bottom && heights.size () < least_points))
-      return 0.0;
+      return leftByWidths ();
     return std::max (0.0, quantile (floor_, 0.5) - (bottom ? *bottom : quantile (heights, lowest_share)));
   }
 

@@ -33,6 +33,9 @@ constexpr double turn_step = 0.0044;   // radians, a quarter of a degree
 constexpr int turn_steps = 24;         // that normals may be wrong by
 constexpr int wall_rounds = 2;
 constexpr double level = 0.9;          // component of a floor's normal upwards
+constexpr double same_axis = 0.98;     // cosine
+constexpr double right_angle_cosine = 0.15; // between walls
+constexpr double least_inner = 0.05;   // of the points of walls: that face inwards
 constexpr double same_floor = 0.97;    // cosine between mean normal and plane
 constexpr std::size_t least_floor = 10;
 constexpr double blurred = 0.15;       // less across the axis than most normals of walls are: where wall and floor meet
@@ -52,6 +55,23 @@ acrossFloor (const std::vector<NormalLine>& lines, const Eigen::Vector3d& up)
     return up;
   const Eigen::Vector3d normal = planeNormal (floor, up);
   return normal.dot (up) > same_floor ? std::optional<Eigen::Vector3d> (normal) : std::nullopt;
+}
+
+/** \brief Which way may be up, if some of its faces are walls. */
+std::vector<Eigen::Vector3d>
+acrossWalls (const std::vector<Eigen::Vector3d>& faces)
+{
+  std::vector<Eigen::Vector3d> axes;
+  for (std::size_t a = 0; a < faces.size (); ++a)
+    for (std::size_t b = 0; b < a; ++b)
+      for (const double sense : {1.0, -1.0})
+      {
+        const Eigen::Vector3d axis = sense * faces[a].cross (faces[b]).normalized ();
+        const auto is_same = [&] (const Eigen::Vector3d& other) { return axis.dot (other) > same_axis; };
+        if (std::abs (faces[a].dot (faces[b])) < right_angle_cosine && std::none_of (axes.begin (), axes.end (), is_same))
+          axes.push_back (axis);
+      }
+  return axes;
 }
 
 struct Rectangle
@@ -98,10 +118,16 @@ OpenBox::fit (const std::vector<OrientedPoint>& points, const std::vector<Eigen:
     return std::nullopt;
   if (plane)
     return along (plane->head<3> (), points, plane);
-  std::optional<OpenBox> best;
-  for (const Eigen::Vector3d& face : faces)
-    if (std::optional<OpenBox> box = along (face, points, plane); box && (!best || box->isBetter (*best)))
-      best = std::move (box);
+  const auto bestOf = [&] (const std::vector<Eigen::Vector3d>& axes) {
+    std::optional<OpenBox> best;
+    for (const Eigen::Vector3d& up : axes)
+      if (std::optional<OpenBox> box = along (up, points, plane); box && (!best || box->isBetter (*best)))
+        best = std::move (box);
+    return best;
+  };
+  std::optional<OpenBox> best = bestOf (faces); // one of which is the floor, unless it is too deep to be seen
+  if (!best)
+    best = bestOf (acrossWalls (faces));
   return best;
 }
 
@@ -154,14 +180,20 @@ OpenBox::findOutline (const std::vector<OrientedPoint>& points, const std::optio
   center_ += quantile (wall_heights, 0.5) * direction_;
   x_ = direction_.unitOrthogonal ();
   y_ = direction_.cross (x_);
-  std::complex<double> sum = 0.0;
-  double walls = 0.0;
+  Eigen::Vector2d mean = Eigen::Vector2d::Zero ();
   for (const OrientedPoint& point : points)
-    if (const Eigen::Vector2d n = flat (point).normal; n.norm () > sideways)
+    mean += flat (point).position / static_cast<double> (points.size ());
+  std::complex<double> sum = 0.0;
+  double walls = 0.0, inner = 0.0;
+  for (const OrientedPoint& point : points)
+    if (const FlatPoint f = flat (point); f.normal.norm () > sideways)
     {
-      sum += std::polar (1.0, 4.0 * std::atan2 (n.y (), n.x ()));
+      sum += std::polar (1.0, 4.0 * std::atan2 (f.normal.y (), f.normal.x ()));
       walls += 1.0;
+      inner += f.normal.dot (f.position - mean) < 0.0;
     }
+  if (inner < least_inner * walls) // nothing is hollow, or known to be
+    return false;
   if (walls < least_sideways * static_cast<double> (points.size ()) || std::abs (sum) < least_rectangular * walls)
     return false;
 
