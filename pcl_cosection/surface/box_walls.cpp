@@ -26,17 +26,25 @@ constexpr double level = 0.9;           // component of a floor's normal upwards
 constexpr std::size_t least_points = 10; // of a side or of the floor
 constexpr std::size_t parts = 8;        // of the length of a side
 constexpr std::ptrdiff_t least_parts = 3; // in which it is seen
+constexpr double least_rise = 0.2;      // of the height of the walls, on which it is seen
+constexpr double stray_share = 0.01;
 constexpr std::size_t least_walls = 3;
 constexpr std::size_t least_inner = 2;  // walls seen from inside
 constexpr double near_spreads = 1.5;    // median distances of its points from a side: those nearer are on it
 constexpr double lowest_share = 0.02;   // of those of outer sides
+
+struct Range
+{
+  double low = std::numeric_limits<double>::infinity ();
+  double high = -std::numeric_limits<double>::infinity ();
+};
 
 /** \brief One of both sides of a wall. */
 struct Side
 {
   std::vector<double> places;  // of its points, on the way out, where they would be at height 0
   std::vector<double> heights; // of the same
-  std::array<bool, parts> seen{};
+  std::array<Range, parts> seen; // heights
 
   double
   place () const
@@ -45,10 +53,13 @@ struct Side
     return quantile (values, 0.5);
   }
 
+  /** \brief As more than the edge of something else? */
   bool
-  isSeen () const
+  isSeen (double wall_height) const
   {
-    return places.size () >= least_points && std::count (seen.begin (), seen.end (), true) >= least_parts;
+    return places.size () >= least_points && std::count_if (seen.begin (), seen.end (), [&] (const Range& part) {
+             return part.high - part.low > least_rise * wall_height;
+           }) >= least_parts;
   }
 };
 
@@ -68,14 +79,18 @@ public:
       if (p.normal.z () > level && (p.position.head<2> ().array ().abs () < floor_reach * half_sizes).all ())
         floor_.push_back (p.position.z ());
     const bool has_floor = floor_.size () >= least_points;
-    const double floor = has_floor ? quantile (floor_, 0.5) : 0.0;
+    std::vector<double> heights;
+    for (const BoxPoint& p : points)
+      heights.push_back (p.position.z ());
+    const double floor = has_floor ? quantile (floor_, 0.5) : quantile (heights, stray_share);
+    height_ = quantile (heights, 1.0 - stray_share) - floor;
     for (const BoxPoint& p : points)
     {
       const double sine = std::sqrt (std::max (0.0, 1.0 - p.normal.z () * p.normal.z ()));
       const bool is_floor = has_floor && p.normal.z () > level;
       if (sine > facing || is_floor)
         for (int axis = 0; axis < 2; ++axis)
-          add (p, axis, is_floor, !has_floor || p.position.z () > floor);
+          add (p, axis, is_floor, p.position.z () > floor);
     }
   }
 
@@ -89,8 +104,8 @@ public:
     for (std::size_t w = 0; w < walls_.size (); ++w)
     {
       Wall& wall = walls_[w];
-      const double o = wall.outer.isSeen () ? static_cast<double> (wall.outer.places.size ()) : 0.0;
-      const double i = wall.inner.isSeen () ? static_cast<double> (wall.inner.places.size ()) : 0.0;
+      const double o = wall.outer.isSeen (height_) ? static_cast<double> (wall.outer.places.size ()) : 0.0;
+      const double i = wall.inner.isSeen (height_) ? static_cast<double> (wall.inner.places.size ()) : 0.0;
       inner += i > 0.0;
       if (!(o + i > 0.0))
       {
@@ -131,8 +146,11 @@ private:
     Side& side = out > 0.0 ? wall.outer : wall.inner;
     side.places.push_back (sense * p.position[axis] + p.normal.z () / out * p.position.z ());
     side.heights.push_back (p.position.z ());
-    if (is_higher) // the edge of a floor is no wall
-      side.seen[static_cast<std::size_t> (0.5 * (along + 1.0) * parts)] = true;
+    if (!is_higher) // the edge of a floor is no wall
+      return;
+    Range& part = side.seen[static_cast<std::size_t> (0.5 * (along + 1.0) * parts)];
+    part.low = std::min (part.low, p.position.z ());
+    part.high = std::max (part.high, p.position.z ());
   }
 
   /** \brief Of points that are on the outer sides rather than beside them. */
@@ -142,7 +160,7 @@ private:
     std::vector<double> heights;
     for (const Wall& wall : walls_)
     {
-      if (!wall.outer.isSeen ())
+      if (!wall.outer.isSeen (height_))
         continue;
       const double place = wall.outer.place ();
       std::vector<double> off;
@@ -157,26 +175,29 @@ private:
     return heights;
   }
 
-  /** \brief Of the widths, by what walls seen from one side leave; of both, as strays add to them, the less. */
+  /** \brief Of the widths, what walls seen from one side leave; of both, as strays add to them and coarse pixels take away, the mean. */
   double
   leftByWidths () const
   {
-    double least = std::numeric_limits<double>::infinity ();
+    double sum = 0.0, walls = 0.0;
     for (std::size_t axis = 0; axis < 2; ++axis)
     {
       double left = 2.0 * half_sizes_[static_cast<Eigen::Index> (axis)];
       int inner = 0, seen = 0;
       for (const Wall& wall : {walls_[axis], walls_[axis + 2]})
-        if (const bool is_outer = wall.outer.isSeen (); is_outer || wall.inner.isSeen ())
+        if (const bool is_outer = wall.outer.isSeen (height_); is_outer || wall.inner.isSeen (height_))
         {
           left -= (is_outer ? wall.outer : wall.inner).place ();
           inner += !is_outer;
           ++seen;
         }
       if (seen == 2 && inner > 0)
-        least = std::min (least, left / inner);
+      {
+        sum += left / inner;
+        walls += 1.0;
+      }
     }
-    return std::isfinite (least) ? std::max (0.0, least) : 0.0;
+    return walls > 0.0 ? std::max (0.0, sum / walls) : 0.0;
   }
 
   /** \brief As where both sides are seen; else as the floor; else what remains of the widths. */
@@ -185,7 +206,7 @@ private:
   {
     double sum = 0.0, weights = 0.0;
     for (Wall& wall : walls_)
-      if (wall.outer.isSeen () && wall.inner.isSeen ())
+      if (wall.outer.isSeen (height_) && wall.inner.isSeen (height_))
       {
         const auto weight = static_cast<double> (std::min (wall.outer.places.size (), wall.inner.places.size ()));
         sum += weight * (wall.outer.place () - wall.inner.place ());
@@ -202,6 +223,7 @@ private:
   Eigen::Array2d half_sizes_;
   std::array<Wall, 4> walls_; // along x, y, -x and -y
   std::vector<double> floor_; // heights
+  double height_ = 0.0;       // of the walls over it
 };
 
 } // namespace

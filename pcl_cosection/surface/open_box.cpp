@@ -36,6 +36,7 @@ constexpr double level = 0.9;          // component of a floor's normal upwards
 constexpr double same_axis = 0.98;     // cosine
 constexpr double right_angle_cosine = 0.15; // between walls
 constexpr double least_inner = 0.05;   // of the points of walls: that face inwards
+constexpr double floor_reach = 0.08;   // of the size: heights of a floor differ by no more, if normals tell a little wrong which way is up
 constexpr double same_floor = 0.97;    // cosine between mean normal and plane
 constexpr std::size_t least_floor = 10;
 constexpr double blurred = 0.15;       // less across the axis than most normals of walls are: where wall and floor meet
@@ -43,16 +44,35 @@ constexpr double along_wall = 0.4;     // component of a normal along the wall, 
 constexpr double narrowest = 0.1;      // of its length
 constexpr std::array<double, 5> corners = {0.0, 0.15, 0.3, 0.5, 0.75}; // of the half width
 
-/** \brief Normals tell about which way a floor faces; its points, more precisely. Nothing if they are of several planes. */
+/** \brief Normals tell about which way a floor faces; its points, more precisely. Nothing if they are of no plane across that.
+ *
+ * What faces the same way is the rim, too; of the two the one with more points is taken. */
 std::optional<Eigen::Vector3d>
 acrossFloor (const std::vector<NormalLine>& lines, const Eigen::Vector3d& up)
 {
-  std::vector<Eigen::Vector3d> floor;
+  std::vector<const NormalLine*> level_lines;
+  std::vector<double> heights;
   for (const NormalLine& line : lines)
     if (up.dot (line.normal) > level)
-      floor.push_back (line.position);
-  if (floor.size () < least_floor)
+    {
+      level_lines.push_back (&line);
+      heights.push_back (up.dot (line.position));
+    }
+  if (heights.size () < least_floor)
     return up;
+  std::sort (heights.begin (), heights.end ());
+  double middle = 0.0;
+  std::ptrdiff_t most = 0;
+  for (auto first = heights.begin (); first != heights.end (); ++first)
+    if (const std::ptrdiff_t count = std::upper_bound (first, heights.end (), *first + 2.0 * floor_reach) - first; count > most)
+    {
+      most = count;
+      middle = *(first + count / 2);
+    }
+  std::vector<Eigen::Vector3d> floor;
+  for (const NormalLine* line : level_lines)
+    if (std::abs (up.dot (line->position) - middle) < floor_reach)
+      floor.push_back (line->position);
   const Eigen::Vector3d normal = planeNormal (floor, up);
   return normal.dot (up) > same_floor ? std::optional<Eigen::Vector3d> (normal) : std::nullopt;
 }
