@@ -169,8 +169,8 @@ CoSectionRun::addPriors (Object& object)
     standing.push_back (extentOf (object, plane));
   if (standing.empty ())
     standing.push_back (extentOf (object, std::nullopt));
-  const bool is_round = std::any_of (standing.begin (), standing.end (), [] (const SymmetricExtent& extent) { return extent.isRound (); });
-  if (scene_.options.use_extent_prior && is_cut_out && !is_round) // guesses are worth less
+  const bool has_profile = std::any_of (standing.begin (), standing.end (), [] (const SymmetricExtent& extent) { return extent.hasProfile (); });
+  if (scene_.options.use_extent_prior && is_cut_out && !has_profile) // guesses are worth less
     volume.setOpenPlaces (findOpenPlaces (volume.grid (), viewsOf (object), object.points (), scene_.options.threads));
   if (scene_.options.use_contact_prior && !object.plane_is_guessed) // that ends where it was seen to
     for (std::size_t n = 0; n < resting.size (); ++n)

@@ -24,7 +24,7 @@ constexpr float near_weight = 0.3f;     // sum of weights: a point within 1.1 si
 constexpr float far_weight = 0.01f;     // one within 2.1 sigma
 constexpr float gap_vox = 2.0f;         // nothing is expected where data is nearer
 constexpr double reach_vox = 0.7;       // inside the plausible region; what is deeper may be a cavity
-constexpr double round_weight = 10.0;   // of what is round, which is surely like that seen; in weights of what is only alike from both sides
+constexpr double profile_weight = 10.0; // of what has a profile, which is surely like that seen; in weights of what is only alike from both sides
 constexpr double vessel_weight = 100.0; // of a vessel's wall, which vanishes under less
 constexpr double empty_weight = 10.0;   // of its cavity, and of what is beyond all of it
 constexpr double least_wall = 0.6;      // of its thickness: walls are nowhere thinner, noise would make holes
@@ -124,16 +124,16 @@ void
 addVessel (EnergyProblem& problem, const VoxelGrid& grid, const SymmetricExtent& plausible, const std::vector<OrientedPoint>& measured,
            const std::vector<OrientedPoint>& expected, const std::vector<std::uint8_t>& free, const CoSectionOptions& options)
 {
-  const auto isRound = [&] (const OrientedPoint& p) { return plausible.isRoundAt (p.position.cast<double> ()); };
+  const auto isOfWall = [&] (const OrientedPoint& p) { return plausible.holds (p.position.cast<double> ()); };
   const auto find = [&] (VesselPart part) {
     const auto isOfPart = [&] (const OrientedPoint& p) { return plausible.partOf (p) == part; };
-    return PartOfWall (grid, pick (measured, [&] (const OrientedPoint& p) { return isOfPart (p) && isRound (p); }), pick (expected, isOfPart),
+    return PartOfWall (grid, pick (measured, [&] (const OrientedPoint& p) { return isOfPart (p) && isOfWall (p); }), pick (expected, isOfPart),
                        free, options);
   };
   const PartOfWall outer = find (VesselPart::Outer), bottom = find (VesselPart::Bottom);
   const PartOfWall inner = find (VesselPart::Inner);
   const PartOfWall rim = find (VesselPart::Rim);
-  const ImlsDataTerm handles = termOf (grid, pick (measured, [&] (const OrientedPoint& p) { return !isRound (p); }), options);
+  const ImlsDataTerm handles = termOf (grid, pick (measured, [&] (const OrientedPoint& p) { return !isOfWall (p); }), options);
   const double wall_vox = std::max (least_wall * plausible.wallThickness () / grid.voxel_size_m, least_wall_vox);
 
   const auto set = [&] (std::size_t n, double weight, double target) {
@@ -192,7 +192,7 @@ addHiddenSide (EnergyProblem& problem, const VoxelGrid& grid, const SymmetricExt
     return;
   }
   const ImlsDataTerm term = termOf (grid, expected, options);
-  const auto weight = static_cast<float> ((plausible.isRound () ? round_weight : 1.0) * options.beta_extent);
+  const auto weight = static_cast<float> ((plausible.hasProfile () ? profile_weight : 1.0) * options.beta_extent);
   for (std::size_t n = 0; n < grid.size (); ++n)
     if (!seen.free[n] && seen.data_distance[n] >= gap_vox && term.weight[n] >= near_weight)
     {

@@ -23,7 +23,7 @@ struct SeenVoxels
   const std::vector<float>& data_distance; // to the nearest with data, voxels
 };
 
-/** \brief Prefer surface where copies of the points make it likely, weakly, where nothing was seen; with more weight for what is round,
+/** \brief Prefer surface where copies of the points make it likely, weakly, where nothing was seen; with more weight for what has a profile,
  * whose copies are where its surface is.
  *
  * The two sides of a vessel's wall are no farther apart than data reaches, and blur each other. So they are told apart: the wall is what is

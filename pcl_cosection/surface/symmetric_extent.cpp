@@ -138,11 +138,11 @@ SymmetricExtent::build (const std::vector<OrientedPoint>& all, const std::option
   Farthest farthest (points);
 
   const std::vector<Eigen::Vector3d> faces = faceNormals (points, even);
-  round_ = profileSurfaceOf (points, faces, plane, alone);
-  if (round_)
+  profile_ = profileSurfaceOf (points, faces, plane, alone);
+  if (profile_)
   {
-    center_ = round_->center ();
-    turn_ = 2.0 * round_->direction () * round_->direction ().transpose () - Eigen::Matrix3d::Identity ();
+    center_ = profile_->center ();
+    turn_ = 2.0 * profile_->direction () * profile_->direction ().transpose () - Eigen::Matrix3d::Identity ();
   }
   else
   {
@@ -153,7 +153,7 @@ SymmetricExtent::build (const std::vector<OrientedPoint>& all, const std::option
     center_ = middleOfFarthest (ends);
   }
   std::optional<Eigen::Vector3d> foot;
-  if (up && (!round_ || std::abs (up->dot (round_->direction ())) > upright) && up->dot (farthest.along (-*up)) > -(*plane)[3])
+  if (up && (!profile_ || std::abs (up->dot (profile_->direction ())) > upright) && up->dot (farthest.along (-*up)) > -(*plane)[3])
     foot = center_ - (up->dot (center_) + (*plane)[3]) * *up;
 
   std::vector<Eigen::Vector3d> directions = even;
@@ -166,7 +166,7 @@ SymmetricExtent::build (const std::vector<OrientedPoint>& all, const std::option
   {
     // The copy of p is turn (p - center) + center, and turn its own inverse.
     const Eigen::Vector3d turned = turn_ * n;
-    const double copied = round_ ? round_->extent (n) : turned.dot (farthest.along (turned) - center_);
+    const double copied = profile_ ? profile_->extent (n) : turned.dot (farthest.along (turned) - center_);
     double extent = std::max (n.dot (farthest.along (n)), copied + n.dot (center_));
     if (foot)
       extent = std::max (extent, n.dot (*foot));
@@ -174,20 +174,20 @@ SymmetricExtent::build (const std::vector<OrientedPoint>& all, const std::option
   }
   faceted_ = prevail (points, faces);
   standing_ = up.has_value ();
-  copies_alike_ = up || round_ || isCuboid (points, faces);
+  copies_alike_ = up || profile_ || isCuboid (points, faces);
 }
 
 std::vector<OrientedPoint>
 SymmetricExtent::hiddenSide (const std::vector<OrientedPoint>& points, double reach) const
 {
-  if (round_)
+  if (profile_)
   {
-    std::vector<OrientedPoint> all = round_->copies (points);
+    std::vector<OrientedPoint> all = profile_->copies (points);
     std::vector<OrientedPoint> ends;
-    if (round_->vessel ())
-      ends = round_->depths (reach);
+    if (profile_->vessel ())
+      ends = profile_->depths (reach);
     else if (!standing_)
-      ends = round_->flatEnds ();
+      ends = profile_->flatEnds ();
     all.insert (all.end (), ends.begin (), ends.end ());
     return all;
   }
@@ -208,46 +208,46 @@ SymmetricExtent::hiddenSide (const std::vector<OrientedPoint>& points, double re
 std::optional<Eigen::Vector3d>
 SymmetricExtent::axisDirection () const
 {
-  return round_ && !round_->isBall () ? std::optional<Eigen::Vector3d> (round_->direction ()) : std::nullopt;
+  return profile_ && !profile_->isBall () ? std::optional<Eigen::Vector3d> (profile_->direction ()) : std::nullopt;
 }
 
 double
 SymmetricExtent::wallThickness () const
 {
-  return round_ && round_->vessel () ? round_->vessel ()->wallThickness () : 0.0;
+  return profile_ && profile_->vessel () ? profile_->vessel ()->wallThickness () : 0.0;
 }
 
 SymmetricExtent
 SymmetricExtent::withoutFloor () const
 {
   SymmetricExtent open = *this;
-  if (round_)
-    open.round_ = round_->withoutFloor ();
+  if (profile_)
+    open.profile_ = profile_->withoutFloor ();
   return open;
 }
 
 bool
-SymmetricExtent::isRoundAt (const Eigen::Vector3d& position) const
+SymmetricExtent::holds (const Eigen::Vector3d& position) const
 {
-  return round_ && round_->holds (position);
+  return profile_ && profile_->holds (position);
 }
 
 double
 SymmetricExtent::depthInCavity (const Eigen::Vector3d& position) const
 {
-  return round_ ? round_->depthInCavity (position) : 0.0;
+  return profile_ ? profile_->depthInCavity (position) : 0.0;
 }
 
 double
 SymmetricExtent::depthUnder (const Eigen::Vector3d& position) const
 {
-  return round_ ? round_->depthUnder (position) : 0.0;
+  return profile_ ? profile_->depthUnder (position) : 0.0;
 }
 
 VesselPart
 SymmetricExtent::partOf (const OrientedPoint& point) const
 {
-  return round_ ? round_->partOf (point) : VesselPart::Outer;
+  return profile_ ? profile_->partOf (point) : VesselPart::Outer;
 }
 
 double
@@ -285,7 +285,7 @@ SymmetricExtent::within (const Eigen::AlignedBox3d& box) const
   const double tolerance = rounding * (middle.norm () + half_sizes.norm ());
   SymmetricExtent needed;
   needed.center_ = center_;
-  needed.round_ = round_;
+  needed.profile_ = profile_;
   needed.copies_alike_ = copies_alike_;
   needed.standing_ = standing_;
   needed.faceted_ = faceted_;

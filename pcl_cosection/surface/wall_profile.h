@@ -14,21 +14,21 @@ namespace pcl
 namespace cosection
 {
 
-/** \brief A point of a surface of revolution in the half plane that its axis bounds. */
+/** \brief A point of a surface of revolution in the half plane that its axis bounds; of a box, in the one across a wall. */
 struct ProfilePoint
 {
   Eigen::Vector2d position; // height along the axis, distance from it
   Eigen::Vector2d normal;   // component along the axis, away from it
 };
 
-/** \brief A plane across the axis on which a surface of revolution stands. */
+/** \brief A plane across the axis on which it stands. */
 struct StandingPlane
 {
   double height; // along the axis
   double up;     // 1 or -1: the sense of the axis in which the surface is
 };
 
-/** \brief What is known of the wall of something round and hollow, in the half plane that its axis bounds. */
+/** \brief What is known of the wall of something hollow, in the half plane of its profile. */
 class WallProfile
 {
 public:

@@ -19,7 +19,7 @@ namespace cosection
 
 class ProfileSurface;
 
-/** \brief Parts of the surface of what is round and hollow, a cup or a bowl. */
+/** \brief Parts of the surface of what is hollow: a cup, a bowl or a box without its lid. */
 enum class VesselPart
 {
   Outer, ///< side of the wall
@@ -35,7 +35,8 @@ enum class VesselPart
  * plane on which the object rests, or, without such a plane, inverted through a point. The axis or point c is the
  * middle between the two observed points that are farthest apart (seen along the axis): of what is seen of a box,
  * these are opposite corners. If S is a surface of revolution, the axis is its own, whatever its direction, and the copies are those
- * by all turns, but of a handle or a spout: what was seen in less than 50 degrees in a row stays where it is.
+ * by all turns, but of a handle or a spout: what was seen in less than 50 degrees in a row stays where it is. If S is an open box, a tray or
+ * a bin with a rectangle as its outline and walls that are alike, they are those mirrored at its middle planes.
  *
  * The plausible region is the convex hull of S and its copy, as the intersection of half spaces { x : n_k.x <= s_k }
  * of fixed directions n_k and of those in which large parts of the surface face; s_k is the largest n_k.p of all
@@ -64,7 +65,7 @@ public:
   within (const Eigen::AlignedBox3d& box) const;
 
   /** \brief The copies, by half a revolution or through the point, of those of \a points that come to lie beyond the plausible
-   * region or less than \a reach (metres) inside it: where the hidden side is to be expected. Of what is round, the copies to all sides,
+   * region or less than \a reach (metres) inside it: where the hidden side is to be expected. Of what has a profile, the copies to all sides,
    * those of cavities too, and what views see least of a vessel, in steps of \a reach: the depths of both its sides, its floor and its
    * bottom; and of what is no vessel flat faces at the ends of straight walls, if no plane is known on which they end. */
   std::vector<OrientedPoint>
@@ -85,11 +86,11 @@ public:
     return copies_alike_;
   }
 
-  /** \brief Is it a surface of revolution? */
+  /** \brief Is it the same on all sides of an axis: a surface of revolution, or an open box? */
   bool
-  isRound () const
+  hasProfile () const
   {
-    return round_ != nullptr;
+    return profile_ != nullptr;
   }
 
   /** \brief Direction of the axis about which it is round; nothing for a ball, which has many, and for what is not round. */
@@ -103,7 +104,7 @@ public:
     return faceted_;
   }
 
-  /** \brief Of what is round and hollow, a cup or a bowl: how thick its wall is, metres; 0 of anything else. */
+  /** \brief Of a vessel, a cup, a bowl or an open box: how thick its wall is, metres; 0 of anything else. */
   double
   wallThickness () const;
 
@@ -111,9 +112,9 @@ public:
   SymmetricExtent
   withoutFloor () const;
 
-  /** \brief Does a place belong to what is round, not to a handle of it? */
+  /** \brief Does a place belong to what has a profile, not to a handle of it? */
   bool
-  isRoundAt (const Eigen::Vector3d& position) const;
+  holds (const Eigen::Vector3d& position) const;
 
   /** \brief How far a place in the cavity of a vessel is from the wall, across the axis, and over the floor, the less of both; metres, 0 elsewhere. */
   double
@@ -135,7 +136,7 @@ private:
   bool standing_ = false; // on a plane
   bool copies_alike_ = false;
   bool faceted_ = false;
-  std::shared_ptr<const ProfileSurface> round_; // null: it has none
+  std::shared_ptr<const ProfileSurface> profile_; // null: it has none
   Eigen::Matrix3d turn_ = Eigen::Matrix3d::Identity ();
   Eigen::Vector3d center_ = Eigen::Vector3d::Zero ();
   std::vector<std::pair<Eigen::Vector3d, double>> half_spaces_; // n_k, s_k
