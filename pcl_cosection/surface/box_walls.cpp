@@ -26,10 +26,11 @@ constexpr double level = 0.9;           // component of a floor's normal upwards
 constexpr std::size_t least_points = 10; // of a side or of the floor
 constexpr std::size_t parts = 8;        // of the length of a side
 constexpr std::ptrdiff_t least_parts = 3; // in which it is seen
-constexpr double least_rise = 0.2;      // of the height of the walls, on which it is seen
+constexpr double least_rise = 0.2;      // of the height of the walls or the width between them, the less: so high must it be seen
 constexpr double stray_share = 0.01;
 constexpr std::size_t least_walls = 3;
 constexpr std::size_t least_inner = 2;  // walls seen from inside
+constexpr double thinnest = 0.01;       // of the smaller half size: a wall
 constexpr double near_spreads = 1.5;    // median distances of its points from a side: those nearer are on it
 constexpr double lowest_share = 0.02;   // of those of outer sides
 
@@ -55,10 +56,10 @@ struct Side
 
   /** \brief As more than the edge of something else? */
   bool
-  isSeen (double wall_height) const
+  isSeen (double least_rise_m) const
   {
     return places.size () >= least_points && std::count_if (seen.begin (), seen.end (), [&] (const Range& part) {
-             return part.high - part.low > least_rise * wall_height;
+             return part.high - part.low > least_rise_m;
            }) >= least_parts;
   }
 };
@@ -67,6 +68,7 @@ struct Wall
 {
   Side outer, inner;
   std::size_t border = 0; // points of the floor, where it should be
+  std::size_t rim = 0;    // points of its rim
 };
 
 class BoxWalls
@@ -84,32 +86,30 @@ public:
       heights.push_back (p.position.z ());
     const double floor = has_floor ? quantile (floor_, 0.5) : quantile (heights, stray_share);
     height_ = quantile (heights, 1.0 - stray_share) - floor;
+    least_rise_m_ = least_rise * std::min (height_, 2.0 * half_sizes.minCoeff ());
     for (const BoxPoint& p : points)
-    {
-      const double sine = std::sqrt (std::max (0.0, 1.0 - p.normal.z () * p.normal.z ()));
-      const bool is_floor = has_floor && p.normal.z () > level;
-      if (sine > facing || is_floor)
-        for (int axis = 0; axis < 2; ++axis)
-          add (p, axis, is_floor, p.position.z () > floor);
-    }
+      for (int axis = 0; axis < 2; ++axis)
+        add (p, axis, floor);
   }
 
   std::optional<BoxOutline>
   outline (const std::optional<double>& bottom)
   {
     const double thickness = wallThickness (bottom);
+    if (!(thickness > thinnest * half_sizes_.minCoeff ()))
+      return std::nullopt;
     std::array<double, 4> ends{};
     std::size_t known = 0, inner = 0;
     double excess = 0.0; // of the half sizes, where walls are seen
     for (std::size_t w = 0; w < walls_.size (); ++w)
     {
       Wall& wall = walls_[w];
-      const double o = wall.outer.isSeen (height_) ? static_cast<double> (wall.outer.places.size ()) : 0.0;
-      const double i = wall.inner.isSeen (height_) ? static_cast<double> (wall.inner.places.size ()) : 0.0;
+      const double o = wall.outer.isSeen (least_rise_m_) ? static_cast<double> (wall.outer.places.size ()) : 0.0;
+      const double i = wall.inner.isSeen (least_rise_m_) ? static_cast<double> (wall.inner.places.size ()) : 0.0;
       inner += i > 0.0;
       if (!(o + i > 0.0))
       {
-        if (wall.border >= least_points)
+        if (wall.border >= least_points && wall.rim < least_points)
           return std::nullopt;
         continue;
       }
@@ -130,25 +130,27 @@ public:
 
 private:
   void
-  add (const BoxPoint& p, int axis, bool is_floor, bool is_higher)
+  add (const BoxPoint& p, int axis, double floor)
   {
+    const bool is_level = p.normal.z () > level;
+    const bool is_low = p.position.z () - floor < 0.5 * height_;
     const double sense = p.position[axis] < 0.0 ? -1.0 : 1.0;
     const double along = p.position[1 - axis] / (side_reach * half_sizes_[1 - axis]);
     const double distance = sense * p.position[axis] / half_sizes_[axis];
     if (std::abs (along) >= 1.0)
       return;
     Wall& wall = walls_[static_cast<std::size_t> (axis) + (sense < 0.0 ? 2 : 0)];
-    if (is_floor)
-      wall.border += distance > border_reach;
+    if (is_level && distance > border_reach)
+      ++(is_low ? wall.border : wall.rim);
     const double out = sense * p.normal[axis];
-    if (is_floor || std::abs (out) < facing || distance < wall_reach)
+    if (is_level || std::abs (out) < facing || distance < wall_reach)
       return;
     Side& side = out > 0.0 ? wall.outer : wall.inner;
     side.places.push_back (sense * p.position[axis] + p.normal.z () / out * p.position.z ());
     side.heights.push_back (p.position.z ());
-    if (!is_higher) // the edge of a floor is no wall
+    if (!(p.position.z () > floor)) // the edge of a floor is no wall
       return;
-    Range& part = side.seen[static_cast<std::size_t> (0.5 * (along + 1.0) * parts)];
+    Range& part = side.seen[std::min (parts - 1, static_cast<std::size_t> (0.5 * (along + 1.0) * parts))];
     part.low = std::min (part.low, p.position.z ());
     part.high = std::max (part.high, p.position.z ());
   }
@@ -160,7 +162,7 @@ private:
     std::vector<double> heights;
     for (const Wall& wall : walls_)
     {
-      if (!wall.outer.isSeen (height_))
+      if (!wall.outer.isSeen (least_rise_m_))
         continue;
       const double place = wall.outer.place ();
       std::vector<double> off;
@@ -185,7 +187,7 @@ private:
       double left = 2.0 * half_sizes_[static_cast<Eigen::Index> (axis)];
       int inner = 0, seen = 0;
       for (const Wall& wall : {walls_[axis], walls_[axis + 2]})
-        if (const bool is_outer = wall.outer.isSeen (height_); is_outer || wall.inner.isSeen (height_))
+        if (const bool is_outer = wall.outer.isSeen (least_rise_m_); is_outer || wall.inner.isSeen (least_rise_m_))
         {
           left -= (is_outer ? wall.outer : wall.inner).place ();
           inner += !is_outer;
@@ -200,13 +202,13 @@ private:
     return walls > 0.0 ? std::max (0.0, sum / walls) : 0.0;
   }
 
-  /** \brief As where both sides are seen; else as the floor; else what remains of the widths. */
+  /** \brief As where both sides are seen; else as the floor, but no more than remains of the widths. */
   double
   wallThickness (const std::optional<double>& bottom)
   {
     double sum = 0.0, weights = 0.0;
     for (Wall& wall : walls_)
-      if (wall.outer.isSeen (height_) && wall.inner.isSeen (height_))
+      if (wall.outer.isSeen (least_rise_m_) && wall.inner.isSeen (least_rise_m_))
       {
         const auto weight = static_cast<double> (std::min (wall.outer.places.size (), wall.inner.places.size ()));
         sum += weight * (wall.outer.place () - wall.inner.place ());
@@ -217,13 +219,18 @@ private:
     std::vector<double> heights = outerHeights ();
     if (floor_.size () < least_points || (!bottom && heights.size () < least_points))
       return leftByWidths ();
-    return std::max (0.0, quantile (floor_, 0.5) - (bottom ? *bottom : quantile (heights, lowest_share)));
+    const double by_floor = std::max (0.0, quantile (floor_, 0.5) - (bottom ? *bottom : quantile (heights, lowest_share)));
+    const double left = leftByWidths ();
+    if (!bottom && by_floor < thinnest * half_sizes_.minCoeff ()) // seen from above, outer sides show little
+      return left;
+    return left > 0.0 ? std::min (by_floor, left) : by_floor;
   }
 
   Eigen::Array2d half_sizes_;
   std::array<Wall, 4> walls_; // along x, y, -x and -y
   std::vector<double> floor_; // heights
   double height_ = 0.0;       // of the walls over it
+  double least_rise_m_ = 0.0; // of what is seen of one of their sides
 };
 
 } // namespace

@@ -137,7 +137,8 @@ OpenBox::fit (const std::vector<OrientedPoint>& points, const std::vector<Eigen:
   if (points.size () < least_points)
     return std::nullopt;
   if (plane)
-    return along (plane->head<3> (), points, plane);
+    if (std::optional<OpenBox> standing = along (plane->head<3> (), points, plane))
+      return standing;
   const auto bestOf = [&] (const std::vector<Eigen::Vector3d>& axes) {
     std::optional<OpenBox> best;
     for (const Eigen::Vector3d& up : axes)
@@ -155,7 +156,8 @@ std::optional<OpenBox>
 OpenBox::along (const Eigen::Vector3d& up, const std::vector<OrientedPoint>& points, const std::optional<Eigen::Vector4d>& plane)
 {
   const NormalLines normals = normalLinesOf (points);
-  const std::optional<Eigen::Vector3d> direction = plane ? up : acrossFloor (normals.lines, up);
+  const bool is_standing = plane && plane->head<3> ().dot (up) > upright;
+  const std::optional<Eigen::Vector3d> direction = is_standing ? plane->head<3> () : acrossFloor (normals.lines, up);
   if (!direction)
     return std::nullopt;
   OpenBox box;
@@ -236,7 +238,7 @@ OpenBox::findOutline (const std::vector<OrientedPoint>& points, const std::optio
       box_points.push_back ({{x_.dot (q), y_.dot (q), direction_.dot (q)}, {x_.dot (n), y_.dot (n), direction_.dot (n)}});
     }
     std::optional<double> bottom;
-    if (plane)
+    if (plane && plane->head<3> ().dot (direction_) > upright)
       bottom = -plane->head<3> ().dot (center_) - (*plane)[3];
     const std::optional<BoxOutline> by_walls = outlineByWalls (box_points, half_sizes, bottom);
     if (!by_walls)
