@@ -92,6 +92,7 @@ public:
         add (p, axis, floor);
   }
 
+  /** \param[in] bottom height, if known */
   std::optional<BoxOutline>
   outline (const std::optional<double>& bottom)
   {
@@ -103,7 +104,7 @@ public:
     double excess = 0.0; // of the half sizes, where walls are seen
     for (std::size_t w = 0; w < walls_.size (); ++w)
     {
-      Wall& wall = walls_[w];
+      const Wall& wall = walls_[w];
       const double o = wall.outer.isSeen (least_rise_m_) ? static_cast<double> (wall.outer.places.size ()) : 0.0;
       const double i = wall.inner.isSeen (least_rise_m_) ? static_cast<double> (wall.inner.places.size ()) : 0.0;
       inner += i > 0.0;
@@ -137,7 +138,7 @@ private:
     const double sense = p.position[axis] < 0.0 ? -1.0 : 1.0;
     const double along = p.position[1 - axis] / (side_reach * half_sizes_[1 - axis]);
     const double distance = sense * p.position[axis] / half_sizes_[axis];
-    if (std::abs (along) >= 1.0)
+    if (!(std::abs (along) < 1.0))
       return;
     Wall& wall = walls_[static_cast<std::size_t> (axis) + (sense < 0.0 ? 2 : 0)];
     if (is_level && distance > border_reach)
@@ -186,10 +187,10 @@ private:
     {
       double left = 2.0 * half_sizes_[static_cast<Eigen::Index> (axis)];
       int inner = 0, seen = 0;
-      for (const Wall& wall : {walls_[axis], walls_[axis + 2]})
-        if (const bool is_outer = wall.outer.isSeen (least_rise_m_); is_outer || wall.inner.isSeen (least_rise_m_))
+      for (const Wall* wall : {&walls_[axis], &walls_[axis + 2]})
+        if (const bool is_outer = wall->outer.isSeen (least_rise_m_); is_outer || wall->inner.isSeen (least_rise_m_))
         {
-          left -= (is_outer ? wall.outer : wall.inner).place ();
+          left -= (is_outer ? wall->outer : wall->inner).place ();
           inner += !is_outer;
           ++seen;
         }
@@ -207,7 +208,7 @@ private:
   wallThickness (const std::optional<double>& bottom)
   {
     double sum = 0.0, weights = 0.0;
-    for (Wall& wall : walls_)
+    for (const Wall& wall : walls_)
       if (wall.outer.isSeen (least_rise_m_) && wall.inner.isSeen (least_rise_m_))
       {
         const auto weight = static_cast<double> (std::min (wall.outer.places.size (), wall.inner.places.size ()));

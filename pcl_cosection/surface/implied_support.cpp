@@ -4,6 +4,7 @@
 
 #include "footprint_axis.h"
 #include "normal_axis.h"
+#include "quantile.h"
 
 #include <Eigen/Geometry>
 
@@ -33,14 +34,6 @@ constexpr int sectors = 36;           // around the middle
 constexpr double rim_radius = 0.8;    // of the farthest in a sector: what is farther out is near the rim
 constexpr double rim_strays = 0.1;    // of those points, may be higher than it
 constexpr int higher_sectors = 27;    // whose rim is higher than the floor
-
-double
-quantile (std::vector<double>& values, double share)
-{
-  const auto rank = values.begin () + static_cast<std::ptrdiff_t> (share * static_cast<double> (values.size () - 1));
-  std::nth_element (values.begin (), rank, values.end ());
-  return *rank;
-}
 
 /** \brief What lies about an upright axis. */
 class Surroundings
