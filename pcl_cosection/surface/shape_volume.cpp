@@ -26,7 +26,7 @@ constexpr float observed_weight = 0.3f;        // sum of weights that makes a vo
 constexpr double continued_plane_weight = 0.5; // of the data term on a continued plane, as of a densely measured one
 constexpr double continued_plane_gap_vox = 2.0; // planes are continued where no data is nearer
 constexpr float carving_reach_vox = 1.5f; // from the boundary of free space into the hull
-constexpr std::size_t bytes_per_voxel = 93;
+constexpr std::size_t bytes_per_voxel = 94;
 constexpr double follow_margin_vox = 3.0; // what follows new evidence at full resolution reaches so far beyond what is supported
 
 } // namespace
@@ -89,6 +89,7 @@ ShapeVolume::prepare (const ShapeEvidence& evidence, const std::vector<PlaneCont
   changed_ = true;
   free_space_ = evidence.freeSpace ();
   empty_ = free_space_;
+  facing_ = FacingPoints ();
   carved_ = evidence.carvedBounds ();
   evidence.data ().average (options_.weighting, problem_.weight, problem_.weighted_target, options_.threads);
   data_.resize (grid_.size ());
@@ -177,6 +178,8 @@ ShapeVolume::addHiddenSide (const SymmetricExtent& plausible, const std::vector<
 {
   if (options_.beta_extent > 0.0)
     cosection::addHiddenSide (problem_, grid_, plausible, points, {empty_, data_distance_vox_}, options_);
+  if (plausible.wallThickness () > 0.0)
+    facing_ = FacingPoints (grid_, points);
 }
 
 void

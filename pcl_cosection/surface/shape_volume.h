@@ -2,6 +2,7 @@
 // Copyright (c) 2026, the pcl_cosection authors
 #pragma once
 
+#include "facing_points.h"
 #include "hidden_places.h"
 #include "quarter_resolution.h"
 #include "shape_evidence.h"
@@ -175,10 +176,11 @@ private:
   CoSectionOptions options_;
   EnergyProblem problem_;
   std::vector<std::uint8_t> free_space_;
-  std::vector<std::uint8_t> empty_; // there, and where nothing is expected
+  std::vector<std::uint8_t> empty_;         // there, and where nothing is expected
   std::vector<std::uint8_t> data_;          // 1 where points are near
   std::vector<std::uint8_t> continued_;     // 1 on continued planes; empty: there are none
   std::vector<float> data_distance_vox_;
+  FacingPoints facing_;                     // of thin walls; or empty
   std::vector<float> carved_;               // signed distance to free space, voxels; or empty
   std::vector<float> half_u_;               // at half the resolution, voxels of grid_
   QuarterResolution quarter_;               // of follow ()

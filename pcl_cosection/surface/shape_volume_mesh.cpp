@@ -197,7 +197,7 @@ ShapeVolume::attachEvidence (TriangleMesh& mesh) const
                              u_[n] < problem_.intersection[n].distance () && distance <= intersection_reach_vox;
         }
     Provenance provenance = Provenance::Inferred;
-    if (data_distance <= observed_reach_vox)
+    if (data_distance <= observed_reach_vox && (facing_.empty () || facing_.face (mesh.vertices[v], mesh.normals[v])))
       provenance = Provenance::Observed;
     else if (bounded_by_body)
       provenance = Provenance::Intersection;

@@ -168,6 +168,23 @@ TEST_P (OpenBox, IsCompletedWithThinWallsAlsoAlone)
   }
 }
 
+TEST_P (OpenBox, HasNotObservedWhatFacesAway)
+{
+  const ObjectResult result = completeFrom (sceneOf (shape_, true), {0}, options ());
+  const Eigen::Vector3f sensor = around (0).translation ().cast<float> ();
+  int away = 0, seen_away = 0, towards = 0, seen_towards = 0;
+  for (std::size_t v = 0; v < result.mesh.vertices.size (); ++v)
+  {
+    const float cosine = result.mesh.normals[v].dot ((sensor - result.mesh.vertices[v]).normalized ());
+    const bool is_observed = result.mesh.provenance[v] == static_cast<std::uint8_t> (Provenance::Observed);
+    (cosine > 0.0f ? towards : away) += std::abs (cosine) > 0.5f;
+    (cosine > 0.0f ? seen_towards : seen_away) += std::abs (cosine) > 0.5f && is_observed;
+  }
+  ASSERT_GT (away, 500);
+  EXPECT_LT (seen_away, 0.05 * away);
+  EXPECT_GT (seen_towards, 0.5 * towards); // the other half may be behind the wall in front
+}
+
 INSTANTIATE_TEST_SUITE_P (Trays, OpenBox,
                           testing::Values (Tray{{0.13, 0.1, 0.03}, 0.004}, Tray{{0.14, 0.1, 0.04}, 0.006, 0.03}, Tray{{0.12, 0.12, 0.06}, 0.005}));
 

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_cosection authors
+#pragma once
+
+#include <pcl/cosection/surface/oriented_point.h>
+#include <pcl/cosection/volume/voxel_grid.h>
+
+#include <Eigen/Core>
+
+#include <cstdint>
+#include <vector>
+
+namespace pcl
+{
+namespace cosection
+{
+
+/** \brief Which ways measured points face, by voxel: both sides of a thin wall are near the points of either, but only one may have been seen. */
+class FacingPoints
+{
+public:
+  FacingPoints () = default;
+  FacingPoints (const VoxelGrid& grid, const std::vector<OrientedPoint>& points);
+
+  /** \brief None were given? */
+  bool
+  empty () const
+  {
+    return ways_.empty ();
+  }
+
+  /** \brief Does any point within three voxels face about as \a normal does? */
+  bool
+  face (const Eigen::Vector3f& position, const Eigen::Vector3f& normal) const;
+
+private:
+  VoxelGrid grid_;
+  std::vector<std::uint8_t> ways_; // by voxel, a bit for either sense of each axis
+};
+
+} // namespace cosection
+} // namespace pcl
