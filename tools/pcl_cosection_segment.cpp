@@ -29,14 +29,17 @@ constexpr float large_depth_m = 100.0f; ///< what is farther is probably not in 
 std::vector<std::string>
 warningsOf (const SegmentSettings& settings, const OrganizedCloud& cloud)
 {
+  std::vector<std::string> warnings;
+  if (cloud.moved)
+    warnings.push_back (settings.input + ": its points are not in the frame of their sensor, whose place their pixels tell");
   float depth = 0.0f;
   for (const Eigen::Vector3f& p : cloud.points)
     if (p.allFinite ())
       depth = std::max (depth, p.z ());
-  if (depth <= large_depth_m)
-    return {};
-  return {settings.input + ": is up to " + std::to_string (static_cast<long> (depth)) +
-          " m deep; if it is in millimetres, give --scale 0.001"};
+  if (depth > large_depth_m)
+    warnings.push_back (settings.input + ": is up to " + std::to_string (static_cast<long> (depth)) +
+                        " m deep; if it is in millimetres, give --scale 0.001");
+  return warnings;
 }
 
 std::string

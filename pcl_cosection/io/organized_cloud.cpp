@@ -8,6 +8,7 @@
 #include "quiet_console.h"
 
 #include <pcl/cosection/common/atomic_file.h>
+#include <pcl/cosection/common/camera_resection.h>
 #include <pcl/cosection/common/error.h>
 
 #include <pcl/common/io.h>
@@ -100,7 +101,16 @@ readOrganizedCloud (const std::string& path, const PcdViewOptions& options)
   if (std::none_of (cloud.positions.begin (), cloud.positions.end (),
                     [] (const Eigen::Vector3f& p) { return (p.allFinite ()); }))
     throw DegenerateInput (path + ": holds no finite point");
-  OrganizedCloud result = {cloud.width, cloud.height, std::move (cloud.positions), {}};
+  OrganizedCloud result;
+  result.width = cloud.width;
+  result.height = cloud.height;
+  result.points = std::move (cloud.positions);
+  if (!fitPinholeCamera (result.points, result.width, result.height))
+    if (const auto located = locateCamera (result.points, result.width, result.height))
+    {
+      result.points = takeToSensor (located->T_points_sensor.inverse (), result.points);
+      result.moved = true;
+    }
   if (!cloud.colours.empty ())
   {
     result.picture = Picture (cloud.width, cloud.height);

@@ -176,10 +176,12 @@ readSensorCloud (const std::string& path, const PcdViewOptions& options, bool wi
   const auto& v = header.viewpoint;
   result.T_world_sensor.linear () = Eigen::Quaterniond (v[3], v[4], v[5], v[6]).normalized ().toRotationMatrix ();
   result.T_world_sensor.translation () = options.scale * Eigen::Vector3d (v[0], v[1], v[2]);
+  if (options.viewpoint)
+    result.T_world_sensor = Eigen::Translation3d (Eigen::Map<const Eigen::Vector3d> (options.viewpoint->data ()));
   result.has_viewpoint =
-      !result.T_world_sensor.translation ().isZero (0.0) || !result.T_world_sensor.linear ().isIdentity (0.0);
+      options.viewpoint || !result.T_world_sensor.translation ().isZero (0.0) || !result.T_world_sensor.linear ().isIdentity (0.0);
   const Eigen::Isometry3d T_sensor_points =
-      options.world_points ? result.T_world_sensor.inverse () : Eigen::Isometry3d::Identity ();
+      options.world_points || options.viewpoint ? result.T_world_sensor.inverse () : Eigen::Isometry3d::Identity ();
 
   result.positions = readVectors (path, header, cloud, {"x", "y", "z"},
                                   Eigen::Affine3d (T_sensor_points) * Eigen::Scaling (options.scale));

@@ -2,11 +2,11 @@
 // Copyright (c) 2026, the pcl_cosection authors
 #include <pcl/cosection/io/pcd_view.h>
 
+#include "organized_view.h"
 #include "pcd_cloud.h"
 #include "unorganized_view.h"
 
 #include <pcl/cosection/common/error.h>
-#include <pcl/cosection/surface/organized_normals.h>
 
 #include <algorithm>
 #include <cmath>
@@ -22,60 +22,7 @@ namespace cosection
 namespace
 {
 
-constexpr float nan_value = std::numeric_limits<float>::quiet_NaN ();
 constexpr double millimetre_extent = 100.0; ///< metres; a scene this large is probably not in metres
-constexpr double intrinsics_tolerance_px = 2.0;
-
-/** \brief Root mean square distance of the points from their pixels under a camera. */
-double
-reprojectionError (const SensorCloud& cloud, const PinholeCamera& camera)
-{
-  double sum = 0.0;
-  std::size_t count = 0;
-  for (int v = 0; v < cloud.height; ++v)
-    for (int u = 0; u < cloud.width; ++u)
-    {
-      const Eigen::Vector3f& p = cloud.positions[static_cast<std::size_t> (v) * cloud.width + u];
-      if (!(p.z () > 0.0f))
-        continue;
-      sum += (camera.project (p.cast<double> ()) - Eigen::Vector2d (u, v)).squaredNorm ();
-      ++count;
-    }
-  return (count == 0 ? std::numeric_limits<double>::infinity () : std::sqrt (sum / static_cast<double> (count)));
-}
-
-void
-addRays (const std::string& path, const PcdViewOptions& options, const SensorCloud& cloud, LabelledView& result)
-{
-  std::optional<PinholeCamera> camera = fitPinholeCamera (cloud.positions, cloud.width, cloud.height);
-  if (!camera && options.intrinsics)
-  {
-    const auto& k = *options.intrinsics;
-    camera = PinholeCamera{cloud.width, cloud.height, k[0], k[1], k[2], k[3]};
-    const double error = reprojectionError (cloud, *camera);
-    if (!(error <= intrinsics_tolerance_px))
-    {
-      std::ostringstream text;
-      text.precision (3);
-      text << path << ": the points are " << error << " pixels off the given intrinsics; its free space may be wrong";
-      result.warnings.push_back (text.str ());
-    }
-  }
-  if (!camera)
-  {
-    result.warnings.push_back (
-        path + ": organised, but not the image of a pinhole camera in the sensor frame: no free " +
-        "space is taken from it (give --intrinsics, or --world-points if the points are in the " + "world frame)");
-    return;
-  }
-  DepthView view;
-  view.camera = *camera;
-  view.T_world_sensor = cloud.T_world_sensor;
-  view.depth.resize (cloud.positions.size ());
-  for (std::size_t i = 0; i < view.depth.size (); ++i)
-    view.depth[i] = cloud.positions[i].z () > 0.0f ? cloud.positions[i].z () : nan_value;
-  result.view = std::move (view);
-}
 
 /** \brief Sort the points by label, in the world frame. */
 void
@@ -136,6 +83,8 @@ PcdViewOptions::validate () const
 {
   if (!(std::isfinite (scale) && scale > 0.0))
     throw InvalidArgument ("scale must be positive and finite");
+  if (viewpoint && !std::all_of (viewpoint->begin (), viewpoint->end (), [] (double x) { return std::isfinite (x); }))
+    throw InvalidArgument ("viewpoint must be finite");
   if (normal_neighbours < 3 || normal_neighbours > 1000)
     throw InvalidArgument ("normal_neighbours must be between 3 and 1000");
   if (intrinsics)
@@ -150,7 +99,7 @@ readPcdView (const std::string& path, const PcdViewOptions& options)
   if (cloud.height > 1)
     for (Eigen::Vector3f& p : cloud.positions) // some sensors write a missing reading as zero
       if (p.isZero (0.0f))
-        p.setConstant (nan_value);
+        p.setConstant (std::numeric_limits<float>::quiet_NaN ());
   LabelledView result;
   checkExtent (path, cloud, result);
   result.organized = cloud.height > 1;
@@ -160,12 +109,7 @@ readPcdView (const std::string& path, const PcdViewOptions& options)
   if (cloud.ignored > 0)
     result.warnings.push_back (path + ": " + std::to_string (cloud.ignored) + " points of a negative label, or of 65535, are ignored");
   if (cloud.height > 1)
-  {
-    addRays (path, options, cloud, result);
-    OrganizedNormalsOptions normal_options;
-    normal_options.threads = options.threads;
-    cloud.normals = computeOrganizedNormals (cloud.positions, cloud.width, cloud.height, cloud.labels, normal_options);
-  }
+    completeOrganized (path, options, cloud, result);
   else
     completeUnorganized (path, options, cloud, result);
   collectObjects (cloud, result);

@@ -2,28 +2,18 @@
 // Copyright (c) 2026, the pcl_cosection authors
 #include "unorganized_view.h"
 
-#include "../common/cell_key.h"
-#include "quiet_console.h"
+#include "estimated_normals.h"
+#include "place_text.h"
 
-#include <pcl/cosection/common/parallel.h>
 #include <pcl/cosection/surface/hull_constraint.h>
 #include <pcl/cosection/surface/normal_orientation.h>
 #include <pcl/cosection/surface/range_image.h>
-
-// With its templates: loading libpcl_features for them costs every program a twentieth of a second.
-#include <pcl/features/impl/normal_3d.hpp>
-#include <pcl/features/impl/normal_3d_omp.hpp>
-#include <pcl/features/normal_3d_omp.h>
-#include <pcl/point_types.h>
-#include <pcl/search/kdtree.h>
+#include <pcl/cosection/surface/sensor_location.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
-#include <numeric>
 #include <optional>
-#include <unordered_map>
 
 namespace pcl
 {
@@ -35,16 +25,10 @@ namespace
 
 constexpr float nan_value = std::numeric_limits<float>::quiet_NaN ();
 constexpr double max_default_slope = 1.7321; // of points before a camera whose pose was left at the default: 60 degrees
+constexpr double max_hidden_of_label = 0.5; // points, from where they were seen
 constexpr float away_cosine = -0.2f;       // of a normal that clearly points away from the viewpoint
 constexpr double worth_saying = 0.02;      // share of the normals
 constexpr double surely_inward = 0.3;      // outward share of a body whose normals are flipped
-constexpr int least_neighbours = 8;        // for a normal; more where there are many points:
-constexpr int points_per_neighbour = 40;
-constexpr std::size_t dense_points = 20000;  // of one label
-constexpr std::uint64_t far_away = ~std::uint64_t (0); // key of the cell of all that is far from the others
-constexpr double thinning_cells = 100.0;     // along the longest side of what is denser
-constexpr int neighbours_of_means = 2;       // more than of points: noise spreads over several layers of cells
-constexpr std::size_t judged_points = 20000;
 
 using Members = std::map<std::uint32_t, std::vector<std::size_t>>;
 
@@ -54,106 +38,104 @@ percent (double share)
   return std::to_string (std::lround (100.0 * share)) + " %";
 }
 
-/** \brief Some points that stand for many. */
-struct Thinned
+/** \brief What tells that a sensor at some place saw the points, or did not. */
+struct Sight
 {
-  std::vector<Eigen::Vector3f> points;
-  std::vector<std::uint32_t> of; ///< which one stands for each point
+  std::optional<RangeImage> image; ///< none if they do not fit into one
+  double hidden_share = 0.0;       ///< of all points, or of the label of which most are hidden if that is too much
+
+  bool
+  isTheirs () const
+  {
+    return image && hidden_share <= RangeImage::max_hidden_share;
+  }
 };
 
-/** \brief Means of points in cells, where points are so dense that the nearest ones would show noise alone; else the
- * points themselves. */
-Thinned
-thin (const std::vector<Eigen::Vector3f>& points)
+/** \brief Look at the points from \a sensor, in their frame. From below a table few of its points are hidden, but all of what is on it. */
+Sight
+lookFrom (const Eigen::Vector3d& sensor, const Members& members, const SensorCloud& cloud)
 {
-  Thinned thinned;
-  thinned.of.resize (points.size ());
-  if (points.size () <= dense_points)
+  Sight sight;
+  sight.image = drawRangeImage (cloud.positions, sensor);
+  if (!sight.image)
+    return sight;
+  sight.hidden_share = sight.image->hidden_share;
+  for (const auto& [label, indices] : members)
   {
-    thinned.points = points;
-    std::iota (thinned.of.begin (), thinned.of.end (), std::uint32_t{0});
-    return thinned;
+    if (indices.size () < RangeImage::min_points)
+      continue;
+    const auto hidden = std::count_if (indices.begin (), indices.end (),
+                                       [&] (std::size_t i) { return sight.image->hides (cloud.positions[i]); });
+    const double share = static_cast<double> (hidden) / static_cast<double> (indices.size ());
+    if (share > max_hidden_of_label)
+      sight.hidden_share = std::max (sight.hidden_share, share);
   }
-  std::array<std::vector<float>, 3> some;
-  for (std::size_t i = 0; i < points.size (); i += points.size () / judged_points)
-    for (int axis = 0; axis < 3; ++axis)
-      some[axis].push_back (points[i][axis]);
-  float longest = std::numeric_limits<float>::min ();
-  for (std::vector<float>& along : some)
-  {
-    std::sort (along.begin (), along.end ());
-    longest = std::max (longest, along[along.size () * 99 / 100] - along[along.size () / 100]);
-  }
-  const Eigen::Vector3f origin (some[0][some[0].size () / 2], some[1][some[1].size () / 2], some[2][some[2].size () / 2]);
-  std::unordered_map<std::uint64_t, std::uint32_t> cells;
-  std::vector<float> counts;
-  for (std::size_t i = 0; i < points.size (); ++i)
-  {
-    const auto at = cellOf ((points[i] - origin).cast<double> () * thinning_cells / longest);
-    const auto next = static_cast<std::uint32_t> (thinned.points.size ());
-    const auto [cell, fresh] = cells.emplace (at ? keyOf (*at) : far_away, next);
-    if (fresh)
-    {
-      thinned.points.emplace_back (Eigen::Vector3f::Zero ());
-      counts.push_back (0.0f);
-    }
-    thinned.of[i] = cell->second;
-    counts[cell->second] += 1.0f;
-    thinned.points[cell->second] += (points[i] - origin - thinned.points[cell->second]) / counts[cell->second];
-  }
-  for (Eigen::Vector3f& point : thinned.points)
-    point += origin;
-  return thinned;
+  return sight;
 }
 
-/** \brief Estimated normals of any sign. */
-std::vector<Eigen::Vector3f>
-estimateNormals (const PcdViewOptions& options, const std::vector<Eigen::Vector3f>& positions, int most_neighbours)
+/** \brief Whether the points lie as in the frame of a camera, whose pose then is the default one. */
+bool
+asBeforeACamera (const SensorCloud& cloud)
 {
-  std::vector<Eigen::Vector3f> result (positions.size (), Eigen::Vector3f::Constant (nan_value));
-  if (positions.size () < 3)
-    return result;
-  auto points = pcl::make_shared<PointCloud<PointXYZ>> ();
-  for (const Eigen::Vector3f& p : positions)
-    points->emplace_back (p.x (), p.y (), p.z ());
-  const QuietConsole quiet;
-  const auto count = static_cast<int> (std::min<std::size_t> (positions.size (), std::numeric_limits<int>::max ()));
-  const int wanted = std::clamp (count / points_per_neighbour, std::min (least_neighbours, most_neighbours),
-                                 most_neighbours);
-  NormalEstimationOMP<PointXYZ, Normal> estimation (static_cast<unsigned int> (resolveThreads (options.threads)));
-  estimation.setInputCloud (points);
-  estimation.setSearchMethod (pcl::make_shared<search::KdTree<PointXYZ>> ());
-  estimation.setKSearch (std::min (wanted, count));
-  PointCloud<Normal> normals;
-  estimation.compute (normals);
-  for (std::size_t k = 0; k < positions.size (); ++k)
-    result[k] = normals[k].getNormalVector3fMap ();
-  return result;
+  return std::all_of (cloud.positions.begin (), cloud.positions.end (), [] (const Eigen::Vector3f& p) {
+    return !p.allFinite () || (p.z () > 0.0f && p.head<2> ().norm () < max_default_slope * p.z ());
+  });
 }
 
-/** \brief The cloud as seen from the viewpoint, if that is where it was seen from. */
+/** \brief Take points to a sensor that was found in their frame. */
+void
+moveToSensor (const Eigen::Isometry3d& T_world_points, const Eigen::Isometry3d& T_points_sensor, SensorCloud& cloud)
+{
+  const Eigen::Isometry3f T_sensor_points = T_points_sensor.inverse ().cast<float> ();
+  for (Eigen::Vector3f& position : cloud.positions)
+    position = T_sensor_points * position;
+  for (Eigen::Vector3f& normal : cloud.normals)
+    normal = T_sensor_points.linear () * normal;
+  cloud.T_world_sensor = T_world_points * T_points_sensor;
+}
+
+/** \brief The cloud as seen from where it was seen from, if that can be told; else why not. Points of another frame than the sensor's are taken to it. */
 std::optional<DepthView>
-viewFromViewpoint (const std::string& path, const PcdViewOptions& options, const SensorCloud& cloud,
-                   LabelledView& result)
+viewFromSensor (const std::string& path, const PcdViewOptions& options, const Members& members, SensorCloud& cloud,
+                LabelledView& result)
 {
-  if (!cloud.has_viewpoint)
+  const auto viewOf = [&] (Sight& sight, const Eigen::Isometry3d& T_world_points) {
+    sight.image->view.T_world_sensor = T_world_points * sight.image->view.T_world_sensor;
+    return std::move (sight.image->view);
+  };
+  const bool header_tells = cloud.has_viewpoint || (!options.world_points && asBeforeACamera (cloud));
+  Sight sight;
+  if (header_tells)
+    if (sight = lookFrom (Eigen::Vector3d::Zero (), members, cloud); sight.isTheirs ())
+      return viewOf (sight, cloud.T_world_sensor);
+  if (cloud.has_viewpoint && !options.world_points && !options.viewpoint)
+    if (Sight other = lookFrom (cloud.T_world_sensor.translation (), members, cloud); other.isTheirs ())
+    {
+      result.warnings.push_back (path + ": its points were seen from its VIEWPOINT if they are in the world frame, and not if they are in the "
+                                        "sensor's: taken as with --world-points");
+      moveToSensor (Eigen::Isometry3d::Identity (), cloud.T_world_sensor, cloud);
+      return viewOf (other, Eigen::Isometry3d::Identity ());
+    }
+  std::optional<Eigen::Vector3d> found;
+  Sight best;
+  for (const Eigen::Vector3d& sensor : locateSensor (cloud.positions))
+    if (Sight other = lookFrom (sensor, members, cloud); other.isTheirs () && !(found && best.hidden_share <= other.hidden_share))
+    {
+      found = sensor;
+      best = std::move (other);
+    }
+  if (found)
   {
-    const bool as_before_a_camera = std::all_of (cloud.positions.begin (), cloud.positions.end (), [] (const auto& p) {
-      return !p.allFinite () || (p.z () > 0.0f && p.template head<2> ().norm () < max_default_slope * p.z ());
-    });
-    if (options.world_points || !as_before_a_camera)
-      return std::nullopt;
-  }
-  std::optional<RangeImage> image = drawRangeImage (cloud.positions, Eigen::Vector3d::Zero ());
-  if (image && image->hidden_share <= RangeImage::max_hidden_share)
-  {
-    image->view.T_world_sensor = cloud.T_world_sensor * image->view.T_world_sensor;
-    return std::move (image->view);
+    const Eigen::Isometry3d T_world_points = cloud.T_world_sensor;
+    moveToSensor (T_world_points, Eigen::Isometry3d (Eigen::Translation3d (*found)), cloud);
+    result.warnings.push_back (path + ": the order of its points tells that they were seen from " + placeText (cloud.T_world_sensor.translation ()) +
+                               ", which is used instead of the VIEWPOINT");
+    return viewOf (best, T_world_points);
   }
   if (cloud.has_viewpoint && cloud.positions.size () >= RangeImage::min_points)
     result.warnings.push_back (path + ": its points were not seen from its VIEWPOINT alone (" +
-                               (image ? percent (image->hidden_share) + " of them are hidden from there"
-                                      : std::string ("they span more than 120 degrees")) +
+                               (sight.image ? percent (sight.hidden_share) + " of them are hidden from there"
+                                            : std::string ("they span more than 120 degrees")) +
                                "): no free space is taken from it");
   return std::nullopt;
 }
@@ -190,23 +172,20 @@ void
 addNormals (const PcdViewOptions& options, std::uint32_t label, const std::vector<std::size_t>& members,
             bool has_viewpoint, const Eigen::Vector3d& middle, SensorCloud& cloud)
 {
-  const Thinned thinned = thin (pick (cloud.positions, members));
-  const bool dense = thinned.points.size () < members.size ();
-  std::vector<Eigen::Vector3f> normals = estimateNormals (
-      options, thinned.points, dense ? neighbours_of_means * options.normal_neighbours : options.normal_neighbours);
+  EstimatedNormals estimated = estimateNormals (options, pick (cloud.positions, members));
   if (!has_viewpoint)
   {
-    orientConsistently (thinned.points, normals);
+    orientConsistently (estimated.points, estimated.normals);
     double towards = 0.0;
-    for (std::size_t n = 0; label == 0 && n < normals.size (); ++n)
-      if (normals[n].allFinite ())
-        towards += normals[n].cast<double> ().dot (middle - thinned.points[n].cast<double> ());
+    for (std::size_t n = 0; label == 0 && n < estimated.normals.size (); ++n)
+      if (estimated.normals[n].allFinite ())
+        towards += estimated.normals[n].cast<double> ().dot (middle - estimated.points[n].cast<double> ());
     if (towards < 0.0)
-      for (Eigen::Vector3f& normal : normals)
+      for (Eigen::Vector3f& normal : estimated.normals)
         normal = -normal;
   }
   for (std::size_t k = 0; k < members.size (); ++k)
-    cloud.normals[members[k]] = normals[thinned.of[k]];
+    cloud.normals[members[k]] = estimated.normals[estimated.of[k]];
 }
 
 /** \brief Take the normals of points of the background at depth edges, so that they are left out: between something and what is behind it a sensor
@@ -287,7 +266,7 @@ completeUnorganized (const std::string& path, const PcdViewOptions& options, Sen
   for (std::size_t i = 0; i < cloud.positions.size (); ++i)
     if (cloud.positions[i].allFinite ())
       members[cloud.labels[i]].push_back (i);
-  result.view = viewFromViewpoint (path, options, cloud, result);
+  result.view = viewFromSensor (path, options, members, cloud, result);
   if (!cloud.normals.empty ())
   {
     if (!result.view)
@@ -308,7 +287,7 @@ completeUnorganized (const std::string& path, const PcdViewOptions& options, Sen
     return;
   }
   result.warnings.push_back (path + ": where its points were seen from is not known; their normals were turned so that " +
-                             "neighbours agree (better: set the VIEWPOINT, or add fields normal_x normal_y normal_z)");
+                             "neighbours agree (better: give --viewpoint, set the VIEWPOINT, or add fields normal_x normal_y normal_z)");
 }
 
 } // namespace cosection

@@ -85,19 +85,29 @@ supportedCamera (const Projection& projection)
   return cameraFor (projection.slopes, std::max (longest, coarsest_px));
 }
 
+/** \param[in] p slopes and depth */
+bool
+isHidden (const DepthView& view, const Eigen::Vector3f& p)
+{
+  const float nearest = view.depth[pixelOf (view.camera, p)];
+  return p.z () > nearest + hidden_sigmas * depthNoiseSigma (nearest) + hidden_pixels * nearest / view.camera.fx;
+}
+
 double
 hiddenShare (const DepthView& view, const std::vector<Eigen::Vector3f>& points)
 {
-  std::size_t hidden = 0;
-  for (const Eigen::Vector3f& p : points)
-  {
-    const float nearest = view.depth[pixelOf (view.camera, p)];
-    hidden += p.z () > nearest + hidden_sigmas * depthNoiseSigma (nearest) + hidden_pixels * nearest / view.camera.fx;
-  }
+  const auto hidden = std::count_if (points.begin (), points.end (), [&] (const Eigen::Vector3f& p) { return isHidden (view, p); });
   return static_cast<double> (hidden) / static_cast<double> (points.size ());
 }
 
 } // namespace
+
+bool
+RangeImage::hides (const Eigen::Vector3f& point) const
+{
+  const Eigen::Vector3f p = (view.T_world_sensor.inverse () * point.cast<double> ()).cast<float> ();
+  return p.z () > 0.0f && isHidden (view, {p.x () / p.z (), p.y () / p.z (), p.z ()});
+}
 
 std::optional<RangeImage>
 drawRangeImage (const std::vector<Eigen::Vector3f>& points, const Eigen::Vector3d& sensor)

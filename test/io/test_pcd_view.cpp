@@ -191,6 +191,61 @@ TEST_F (PcdView, WorldPointsMoveToTheSensor)
   EXPECT_LT ((p.normal - T.linear () * q.normal).norm (), 1e-3f);
 }
 
+/** \brief As after pcl::transformPointCloud, which keeps the order of the points and leaves the VIEWPOINT as it is. */
+TEST_F (PcdView, SensorIsFoundInAnyFrame)
+{
+  auto cloud = organizedPlane ();
+  for (int v = 0; v < 48; ++v)
+    for (int u = 0; u < 64; ++u) // a step
+      cloud.at (u, v).getVector3fMap () *= v < 24 ? 1.2f : 1.0f;
+  cloud.at (5, 6).getVector3fMap ().setConstant (not_a_number);
+  pcl::io::savePCDFileBinary (path ("sensor.pcd"), cloud);
+  const LabelledView expected = readPcdView (path ("sensor.pcd"));
+  const Eigen::Isometry3f T =
+      Eigen::Translation3f (0.3f, -2.0f, 1.0f) * Eigen::AngleAxisf (2.0f, Eigen::Vector3f (1, 2, 3).normalized ());
+  for (auto& p : cloud)
+    p.getVector3fMap () = T * Eigen::Vector3f (p.getVector3fMap ());
+  pcl::io::savePCDFileBinary (path ("no_viewpoint.pcd"), cloud);
+  cloud.sensor_origin_.head<3> () = T.translation (); // as pcl::NormalEstimation wants it
+  pcl::io::savePCDFileBinary (path ("viewpoint.pcd"), cloud);
+  const std::pair<std::string, std::string> files[] = {{"no_viewpoint.pcd", "their pixels tell"}, {"viewpoint.pcd", "--world-points"}};
+  for (const auto& [file, said] : files)
+  {
+    SCOPED_TRACE (file);
+    const LabelledView view = readPcdView (path (file));
+    ASSERT_EQ (view.warnings.size (), 1u);
+    EXPECT_NE (view.warnings[0].find (said), std::string::npos) << view.warnings[0];
+    ASSERT_TRUE (view.view);
+    EXPECT_NEAR (view.view->camera.fx, 60.0, 0.05);
+    EXPECT_NEAR (view.view->at (3, 3), 1.2f, 1e-3f);
+    EXPECT_LT ((view.view->T_world_sensor.matrix () - T.matrix ().cast<double> ()).norm (), 2e-3);
+    ASSERT_NEAR (static_cast<double> (view.objects.at (7).points.size ()), static_cast<double> (expected.objects.at (7).points.size ()), 20.0);
+    const OrientedPoint& p = view.objects.at (7).points.front ();
+    const OrientedPoint& q = expected.objects.at (7).points.front ();
+    EXPECT_LT ((p.position - T * q.position).norm (), 1e-4f);
+    EXPECT_LT ((p.normal - T.linear () * q.normal).norm (), 5e-3f);
+  }
+}
+
+TEST_F (PcdView, ManyMissingReadingsLeaveNormals)
+{
+  auto cloud = organizedPlane ();
+  std::mt19937 generator (2);
+  for (auto& p : cloud)
+    if (generator () % 4 != 0)
+      p.x = p.y = p.z = not_a_number;
+  pcl::io::savePCDFileBinary (path ("a.pcd"), cloud);
+  const LabelledView view = readPcdView (path ("a.pcd"));
+  EXPECT_TRUE (view.view);
+  for (const std::uint32_t label : {0u, 7u})
+  {
+    const LabelledView::Points& object = view.objects.at (label);
+    EXPECT_GT (object.points.size (), object.readings * 9 / 10);
+    for (const OrientedPoint& p : object.points)
+      EXPECT_LT ((p.normal + Eigen::Vector3f::UnitZ ()).norm (), 1e-2f);
+  }
+}
+
 TEST_F (PcdView, ScaleTurnsMillimetresIntoMetres)
 {
   auto cloud = organizedPlane ();

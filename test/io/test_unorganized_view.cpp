@@ -79,6 +79,8 @@ protected:
     pcl::PointCloud<pcl::PointXYZ> bare;
     for (const auto& p : cloud)
       bare.emplace_back (p.x, p.y, p.z);
+    bare.sensor_origin_ = cloud.sensor_origin_;
+    bare.sensor_orientation_ = cloud.sensor_orientation_;
     return bare;
   }
 
@@ -135,6 +137,62 @@ TEST_F (UnorganizedView, WrongViewpointIsSaid)
   EXPECT_FALSE (view.view);
   EXPECT_TRUE (mentions (view, "not seen from its VIEWPOINT"));
   EXPECT_GT (view.objects.at (1).points.size (), 3900u);
+}
+
+/** \brief As PCL has it: the viewpoint is a place among the points. */
+TEST_F (UnorganizedView, PointsInTheWorldFrameAreFound)
+{
+  const Eigen::Isometry3f T = Eigen::Translation3f (0.8f, -0.6f, 0.5f) * Eigen::AngleAxisf (2.5f, Eigen::Vector3f (1, 2, -1).normalized ());
+  pcl::PointCloud<pcl::PointNormal> cloud; // of two balls, one of which hides the other from the frame's origin
+  for (const float behind : {0.0f, 0.4f})
+    for (auto p : ball (8000, false))
+    {
+      p.getVector3fMap () += behind * middle.normalized ();
+      if (p.getNormalVector3fMap ().dot ((T.translation () - p.getVector3fMap ()).normalized ()) > 0.1f)
+        cloud.push_back (p);
+    }
+  cloud.sensor_origin_.head<3> () = T.translation ();
+  cloud.sensor_orientation_ = Eigen::Quaternionf (T.linear ());
+  for (const bool normals : {true, false})
+  {
+    SCOPED_TRACE (normals);
+    const LabelledView view = normals ? read (cloud) : read (withoutNormals (cloud));
+    ASSERT_TRUE (view.view);
+    EXPECT_LT ((view.view->T_world_sensor.translation () - T.translation ().cast<double> ()).norm (), 1e-5);
+    const auto& points = view.objects.at (1).points;
+    ASSERT_EQ (points.size (), cloud.size ());
+    std::size_t as_given = 0;
+    for (std::size_t i = 0; i < points.size (); ++i)
+    {
+      ASSERT_LT ((points[i].position - cloud[i].getVector3fMap ()).norm (), 1e-5f);
+      as_given += points[i].normal.dot (cloud[i].getNormalVector3fMap ()) > 0.7f;
+    }
+    EXPECT_GT (as_given, 0.98 * static_cast<double> (points.size ()));
+  }
+}
+
+/** \brief From the origin of a frame on the floor the table is seen from below: few of its points are hidden, but all of the ball. */
+TEST_F (UnorganizedView, FromBelowATableNothingWasSeen)
+{
+  pcl::PointCloud<pcl::PointXYZL> cloud;
+  const auto add = [&cloud] (const Eigen::Vector3f& p, std::uint32_t label) {
+    cloud.emplace_back ();
+    cloud.back ().getVector3fMap () = p;
+    cloud.back ().label = label;
+  };
+  const Eigen::Vector3f eye = middle + Eigen::Vector3f (0.0f, -0.6f, 0.6f);
+  for (const auto& p : ball (2000, false))
+    if (p.getNormalVector3fMap ().dot (eye - p.getVector3fMap ()) > 0.02f)
+      add (p.getVector3fMap (), 1);
+  for (int i = -60; i <= 60; ++i)
+    for (int j = -60; j <= 60; ++j)
+      add (middle + Eigen::Vector3f (0.006f * i, 0.006f * j, -radius_m), 0);
+  const LabelledView view = read (cloud);
+  EXPECT_FALSE (view.view);
+  EXPECT_TRUE (mentions (view, "is not known"));
+  EXPECT_GT (outward (view), 0.99);
+  for (const OrientedPoint& p : view.objects.at (0).points)
+    ASSERT_GT (p.normal.z (), 0.9f);
 }
 
 TEST_F (UnorganizedView, FlippedNormalsAreTurned)

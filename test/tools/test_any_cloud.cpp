@@ -16,9 +16,11 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <random>
 #include <sstream>
 #include <tuple>
 
@@ -151,6 +153,72 @@ TEST_F (AnyCloud, TrajectoryPutsAMovedObjectTogether)
   ASSERT_EQ (run ({"--object-trajectory", "1=gap.txt", "a.pcd", "b.pcd", "gap.ply"}), 0) << errors_;
   EXPECT_NE (errors_.find ("b.pcd: its points of label 1 are left out"), std::string::npos) << errors_;
   EXPECT_NEAR (volume ("gap.ply"), ball_m3, 0.05 * ball_m3);
+}
+
+/** \brief In the frame of a robot's base, whatever of the sensor's place is known. */
+TEST_F (AnyCloud, ViewsInTheWorldFrameAreAsGood)
+{
+  writeTableScene (path ("view.pcd"));
+  pcl::PointCloud<pcl::PointXYZRGBL> cloud, unordered;
+  pcl::io::loadPCDFile (path ("view.pcd"), cloud);
+  Eigen::Isometry3f T = Eigen::Isometry3f::Identity (); // the world's origin: on the floor below the table
+  T.translate (Eigen::Vector3f (0.2f, 0.1f, 0.7f));
+  T.translate (cloud.sensor_origin_.head<3> ());
+  T.rotate (cloud.sensor_orientation_);
+  const Eigen::Vector3f sensor = T.translation ();
+  for (auto& p : cloud)
+    p.getVector3fMap () = T * Eigen::Vector3f (p.getVector3fMap ());
+  cloud.sensor_origin_.setZero ();
+  cloud.sensor_orientation_.setIdentity ();
+  pcl::io::savePCDFileBinary (path ("organized.pcd"), cloud);
+  cloud.sensor_origin_.head<3> () = sensor;
+  pcl::io::savePCDFileBinary (path ("told.pcd"), cloud);
+  for (const auto& p : cloud)
+    if (std::isfinite (p.x))
+      unordered.push_back (p);
+  pcl::io::savePCDFileBinary (path ("unorganized.pcd"), unordered);
+  std::shuffle (unordered.begin (), unordered.end (), std::mt19937 (1));
+  pcl::io::savePCDFileBinary (path ("shuffled.pcd"), unordered);
+  unordered.sensor_origin_.head<3> () = sensor;
+  pcl::io::savePCDFileBinary (path ("shuffled_told.pcd"), unordered);
+  const std::string place = std::to_string (sensor.x ()) + "," + std::to_string (sensor.y ()) + "," + std::to_string (sensor.z ());
+
+  ASSERT_EQ (run ({"view.pcd", "expected"}), 0) << errors_;
+  const std::pair<std::vector<std::string>, std::string> views[] = {{{"organized.pcd"}, "their pixels tell that it stood at"},
+                                                                    {{"told.pcd"}, "taken as with --world-points"},
+                                                                    {{"unorganized.pcd"}, "the order of its points tells"},
+                                                                    {{"--viewpoint", place, "organized.pcd"}, ""},
+                                                                    {{"--viewpoint", place, "shuffled.pcd"}, ""},
+                                                                    {{"shuffled_told.pcd"}, "taken as with --world-points"}};
+  for (const auto& [arguments, said] : views)
+  {
+    SCOPED_TRACE (arguments.back ());
+    std::vector<std::string> all = arguments;
+    all.emplace_back ("out");
+    ASSERT_EQ (run (all), 0) << errors_;
+    EXPECT_NE (errors_.find (said), std::string::npos) << errors_;
+    if (said.empty ())
+    {
+      EXPECT_EQ (errors_, "");
+    }
+    for (const char* object : {"object_1.ply", "object_2.ply"})
+      EXPECT_NEAR (volume (std::string ("out/") + object), volume (std::string ("expected/") + object),
+                   0.1 * volume (std::string ("expected/") + object));
+  }
+}
+
+TEST_F (AnyCloud, ViewpointsThatAreNoneAreNamed)
+{
+  writeSphere (path ("ball.pcd"), 1000);
+  const auto fails = [this] (std::vector<std::string> arguments, const std::string& part) {
+    arguments.insert (arguments.end (), {"ball.pcd", "ball.pcd", "ball.pcd", "out.ply"});
+    EXPECT_EQ (run (arguments), 2);
+    EXPECT_NE (errors_.find (part), std::string::npos) << errors_;
+  };
+  fails ({"--viewpoint", "1,2"}, "--viewpoint must be three numbers x,y,z");
+  fails ({"--viewpoint", "1,2,3,4"}, "--viewpoint must be three numbers x,y,z");
+  fails ({"--viewpoint", "1,2,nan"}, "--viewpoint must be three numbers x,y,z");
+  fails ({"--viewpoint", "1,2,3", "--viewpoint", "1,2,4"}, "--viewpoint is given 2 times for 3 views");
 }
 
 TEST_F (AnyCloud, WrongTrajectoriesAreNamed)

@@ -92,13 +92,15 @@ TEST (OptionValues, Sizes)
     EXPECT_FALSE (parseSize (bad)) << bad;
 }
 
-TEST (OptionValues, Quadruples)
+TEST (OptionValues, Tuples)
 {
-  EXPECT_EQ (parseQuadruples ({"1,2,3,-4.5"})->at (0)[3], -4.5);
-  EXPECT_EQ (parseQuadruples ({"1", "2", "3", "4", "5", "6", "7", "8"})->at (1)[0], 5.0);
+  EXPECT_EQ (parseTuples<4> ({"1,2,3,-4.5"})->at (0)[3], -4.5);
+  EXPECT_EQ (parseTuples<4> ({"1", "2", "3", "4", "5", "6", "7", "8"})->at (1)[0], 5.0);
   for (const char* bad :
        {"", "1,2,3", "1,2,3,4,5", "1,2,3,x", "1,,2,3", "1,2,3,", "1,2,3,4,", "1,2,3,nan", "1,2,3,inf"})
-    EXPECT_FALSE (parseQuadruples ({bad})) << bad;
+    EXPECT_FALSE (parseTuples<4> ({bad})) << bad;
+  EXPECT_EQ (parseTuples<3> ({"1,2,3", "4,5,6"})->at (1)[2], 6.0);
+  EXPECT_FALSE (parseTuples<3> ({"1,2,3,4"}));
 }
 
 TEST (CommandLine, PlainUse)

@@ -67,14 +67,14 @@ physicalMemory ()
   return (static_cast<std::size_t> (sysconf (_SC_PHYS_PAGES)) * static_cast<std::size_t> (sysconf (_SC_PAGESIZE)));
 }
 
-std::optional<std::vector<std::array<double, 4>>>
-parseQuadruples (const std::vector<std::string>& values)
+std::optional<std::vector<double>>
+parseGroups (const std::vector<std::string>& values, std::size_t size)
 {
   std::vector<double> numbers;
   for (const std::string& value : values)
   {
     std::istringstream stream (value);
-    int count = 0;
+    std::size_t count = 0;
     for (std::string part; std::getline (stream, part, ','); ++count)
     {
       const std::optional<double> number = parseNumber (part);
@@ -82,15 +82,12 @@ parseQuadruples (const std::vector<std::string>& values)
         return (std::nullopt);
       numbers.push_back (*number);
     }
-    if ((count != 1 && count != 4) || value.back () == ',')
+    if ((count != 1 && count != size) || value.back () == ',')
       return (std::nullopt);
   }
-  if (numbers.empty () || numbers.size () % 4 != 0)
+  if (numbers.empty () || numbers.size () % size != 0)
     return (std::nullopt);
-  std::vector<std::array<double, 4>> quadruples;
-  for (std::size_t i = 0; i < numbers.size (); i += 4)
-    quadruples.push_back ({numbers[i], numbers[i + 1], numbers[i + 2], numbers[i + 3]});
-  return (quadruples);
+  return (numbers);
 }
 
 std::optional<std::vector<double>>

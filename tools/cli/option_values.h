@@ -54,10 +54,24 @@ parseSize (const std::string& text);
 std::size_t
 physicalMemory ();
 
-/** \brief Four numbers each from values "a,b,c,d", or from values of one number (a list in a
- * configuration file). Nothing if they do not come in fours. */
-std::optional<std::vector<std::array<double, 4>>>
-parseQuadruples (const std::vector<std::string>& values);
+/** \brief The numbers of values "a,b,c", \a size each, or of values of one number (a list in a configuration file). Nothing if they do not come in
+ * groups of \a size. */
+std::optional<std::vector<double>>
+parseGroups (const std::vector<std::string>& values, std::size_t size);
+
+/** \brief The same, group by group. */
+template <std::size_t Size>
+std::optional<std::vector<std::array<double, Size>>>
+parseTuples (const std::vector<std::string>& values)
+{
+  const auto numbers = parseGroups (values, Size);
+  if (!numbers)
+    return (std::nullopt);
+  std::vector<std::array<double, Size>> tuples (numbers->size () / Size);
+  for (std::size_t i = 0; i < numbers->size (); ++i)
+    tuples[i / Size][i % Size] = (*numbers)[i];
+  return (tuples);
+}
 
 /** \brief The numbers of values "a,b,c", or of values of one number (a list in a configuration file). Nothing if one of
  * them is no number. */

@@ -46,6 +46,23 @@ setPaths (const Given& given, Settings& settings)
   settings.format = !mesh.empty () ? mesh : !given.format.empty () ? given.format : "ply";
 }
 
+void
+setViewpoints (const Given& given, Settings& settings)
+{
+  if (given.viewpoints.empty ())
+    return;
+  const auto viewpoints = parseTuples<3> (given.viewpoints);
+  if (!viewpoints)
+    throw UsageError ("--viewpoint must be three numbers x,y,z");
+  const std::size_t views = settings.inputs.size () + settings.free_space.size ();
+  settings.viewpoints = *viewpoints;
+  if (settings.viewpoints.size () == 1)
+    settings.viewpoints.assign (views, settings.viewpoints[0]);
+  if (settings.viewpoints.size () != views)
+    throw UsageError ("--viewpoint is given " + std::to_string (settings.viewpoints.size ()) + " times for " + std::to_string (views) +
+                      " views; give one for all, or one for each");
+}
+
 Settings
 toSettings (const Given& given)
 {
@@ -68,7 +85,7 @@ toSettings (const Given& given)
   settings.constraints = constraintsOf (settings.method);
   if (!given.planes.empty ())
   {
-    const auto planes = parseQuadruples (given.planes);
+    const auto planes = parseTuples<4> (given.planes);
     if (!planes)
       throw UsageError ("--plane must be four numbers a,b,c,d");
     for (const auto& p : *planes)
@@ -82,9 +99,10 @@ toSettings (const Given& given)
   settings.reading.threads = settings.method.threads;
   settings.reading.max_memory_bytes = settings.method.max_memory_bytes;
   override (settings.reading.scale, given.scale);
+  setViewpoints (given, settings);
   if (!given.intrinsics.empty ())
   {
-    const auto intrinsics = parseQuadruples (given.intrinsics);
+    const auto intrinsics = parseTuples<4> (given.intrinsics);
     if (!intrinsics || intrinsics->size () != 1 || !((*intrinsics)[0][0] > 0.0) || !((*intrinsics)[0][1] > 0.0))
       throw UsageError ("--intrinsics must be four numbers fx,fy,cx,cy with positive fx and fy");
     settings.reading.intrinsics = (*intrinsics)[0];

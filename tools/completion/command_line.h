@@ -10,6 +10,7 @@
 
 #include <Eigen/Core>
 
+#include <array>
 #include <cstddef>
 #include <map>
 #include <optional>
@@ -32,6 +33,7 @@ struct Settings
   std::vector<std::string> free_space;                   ///< views of which nothing else is used
   std::vector<std::string> obstacles;                    ///< mesh files
   std::map<int, std::string> object_trajectories;        ///< files, by label
+  std::vector<std::array<double, 3>> viewpoints;         ///< one per view, inputs before free space; or none
   pcl::cosection::PcdViewOptions reading;
   pcl::cosection::CoSectionOptions method;
 };

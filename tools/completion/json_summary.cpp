@@ -33,6 +33,7 @@ parameters (const Settings& settings)
   result["max_faces"] = settings.max_faces;
   result["scale"] = settings.reading.scale;
   result["world_points"] = settings.reading.world_points;
+  result["viewpoints"] = settings.viewpoints;
   return (result);
 }
 

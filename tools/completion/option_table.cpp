@@ -16,6 +16,11 @@ declareInput (CLI::App& app, Given& given)
   const std::string group = "Input";
   app.add_option ("paths", given.paths)->group ("")->configurable (false);
   app.add_flag ("--world-points", given.world_points, "Points are in the world frame already")->group (group);
+  app.add_option ("--viewpoint", given.viewpoints,
+                  "Where the sensor stood, for points in the world frame whose header does not tell; once for all views, or once for each")
+      ->option_text ("X,Y,Z")
+      ->allow_extra_args (false)
+      ->group (group);
   app.add_option ("--intrinsics", given.intrinsics, "Camera in pixels, for organised clouds that no pinhole fits")
       ->option_text ("FX,FY,CX,CY")
       ->allow_extra_args (false)

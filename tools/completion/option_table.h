@@ -17,7 +17,7 @@ struct Given : GivenMethod
   std::optional<double> scale;
   std::optional<long> max_faces;
   std::string format, json;
-  std::vector<std::string> planes, intrinsics, free_space, obstacles, object_trajectories;
+  std::vector<std::string> planes, viewpoints, intrinsics, free_space, obstacles, object_trajectories;
   bool save_sdf = false, save_hull = false, save_bounds = false, world_points = false, verbose = false, quiet = false;
 };
 

@@ -118,10 +118,13 @@ readObstacle (const std::string& path, std::vector<std::string>& warnings)
   return (mesh);
 }
 
-/** \brief The options, with the memory that the points of earlier views leave. */
+/** \brief How to read a view: with the memory that the points of earlier ones leave. */
 PcdViewOptions
-withMemoryLeft (PcdViewOptions options, const Labels& labels)
+optionsOf (std::size_t view, const Settings& settings, const Labels& labels)
 {
+  PcdViewOptions options = settings.reading;
+  if (!settings.viewpoints.empty ())
+    options.viewpoint = settings.viewpoints[view];
   std::size_t used = 0;
   for (const auto& [label, object] : labels)
     used += object.points.size () * sizeof (OrientedPoint);
@@ -150,7 +153,7 @@ readScene (const Settings& settings, const ProgressCallback& progress)
   for (std::size_t i = 0; i < settings.inputs.size (); ++i)
   {
     report (settings.inputs[i]);
-    LabelledView view = readPcdView (settings.inputs[i], withMemoryLeft (settings.reading, labels));
+    LabelledView view = readPcdView (settings.inputs[i], optionsOf (i, settings, labels));
     std::move (view.warnings.begin (), view.warnings.end (), std::back_inserter (scene.warnings));
     if (isWholeImage (view))
       scene.warnings.push_back (settings.inputs[i] + ": has no field label, so all that it shows is taken as one object; " +
@@ -161,10 +164,11 @@ readScene (const Settings& settings, const ProgressCallback& progress)
     else if (!poses.empty ()) // they come one per view
       scene.views.push_back (silentView ());
   }
-  for (const std::string& path : settings.free_space)
+  for (std::size_t i = 0; i < settings.free_space.size (); ++i)
   {
+    const std::string& path = settings.free_space[i];
     report (path);
-    LabelledView view = readPcdView (path, withMemoryLeft (settings.reading, labels));
+    LabelledView view = readPcdView (path, optionsOf (settings.inputs.size () + i, settings, labels));
     std::move (view.warnings.begin (), view.warnings.end (), std::back_inserter (scene.warnings));
     if (!view.view)
       throw DegenerateInput (path + ": tells of no free space: it is no image of a pinhole camera, nor seen from its VIEWPOINT");

@@ -127,7 +127,7 @@ toSource (const GivenFusion& given)
   source.depth_scale = given.depth_scale.value_or (0.0);
   if (!given.intrinsics.empty ())
   {
-    const auto intrinsics = parseQuadruples (given.intrinsics);
+    const auto intrinsics = parseTuples<4> (given.intrinsics);
     if (!intrinsics || intrinsics->size () != 1 || !((*intrinsics)[0][0] > 0.0) || !((*intrinsics)[0][1] > 0.0))
       throw UsageError ("--intrinsics must be four numbers fx,fy,cx,cy with positive fx and fy");
     source.intrinsics = (*intrinsics)[0];

@@ -30,7 +30,7 @@ ignoredArea (const GivenIgnoredArea& given)
   area.mask = given.mask;
   if (given.regions.empty ())
     return (area);
-  const auto regions = parseQuadruples (given.regions);
+  const auto regions = parseTuples<4> (given.regions);
   constexpr double largest = 1e6;
   const auto isRegion = [] (const std::array<double, 4>& r) {
     return (r[2] >= 1.0 && r[3] >= 1.0 &&

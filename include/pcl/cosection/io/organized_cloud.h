@@ -24,6 +24,7 @@ struct PCL_COSECTION_EXPORT OrganizedCloud
   int height = 0;
   std::vector<Eigen::Vector3f> points; ///< row by row, sensor frame, metres; NaN: no reading
   Picture picture;                     ///< the colours; empty if the file has none
+  bool moved = false;                  ///< those of the file are in another frame, in which the sensor was found (locateCamera ())
 };
 
 /** \brief Read an organised PCD file; of the options, the scale, the frame of the points and the memory count.

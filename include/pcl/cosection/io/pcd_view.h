@@ -24,6 +24,7 @@ struct PCL_COSECTION_EXPORT PcdViewOptions
 {
   double scale = 1.0;        ///< multiplies all coordinates, the viewpoint's too: 0.001 for millimetres
   bool world_points = false; ///< the points are in the world frame, not in the sensor's
+  std::optional<std::array<double, 3>> viewpoint; ///< where the sensor stood, world frame, metres, instead of the header's VIEWPOINT; the points are in the world frame
   std::optional<std::array<double, 4>> intrinsics; ///< fx, fy, cx, cy in pixels, where no pinhole fits the points
   int normal_neighbours = 20;                      ///< nearest points for the normals of an unorganised cloud
   std::size_t max_memory_bytes = 0;                ///< refuse clouds that need more; 0: no limit
@@ -59,7 +60,9 @@ struct PCL_COSECTION_EXPORT LabelledView
  * world. An organised cloud (HEIGHT > 1) gives a depth view and normals (computeOrganizedNormals ());
  * an unorganised one has its normals in the file, or gets them from pcl::NormalEstimationOMP, per label.
  * These are turned towards the viewpoint if the points were seen from there, which also gives a depth view
- * (drawRangeImage ()), else so that neighbours agree and bodies are on their inner side. Fields: x y z
+ * (drawRangeImage ()), else so that neighbours agree and bodies are on their inner side. If the points are in another frame
+ * after all, the sensor is at the VIEWPOINT if they were seen from there, or where the pixels of an organised cloud
+ * (locateCamera ()) or the order of an unorganised one (locateSensor ()) tell. Fields: x y z
  * (floating point), label (integer; negative or 65535: ignored), rgb or rgba, intensity (a number), normal_x normal_y
  * normal_z; others are skipped.
  *

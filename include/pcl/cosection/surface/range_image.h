@@ -25,6 +25,10 @@ struct PCL_COSECTION_EXPORT RangeImage
 
   DepthView view;            ///< nearest point of each pixel; the optical axis passes through the middle of the points
   double hidden_share = 0.0; ///< of the points, clearly behind others: large if the sensor cannot have stood there
+
+  /** \brief Whether a point, in the frame of the view's pose, lies clearly behind what the view shows in its pixel. */
+  bool
+  hides (const Eigen::Vector3f& point) const;
 };
 
 /** \brief Draw an unorganised cloud as a depth image, so that the space in front of its points counts as seen free.
