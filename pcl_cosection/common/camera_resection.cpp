@@ -27,6 +27,7 @@ constexpr int reweightings = 3;
 constexpr std::size_t min_points = 50;
 constexpr double min_distinction = 100.0; ///< of the second smallest eigenvalue from the smallest, or several matrices fit
 constexpr double at_sensor = 1e-3;        ///< of the mean depth; points that are nearer are no readings
+constexpr double min_effect = 10.0;       ///< of perspective on the pixels, in residuals
 constexpr double least_before = 0.9;      ///< of the points lie before a camera that is one
 
 /** \brief A change of coordinates, x -> scale (x - middle), after which they are about one. */
@@ -154,6 +155,32 @@ poseOf (Matrix34 projection)
   return T_points_sensor;
 }
 
+/** \brief Whether the points would look clearly different from infinitely far away, which they need for the distance of the camera to be known. */
+bool
+tellsDepth (const PinholeCamera& camera, const std::vector<Eigen::Vector3f>& seen)
+{
+  double count = 0.0, depth = 0.0, depth_squares = 0.0, residual_squares = 0.0, radius_squares = 0.0;
+  Eigen::Vector2d middle = Eigen::Vector2d::Zero ();
+  for (int v = 0; v < camera.height; ++v)
+    for (int u = 0; u < camera.width; ++u)
+    {
+      const Eigen::Vector3d p = seen[static_cast<std::size_t> (v) * camera.width + u].cast<double> ();
+      if (!(p.z () > 0.0))
+        continue;
+      ++count;
+      const double beyond = p.z () - depth;
+      depth += beyond / count;
+      depth_squares += beyond * (p.z () - depth);
+      const Eigen::Vector2d pixel (u, v);
+      const Eigen::Vector2d aside = pixel - middle;
+      middle += aside / count;
+      radius_squares += aside.dot (pixel - middle);
+      residual_squares += (camera.project (p) - pixel).squaredNorm ();
+    }
+  const double effect_px = std::sqrt (radius_squares / count) * std::sqrt (depth_squares / count) / depth;
+  return effect_px > min_effect * std::sqrt (residual_squares / count);
+}
+
 } // namespace
 
 std::optional<LocatedCamera>
@@ -181,7 +208,7 @@ locateCamera (const std::vector<Eigen::Vector3f>& points, int width, int height)
   if (static_cast<double> (before) < least_before * static_cast<double> (readings))
     return std::nullopt; // mirrored
   const auto camera = fitPinholeCamera (seen, width, height);
-  if (!camera)
+  if (!camera || !tellsDepth (*camera, seen))
     return std::nullopt;
   return LocatedCamera{*camera, *pose};
 }

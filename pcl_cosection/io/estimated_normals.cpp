@@ -16,6 +16,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
 #include <numeric>
 #include <unordered_map>
@@ -82,6 +83,15 @@ thin (const std::vector<Eigen::Vector3f>& points)
   return thinned;
 }
 
+PointCloud<PointXYZ>::ConstPtr
+asCloud (const std::vector<Eigen::Vector3f>& positions)
+{
+  auto points = pcl::make_shared<PointCloud<PointXYZ>> ();
+  for (const Eigen::Vector3f& p : positions)
+    points->emplace_back (p.x (), p.y (), p.z ());
+  return points;
+}
+
 /** \brief Estimated normals of any sign. */
 std::vector<Eigen::Vector3f>
 normalsOf (const PcdViewOptions& options, const std::vector<Eigen::Vector3f>& positions, int most_neighbours)
@@ -89,15 +99,12 @@ normalsOf (const PcdViewOptions& options, const std::vector<Eigen::Vector3f>& po
   std::vector<Eigen::Vector3f> result (positions.size (), Eigen::Vector3f::Constant (nan_value));
   if (positions.size () < 3)
     return result;
-  auto points = pcl::make_shared<PointCloud<PointXYZ>> ();
-  for (const Eigen::Vector3f& p : positions)
-    points->emplace_back (p.x (), p.y (), p.z ());
   const QuietConsole quiet;
   const auto count = static_cast<int> (std::min<std::size_t> (positions.size (), std::numeric_limits<int>::max ()));
   const int wanted = std::clamp (count / points_per_neighbour, std::min (least_neighbours, most_neighbours),
                                  most_neighbours);
   NormalEstimationOMP<PointXYZ, Normal> estimation (static_cast<unsigned int> (resolveThreads (options.threads)));
-  estimation.setInputCloud (points);
+  estimation.setInputCloud (asCloud (positions));
   estimation.setSearchMethod (pcl::make_shared<search::KdTree<PointXYZ>> ());
   estimation.setKSearch (std::min (wanted, count));
   PointCloud<Normal> normals;
@@ -117,6 +124,23 @@ estimateNormals (const PcdViewOptions& options, const std::vector<Eigen::Vector3
   estimated.normals = normalsOf (options, estimated.points,
                                  dense ? neighbours_of_means * options.normal_neighbours : options.normal_neighbours);
   return estimated;
+}
+
+std::vector<float>
+neighbourDistances (const std::vector<Eigen::Vector3f>& points, int neighbours)
+{
+  std::vector<float> distances (points.size (), 0.0f);
+  if (points.size () < 2)
+    return distances;
+  search::KdTree<PointXYZ> tree;
+  tree.setInputCloud (asCloud (points));
+  parallelFor (0, static_cast<int> (points.size ()), 0, [&] (int i) {
+    Indices indices;
+    std::vector<float> squared;
+    tree.nearestKSearch (i, neighbours + 1, indices, squared);
+    distances[i] = squared.empty () ? 0.0f : std::sqrt (squared.back ());
+  });
+  return distances;
 }
 
 } // namespace cosection

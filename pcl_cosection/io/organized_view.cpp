@@ -3,7 +3,9 @@
 #include "organized_view.h"
 
 #include "estimated_normals.h"
+#include "flying_pixels.h"
 #include "place_text.h"
+#include "sensor_view.h"
 
 #include <pcl/cosection/common/camera_resection.h>
 #include <pcl/cosection/surface/organized_normals.h>
@@ -25,7 +27,7 @@ namespace
 constexpr float nan_value = std::numeric_limits<float>::quiet_NaN ();
 constexpr double intrinsics_tolerance_px = 2.0;
 constexpr double same_place = 0.05;          // of the distance to the points: two places of one sensor
-constexpr double least_reliable = 0.05;      // share of a label's points with a reliable normal ...
+constexpr double least_reliable = 0.15;      // share of a label's points with a reliable normal ...
 constexpr std::size_t least_points = 100;    // ... and their number: with fewer, points without an order tell more
 
 /** \brief Root mean square distance of the points from their pixels under a camera. */
@@ -103,10 +105,12 @@ findCamera (const std::string& path, const PcdViewOptions& options, SensorCloud&
   return given;
 }
 
-/** \brief Give labels of which hardly anything has a reliable normal those of points without an order, towards the sensor. */
-void
+/** \brief Give labels of which hardly anything has a reliable normal those of points without an order, towards the sensor.
+ * \return whether there is any */
+bool
 addMissingNormals (const PcdViewOptions& options, SensorCloud& cloud)
 {
+  bool any = false;
   struct Label
   {
     std::vector<std::size_t> readings;
@@ -126,9 +130,8 @@ addMissingNormals (const PcdViewOptions& options, SensorCloud& cloud)
         (label.reliable >= least_points &&
          static_cast<double> (label.reliable) >= least_reliable * static_cast<double> (label.readings.size ())))
       continue;
-    std::vector<Eigen::Vector3f> positions;
-    for (const std::size_t i : label.readings)
-      positions.push_back (cloud.positions[i]);
+    any = true;
+    const std::vector<Eigen::Vector3f> positions = pick (cloud.positions, label.readings);
     const EstimatedNormals estimated = estimateNormals (options, positions);
     for (std::size_t k = 0; k < label.readings.size (); ++k)
     {
@@ -136,6 +139,7 @@ addMissingNormals (const PcdViewOptions& options, SensorCloud& cloud)
       cloud.normals[label.readings[k]] = normal.dot (positions[k]) > 0.0f ? Eigen::Vector3f (-normal) : normal;
     }
   }
+  return any;
 }
 
 } // namespace
@@ -156,7 +160,8 @@ completeOrganized (const std::string& path, const PcdViewOptions& options, Senso
   OrganizedNormalsOptions normal_options;
   normal_options.threads = options.threads;
   cloud.normals = computeOrganizedNormals (cloud.positions, cloud.width, cloud.height, cloud.labels, normal_options);
-  addMissingNormals (options, cloud);
+  if (addMissingNormals (options, cloud) && result.view)
+    leaveOutFlyingPixels (*result.view, cloud);
 }
 
 } // namespace cosection

@@ -161,7 +161,10 @@ outwardShare (const std::vector<Eigen::Vector3f>& points, const std::vector<Eige
 }
 
 void
-orientConsistently (const std::vector<Eigen::Vector3f>& points, std::vector<Eigen::Vector3f>& normals, int neighbours)
+orientConsistently (
+    const std::vector<Eigen::Vector3f>& points, std::vector<Eigen::Vector3f>& normals,
+    const std::function<double (const std::vector<Eigen::Vector3f>&, const std::vector<Eigen::Vector3f>&)>& rightShare,
+    int neighbours)
 {
   checkSizes (points, normals);
   if (points.size () < 2)
@@ -195,7 +198,7 @@ orientConsistently (const std::vector<Eigen::Vector3f>& points, std::vector<Eige
       piece_points.push_back (points[n]);
       piece_normals.push_back (normals[n]);
     }
-    if (outwardShare (piece_points, piece_normals) < 0.5)
+    if (rightShare (piece_points, piece_normals) < 0.5)
       for (const std::uint32_t n : piece)
         normals[n] = -normals[n];
   }

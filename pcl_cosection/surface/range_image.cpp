@@ -24,12 +24,12 @@ constexpr double hidden_sigmas = 6.0;     // a point that lies so far behind ano
 constexpr double hidden_pixels = 3.0;     // ... unless a steep surface explains it: in widths of a pixel there
 constexpr float nothing = std::numeric_limits<float>::infinity ();
 
-/** \brief Looking from \a eye to \a target; the roll does not matter. */
+/** \brief Looking from \a eye along \a axis; the roll does not matter. */
 Eigen::Isometry3d
-lookingAt (const Eigen::Vector3d& eye, const Eigen::Vector3d& target)
+lookingAlong (const Eigen::Vector3d& eye, const Eigen::Vector3d& axis)
 {
   Eigen::Isometry3d pose = Eigen::Isometry3d::Identity ();
-  pose.linear () = Eigen::Quaterniond::FromTwoVectors (Eigen::Vector3d::UnitZ (), target - eye).toRotationMatrix ();
+  pose.linear () = Eigen::Quaterniond::FromTwoVectors (Eigen::Vector3d::UnitZ (), axis).toRotationMatrix ();
   pose.translation () = eye;
   return pose;
 }
@@ -112,13 +112,13 @@ RangeImage::hides (const Eigen::Vector3f& point) const
 std::optional<RangeImage>
 drawRangeImage (const std::vector<Eigen::Vector3f>& points, const Eigen::Vector3d& sensor)
 {
-  Eigen::AlignedBox3d box;
+  Eigen::Vector3d axis = Eigen::Vector3d::Zero ();
   for (const Eigen::Vector3f& p : points)
     if (p.allFinite ())
-      box.extend (p.cast<double> ());
-  if (box.isEmpty () || !sensor.allFinite () || box.contains (sensor))
+      axis += (p.cast<double> () - sensor).normalized ();
+  if (!axis.allFinite () || axis.isZero (0.0))
     return std::nullopt;
-  const Eigen::Isometry3d T_points_sensor = lookingAt (sensor, box.center ());
+  const Eigen::Isometry3d T_points_sensor = lookingAlong (sensor, axis);
   const Eigen::Isometry3d T_sensor_points = T_points_sensor.inverse ();
 
   Projection projection;

@@ -115,6 +115,9 @@ TEST (LocateCamera, RefusesWhatDoesNotTell)
     for (int u = 0; u < width; ++u)
       orthographic.emplace_back (0.01f * u - 0.4f, 0.01f * v - 0.3f, 1.0f + 0.02f * static_cast<float> ((u * 7 + v * 13) % 20));
   EXPECT_FALSE (locateCamera (moved (T, orthographic), width, height));
+  for (Eigen::Vector3f& p : orthographic) // nearly
+    p.x () += 0.001f * p.z () * p.y ();
+  EXPECT_FALSE (locateCamera (moved (T, orthographic), width, height));
   const std::size_t pixels = static_cast<std::size_t> (width) * height;
   EXPECT_FALSE (locateCamera (std::vector<Eigen::Vector3f> (pixels, Eigen::Vector3f::Constant (not_a_number)), width, height));
   EXPECT_FALSE (locateCamera (std::vector<Eigen::Vector3f> (pixels, Eigen::Vector3f (1.0f, 2.0f, 3.0f)), width, height));

@@ -13,6 +13,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <random>
@@ -260,6 +261,50 @@ TEST_F (UnorganizedView, TheBackgroundFacesTheObjects)
   EXPECT_GT (outward (view), 0.99);
   for (const OrientedPoint& p : view.objects.at (0).points)
     ASSERT_GT (p.normal.z (), 0.9f);
+}
+
+/** \brief In no order, among a room's walls, with flying pixels about it: the inside of a bowl on a table. */
+TEST_F (UnorganizedView, WhatWasSeenOfObjectsFacesAwayFromTheirSupport)
+{
+  std::mt19937 random (7);
+  std::uniform_real_distribution<float> uniform (-1.0f, 1.0f);
+  pcl::PointCloud<pcl::PointXYZL> cloud;
+  const auto add = [&cloud] (const Eigen::Vector3f& p, std::uint32_t label) {
+    cloud.emplace_back ();
+    cloud.back ().getVector3fMap () = p;
+    cloud.back ().label = label;
+  };
+  const Eigen::Vector3f center = middle - Eigen::Vector3f (0.0f, 0.0f, middle.z ()); // of the bowl, at the height of the frame's origin
+  for (const auto& p : ball (8000, false))
+    if (p.normal_z < -0.1f)
+      add (p.getVector3fMap () - middle + center, 1);
+  const float table = center.z () - radius_m - 0.01f;
+  for (int i = -60; i <= 60; ++i)
+    for (int j = -60; j <= 60; ++j)
+      add (center + Eigen::Vector3f (0.006f * i, 0.006f * j, table - center.z ()), 0);
+  for (int i = 0; i < 40; ++i)
+    add (center + Eigen::Vector3f (0.15f * uniform (random), 0.15f * uniform (random), 0.05f + 0.05f * uniform (random)), 0);
+  for (int i = 0; i < 60000; ++i) // a wall, farther away than all else is large
+    add (Eigen::Vector3f (-4.0f, 3.0f * uniform (random), 3.0f * uniform (random)), 0);
+  std::shuffle (cloud.begin (), cloud.end (), random);
+  const LabelledView view = read (cloud);
+  EXPECT_FALSE (view.view);
+  double inward = 0.0;
+  for (const OrientedPoint& p : view.objects.at (1).points)
+    inward += p.normal.dot ((p.position - center).normalized ()) < -0.7f;
+  EXPECT_GT (inward, 0.98 * static_cast<double> (view.objects.at (1).points.size ()));
+  int floating = 0;
+  for (const OrientedPoint& p : view.objects.at (0).points)
+  {
+    if (p.position.x () < -3.0f)
+      continue;
+    floating += p.position.z () > table + 0.01f;
+    if (p.position.z () < table + 0.01f)
+    {
+      ASSERT_GT (p.normal.z (), 0.9f);
+    }
+  }
+  EXPECT_EQ (floating, 0);
 }
 
 /** \brief Nearest neighbours would show noise alone. */

@@ -300,13 +300,28 @@ TEST (FreeSpaceFilterBadInput, GivesNothing)
   EXPECT_TRUE (passing (filter, pcl::make_shared<Points> (ghosts ())).empty ());
 }
 
+/** \brief In the frame of the filtered cloud, as after pcl::transformPointCloud. */
+TEST_F (FreeSpaceFilterPclTest, ViewsMayBeInTheFrameOfTheCloud)
+{
+  Filter same;
+  same.setInputCloud (cloud_);
+  for (const DepthView& view : views_)
+    EXPECT_TRUE (same.addView (toCloud (view, true)));
+  pcl::Indices indices;
+  same.filter (indices);
+  EXPECT_EQ (indices, filtered (false));
+}
+
 TEST (FreeSpaceFilterBadInput, ViewsThatAreNone)
 {
   const DepthView view = renderTable (tableScene (), 0.0, {tablePoses ().front ()}).front ();
   Filter filter;
   EXPECT_FALSE (filter.addView (ghosts ())) << "not organised";
   EXPECT_FALSE (filter.addView (Points (160, 120))) << "without a reading";
-  EXPECT_FALSE (filter.addView (toCloud (view, true))) << "not in its sensor's frame";
+  Points flat = toCloud (view, true);
+  for (auto& p : flat)
+    p.z = 0.0f;
+  EXPECT_FALSE (filter.addView (flat)) << "not as any camera sees it";
   Points torn = toCloud (view, false);
   torn.points.pop_back ();
   EXPECT_FALSE (filter.addView (torn)) << "of a wrong size";

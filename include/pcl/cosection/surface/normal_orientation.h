@@ -6,6 +6,7 @@
 
 #include <Eigen/Core>
 
+#include <functional>
 #include <vector>
 
 namespace pcl
@@ -27,10 +28,14 @@ outwardShare (const std::vector<Eigen::Vector3f>& points, const std::vector<Eige
  * outward. Neighbours come from pcl::search. O (points log points).
  * \param[in] points metres, finite
  * \param[in,out] normals one per point; those that are not finite stay as they are
+ * \param[in] rightShare which share of a piece, points and normals, points to the right side: below 0.5 it is turned
  * \param[in] neighbours edges of the graph from each point
  * \throws InvalidArgument if there is not one normal per point */
 PCL_COSECTION_EXPORT void
-orientConsistently (const std::vector<Eigen::Vector3f>& points, std::vector<Eigen::Vector3f>& normals, int neighbours = 12);
+orientConsistently (
+    const std::vector<Eigen::Vector3f>& points, std::vector<Eigen::Vector3f>& normals,
+    const std::function<double (const std::vector<Eigen::Vector3f>&, const std::vector<Eigen::Vector3f>&)>& rightShare = outwardShare,
+    int neighbours = 12);
 
 } // namespace cosection
 } // namespace pcl

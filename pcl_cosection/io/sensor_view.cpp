@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_cosection authors
+#include "sensor_view.h"
+
+#include "place_text.h"
+
+#include <pcl/cosection/surface/range_image.h>
+#include <pcl/cosection/surface/sensor_location.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace pcl
+{
+namespace cosection
+{
+
+namespace
+{
+
+constexpr double max_default_slope = 1.7321; // of points before a camera whose pose was left at the default: 60 degrees
+constexpr double max_hidden_of_label = 0.5;  // points, from where they were seen
+
+/** \brief What tells that a sensor at some place saw the points, or did not. */
+struct Sight
+{
+  std::optional<RangeImage> image; ///< none if they do not fit into one
+  double hidden_share = 0.0;       ///< of all points, or of the label of which most are hidden if that is too much
+
+  bool
+  isTheirs () const
+  {
+    return image && hidden_share <= RangeImage::max_hidden_share;
+  }
+};
+
+/** \brief Look at the points from \a sensor, in their frame. From below a table few of its points are hidden, but all of what is on it. */
+Sight
+lookFrom (const Eigen::Vector3d& sensor, const Members& members, const SensorCloud& cloud)
+{
+  Sight sight;
+  sight.image = drawRangeImage (cloud.positions, sensor);
+  if (!sight.image)
+    return sight;
+  sight.hidden_share = sight.image->hidden_share;
+  for (const auto& [label, indices] : members)
+  {
+    if (indices.size () < RangeImage::min_points)
+      continue;
+    const auto hidden = std::count_if (indices.begin (), indices.end (),
+                                       [&] (std::size_t i) { return sight.image->hides (cloud.positions[i]); });
+    const double share = static_cast<double> (hidden) / static_cast<double> (indices.size ());
+    if (share > max_hidden_of_label)
+      sight.hidden_share = std::max (sight.hidden_share, share);
+  }
+  return sight;
+}
+
+/** \brief Whether the points lie as in the frame of a camera, whose pose then is the default one. */
+bool
+asBeforeACamera (const SensorCloud& cloud)
+{
+  return std::all_of (cloud.positions.begin (), cloud.positions.end (), [] (const Eigen::Vector3f& p) {
+    return !p.allFinite () || (p.z () > 0.0f && p.head<2> ().norm () < max_default_slope * p.z ());
+  });
+}
+
+/** \brief Take points to a sensor that was found in their frame. */
+void
+moveToSensor (const Eigen::Isometry3d& T_world_points, const Eigen::Isometry3d& T_points_sensor, SensorCloud& cloud)
+{
+  const Eigen::Isometry3f T_sensor_points = T_points_sensor.inverse ().cast<float> ();
+  for (Eigen::Vector3f& position : cloud.positions)
+    position = T_sensor_points * position;
+  for (Eigen::Vector3f& normal : cloud.normals)
+    normal = T_sensor_points.linear () * normal;
+  cloud.T_world_sensor = T_world_points * T_points_sensor;
+}
+
+} // namespace
+
+std::string
+percentText (double share)
+{
+  return std::to_string (std::lround (100.0 * share)) + " %";
+}
+
+std::optional<DepthView>
+viewFromSensor (const std::string& path, const PcdViewOptions& options, const Members& members, SensorCloud& cloud,
+                LabelledView& result)
+{
+  const auto viewOf = [&] (Sight& sight, const Eigen::Isometry3d& T_world_points) {
+    sight.image->view.T_world_sensor = T_world_points * sight.image->view.T_world_sensor;
+    return std::move (sight.image->view);
+  };
+  const bool header_tells = cloud.has_viewpoint || (!options.world_points && asBeforeACamera (cloud));
+  Sight sight;
+  if (header_tells)
+    if (sight = lookFrom (Eigen::Vector3d::Zero (), members, cloud); sight.isTheirs ())
+      return viewOf (sight, cloud.T_world_sensor);
+  if (cloud.has_viewpoint && !options.world_points && !options.viewpoint)
+    if (Sight other = lookFrom (cloud.T_world_sensor.translation (), members, cloud); other.isTheirs ())
+    {
+      result.warnings.push_back (path + ": its points were seen from its VIEWPOINT if they are in the world frame, and not if they are in the "
+                                        "sensor's: taken as with --world-points");
+      moveToSensor (Eigen::Isometry3d::Identity (), cloud.T_world_sensor, cloud);
+      return viewOf (other, Eigen::Isometry3d::Identity ());
+    }
+  std::optional<Eigen::Vector3d> found;
+  Sight best;
+  for (const Eigen::Vector3d& sensor : locateSensor (cloud.positions))
+    if (Sight other = lookFrom (sensor, members, cloud); other.isTheirs () && !(found && best.hidden_share <= other.hidden_share))
+    {
+      found = sensor;
+      best = std::move (other);
+    }
+  if (found)
+  {
+    const Eigen::Isometry3d T_world_points = cloud.T_world_sensor;
+    moveToSensor (T_world_points, Eigen::Isometry3d (Eigen::Translation3d (*found)), cloud);
+    result.warnings.push_back (path + ": the order of its points tells that they were seen from " + placeText (cloud.T_world_sensor.translation ()) +
+                               ", which is used instead of the VIEWPOINT");
+    return viewOf (best, T_world_points);
+  }
+  if (cloud.has_viewpoint && cloud.positions.size () >= RangeImage::min_points)
+    result.warnings.push_back (path + ": its points were not seen from its VIEWPOINT alone (" +
+                               (sight.image ? percentText (sight.hidden_share) + " of them are hidden from there"
+                                            : std::string ("they span more than 120 degrees")) +
+                               "): no free space is taken from it");
+  return std::nullopt;
+}
+
+} // namespace cosection
+} // namespace pcl
