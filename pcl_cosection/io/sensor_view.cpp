@@ -21,6 +21,7 @@ namespace
 
 constexpr double max_default_slope = 1.7321; // of points before a camera whose pose was left at the default: 60 degrees
 constexpr double max_hidden_of_label = 0.5;  // points, from where they were seen
+constexpr double clearly_less = 0.02;        // of the points are hidden
 
 /** \brief What tells that a sensor at some place saw the points, or did not. */
 struct Sight
@@ -109,8 +110,9 @@ viewFromSensor (const std::string& path, const PcdViewOptions& options, const Me
     }
   std::optional<Eigen::Vector3d> found;
   Sight best;
-  for (const Eigen::Vector3d& sensor : locateSensor (cloud.positions))
-    if (Sight other = lookFrom (sensor, members, cloud); other.isTheirs () && !(found && best.hidden_share <= other.hidden_share))
+  for (const Eigen::Vector3d& sensor : locateSensor (cloud.positions)) // the likeliest first
+    if (Sight other = lookFrom (sensor, members, cloud);
+        other.isTheirs () && (!found || other.hidden_share < best.hidden_share - clearly_less))
     {
       found = sensor;
       best = std::move (other);
