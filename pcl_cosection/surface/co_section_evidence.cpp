@@ -8,8 +8,8 @@
 #include "volume_layout.h"
 
 #include <pcl/cosection/common/error.h>
+#include <pcl/cosection/shape/symmetric_extent.h>
 #include <pcl/cosection/surface/free_space_votes.h>
-#include <pcl/cosection/surface/symmetric_extent.h>
 
 #include <algorithm>
 #include <cmath>

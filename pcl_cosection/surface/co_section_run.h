@@ -5,9 +5,9 @@
 #include "co_section_state.h"
 #include "view_agreement.h"
 
+#include <pcl/cosection/shape/symmetric_extent.h>
 #include <pcl/cosection/surface/co_section.h>
 #include <pcl/cosection/surface/intersection_constraint.h>
-#include <pcl/cosection/surface/symmetric_extent.h>
 
 #include <pcl/cosection/common/error.h>
 

@@ -3,7 +3,8 @@
 #include "contact_edge.h"
 
 #include "../common/sphere_directions.h"
-#include "normal_axis.h"
+#include "../shape/normal_axis.h"
+
 #include "pixel_of.h"
 
 #include <Eigen/Cholesky>

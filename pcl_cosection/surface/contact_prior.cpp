@@ -2,8 +2,9 @@
 // Copyright (c) 2026, the pcl_cosection authors
 #include <pcl/cosection/surface/contact_prior.h>
 
+#include "../shape/principal_axes.h"
+
 #include "plane_map.h"
-#include "principal_axes.h"
 
 #include <Eigen/Geometry>
 

@@ -2,8 +2,9 @@
 // Copyright (c) 2026, the pcl_cosection authors
 #include <pcl/cosection/surface/extent_prior.h>
 
+#include "../shape/principal_axes.h"
+
 #include "extent_bounds.h"
-#include "principal_axes.h"
 #include "ranked_values.h"
 
 #include <pcl/cosection/common/parallel.h>

@@ -2,10 +2,10 @@
 // Copyright (c) 2026, the pcl_cosection authors
 #pragma once
 
+#include <pcl/cosection/common/oriented_point.h>
+#include <pcl/cosection/shape/symmetric_extent.h>
 #include <pcl/cosection/surface/energy_problem.h>
 #include <pcl/cosection/surface/options.h>
-#include <pcl/cosection/surface/oriented_point.h>
-#include <pcl/cosection/surface/symmetric_extent.h>
 #include <pcl/cosection/volume/voxel_grid.h>
 
 #include <cstdint>

@@ -2,9 +2,9 @@
 // Copyright (c) 2026, the pcl_cosection authors
 #include "implied_support.h"
 
-#include "footprint_axis.h"
-#include "normal_axis.h"
-#include "quantile.h"
+#include "../common/quantile.h"
+#include "../shape/footprint_axis.h"
+#include "../shape/normal_axis.h"
 
 #include <Eigen/Geometry>
 

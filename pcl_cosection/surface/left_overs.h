@@ -2,7 +2,7 @@
 // Copyright (c) 2026, the pcl_cosection authors
 #pragma once
 
-#include <pcl/cosection/surface/oriented_point.h>
+#include <pcl/cosection/common/oriented_point.h>
 
 #include <vector>
 

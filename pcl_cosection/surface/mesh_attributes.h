@@ -2,8 +2,8 @@
 // Copyright (c) 2026, the pcl_cosection authors
 #pragma once
 
+#include <pcl/cosection/common/oriented_point.h>
 #include <pcl/cosection/common/triangle_mesh.h>
-#include <pcl/cosection/surface/oriented_point.h>
 #include <pcl/cosection/volume/voxel_grid.h>
 
 #include <vector>

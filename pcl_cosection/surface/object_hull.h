@@ -2,11 +2,11 @@
 // Copyright (c) 2026, the pcl_cosection authors
 #pragma once
 
+#include <pcl/cosection/common/oriented_point.h>
 #include <pcl/cosection/common/triangle_mesh.h>
 #include <pcl/cosection/surface/free_space_carving.h>
 #include <pcl/cosection/surface/hull_constraint.h>
 #include <pcl/cosection/surface/options.h>
-#include <pcl/cosection/surface/oriented_point.h>
 #include <pcl/cosection/volume/signed_distance_field.h>
 
 #include <Eigen/Geometry>

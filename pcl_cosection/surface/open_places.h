@@ -4,7 +4,7 @@
 
 #include "hidden_places.h"
 
-#include <pcl/cosection/surface/oriented_point.h>
+#include <pcl/cosection/common/oriented_point.h>
 #include <pcl/cosection/volume/voxel_grid.h>
 
 #include <cstdint>

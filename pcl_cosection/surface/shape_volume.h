@@ -7,12 +7,12 @@
 #include "quarter_resolution.h"
 #include "shape_evidence.h"
 
+#include <pcl/cosection/common/oriented_point.h>
 #include <pcl/cosection/common/progress.h>
 #include <pcl/cosection/common/triangle_mesh.h>
 #include <pcl/cosection/surface/energy_problem.h>
 #include <pcl/cosection/surface/extent_prior.h>
 #include <pcl/cosection/surface/options.h>
-#include <pcl/cosection/surface/oriented_point.h>
 #include <pcl/cosection/surface/solver.h>
 #include <pcl/cosection/volume/signed_distance_field.h>
 

@@ -4,8 +4,8 @@
 
 #include "hidden_places.h"
 
+#include <pcl/cosection/common/oriented_point.h>
 #include <pcl/cosection/surface/options.h>
-#include <pcl/cosection/surface/oriented_point.h>
 #include <pcl/cosection/volume/voxel_grid.h>
 
 #include <Eigen/Geometry>

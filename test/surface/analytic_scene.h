@@ -6,7 +6,7 @@
 
 #include <pcl/cosection/common/camera.h>
 #include <pcl/cosection/common/look_at.h>
-#include <pcl/cosection/surface/oriented_point.h>
+#include <pcl/cosection/common/oriented_point.h>
 
 #include <Eigen/Geometry>
 

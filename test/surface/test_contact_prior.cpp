@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_cosection authors
-#include "observed_box.h"
+#include "shape/observed_box.h"
 
 #include <pcl/cosection/surface/contact_prior.h>
 

@@ -3,11 +3,11 @@
 
 // What is hollow and has a rectangle as its outline: trays, bins, and what is not quite one.
 
-#include "moved_points.h"
-#include "round_things.h"
+#include "shape/moved_points.h"
+#include "shape/round_things.h"
 #include "surrounding_views.h"
 
-#include <pcl/cosection/surface/symmetric_extent.h>
+#include <pcl/cosection/shape/symmetric_extent.h>
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_cosection authors
-#include "moved_points.h"
+#include "shape/moved_points.h"
 
 #include <pcl/cosection/surface/support_plane.h>
 

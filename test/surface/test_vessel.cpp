@@ -3,12 +3,12 @@
 
 // What SymmetricExtent makes of what is round and hollow.
 
-#include "moved_points.h"
-#include "observed_box.h"
-#include "round_things.h"
+#include "shape/moved_points.h"
+#include "shape/observed_box.h"
+#include "shape/round_things.h"
 #include "surrounding_views.h"
 
-#include <pcl/cosection/surface/symmetric_extent.h>
+#include <pcl/cosection/shape/symmetric_extent.h>
 
 #include <gtest/gtest.h>
 

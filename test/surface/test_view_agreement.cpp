@@ -3,7 +3,7 @@
 
 // Views that contradict each other are noticed.
 
-#include "moved_points.h"
+#include "shape/moved_points.h"
 #include "surrounding_views.h"
 
 #include <pcl/cosection/common/error.h>

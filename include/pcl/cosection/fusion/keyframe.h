@@ -5,8 +5,8 @@
 #include <pcl/cosection/common/camera.h>
 #include <pcl/cosection/common/export.h>
 #include <pcl/cosection/common/image.h>
+#include <pcl/cosection/common/oriented_point.h>
 #include <pcl/cosection/io/rgbd_sequence.h>
-#include <pcl/cosection/surface/oriented_point.h>
 
 #include <cstdint>
 #include <map>

@@ -4,7 +4,7 @@
 
 #include <pcl/cosection/common/camera.h>
 #include <pcl/cosection/common/export.h>
-#include <pcl/cosection/surface/oriented_point.h>
+#include <pcl/cosection/common/oriented_point.h>
 
 #include <array>
 #include <cstddef>

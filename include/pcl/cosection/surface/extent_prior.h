@@ -4,8 +4,8 @@
 
 #include <pcl/cosection/common/camera.h>
 #include <pcl/cosection/common/export.h>
-#include <pcl/cosection/surface/oriented_point.h>
-#include <pcl/cosection/surface/symmetric_extent.h>
+#include <pcl/cosection/common/oriented_point.h>
+#include <pcl/cosection/shape/symmetric_extent.h>
 #include <pcl/cosection/volume/voxel_grid.h>
 
 #include <utility>

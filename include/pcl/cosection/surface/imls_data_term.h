@@ -3,8 +3,8 @@
 #pragma once
 
 #include <pcl/cosection/common/export.h>
+#include <pcl/cosection/common/oriented_point.h>
 #include <pcl/cosection/surface/options.h>
-#include <pcl/cosection/surface/oriented_point.h>
 #include <pcl/cosection/volume/voxel_grid.h>
 
 #include <vector>

@@ -3,7 +3,7 @@
 #pragma once
 
 #include <pcl/cosection/common/export.h>
-#include <pcl/cosection/surface/oriented_point.h>
+#include <pcl/cosection/common/oriented_point.h>
 
 #include <Eigen/Core>
 

@@ -2,10 +2,11 @@
 // Copyright (c) 2026, the pcl_cosection authors
 #include "open_box.h"
 
+#include "../common/quantile.h"
+
 #include "box_walls.h"
 #include "footprint_axis.h"
 #include "normal_axis.h"
-#include "quantile.h"
 
 #include <Eigen/Geometry>
 

@@ -4,7 +4,7 @@
 
 // Points of things that are round about an axis, as a camera sees them.
 
-#include <pcl/cosection/surface/oriented_point.h>
+#include <pcl/cosection/common/oriented_point.h>
 
 #include <Eigen/Geometry>
 

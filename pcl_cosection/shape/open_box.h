@@ -5,7 +5,7 @@
 #include "profile_surface.h"
 #include "rounded_rectangle.h"
 
-#include <pcl/cosection/surface/oriented_point.h>
+#include <pcl/cosection/common/oriented_point.h>
 
 #include <Eigen/Core>
 

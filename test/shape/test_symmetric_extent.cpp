@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_cosection authors
-#include "moved_points.h"
-#include "observed_box.h"
+#include "shape/moved_points.h"
+#include "shape/observed_box.h"
 
-#include <pcl/cosection/surface/symmetric_extent.h>
+#include <pcl/cosection/shape/symmetric_extent.h>
 
 #include <gtest/gtest.h>
 

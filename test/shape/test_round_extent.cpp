@@ -3,11 +3,11 @@
 
 // What SymmetricExtent makes of things that are round about an axis, and which others it takes to look alike from behind.
 
-#include "moved_points.h"
-#include "observed_box.h"
-#include "round_things.h"
+#include "shape/moved_points.h"
+#include "shape/observed_box.h"
+#include "shape/round_things.h"
 
-#include <pcl/cosection/surface/symmetric_extent.h>
+#include <pcl/cosection/shape/symmetric_extent.h>
 
 #include <gtest/gtest.h>
 

@@ -2,7 +2,7 @@
 // Copyright (c) 2026, the pcl_cosection authors
 #pragma once
 
-#include <pcl/cosection/surface/symmetric_extent.h>
+#include <pcl/cosection/shape/symmetric_extent.h>
 
 #include <Eigen/Core>
 

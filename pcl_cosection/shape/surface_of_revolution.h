@@ -5,7 +5,7 @@
 #include "normal_axis.h"
 #include "profile_surface.h"
 
-#include <pcl/cosection/surface/oriented_point.h>
+#include <pcl/cosection/common/oriented_point.h>
 
 #include <Eigen/Core>
 

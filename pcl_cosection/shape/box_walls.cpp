@@ -2,7 +2,7 @@
 // Copyright (c) 2026, the pcl_cosection authors
 #include "box_walls.h"
 
-#include "quantile.h"
+#include "../common/quantile.h"
 
 #include <algorithm>
 #include <array>

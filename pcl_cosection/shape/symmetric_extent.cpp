@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_cosection authors
-#include <pcl/cosection/surface/symmetric_extent.h>
+#include <pcl/cosection/shape/symmetric_extent.h>
 
 #include "faces.h"
 #include "open_box.h"
