@@ -98,9 +98,9 @@ sideOf (const Eigen::AlignedBox3f& surroundings, const Members& members, const S
 }
 
 void
-leaveOutScattered (const std::vector<std::size_t>& background, SensorCloud& cloud)
+leaveOutScattered (const PcdViewOptions& options, const std::vector<std::size_t>& background, SensorCloud& cloud)
 {
-  const std::vector<float> reach = neighbourDistances (pick (cloud.positions, background), scattered_neighbours);
+  const std::vector<float> reach = neighbourDistances (pick (cloud.positions, background), scattered_neighbours, options.threads);
   if (reach.empty ())
     return;
   std::vector<float> sorted = reach;
@@ -126,7 +126,7 @@ addConsistentNormals (const PcdViewOptions& options, const Members& members, Sen
   const BackgroundParts background = partsOfBackground (objects, members, cloud);
   for (const std::vector<std::size_t>* part : {&background.near, &background.far})
     add (*part, [&] (const auto& points, const auto& normals) { return facingShare (objects, points, normals); });
-  leaveOutScattered (background.near, cloud);
+  leaveOutScattered (options, background.near, cloud);
   for (const auto& [label, indices] : members)
     if (label != 0)
     {

@@ -127,14 +127,14 @@ estimateNormals (const PcdViewOptions& options, const std::vector<Eigen::Vector3
 }
 
 std::vector<float>
-neighbourDistances (const std::vector<Eigen::Vector3f>& points, int neighbours)
+neighbourDistances (const std::vector<Eigen::Vector3f>& points, int neighbours, int threads)
 {
   std::vector<float> distances (points.size (), 0.0f);
   if (points.size () < 2)
     return distances;
   search::KdTree<PointXYZ> tree;
   tree.setInputCloud (asCloud (points));
-  parallelFor (0, static_cast<int> (points.size ()), 0, [&] (int i) {
+  parallelFor (0, static_cast<int> (points.size ()), threads, [&] (int i) {
     Indices indices;
     std::vector<float> squared;
     tree.nearestKSearch (i, neighbours + 1, indices, squared);

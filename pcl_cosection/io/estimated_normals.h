@@ -29,7 +29,7 @@ estimateNormals (const PcdViewOptions& options, const std::vector<Eigen::Vector3
 
 /** \brief The distance from each point to the \a neighbours-th nearest other one, or the last there is. \a points are finite. */
 std::vector<float>
-neighbourDistances (const std::vector<Eigen::Vector3f>& points, int neighbours);
+neighbourDistances (const std::vector<Eigen::Vector3f>& points, int neighbours, int threads);
 
 } // namespace cosection
 } // namespace pcl
