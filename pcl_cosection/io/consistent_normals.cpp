@@ -23,7 +23,8 @@ namespace
 constexpr float nan_value = std::numeric_limits<float>::quiet_NaN ();
 constexpr int scattered_neighbours = 20;     // of which the farthest ...
 constexpr float scattered_factor = 4.0f;     // ... is so much farther than usual: the point shows no surface
-constexpr float one_sided = 0.3f;            // length of the mean normal of a background that has a side
+constexpr float one_sided = 0.7f;            // length of the mean normal of a background that has a side; of random ones to one side, 0.5
+constexpr std::size_t least_background = 100; // points, which tell of a side
 constexpr double decisive = 0.75;            // share of a piece that faces to one side
 
 /** \brief How much of what of all normals has a sign does have a positive one. */
@@ -84,7 +85,7 @@ Eigen::Vector3f
 sideOf (const Eigen::AlignedBox3f& surroundings, const Members& members, const SensorCloud& cloud)
 {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero ();
-  double count = 0.0;
+  std::size_t count = 0;
   if (const auto background = members.find (0); background != members.end ())
     for (const std::size_t i : background->second)
       if (cloud.normals[i].allFinite () && surroundings.contains (cloud.positions[i]))
@@ -92,22 +93,38 @@ sideOf (const Eigen::AlignedBox3f& surroundings, const Members& members, const S
         sum += cloud.normals[i].cast<double> ();
         ++count;
       }
-  if (!(sum.norm () > one_sided * count))
+  if (!(count >= least_background && sum.norm () > one_sided * static_cast<double> (count)))
     return Eigen::Vector3f::Zero ();
   return sum.normalized ().cast<float> ();
 }
 
+/** \brief Take the normals of points of the background near objects that are so much farther from each other than others there that they show no
+ * surface. */
 void
-leaveOutScattered (const PcdViewOptions& options, const std::vector<std::size_t>& background, SensorCloud& cloud)
+leaveOutScattered (const PcdViewOptions& options, const Surroundings& objects, const std::vector<std::size_t>& background, SensorCloud& cloud)
 {
   const std::vector<float> reach = neighbourDistances (pick (cloud.positions, background), scattered_neighbours, options.threads);
-  if (reach.empty ())
-    return;
-  std::vector<float> sorted = reach;
-  const auto middle = sorted.begin () + static_cast<std::ptrdiff_t> (sorted.size () / 2);
-  std::nth_element (sorted.begin (), middle, sorted.end ());
+  std::vector<bool> scattered (background.size (), true);
+  for (const auto& [label, box] : objects)
+  {
+    std::vector<std::size_t> near;
+    std::vector<float> sorted;
+    for (std::size_t k = 0; k < background.size (); ++k)
+      if (box.contains (cloud.positions[background[k]]))
+      {
+        near.push_back (k);
+        sorted.push_back (reach[k]);
+      }
+    if (near.empty ())
+      continue;
+    const auto middle = sorted.begin () + static_cast<std::ptrdiff_t> (sorted.size () / 2);
+    std::nth_element (sorted.begin (), middle, sorted.end ());
+    for (const std::size_t k : near)
+      if (reach[k] <= scattered_factor * *middle)
+        scattered[k] = false;
+  }
   for (std::size_t k = 0; k < background.size (); ++k)
-    if (reach[k] > scattered_factor * *middle)
+    if (scattered[k])
       cloud.normals[background[k]].setConstant (nan_value);
 }
 
@@ -126,7 +143,7 @@ addConsistentNormals (const PcdViewOptions& options, const Members& members, Sen
   const BackgroundParts background = partsOfBackground (objects, members, cloud);
   for (const std::vector<std::size_t>* part : {&background.near, &background.far})
     add (*part, [&] (const auto& points, const auto& normals) { return facingShare (objects, points, normals); });
-  leaveOutScattered (options, background.near, cloud);
+  leaveOutScattered (options, objects, background.near, cloud);
   for (const auto& [label, indices] : members)
     if (label != 0)
     {

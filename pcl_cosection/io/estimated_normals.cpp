@@ -19,6 +19,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <tuple>
 #include <unordered_map>
 
 namespace pcl
@@ -130,16 +131,32 @@ std::vector<float>
 neighbourDistances (const std::vector<Eigen::Vector3f>& points, int neighbours, int threads)
 {
   std::vector<float> distances (points.size (), 0.0f);
-  if (points.size () < 2)
+  // Among points at one place a search takes as long as there are.
+  std::vector<std::size_t> order (points.size ());
+  std::iota (order.begin (), order.end (), std::size_t{0});
+  const auto key = [&] (std::size_t i) { return std::tie (points[i].x (), points[i].y (), points[i].z ()); };
+  std::sort (order.begin (), order.end (), [&] (std::size_t a, std::size_t b) { return key (a) < key (b); });
+  std::vector<Eigen::Vector3f> places;
+  std::vector<std::size_t> place_of (points.size ());
+  for (const std::size_t i : order)
+  {
+    if (places.empty () || places.back () != points[i])
+      places.push_back (points[i]);
+    place_of[i] = places.size () - 1;
+  }
+  if (places.size () < 2)
     return distances;
   search::KdTree<PointXYZ> tree;
-  tree.setInputCloud (asCloud (points));
-  parallelFor (0, static_cast<int> (points.size ()), threads, [&] (int i) {
+  tree.setInputCloud (asCloud (places));
+  std::vector<float> reach (places.size (), 0.0f);
+  parallelFor (0, static_cast<int> (places.size ()), threads, [&] (int i) {
     Indices indices;
     std::vector<float> squared;
     tree.nearestKSearch (i, neighbours + 1, indices, squared);
-    distances[i] = squared.empty () ? 0.0f : std::sqrt (squared.back ());
+    reach[i] = squared.empty () ? 0.0f : std::sqrt (squared.back ());
   });
+  for (std::size_t i = 0; i < points.size (); ++i)
+    distances[i] = reach[place_of[i]];
   return distances;
 }
 

@@ -27,7 +27,7 @@ struct EstimatedNormals
 EstimatedNormals
 estimateNormals (const PcdViewOptions& options, const std::vector<Eigen::Vector3f>& positions);
 
-/** \brief The distance from each point to the \a neighbours-th nearest other one, or the last there is. \a points are finite. */
+/** \brief The distance from each point to the \a neighbours-th nearest other place that has any, or the last there is. \a points are finite. */
 std::vector<float>
 neighbourDistances (const std::vector<Eigen::Vector3f>& points, int neighbours, int threads);
 

@@ -60,15 +60,18 @@ moveToSensor (const std::string& path, const PcdViewOptions& options, const Loca
     if (p.allFinite ())
       distance += (p.z () - distance) / static_cast<double> (++count);
   const Eigen::Vector3d found = located.T_points_sensor.translation ();
+  const Eigen::Isometry3d told = cloud.T_world_sensor;
   const auto isNear = [&] (const Eigen::Vector3d& place) { return (found - place).norm () < same_place * distance; };
-  const bool in_world = cloud.has_viewpoint && !options.world_points && !options.viewpoint && isNear (cloud.T_world_sensor.translation ());
-  const bool as_told = options.viewpoint && isNear (Eigen::Vector3d::Zero ());
-  cloud.T_world_sensor = in_world ? located.T_points_sensor : cloud.T_world_sensor * located.T_points_sensor;
+  const bool at_origin = isNear (Eigen::Vector3d::Zero ()); // of the points: their axes alone are others than the sensor's
+  const bool in_world = !at_origin && cloud.has_viewpoint && !options.world_points && !options.viewpoint && isNear (told.translation ());
+  cloud.T_world_sensor = in_world ? located.T_points_sensor : told * located.T_points_sensor;
   if (in_world)
     result.warnings.push_back (path + ": its VIEWPOINT is where its points were seen from if they are in the world frame: taken as with --world-points");
-  else if (!as_told)
+  else if (at_origin && !options.viewpoint)
+    result.warnings.push_back (path + ": the axes of its points are not x right, y down, z forward; their pixels tell which way the sensor looked");
+  else if (!at_origin)
     result.warnings.push_back (path + ": its points are not in the frame of their sensor; their pixels tell that it stood at " +
-                               placeText (cloud.T_world_sensor.translation ()) + ", which is used instead of the VIEWPOINT");
+                               placeText (cloud.T_world_sensor.translation ()) + ", which is used instead of " + sourceOfViewpoint (options));
 }
 
 /** \brief The camera of the cloud, which is taken to its frame. */
@@ -100,8 +103,8 @@ findCamera (const std::string& path, const PcdViewOptions& options, SensorCloud&
     result.warnings.push_back (text.str ());
   }
   else
-    result.warnings.push_back (path + ": organised, but not the image of a pinhole camera: no free space is taken from it (give "
-                                      "--intrinsics, or --world-points if the points are in the world frame)");
+    result.warnings.push_back (path + ": organised, but not the image of a pinhole camera in any frame: no free space is taken from it (give "
+                                      "--intrinsics, with --world-points if the points are in the world frame)");
   return given;
 }
 

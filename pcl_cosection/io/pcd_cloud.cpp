@@ -113,7 +113,7 @@ readVectors (const std::string& path, const PcdHeader& header, const PCLPointClo
   {
     const Eigen::Vector3d v (columns[0].real (i), columns[1].real (i), columns[2].real (i));
     vectors[i] = (transform * v).cast<float> ();
-    if (!std::isfinite (vectors[i].squaredNorm ()))
+    if (v.isZero (0.0) || !std::isfinite (vectors[i].squaredNorm ())) // some sensors write a missing reading as zero
       vectors[i].setConstant (nan_value);
   }
   return (vectors);

@@ -57,7 +57,7 @@ collectObjects (const SensorCloud& cloud, LabelledView& result)
 }
 
 void
-checkExtent (const std::string& path, const SensorCloud& cloud, LabelledView& result)
+checkExtent (const std::string& path, const PcdViewOptions& options, const SensorCloud& cloud, LabelledView& result)
 {
   Eigen::AlignedBox3f box;
   for (const Eigen::Vector3f& p : cloud.positions)
@@ -71,7 +71,11 @@ checkExtent (const std::string& path, const SensorCloud& cloud, LabelledView& re
   {
     std::ostringstream text;
     text.precision (3);
-    text << path << ": extends over " << extent << " m; if its unit is the millimetre, give --scale 0.001";
+    text << path << ": extends over " << extent << " m";
+    if (options.scale == 1.0)
+      text << "; if its unit is the millimetre, give --scale 0.001";
+    else
+      text << " with --scale " << options.scale;
     result.warnings.push_back (text.str ());
   }
 }
@@ -96,12 +100,8 @@ readPcdView (const std::string& path, const PcdViewOptions& options)
 {
   options.validate ();
   SensorCloud cloud = readSensorCloud (path, options);
-  if (cloud.height > 1)
-    for (Eigen::Vector3f& p : cloud.positions) // some sensors write a missing reading as zero
-      if (p.isZero (0.0f))
-        p.setConstant (std::numeric_limits<float>::quiet_NaN ());
   LabelledView result;
-  checkExtent (path, cloud, result);
+  checkExtent (path, options, cloud, result);
   result.organized = cloud.height > 1;
   result.has_labels = cloud.has_labels;
   result.has_colour = !cloud.colours.empty ();

@@ -2,8 +2,11 @@
 // Copyright (c) 2026, the pcl_cosection authors
 #pragma once
 
+#include <pcl/cosection/io/pcd_view.h>
+
 #include <Eigen/Core>
 
+#include <cmath>
 #include <sstream>
 #include <string>
 
@@ -12,14 +15,22 @@ namespace pcl
 namespace cosection
 {
 
-/** \brief "(0.5, -1.25, 2)" */
+/** \brief "(0.5, -1.25, 2)"; micrometres are zero */
 inline std::string
 placeText (const Eigen::Vector3d& place)
 {
   std::ostringstream text;
   text.precision (3);
-  text << '(' << place.x () << ", " << place.y () << ", " << place.z () << ')';
+  const auto rounded = [] (double x) { return std::abs (x) < 1e-6 ? 0.0 : x; };
+  text << '(' << rounded (place.x ()) << ", " << rounded (place.y ()) << ", " << rounded (place.z ()) << ')';
   return text.str ();
+}
+
+/** \brief What says where the sensor stood. */
+inline std::string
+sourceOfViewpoint (const PcdViewOptions& options)
+{
+  return options.viewpoint ? "--viewpoint" : "its VIEWPOINT";
 }
 
 } // namespace cosection

@@ -20,8 +20,9 @@ namespace
 {
 
 constexpr double max_default_slope = 1.7321; // of points before a camera whose pose was left at the default: 60 degrees
-constexpr double max_hidden_of_label = 0.5;  // points, from where they were seen
-constexpr double clearly_less = 0.02;        // of the points are hidden
+constexpr double max_hidden_from_guess = 0.02; // of all points, from where the header does not say that they were seen ...
+constexpr double max_hidden_of_label_from_guess = 0.1; // ... and of those of a label
+constexpr double same_place = 0.1;           // of the distance to the points
 
 /** \brief What tells that a sensor at some place saw the points, or did not. */
 struct Sight
@@ -29,16 +30,17 @@ struct Sight
   std::optional<RangeImage> image; ///< none if they do not fit into one
   double hidden_share = 0.0;       ///< of all points, or of the label of which most are hidden if that is too much
 
+  /** \param[in] most that may be hidden */
   bool
-  isTheirs () const
+  isTheirs (double most = RangeImage::max_hidden_share) const
   {
-    return image && hidden_share <= RangeImage::max_hidden_share;
+    return image && hidden_share <= most;
   }
 };
 
 /** \brief Look at the points from \a sensor, in their frame. From below a table few of its points are hidden, but all of what is on it. */
 Sight
-lookFrom (const Eigen::Vector3d& sensor, const Members& members, const SensorCloud& cloud)
+lookFrom (const Eigen::Vector3d& sensor, const Members& members, const SensorCloud& cloud, double max_hidden_of_label = 0.5)
 {
   Sight sight;
   sight.image = drawRangeImage (cloud.positions, sensor);
@@ -56,6 +58,40 @@ lookFrom (const Eigen::Vector3d& sensor, const Members& members, const SensorClo
       sight.hidden_share = std::max (sight.hidden_share, share);
   }
   return sight;
+}
+
+double
+meanDistance (const Eigen::Vector3d& place, const SensorCloud& cloud)
+{
+  double mean = 0.0, count = 0.0;
+  for (const Eigen::Vector3f& p : cloud.positions)
+    if (p.allFinite ())
+      mean += ((p.cast<double> () - place).norm () - mean) / ++count;
+  return mean;
+}
+
+struct FoundSensor
+{
+  Eigen::Vector3d place;
+  Sight sight;
+};
+
+/** \brief The one place from which all points were seen as their order tells; nothing if there are several, as of merged views. */
+std::optional<FoundSensor>
+findSensor (const Members& members, const SensorCloud& cloud)
+{
+  std::optional<FoundSensor> found;
+  for (const Eigen::Vector3d& place : locateSensor (cloud.positions)) // the likeliest first
+  {
+    Sight sight = lookFrom (place, members, cloud, max_hidden_of_label_from_guess);
+    if (!sight.isTheirs (max_hidden_from_guess))
+      continue;
+    if (found && (found->place - place).norm () > same_place * meanDistance (place, cloud))
+      return std::nullopt;
+    if (!found)
+      found = FoundSensor{place, std::move (sight)};
+  }
+  return found;
 }
 
 /** \brief Whether the points lie as in the frame of a camera, whose pose then is the default one. */
@@ -101,32 +137,24 @@ viewFromSensor (const std::string& path, const PcdViewOptions& options, const Me
     if (sight = lookFrom (Eigen::Vector3d::Zero (), members, cloud); sight.isTheirs ())
       return viewOf (sight, cloud.T_world_sensor);
   if (cloud.has_viewpoint && !options.world_points && !options.viewpoint)
-    if (Sight other = lookFrom (cloud.T_world_sensor.translation (), members, cloud); other.isTheirs ())
+    if (Sight other = lookFrom (cloud.T_world_sensor.translation (), members, cloud, max_hidden_of_label_from_guess);
+        other.isTheirs (max_hidden_from_guess))
     {
       result.warnings.push_back (path + ": its points were seen from its VIEWPOINT if they are in the world frame, and not if they are in the "
                                         "sensor's: taken as with --world-points");
       moveToSensor (Eigen::Isometry3d::Identity (), cloud.T_world_sensor, cloud);
       return viewOf (other, Eigen::Isometry3d::Identity ());
     }
-  std::optional<Eigen::Vector3d> found;
-  Sight best;
-  for (const Eigen::Vector3d& sensor : locateSensor (cloud.positions)) // the likeliest first
-    if (Sight other = lookFrom (sensor, members, cloud);
-        other.isTheirs () && (!found || other.hidden_share < best.hidden_share - clearly_less))
-    {
-      found = sensor;
-      best = std::move (other);
-    }
-  if (found)
+  if (auto found = findSensor (members, cloud))
   {
     const Eigen::Isometry3d T_world_points = cloud.T_world_sensor;
-    moveToSensor (T_world_points, Eigen::Isometry3d (Eigen::Translation3d (*found)), cloud);
+    moveToSensor (T_world_points, Eigen::Isometry3d (Eigen::Translation3d (found->place)), cloud);
     result.warnings.push_back (path + ": the order of its points tells that they were seen from " + placeText (cloud.T_world_sensor.translation ()) +
-                               ", which is used instead of the VIEWPOINT");
-    return viewOf (best, T_world_points);
+                               ", which is used instead of " + sourceOfViewpoint (options));
+    return viewOf (found->sight, T_world_points);
   }
   if (cloud.has_viewpoint && cloud.positions.size () >= RangeImage::min_points)
-    result.warnings.push_back (path + ": its points were not seen from its VIEWPOINT alone (" +
+    result.warnings.push_back (path + ": its points were not seen from " + sourceOfViewpoint (options) + " alone (" +
                                (sight.image ? percentText (sight.hidden_share) + " of them are hidden from there"
                                             : std::string ("they span more than 120 degrees")) +
                                "): no free space is taken from it");

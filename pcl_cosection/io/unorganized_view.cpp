@@ -25,6 +25,7 @@ namespace
 {
 
 constexpr float away_cosine = -0.2f;       // of a normal that clearly points away from the viewpoint
+constexpr double least_filled = 0.01;      // share of normals with a direction, of which fields have some
 constexpr double worth_saying = 0.02;      // share of the normals
 constexpr double surely_inward = 0.3;      // outward share of a body whose normals are flipped
 
@@ -79,6 +80,16 @@ checkWithoutViewpoint (const std::string& path, const Members& members, SensorCl
   }
 }
 
+/** \brief Fields that nobody has filled, with zeros or not finite, are as none. */
+void
+dropUnfilledNormals (SensorCloud& cloud)
+{
+  const auto filled = std::count_if (cloud.normals.begin (), cloud.normals.end (),
+                                     [] (const Eigen::Vector3f& normal) { return normal.allFinite () && !normal.isZero (0.0f); });
+  if (static_cast<double> (filled) < least_filled * static_cast<double> (cloud.normals.size ()))
+    cloud.normals.clear ();
+}
+
 } // namespace
 
 void
@@ -89,6 +100,7 @@ completeUnorganized (const std::string& path, const PcdViewOptions& options, Sen
     if (cloud.positions[i].allFinite ())
       members[cloud.labels[i]].push_back (i);
   result.view = viewFromSensor (path, options, members, cloud, result);
+  dropUnfilledNormals (cloud);
   if (!cloud.normals.empty ())
   {
     if (!result.view)
@@ -102,8 +114,10 @@ completeUnorganized (const std::string& path, const PcdViewOptions& options, Sen
   if (!result.view)
   {
     addConsistentNormals (options, members, cloud);
-    result.warnings.push_back (path + ": where its points were seen from is not known; their normals were turned so that " +
-                               "neighbours agree (better: give --viewpoint, set the VIEWPOINT, or add fields normal_x normal_y normal_z)");
+    result.warnings.push_back (path + ": where its points were seen from is not known; their normals were turned so that neighbours agree, and hollow things " +
+                               "may be filled or inside out (better: " +
+                               (cloud.has_viewpoint ? "give merged views as separate INPUTs, each with its VIEWPOINT" : "give --viewpoint, set the VIEWPOINT") +
+                               ", or add fields normal_x normal_y normal_z)");
     return;
   }
   const auto add = [&] (const std::vector<std::size_t>& indices) {

@@ -41,6 +41,26 @@ struct Projection
   Eigen::AlignedBox2f slopes;
 };
 
+/** \brief Nothing if some points are not before the sensor. */
+std::optional<Projection>
+project (const std::vector<Eigen::Vector3f>& points, const Eigen::Isometry3d& T_sensor_points)
+{
+  Projection projection;
+  for (const Eigen::Vector3f& point : points)
+  {
+    if (!point.allFinite ())
+      continue;
+    const Eigen::Vector3d p = T_sensor_points * point.cast<double> ();
+    const Eigen::Vector2d slope = p.head<2> () / p.z ();
+    if (!(p.z () > 0.0) || !(slope.norm () < max_slope))
+      return std::nullopt;
+    projection.slopes.extend (slope.cast<float> ());
+    projection.points.emplace_back (static_cast<float> (slope.x ()), static_cast<float> (slope.y ()),
+                                    static_cast<float> (p.z ()));
+  }
+  return projection;
+}
+
 std::size_t
 pixelOf (const PinholeCamera& camera, const Eigen::Vector3f& p)
 {
@@ -112,28 +132,27 @@ RangeImage::hides (const Eigen::Vector3f& point) const
 std::optional<RangeImage>
 drawRangeImage (const std::vector<Eigen::Vector3f>& points, const Eigen::Vector3d& sensor)
 {
-  Eigen::Vector3d axis = Eigen::Vector3d::Zero ();
+  Eigen::AlignedBox3d box;
+  Eigen::Vector3d direction = Eigen::Vector3d::Zero ();
   for (const Eigen::Vector3f& p : points)
     if (p.allFinite ())
-      axis += (p.cast<double> () - sensor).normalized ();
-  if (!axis.allFinite () || axis.isZero (0.0))
+    {
+      box.extend (p.cast<double> ());
+      direction += (p.cast<double> () - sensor).normalized ();
+    }
+  if (box.isEmpty () || !sensor.allFinite ())
     return std::nullopt;
-  const Eigen::Isometry3d T_points_sensor = lookingAlong (sensor, axis);
-  const Eigen::Isometry3d T_sensor_points = T_points_sensor.inverse ();
-
-  Projection projection;
-  for (const Eigen::Vector3f& point : points)
-  {
-    if (!point.allFinite ())
-      continue;
-    const Eigen::Vector3d p = T_sensor_points * point.cast<double> ();
-    const Eigen::Vector2d slope = p.head<2> () / p.z ();
-    if (!(p.z () > 0.0) || !(slope.norm () < max_slope))
-      return std::nullopt;
-    projection.slopes.extend (slope.cast<float> ());
-    projection.points.emplace_back (static_cast<float> (slope.x ()), static_cast<float> (slope.y ()),
-                                    static_cast<float> (p.z ()));
-  }
+  Eigen::Isometry3d T_points_sensor = Eigen::Isometry3d::Identity ();
+  std::optional<Projection> projected;
+  for (const Eigen::Vector3d& axis : {Eigen::Vector3d (box.center () - sensor), direction}) // a sensor in a room may be in their box
+    if (!projected && !axis.isZero (0.0))
+    {
+      T_points_sensor = lookingAlong (sensor, axis);
+      projected = project (points, T_points_sensor.inverse ());
+    }
+  if (!projected)
+    return std::nullopt;
+  const Projection& projection = *projected;
   if (projection.points.size () < RangeImage::min_points)
     return std::nullopt;
 

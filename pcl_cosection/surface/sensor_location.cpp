@@ -31,6 +31,7 @@ constexpr int adjustments = 15;
 constexpr double worth_adjusting = 0.7;      // of the most lines so far that pass by a sample's place
 constexpr int most_adjusted = 50;
 constexpr std::size_t most_places = 3;
+constexpr double at_sensor = 0.01;           // of its length, from an end of a jump
 constexpr std::size_t least_meeting = 30;    // lines ...
 constexpr double least_meeting_share = 0.1;  // ... of all
 constexpr double least_spread = 1e-3;        // mean squared sine of the angle between the lines and their mean direction
@@ -109,6 +110,9 @@ pixelPitch (const Jump& jump, const Eigen::Vector3d& sensor)
 bool
 passes (const Jump& jump, const Eigen::Vector3d& sensor, double tolerance)
 {
+  const double nearest = std::min ((jump.from - sensor).norm (), (jump.to - sensor).norm ());
+  if (!(nearest > at_sensor * (jump.to - jump.from).norm ()))
+    return false; // a missing reading of (0, 0, 0), transformed with the others
   const Eigen::Vector3d pitch = pixelPitch (jump, sensor);
   const Eigen::Vector3d turn = (jump.to - sensor).normalized () - (jump.from - sensor).normalized ();
   return (turn - pitch).squaredNorm () <= tolerance * tolerance * pitch.squaredNorm ();

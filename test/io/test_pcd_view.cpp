@@ -227,6 +227,51 @@ TEST_F (PcdView, SensorIsFoundInAnyFrame)
   }
 }
 
+/** \brief In the frame of the sensor's body, x forward and z up: the VIEWPOINT is right, wherever it turns. */
+TEST_F (PcdView, AxesOfABodyAreNotAnotherPlace)
+{
+  auto cloud = organizedPlane ();
+  for (int v = 0; v < 48; ++v)
+    for (int u = 0; u < 64; ++u) // a step
+      cloud.at (u, v).getVector3fMap () *= v < 24 ? 1.2f : 1.0f;
+  for (auto& p : cloud)
+    p.getVector3fMap () = Eigen::Vector3f (p.z, -p.x, -p.y);
+  for (const Eigen::Vector3f& place : {Eigen::Vector3f (0.0f, 0.0f, 0.0f), Eigen::Vector3f (0.01f, 0.0f, 0.02f), Eigen::Vector3f (1.0f, 2.0f, 0.5f)})
+  {
+    const Eigen::Isometry3f T = Eigen::Translation3f (place) * Eigen::AngleAxisf (1.5f, Eigen::Vector3f::UnitZ ());
+    cloud.sensor_origin_.head<3> () = place;
+    cloud.sensor_orientation_ = Eigen::Quaternionf (T.linear ());
+    pcl::io::savePCDFileBinary (path ("a.pcd"), cloud);
+    const LabelledView view = readPcdView (path ("a.pcd"));
+    ASSERT_TRUE (view.view);
+    EXPECT_LT ((view.view->T_world_sensor.translation () - place.cast<double> ()).norm (), 1e-3);
+    EXPECT_LT ((view.view->T_world_sensor.linear ().col (2).cast<float> () - T.linear ().col (0)).norm (), 1e-3f);
+    const Eigen::Vector3f p = cloud.at (40, 10).getVector3fMap ();
+    bool found = false;
+    for (const OrientedPoint& q : view.objects.at (7).points)
+      found = found || (q.position - T * p).norm () < 1e-3f;
+    EXPECT_TRUE (found);
+  }
+}
+
+/** \brief Also if they are not in the sensor's frame, in which they would not be zero. */
+TEST_F (PcdView, ZerosOfTheFileAreNoReadings)
+{
+  auto cloud = organizedPlane ();
+  const Eigen::Translation3f T (0.3f, -0.2f, 1.0f);
+  for (auto& p : cloud)
+    p.getVector3fMap () = T * Eigen::Vector3f (p.getVector3fMap ());
+  for (std::size_t i = 0; i < cloud.size (); i += 3)
+    cloud[i].getVector3fMap ().setZero ();
+  pcl::io::savePCDFileBinary (path ("a.pcd"), cloud);
+  PcdViewOptions options;
+  options.viewpoint = {0.3, -0.2, 1.0};
+  const LabelledView view = readPcdView (path ("a.pcd"), options);
+  EXPECT_TRUE (view.view);
+  EXPECT_TRUE (view.warnings.empty ());
+  EXPECT_EQ (view.objects.at (0).readings + view.objects.at (7).readings, 64u * 48u * 2u / 3u);
+}
+
 TEST_F (PcdView, ManyMissingReadingsLeaveNormals)
 {
   auto cloud = organizedPlane ();

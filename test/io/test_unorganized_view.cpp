@@ -196,6 +196,37 @@ TEST_F (UnorganizedView, FromBelowATableNothingWasSeen)
     ASSERT_GT (p.normal.z (), 0.9f);
 }
 
+TEST_F (UnorganizedView, NormalsThatNobodyFilledAreEstimated)
+{
+  for (const float value : {0.0f, std::numeric_limits<float>::quiet_NaN ()})
+  {
+    auto cloud = ball (4000, true);
+    for (auto& p : cloud)
+      p.getNormalVector3fMap ().setConstant (value);
+    EXPECT_GT (outward (read (cloud)), 0.99);
+  }
+}
+
+/** \brief What was left of a table that was cut away says nothing of sides. */
+TEST_F (UnorganizedView, AFewPointsOfTheBackgroundTurnNothing)
+{
+  pcl::PointCloud<pcl::PointXYZL> cloud;
+  for (const auto& p : ball (3000, false))
+    if (p.normal_z > -0.3f)
+    {
+      cloud.emplace_back ();
+      cloud.back ().getVector3fMap () = p.getVector3fMap () - middle;
+      cloud.back ().label = 1;
+    }
+  for (int i = 0; i < 60; ++i) // above it
+  {
+    cloud.emplace_back ();
+    cloud.back ().getVector3fMap () = Eigen::Vector3f (0.004f * static_cast<float> (i % 8), 0.004f * static_cast<float> (i / 8), radius_m + 0.02f);
+  }
+  const LabelledView view = read (cloud);
+  EXPECT_GT (outward (view, 0.7, Eigen::Vector3f::Zero ()), 0.99);
+}
+
 TEST_F (UnorganizedView, FlippedNormalsAreTurned)
 {
   auto cloud = ball (4000, false);

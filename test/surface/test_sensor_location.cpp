@@ -58,6 +58,14 @@ TEST_P (LocateSensor, IsFoundInAnyFrame)
 INSTANTIATE_TEST_SUITE_P (Shapes, LocateSensor, testing::Values (Shape::Sphere, Shape::Box, Shape::Torus, Shape::Cup),
                           [] (const auto& info) { return nameOf (info.param); });
 
+TEST (LocateSensor, AMissingReadingAtTheSensorDoesNoHarm)
+{
+  auto points = imageOf (Shape::Box, 0.0);
+  const Eigen::Vector3d sensor = elsewhere * fromAbove ().translation ();
+  points.insert (points.begin () + 1000, sensor.cast<float> ());
+  EXPECT_LT (nearestTo (sensor, locateSensor (points)), 0.01);
+}
+
 TEST (LocateSensor, NeedsTheOrder)
 {
   auto points = imageOf (Shape::Box, 0.0);

@@ -207,6 +207,36 @@ TEST_F (AnyCloud, ViewsInTheWorldFrameAreAsGood)
   }
 }
 
+/** \brief One file of two views was not seen from one place, near as these may be. */
+TEST_F (AnyCloud, MergedViewsHaveNoViewpoint)
+{
+  writeTableScene (path ("view.pcd"));
+  pcl::PointCloud<pcl::PointXYZRGBL> view, merged;
+  pcl::io::loadPCDFile (path ("view.pcd"), view);
+  Eigen::Isometry3f T = Eigen::Isometry3f::Identity ();
+  T.translate (view.sensor_origin_.head<3> ());
+  T.rotate (view.sensor_orientation_);
+  for (const float turn : {0.0f, 1.2f}) // the same seen from elsewhere, about the vertical axis
+    for (const auto& p : view)
+      if (std::isfinite (p.x))
+      {
+        merged.push_back (p);
+        merged.back ().getVector3fMap () = Eigen::AngleAxisf (turn, Eigen::Vector3f::UnitZ ()) * (T * Eigen::Vector3f (p.getVector3fMap ()));
+      }
+  pcl::io::savePCDFileBinary (path ("merged.pcd"), merged);
+  EXPECT_EQ (run ({"merged.pcd", "out"}), 0);
+  EXPECT_EQ (errors_.find ("the order of its points tells"), std::string::npos) << errors_;
+  EXPECT_NE (errors_.find ("where its points were seen from is not known"), std::string::npos) << errors_;
+}
+
+TEST_F (AnyCloud, LongThingsAreWarnedOf)
+{
+  writeSphere (path ("ball.pcd"), 1000);
+  ASSERT_EQ (run ({"--scale", "30", "ball.pcd", "out.ply"}), 0) << errors_;
+  EXPECT_NE (errors_.find ("object 1 is 5"), std::string::npos) << errors_;
+  EXPECT_NE (errors_.find ("--scale 0.01 for centimetres"), std::string::npos) << errors_;
+}
+
 TEST_F (AnyCloud, ViewpointsThatAreNoneAreNamed)
 {
   writeSphere (path ("ball.pcd"), 1000);

@@ -13,6 +13,8 @@
 #include <filesystem>
 #include <iterator>
 #include <limits>
+#include <optional>
+#include <sstream>
 #include <utility>
 
 using namespace pcl::cosection;
@@ -23,6 +25,8 @@ namespace
 constexpr std::size_t min_points = 100;
 constexpr double whole_image_share = 0.5;   ///< of the pixels; an object that was cut out has fewer ...
 constexpr std::size_t image_pixels = 70000; ///< ... or is smaller than a camera's image
+constexpr double long_object = 5.0;         ///< metres; what is longer is hardly one thing in metres
+constexpr double outlier_share = 0.02;      ///< of its points, on each side
 constexpr float large_extent = 100.0f; ///< metres; what is larger is probably not in metres
 
 std::string
@@ -47,6 +51,30 @@ isWholeImage (const LabelledView& view)
   const std::size_t readings = view.objects.begin ()->second.readings;
   return (view.organized && pixels >= image_pixels &&
           static_cast<double> (readings) > whole_image_share * static_cast<double> (pixels));
+}
+
+/** \brief A warning of an object that is too long to be one, if it is: without labels it may be a whole scene, or its unit is not the metre. */
+std::optional<std::string>
+tooLong (std::uint32_t label, const std::vector<OrientedPoint>& points)
+{
+  double longest = 0.0;
+  std::vector<float> along (points.size ());
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    std::transform (points.begin (), points.end (), along.begin (), [axis] (const OrientedPoint& p) { return p.position[axis]; });
+    const auto cut = static_cast<std::ptrdiff_t> (outlier_share * static_cast<double> (along.size ()));
+    std::nth_element (along.begin (), along.begin () + cut, along.end ());
+    const double least = along[cut];
+    std::nth_element (along.begin (), along.end () - 1 - cut, along.end ());
+    longest = std::max (longest, *(along.end () - 1 - cut) - least);
+  }
+  if (longest <= long_object)
+    return std::nullopt;
+  std::ostringstream text;
+  text.precision (3);
+  text << "object " << label << " is " << longest << " m long: is it one (else give labels), and is its unit the metre (else --scale 0.01 for "
+       << "centimetres, 0.001 for millimetres)?";
+  return text.str ();
 }
 
 /** \brief A view that says nothing, in the place of a file without rays. */
@@ -185,7 +213,11 @@ readScene (const Settings& settings, const ProgressCallback& progress)
     else if (label == 0)
       scene.background = std::move (object.points);
     else
+    {
+      if (const auto warning = tooLong (label, object.points))
+        scene.warnings.push_back (*warning);
       scene.objects[id] = {id, std::move (object.points), poses.of (id)};
+    }
   }
   if (scene.objects.empty ())
   {
