@@ -1,21 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_cosection authors
 #include "common/not_a_number.h"
+#include "pcd_view_fixture.h"
 
 #include <pcl/cosection/common/error.h>
-#include <pcl/cosection/io/pcd_view.h>
 
 #include <pcl/io/pcd_io.h>
 #include <pcl/point_types.h>
 
 #include <gtest/gtest.h>
 
-#include <unistd.h>
-
 #include <cmath>
 #include <cstring>
-#include <filesystem>
-#include <fstream>
 #include <random>
 
 using namespace pcl::cosection;
@@ -23,91 +19,6 @@ using namespace pcl::cosection::test;
 
 namespace
 {
-
-class PcdView : public testing::Test
-{
-protected:
-  PcdView ()
-      : folder_ (std::filesystem::temp_directory_path () /
-                 ("pcd_view_" + std::to_string (getpid ()) + "_" +
-                  testing::UnitTest::GetInstance ()->current_test_info ()->name ()))
-  {
-    std::filesystem::create_directories (folder_);
-  }
-
-  ~PcdView () override
-  {
-    std::filesystem::remove_all (folder_);
-  }
-
-  std::string
-  path (const std::string& name) const
-  {
-    return ((folder_ / name).string ());
-  }
-
-  std::string
-  write (const std::string& content, const std::string& name = "cloud.pcd") const
-  {
-    std::ofstream (path (name), std::ios::binary) << content;
-    return (path (name));
-  }
-
-  /** \brief The message of the error that reading \a file gives. */
-  template <typename Expected>
-  std::string
-  failure (const std::string& file, const PcdViewOptions& options = {}) const
-  {
-    try
-    {
-      readPcdView (file, options);
-    }
-    catch (const Expected& error)
-    {
-      const std::string message = error.what ();
-      EXPECT_EQ (message.find ('\n'), std::string::npos) << message;
-      EXPECT_NE (message.find (file), std::string::npos) << message;
-      return (message);
-    }
-    ADD_FAILURE () << "no error for " << file;
-    return ("");
-  }
-
-  std::filesystem::path folder_;
-};
-
-/** \brief A header of float fields x y z and what else is given. */
-std::string
-header (int width, int height, const std::string& data = "ascii", const std::string& fields = "x y z",
-        const std::string& size = "4 4 4", const std::string& type = "F F F",
-        const std::string& viewpoint = "0 0 0 1 0 0 0")
-{
-  std::string count;
-  for (std::size_t i = 0; i < type.size (); i += 2)
-    count += " 1";
-  return ("# .PCD v0.7\nVERSION 0.7\nFIELDS " + fields + "\nSIZE " + size + "\nTYPE " + type + "\nCOUNT" + count +
-          "\nWIDTH " + std::to_string (width) + "\nHEIGHT " + std::to_string (height) + "\nVIEWPOINT " + viewpoint +
-          "\nPOINTS " + std::to_string (width * height) + "\nDATA " + data + "\n");
-}
-
-/** \brief A plane at depth 1 seen by a pinhole, label 0 on the left and 7 on the right. */
-pcl::PointCloud<pcl::PointXYZRGBL>
-organizedPlane ()
-{
-  const PinholeCamera camera{64, 48, 60.0, 62.0, 31.0, 24.0};
-  pcl::PointCloud<pcl::PointXYZRGBL> cloud (64, 48);
-  for (int v = 0; v < 48; ++v)
-    for (int u = 0; u < 64; ++u)
-    {
-      auto& p = cloud.at (u, v);
-      p.getVector3fMap () = camera.unproject (u, v, 1.0).cast<float> ();
-      p.r = 10;
-      p.g = 20;
-      p.b = 30;
-      p.label = u < 32 ? 0 : 7;
-    }
-  return (cloud);
-}
 
 /** \brief Points on a sphere's lower half at (0, 0, 2), as a sensor at the origin sees it. */
 pcl::PointCloud<pcl::PointXYZ>
@@ -166,110 +77,6 @@ TEST_F (PcdView, OrganizedGivesRaysNormalsLabelsAndColours)
     EXPECT_NEAR (view.view->at (40, 40), 1.0f, 1e-5f);
     EXPECT_TRUE (std::isnan (view.view->at (5, 6)));
   }
-}
-
-TEST_F (PcdView, WorldPointsMoveToTheSensor)
-{
-  auto cloud = organizedPlane ();
-  pcl::io::savePCDFileBinary (path ("sensor.pcd"), cloud);
-  const Eigen::Isometry3f T =
-      Eigen::Translation3f (0.3f, -2.0f, 1.0f) * Eigen::AngleAxisf (2.0f, Eigen::Vector3f (1, 2, 3).normalized ());
-  for (auto& p : cloud)
-    p.getVector3fMap () = T * Eigen::Vector3f (p.getVector3fMap ());
-  cloud.sensor_origin_.head<3> () = T.translation ();
-  cloud.sensor_orientation_ = Eigen::Quaternionf (T.linear ());
-  pcl::io::savePCDFileBinary (path ("world.pcd"), cloud);
-  PcdViewOptions options;
-  options.world_points = true;
-  const LabelledView view = readPcdView (path ("world.pcd"), options);
-  ASSERT_TRUE (view.view);
-  EXPECT_NEAR (view.view->camera.fx, 60.0, 0.01);
-  EXPECT_NEAR (view.view->at (3, 3), 1.0f, 1e-4f);
-  const OrientedPoint& p = view.objects.at (7).points.front ();
-  const OrientedPoint q = readPcdView (path ("sensor.pcd")).objects.at (7).points.front ();
-  EXPECT_LT ((p.position - T * q.position).norm (), 1e-4f);
-  EXPECT_LT ((p.normal - T.linear () * q.normal).norm (), 1e-3f);
-}
-
-/** \brief As after pcl::transformPointCloud, which keeps the order of the points and leaves the VIEWPOINT as it is. */
-TEST_F (PcdView, SensorIsFoundInAnyFrame)
-{
-  auto cloud = organizedPlane ();
-  for (int v = 0; v < 48; ++v)
-    for (int u = 0; u < 64; ++u) // a step
-      cloud.at (u, v).getVector3fMap () *= v < 24 ? 1.2f : 1.0f;
-  cloud.at (5, 6).getVector3fMap ().setConstant (not_a_number);
-  pcl::io::savePCDFileBinary (path ("sensor.pcd"), cloud);
-  const LabelledView expected = readPcdView (path ("sensor.pcd"));
-  const Eigen::Isometry3f T =
-      Eigen::Translation3f (0.3f, -2.0f, 1.0f) * Eigen::AngleAxisf (2.0f, Eigen::Vector3f (1, 2, 3).normalized ());
-  for (auto& p : cloud)
-    p.getVector3fMap () = T * Eigen::Vector3f (p.getVector3fMap ());
-  pcl::io::savePCDFileBinary (path ("no_viewpoint.pcd"), cloud);
-  cloud.sensor_origin_.head<3> () = T.translation (); // as pcl::NormalEstimation wants it
-  pcl::io::savePCDFileBinary (path ("viewpoint.pcd"), cloud);
-  const std::pair<std::string, std::string> files[] = {{"no_viewpoint.pcd", "their pixels tell"}, {"viewpoint.pcd", "--world-points"}};
-  for (const auto& [file, said] : files)
-  {
-    SCOPED_TRACE (file);
-    const LabelledView view = readPcdView (path (file));
-    ASSERT_EQ (view.warnings.size (), 1u);
-    EXPECT_NE (view.warnings[0].find (said), std::string::npos) << view.warnings[0];
-    ASSERT_TRUE (view.view);
-    EXPECT_NEAR (view.view->camera.fx, 60.0, 0.05);
-    EXPECT_NEAR (view.view->at (3, 3), 1.2f, 1e-3f);
-    EXPECT_LT ((view.view->T_world_sensor.matrix () - T.matrix ().cast<double> ()).norm (), 2e-3);
-    ASSERT_NEAR (static_cast<double> (view.objects.at (7).points.size ()), static_cast<double> (expected.objects.at (7).points.size ()), 20.0);
-    const OrientedPoint& p = view.objects.at (7).points.front ();
-    const OrientedPoint& q = expected.objects.at (7).points.front ();
-    EXPECT_LT ((p.position - T * q.position).norm (), 1e-4f);
-    EXPECT_LT ((p.normal - T.linear () * q.normal).norm (), 5e-3f);
-  }
-}
-
-/** \brief In the frame of the sensor's body, x forward and z up: the VIEWPOINT is right, wherever it turns. */
-TEST_F (PcdView, AxesOfABodyAreNotAnotherPlace)
-{
-  auto cloud = organizedPlane ();
-  for (int v = 0; v < 48; ++v)
-    for (int u = 0; u < 64; ++u) // a step
-      cloud.at (u, v).getVector3fMap () *= v < 24 ? 1.2f : 1.0f;
-  for (auto& p : cloud)
-    p.getVector3fMap () = Eigen::Vector3f (p.z, -p.x, -p.y);
-  for (const Eigen::Vector3f& place : {Eigen::Vector3f (0.0f, 0.0f, 0.0f), Eigen::Vector3f (0.01f, 0.0f, 0.02f), Eigen::Vector3f (1.0f, 2.0f, 0.5f)})
-  {
-    const Eigen::Isometry3f T = Eigen::Translation3f (place) * Eigen::AngleAxisf (1.5f, Eigen::Vector3f::UnitZ ());
-    cloud.sensor_origin_.head<3> () = place;
-    cloud.sensor_orientation_ = Eigen::Quaternionf (T.linear ());
-    pcl::io::savePCDFileBinary (path ("a.pcd"), cloud);
-    const LabelledView view = readPcdView (path ("a.pcd"));
-    ASSERT_TRUE (view.view);
-    EXPECT_LT ((view.view->T_world_sensor.translation () - place.cast<double> ()).norm (), 1e-3);
-    EXPECT_LT ((view.view->T_world_sensor.linear ().col (2).cast<float> () - T.linear ().col (0)).norm (), 1e-3f);
-    const Eigen::Vector3f p = cloud.at (40, 10).getVector3fMap ();
-    bool found = false;
-    for (const OrientedPoint& q : view.objects.at (7).points)
-      found = found || (q.position - T * p).norm () < 1e-3f;
-    EXPECT_TRUE (found);
-  }
-}
-
-/** \brief Also if they are not in the sensor's frame, in which they would not be zero. */
-TEST_F (PcdView, ZerosOfTheFileAreNoReadings)
-{
-  auto cloud = organizedPlane ();
-  const Eigen::Translation3f T (0.3f, -0.2f, 1.0f);
-  for (auto& p : cloud)
-    p.getVector3fMap () = T * Eigen::Vector3f (p.getVector3fMap ());
-  for (std::size_t i = 0; i < cloud.size (); i += 3)
-    cloud[i].getVector3fMap ().setZero ();
-  pcl::io::savePCDFileBinary (path ("a.pcd"), cloud);
-  PcdViewOptions options;
-  options.viewpoint = {0.3, -0.2, 1.0};
-  const LabelledView view = readPcdView (path ("a.pcd"), options);
-  EXPECT_TRUE (view.view);
-  EXPECT_TRUE (view.warnings.empty ());
-  EXPECT_EQ (view.objects.at (0).readings + view.objects.at (7).readings, 64u * 48u * 2u / 3u);
 }
 
 TEST_F (PcdView, ManyMissingReadingsLeaveNormals)

@@ -3,97 +3,15 @@
 
 // The program with clouds that are no labelled views, with given surroundings, and with its further outputs.
 
-#include "common/temporary_folder.h"
-#include "scene_files.h"
-#include "tool_run.h"
+#include "any_cloud_fixture.h"
 
-#include <pcl/cosection/common/triangle_mesh.h>
-#include <pcl/cosection/io/mesh_io.h>
-
-#include <pcl/io/pcd_io.h>
-#include <pcl/point_types.h>
-
-#include <gtest/gtest.h>
-#include <nlohmann/json.hpp>
-
-#include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
-#include <random>
 #include <sstream>
 #include <tuple>
 
 namespace fs = std::filesystem;
 using namespace pcl::cosection;
-
-namespace
-{
-
-constexpr double ball_m3 = 4.0 / 3.0 * M_PI * 0.001; ///< of writeSphere ()
-
-class AnyCloud : public testing::Test
-{
-protected:
-  std::string
-  path (const std::string& name) const
-  {
-    return (folder_.file (name));
-  }
-
-  void
-  write (const std::string& name, const std::string& content) const
-  {
-    std::ofstream (path (name), std::ios::binary) << content;
-  }
-
-  /** \brief Run in the folder. \return the exit status; what it printed is in output_ and errors_ */
-  int
-  run (const std::vector<std::string>& arguments)
-  {
-    ToolRun tool (arguments, folder_.file (""));
-    const int status = tool.wait ();
-    output_ = tool.output ();
-    errors_ = tool.errors ();
-    return (status);
-  }
-
-  nlohmann::json
-  summary () const
-  {
-    std::ifstream file (path ("s.json"));
-    return (nlohmann::json::parse (file));
-  }
-
-  double
-  volume (const std::string& name) const
-  {
-    const TriangleMesh mesh = loadMesh (path (name));
-    EXPECT_TRUE (computeTopology (mesh).closed_manifold) << name;
-    return (computeMassProperties (mesh).volume_m3);
-  }
-
-  /** \brief Every second point of the ball, moved by \a T. */
-  void
-  writeHalf (const std::string& name, std::size_t first, const Eigen::Isometry3f& T) const
-  {
-    writeSphere (path ("whole.pcd"), 4000);
-    pcl::PointCloud<pcl::PointNormal> whole, half;
-    pcl::io::loadPCDFile (path ("whole.pcd"), whole);
-    for (std::size_t i = first; i < whole.size (); i += 2)
-    {
-      half.push_back (whole[i]);
-      half.back ().getVector3fMap () = T * whole[i].getVector3fMap ();
-      half.back ().getNormalVector3fMap () = T.linear () * whole[i].getNormalVector3fMap ();
-    }
-    pcl::io::savePCDFileBinary (path (name), half);
-  }
-
-  const pcl::cosection::test::TemporaryFolder folder_;
-  std::string output_, errors_;
-};
-
-} // namespace
 
 TEST_F (AnyCloud, WholeBodiesHaveTheirMassProperties)
 {
@@ -155,100 +73,12 @@ TEST_F (AnyCloud, TrajectoryPutsAMovedObjectTogether)
   EXPECT_NEAR (volume ("gap.ply"), ball_m3, 0.05 * ball_m3);
 }
 
-/** \brief In the frame of a robot's base, whatever of the sensor's place is known. */
-TEST_F (AnyCloud, ViewsInTheWorldFrameAreAsGood)
-{
-  writeTableScene (path ("view.pcd"));
-  pcl::PointCloud<pcl::PointXYZRGBL> cloud, unordered;
-  pcl::io::loadPCDFile (path ("view.pcd"), cloud);
-  Eigen::Isometry3f T = Eigen::Isometry3f::Identity (); // the world's origin: on the floor below the table
-  T.translate (Eigen::Vector3f (0.2f, 0.1f, 0.7f));
-  T.translate (cloud.sensor_origin_.head<3> ());
-  T.rotate (cloud.sensor_orientation_);
-  const Eigen::Vector3f sensor = T.translation ();
-  for (auto& p : cloud)
-    p.getVector3fMap () = T * Eigen::Vector3f (p.getVector3fMap ());
-  cloud.sensor_origin_.setZero ();
-  cloud.sensor_orientation_.setIdentity ();
-  pcl::io::savePCDFileBinary (path ("organized.pcd"), cloud);
-  cloud.sensor_origin_.head<3> () = sensor;
-  pcl::io::savePCDFileBinary (path ("told.pcd"), cloud);
-  for (const auto& p : cloud)
-    if (std::isfinite (p.x))
-      unordered.push_back (p);
-  pcl::io::savePCDFileBinary (path ("unorganized.pcd"), unordered);
-  std::shuffle (unordered.begin (), unordered.end (), std::mt19937 (1));
-  pcl::io::savePCDFileBinary (path ("shuffled.pcd"), unordered);
-  unordered.sensor_origin_.head<3> () = sensor;
-  pcl::io::savePCDFileBinary (path ("shuffled_told.pcd"), unordered);
-  const std::string place = std::to_string (sensor.x ()) + "," + std::to_string (sensor.y ()) + "," + std::to_string (sensor.z ());
-
-  ASSERT_EQ (run ({"view.pcd", "expected"}), 0) << errors_;
-  const std::pair<std::vector<std::string>, std::string> views[] = {{{"organized.pcd"}, "their pixels tell that it stood at"},
-                                                                    {{"told.pcd"}, "taken as with --world-points"},
-                                                                    {{"unorganized.pcd"}, "the order of its points tells"},
-                                                                    {{"--viewpoint", place, "organized.pcd"}, ""},
-                                                                    {{"--viewpoint", place, "shuffled.pcd"}, ""},
-                                                                    {{"shuffled_told.pcd"}, "taken as with --world-points"}};
-  for (const auto& [arguments, said] : views)
-  {
-    SCOPED_TRACE (arguments.back ());
-    std::vector<std::string> all = arguments;
-    all.emplace_back ("out");
-    ASSERT_EQ (run (all), 0) << errors_;
-    EXPECT_NE (errors_.find (said), std::string::npos) << errors_;
-    if (said.empty ())
-    {
-      EXPECT_EQ (errors_, "");
-    }
-    for (const char* object : {"object_1.ply", "object_2.ply"})
-      EXPECT_NEAR (volume (std::string ("out/") + object), volume (std::string ("expected/") + object),
-                   0.1 * volume (std::string ("expected/") + object));
-  }
-}
-
-/** \brief One file of two views was not seen from one place, near as these may be. */
-TEST_F (AnyCloud, MergedViewsHaveNoViewpoint)
-{
-  writeTableScene (path ("view.pcd"));
-  pcl::PointCloud<pcl::PointXYZRGBL> view, merged;
-  pcl::io::loadPCDFile (path ("view.pcd"), view);
-  Eigen::Isometry3f T = Eigen::Isometry3f::Identity ();
-  T.translate (view.sensor_origin_.head<3> ());
-  T.rotate (view.sensor_orientation_);
-  for (const float turn : {0.0f, 1.2f}) // the same seen from elsewhere, about the vertical axis
-    for (const auto& p : view)
-      if (std::isfinite (p.x))
-      {
-        merged.push_back (p);
-        merged.back ().getVector3fMap () = Eigen::AngleAxisf (turn, Eigen::Vector3f::UnitZ ()) * (T * Eigen::Vector3f (p.getVector3fMap ()));
-      }
-  pcl::io::savePCDFileBinary (path ("merged.pcd"), merged);
-  EXPECT_EQ (run ({"merged.pcd", "out"}), 0);
-  EXPECT_EQ (errors_.find ("the order of its points tells"), std::string::npos) << errors_;
-  EXPECT_NE (errors_.find ("where its points were seen from is not known"), std::string::npos) << errors_;
-}
-
 TEST_F (AnyCloud, LongThingsAreWarnedOf)
 {
   writeSphere (path ("ball.pcd"), 1000);
   ASSERT_EQ (run ({"--scale", "30", "ball.pcd", "out.ply"}), 0) << errors_;
   EXPECT_NE (errors_.find ("object 1 is 5"), std::string::npos) << errors_;
   EXPECT_NE (errors_.find ("--scale 0.01 for centimetres"), std::string::npos) << errors_;
-}
-
-TEST_F (AnyCloud, ViewpointsThatAreNoneAreNamed)
-{
-  writeSphere (path ("ball.pcd"), 1000);
-  const auto fails = [this] (std::vector<std::string> arguments, const std::string& part) {
-    arguments.insert (arguments.end (), {"ball.pcd", "ball.pcd", "ball.pcd", "out.ply"});
-    EXPECT_EQ (run (arguments), 2);
-    EXPECT_NE (errors_.find (part), std::string::npos) << errors_;
-  };
-  fails ({"--viewpoint", "1,2"}, "--viewpoint must be three numbers x,y,z");
-  fails ({"--viewpoint", "1,2,3,4"}, "--viewpoint must be three numbers x,y,z");
-  fails ({"--viewpoint", "1,2,nan"}, "--viewpoint must be three numbers x,y,z");
-  fails ({"--viewpoint", "1,2,3", "--viewpoint", "1,2,4"}, "--viewpoint is given 2 times for 3 views");
 }
 
 TEST_F (AnyCloud, WrongTrajectoriesAreNamed)
