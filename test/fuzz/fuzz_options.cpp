@@ -96,6 +96,7 @@ fuzz::seeds ()
           "fast-jacobi\n--max-iterations\n7\n--tolerance\n1e-3\nin.pcd\nout\n",
           "--plane\n-1,0,0,2\n--plane\n0,0,1,0\n--format\nobj\n--save-sdf\n--threads\n3\n--verbose\n--\n-in.pcd\nout\n",
           "--quiet\nin.pcd\n./-out\n",
+          "--viewpoint\n-0.5,1,2\n--viewpoint=1,2,3\na.pcd\nb.pcd\nout\n",
           "--free-space\nb.pcd\n--free-space=c.pcd\n--object-trajectory\n1=t.txt\n--save-hull\nin.pcd\nout\n",
           "--config\n@config@\nin.pcd\nout\n%%\nvoxel-size = 0.004\nplane = [0, 0, 1, 0.72]\n",
           "in.pcd\nout.obj\n--config=@config@\n%%\n# a comment\nquiet = true\nno-planes\nthreads = 2\n"
@@ -114,7 +115,7 @@ fuzz::dictionary ()
           "--scale",      "--world-points", "0,0,1,0",      "1,2,3",        "1G",      "5k",           "[",
           "]",            "[a.b]",        "\"",             "'",            "%%\n",    "true",         "false",
           "=",            ",",            "++",             "--x",          "\\",      "a.pcd",        "a.ply",
-          "--free-space", "--obstacle",   "--object-trajectory", "1=t.txt", "--max-faces", "--save-hull", "--save-bounds",
+          "--free-space", "--obstacle",   "--object-trajectory", "1=t.txt", "--max-faces", "--save-hull", "--save-bounds", "--viewpoint",
           "[[",           "\"\"\"",       "'''",            "{",            ";",       "out.pcd"};
 }
 
