@@ -22,6 +22,7 @@ namespace cosection
 namespace
 {
 
+constexpr double farthest_viewpoint = 1e15; // metres; as of the header
 constexpr double millimetre_extent = 100.0; ///< metres; a scene this large is probably not in metres
 
 /** \brief Sort the points by label, in the world frame. */
@@ -87,8 +88,8 @@ PcdViewOptions::validate () const
 {
   if (!(std::isfinite (scale) && scale > 0.0))
     throw InvalidArgument ("scale must be positive and finite");
-  if (viewpoint && !std::all_of (viewpoint->begin (), viewpoint->end (), [] (double x) { return std::isfinite (x); }))
-    throw InvalidArgument ("viewpoint must be finite");
+  if (viewpoint && !std::all_of (viewpoint->begin (), viewpoint->end (), [] (double x) { return std::abs (x) <= farthest_viewpoint; }))
+    throw InvalidArgument ("viewpoint must be at most 1e15 m away along each axis");
   if (normal_neighbours < 3 || normal_neighbours > 1000)
     throw InvalidArgument ("normal_neighbours must be between 3 and 1000");
   if (intrinsics)

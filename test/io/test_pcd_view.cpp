@@ -299,6 +299,9 @@ TEST_F (PcdView, RefusesWrongOptions)
   options.scale = -1.0;
   EXPECT_THROW (readPcdView ("x.pcd", options), InvalidArgument);
   options = {};
+  options.viewpoint = {0.0, 1e300, 1.0};
+  EXPECT_THROW (readPcdView ("x.pcd", options), InvalidArgument);
+  options = {};
   options.intrinsics = {0.0, 1.0, 1.0, 1.0};
   EXPECT_THROW (readPcdView ("x.pcd", options), InvalidArgument);
 }
