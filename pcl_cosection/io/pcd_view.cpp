@@ -113,6 +113,8 @@ readPcdView (const std::string& path, const PcdViewOptions& options)
     completeOrganized (path, options, cloud, result);
   else
     completeUnorganized (path, options, cloud, result);
+  if (result.view)
+    result.view->name = path;
   collectObjects (cloud, result);
   return (result);
 }

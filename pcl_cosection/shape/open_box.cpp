@@ -317,7 +317,7 @@ OpenBox::around (double distance, double step_m) const
 }
 
 std::vector<OrientedPoint>
-OpenBox::copies (const std::vector<OrientedPoint>& points) const
+OpenBox::onOtherSides (const std::vector<OrientedPoint>& points) const
 {
   std::vector<OrientedPoint> copies;
   const Eigen::Matrix3d over_x = Eigen::Matrix3d::Identity () - 2.0 * x_ * x_.transpose ();
@@ -325,8 +325,6 @@ OpenBox::copies (const std::vector<OrientedPoint>& points) const
   for (const Eigen::Matrix3d& mirror : {over_x, over_y, Eigen::Matrix3d (over_x * over_y)})
     for (OrientedPoint p : points)
     {
-      if (!isOfProfile (p))
-        continue;
       p.position = (center_ + mirror * (p.position.cast<double> () - center_)).cast<float> ();
       p.normal = (mirror * p.normal.cast<double> ()).cast<float> ();
       copies.push_back (p);

@@ -33,7 +33,7 @@ public:
 
   /** \brief Mirrored to the opposite sides. */
   std::vector<OrientedPoint>
-  copies (const std::vector<OrientedPoint>& points) const override;
+  onOtherSides (const std::vector<OrientedPoint>& points) const override;
 
   std::shared_ptr<const ProfileSurface>
   withoutFloor () const override;

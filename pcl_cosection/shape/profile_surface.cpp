@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 
 namespace pcl
 {
@@ -143,6 +144,14 @@ ProfileSurface::isOfProfile (const OrientedPoint& point) const
 {
   const Eigen::Vector3d position = point.position.cast<double> ();
   return holds (position) && (!vessel_ || vessel_->holds ({profileOf (position), profileNormalOf (point)}));
+}
+
+std::vector<OrientedPoint>
+ProfileSurface::copies (const std::vector<OrientedPoint>& points) const
+{
+  std::vector<OrientedPoint> held;
+  std::copy_if (points.begin (), points.end (), std::back_inserter (held), [this] (const OrientedPoint& p) { return isOfProfile (p); });
+  return onOtherSides (held);
 }
 
 double

@@ -57,8 +57,12 @@ public:
   extent (const Eigen::Vector3d& n) const;
 
   /** \brief Copies of those of the points that the surface holds, on other sides of the axis. */
+  std::vector<OrientedPoint>
+  copies (const std::vector<OrientedPoint>& points) const;
+
+  /** \brief Copies of any points on other sides of the axis. */
   virtual std::vector<OrientedPoint>
-  copies (const std::vector<OrientedPoint>& points) const = 0;
+  onOtherSides (const std::vector<OrientedPoint>& points) const = 0;
 
   /** \brief Flat faces at those ends of the axis to which a straight wall leads: the bottom of a can that stood on a table. */
   virtual std::vector<OrientedPoint>

@@ -191,7 +191,7 @@ SurfaceOfRevolution::around (double distance, double step_m) const
 }
 
 std::vector<OrientedPoint>
-SurfaceOfRevolution::copies (const std::vector<OrientedPoint>& points) const
+SurfaceOfRevolution::onOtherSides (const std::vector<OrientedPoint>& points) const
 {
   std::vector<OrientedPoint> copies;
   for (int t = 1; t < turns; ++t)
@@ -199,8 +199,6 @@ SurfaceOfRevolution::copies (const std::vector<OrientedPoint>& points) const
     const Eigen::Matrix3d turn = Eigen::AngleAxisd (2.0 * M_PI * t / turns, direction_).toRotationMatrix ();
     for (OrientedPoint p : points)
     {
-      if (!isOfProfile (p))
-        continue;
       p.position = (center_ + turn * (p.position.cast<double> () - center_)).cast<float> ();
       p.normal = (turn * p.normal.cast<double> ()).cast<float> ();
       copies.push_back (p);

@@ -38,7 +38,7 @@ public:
 
   /** \brief Turned about the axis. */
   std::vector<OrientedPoint>
-  copies (const std::vector<OrientedPoint>& points) const override;
+  onOtherSides (const std::vector<OrientedPoint>& points) const override;
 
   std::vector<OrientedPoint>
   flatEnds () const override;

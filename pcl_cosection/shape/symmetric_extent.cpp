@@ -4,6 +4,7 @@
 
 #include "faces.h"
 #include "open_box.h"
+#include "prism_walls.h"
 #include "principal_axes.h"
 #include "surface_of_revolution.h"
 
@@ -12,6 +13,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <utility>
 
@@ -175,6 +177,13 @@ SymmetricExtent::build (const std::vector<OrientedPoint>& all, const std::option
   faceted_ = prevail (points, faces);
   standing_ = up.has_value ();
   copies_alike_ = up || profile_ || isCuboid (points, faces);
+  if (up && faceted_ && !profile_)
+  {
+    std::vector<OrientedPoint> copies;
+    std::transform (points.begin (), points.end (), std::back_inserter (copies), [this] (const OrientedPoint& p) { return turned (p); });
+    walls_ = std::make_shared<const PrismWalls> (points, std::vector<OrientedPoint> (), faces, *plane);
+    walls_with_copies_ = std::make_shared<const PrismWalls> (points, copies, faces, *plane);
+  }
 }
 
 std::vector<OrientedPoint>
@@ -183,6 +192,7 @@ SymmetricExtent::hiddenSide (const std::vector<OrientedPoint>& points, double re
   if (profile_)
   {
     std::vector<OrientedPoint> all = profile_->copies (points);
+    all.insert (all.end (), continuation_.begin (), continuation_.end ());
     std::vector<OrientedPoint> ends;
     if (profile_->vessel ())
       ends = profile_->depths (reach);
@@ -191,18 +201,58 @@ SymmetricExtent::hiddenSide (const std::vector<OrientedPoint>& points, double re
     all.insert (all.end (), ends.begin (), ends.end ());
     return all;
   }
-  std::vector<OrientedPoint> copies;
-  for (OrientedPoint p : points)
-  {
-    const Eigen::Vector3d position = center_ + turn_ * (p.position.cast<double> () - center_);
-    if (std::none_of (half_spaces_.begin (), half_spaces_.end (),
-                      [&] (const auto& half_space) { return half_space.first.dot (position) - half_space.second >= -reach; }))
-      continue;
-    p.position = position.cast<float> ();
-    p.normal = (turn_ * p.normal.cast<double> ()).cast<float> ();
-    copies.push_back (p);
-  }
+  std::vector<OrientedPoint> copies = continuation_;
+  for (const OrientedPoint& p : has_copies_ ? points : std::vector<OrientedPoint> ())
+    if (const OrientedPoint copy = turned (p); beyond (copy.position.cast<double> ()) >= -reach)
+      copies.push_back (copy);
   return copies;
+}
+
+OrientedPoint
+SymmetricExtent::turned (OrientedPoint point) const
+{
+  point.position = (center_ + turn_ * (point.position.cast<double> () - center_)).cast<float> ();
+  point.normal = (turn_ * point.normal.cast<double> ()).cast<float> ();
+  return point;
+}
+
+std::vector<WallColumn>
+SymmetricExtent::uprightWalls (double step_m, bool of_copies) const
+{
+  const std::shared_ptr<const PrismWalls>& walls = of_copies ? walls_with_copies_ : walls_;
+  return walls ? walls->columns (step_m) : std::vector<WallColumn> ();
+}
+
+void
+SymmetricExtent::expect (const std::vector<OrientedPoint>& points)
+{
+  continuation_.insert (continuation_.end (), points.begin (), points.end ());
+  for (auto& [n, s] : half_spaces_)
+    for (const OrientedPoint& p : points)
+      s = std::max (s, n.dot (p.position.cast<double> ()));
+}
+
+SymmetricExtent
+SymmetricExtent::continuedBy (const std::vector<OrientedPoint>& points) const
+{
+  std::vector<OrientedPoint> copies;
+  if (profile_)
+    copies = profile_->onOtherSides (points);
+  else
+    std::transform (points.begin (), points.end (), std::back_inserter (copies), [this] (const OrientedPoint& p) { return turned (p); });
+  SymmetricExtent more = *this;
+  more.expect (points);
+  more.expect (copies);
+  return more;
+}
+
+SymmetricExtent
+SymmetricExtent::boundedBy (const std::vector<OrientedPoint>& walls) const
+{
+  SymmetricExtent prism = *this;
+  prism.expect (walls);
+  prism.has_copies_ = false;
+  return prism;
 }
 
 std::optional<Eigen::Vector3d>
@@ -290,6 +340,10 @@ SymmetricExtent::within (const Eigen::AlignedBox3d& box) const
   needed.standing_ = standing_;
   needed.faceted_ = faceted_;
   needed.turn_ = turn_;
+  needed.continuation_ = continuation_;
+  needed.has_copies_ = has_copies_;
+  needed.walls_ = walls_;
+  needed.walls_with_copies_ = walls_with_copies_;
   for (const auto& [n, s] : half_spaces_)
     if (n.dot (middle) - s + n.cwiseAbs ().dot (half_sizes) >= least - tolerance)
       needed.half_spaces_.emplace_back (n, s);

@@ -15,6 +15,7 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <sstream>
 
 // The part of a run that gives bodies their volumes and lets them read what was measured.
 
@@ -33,6 +34,7 @@ constexpr int least_free_views = 2;           // that look through a point of th
 constexpr double free_share = 0.25;           // ... and so many of those that see it there
 constexpr double max_sigma_vox = 10.0;        // as for the option
 constexpr double max_contradicted_share = 0.1; // of an object's points; good poses leave .03 or less
+constexpr double least_voxels_across = 6.0;   // an object, along the middle of its extents: with fewer it is a lump
 constexpr double left_over_cell_m = 0.02;
 constexpr double max_empty_share = 0.5;       // of a volume that was large enough for what was known before
 
@@ -289,14 +291,34 @@ CoSectionRun::warnIfFarApart (const Object& object)
                                 " cm apart, each smaller than that: a pose may be wrong, or two things have one label");
 }
 
+std::string
+CoSectionRun::nameOf (std::size_t view) const
+{
+  const std::string& name = scene_.views[view].depth.name;
+  return name.empty () ? "view " + std::to_string (view) : name;
+}
+
+void
+CoSectionRun::warnIfCoarse (const Object& object)
+{
+  const double h = object.voxel_size_m;
+  if (mode_ != Mode::Once || scene_.options.voxel_size_m > 0.0 || scene_.options.resolution > 0 ||
+      object.extents_m[1] > least_voxels_across * h)
+    return;
+  std::ostringstream text;
+  text.precision (2);
+  text << "object " << object.input->id << ": its points are so far apart that its voxels are of " << 1e3 * h << " mm, and "
+       << object.extents_m[1] / h << " across it: what is finer cannot be told (take points that were not thinned, or --voxel-size)";
+  result_.warnings.push_back (text.str ());
+}
+
 void
 CoSectionRun::judgeAgreement (Object& object)
 {
   const auto [share, view] = object.agreement->worst ();
   object.result->contradicted_share = share;
   if (share > max_contradicted_share)
-    result_.warnings.push_back ("object " + std::to_string (object.input->id) + ": view " +
-                                std::to_string (view) + " looks through " +
+    result_.warnings.push_back ("object " + std::to_string (object.input->id) + ": " + nameOf (static_cast<std::size_t> (view)) + " looks through " +
                                 std::to_string (std::lround (100.0 * share)) +
                                 " % of its points there: a pose may be wrong, or it has moved");
   object.agreement.reset ();

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 // The part of a run that adds what is expected of hidden sides.
 
@@ -27,6 +28,8 @@ constexpr double resting_reach = 0.15;     // of the middle observed extent: wha
 constexpr double hidden_foot_reach = 0.5;  // of the middle observed extent: what is as low rests on it, if that may be
 constexpr double resting_share = 0.01;     // of the points, which may be lower
 constexpr std::ptrdiff_t least_ground = 20; // points of the background, seen through what would be a vessel else
+constexpr double refuted_copies = 0.1;        // of the columns of walls: copies are not alike
+constexpr double refuted_outline = 0.5;       // it has no such walls
 constexpr double same_resting_cosine = 0.995; // planes of two views on which it rests the same way
 
 } // namespace
@@ -86,20 +89,57 @@ CoSectionRun::footIsHidden (const Object& object, const Eigen::Vector4d& plane) 
     lowest_m = std::min (lowest_m, up.dot (p.position.cast<double> ()) + plane[3]);
   Eigen::Vector3d foot = SymmetricExtent (points, plane).center ();
   foot -= (up.dot (foot) + plane[3]) * up;
-  const VoxelGrid& grid = object.body->grid ();
-  for (double height_m = 0.0; height_m < lowest_m; height_m += 0.5 * grid.voxel_size_m)
-  {
-    const Eigen::Vector3d p = foot + height_m * up;
+  const UnseenPlaces places = placesOf (object);
+  for (double height_m = 0.0; height_m < lowest_m; height_m += 0.5 * object.body->grid ().voxel_size_m)
+    if (places.is_taken (foot + height_m * up))
+      return false;
+  return true;
+}
+
+UnseenPlaces
+CoSectionRun::placesOf (const Object& object) const
+{
+  std::vector<std::pair<const Object*, std::vector<Eigen::Isometry3d>>> others;
+  for (const Object& other : objects_)
+    if (&other != &object && other.alive ())
+      others.emplace_back (&other, relativePoses (object, &other));
+  const auto is_taken = [&object, others] (const Eigen::Vector3d& p) {
+    const VoxelGrid& grid = object.body->grid ();
     const auto at = grid.nearest (p);
     if (at && object.body->volume->freeSpace ()[grid.index (at->x (), at->y (), at->z ())])
-      return false;
-    for (const Object& other : objects_)
-      if (&other != &object && other.alive ())
-        for (const Eigen::Isometry3d& T_other_object : relativePoses (object, &other))
-          if (other.observed.contains (T_other_object * p))
-            return false;
+      return true;
+    return std::any_of (others.begin (), others.end (), [&p] (const auto& other) {
+      return std::any_of (other.second.begin (), other.second.end (), [&] (const Eigen::Isometry3d& T_other_object) {
+        return other.first->observed.contains (T_other_object * p);
+      });
+    });
+  };
+  return {is_taken, [&object] (const Eigen::Vector3d& p) { return object.body->hidden.isBehindOther (p); }};
+}
+
+SymmetricExtent
+CoSectionRun::withHiddenWalls (const Object& object, const SymmetricExtent& extent, const Eigen::Vector4d& plane) const
+{
+  if (extent.wallThickness () > 0.0) // goes down to its bottom anyway
+    return extent;
+  const UnseenPlaces places = placesOf (object);
+  const double step_m = object.body->grid ().voxel_size_m;
+  const auto is_refuted = [&] (const WallColumn& wall) {
+    return std::any_of (wall.begin (), wall.end (), [&] (const OrientedPoint& p) {
+      return places.is_taken (p.position.cast<double> () - step_m * p.normal.cast<double> ());
+    });
+  };
+  for (const bool of_copies : {true, false})
+  {
+    std::vector<WallColumn> walls = extent.uprightWalls (step_m, of_copies);
+    const auto end = std::remove_if (walls.begin (), walls.end (), is_refuted);
+    if (static_cast<double> (walls.end () - end) >= (of_copies ? refuted_copies : refuted_outline) * static_cast<double> (walls.size ()))
+      continue;
+    std::vector<OrientedPoint> possible;
+    std::for_each (walls.begin (), end, [&] (const WallColumn& wall) { possible.insert (possible.end (), wall.begin (), wall.end ()); });
+    return extent.boundedBy (possible);
   }
-  return true;
+  return extent.continuedBy (wallsBehindOthers (object.points (), plane, step_m, places));
 }
 
 bool
@@ -121,8 +161,9 @@ CoSectionRun::mayRestOn (const Object& object, const Eigen::Vector4d& plane) con
 std::vector<Eigen::Vector4d>
 CoSectionRun::restingPlanes (const Object& object) const
 {
+  const std::vector<Eigen::Vector4d> planes = planesAt (object, object.planes, relativePoses (object, nullptr));
   std::vector<Eigen::Vector4d> resting;
-  for (const Eigen::Vector4d& plane : planesAt (object, object.planes, relativePoses (object, nullptr)))
+  for (const Eigen::Vector4d& plane : planes)
   {
     const bool known = std::any_of (resting.begin (), resting.end (), [&] (const Eigen::Vector4d& other) {
       return plane.head<3> ().dot (other.head<3> ()) > same_resting_cosine;
@@ -132,7 +173,14 @@ CoSectionRun::restingPlanes (const Object& object) const
     if (hasFootNear (object, plane, resting_reach) || (mayRestOn (object, plane) && footIsHidden (object, plane)))
       resting.push_back (plane);
   }
-  return resting;
+  if (!resting.empty ())
+    return resting;
+  const auto goes_down_behind_others = [&] (const Eigen::Vector4d& plane) {
+    return footIsHidden (object, plane) &&
+           !wallsBehindOthers (object.points (), plane, object.body->grid ().voxel_size_m, placesOf (object)).empty ();
+  };
+  const auto plane = std::find_if (planes.begin (), planes.end (), goes_down_behind_others);
+  return plane == planes.end () ? resting : std::vector<Eigen::Vector4d> {*plane};
 }
 
 SymmetricExtent
@@ -166,7 +214,7 @@ CoSectionRun::addPriors (Object& object)
   std::vector<SymmetricExtent> standing;
   const std::vector<Eigen::Vector4d> resting = restingPlanes (object);
   for (const Eigen::Vector4d& plane : resting)
-    standing.push_back (extentOf (object, plane));
+    standing.push_back (withHiddenWalls (object, extentOf (object, plane), plane));
   if (standing.empty ())
     standing.push_back (extentOf (object, std::nullopt));
   const bool has_profile = std::any_of (standing.begin (), standing.end (), [] (const SymmetricExtent& extent) { return extent.hasProfile (); });

@@ -135,6 +135,7 @@ CoSectionRun::observeObjects ()
       leaveOutStrays (object);
       warnIfFarApart (object);
       object.extents_m = observedExtents (object.points (), scene_.options.threads);
+      warnIfCoarse (object);
       if (scene_.options.use_extent_prior && viewsOf (object).empty ())
         object.assumed = assumeView (object.points ());
       if (scene_.options.use_extent_prior)

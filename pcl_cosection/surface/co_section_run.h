@@ -3,6 +3,7 @@
 #pragma once
 
 #include "co_section_state.h"
+#include "hidden_walls.h"
 #include "view_agreement.h"
 
 #include <pcl/cosection/shape/symmetric_extent.h>
@@ -130,6 +131,11 @@ private:
    * free space nor another body. */
   bool
   footIsHidden (const Object& object, const Eigen::Vector4d& plane) const;
+  UnseenPlaces
+  placesOf (const Object& object) const;
+  /** \brief With the upright walls of what is bounded by such, or with those walls that others hide. \param[in] plane on which it stands, object frame */
+  SymmetricExtent
+  withHiddenWalls (const Object& object, const SymmetricExtent& extent, const Eigen::Vector4d& plane) const;
   void
   observeObjects ();
   /** \brief A few points far from all others would become bodies of their own. */
@@ -202,6 +208,12 @@ private:
   gatherEvidence ();
   void
   warnIfFarApart (const Object& object);
+  /** \brief Warn if its points support no voxels that tell much of it. */
+  void
+  warnIfCoarse (const Object& object);
+  /** \brief Of a view, in warnings. */
+  std::string
+  nameOf (std::size_t view) const;
   /** \brief Tell how well views agree with the object's points, and warn if they do not. */
   void
   judgeAgreement (Object& object);

@@ -25,6 +25,7 @@ namespace
 
 constexpr double plane_inlier_voxels = 2.0;
 constexpr double min_plane_inlier_m = 0.004;
+constexpr double hidden_plane_reach = 2.0; // of its longest side: where support is looked for if none is seen near it
 constexpr double same_plane_cosine = 0.999;
 constexpr double same_plane_m = 0.005;
 constexpr std::size_t most_samples = 2000; // of an object's points
@@ -104,8 +105,13 @@ CoSectionRun::planesOf (const Object& object) const
     p.position = (firstPose (object) * p.position.cast<double> ()).cast<float> ();
   SupportPlaneOptions options;
   options.inlier_distance_m = std::max (min_plane_inlier_m, plane_inlier_voxels * object.voxel_size_m);
-  for (const Eigen::Vector4d& plane : findSupportPlanes (scene_.background, points, options))
-    planes.push_back (plane);
+  std::vector<Eigen::Vector4d> found = findSupportPlanes (scene_.background, points, options);
+  if (found.empty ()) // something hides the background around it
+  {
+    options.reach = hidden_plane_reach;
+    found = findSupportPlanes (scene_.background, points, options);
+  }
+  planes.insert (planes.end (), found.begin (), found.end ());
   return planes;
 }
 

@@ -70,6 +70,15 @@ HiddenPlaces::at (const Eigen::Vector3d& p) const
   return hidden;
 }
 
+bool
+HiddenPlaces::isBehindOther (const Eigen::Vector3d& p) const
+{
+  for (std::size_t v = 0; v < views_.size (); ++v)
+    if (silhouettes_[v].at (p, *views_[v].first) == Hidden::ByOther)
+      return true;
+  return false;
+}
+
 void
 HiddenPlaces::begin (const VoxelGrid& grid)
 {

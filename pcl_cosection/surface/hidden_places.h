@@ -55,6 +55,10 @@ public:
   Hidden
   at (const Eigen::Vector3d& p) const;
 
+  /** \brief Is a place behind the surface of something else, and nothing of the object before it, in any view? */
+  bool
+  isBehindOther (const Eigen::Vector3d& p) const;
+
   /** \brief Begin asking for the voxels of a grid. */
   void
   begin (const VoxelGrid& grid);

@@ -24,7 +24,7 @@ constexpr float near_weight = 0.3f;     // sum of weights: a point within 1.1 si
 constexpr float far_weight = 0.01f;     // one within 2.1 sigma
 constexpr float gap_vox = 2.0f;         // nothing is expected where data is nearer
 constexpr double reach_vox = 0.7;       // inside the plausible region; what is deeper may be a cavity
-constexpr double profile_weight = 10.0; // of what has a profile, which is surely like that seen; in weights of what is only alike from both sides
+constexpr double profile_weight = 10.0; // of what has a profile or upright walls, which is surely like that seen; in weights of what is only alike from both sides
 constexpr double vessel_weight = 100.0; // of a vessel's wall, which vanishes under less
 constexpr double empty_weight = 10.0;   // of its cavity, and of what is beyond all of it
 constexpr double least_wall = 0.6;      // of its thickness: walls are nowhere thinner, noise would make holes
@@ -192,7 +192,7 @@ addHiddenSide (EnergyProblem& problem, const VoxelGrid& grid, const SymmetricExt
     return;
   }
   const ImlsDataTerm term = termOf (grid, expected, options);
-  const auto weight = static_cast<float> ((plausible.hasProfile () ? profile_weight : 1.0) * options.beta_extent);
+  const auto weight = static_cast<float> ((plausible.hasProfile () || plausible.isPrism () ? profile_weight : 1.0) * options.beta_extent);
   for (std::size_t n = 0; n < grid.size (); ++n)
     if (!seen.free[n] && seen.data_distance[n] >= gap_vox && term.weight[n] >= near_weight)
     {

@@ -144,6 +144,21 @@ ShapeVolume::setOpenPlaces (const std::vector<std::uint8_t>& open)
     empty_[n] |= open[n] && !data_[n];
 }
 
+std::vector<float>
+ShapeVolume::distanceToExpected (const std::vector<SymmetricExtent>& plausible) const
+{
+  std::vector<std::uint8_t> expected;
+  for (const SymmetricExtent& extent : plausible)
+    for (const OrientedPoint& point : extent.continuation ())
+      if (const auto at = grid_.nearest (point.position.cast<double> ()))
+      {
+        if (expected.empty ())
+          expected = data_;
+        expected[grid_.index (at->x (), at->y (), at->z ())] = 1;
+      }
+  return expected.empty () ? data_distance_vox_ : distanceTransform (grid_.dims, expected, options_.threads);
+}
+
 void
 ShapeVolume::addExtentPrior (const ExtentPrior& prior, const Eigen::Vector3d& extents_m, HiddenPlaces& places,
                              const std::vector<SymmetricExtent>& plausible)
@@ -155,7 +170,7 @@ ShapeVolume::addExtentPrior (const ExtentPrior& prior, const Eigen::Vector3d& ex
   for (std::size_t n = 0; n < grid_.size (); ++n)
     bounded[n] = static_cast<bool> (problem_.exterior[n]);
   std::vector<float> bounds =
-      extentBounds (prior, grid_, data_distance_vox_, extents_m, places, plausible, bounded, options_.threads);
+      extentBounds (prior, grid_, distanceToExpected (plausible), extents_m, places, plausible, bounded, options_.threads);
   if (empty_ != free_space_)
   {
     // An open place is no farther from the surface than from the nearest place that is not open.

@@ -156,6 +156,9 @@ public:
   trimmedMesh (const std::vector<OrientedPoint>& points) const;
 
 private:
+  /** \brief Voxels, to data, or to where walls are expected behind others. */
+  std::vector<float>
+  distanceToExpected (const std::vector<SymmetricExtent>& plausible) const;
   /** \brief f (index) for every voxel, planes of them on several threads. */
   template <typename Function> void
   forEachVoxel (Function&& f) const;

@@ -7,6 +7,7 @@
 #include <Eigen/Geometry>
 
 #include <optional>
+#include <string>
 #include <vector>
 
 namespace pcl
@@ -50,6 +51,7 @@ struct PCL_COSECTION_EXPORT DepthView
   PinholeCamera camera;
   std::vector<float> depth; ///< width * height, row by row, metres along the optical axis; NaN: no reading
   Eigen::Isometry3d T_world_sensor = Eigen::Isometry3d::Identity ();
+  std::string name = {}; ///< in warnings; empty: its number is told
 
   float
   at (int u, int v) const

@@ -17,6 +17,7 @@ namespace pcl
 namespace cosection
 {
 
+class PrismWalls;
 class ProfileSurface;
 
 /** \brief Parts of the surface of what is hollow: a cup, a bowl or a box without its lid. */
@@ -27,6 +28,9 @@ enum class VesselPart
   Rim,
   Bottom
 };
+
+/** \brief Points of an upright wall, one over the other. */
+using WallColumn = std::vector<OrientedPoint>;
 
 /** \brief How far an object would reach if what is hidden of it looked like what was seen of it.
  *
@@ -112,6 +116,33 @@ public:
   SymmetricExtent
   withoutFloor () const;
 
+  /** \brief Of what stands on a plane and is bounded by upright walls, and tops that are level: all walls of its convex outline, seen or not; of
+   * anything else none. \param[in] step_m between points \param[in] of_copies of the outline of copies, too */
+  std::vector<WallColumn>
+  uprightWalls (double step_m, bool of_copies) const;
+
+  /** \brief The same of an object of which more is expected than was seen: the hidden side is that of these \a points, too. */
+  SymmetricExtent
+  continuedBy (const std::vector<OrientedPoint>& points) const;
+
+  /** \brief The same; its hidden side are these walls, rather than copies. */
+  SymmetricExtent
+  boundedBy (const std::vector<OrientedPoint>& walls) const;
+
+  /** \brief Is it bounded by upright walls? */
+  bool
+  isPrism () const
+  {
+    return !has_copies_;
+  }
+
+  /** \brief What is expected beside copies of what was seen. */
+  const std::vector<OrientedPoint>&
+  continuation () const
+  {
+    return continuation_;
+  }
+
   /** \brief Does a place belong to what has a profile, not to a handle of it? */
   bool
   holds (const Eigen::Vector3d& position) const;
@@ -130,6 +161,11 @@ public:
 
 private:
   SymmetricExtent () = default;
+  /** \brief A copy turned by half a revolution, or inverted. */
+  OrientedPoint
+  turned (OrientedPoint point) const;
+  void
+  expect (const std::vector<OrientedPoint>& points);
   void
   build (const std::vector<OrientedPoint>& points, const std::optional<Eigen::Vector4d>& plane, bool alone);
 
@@ -140,6 +176,10 @@ private:
   Eigen::Matrix3d turn_ = Eigen::Matrix3d::Identity ();
   Eigen::Vector3d center_ = Eigen::Vector3d::Zero ();
   std::vector<std::pair<Eigen::Vector3d, double>> half_spaces_; // n_k, s_k
+  std::shared_ptr<const PrismWalls> walls_;       // null: it has none that are upright
+  std::shared_ptr<const PrismWalls> walls_with_copies_;
+  bool has_copies_ = true;
+  std::vector<OrientedPoint> continuation_;       // points that are expected beside those that were seen, with their copies
 };
 
 } // namespace cosection

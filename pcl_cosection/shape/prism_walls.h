@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_cosection authors
+#pragma once
+
+#include <pcl/cosection/common/oriented_point.h>
+#include <pcl/cosection/shape/symmetric_extent.h>
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+
+#include <vector>
+
+namespace pcl
+{
+namespace cosection
+{
+
+/** \brief The upright walls of a thing that stands: a box, a hexagonal tin, a wedge of cheese. */
+class PrismWalls
+{
+public:
+  PrismWalls () = default;
+
+  /** \brief None, if the largest faces are neither upright nor level, or none is upright.
+   * \param[in] points what was seen \param[in] copies what is expected of its other side \param[in] faces normals of those that were seen, the
+   * largest first \param[in] plane on which it stands: unit normal upwards, and offset */
+  PrismWalls (const std::vector<OrientedPoint>& points, const std::vector<OrientedPoint>& copies, const std::vector<Eigen::Vector3d>& faces,
+              const Eigen::Vector4d& plane);
+
+  /** \brief Points of all walls, from the plane to the top, seen or not. */
+  std::vector<WallColumn>
+  columns (double step_m) const;
+
+private:
+  struct Wall
+  {
+    Eigen::Vector2d normal;
+    double offset;
+    double top; // height over the plane
+  };
+
+  Eigen::Vector4d plane_ = Eigen::Vector4d::UnitZ ();
+  Eigen::Matrix3d axes_ = Eigen::Matrix3d::Identity (); // the last one is up
+  std::vector<Wall> walls_; // of the outline, which is convex
+};
+
+} // namespace cosection
+} // namespace pcl
