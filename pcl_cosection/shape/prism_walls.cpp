@@ -8,6 +8,8 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <map>
+#include <utility>
 
 namespace pcl
 {
@@ -25,6 +27,9 @@ constexpr int directions = 72;        // of the outline
 constexpr double strays = 0.002;      // of the points, may lie beyond the outline
 constexpr double near_wall = 0.15;    // of the width across it: what is so near tells how high it is
 constexpr double top_strays = 0.02;
+constexpr int edge_cells = 3;         // around a cell of the top: what tells whether it ends there
+constexpr std::size_t least_near = 8; // cells; fewer are strays
+constexpr double least_side = 0.8;    // cells, of the mean of those: the middle of a half disc is farther off
 constexpr double parallel = 1e-9;     // sine between walls
 
 /** \brief The largest component along a direction, but for strays. */
@@ -92,6 +97,9 @@ PrismWalls::PrismWalls (const std::vector<OrientedPoint>& points, const std::vec
     return std::any_of (upright_faces.begin (), upright_faces.end (), faces_it) ? margin : 0.0;
   };
 
+  for (const OrientedPoint& p : points)
+    if (p.normal.cast<double> ().dot (up) > level)
+      top_.push_back (axes_.transpose () * p.position.cast<double> ());
   std::vector<double> heights;
   for (const OrientedPoint& p : points)
     heights.push_back (up.dot (p.position.cast<double> ()) + plane[3]);
@@ -105,8 +113,9 @@ PrismWalls::PrismWalls (const std::vector<OrientedPoint>& points, const std::vec
     for (std::size_t p = 0; p < points.size (); ++p)
       if (n.dot (seen[p]) > offset - near_wall * width)
         near.push_back (heights[p]);
-    std::vector<double>& those = near.empty () ? heights : near;
-    walls_.push_back ({n, offset, quantile (those, 1.0 - top_strays)});
+    if (near.empty ())
+      near = heights;
+    walls_.push_back ({n, offset, quantile (near, 1.0 - top_strays)});
   }
 }
 
@@ -125,14 +134,67 @@ PrismWalls::columns (double step_m) const
         continue;
       (rise > 0.0 ? last : first) = rise > 0.0 ? std::min (last, left / rise) : std::max (first, left / rise);
     }
-    const Eigen::Vector3d normal = axes_.leftCols<2> () * wall.normal;
     for (double t = first + 0.5 * step_m; t < last; t += step_m)
-    {
-      const Eigen::Vector2d place = wall.offset * wall.normal + t * along;
-      columns.emplace_back ();
-      for (double height = 0.5 * step_m; height < wall.top; height += step_m)
-        columns.back ().push_back ({(axes_ * Eigen::Vector3d (place.x (), place.y (), height - plane_[3])).cast<float> (), normal.cast<float> ()});
-    }
+      columns.push_back (column (wall.offset * wall.normal + t * along, wall.normal, 0.0, wall.top, step_m));
+  }
+  return columns;
+}
+
+WallColumn
+PrismWalls::column (const Eigen::Vector2d& place, const Eigen::Vector2d& normal, double bottom, double top, double step_m) const
+{
+  WallColumn column;
+  const Eigen::Vector3f outwards = (axes_.leftCols<2> () * normal).cast<float> ();
+  for (double height = bottom + 0.5 * step_m; height < top; height += step_m)
+    column.push_back ({(axes_ * Eigen::Vector3d (place.x (), place.y (), height - plane_[3])).cast<float> (), outwards});
+  return column;
+}
+
+std::vector<WallColumn>
+PrismWalls::belowEdges (double step_m) const
+{
+  // Cells of the top, and how high it is there.
+  using Cell = std::pair<int, int>;
+  std::map<Cell, std::vector<double>> seen;
+  for (const Eigen::Vector3d& p : top_)
+    seen[{static_cast<int> (std::floor (p.x () / step_m)), static_cast<int> (std::floor (p.y () / step_m))}].push_back (p.z () + plane_[3]);
+  std::map<Cell, double> heights;
+  for (auto& [cell, values] : seen)
+    heights[cell] = quantile (values, 0.5);
+  const auto around = [&] (const Cell& cell, int reach, auto&& f) {
+    for (int i = -reach; i <= reach; ++i)
+      for (int j = -reach; j <= reach; ++j)
+        if (const auto other = heights.find ({cell.first + i, cell.second + j}); other != heights.end ())
+          f (Eigen::Vector2d (i, j), other->second);
+  };
+  std::vector<WallColumn> columns;
+  for (const auto& [cell, top] : heights)
+  {
+    // Where the top ends, most of what is near is to one side.
+    const double height = top;
+    Eigen::Vector2d side = Eigen::Vector2d::Zero ();
+    std::size_t near = 0;
+    around (cell, edge_cells, [&] (const Eigen::Vector2d& to, double other) {
+      if (std::abs (other - height) > edge_cells * step_m)
+        return;
+      side += to;
+      ++near;
+    });
+    if (near < least_near || side.norm () < least_side * static_cast<double> (near))
+      continue;
+    const Eigen::Vector2d out = -side.normalized ();
+    bool goes_on = false;
+    double bottom = 0.0; // of the wall: on the level beside it, if there is one
+    around (cell, edge_cells, [&] (const Eigen::Vector2d& to, double other) {
+      if (to.dot (out) < 0.9)
+        return;
+      if (other > height - edge_cells * step_m)
+        goes_on |= std::abs (to.x () * out.y () - to.y () * out.x ()) < 1.0;
+      else
+        bottom = std::max (bottom, other);
+    });
+    if (!goes_on)
+      columns.push_back (column (step_m * (Eigen::Vector2d (cell.first + 0.5, cell.second + 0.5) + 0.5 * out), out, bottom, height, step_m));
   }
   return columns;
 }

@@ -31,6 +31,10 @@ public:
   std::vector<WallColumn>
   columns (double step_m) const;
 
+  /** \brief Points of walls below the edges of the top that was seen, which need not be convex. */
+  std::vector<WallColumn>
+  belowEdges (double step_m) const;
+
 private:
   struct Wall
   {
@@ -39,8 +43,12 @@ private:
     double top; // height over the plane
   };
 
+  WallColumn
+  column (const Eigen::Vector2d& place, const Eigen::Vector2d& normal, double bottom, double top, double step_m) const;
+
   Eigen::Vector4d plane_ = Eigen::Vector4d::UnitZ ();
   Eigen::Matrix3d axes_ = Eigen::Matrix3d::Identity (); // the last one is up
+  std::vector<Eigen::Vector3d> top_; // points of level faces, along the axes
   std::vector<Wall> walls_; // of the outline, which is convex
 };
 

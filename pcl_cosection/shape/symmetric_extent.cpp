@@ -125,7 +125,7 @@ SymmetricExtent::build (const std::vector<OrientedPoint>& all, const std::option
     return;
   std::optional<Eigen::Vector3d> up;
   if (plane)
-    up = plane->head<3> ();
+    up = up_ = plane->head<3> ();
   const Eigen::Matrix3d along = up ? Eigen::Matrix3d (*up * up->transpose ()) : Eigen::Matrix3d (Eigen::Matrix3d::Zero ());
   turn_ = 2.0 * along - Eigen::Matrix3d::Identity ();
   const Eigen::Matrix3d flatten = Eigen::Matrix3d::Identity () - along;
@@ -223,6 +223,12 @@ SymmetricExtent::uprightWalls (double step_m, bool of_copies) const
   return walls ? walls->columns (step_m) : std::vector<WallColumn> ();
 }
 
+std::vector<WallColumn>
+SymmetricExtent::wallsBelowEdges (double step_m) const
+{
+  return walls_ ? walls_->belowEdges (step_m) : std::vector<WallColumn> ();
+}
+
 void
 SymmetricExtent::expect (const std::vector<OrientedPoint>& points)
 {
@@ -247,11 +253,12 @@ SymmetricExtent::continuedBy (const std::vector<OrientedPoint>& points) const
 }
 
 SymmetricExtent
-SymmetricExtent::boundedBy (const std::vector<OrientedPoint>& walls) const
+SymmetricExtent::boundedBy (const std::vector<OrientedPoint>& walls, bool below_top) const
 {
   SymmetricExtent prism = *this;
   prism.expect (walls);
   prism.has_copies_ = false;
+  prism.below_top_ = below_top;
   return prism;
 }
 
@@ -342,6 +349,8 @@ SymmetricExtent::within (const Eigen::AlignedBox3d& box) const
   needed.turn_ = turn_;
   needed.continuation_ = continuation_;
   needed.has_copies_ = has_copies_;
+  needed.below_top_ = below_top_;
+  needed.up_ = up_;
   needed.walls_ = walls_;
   needed.walls_with_copies_ = walls_with_copies_;
   for (const auto& [n, s] : half_spaces_)

@@ -34,7 +34,7 @@ constexpr int least_free_views = 2;           // that look through a point of th
 constexpr double free_share = 0.25;           // ... and so many of those that see it there
 constexpr double max_sigma_vox = 10.0;        // as for the option
 constexpr double max_contradicted_share = 0.1; // of an object's points; good poses leave .03 or less
-constexpr double least_voxels_across = 6.0;   // an object, along the middle of its extents: with fewer it is a lump
+constexpr double least_voxels_across = 5.0;   // an object, along the middle of its extents: with fewer it is a lump
 constexpr double left_over_cell_m = 0.02;
 constexpr double max_empty_share = 0.5;       // of a volume that was large enough for what was known before
 
@@ -308,7 +308,7 @@ CoSectionRun::warnIfCoarse (const Object& object)
   std::ostringstream text;
   text.precision (2);
   text << "object " << object.input->id << ": its points are so far apart that its voxels are of " << 1e3 * h << " mm, and "
-       << object.extents_m[1] / h << " across it: what is finer cannot be told (take points that were not thinned, or --voxel-size)";
+       << object.extents_m[1] / h << " across it: what is finer cannot be told (points nearer together tell more; --voxel-size sets others)";
   result_.warnings.push_back (text.str ());
 }
 

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <utility>
 
@@ -30,6 +31,7 @@ constexpr double resting_share = 0.01;     // of the points, which may be lower
 constexpr std::ptrdiff_t least_ground = 20; // points of the background, seen through what would be a vessel else
 constexpr double refuted_copies = 0.1;        // of the columns of walls: copies are not alike
 constexpr double refuted_outline = 0.5;       // it has no such walls
+constexpr double beside_steps = 2.0;          // from the edge of a top
 constexpr double same_resting_cosine = 0.995; // planes of two views on which it rests the same way
 
 } // namespace
@@ -91,7 +93,7 @@ CoSectionRun::footIsHidden (const Object& object, const Eigen::Vector4d& plane) 
   foot -= (up.dot (foot) + plane[3]) * up;
   const UnseenPlaces places = placesOf (object);
   for (double height_m = 0.0; height_m < lowest_m; height_m += 0.5 * object.body->grid ().voxel_size_m)
-    if (places.is_taken (foot + height_m * up))
+    if (places.isTaken (foot + height_m * up))
       return false;
   return true;
 }
@@ -103,18 +105,19 @@ CoSectionRun::placesOf (const Object& object) const
   for (const Object& other : objects_)
     if (&other != &object && other.alive ())
       others.emplace_back (&other, relativePoses (object, &other));
-  const auto is_taken = [&object, others] (const Eigen::Vector3d& p) {
+  const auto is_free = [&object] (const Eigen::Vector3d& p) {
     const VoxelGrid& grid = object.body->grid ();
     const auto at = grid.nearest (p);
-    if (at && object.body->volume->freeSpace ()[grid.index (at->x (), at->y (), at->z ())])
-      return true;
+    return at && object.body->volume->freeSpace ()[grid.index (at->x (), at->y (), at->z ())];
+  };
+  const auto is_of_other = [others] (const Eigen::Vector3d& p) {
     return std::any_of (others.begin (), others.end (), [&p] (const auto& other) {
       return std::any_of (other.second.begin (), other.second.end (), [&] (const Eigen::Isometry3d& T_other_object) {
         return other.first->observed.contains (T_other_object * p);
       });
     });
   };
-  return {is_taken, [&object] (const Eigen::Vector3d& p) { return object.body->hidden.isBehindOther (p); }};
+  return {is_free, is_of_other, [&object] (const Eigen::Vector3d& p) { return object.body->hidden.isBehindOther (p); }};
 }
 
 SymmetricExtent
@@ -124,11 +127,12 @@ CoSectionRun::withHiddenWalls (const Object& object, const SymmetricExtent& exte
     return extent;
   const UnseenPlaces places = placesOf (object);
   const double step_m = object.body->grid ().voxel_size_m;
-  const auto is_refuted = [&] (const WallColumn& wall) {
-    return std::any_of (wall.begin (), wall.end (), [&] (const OrientedPoint& p) {
-      return places.is_taken (p.position.cast<double> () - step_m * p.normal.cast<double> ());
-    });
+  const auto is_any = [&] (const WallColumn& wall, const std::function<bool (const Eigen::Vector3d&)>& what) {
+    return std::any_of (wall.begin (), wall.end (),
+                        [&] (const OrientedPoint& p) { return what (p.position.cast<double> () - step_m * p.normal.cast<double> ()); });
   };
+  const auto is_refuted = [&] (const WallColumn& wall) { return is_any (wall, places.is_free); };
+  const auto is_of_other = [&] (const WallColumn& wall) { return is_any (wall, places.is_of_other); };
   for (const bool of_copies : {true, false})
   {
     std::vector<WallColumn> walls = extent.uprightWalls (step_m, of_copies);
@@ -136,8 +140,16 @@ CoSectionRun::withHiddenWalls (const Object& object, const SymmetricExtent& exte
     if (static_cast<double> (walls.end () - end) >= (of_copies ? refuted_copies : refuted_outline) * static_cast<double> (walls.size ()))
       continue;
     std::vector<OrientedPoint> possible;
-    std::for_each (walls.begin (), end, [&] (const WallColumn& wall) { possible.insert (possible.end (), wall.begin (), wall.end ()); });
-    return extent.boundedBy (possible);
+    std::for_each (walls.begin (), end, [&] (const WallColumn& wall) {
+      if (!is_of_other (wall))
+        possible.insert (possible.end (), wall.begin (), wall.end ());
+    });
+    if (!of_copies) // and where it is not convex, beside its top one sees free space
+      for (const WallColumn& wall : extent.wallsBelowEdges (step_m))
+        if (!wall.empty () && places.is_free (wall.back ().position.cast<double> () + beside_steps * step_m * wall.back ().normal.cast<double> ()) &&
+            !is_refuted (wall) && !is_of_other (wall))
+          possible.insert (possible.end (), wall.begin (), wall.end ());
+    return extent.boundedBy (possible, !of_copies);
   }
   return extent.continuedBy (wallsBehindOthers (object.points (), plane, step_m, places));
 }

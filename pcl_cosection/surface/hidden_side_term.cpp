@@ -24,7 +24,8 @@ constexpr float near_weight = 0.3f;     // sum of weights: a point within 1.1 si
 constexpr float far_weight = 0.01f;     // one within 2.1 sigma
 constexpr float gap_vox = 2.0f;         // nothing is expected where data is nearer
 constexpr double reach_vox = 0.7;       // inside the plausible region; what is deeper may be a cavity
-constexpr double profile_weight = 10.0; // of what has a profile or upright walls, which is surely like that seen; in weights of what is only alike from both sides
+constexpr double profile_weight = 10.0; // of what has a profile, which is surely like that seen; in weights of what is only alike from both sides
+constexpr double wall_weight = 5.0;     // of upright walls
 constexpr double vessel_weight = 100.0; // of a vessel's wall, which vanishes under less
 constexpr double empty_weight = 10.0;   // of its cavity, and of what is beyond all of it
 constexpr double least_wall = 0.6;      // of its thickness: walls are nowhere thinner, noise would make holes
@@ -176,6 +177,38 @@ addVessel (EnergyProblem& problem, const VoxelGrid& grid, const SymmetricExtent&
   });
 }
 
+/** \brief What is below free space, with no top between, is beside what has upright walls. */
+void
+emptyBesideTop (EnergyProblem& problem, const VoxelGrid& grid, const Eigen::Vector3d& up, const SeenVoxels& seen, const CoSectionOptions& options)
+{
+  const int threads = threadsForVoxels (options.threads, grid.size ());
+  std::vector<std::uint8_t> inside (grid.size (), 1);
+  parallelFor (0, grid.dims.z (), threads, [&] (int k) {
+    for (int j = 0; j < grid.dims.y (); ++j)
+      for (int i = 0; i < grid.dims.x (); ++i)
+        for (Eigen::Vector3d p = grid.center (i, j, k);; p += grid.voxel_size_m * up)
+        {
+          const auto at = grid.nearest (p);
+          if (!at)
+            break;
+          const std::size_t above = grid.index (at->x (), at->y (), at->z ());
+          if (seen.data_distance[above] < gap_vox)
+            break;
+          if (!seen.free[above])
+            continue;
+          inside[grid.index (i, j, k)] = 0;
+          break;
+        }
+  });
+  const std::vector<float> distance = distanceTransform (grid.dims, inside, options.threads);
+  for (std::size_t n = 0; n < grid.size (); ++n)
+    if (!seen.free[n] && problem.weight[n] <= 0.0f && distance[n] > empty_margin_vox)
+    {
+      problem.weight[n] = static_cast<float> (empty_weight * options.beta_extent);
+      problem.weighted_target[n] = problem.weight[n] * std::min (distance[n], static_cast<float> (empty_far_vox));
+    }
+}
+
 } // namespace
 
 void
@@ -192,13 +225,15 @@ addHiddenSide (EnergyProblem& problem, const VoxelGrid& grid, const SymmetricExt
     return;
   }
   const ImlsDataTerm term = termOf (grid, expected, options);
-  const auto weight = static_cast<float> ((plausible.hasProfile () || plausible.isPrism () ? profile_weight : 1.0) * options.beta_extent);
+  const auto weight = static_cast<float> ((plausible.hasProfile () ? profile_weight : plausible.isPrism () ? wall_weight : 1.0) * options.beta_extent);
   for (std::size_t n = 0; n < grid.size (); ++n)
     if (!seen.free[n] && seen.data_distance[n] >= gap_vox && term.weight[n] >= near_weight)
     {
       problem.weight[n] += weight;
       problem.weighted_target[n] += weight * term.weighted_target[n] / term.weight[n];
     }
+  if (plausible.isBelowTop ())
+    emptyBesideTop (problem, grid, plausible.up (), seen, options);
 }
 
 } // namespace cosection

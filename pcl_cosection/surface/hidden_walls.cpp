@@ -159,7 +159,7 @@ private:
     {
       const Eigen::Vector2d place = end.place + depth * per_height;
       const Eigen::Vector3d p = axes_ * Eigen::Vector3d (place.x (), place.y (), end.height - depth - plane_[3]);
-      if (places.is_taken (p - step_m_ * normal))
+      if (places.isTaken (p - step_m_ * normal))
         return {};
       hidden += places.is_behind_other (p);
       points.push_back ({p.cast<float> (), normal.cast<float> ()});

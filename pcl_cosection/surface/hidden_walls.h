@@ -17,8 +17,15 @@ namespace cosection
 /** \brief What is known of places where nothing of an object was seen. */
 struct UnseenPlaces
 {
-  std::function<bool (const Eigen::Vector3d&)> is_taken;        // seen free, or perhaps another body's
+  std::function<bool (const Eigen::Vector3d&)> is_free;         // was seen free
+  std::function<bool (const Eigen::Vector3d&)> is_of_other;     // may be another body's
   std::function<bool (const Eigen::Vector3d&)> is_behind_other; // behind the surface of something else
+
+  bool
+  isTaken (const Eigen::Vector3d& p) const
+  {
+    return is_free (p) || is_of_other (p);
+  }
 };
 
 /** \brief Points of walls where something else hides them: what stands behind something goes on down to what it stands on.

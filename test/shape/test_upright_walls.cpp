@@ -41,7 +41,7 @@ bool
 hasWallAt (const std::vector<OrientedPoint>& walls, const Eigen::Vector3d& p, const Eigen::Vector3d& normal)
 {
   return std::any_of (walls.begin (), walls.end (), [&] (const OrientedPoint& wall) {
-    return (wall.position.cast<double> () - p).norm () < wall_step_m && wall.normal.cast<double> ().dot (normal) > 0.95;
+    return (wall.position.cast<double> () - p).norm () < 1.5 * wall_step_m && wall.normal.cast<double> ().dot (normal) > 0.95;
   });
 }
 
@@ -115,14 +115,57 @@ TEST (UprightWalls, GoOnUnderTheTopWhereTheyWereNotSeen)
 TEST (UprightWalls, OfAWedgeAreThoseOfItsTopOrOfItsTopAndACopy)
 {
   const SymmetricExtent extent (observedWedge (), {0.0, 0.0, 1.0, 0.0});
-  const Eigen::Vector3d slope (0.08, 0.05, 0.04), far_corner (0.12, 0.1, 0.04);
+  const Eigen::Vector3d slope (0.08, 0.05, 0.04), far_side (0.12, 0.093, 0.1); // its tip is a stray
   const Eigen::Vector3d out = Eigen::Vector3d (1.0 / 0.16, 1.0 / 0.1, 0.0).normalized ();
   const std::vector<OrientedPoint> own = joined (extent.uprightWalls (wall_step_m, false));
   EXPECT_TRUE (hasWallAt (own, slope, out));
-  EXPECT_FALSE (hasWallAt (own, far_corner, Eigen::Vector3d::UnitY ()));
+  EXPECT_FALSE (hasWallAt (own, far_side, Eigen::Vector3d::UnitY ()));
   const std::vector<OrientedPoint> with_copy = joined (extent.uprightWalls (wall_step_m, true));
   EXPECT_FALSE (hasWallAt (with_copy, slope, out));
-  EXPECT_TRUE (hasWallAt (with_copy, far_corner, Eigen::Vector3d::UnitY ()));
+  EXPECT_TRUE (hasWallAt (with_copy, far_side, Eigen::Vector3d::UnitY ()));
+}
+
+/** \brief Two levels: the walls of the upper one end on the lower one. */
+TEST (UprightWalls, BelowEdgesEndOnALowerTop)
+{
+  std::vector<OrientedPoint> points;
+  for (double x = 0.0; x <= 0.16; x += 0.002)
+  {
+    const double height = x < 0.08 ? 0.12 : 0.06;
+    for (double y = 0.0; y <= 0.1; y += 0.002)
+      points.push_back ({Eigen::Vector3d (x, y, height).cast<float> (), Eigen::Vector3f::UnitZ ()});
+    for (double z = 0.0; z <= height; z += 0.002)
+      points.push_back ({Eigen::Vector3d (x, 0.0, z).cast<float> (), -Eigen::Vector3f::UnitY ()});
+  }
+  const std::vector<OrientedPoint> walls = joined (SymmetricExtent (points, {0.0, 0.0, 1.0, 0.0}).wallsBelowEdges (wall_step_m));
+  for (const double y : {0.03, 0.05, 0.07})
+  {
+    EXPECT_TRUE (hasWallAt (walls, {0.08, y, 0.09}, Eigen::Vector3d::UnitX ()));
+    EXPECT_FALSE (hasWallAt (walls, {0.08, y, 0.03}, Eigen::Vector3d::UnitX ()));
+    EXPECT_TRUE (hasWallAt (walls, {0.16, y, 0.03}, Eigen::Vector3d::UnitX ()));
+    EXPECT_TRUE (hasWallAt (walls, {0.0, y, 0.03}, -Eigen::Vector3d::UnitX ()));
+  }
+  for (const OrientedPoint& wall : walls)
+    EXPECT_FALSE (wall.position.x () > 0.02f && wall.position.x () < 0.065f && wall.position.y () > 0.02f && wall.position.y () < 0.08f);
+}
+
+TEST (UprightWalls, BelowEdgesFollowANotch)
+{
+  std::vector<OrientedPoint> points; // an L, of which the notch is at the back
+  for (double x = 0.0; x <= 0.16; x += 0.002)
+  {
+    for (double y = 0.0; y <= (x < 0.06 ? 0.16 : 0.06); y += 0.002)
+      points.push_back ({Eigen::Vector3d (x, y, 0.08).cast<float> (), Eigen::Vector3f::UnitZ ()});
+    for (double z = 0.0; z <= 0.08; z += 0.002)
+      points.push_back ({Eigen::Vector3d (x, 0.0, z).cast<float> (), -Eigen::Vector3f::UnitY ()});
+  }
+  const SymmetricExtent extent (points, {0.0, 0.0, 1.0, 0.0});
+  const std::vector<OrientedPoint> walls = joined (extent.wallsBelowEdges (wall_step_m));
+  EXPECT_TRUE (hasWallAt (walls, {0.06, 0.11, 0.04}, Eigen::Vector3d::UnitX ()));
+  EXPECT_TRUE (hasWallAt (walls, {0.11, 0.06, 0.04}, Eigen::Vector3d::UnitY ()));
+  const Eigen::Vector3d across = Eigen::Vector3d (1.0, 1.0, 0.0).normalized ();
+  EXPECT_FALSE (hasWallAt (walls, {0.11, 0.11, 0.04}, across));
+  EXPECT_TRUE (hasWallAt (joined (extent.uprightWalls (wall_step_m, false)), {0.107, 0.107, 0.04}, across)); // that of the convex outline
 }
 
 TEST (UprightWalls, MoveWithTheObject)
@@ -151,7 +194,7 @@ TEST (UprightWalls, AreTheHiddenSideOfWhatTheyBound)
   const SymmetricExtent extent (points, {0.0, 0.0, 1.0, 0.0});
   EXPECT_FALSE (extent.isPrism ());
   const std::vector<OrientedPoint> walls = joined (extent.uprightWalls (wall_step_m, false));
-  const SymmetricExtent prism = extent.boundedBy (walls);
+  const SymmetricExtent prism = extent.boundedBy (walls, true);
   EXPECT_TRUE (prism.isPrism ());
   EXPECT_EQ (prism.hiddenSide (points, 0.01).size (), walls.size ());
   EXPECT_EQ (prism.continuation ().size (), walls.size ());

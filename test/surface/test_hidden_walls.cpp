@@ -120,6 +120,16 @@ TEST_F (HiddenWalls, OfAWedgeAreNoCopies)
   EXPECT_NEAR (litres (), truth, 0.15 * truth);
 }
 
+/** \brief Below the free space beside a top that was seen there is nothing. */
+TEST_F (HiddenWalls, OfAnLFollowItsNotch)
+{
+  const Distance along = placed (box ({0.08, 0.03, 0.04}), Eigen::Vector3d (0.0, -0.05, 0.04));
+  const Distance across = placed (box ({0.03, 0.08, 0.04}), Eigen::Vector3d (-0.05, 0.0, 0.04));
+  see ([=] (const Eigen::Vector3d& p) { return std::min (along (p), across (p)); }, {-0.02, 0.0}, {0.02, 0.02});
+  const double truth = 8e3 * 0.04 * (0.08 * 0.03 + 0.03 * 0.05);
+  EXPECT_NEAR (litres (), truth, 0.12 * truth);
+}
+
 TEST_F (HiddenWalls, OfACanReachTheTable)
 {
   see (can (0.05, 0.18), {-0.15, 0.0}, {0.15, 0.12});

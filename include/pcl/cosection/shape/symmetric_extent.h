@@ -121,19 +121,37 @@ public:
   std::vector<WallColumn>
   uprightWalls (double step_m, bool of_copies) const;
 
+  /** \brief Of such a thing, walls below the edges of the tops that were seen, which need not be convex; each down to the plane or to a lower top. */
+  std::vector<WallColumn>
+  wallsBelowEdges (double step_m) const;
+
   /** \brief The same of an object of which more is expected than was seen: the hidden side is that of these \a points, too. */
   SymmetricExtent
   continuedBy (const std::vector<OrientedPoint>& points) const;
 
-  /** \brief The same; its hidden side are these walls, rather than copies. */
+  /** \brief The same; its hidden side are these walls, rather than copies. \param[in] below_top only what is below a top that was seen is inside of them */
   SymmetricExtent
-  boundedBy (const std::vector<OrientedPoint>& walls) const;
+  boundedBy (const std::vector<OrientedPoint>& walls, bool below_top) const;
 
   /** \brief Is it bounded by upright walls? */
   bool
   isPrism () const
   {
     return !has_copies_;
+  }
+
+  /** \brief Is but what is below a top that was seen inside of its walls? */
+  bool
+  isBelowTop () const
+  {
+    return below_top_;
+  }
+
+  /** \brief Direction of the normal of the plane on which it stands; zero if there is none. */
+  const Eigen::Vector3d&
+  up () const
+  {
+    return up_;
   }
 
   /** \brief What is expected beside copies of what was seen. */
@@ -179,6 +197,8 @@ private:
   std::shared_ptr<const PrismWalls> walls_;       // null: it has none that are upright
   std::shared_ptr<const PrismWalls> walls_with_copies_;
   bool has_copies_ = true;
+  bool below_top_ = false;
+  Eigen::Vector3d up_ = Eigen::Vector3d::Zero ();
   std::vector<OrientedPoint> continuation_;       // points that are expected beside those that were seen, with their copies
 };
 
