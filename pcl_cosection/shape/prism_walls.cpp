@@ -156,8 +156,14 @@ PrismWalls::belowEdges (double step_m) const
   // Cells of the top, and how high it is there.
   using Cell = std::pair<int, int>;
   std::map<Cell, std::vector<double>> seen;
+  if (top_.empty ())
+    return {};
+  const Eigen::Vector2d first = top_.front ().head<2> ();
   for (const Eigen::Vector3d& p : top_)
-    seen[{static_cast<int> (std::floor (p.x () / step_m)), static_cast<int> (std::floor (p.y () / step_m))}].push_back (p.z () + plane_[3]);
+  {
+    const Eigen::Array2d cell = ((p.head<2> () - first).array () / step_m).floor ();
+    seen[{static_cast<int> (cell.x ()), static_cast<int> (cell.y ())}].push_back (p.z () + plane_[3]);
+  }
   std::map<Cell, double> heights;
   for (auto& [cell, values] : seen)
     heights[cell] = quantile (values, 0.5);
@@ -194,7 +200,7 @@ PrismWalls::belowEdges (double step_m) const
         bottom = std::max (bottom, other);
     });
     if (!goes_on)
-      columns.push_back (column (step_m * (Eigen::Vector2d (cell.first + 0.5, cell.second + 0.5) + 0.5 * out), out, bottom, height, step_m));
+      columns.push_back (column (first + step_m * (Eigen::Vector2d (cell.first + 0.5, cell.second + 0.5) + 0.5 * out), out, bottom, height, step_m));
   }
   return columns;
 }

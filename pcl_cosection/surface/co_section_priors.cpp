@@ -27,6 +27,7 @@ constexpr double along_axis = 0.9;         // cosine: what is round ends across 
 constexpr double guess_reach_voxels = 2.0; // of a plane that was guessed: what it bounds
 constexpr double resting_reach = 0.15;     // of the middle observed extent: what is as low over a plane rests on it
 constexpr double hidden_foot_reach = 0.5;  // of the middle observed extent: what is as low rests on it, if that may be
+constexpr double lowest_plane_reach = 2.0;   // of the middle observed extent: what goes down behind others rests on what is no lower
 constexpr double resting_share = 0.01;     // of the points, which may be lower
 constexpr std::ptrdiff_t least_ground = 20; // points of the background, seen through what would be a vessel else
 constexpr double refuted_copies = 0.1;        // of the columns of walls: copies are not alike
@@ -188,7 +189,7 @@ CoSectionRun::restingPlanes (const Object& object) const
   if (!resting.empty ())
     return resting;
   const auto goes_down_behind_others = [&] (const Eigen::Vector4d& plane) {
-    return footIsHidden (object, plane) &&
+    return hasFootNear (object, plane, lowest_plane_reach) && footIsHidden (object, plane) &&
            !wallsBehindOthers (object.points (), plane, object.body->grid ().voxel_size_m, placesOf (object)).empty ();
   };
   const auto plane = std::find_if (planes.begin (), planes.end (), goes_down_behind_others);

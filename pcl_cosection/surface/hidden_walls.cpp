@@ -60,6 +60,8 @@ public:
       if (!point.position.allFinite () || !point.normal.allFinite ())
         continue;
       const Eigen::Vector3d p = axes_.transpose () * point.position.cast<double> ();
+      if (columns_.empty ())
+        first_ = p.head<2> ();
       const Raised raised{p.head<2> (), p.z () + plane[3], axes_.transpose () * point.normal.cast<double> ()};
       columns_[cellOf (raised.place)].push_back (raised);
       if (isWall (raised))
@@ -102,7 +104,7 @@ private:
   Cell
   cellOf (const Eigen::Vector2d& place) const
   {
-    const Eigen::Array2d cell = (place.array () / (cell_steps * step_m_)).floor ();
+    const Eigen::Array2d cell = ((place - first_).array () / (cell_steps * step_m_)).floor ();
     return {static_cast<int> (cell.x ()), static_cast<int> (cell.y ())};
   }
 
@@ -172,6 +174,7 @@ private:
   Eigen::Vector4d plane_;
   double step_m_;
   Eigen::Matrix3d axes_; // the last one is up
+  Eigen::Vector2d first_ = Eigen::Vector2d::Zero (); // where cells begin
   std::map<Cell, std::vector<Raised>> columns_;
   std::array<double, sectors> leans_{};
 };
