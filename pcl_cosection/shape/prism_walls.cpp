@@ -27,6 +27,9 @@ constexpr int directions = 72;        // of the outline
 constexpr double strays = 0.002;      // of the points, may lie beyond the outline
 constexpr double near_wall = 0.15;    // of the width across it: what is so near tells how high it is
 constexpr double top_strays = 0.02;
+constexpr double least_top = 0.1;      // of the points
+constexpr double lowest_top = 0.1;     // of those of the top: fewer are strays
+constexpr double level_rise = 0.1;     // of the height: what rises no more is one level
 constexpr int edge_cells = 3;         // around a cell of the top: what tells whether it ends there
 constexpr std::size_t least_near = 8; // cells; fewer are strays
 constexpr double least_side = 0.8;    // cells, of the mean of those: the middle of a half disc is farther off
@@ -97,6 +100,7 @@ PrismWalls::PrismWalls (const std::vector<OrientedPoint>& points, const std::vec
     return std::any_of (upright_faces.begin (), upright_faces.end (), faces_it) ? margin : 0.0;
   };
 
+  points_ = points.size ();
   for (const OrientedPoint& p : points)
     if (p.normal.cast<double> ().dot (up) > level)
       top_.push_back (axes_.transpose () * p.position.cast<double> ());
@@ -148,6 +152,24 @@ PrismWalls::column (const Eigen::Vector2d& place, const Eigen::Vector2d& normal,
   for (double height = bottom + 0.5 * step_m; height < top; height += step_m)
     column.push_back ({(axes_ * Eigen::Vector3d (place.x (), place.y (), height - plane_[3])).cast<float> (), outwards});
   return column;
+}
+
+bool
+PrismWalls::showsTop () const
+{
+  return !top_.empty () && static_cast<double> (top_.size ()) >= least_top * static_cast<double> (points_);
+}
+
+std::optional<double>
+PrismWalls::levelTop () const
+{
+  if (!showsTop ())
+    return std::nullopt;
+  std::vector<double> along;
+  for (const Eigen::Vector3d& p : top_)
+    along.push_back (p.z ());
+  const double middle = quantile (along, 0.5), low = quantile (along, lowest_top);
+  return middle - low < level_rise * (middle + plane_[3]) ? std::optional<double> (middle) : std::nullopt;
 }
 
 std::vector<WallColumn>

@@ -8,6 +8,8 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
+#include <cstddef>
+#include <optional>
 #include <vector>
 
 namespace pcl
@@ -35,6 +37,14 @@ public:
   std::vector<WallColumn>
   belowEdges (double step_m) const;
 
+  /** \brief Was its top seen, by a tenth of the points at least? */
+  bool
+  showsTop () const;
+
+  /** \brief Component of the top along the normal of the plane, if what was seen of it is all of one height. */
+  std::optional<double>
+  levelTop () const;
+
 private:
   struct Wall
   {
@@ -48,6 +58,7 @@ private:
 
   Eigen::Vector4d plane_ = Eigen::Vector4d::UnitZ ();
   Eigen::Matrix3d axes_ = Eigen::Matrix3d::Identity (); // the last one is up
+  std::size_t points_ = 0;
   std::vector<Eigen::Vector3d> top_; // points of level faces, along the axes
   std::vector<Wall> walls_; // of the outline, which is convex
 };

@@ -182,6 +182,8 @@ SymmetricExtent::build (const std::vector<OrientedPoint>& all, const std::option
     std::vector<OrientedPoint> copies;
     std::transform (points.begin (), points.end (), std::back_inserter (copies), [this] (const OrientedPoint& p) { return turned (p); });
     walls_ = std::make_shared<const PrismWalls> (points, std::vector<OrientedPoint> (), faces, *plane);
+    if (!walls_->showsTop ())
+      walls_.reset ();
     walls_with_copies_ = std::make_shared<const PrismWalls> (points, copies, faces, *plane);
   }
 }
@@ -258,7 +260,8 @@ SymmetricExtent::boundedBy (const std::vector<OrientedPoint>& walls, bool below_
   SymmetricExtent prism = *this;
   prism.expect (walls);
   prism.has_copies_ = false;
-  prism.below_top_ = below_top;
+  if (below_top && walls_)
+    prism.top_ = walls_->levelTop ();
   return prism;
 }
 
@@ -347,12 +350,7 @@ SymmetricExtent::within (const Eigen::AlignedBox3d& box) const
   needed.standing_ = standing_;
   needed.faceted_ = faceted_;
   needed.turn_ = turn_;
-  needed.continuation_ = continuation_;
   needed.has_copies_ = has_copies_;
-  needed.below_top_ = below_top_;
-  needed.up_ = up_;
-  needed.walls_ = walls_;
-  needed.walls_with_copies_ = walls_with_copies_;
   for (const auto& [n, s] : half_spaces_)
     if (n.dot (middle) - s + n.cwiseAbs ().dot (half_sizes) >= least - tolerance)
       needed.half_spaces_.emplace_back (n, s);

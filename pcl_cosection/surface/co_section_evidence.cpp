@@ -13,6 +13,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iomanip>
 #include <limits>
 #include <optional>
 #include <sstream>
@@ -306,7 +307,7 @@ CoSectionRun::warnIfCoarse (const Object& object)
       object.extents_m[1] > least_voxels_across * h)
     return;
   std::ostringstream text;
-  text.precision (2);
+  text << std::fixed << std::setprecision (1);
   text << "object " << object.input->id << ": its points are so far apart that its voxels are of " << 1e3 * h << " mm, and "
        << object.extents_m[1] / h << " across it: what is finer cannot be told (points nearer together tell more; --voxel-size sets others)";
   result_.warnings.push_back (text.str ());

@@ -5,6 +5,7 @@
 #include "contact_edge.h"
 #include "implied_support.h"
 #include "open_places.h"
+#include "volume_layout.h"
 
 #include <algorithm>
 #include <cmath>
@@ -127,7 +128,7 @@ CoSectionRun::withHiddenWalls (const Object& object, const SymmetricExtent& exte
   if (extent.wallThickness () > 0.0) // goes down to its bottom anyway
     return extent;
   const UnseenPlaces places = placesOf (object);
-  const double step_m = object.body->grid ().voxel_size_m;
+  const double step_m = std::max (object.body->grid ().voxel_size_m, supportedVoxelSize (object.points (), object.observed));
   const auto is_any = [&] (const WallColumn& wall, const std::function<bool (const Eigen::Vector3d&)>& what) {
     return std::any_of (wall.begin (), wall.end (),
                         [&] (const OrientedPoint& p) { return what (p.position.cast<double> () - step_m * p.normal.cast<double> ()); });
@@ -140,11 +141,11 @@ CoSectionRun::withHiddenWalls (const Object& object, const SymmetricExtent& exte
     const auto end = std::remove_if (walls.begin (), walls.end (), is_refuted);
     if (static_cast<double> (walls.end () - end) >= (of_copies ? refuted_copies : refuted_outline) * static_cast<double> (walls.size ()))
       continue;
+    const auto kept = std::remove_if (walls.begin (), end, is_of_other);
+    if (2 * (kept - walls.begin ()) < end - walls.begin ())
+      continue;
     std::vector<OrientedPoint> possible;
-    std::for_each (walls.begin (), end, [&] (const WallColumn& wall) {
-      if (!is_of_other (wall))
-        possible.insert (possible.end (), wall.begin (), wall.end ());
-    });
+    std::for_each (walls.begin (), kept, [&] (const WallColumn& wall) { possible.insert (possible.end (), wall.begin (), wall.end ()); });
     if (!of_copies) // and where it is not convex, beside its top one sees free space
       for (const WallColumn& wall : extent.wallsBelowEdges (step_m))
         if (!wall.empty () && places.is_free (wall.back ().position.cast<double> () + beside_steps * step_m * wall.back ().normal.cast<double> ()) &&

@@ -28,6 +28,7 @@ constexpr double profile_weight = 10.0; // of what has a profile, which is surel
 constexpr double wall_weight = 5.0;     // of upright walls
 constexpr double vessel_weight = 100.0; // of a vessel's wall, which vanishes under less
 constexpr double empty_weight = 10.0;   // of its cavity, and of what is beyond all of it
+constexpr double below_top_vox = 1.5;   // lower than it, free space is beside a top, not over it
 constexpr double least_wall = 0.6;      // of its thickness: walls are nowhere thinner, noise would make holes
 constexpr double least_wall_vox = 1.25; // nor thinner than this
 constexpr double empty_margin_vox = 1.0; // to that
@@ -177,16 +178,18 @@ addVessel (EnergyProblem& problem, const VoxelGrid& grid, const SymmetricExtent&
   });
 }
 
-/** \brief What is below free space, with no top between, is beside what has upright walls. */
+/** \brief What is below free space that is lower than the top is beside what has upright walls. */
 void
-emptyBesideTop (EnergyProblem& problem, const VoxelGrid& grid, const Eigen::Vector3d& up, const SeenVoxels& seen, const CoSectionOptions& options)
+emptyBesideTop (EnergyProblem& problem, const VoxelGrid& grid, const Eigen::Vector3d& up, double top_m, const SeenVoxels& seen,
+                const CoSectionOptions& options)
 {
+  const double highest_m = top_m - below_top_vox * grid.voxel_size_m;
   const int threads = threadsForVoxels (options.threads, grid.size ());
   std::vector<std::uint8_t> inside (grid.size (), 1);
   parallelFor (0, grid.dims.z (), threads, [&] (int k) {
     for (int j = 0; j < grid.dims.y (); ++j)
       for (int i = 0; i < grid.dims.x (); ++i)
-        for (Eigen::Vector3d p = grid.center (i, j, k);; p += grid.voxel_size_m * up)
+        for (Eigen::Vector3d p = grid.center (i, j, k); up.dot (p) < highest_m; p += grid.voxel_size_m * up)
         {
           const auto at = grid.nearest (p);
           if (!at)
@@ -232,8 +235,8 @@ addHiddenSide (EnergyProblem& problem, const VoxelGrid& grid, const SymmetricExt
       problem.weight[n] += weight;
       problem.weighted_target[n] += weight * term.weighted_target[n] / term.weight[n];
     }
-  if (plausible.isBelowTop ())
-    emptyBesideTop (problem, grid, plausible.up (), seen, options);
+  if (plausible.top ())
+    emptyBesideTop (problem, grid, plausible.up (), *plausible.top (), seen, options);
 }
 
 } // namespace cosection

@@ -117,7 +117,8 @@ public:
   withoutFloor () const;
 
   /** \brief Of what stands on a plane and is bounded by upright walls, and tops that are level: all walls of its convex outline, seen or not; of
-   * anything else none. \param[in] step_m between points \param[in] of_copies of the outline of copies, too */
+   * anything else none. \param[in] step_m between points \param[in] of_copies of the outline of copies, too; else its top
+   * must have been seen */
   std::vector<WallColumn>
   uprightWalls (double step_m, bool of_copies) const;
 
@@ -129,7 +130,8 @@ public:
   SymmetricExtent
   continuedBy (const std::vector<OrientedPoint>& points) const;
 
-  /** \brief The same; its hidden side are these walls, rather than copies. \param[in] below_top only what is below a top that was seen is inside of them */
+  /** \brief The same; its hidden side are these walls, rather than copies. \param[in] below_top only what is below the top that was seen is inside
+   * of them, if all of the top is level */
   SymmetricExtent
   boundedBy (const std::vector<OrientedPoint>& walls, bool below_top) const;
 
@@ -140,11 +142,11 @@ public:
     return !has_copies_;
   }
 
-  /** \brief Is but what is below a top that was seen inside of its walls? */
-  bool
-  isBelowTop () const
+  /** \brief Component along up () of the top, if nothing but what is below that is inside of its walls. */
+  const std::optional<double>&
+  top () const
   {
-    return below_top_;
+    return top_;
   }
 
   /** \brief Direction of the normal of the plane on which it stands; zero if there is none. */
@@ -197,7 +199,7 @@ private:
   std::shared_ptr<const PrismWalls> walls_;       // null: it has none that are upright
   std::shared_ptr<const PrismWalls> walls_with_copies_;
   bool has_copies_ = true;
-  bool below_top_ = false;
+  std::optional<double> top_;
   Eigen::Vector3d up_ = Eigen::Vector3d::Zero ();
   std::vector<OrientedPoint> continuation_;       // points that are expected beside those that were seen, with their copies
 };
