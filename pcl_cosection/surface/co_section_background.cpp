@@ -22,7 +22,7 @@ namespace cosection
 namespace
 {
 
-constexpr double background_voxels_per_object_voxel = 2.0;
+constexpr double background_voxels_per_object_voxel = 2.0; // of what the points support, or what is asked for
 constexpr double background_only_resolution = 128.0; // voxels along the longest side, if there is no object
 constexpr double whole_background_voxel_m = 0.02;    // or smaller, if that gives no more than
 constexpr double whole_background_resolution = 128.0; // voxels along the longest side
@@ -84,7 +84,7 @@ CoSectionRun::backgroundVoxelSize (const std::vector<Eigen::AlignedBox3d>& boxes
   double smallest = std::numeric_limits<double>::infinity ();
   for (const Object& object : objects_)
     if (object.alive ())
-      smallest = std::min (smallest, object.voxel_size_m);
+      smallest = std::min (smallest, fixedVoxelSize (scene_.options) ? object.voxel_size_m : object.spacing_m);
   const double side = boxes.empty () ? 0.0 : boxes.front ().sizes ().maxCoeff ();
   if (!scene_.options.whole_background)
     return std::isfinite (smallest) ? background_voxels_per_object_voxel * smallest : side / background_only_resolution;

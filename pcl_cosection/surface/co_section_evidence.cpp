@@ -35,7 +35,7 @@ constexpr int least_free_views = 2;           // that look through a point of th
 constexpr double free_share = 0.25;           // ... and so many of those that see it there
 constexpr double max_sigma_vox = 10.0;        // as for the option
 constexpr double max_contradicted_share = 0.1; // of an object's points; good poses leave .03 or less
-constexpr double least_voxels_across = 5.0;   // an object, along the middle of its extents: with fewer it is a lump
+constexpr double least_spacings_across = 5.0; // an object, along the middle of its extents: with fewer it is a lump
 constexpr double left_over_cell_m = 0.02;
 constexpr double max_empty_share = 0.5;       // of a volume that was large enough for what was known before
 
@@ -84,7 +84,7 @@ CoSectionRun::gridVoxelSize (Object& object) const
 {
   const CoSectionOptions& options = scene_.options;
   double voxel_size_m = object.voxel_size_m;
-  if (options.voxel_size_m <= 0.0 && options.resolution <= 0 && options.use_extent_prior && options.use_symmetric_extent)
+  if (!fixedVoxelSize (options) && options.use_extent_prior && options.use_symmetric_extent)
   {
     const FollowedBody* earlier = earlierBody (*object.body, object.input->id);
     const double earlier_m = earlier ? earlier->wall_m : 0.0;
@@ -146,17 +146,21 @@ CoSectionRun::createVolumes ()
         const auto place_with = [&] (double voxel_size_m) {
           place (*object.body, object.input->id, volumeBox (object), voxel_size_m, carve, std::max (1.0, object.voxel_size_m / voxel_size_m));
         };
-        const double voxel_size_m = gridVoxelSize (object);
-        try
-        {
-          place_with (voxel_size_m);
-        }
-        catch (const MemoryLimitExceeded&)
-        {
-          if (voxel_size_m >= object.voxel_size_m)
-            throw;
-          place_with (followedSize (object, object.voxel_size_m)); // thick walls rather than nothing
-        }
+        std::vector<double> sizes_m{gridVoxelSize (object)};
+        for (const double larger_m : {object.voxel_size_m, fixedVoxelSize (scene_.options) ? 0.0 : object.spacing_m})
+          if (larger_m > sizes_m.back ())
+            sizes_m.push_back (followedSize (object, larger_m));
+        for (const double voxel_size_m : sizes_m) // a coarse mesh rather than none
+          try
+          {
+            place_with (voxel_size_m);
+            break;
+          }
+          catch (const MemoryLimitExceeded&)
+          {
+            if (voxel_size_m == sizes_m.back ())
+              throw;
+          }
       });
 }
 
@@ -302,14 +306,13 @@ CoSectionRun::nameOf (std::size_t view) const
 void
 CoSectionRun::warnIfCoarse (const Object& object)
 {
-  const double h = object.voxel_size_m;
-  if (mode_ != Mode::Once || scene_.options.voxel_size_m > 0.0 || scene_.options.resolution > 0 ||
-      object.extents_m[1] > least_voxels_across * h)
+  const double h = object.spacing_m;
+  if (mode_ != Mode::Once || fixedVoxelSize (scene_.options) || object.extents_m[1] > least_spacings_across * h)
     return;
   std::ostringstream text;
   text << std::fixed << std::setprecision (1);
-  text << "object " << object.input->id << ": its points are so far apart that its voxels are of " << 1e3 * h << " mm, and "
-       << object.extents_m[1] / h << " across it: what is finer cannot be told (points nearer together tell more; --voxel-size sets others)";
+  text << "object " << object.input->id << ": its points are so far apart that what is finer than " << 1e3 * h
+       << " mm cannot be told, and it is only " << 1e3 * object.extents_m[1] << " mm across (points nearer together tell more)";
   result_.warnings.push_back (text.str ());
 }
 

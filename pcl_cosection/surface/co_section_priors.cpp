@@ -128,7 +128,7 @@ CoSectionRun::withHiddenWalls (const Object& object, const SymmetricExtent& exte
   if (extent.wallThickness () > 0.0) // goes down to its bottom anyway
     return extent;
   const UnseenPlaces places = placesOf (object);
-  const double step_m = std::max (object.body->grid ().voxel_size_m, supportedVoxelSize (object.points (), object.observed));
+  const double step_m = std::max (object.body->grid ().voxel_size_m, object.spacing_m);
   const auto is_any = [&] (const WallColumn& wall, const std::function<bool (const Eigen::Vector3d&)>& what) {
     return std::any_of (wall.begin (), wall.end (),
                         [&] (const OrientedPoint& p) { return what (p.position.cast<double> () - step_m * p.normal.cast<double> ()); });

@@ -130,8 +130,7 @@ CoSectionRun::observeObjects ()
       if (object.input->points.size () < scene_.options.min_points)
         throw DegenerateInput ("it has " + std::to_string (object.input->points.size ()) + " points with a normal, at least " +
                                std::to_string (scene_.options.min_points) + " are needed");
-      object.observed = observedBox (object.points (), scene_.options.threads);
-      object.voxel_size_m = objectVoxelSize (object.points (), object.observed, scene_.options);
+      measure (object);
       leaveOutStrays (object);
       warnIfFarApart (object);
       object.extents_m = observedExtents (object.points (), scene_.options.threads);
@@ -144,13 +143,19 @@ CoSectionRun::observeObjects ()
 }
 
 void
+CoSectionRun::measure (Object& object) const
+{
+  object.observed = observedBox (object.points (), scene_.options.threads);
+  object.spacing_m = supportedVoxelSize (object.points (), object.observed);
+  object.voxel_size_m = objectVoxelSize (object.spacing_m, object.observed, scene_.options);
+}
+
+void
 CoSectionRun::leaveOutStrays (Object& object)
 {
   const std::vector<OrientedPoint>& all = object.input->points;
-  // No nearer than the points' own spacing allows, however fine the voxels.
-  const double spacing_m = supportedVoxelSize (all, object.observed);
   std::vector<bool> stray = findStrayPoints (all, object.observed.center (),
-                                             stray_reach_voxels * std::max (object.voxel_size_m, spacing_m));
+                                             stray_reach_voxels * std::max (object.voxel_size_m, object.spacing_m)); // however fine the voxels
   auto strays = static_cast<std::size_t> (std::count (stray.begin (), stray.end (), true));
   if (static_cast<double> (strays) > max_stray_share * static_cast<double> (all.size ()))
   {
@@ -168,8 +173,7 @@ CoSectionRun::leaveOutStrays (Object& object)
   for (std::size_t p = 0; p < all.size (); ++p)
     if (!body.stray[p])
       object.kept.push_back (all[p]);
-  object.observed = observedBox (object.points (), scene_.options.threads);
-  object.voxel_size_m = objectVoxelSize (object.points (), object.observed, scene_.options);
+  measure (object);
 }
 
 void

@@ -58,7 +58,8 @@ private:
     ObjectResult* result = nullptr;
     std::vector<OrientedPoint> kept;                 // its points, if some are stray; else empty
     Eigen::AlignedBox3d observed;                    // of its points
-    double voxel_size_m = 0.0;                       // that its points support; its grid's may be finer
+    double spacing_m = 0.0;                          // supportedVoxelSize () of its points
+    double voxel_size_m = 0.0;                       // its grid's, but for vessels, whose may be finer
     Eigen::Vector3d extents_m = Eigen::Vector3d::Zero (); // observedExtents () of its points
     std::optional<DepthView> assumed;                // of its points, if the scene has no views; object frame
     std::optional<ViewAgreement> agreement;          // of all views with its points
@@ -138,6 +139,8 @@ private:
   withHiddenWalls (const Object& object, const SymmetricExtent& extent, const Eigen::Vector4d& plane) const;
   void
   observeObjects ();
+  void
+  measure (Object& object) const;
   /** \brief A few points far from all others would become bodies of their own. */
   void
   leaveOutStrays (Object& object);

@@ -31,8 +31,13 @@ constexpr double points_per_voxel = 3.0;
 constexpr double least_points_per_voxel = 1.5; // where more would take the shape:
 constexpr int least_resolution = 16;           // voxels along the longest side
 constexpr double voxel_growth = 1.1;
+// Voxels that are smaller than what the points' spacing supports by
+constexpr double finer = 0.65;
+constexpr double finest = 0.5; // if the longest side has
+constexpr double few_voxels = 32.0; // or fewer,
+// are more accurate: more so than coarse ones with less smoothing, and than fine ones with as much as the coarse have.
 constexpr double voxels_per_wall = 2.0;
-constexpr double finest_vessel = 0.5; // of the voxels that the points support
+constexpr double finest_vessel = 0.75; // of the voxels that another object would have
 constexpr int min_axis = 8;      // voxels
 constexpr double max_axis = 8192; // voxels
 constexpr double min_extent_m = 1e-6;
@@ -100,6 +105,13 @@ isBelow (const std::vector<Eigen::Vector4d>& planes, const Eigen::Vector3d& p, d
 {
   return std::any_of (planes.begin (), planes.end (),
                       [&] (const Eigen::Vector4d& plane) { return plane.head<3> ().dot (p) + plane[3] < height_m; });
+}
+
+double
+accurateVoxelSize (double supported_m, double longest_m)
+{
+  const double fine = std::clamp (longest_m / few_voxels, finest * supported_m, finer * supported_m);
+  return std::max (fine, longest_m / default_resolution);
 }
 
 std::string
@@ -182,14 +194,19 @@ supportedVoxelSize (const std::vector<OrientedPoint>& points, const Eigen::Align
   return h;
 }
 
+bool
+fixedVoxelSize (const CoSectionOptions& options)
+{
+  return options.voxel_size_m > 0.0 || options.resolution > 0;
+}
+
 double
-objectVoxelSize (const std::vector<OrientedPoint>& points, const Eigen::AlignedBox3d& box,
-                 const CoSectionOptions& options)
+objectVoxelSize (double supported_m, const Eigen::AlignedBox3d& box, const CoSectionOptions& options)
 {
   const double longest = box.sizes ().maxCoeff ();
   const double h = options.voxel_size_m;
   if (h <= 0.0)
-    return options.resolution > 0 ? longest / options.resolution : supportedVoxelSize (points, box);
+    return options.resolution > 0 ? longest / options.resolution : accurateVoxelSize (supported_m, longest);
   if (h > longest)
   {
     std::ostringstream message;
@@ -202,8 +219,8 @@ objectVoxelSize (const std::vector<OrientedPoint>& points, const Eigen::AlignedB
 double
 vesselVoxelSize (double voxel_size_m, double wall_m, const Eigen::AlignedBox3d& box)
 {
-  const double finest = std::max (finest_vessel * voxel_size_m, box.sizes ().maxCoeff () / default_resolution);
-  return std::min (voxel_size_m, std::max (finest, wall_m / voxels_per_wall));
+  const double least_m = std::max (finest_vessel * voxel_size_m, box.sizes ().maxCoeff () / default_resolution);
+  return std::min (voxel_size_m, std::max (least_m, wall_m / voxels_per_wall));
 }
 
 Eigen::AlignedBox3d

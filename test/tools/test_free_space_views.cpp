@@ -177,7 +177,7 @@ TEST_F (FreeSpaceViews, NeedNoLabelsAndTellNothingElse)
   for (int id = 1; id <= objects; ++id)
   {
     const std::string name = "/object_" + std::to_string (id) + ".ply";
-    EXPECT_LE (volume ("more" + name), 1.01 * volume ("less" + name));
+    EXPECT_LE (volume ("more" + name), 1.02 * volume ("less" + name)); // as above; the corner is nearer its true volume
   }
   // A background of one view only, although the other shows more of it.
   EXPECT_EQ (loadMesh (folder_->file ("more/background.ply")).vertices.size (),

@@ -48,11 +48,11 @@ struct PCL_COSECTION_EXPORT SolverOptions
 struct PCL_COSECTION_EXPORT CoSectionOptions
 {
   double voxel_size_m = 0.0; ///< h; 0: from \a resolution
-  int resolution = 0;        ///< voxels along the longest observed side; 0: 64, but no finer than the points' spacing allows; twice as fine where a vessel's wall needs it
+  int resolution = 0;        ///< voxels along the longest observed side; 0: 64, but fewer where the points' spacing does not support them; more where a vessel's wall needs it
   /** \brief Volume beyond the observed box on each side, as a fraction of its longest side; 0: as far as the
    * extent prior lets the shape reach, or 0.3 without views, hull constraint or that prior. */
   double padding = 0.0;
-  double background_voxel_size_m = 0.0; ///< 0: twice the smallest object voxel, not counting vessels' finer ones; see also \a whole_background
+  double background_voxel_size_m = 0.0; ///< 0: twice the smallest object voxel that is asked for, or that points' spacing supports; see also \a whole_background
 
   bool use_hull = true;         ///< E_hull, equation (3)
   bool use_intersection = true; ///< E_inter, equation (5)
