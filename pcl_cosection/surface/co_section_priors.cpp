@@ -122,13 +122,19 @@ CoSectionRun::placesOf (const Object& object) const
   return {is_free, is_of_other, [&object] (const Eigen::Vector3d& p) { return object.body->hidden.isBehindOther (p); }};
 }
 
+double
+CoSectionRun::wallStep (const Object& object) const
+{
+  return std::max (object.body->grid ().voxel_size_m, object.spacing_m);
+}
+
 SymmetricExtent
 CoSectionRun::withHiddenWalls (const Object& object, const SymmetricExtent& extent, const Eigen::Vector4d& plane) const
 {
   if (extent.wallThickness () > 0.0) // goes down to its bottom anyway
     return extent;
   const UnseenPlaces places = placesOf (object);
-  const double step_m = std::max (object.body->grid ().voxel_size_m, object.spacing_m);
+  const double step_m = wallStep (object);
   const auto is_any = [&] (const WallColumn& wall, const std::function<bool (const Eigen::Vector3d&)>& what) {
     return std::any_of (wall.begin (), wall.end (),
                         [&] (const OrientedPoint& p) { return what (p.position.cast<double> () - step_m * p.normal.cast<double> ()); });
@@ -166,6 +172,21 @@ CoSectionRun::hasFootNear (const Object& object, const Eigen::Vector4d& plane, d
   return lower > static_cast<std::ptrdiff_t> (resting_share * static_cast<double> (points.size ()));
 }
 
+Eigen::AlignedBox3d
+CoSectionRun::downToPlanesBehindOthers (const Object& object, const std::vector<Eigen::Vector4d>& planes) const
+{
+  Eigen::AlignedBox3d box = object.observed;
+  for (const Eigen::Vector4d& plane : planes)
+    if (hasFootNear (object, plane, lowest_plane_reach))
+      for (const Eigen::Vector3d& corner : corners (object.observed))
+      {
+        const Eigen::Vector3d foot = corner - (plane.head<3> ().dot (corner) + plane[3]) * plane.head<3> ();
+        if (object.body->hidden.isBehindOther (foot))
+          box.extend (foot);
+      }
+  return box;
+}
+
 bool
 CoSectionRun::mayRestOn (const Object& object, const Eigen::Vector4d& plane) const
 {
@@ -191,7 +212,7 @@ CoSectionRun::restingPlanes (const Object& object) const
     return resting;
   const auto goes_down_behind_others = [&] (const Eigen::Vector4d& plane) {
     return hasFootNear (object, plane, lowest_plane_reach) && footIsHidden (object, plane) &&
-           !wallsBehindOthers (object.points (), plane, object.body->grid ().voxel_size_m, placesOf (object)).empty ();
+           !wallsBehindOthers (object.points (), plane, wallStep (object), placesOf (object)).empty ();
   };
   const auto plane = std::find_if (planes.begin (), planes.end (), goes_down_behind_others);
   return plane == planes.end () ? resting : std::vector<Eigen::Vector4d> {*plane};

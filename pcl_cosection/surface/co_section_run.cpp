@@ -201,7 +201,7 @@ CoSectionRun::volumeBox (const Object& object) const
     if (pose (object, v).matrix ().allFinite ())
       poses.push_back (pose (object, v));
   const std::vector<Eigen::Vector4d> planes = planesAt (object, object.planes, poses);
-  return possibleBox (object.points (), object.observed, object.extents_m, object.voxel_size_m, views, object.body->hidden,
+  return possibleBox (object.points (), object.observed, downToPlanesBehindOthers (object, planes), object.extents_m, object.voxel_size_m, views, object.body->hidden,
                       planes, options.threads);
 }
 

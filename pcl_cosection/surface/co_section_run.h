@@ -130,10 +130,16 @@ private:
   mayRestOn (const Object& object, const Eigen::Vector4d& plane) const;
   /** \brief Whether between the foot of its axis on a plane and what was seen of it nothing is known to be, neither
    * free space nor another body. */
+  /** \brief Box of what was observed and, if something else hides that, of what is straight below it on the planes. */
+  Eigen::AlignedBox3d
+  downToPlanesBehindOthers (const Object& object, const std::vector<Eigen::Vector4d>& planes) const;
   bool
   footIsHidden (const Object& object, const Eigen::Vector4d& plane) const;
   UnseenPlaces
   placesOf (const Object& object) const;
+  /** \brief How far apart points of walls are: no nearer than those that were seen. */
+  double
+  wallStep (const Object& object) const;
   /** \brief With the upright walls of what is bounded by such, or with those walls that others hide. \param[in] plane on which it stands, object frame */
   SymmetricExtent
   withHiddenWalls (const Object& object, const SymmetricExtent& extent, const Eigen::Vector4d& plane) const;

@@ -150,12 +150,19 @@ ShapeVolume::distanceToExpected (const std::vector<SymmetricExtent>& plausible) 
   std::vector<std::uint8_t> expected;
   for (const SymmetricExtent& extent : plausible)
     for (const OrientedPoint& point : extent.continuation ())
-      if (const auto at = grid_.nearest (point.position.cast<double> ()))
-      {
-        if (expected.empty ())
-          expected = data_;
-        expected[grid_.index (at->x (), at->y (), at->z ())] = 1;
-      }
+    {
+      // The wall, and what it encloses: from it inwards as far as to beside the middle.
+      const Eigen::Vector3d wall = point.position.cast<double> ();
+      const Eigen::Vector3d outwards = point.normal.cast<double> ();
+      const double middle_m = std::max (0.0, outwards.dot (wall - extent.center ()));
+      for (double depth_m = 0.0; depth_m <= middle_m; depth_m += grid_.voxel_size_m)
+        if (const auto at = grid_.nearest (wall - depth_m * outwards))
+        {
+          if (expected.empty ())
+            expected = data_;
+          expected[grid_.index (at->x (), at->y (), at->z ())] = 1;
+        }
+    }
   return expected.empty () ? data_distance_vox_ : distanceTransform (grid_.dims, expected, options_.threads);
 }
 

@@ -156,7 +156,7 @@ public:
   trimmedMesh (const std::vector<OrientedPoint>& points) const;
 
 private:
-  /** \brief Voxels, to data, or to where walls are expected behind others. */
+  /** \brief Voxels, to data, or to where walls are expected behind others, and to what they enclose. */
   std::vector<float>
   distanceToExpected (const std::vector<SymmetricExtent>& plausible) const;
   /** \brief f (index) for every voxel, planes of them on several threads. */

@@ -224,7 +224,7 @@ vesselVoxelSize (double voxel_size_m, double wall_m, const Eigen::AlignedBox3d& 
 }
 
 Eigen::AlignedBox3d
-possibleBox (const std::vector<OrientedPoint>& points, const Eigen::AlignedBox3d& observed, const Eigen::Vector3d& extents_m,
+possibleBox (const std::vector<OrientedPoint>& points, const Eigen::AlignedBox3d& observed, const Eigen::AlignedBox3d& known, const Eigen::Vector3d& extents_m,
              double voxel_size_m, const HiddenPlaces::Views& views, const HiddenPlaces& places,
              const std::vector<Eigen::Vector4d>& planes, int threads)
 {
@@ -252,7 +252,7 @@ possibleBox (const std::vector<OrientedPoint>& points, const Eigen::AlignedBox3d
   const float most = std::max ({allowed (Hidden::ByObject), allowed (Hidden::ByOther), allowed (Hidden::Nothing)});
   const double margin = 0.5 * cells.voxel_size_m + possible_margin_vox * voxel_size_m;
   const AnySeesFree free (views, cells.voxel_size_m);
-  Eigen::AlignedBox3d box = observed;
+  Eigen::AlignedBox3d box = observed.merged (known);
   for (int k = 0; k < cells.dims.z (); ++k)
     for (int j = 0; j < cells.dims.y (); ++j)
       for (int i = 0; i < cells.dims.x (); ++i)

@@ -45,12 +45,12 @@ double
 vesselVoxelSize (double voxel_size_m, double wall_m, const Eigen::AlignedBox3d& observed);
 
 /** \brief Box of where an object may be, with a margin: where ExtentPrior asks for no distance, on the upper
- * side of all \a planes.
+ * side of all \a planes; and \a known.
  * \param[in] extents_m observedExtents () of the points
  * \param[in] views depth views and their sensors' poses in the points' frame
  * \param[in] places what those views hide */
 Eigen::AlignedBox3d
-possibleBox (const std::vector<OrientedPoint>& points, const Eigen::AlignedBox3d& observed, const Eigen::Vector3d& extents_m,
+possibleBox (const std::vector<OrientedPoint>& points, const Eigen::AlignedBox3d& observed, const Eigen::AlignedBox3d& known, const Eigen::Vector3d& extents_m,
              double voxel_size_m, const HiddenPlaces::Views& views, const HiddenPlaces& places,
              const std::vector<Eigen::Vector4d>& planes, int threads);
 

@@ -47,14 +47,14 @@ class HiddenWalls : public testing::Test
 protected:
   /** \param[in] board lower left and upper right corner, as the camera sees it; x and z */
   void
-  see (const Distance& shape, const Eigen::Vector2d& low, const Eigen::Vector2d& high)
+  see (const Distance& shape, const Eigen::Vector2d& low, const Eigen::Vector2d& high, double voxel = voxel_m)
   {
     scene_.add (0, halfSpace (table_plane));
     scene_.add (thing, shape);
     const Eigen::Vector2d middle = 0.5 * (low + high), half = 0.5 * (high - low);
     scene_.add (screen, placed (box ({half.x (), 0.01, half.y ()}), Eigen::Vector3d (middle.x (), -0.16, middle.y ())));
     seen_ = scene_.render (tableCamera (), lookAt ({0.0, -0.75, 0.38}, {0.0, 0.0, 0.05}));
-    result_ = complete (seen_, optionsFor (voxel_m));
+    result_ = complete (seen_, optionsFor (voxel));
     ASSERT_EQ (mesh ().empty (), false) << result_.objects.at (0).error;
     EXPECT_TRUE (computeTopology (mesh ()).closed_manifold);
   }
@@ -118,6 +118,17 @@ TEST_F (HiddenWalls, OfAWedgeAreNoCopies)
   expectToStand ();
   const double truth = 0.5e3 * 0.13 * 0.1 * 0.12;
   EXPECT_NEAR (litres (), truth, 0.15 * truth);
+}
+
+/** \brief What walls enclose is as far from anything seen as a can is high, and full. */
+TEST_F (HiddenWalls, OfACanAreNoTube)
+{
+  constexpr double radius = 0.05, height = 0.11;
+  see (can (radius, height), {-0.15, 0.0}, {0.15, 0.141}, 0.0025);
+  ASSERT_GT (lowestSeen (), 0.08f);
+  expectToStand ();
+  const double truth = 1e3 * M_PI * radius * radius * height;
+  EXPECT_NEAR (litres (), truth, 0.1 * truth);
 }
 
 /** \brief Below the free space beside a top that was seen there is nothing. */
