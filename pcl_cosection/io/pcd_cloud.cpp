@@ -2,6 +2,7 @@
 // Copyright (c) 2026, the pcl_cosection authors
 #include "pcd_cloud.h"
 
+#include "../common/byte_text.h"
 #include "pcd_header.h"
 #include "pcd_points.h"
 
@@ -10,9 +11,11 @@
 
 #include <pcl/PCLPointCloud2.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <sstream>
 
 namespace pcl
 {
@@ -129,24 +132,36 @@ checkMemory (const std::string& path, const PcdHeader& header, std::size_t limit
   const std::size_t per_point = 2 * step + 2 * sizeof (Eigen::Vector3f) + sizeof (std::uint32_t) + sizeof (OrientedPoint);
   if (limit_bytes == 0 || header.points <= limit_bytes / per_point)
     return;
-  constexpr std::size_t mebibyte = 1 << 20;
+  const double needed = std::min (static_cast<double> (header.points) * static_cast<double> (per_point), 1e18);
   throw MemoryLimitExceeded (path + ": its " + std::to_string (header.points) + " points need " +
-                             std::to_string (static_cast<std::size_t> (static_cast<double> (header.points) *
-                                                                           static_cast<double> (per_point) / mebibyte)) +
-                             " MiB; " +
-                             std::to_string (limit_bytes / mebibyte) +
+                             byteText (static_cast<std::size_t> (needed)) + "; " + byteText (limit_bytes) +
                              " are left of what is allowed: thin the cloud (pcl_voxel_grid) or allow more memory");
 }
 
 void
 readLabels (const std::string& path, const PCLPointCloud2& cloud, const PcdField& field, SensorCloud& result)
 {
-  if (field.type == 'F' || field.count != 1)
-    throw IoError (path + ": field label must be one integer (TYPE U or I, COUNT 1)");
+  if (field.count != 1)
+    throw IoError (path + ": field label must be one integer (COUNT 1)");
   const Column column (path, cloud, field);
+  const auto labelOf = [&] (std::size_t i) -> std::int64_t {
+    if (field.type != 'F')
+      return column.integer (i);
+    const double label = column.real (i); // as some programs write all fields
+    if (std::isnan (label))
+      return -1;
+    if (label != std::trunc (label))
+    {
+      std::ostringstream message;
+      message << path << ": point " << i << " has label " << label << ", which is no integer";
+      throw IoError (message.str ());
+    }
+    constexpr double large = 1e15;
+    return static_cast<std::int64_t> (std::clamp (label, -large, large));
+  };
   for (std::size_t i = 0; i < result.labels.size (); ++i)
   {
-    const std::int64_t label = column.integer (i);
+    const std::int64_t label = labelOf (i);
     if (label > std::numeric_limits<std::int32_t>::max ())
       throw IoError (path + ": label " + std::to_string (label) + " is too large, the largest is 2147483647");
     if (label >= 0 && label != ignored_label)

@@ -2,6 +2,7 @@
 // Copyright (c) 2026, the pcl_cosection authors
 #include "volume_layout.h"
 
+#include "../common/byte_text.h"
 #include "extent_bounds.h"
 #include "pixel_of.h"
 #include "ranked_values.h"
@@ -114,14 +115,6 @@ accurateVoxelSize (double supported_m, double longest_m)
   return std::max (fine, longest_m / default_resolution);
 }
 
-std::string
-megabytes (std::size_t bytes)
-{
-  std::ostringstream text;
-  text << bytes / (1024 * 1024) << " MiB";
-  return text.str ();
-}
-
 } // namespace
 
 VoxelGrid
@@ -151,9 +144,9 @@ checkMemory (const VoxelGrid& grid, std::size_t limit_bytes, std::size_t used_by
     return;
   std::ostringstream message;
   message << "a volume of " << grid.dims.x () << " x " << grid.dims.y () << " x " << grid.dims.z () << " voxels needs "
-          << megabytes (bytes) << "; " << megabytes (limit_bytes) << " are allowed";
-  if (megabytes (used_bytes) != megabytes (0))
-    message << ", of which points, views and other volumes take " << megabytes (used_bytes);
+          << byteText (bytes) << "; " << byteText (limit_bytes) << " are allowed";
+  if (used_bytes > 0)
+    message << ", of which points, views and other volumes take " << byteText (used_bytes);
   message << ": use larger voxels or allow more memory";
   throw MemoryLimitExceeded (message.str ());
 }

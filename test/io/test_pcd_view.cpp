@@ -188,7 +188,7 @@ TEST_F (PcdView, NormalsOfTheFileAreKept)
   EXPECT_TRUE (view.objects.at (1).points[0].position.isApprox (Eigen::Vector3f (1, -2, 2), 1e-6f));
 }
 
-TEST_F (PcdView, LabelsOfAnyIntegerTypeAndDoubles)
+TEST_F (PcdView, LabelsOfAnyTypeAndDoubles)
 {
   const auto read = [this] (const std::string& label, const std::string& size, const std::string& type) {
     return (readPcdView (write (header (2, 1, "ascii", "label x y z", size + " 8 8 8", type + " F F F") + label +
@@ -199,6 +199,10 @@ TEST_F (PcdView, LabelsOfAnyIntegerTypeAndDoubles)
   EXPECT_EQ (read ("40000", "2", "U").objects.count (40000), 1u);
   EXPECT_EQ (read ("3000000", "4", "I").objects.count (3000000), 1u);
   EXPECT_EQ (read ("3000000", "8", "U").objects.count (3000000), 1u);
+  EXPECT_EQ (read ("12", "4", "F").objects.count (12), 1u);
+  EXPECT_EQ (read ("1.2e1", "8", "F").objects.count (12), 1u);
+  EXPECT_EQ (read ("nan", "4", "F").objects.size (), 1u);
+  EXPECT_EQ (read ("-inf", "8", "F").objects.size (), 1u);
   const LabelledView negative = read ("-1", "4", "I");
   EXPECT_EQ (negative.objects.size (), 1u);
   ASSERT_FALSE (negative.warnings.empty ());
@@ -224,9 +228,13 @@ TEST_F (PcdView, BadFilesAreRefusedInOneLine)
              std::string::npos);
   EXPECT_NE (failure<IoError> (write (header (1, 1, "ascii", "x y z", "4 4 4", "I I I") + "1 2 3\n")).find ("TYPE F"),
              std::string::npos);
-  EXPECT_NE (failure<IoError> (write (header (1, 1, "ascii", "x y z label", "4 4 4 4", "F F F F") + "1 2 3 4\n"))
-                 .find ("integer"),
+  EXPECT_NE (failure<IoError> (write (header (1, 1, "ascii", "x y z label", "4 4 4 4", "F F F F") + "1 2 3 4.5\n"))
+                 .find ("label 4.5, which is no integer"),
              std::string::npos);
+  for (const char* large : {"4e9", "inf", "1e300"})
+    EXPECT_NE (failure<IoError> (write (header (1, 1, "ascii", "x y z label", "4 4 4 8", "F F F F") + "1 2 3 " + large + "\n"))
+                   .find ("too large"),
+               std::string::npos);
   EXPECT_NE (failure<IoError> (write (header (1, 1, "ascii", "x y z", "4 4 3") + "1 2 3\n")).find ("SIZE"),
              std::string::npos);
   EXPECT_NE (failure<IoError> (write (header (1, 1, "gzip") + "1 2 3\n")).find ("ascii, binary"), std::string::npos);

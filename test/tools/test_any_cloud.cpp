@@ -210,6 +210,8 @@ TEST_F (AnyCloud, PointsCountForTheMemoryAllowed)
   writeSphere (path ("ball.pcd"), 200000);
   EXPECT_EQ (run ({"--max-memory", "10M", "ball.pcd", "out.ply"}), 1);
   EXPECT_NE (errors_.find ("ball.pcd: its 200000 points need"), std::string::npos) << errors_;
+  EXPECT_EQ (run ({"--max-memory", "5", "ball.pcd", "out.ply"}), 1);
+  EXPECT_NE (errors_.find ("; 5 bytes are left"), std::string::npos) << errors_;
   EXPECT_FALSE (fs::exists (path ("out.ply")));
   EXPECT_EQ (run ({"--max-memory", "500M", "ball.pcd", "out.ply"}), 0) << errors_;
 }
@@ -271,4 +273,24 @@ TEST_F (AnyCloud, MissingIntensitiesDoNotCount)
   ASSERT_EQ (mesh.intensity.size (), mesh.vertices.size ());
   for (const float intensity : mesh.intensity)
     ASSERT_FLOAT_EQ (intensity, 7.5f);
+}
+
+TEST_F (AnyCloud, LabelsThatBeginAtZeroAreToldOf)
+{
+  writeSphere (path ("ball.pcd"), 2000);
+  pcl::PointCloud<pcl::PointXYZLNormal> ball, both;
+  pcl::io::loadPCDFile (path ("ball.pcd"), ball);
+  for (std::uint32_t label = 0; label < 2; ++label)
+    for (auto p : ball)
+    {
+      p.x += 0.4f * static_cast<float> (label);
+      p.label = label;
+      both.push_back (p);
+    }
+  pcl::io::savePCDFileBinary (path ("two.pcd"), both);
+  ASSERT_EQ (run ({"two.pcd", "out"}), 0) << errors_;
+  EXPECT_NE (errors_.find ("reaches no farther than object 1: if labels count the objects from 0, add 1"), std::string::npos) << errors_;
+  writeTableScene (path ("scene.pcd"));
+  ASSERT_EQ (run ({"--resolution", "24", "scene.pcd", "out"}), 0) << errors_;
+  EXPECT_EQ (errors_.find ("count the objects from 0"), std::string::npos) << errors_;
 }

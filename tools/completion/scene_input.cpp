@@ -53,11 +53,11 @@ isWholeImage (const LabelledView& view)
           static_cast<double> (readings) > whole_image_share * static_cast<double> (pixels));
 }
 
-/** \brief A warning of an object that is too long to be one, if it is: without labels it may be a whole scene, or its unit is not the metre. */
-std::optional<std::string>
-tooLong (std::uint32_t label, const std::vector<OrientedPoint>& points)
+/** \brief How far points reach along the axes, without outliers, metres. */
+Eigen::Vector3d
+extentOf (const std::vector<OrientedPoint>& points)
 {
-  double longest = 0.0;
+  Eigen::Vector3d extent;
   std::vector<float> along (points.size ());
   for (int axis = 0; axis < 3; ++axis)
   {
@@ -66,8 +66,16 @@ tooLong (std::uint32_t label, const std::vector<OrientedPoint>& points)
     std::nth_element (along.begin (), along.begin () + cut, along.end ());
     const double least = along[cut];
     std::nth_element (along.begin (), along.end () - 1 - cut, along.end ());
-    longest = std::max (longest, *(along.end () - 1 - cut) - least);
+    extent[axis] = *(along.end () - 1 - cut) - least;
   }
+  return extent;
+}
+
+/** \brief A warning of an object that is too long to be one, if it is: without labels it may be a whole scene, or its unit is not the metre. */
+std::optional<std::string>
+tooLong (std::uint32_t label, const std::vector<OrientedPoint>& points)
+{
+  const double longest = extentOf (points).maxCoeff ();
   if (longest <= long_object)
     return std::nullopt;
   std::ostringstream text;
@@ -75,6 +83,20 @@ tooLong (std::uint32_t label, const std::vector<OrientedPoint>& points)
   text << "object " << label << " is " << longest << " m long: is it one (else give labels), and is its unit the metre (else --scale 0.01 for "
        << "centimetres, 0.001 for millimetres)?";
   return text.str ();
+}
+
+/** \brief A warning of a background that reaches no farther than an object, if it does: it may be the first object. */
+std::optional<std::string>
+smallBackground (const SceneInput& scene)
+{
+  if (scene.background.empty ())
+    return std::nullopt;
+  const double reach = extentOf (scene.background).norm ();
+  for (const auto& [id, object] : scene.objects)
+    if (reach <= extentOf (object.points).norm ())
+      return "label 0 is the background, and reaches no farther than object " + std::to_string (id) +
+             ": if labels count the objects from 0, add 1 to them";
+  return std::nullopt;
 }
 
 /** \brief A view that says nothing, in the place of a file without rays. */
@@ -228,6 +250,8 @@ readScene (const Settings& settings, const ProgressCallback& progress)
       reason += ": " + scene.warnings.back ();
     throw DegenerateInput (reason);
   }
+  if (const auto warning = smallBackground (scene))
+    scene.warnings.push_back (*warning);
   for (const std::string& warning : poses.unused (found))
     scene.warnings.push_back (warning);
   return (scene);
