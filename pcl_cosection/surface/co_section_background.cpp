@@ -4,6 +4,7 @@
 
 #include "mesh_attributes.h"
 #include "volume_layout.h"
+#include "voxel_size.h"
 
 #include <pcl/cosection/common/error.h>
 

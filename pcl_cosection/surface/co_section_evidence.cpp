@@ -6,15 +6,18 @@
 #include "measured_surface.h"
 #include "point_groups.h"
 #include "volume_layout.h"
+#include "voxel_size.h"
 
 #include <pcl/cosection/common/error.h>
 #include <pcl/cosection/shape/symmetric_extent.h>
 #include <pcl/cosection/surface/free_space_votes.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <iomanip>
 #include <limits>
+#include <map>
 #include <optional>
 #include <sstream>
 
@@ -33,6 +36,7 @@ constexpr double max_change = 1.2;            // of voxels and of their points' 
 constexpr int forgotten_after = 2;            // updates in which what was a vessel is none
 constexpr int least_free_views = 2;           // that look through a point of the background, for it to have moved ...
 constexpr double free_share = 0.25;           // ... and so many of those that see it there
+constexpr double most_of_memory = 0.67;        // is for objects, of what points and views leave; the rest for the background
 constexpr double max_sigma_vox = 10.0;        // as for the option
 constexpr double max_contradicted_share = 0.1; // of an object's points; good poses leave .03 or less
 constexpr double least_spacings_across = 5.0; // an object, along the middle of its extents: with fewer it is a lump
@@ -94,9 +98,9 @@ CoSectionRun::gridVoxelSize (Object& object) const
     if (!(body.wall_m > 0.0) && body.updates_without_wall < forgotten_after) // it may be less plain for a while
       body.wall_m = earlier_m;
     if (body.wall_m > 0.0)
-      voxel_size_m = vesselVoxelSize (voxel_size_m, body.wall_m, object.observed);
+      voxel_size_m = std::min (voxel_size_m, vesselVoxelSize (object.spacing_m, body.wall_m, object.observed));
   }
-  return followedSize (object, voxel_size_m);
+  return voxel_size_m;
 }
 
 double
@@ -136,31 +140,50 @@ CoSectionRun::place (FollowedBody& body, int id, const Eigen::AlignedBox3d& box,
   body.restart (grid, options, carve);
 }
 
+std::array<double, 3>
+CoSectionRun::possibleVoxelSizes (Object& object) const
+{
+  const double fine_m = gridVoxelSize (object);
+  if (fixedVoxelSize (scene_.options))
+    return {fine_m, fine_m, fine_m};
+  return {fine_m, std::max (fine_m, object.voxel_size_m), std::max (fine_m, object.spacing_m)};
+}
+
 void
 CoSectionRun::createVolumes ()
 {
   const bool carve = scene_.options.use_hull && scene_.options.carve_free_space && !scene_.views.empty ();
+  struct Place
+  {
+    Eigen::AlignedBox3d box;
+    std::array<double, 3> sizes_m; // from the finest to the coarsest
+  };
+  std::map<const Object*, Place> places;
+  std::size_t volumes = 0;
+  std::array<std::size_t, 3> bytes{};
   for (Object& object : objects_)
     if (object.alive ())
       guarded (object, [&] {
-        const auto place_with = [&] (double voxel_size_m) {
-          place (*object.body, object.input->id, volumeBox (object), voxel_size_m, carve, std::max (1.0, object.voxel_size_m / voxel_size_m));
-        };
-        std::vector<double> sizes_m{gridVoxelSize (object)};
-        for (const double larger_m : {object.voxel_size_m, fixedVoxelSize (scene_.options) ? 0.0 : object.spacing_m})
-          if (larger_m > sizes_m.back ())
-            sizes_m.push_back (followedSize (object, larger_m));
-        for (const double voxel_size_m : sizes_m) // a coarse mesh rather than none
-          try
-          {
-            place_with (voxel_size_m);
-            break;
-          }
-          catch (const MemoryLimitExceeded&)
-          {
-            if (voxel_size_m == sizes_m.back ())
-              throw;
-          }
+        Place& place = places[&object];
+        place.box = volumeBox (object);
+        place.sizes_m = possibleVoxelSizes (object);
+        for (std::size_t n = 0; n < bytes.size (); ++n)
+          bytes[n] += ShapeVolume::estimateBytes (layoutBox (place.box, place.sizes_m[n]));
+        volumes += object.body->volume ? ShapeVolume::estimateBytes (object.body->grid ()) : 0;
+      });
+  // As fine as leaves room for all of them and the background: coarse meshes of all rather than fine ones of some.
+  const std::size_t limit = scene_.options.max_memory_bytes, used = bytesInUse () - volumes;
+  std::size_t level = 0;
+  while (limit > 0 && level + 1 < bytes.size () &&
+         static_cast<double> (used) + static_cast<double> (bytes[level]) / most_of_memory > static_cast<double> (limit))
+    ++level;
+  for (Object& object : objects_)
+    if (object.alive ())
+      guarded (object, [&] {
+        const Place& place_of = places.at (&object);
+        const double voxel_size_m = followedSize (object, place_of.sizes_m[level]);
+        const double smooth_m = object.body->wall_m > 0.0 && !fixedVoxelSize (scene_.options) ? object.spacing_m : object.voxel_size_m;
+        place (*object.body, object.input->id, place_of.box, voxel_size_m, carve, std::max (1.0, smooth_m / voxel_size_m));
       });
 }
 

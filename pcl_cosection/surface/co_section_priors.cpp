@@ -6,6 +6,7 @@
 #include "implied_support.h"
 #include "open_places.h"
 #include "volume_layout.h"
+#include "voxel_size.h"
 
 #include <algorithm>
 #include <cmath>

@@ -6,6 +6,7 @@
 #include "mesh_attributes.h"
 #include "stray_points.h"
 #include "volume_layout.h"
+#include "voxel_size.h"
 
 #include <pcl/cosection/common/error.h>
 
@@ -146,8 +147,9 @@ void
 CoSectionRun::measure (Object& object) const
 {
   object.observed = observedBox (object.points (), scene_.options.threads);
-  object.spacing_m = supportedVoxelSize (object.points (), object.observed);
-  object.voxel_size_m = objectVoxelSize (object.spacing_m, object.observed, scene_.options);
+  const PointSpacing spacing = measureSpacing (object.points (), object.observed);
+  object.spacing_m = spacing.supported_m;
+  object.voxel_size_m = objectVoxelSize (spacing, object.observed, scene_.options);
 }
 
 void

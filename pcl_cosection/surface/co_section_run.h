@@ -13,6 +13,7 @@
 #include <pcl/cosection/common/error.h>
 
 #include <chrono>
+#include <array>
 #include <map>
 #include <memory>
 #include <new>
@@ -165,6 +166,9 @@ private:
   /** \brief As the points support it; finer for the walls of vessels. That of a body that is followed stays, unless it is very wrong. */
   double
   gridVoxelSize (Object& object) const;
+  /** \brief From the one that is best to one that takes little memory. */
+  std::array<double, 3>
+  possibleVoxelSizes (Object& object) const;
   /** \brief That which it has, if it is near enough to the one wanted. */
   double
   followedSize (const Object& object, double voxel_size_m) const;

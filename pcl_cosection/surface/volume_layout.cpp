@@ -27,18 +27,6 @@ namespace
 {
 
 constexpr double outlier_share = 0.005; // of the points, at either end of each axis
-constexpr int default_resolution = 64;
-constexpr double points_per_voxel = 3.0;
-constexpr double least_points_per_voxel = 1.5; // where more would take the shape:
-constexpr int least_resolution = 16;           // voxels along the longest side
-constexpr double voxel_growth = 1.1;
-// Voxels that are smaller than what the points' spacing supports by
-constexpr double finer = 0.65;
-constexpr double finest = 0.5; // if the longest side has
-constexpr double few_voxels = 32.0; // or fewer,
-// are more accurate: more so than coarse ones with less smoothing, and than fine ones with as much as the coarse have.
-constexpr double voxels_per_wall = 2.0;
-constexpr double finest_vessel = 0.75; // of the voxels that another object would have
 constexpr int min_axis = 8;      // voxels
 constexpr double max_axis = 8192; // voxels
 constexpr double min_extent_m = 1e-6;
@@ -46,26 +34,6 @@ constexpr double min_extent_m = 1e-6;
 // borders of cells.
 constexpr double possible_cells = 20.6;
 constexpr double possible_margin_vox = 6.0; // around that
-
-/** \brief Voxels of edge \a h with a point in them. */
-std::size_t
-occupiedVoxels (const std::vector<OrientedPoint>& points, const Eigen::AlignedBox3d& box, double h)
-{
-  const Eigen::Array3i dims = (box.sizes () / h).array ().floor ().cast<int> () + 1;
-  std::vector<std::uint8_t> occupied (static_cast<std::size_t> (dims.x ()) * dims.y () * dims.z (), 0);
-  std::size_t count = 0;
-  for (const OrientedPoint& p : points)
-  {
-    const Eigen::Vector3d position = p.position.cast<double> ();
-    if (!box.contains (position))
-      continue;
-    const Eigen::Array3i at = ((position - box.min ()) / h).cast<int> ();
-    std::uint8_t& voxel = occupied[(static_cast<std::size_t> (at.z ()) * dims.y () + at.y ()) * dims.x () + at.x ()];
-    count += voxel == 0;
-    voxel = 1;
-  }
-  return count;
-}
 
 /** \brief Whether a point in the sensor's frame lies before what was measured, by more than \a margin_m. */
 bool
@@ -106,13 +74,6 @@ isBelow (const std::vector<Eigen::Vector4d>& planes, const Eigen::Vector3d& p, d
 {
   return std::any_of (planes.begin (), planes.end (),
                       [&] (const Eigen::Vector4d& plane) { return plane.head<3> ().dot (p) + plane[3] < height_m; });
-}
-
-double
-accurateVoxelSize (double supported_m, double longest_m)
-{
-  const double fine = std::clamp (longest_m / few_voxels, finest * supported_m, finer * supported_m);
-  return std::max (fine, longest_m / default_resolution);
 }
 
 } // namespace
@@ -171,49 +132,6 @@ observedBox (const std::vector<OrientedPoint>& points, int threads)
   if (!(box.sizes ().maxCoeff () > min_extent_m))
     throw DegenerateInput ("all points lie on one spot");
   return box;
-}
-
-double
-supportedVoxelSize (const std::vector<OrientedPoint>& points, const Eigen::AlignedBox3d& box)
-{
-  const double longest = box.sizes ().maxCoeff ();
-  double h = longest / default_resolution;
-  const auto supported = [&] {
-    const double wanted = h < longest / least_resolution ? points_per_voxel : least_points_per_voxel;
-    return static_cast<double> (points.size ()) >= wanted * static_cast<double> (occupiedVoxels (points, box, h));
-  };
-  while (h < longest / min_axis && !supported ())
-    h *= voxel_growth;
-  return h;
-}
-
-bool
-fixedVoxelSize (const CoSectionOptions& options)
-{
-  return options.voxel_size_m > 0.0 || options.resolution > 0;
-}
-
-double
-objectVoxelSize (double supported_m, const Eigen::AlignedBox3d& box, const CoSectionOptions& options)
-{
-  const double longest = box.sizes ().maxCoeff ();
-  const double h = options.voxel_size_m;
-  if (h <= 0.0)
-    return options.resolution > 0 ? longest / options.resolution : accurateVoxelSize (supported_m, longest);
-  if (h > longest)
-  {
-    std::ostringstream message;
-    message << "voxel size " << h << " m is larger than the object, which is " << longest << " m long";
-    throw InvalidArgument (message.str ());
-  }
-  return h;
-}
-
-double
-vesselVoxelSize (double voxel_size_m, double wall_m, const Eigen::AlignedBox3d& box)
-{
-  const double least_m = std::max (finest_vessel * voxel_size_m, box.sizes ().maxCoeff () / default_resolution);
-  return std::min (voxel_size_m, std::max (least_m, wall_m / voxels_per_wall));
 }
 
 Eigen::AlignedBox3d

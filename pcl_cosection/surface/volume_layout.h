@@ -22,28 +22,6 @@ namespace cosection
 Eigen::AlignedBox3d
 observedBox (const std::vector<OrientedPoint>& points, int threads = 0);
 
-/** \brief The smallest voxel size that the points' spacing supports, of those that give at most 64 voxels along the
- * longest side: at least three points in each occupied voxel on average, or 1.5 if voxels were larger than a 16th of the
- * longest side. */
-double
-supportedVoxelSize (const std::vector<OrientedPoint>& points, const Eigen::AlignedBox3d& observed);
-
-/** \brief Whether the options say how large an object's voxels are. */
-bool
-fixedVoxelSize (const CoSectionOptions& options);
-
-/** \brief The voxel size of the options. If neither it nor a resolution is given, 64 voxels along the longest side,
- * but voxels no smaller than .65 times those that the points' spacing supports (supportedVoxelSize ()), or .5 times
- * where no more than 32 lie along the longest side.
- * \throws InvalidArgument */
-double
-objectVoxelSize (double supported_m, const Eigen::AlignedBox3d& observed, const CoSectionOptions& options);
-
-/** \brief Voxels of a vessel (SymmetricExtent::wallThickness ()): half as large as its wall is thick, if that is smaller than \a voxel_size_m,
- * but no smaller than 3/4 of \a voxel_size_m and a 64th of the longest side. They may be finer than the points' spacing supports, as points are turned to all sides. */
-double
-vesselVoxelSize (double voxel_size_m, double wall_m, const Eigen::AlignedBox3d& observed);
-
 /** \brief Box of where an object may be, with a margin: where ExtentPrior asks for no distance, on the upper
  * side of all \a planes; and \a known.
  * \param[in] extents_m observedExtents () of the points
