@@ -31,9 +31,10 @@ constexpr double voxel_growth = 1.1;
 constexpr double finer = 0.65;
 // are more accurate: more so than coarse ones with less smoothing, and than fine ones with as much as the coarse have. But not where
 // they are finer than the points' noise, which three points in each average:
-constexpr double voxels_per_noise = 1.2;
+constexpr double voxels_per_noise = 1.6;
 constexpr std::size_t points_to_measure_noise = 5; // in a cell
-constexpr double noise_cells = 1.5;                // their edge, in voxels that the points support
+constexpr double noise_cells = 3.0; // their edge, in voxels that the points support: less would cut the noise off
+constexpr double facing_alike = 0.4; // length of the mean normal: with less there are two sides in a cell
 constexpr double voxels_per_wall = 2.0;
 constexpr double finest_vessel = 0.5; // of the voxels that the points' spacing supports
 constexpr int least_voxels = 8; // voxels
@@ -126,7 +127,7 @@ measureSpacing (const std::vector<OrientedPoint>& points, const Eigen::AlignedBo
   }
   std::vector<double> noise_m;
   for (const auto& [key, cell] : cells)
-    if (cell.count >= points_to_measure_noise)
+    if (cell.count >= points_to_measure_noise && cell.normal.norm () > facing_alike * static_cast<double> (cell.count))
       noise_m.push_back (cell.scatterAlongNormal ());
   if (!noise_m.empty ())
     spacing.noise_m = valuesOfRanks (noise_m, {noise_m.size () / 2, noise_m.size () / 2})[0];

@@ -36,7 +36,7 @@ fixedVoxelSize (const CoSectionOptions& options);
 
 /** \brief The voxel size of the options. If neither it nor a resolution is given, 64 voxels along the longest side,
  * but voxels no smaller than .65 times those that the points' spacing supports (supportedVoxelSize ()), nor, up to the size of those,
- * than 1.2 times the points' noise.
+ * than 1.6 times the points' noise.
  * \throws InvalidArgument */
 double
 objectVoxelSize (const PointSpacing& spacing, const Eigen::AlignedBox3d& observed, const CoSectionOptions& options);
