@@ -4,13 +4,13 @@
 
 #include "estimated_normals.h"
 #include "object_surroundings.h"
+#include "scattered_points.h"
 
 #include <pcl/cosection/surface/normal_orientation.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <limits>
 
 namespace pcl
 {
@@ -20,9 +20,6 @@ namespace cosection
 namespace
 {
 
-constexpr float nan_value = std::numeric_limits<float>::quiet_NaN ();
-constexpr int scattered_neighbours = 20;     // of which the farthest ...
-constexpr float scattered_factor = 4.0f;     // ... is so much farther than usual: the point shows no surface
 constexpr float one_sided = 0.7f;            // length of the mean normal of a background that has a side; of random ones to one side, 0.5
 constexpr std::size_t least_background = 100; // points, which tell of a side
 constexpr double decisive = 0.75;            // share of a piece that faces to one side
@@ -96,36 +93,6 @@ sideOf (const Eigen::AlignedBox3f& surroundings, const Members& members, const S
   if (!(count >= least_background && sum.norm () > one_sided * static_cast<double> (count)))
     return Eigen::Vector3f::Zero ();
   return sum.normalized ().cast<float> ();
-}
-
-/** \brief Take the normals of points of the background near objects that are so much farther from each other than others there that they show no
- * surface. */
-void
-leaveOutScattered (const PcdViewOptions& options, const Surroundings& objects, const std::vector<std::size_t>& background, SensorCloud& cloud)
-{
-  const std::vector<float> reach = neighbourDistances (pick (cloud.positions, background), scattered_neighbours, options.threads);
-  std::vector<bool> scattered (background.size (), true);
-  for (const auto& [label, box] : objects)
-  {
-    std::vector<std::size_t> near;
-    std::vector<float> sorted;
-    for (std::size_t k = 0; k < background.size (); ++k)
-      if (box.contains (cloud.positions[background[k]]))
-      {
-        near.push_back (k);
-        sorted.push_back (reach[k]);
-      }
-    if (near.empty ())
-      continue;
-    const auto middle = sorted.begin () + static_cast<std::ptrdiff_t> (sorted.size () / 2);
-    std::nth_element (sorted.begin (), middle, sorted.end ());
-    for (const std::size_t k : near)
-      if (reach[k] <= scattered_factor * *middle)
-        scattered[k] = false;
-  }
-  for (std::size_t k = 0; k < background.size (); ++k)
-    if (scattered[k])
-      cloud.normals[background[k]].setConstant (nan_value);
 }
 
 } // namespace

@@ -6,9 +6,12 @@
 #include "estimated_normals.h"
 #include "flying_pixels.h"
 #include "object_surroundings.h"
+#include "points_behind_edges.h"
+#include "scattered_points.h"
 #include "sensor_view.h"
 
 #include <pcl/cosection/surface/normal_orientation.h>
+#include <pcl/cosection/surface/organized_normals.h>
 #include <pcl/cosection/surface/range_image.h>
 
 #include <algorithm>
@@ -28,6 +31,8 @@ constexpr float away_cosine = -0.2f;       // of a normal that clearly points aw
 constexpr double least_filled = 0.01;      // share of normals with a direction, of which fields have some
 constexpr double worth_saying = 0.02;      // share of the normals
 constexpr double surely_inward = 0.3;      // outward share of a body whose normals are flipped
+constexpr std::size_t least_points = 100;  // of an object: as many remain if some are left out, ...
+constexpr double most_left_out = 0.3;      // ... which are no larger a share than this
 
 /** \brief Turn normals that clearly point away from the viewpoint, which is the origin. \return their share */
 double
@@ -80,6 +85,29 @@ checkWithoutViewpoint (const std::string& path, const Members& members, SensorCl
   }
 }
 
+/** \brief Take the normals of points of an object that are nowhere, behind its own edges, and of those seen at too grazing an angle, as
+ * computeOrganizedNormals () does, if enough others remain. \param[in] T_view_points from the points' frame, that of their sensor, to the frame of a
+ * camera there that saw them */
+void
+leaveOutUnreliable (const PcdViewOptions& options, const Eigen::Isometry3d& T_view_points, EstimatedNormals& estimated)
+{
+  const std::vector<Eigen::Vector3f>& points = estimated.points;
+  std::vector<Eigen::Vector3f> seen;
+  seen.reserve (points.size ());
+  for (const Eigen::Vector3f& point : points)
+    seen.push_back ((T_view_points * point.cast<double> ()).cast<float> ());
+  std::vector<bool> unreliable = findBehindEdges (seen, options.threads);
+  const auto least_cosine = static_cast<float> (std::cos (OrganizedNormalsOptions ().max_incidence_rad));
+  for (std::size_t i = 0; i < points.size (); ++i)
+    unreliable[i] = unreliable[i] || std::abs (points[i].normalized ().dot (estimated.normals[i])) < least_cosine;
+  const auto left_out = static_cast<std::size_t> (std::count (unreliable.begin (), unreliable.end (), true));
+  if (points.size () < least_points + left_out || static_cast<double> (left_out) > most_left_out * static_cast<double> (points.size ()))
+    return;
+  for (std::size_t i = 0; i < points.size (); ++i)
+    if (unreliable[i])
+      estimated.normals[i].setConstant (std::numeric_limits<float>::quiet_NaN ());
+}
+
 /** \brief Fields that nobody has filled, with zeros or not finite, are as none. */
 void
 dropUnfilledNormals (SensorCloud& cloud)
@@ -120,19 +148,23 @@ completeUnorganized (const std::string& path, const PcdViewOptions& options, Sen
                                ", or add fields normal_x normal_y normal_z)");
     return;
   }
-  const auto add = [&] (const std::vector<std::size_t>& indices) {
-    const EstimatedNormals estimated = estimateNormals (options, pick (cloud.positions, indices));
+  const auto add = [&] (const std::vector<std::size_t>& indices, bool object) {
+    EstimatedNormals estimated = estimateNormals (options, pick (cloud.positions, indices));
+    if (object)
+      leaveOutUnreliable (options, result.view->T_world_sensor.inverse () * cloud.T_world_sensor, estimated);
     for (std::size_t k = 0; k < indices.size (); ++k)
       cloud.normals[indices[k]] = estimated.normals[estimated.of[k]];
   };
-  const BackgroundParts background = partsOfBackground (surroundingsOf (members, cloud), members, cloud);
-  add (background.near);
-  add (background.far);
+  const Surroundings objects = surroundingsOf (members, cloud);
+  const BackgroundParts background = partsOfBackground (objects, members, cloud);
+  add (background.near, false);
+  add (background.far, false);
   for (const auto& [label, indices] : members)
     if (label != 0)
-      add (indices);
+      add (indices, true);
   turnTowardsViewpoint (0.0f, cloud);
   leaveOutFlyingPixels (*result.view, cloud);
+  leaveOutScattered (options, objects, background.near, cloud);
 }
 
 } // namespace cosection

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_cosection authors
+#include "points_behind_edges.h"
+
+#include "estimated_normals.h"
+
+#include <pcl/cosection/common/camera.h>
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+
+namespace pcl
+{
+namespace cosection
+{
+
+namespace
+{
+
+constexpr int spacing_neighbours = 6;
+constexpr float reach_to_spacing = 0.72f; // square root of pi / 6: as many neighbours, a point in each square
+constexpr float beside_spacings = 1.25f;  // from a point of an edge in the image
+constexpr float behind_spacings = 6.0f;   // a surface of up to 78 degrees to the image falls off less on that way ...
+constexpr double behind_sigmas = 6.0;     // ... but for noise
+constexpr float pixels_per_spacing = 1.5f; // of the most dense points
+constexpr double most_dense = 0.1;        // share of all points
+constexpr float most_pixels = 2048.0f;    // along a side
+constexpr float most_pixels_beside = 30.0f;
+
+/** \brief From which depth on what is seen in a pixel is behind some point beside it. */
+class DepthLimit
+{
+public:
+  DepthLimit (const std::vector<Eigen::Vector3f>& points, const std::vector<float>& spacings)
+  {
+    std::vector<float> angles;
+    angles.reserve (points.size ());
+    for (std::size_t i = 0; i < points.size (); ++i)
+    {
+      slopes_.extend (slopeOf (points[i]));
+      angles.push_back (spacings[i] / points[i].z ());
+    }
+    const auto rank = angles.begin () + static_cast<std::ptrdiff_t> (most_dense * static_cast<double> (angles.size ()));
+    std::nth_element (angles.begin (), rank, angles.end ());
+    pixel_ = std::max ({*rank / pixels_per_spacing, slopes_.sizes ().maxCoeff () / most_pixels, std::numeric_limits<float>::min ()});
+    size_ = (slopes_.sizes () / pixel_).cast<int> ().array () + 1;
+    limit_.assign (static_cast<std::size_t> (size_.x ()) * size_.y (), std::numeric_limits<float>::infinity ());
+  }
+
+  void
+  add (const Eigen::Vector3f& point, float spacing)
+  {
+    const float z = point.z ();
+    const float behind = z + std::max (behind_spacings * spacing, static_cast<float> (behind_sigmas * depthNoiseSigma (z)));
+    const float radius = std::min (most_pixels_beside, beside_spacings * spacing / z / pixel_);
+    const Eigen::Array2f centre = place (point);
+    const Eigen::Array2i first = (centre - radius).ceil ().cast<int> ().max (0);
+    const Eigen::Array2i last = (centre + radius).floor ().cast<int> ().min (size_ - 1);
+    for (int v = first.y (); v <= last.y (); ++v)
+      for (int u = first.x (); u <= last.x (); ++u)
+        if ((Eigen::Array2f (static_cast<float> (u), static_cast<float> (v)) - centre).matrix ().squaredNorm () <= radius * radius)
+        {
+          float& limit = limit_[static_cast<std::size_t> (v) * size_.x () + u];
+          limit = std::min (limit, behind);
+        }
+  }
+
+  bool
+  isBehind (const Eigen::Vector3f& point) const
+  {
+    const Eigen::Array2i at = place (point).round ().cast<int> ().max (0).min (size_ - 1);
+    return point.z () > limit_[static_cast<std::size_t> (at.y ()) * size_.x () + at.x ()];
+  }
+
+private:
+  static Eigen::Vector2f
+  slopeOf (const Eigen::Vector3f& point)
+  {
+    return point.head<2> () / point.z ();
+  }
+
+  /** \brief In pixels. */
+  Eigen::Array2f
+  place (const Eigen::Vector3f& point) const
+  {
+    return (slopeOf (point) - slopes_.min ()).array () / pixel_;
+  }
+
+  Eigen::AlignedBox2f slopes_;
+  float pixel_ = 0.0f;
+  Eigen::Array2i size_;
+  std::vector<float> limit_;
+};
+
+} // namespace
+
+std::vector<bool>
+findBehindEdges (const std::vector<Eigen::Vector3f>& points, int threads)
+{
+  std::vector<bool> behind (points.size ());
+  if (points.empty ())
+    return behind;
+  std::vector<float> spacings = neighbourDistances (points, spacing_neighbours, threads);
+  for (float& spacing : spacings)
+    spacing *= reach_to_spacing;
+  DepthLimit limit (points, spacings);
+  for (std::size_t i = 0; i < points.size (); ++i)
+    limit.add (points[i], spacings[i]);
+  for (std::size_t i = 0; i < points.size (); ++i)
+    behind[i] = limit.isBehind (points[i]);
+  return behind;
+}
+
+} // namespace cosection
+} // namespace pcl
