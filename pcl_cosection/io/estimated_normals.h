@@ -6,6 +6,7 @@
 
 #include <Eigen/Core>
 
+#include <cstdint>
 #include <vector>
 
 namespace pcl
@@ -13,17 +14,24 @@ namespace pcl
 namespace cosection
 {
 
-/** \brief Points and their normals, NaN where there is none. */
-struct EstimatedNormals
+/** \brief Some points that stand for all. */
+struct ThinnedPoints
 {
   std::vector<Eigen::Vector3f> points;
-  std::vector<Eigen::Vector3f> normals; ///< of any sign
-  std::vector<std::uint32_t> of;        ///< which one stands for each of the points that were given
+  std::vector<std::uint32_t> of; ///< which one stands for each of the points that were given
 };
 
-/** \brief Normals of points without an order, by pcl::NormalEstimationOMP.
- *
- * Where they are so dense that the nearest ones would show noise alone, means of points in cells stand for them. */
+/** \brief Means of points in cells, where points are so dense that the nearest ones would show noise alone; else the points themselves. */
+ThinnedPoints
+thinDense (const std::vector<Eigen::Vector3f>& points);
+
+/** \brief Points and their normals, NaN where there is none. */
+struct EstimatedNormals : ThinnedPoints
+{
+  std::vector<Eigen::Vector3f> normals; ///< of any sign
+};
+
+/** \brief Normals of points without an order, by pcl::NormalEstimationOMP, for what stands for them (thinDense ()). */
 EstimatedNormals
 estimateNormals (const PcdViewOptions& options, const std::vector<Eigen::Vector3f>& positions);
 

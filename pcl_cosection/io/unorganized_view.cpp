@@ -86,26 +86,38 @@ checkWithoutViewpoint (const std::string& path, const Members& members, SensorCl
 }
 
 /** \brief Take the normals of points of an object that are nowhere, behind its own edges, and of those seen at too grazing an angle, as
- * computeOrganizedNormals () does, if enough others remain. \param[in] T_view_points from the points' frame, that of their sensor, to the frame of a
- * camera there that saw them */
+ * computeOrganizedNormals () does, if enough others remain. */
 void
-leaveOutUnreliable (const PcdViewOptions& options, const Eigen::Isometry3d& T_view_points, EstimatedNormals& estimated)
+leaveOutUnreliable (const PcdViewOptions& options, const DepthView& view, const std::vector<std::size_t>& indices, SensorCloud& cloud)
 {
-  const std::vector<Eigen::Vector3f>& points = estimated.points;
-  std::vector<Eigen::Vector3f> seen;
-  seen.reserve (points.size ());
-  for (const Eigen::Vector3f& point : points)
-    seen.push_back ((T_view_points * point.cast<double> ()).cast<float> ());
-  std::vector<bool> unreliable = findBehindEdges (seen, options.threads);
+  ThinnedPoints thinned = thinDense (pick (cloud.positions, indices));
+  const Eigen::Isometry3f T_view_points = (view.T_world_sensor.inverse () * cloud.T_world_sensor).cast<float> ();
+  for (Eigen::Vector3f& point : thinned.points)
+    point = T_view_points * point;
+  const std::vector<bool> behind = findBehindEdges (thinned.points, options.threads);
   const auto least_cosine = static_cast<float> (std::cos (OrganizedNormalsOptions ().max_incidence_rad));
-  for (std::size_t i = 0; i < points.size (); ++i)
-    unreliable[i] = unreliable[i] || std::abs (points[i].normalized ().dot (estimated.normals[i])) < least_cosine;
-  const auto left_out = static_cast<std::size_t> (std::count (unreliable.begin (), unreliable.end (), true));
-  if (points.size () < least_points + left_out || static_cast<double> (left_out) > most_left_out * static_cast<double> (points.size ()))
+  std::vector<std::size_t> unreliable;
+  for (std::size_t k = 0; k < indices.size (); ++k)
+  {
+    const Eigen::Vector3f& position = cloud.positions[indices[k]];
+    const Eigen::Vector3f& normal = cloud.normals[indices[k]];
+    if (behind[thinned.of[k]] || std::abs (position.dot (normal)) < least_cosine * position.norm () * normal.norm ())
+      unreliable.push_back (indices[k]);
+  }
+  if (indices.size () < least_points + unreliable.size () ||
+      static_cast<double> (unreliable.size ()) > most_left_out * static_cast<double> (indices.size ()))
     return;
-  for (std::size_t i = 0; i < points.size (); ++i)
-    if (unreliable[i])
-      estimated.normals[i].setConstant (std::numeric_limits<float>::quiet_NaN ());
+  for (const std::size_t i : unreliable)
+    cloud.normals[i].setConstant (std::numeric_limits<float>::quiet_NaN ());
+}
+
+/** \brief Estimate the normals of some of the points, of any sign. */
+void
+addNormals (const PcdViewOptions& options, const std::vector<std::size_t>& indices, SensorCloud& cloud)
+{
+  const EstimatedNormals estimated = estimateNormals (options, pick (cloud.positions, indices));
+  for (std::size_t k = 0; k < indices.size (); ++k)
+    cloud.normals[indices[k]] = estimated.normals[estimated.of[k]];
 }
 
 /** \brief Fields that nobody has filled, with zeros or not finite, are as none. */
@@ -129,40 +141,37 @@ completeUnorganized (const std::string& path, const PcdViewOptions& options, Sen
       members[cloud.labels[i]].push_back (i);
   result.view = viewFromSensor (path, options, members, cloud, result);
   dropUnfilledNormals (cloud);
-  if (!cloud.normals.empty ())
-  {
-    if (!result.view)
-      checkWithoutViewpoint (path, members, cloud, result);
-    else if (const double turned = turnTowardsViewpoint (away_cosine, cloud); turned > worth_saying)
-      result.warnings.push_back (path + ": " + percentText (turned) +
-                                 " of the normals point away from the VIEWPOINT; they were turned");
-    return;
-  }
-  cloud.normals.assign (cloud.positions.size (), Eigen::Vector3f::Constant (std::numeric_limits<float>::quiet_NaN ()));
-  if (!result.view)
+  const bool given = !cloud.normals.empty ();
+  if (!given)
+    cloud.normals.assign (cloud.positions.size (), Eigen::Vector3f::Constant (std::numeric_limits<float>::quiet_NaN ()));
+  if (!result.view && given)
+    checkWithoutViewpoint (path, members, cloud, result);
+  else if (!result.view)
   {
     addConsistentNormals (options, members, cloud);
     result.warnings.push_back (path + ": where its points were seen from is not known; their normals were turned so that neighbours agree, and hollow things " +
                                "may be filled or inside out (better: " +
                                (cloud.has_viewpoint ? "give merged views as separate INPUTs, each with its VIEWPOINT" : "give --viewpoint, set the VIEWPOINT") +
                                ", or add fields normal_x normal_y normal_z)");
-    return;
   }
-  const auto add = [&] (const std::vector<std::size_t>& indices, bool object) {
-    EstimatedNormals estimated = estimateNormals (options, pick (cloud.positions, indices));
-    if (object)
-      leaveOutUnreliable (options, result.view->T_world_sensor.inverse () * cloud.T_world_sensor, estimated);
-    for (std::size_t k = 0; k < indices.size (); ++k)
-      cloud.normals[indices[k]] = estimated.normals[estimated.of[k]];
-  };
+  if (!result.view)
+    return;
+
   const Surroundings objects = surroundingsOf (members, cloud);
   const BackgroundParts background = partsOfBackground (objects, members, cloud);
-  add (background.near, false);
-  add (background.far, false);
+  if (!given)
+  {
+    addNormals (options, background.near, cloud);
+    addNormals (options, background.far, cloud);
+    for (const auto& [label, indices] : members)
+      if (label != 0)
+        addNormals (options, indices, cloud);
+  }
+  if (const double turned = turnTowardsViewpoint (given ? away_cosine : 0.0f, cloud); given && turned > worth_saying)
+    result.warnings.push_back (path + ": " + percentText (turned) + " of the normals point away from the VIEWPOINT; they were turned");
   for (const auto& [label, indices] : members)
     if (label != 0)
-      add (indices, true);
-  turnTowardsViewpoint (0.0f, cloud);
+      leaveOutUnreliable (options, *result.view, indices, cloud);
   leaveOutFlyingPixels (*result.view, cloud);
   leaveOutScattered (options, objects, background.near, cloud);
 }
