@@ -25,7 +25,8 @@ constexpr int spacing_neighbours = 6;
 constexpr float reach_to_spacing = 0.72f; // square root of pi / 6: as many neighbours, a point in each square
 constexpr float beside_spacings = 1.25f;  // from a point of an edge in the image
 constexpr float behind_spacings = 6.0f;   // a surface of up to 78 degrees to the image falls off less on that way ...
-constexpr double behind_sigmas = 6.0;     // ... but for noise
+constexpr double edge_sigmas = 6.0;       // ... but for noise, ...
+constexpr double edge_slope = 0.03;       // ... and never by so small a fraction of the depth
 constexpr float pixels_per_spacing = 1.5f; // of the most dense points
 constexpr double most_dense = 0.1;        // share of all points
 constexpr float most_pixels = 2048.0f;    // along a side
@@ -55,7 +56,7 @@ public:
   add (const Eigen::Vector3f& point, float spacing)
   {
     const float z = point.z ();
-    const float behind = z + std::max (behind_spacings * spacing, static_cast<float> (behind_sigmas * depthNoiseSigma (z)));
+    const float behind = z + std::max (behind_spacings * spacing, static_cast<float> (edge_sigmas * depthNoiseSigma (z) + edge_slope * z));
     const float radius = std::min (most_pixels_beside, beside_spacings * spacing / z / pixel_);
     const Eigen::Array2f centre = place (point);
     const Eigen::Array2i first = (centre - radius).ceil ().cast<int> ().max (0);

@@ -85,17 +85,16 @@ checkWithoutViewpoint (const std::string& path, const Members& members, SensorCl
   }
 }
 
-/** \brief Take the normals of points of an object that are nowhere, behind its own edges, and of those seen at too grazing an angle, as
- * computeOrganizedNormals () does, if enough others remain. */
+/** \brief Take the normals of points of an object that are nowhere, behind its own edges, if enough others remain.
+ * \param[in] least_cosine of the angle at which a point must have been seen, too */
 void
-leaveOutUnreliable (const PcdViewOptions& options, const DepthView& view, const std::vector<std::size_t>& indices, SensorCloud& cloud)
+leaveOutUnreliable (const PcdViewOptions& options, const DepthView& view, const std::vector<std::size_t>& indices, float least_cosine, SensorCloud& cloud)
 {
   ThinnedPoints thinned = thinDense (pick (cloud.positions, indices));
   const Eigen::Isometry3f T_view_points = (view.T_world_sensor.inverse () * cloud.T_world_sensor).cast<float> ();
   for (Eigen::Vector3f& point : thinned.points)
     point = T_view_points * point;
   const std::vector<bool> behind = findBehindEdges (thinned.points, options.threads);
-  const auto least_cosine = static_cast<float> (std::cos (OrganizedNormalsOptions ().max_incidence_rad));
   std::vector<std::size_t> unreliable;
   for (std::size_t k = 0; k < indices.size (); ++k)
   {
@@ -169,9 +168,11 @@ completeUnorganized (const std::string& path, const PcdViewOptions& options, Sen
   }
   if (const double turned = turnTowardsViewpoint (given ? away_cosine : 0.0f, cloud); given && turned > worth_saying)
     result.warnings.push_back (path + ": " + percentText (turned) + " of the normals point away from the VIEWPOINT; they were turned");
+  const double max_incidence_rad = OrganizedNormalsOptions ().max_incidence_rad; // of normals that are estimated
+  const float least_cosine = given ? 0.0f : static_cast<float> (std::cos (max_incidence_rad));
   for (const auto& [label, indices] : members)
     if (label != 0)
-      leaveOutUnreliable (options, *result.view, indices, cloud);
+      leaveOutUnreliable (options, *result.view, indices, least_cosine, cloud);
   leaveOutFlyingPixels (*result.view, cloud);
   leaveOutScattered (options, objects, background.near, cloud);
 }

@@ -155,11 +155,13 @@ public:
       if (const auto out = wayOut (cell, cells_, neighbour_reach * edge_))
         for (std::size_t v = 0; v < views.size (); ++v)
         {
-          const auto goes_on = [&] (double cells) {
-            return isOpen (normals.origin + normals.size * (cell.position + cells * edge_ * *out), normals.size * edge_, views[v]);
+          const auto at = [&] (double cells) {
+            return Eigen::Vector3d (normals.origin + normals.size * (cell.position + cells * edge_ * *out));
           };
+          const auto goes_on = [&] (double cells) { return isOpen (at (cells), normals.size * edge_, views[v]); };
           const double cosine = facingBeyond (cell, *out, sensors_[v]);
-          if (cosine > std::max (least_facing, cell.facing) && std::all_of (beyond.begin (), beyond.end (), goes_on))
+          if (cosine > std::max (least_facing, cell.facing) && std::all_of (beyond.begin (), beyond.end (), goes_on) &&
+              !isSeen (at (beyond.back ()), normals.size * edge_, views[v]))
             cell.facing = cosine;
         }
   }
@@ -201,6 +203,15 @@ private:
     const Eigen::Vector3d q = view.second.inverse () * p;
     const std::optional<Eigen::Array2i> pixel = pixelOf (view.first->camera, q);
     return pixel && !(view.first->at (pixel->x (), pixel->y ()) < q.z () - depth_m); // no reading: not a number
+  }
+
+  /** \brief Does a view see something just there? Without a reliable normal it is no point of the surface, which yet does not end before it. */
+  static bool
+  isSeen (const Eigen::Vector3d& p, double depth_m, const Views::value_type& view)
+  {
+    const Eigen::Vector3d q = view.second.inverse () * p;
+    const std::optional<Eigen::Array2i> pixel = pixelOf (view.first->camera, q);
+    return pixel && std::abs (view.first->at (pixel->x (), pixel->y ()) - q.z ()) < depth_m;
   }
 
   /** \brief Are all sensors above a plane? If it leads to one, an edge that hides something may make it. */
