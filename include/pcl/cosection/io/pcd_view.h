@@ -60,7 +60,8 @@ struct PCL_COSECTION_EXPORT LabelledView
  * world. An organised cloud (HEIGHT > 1) gives a depth view and normals (computeOrganizedNormals ());
  * an unorganised one has its normals in the file, or gets them from pcl::NormalEstimationOMP, per label.
  * These are turned towards the viewpoint if the points were seen from there, which also gives a depth view
- * (drawRangeImage ()), else so that neighbours agree and bodies are on their inner side. If the points are in another frame
+ * (drawRangeImage ()) and tells readings between things and what is behind them, which have no reliable one; else so
+ * that neighbours agree and bodies are on their inner side. If the points are in another frame
  * after all, the sensor is at the VIEWPOINT if they were seen from there, or where the pixels of an organised cloud
  * (locateCamera ()) or the order of an unorganised one (locateSensor ()) tell. Fields: x y z
  * (floating point), label (integer; negative or 65535: ignored), rgb or rgba, intensity (a number), normal_x normal_y
