@@ -2,6 +2,7 @@
 // Copyright (c) 2026, the pcl_cosection authors
 #include "sensor_view.h"
 
+#include "estimated_normals.h"
 #include "place_text.h"
 
 #include <pcl/cosection/surface/range_image.h>
@@ -9,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 namespace pcl
@@ -23,6 +25,9 @@ constexpr double max_default_slope = 1.7321; // of points before a camera whose 
 constexpr double max_hidden_from_guess = 0.02; // of all points, from where the header does not say that they were seen ...
 constexpr double max_hidden_of_label_from_guess = 0.1; // ... and of those of a label
 constexpr double same_place = 0.1;           // of the distance to the points
+constexpr int lonely_neighbours = 6;         // of which the farthest ...
+constexpr float lonely_factor = 2.0f;        // ... is so much farther than usual
+constexpr std::size_t most_to_judge = 500000; // points: of more, trails are no share worth mentioning
 
 /** \brief What tells that a sensor at some place saw the points, or did not. */
 struct Sight
@@ -58,6 +63,25 @@ lookFrom (const Eigen::Vector3d& sensor, const Members& members, const SensorClo
       sight.hidden_share = std::max (sight.hidden_share, share);
   }
   return sight;
+}
+
+/** \brief Without points that are so much farther from others than is usual of their label that they may be nowhere, as trails behind edges. */
+SensorCloud
+withoutLonely (const PcdViewOptions& options, const Members& members, const SensorCloud& cloud)
+{
+  SensorCloud core;
+  core.positions.assign (cloud.positions.size (), Eigen::Vector3f::Constant (std::numeric_limits<float>::quiet_NaN ()));
+  for (const auto& [label, indices] : members)
+  {
+    const std::vector<float> reach = neighbourDistances (pick (cloud.positions, indices), lonely_neighbours, options.threads);
+    std::vector<float> sorted = reach;
+    const auto middle = sorted.begin () + static_cast<std::ptrdiff_t> (sorted.size () / 2);
+    std::nth_element (sorted.begin (), middle, sorted.end ());
+    for (std::size_t k = 0; k < indices.size (); ++k)
+      if (reach[k] <= lonely_factor * *middle)
+        core.positions[indices[k]] = cloud.positions[indices[k]];
+  }
+  return core;
 }
 
 double
@@ -134,8 +158,14 @@ viewFromSensor (const std::string& path, const PcdViewOptions& options, const Me
   const bool header_tells = cloud.has_viewpoint || (!options.world_points && asBeforeACamera (cloud));
   Sight sight;
   if (header_tells)
-    if (sight = lookFrom (Eigen::Vector3d::Zero (), members, cloud); sight.isTheirs ())
+  {
+    sight = lookFrom (Eigen::Vector3d::Zero (), members, cloud);
+    if (sight.isTheirs ())
       return viewOf (sight, cloud.T_world_sensor);
+    if (cloud.positions.size () <= most_to_judge)
+      if (Sight of_core = lookFrom (Eigen::Vector3d::Zero (), members, withoutLonely (options, members, cloud)); of_core.isTheirs ())
+        return viewOf (of_core, cloud.T_world_sensor);
+  }
   if (cloud.has_viewpoint && !options.world_points && !options.viewpoint)
     if (Sight other = lookFrom (cloud.T_world_sensor.translation (), members, cloud, max_hidden_of_label_from_guess);
         other.isTheirs (max_hidden_from_guess))

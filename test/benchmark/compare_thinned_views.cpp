@@ -18,7 +18,7 @@
 #include <pcl/point_types.h>
 
 #include <array>
-#include <cmath>
+#include <cstdint>
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
@@ -43,6 +43,8 @@ using Cloud = pcl::PointCloud<pcl::PointXYZL>;
 constexpr int default_scenes = 6;
 constexpr std::array<float, 4> cells_m = {0.0f, 0.003f, 0.005f, 0.01f};
 constexpr int neighbours = 20;
+constexpr std::size_t least_points = 100; // as for pcl_cosection
+constexpr float farthest_m = 2.5f; // else pcl::VoxelGrid has too many cells
 
 struct Row
 {
@@ -55,7 +57,7 @@ thin (const Cloud& view, float cell_m)
 {
   std::map<std::uint32_t, Cloud> parts;
   for (const auto& p : view)
-    if (std::isfinite (p.x))
+    if (p.z < farthest_m)
       parts[p.label].push_back (p);
   for (auto& [label, part] : parts)
   {
@@ -103,7 +105,7 @@ complete (const std::string& path)
     scene.addView (std::move (*view.view));
   scene.setBackground (std::move (view.objects[0].points));
   for (auto& [label, object] : view.objects)
-    if (label != 0)
+    if (label != 0 && object.points.size () >= least_points)
       scene.addObject ({static_cast<int> (label), std::move (object.points), {}});
   return scene.reconstruct ().objects;
 }
