@@ -31,6 +31,16 @@ constexpr float pixels_per_spacing = 1.5f; // of the most dense points
 constexpr double most_dense = 0.1;        // share of all points
 constexpr float most_pixels = 2048.0f;    // along a side
 constexpr float most_pixels_beside = 30.0f;
+constexpr float nearest_m = 1e-4f; // and ...
+constexpr float farthest_m = 1e5f; // ... of what can be judged
+constexpr float steepest = 10.0f;  // slope of a ray to the camera's axis
+
+/** \brief Is it before the camera, so that it has a place in the image? */
+bool
+isBefore (const Eigen::Vector3f& point)
+{
+  return point.z () > nearest_m && point.z () < farthest_m && point.head<2> ().norm () < steepest * point.z ();
+}
 
 /** \brief From which depth on what is seen in a pixel is behind some point beside it. */
 class DepthLimit
@@ -103,7 +113,7 @@ std::vector<bool>
 findBehindEdges (const std::vector<Eigen::Vector3f>& points, int threads)
 {
   std::vector<bool> behind (points.size ());
-  if (points.empty ())
+  if (points.empty () || !std::all_of (points.begin (), points.end (), isBefore)) // wide off, numbers say nothing
     return behind;
   std::vector<float> spacings = neighbourDistances (points, spacing_neighbours, threads);
   for (float& spacing : spacings)

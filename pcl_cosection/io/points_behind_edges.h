@@ -15,8 +15,8 @@ namespace cosection
  *
  * There a sensor measures what is nowhere, as a trail of points along its rays. In a cloud that was thinned to one point per cell there are as many of
  * them as of the surface. The surface itself may be left out there, as far as to the next point.
- * \param[in] points finite, in the frame of a camera before which they are, metres
- * \return for each point \param[in] threads 0: all */
+ * \param[in] points in the frame of the camera, metres \param[in] threads 0: all
+ * \return for each point; none if some are not before the camera or not finite */
 std::vector<bool>
 findBehindEdges (const std::vector<Eigen::Vector3f>& points, int threads);
 

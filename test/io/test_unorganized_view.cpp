@@ -433,3 +433,21 @@ TEST_F (UnorganizedView, WhatWouldLeaveTooLittleIsKept)
   ASSERT_TRUE (view.view);
   EXPECT_EQ (view.objects.at (1).points.size (), cloud.size ());
 }
+
+/** \brief As of damaged files: single precision says nothing about what is beside what. */
+TEST_F (UnorganizedView, AbsurdPointsAndPlacesHarmNothing)
+{
+  std::mt19937 random (5);
+  std::uniform_real_distribution<float> exponent (-30.0f, 37.0f), unit (-1.0f, 1.0f);
+  const auto absurd = [&] { return unit (random) * std::pow (10.0f, exponent (random)); };
+  for (int n = 0; n < 60; ++n)
+  {
+    pcl::PointCloud<pcl::PointXYZ> cloud = plateWithTrail (20, 10, 1);
+    for (int k = 0; k < 150 * (n % 3); ++k)
+      cloud.emplace_back (absurd (), absurd (), n % 2 == 0 ? std::abs (absurd ()) : absurd ());
+    cloud.sensor_origin_ << 0.1f, -0.2f, n % 5 == 0 ? 2147483647.0f : 0.1f, 1.0f;
+    PcdViewOptions options;
+    options.world_points = n % 7 < 3;
+    EXPECT_GE (read (cloud, options).objects.at (1).readings, 100u);
+  }
+}
