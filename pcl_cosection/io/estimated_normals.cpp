@@ -39,43 +39,12 @@ constexpr double thinning_cells = 100.0;     // along the longest side of what i
 constexpr int neighbours_of_means = 2;       // more than of points: noise spreads over several layers of cells
 constexpr std::size_t judged_points = 20000;
 
-PointCloud<PointXYZ>::ConstPtr
-asCloud (const std::vector<Eigen::Vector3f>& positions)
+/** \brief Means of points in cells, where points are so dense that the nearest ones would show noise alone; else the
+ * points themselves. */
+EstimatedNormals
+thin (const std::vector<Eigen::Vector3f>& points)
 {
-  auto points = pcl::make_shared<PointCloud<PointXYZ>> ();
-  for (const Eigen::Vector3f& p : positions)
-    points->emplace_back (p.x (), p.y (), p.z ());
-  return points;
-}
-
-/** \brief Estimated normals of any sign. */
-std::vector<Eigen::Vector3f>
-normalsOf (const PcdViewOptions& options, const std::vector<Eigen::Vector3f>& positions, int most_neighbours)
-{
-  std::vector<Eigen::Vector3f> result (positions.size (), Eigen::Vector3f::Constant (nan_value));
-  if (positions.size () < 3)
-    return result;
-  const QuietConsole quiet;
-  const auto count = static_cast<int> (std::min<std::size_t> (positions.size (), std::numeric_limits<int>::max ()));
-  const int wanted = std::clamp (count / points_per_neighbour, std::min (least_neighbours, most_neighbours),
-                                 most_neighbours);
-  NormalEstimationOMP<PointXYZ, Normal> estimation (static_cast<unsigned int> (resolveThreads (options.threads)));
-  estimation.setInputCloud (asCloud (positions));
-  estimation.setSearchMethod (pcl::make_shared<search::KdTree<PointXYZ>> ());
-  estimation.setKSearch (std::min (wanted, count));
-  PointCloud<Normal> normals;
-  estimation.compute (normals);
-  for (std::size_t k = 0; k < positions.size (); ++k)
-    result[k] = normals[k].getNormalVector3fMap ();
-  return result;
-}
-
-} // namespace
-
-ThinnedPoints
-thinDense (const std::vector<Eigen::Vector3f>& points)
-{
-  ThinnedPoints thinned;
+  EstimatedNormals thinned;
   thinned.of.resize (points.size ());
   if (points.size () <= dense_points)
   {
@@ -115,10 +84,43 @@ thinDense (const std::vector<Eigen::Vector3f>& points)
   return thinned;
 }
 
+PointCloud<PointXYZ>::ConstPtr
+asCloud (const std::vector<Eigen::Vector3f>& positions)
+{
+  auto points = pcl::make_shared<PointCloud<PointXYZ>> ();
+  for (const Eigen::Vector3f& p : positions)
+    points->emplace_back (p.x (), p.y (), p.z ());
+  return points;
+}
+
+/** \brief Estimated normals of any sign. */
+std::vector<Eigen::Vector3f>
+normalsOf (const PcdViewOptions& options, const std::vector<Eigen::Vector3f>& positions, int most_neighbours)
+{
+  std::vector<Eigen::Vector3f> result (positions.size (), Eigen::Vector3f::Constant (nan_value));
+  if (positions.size () < 3)
+    return result;
+  const QuietConsole quiet;
+  const auto count = static_cast<int> (std::min<std::size_t> (positions.size (), std::numeric_limits<int>::max ()));
+  const int wanted = std::clamp (count / points_per_neighbour, std::min (least_neighbours, most_neighbours),
+                                 most_neighbours);
+  NormalEstimationOMP<PointXYZ, Normal> estimation (static_cast<unsigned int> (resolveThreads (options.threads)));
+  estimation.setInputCloud (asCloud (positions));
+  estimation.setSearchMethod (pcl::make_shared<search::KdTree<PointXYZ>> ());
+  estimation.setKSearch (std::min (wanted, count));
+  PointCloud<Normal> normals;
+  estimation.compute (normals);
+  for (std::size_t k = 0; k < positions.size (); ++k)
+    result[k] = normals[k].getNormalVector3fMap ();
+  return result;
+}
+
+} // namespace
+
 EstimatedNormals
 estimateNormals (const PcdViewOptions& options, const std::vector<Eigen::Vector3f>& positions)
 {
-  EstimatedNormals estimated{thinDense (positions), {}};
+  EstimatedNormals estimated = thin (positions);
   const bool dense = estimated.points.size () < positions.size ();
   estimated.normals = normalsOf (options, estimated.points,
                                  dense ? neighbours_of_means * options.normal_neighbours : options.normal_neighbours);

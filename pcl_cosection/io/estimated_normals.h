@@ -6,7 +6,6 @@
 
 #include <Eigen/Core>
 
-#include <cstdint>
 #include <vector>
 
 namespace pcl
@@ -14,24 +13,17 @@ namespace pcl
 namespace cosection
 {
 
-/** \brief Some points that stand for all. */
-struct ThinnedPoints
+/** \brief Points and their normals, NaN where there is none. */
+struct EstimatedNormals
 {
   std::vector<Eigen::Vector3f> points;
-  std::vector<std::uint32_t> of; ///< which one stands for each of the points that were given
-};
-
-/** \brief Means of points in cells, where points are so dense that the nearest ones would show noise alone; else the points themselves. */
-ThinnedPoints
-thinDense (const std::vector<Eigen::Vector3f>& points);
-
-/** \brief Points and their normals, NaN where there is none. */
-struct EstimatedNormals : ThinnedPoints
-{
   std::vector<Eigen::Vector3f> normals; ///< of any sign
+  std::vector<std::uint32_t> of;        ///< which one stands for each of the points that were given
 };
 
-/** \brief Normals of points without an order, by pcl::NormalEstimationOMP, for what stands for them (thinDense ()). */
+/** \brief Normals of points without an order, by pcl::NormalEstimationOMP.
+ *
+ * Where they are so dense that the nearest ones would show noise alone, means of points in cells stand for them. */
 EstimatedNormals
 estimateNormals (const PcdViewOptions& options, const std::vector<Eigen::Vector3f>& positions);
 

@@ -9,9 +9,11 @@
 #include <Eigen/Geometry>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <utility>
 
 namespace pcl
 {
@@ -27,6 +29,8 @@ constexpr float beside_spacings = 1.25f;  // from a point of an edge in the imag
 constexpr float behind_spacings = 6.0f;   // a surface of up to 78 degrees to the image falls off less on that way ...
 constexpr double edge_sigmas = 6.0;       // ... but for noise, ...
 constexpr double edge_slope = 0.03;       // ... and never by so small a fraction of the depth
+constexpr float lonely_factor = 3.0f;     // of the usual spacing: trails have fewer points than surfaces
+constexpr float regular = 0.93f;          // of the usual distance in the image, that of the nearest pixels; of means in cells, 0.5 to 0.8
 constexpr float pixels_per_spacing = 1.5f; // of the most dense points
 constexpr double most_dense = 0.1;        // share of all points
 constexpr float most_pixels = 2048.0f;    // along a side
@@ -42,6 +46,32 @@ isBefore (const Eigen::Vector3f& point)
   return point.z () > nearest_m && point.z () < farthest_m && point.head<2> ().norm () < steepest * point.z ();
 }
 
+/** \brief Values of which such shares of all are smaller. */
+template <std::size_t N> std::array<float, N>
+valuesOf (std::vector<float> values, const std::array<double, N>& shares)
+{
+  std::array<float, N> result;
+  for (std::size_t n = 0; n < N; ++n)
+  {
+    const auto rank = values.begin () + static_cast<std::ptrdiff_t> (shares[n] * static_cast<double> (values.size () - 1));
+    std::nth_element (values.begin (), rank, values.end ());
+    result[n] = *rank;
+  }
+  return result;
+}
+
+/** \brief Are the points one per pixel of an image, so that the nearest one in the image is nowhere much nearer than is usual? */
+bool
+isImage (const std::vector<Eigen::Vector3f>& points, int threads)
+{
+  std::vector<Eigen::Vector3f> slopes;
+  slopes.reserve (points.size ());
+  for (const Eigen::Vector3f& point : points)
+    slopes.emplace_back (point.x () / point.z (), point.y () / point.z (), 0.0f);
+  const auto [near, usual] = valuesOf<2> (neighbourDistances (slopes, 1, threads), {most_dense, 0.5});
+  return near > regular * usual;
+}
+
 /** \brief From which depth on what is seen in a pixel is behind some point beside it. */
 class DepthLimit
 {
@@ -55,9 +85,7 @@ public:
       slopes_.extend (slopeOf (points[i]));
       angles.push_back (spacings[i] / points[i].z ());
     }
-    const auto rank = angles.begin () + static_cast<std::ptrdiff_t> (most_dense * static_cast<double> (angles.size ()));
-    std::nth_element (angles.begin (), rank, angles.end ());
-    pixel_ = std::max ({*rank / pixels_per_spacing, slopes_.sizes ().maxCoeff () / most_pixels, std::numeric_limits<float>::min ()});
+    pixel_ = std::max ({valuesOf<1> (std::move (angles), {most_dense})[0] / pixels_per_spacing, slopes_.sizes ().maxCoeff () / most_pixels, std::numeric_limits<float>::min ()});
     size_ = (slopes_.sizes () / pixel_).cast<int> ().array () + 1;
     limit_.assign (static_cast<std::size_t> (size_.x ()) * size_.y (), std::numeric_limits<float>::infinity ());
   }
@@ -113,16 +141,18 @@ std::vector<bool>
 findBehindEdges (const std::vector<Eigen::Vector3f>& points, int threads)
 {
   std::vector<bool> behind (points.size ());
-  if (points.empty () || !std::all_of (points.begin (), points.end (), isBefore)) // wide off, numbers say nothing
+  if (points.empty () || !std::all_of (points.begin (), points.end (), isBefore) || // wide off, numbers say nothing
+      isImage (points, threads))
     return behind;
   std::vector<float> spacings = neighbourDistances (points, spacing_neighbours, threads);
   for (float& spacing : spacings)
     spacing *= reach_to_spacing;
+  const float lonely = lonely_factor * valuesOf<1> (spacings, {0.5})[0];
   DepthLimit limit (points, spacings);
   for (std::size_t i = 0; i < points.size (); ++i)
     limit.add (points[i], spacings[i]);
   for (std::size_t i = 0; i < points.size (); ++i)
-    behind[i] = limit.isBehind (points[i]);
+    behind[i] = spacings[i] > lonely && limit.isBehind (points[i]);
   return behind;
 }
 

@@ -17,7 +17,7 @@ namespace
 
 constexpr float nan_value = std::numeric_limits<float>::quiet_NaN ();
 constexpr int scattered_neighbours = 20; // of which the farthest ...
-constexpr float scattered_factor = 2.5f; // ... is so much farther than usual: the point shows no surface
+constexpr float scattered_factor = 4.0f; // ... is so much farther than usual: the point shows no surface
 
 } // namespace
 

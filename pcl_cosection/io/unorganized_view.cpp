@@ -11,7 +11,6 @@
 #include "sensor_view.h"
 
 #include <pcl/cosection/surface/normal_orientation.h>
-#include <pcl/cosection/surface/organized_normals.h>
 #include <pcl/cosection/surface/range_image.h>
 
 #include <algorithm>
@@ -33,6 +32,7 @@ constexpr double worth_saying = 0.02;      // share of the normals
 constexpr double surely_inward = 0.3;      // outward share of a body whose normals are flipped
 constexpr std::size_t least_points = 100;  // of an object: as many remain if some are left out, ...
 constexpr double most_left_out = 0.3;      // ... which are no larger a share than this
+constexpr std::size_t most_points = 20000; // of an object: of more, trails are a small share
 
 /** \brief Turn normals that clearly point away from the viewpoint, which is the origin. \return their share */
 double
@@ -85,29 +85,27 @@ checkWithoutViewpoint (const std::string& path, const Members& members, SensorCl
   }
 }
 
-/** \brief Take the normals of points of an object that are nowhere, behind its own edges, if enough others remain.
- * \param[in] least_cosine of the angle at which a point must have been seen, too */
+/** \brief Take the normals of points of an object that are nowhere, behind its own edges, if enough others remain. */
 void
-leaveOutUnreliable (const PcdViewOptions& options, const DepthView& view, const std::vector<std::size_t>& indices, float least_cosine, SensorCloud& cloud)
+leaveOutTrails (const PcdViewOptions& options, const DepthView& view, const std::vector<std::size_t>& indices, SensorCloud& cloud)
 {
-  ThinnedPoints thinned = thinDense (pick (cloud.positions, indices));
-  const Eigen::Isometry3f T_view_points = (view.T_world_sensor.inverse () * cloud.T_world_sensor).cast<float> ();
-  for (Eigen::Vector3f& point : thinned.points)
-    point = T_view_points * point;
-  const std::vector<bool> behind = findBehindEdges (thinned.points, options.threads);
-  std::vector<std::size_t> unreliable;
-  for (std::size_t k = 0; k < indices.size (); ++k)
-  {
-    const Eigen::Vector3f& position = cloud.positions[indices[k]];
-    const Eigen::Vector3f& normal = cloud.normals[indices[k]];
-    if (behind[thinned.of[k]] || std::abs (position.dot (normal)) < least_cosine * position.norm () * normal.norm ())
-      unreliable.push_back (indices[k]);
-  }
-  if (indices.size () < least_points + unreliable.size () ||
-      static_cast<double> (unreliable.size ()) > most_left_out * static_cast<double> (indices.size ()))
+  std::vector<std::size_t> usable;
+  for (const std::size_t i : indices)
+    if (cloud.normals[i].allFinite ())
+      usable.push_back (i);
+  if (usable.size () <= least_points || usable.size () > most_points)
     return;
-  for (const std::size_t i : unreliable)
-    cloud.normals[i].setConstant (std::numeric_limits<float>::quiet_NaN ());
+  std::vector<Eigen::Vector3f> points = pick (cloud.positions, usable);
+  const Eigen::Isometry3f T_view_points = (view.T_world_sensor.inverse () * cloud.T_world_sensor).cast<float> ();
+  for (Eigen::Vector3f& point : points)
+    point = T_view_points * point;
+  const std::vector<bool> behind = findBehindEdges (points, options.threads);
+  const auto left_out = static_cast<std::size_t> (std::count (behind.begin (), behind.end (), true));
+  if (usable.size () < least_points + left_out || static_cast<double> (left_out) > most_left_out * static_cast<double> (usable.size ()))
+    return;
+  for (std::size_t k = 0; k < usable.size (); ++k)
+    if (behind[k])
+      cloud.normals[usable[k]].setConstant (std::numeric_limits<float>::quiet_NaN ());
 }
 
 /** \brief Estimate the normals of some of the points, of any sign. */
@@ -168,11 +166,9 @@ completeUnorganized (const std::string& path, const PcdViewOptions& options, Sen
   }
   if (const double turned = turnTowardsViewpoint (given ? away_cosine : 0.0f, cloud); given && turned > worth_saying)
     result.warnings.push_back (path + ": " + percentText (turned) + " of the normals point away from the VIEWPOINT; they were turned");
-  const double max_incidence_rad = OrganizedNormalsOptions ().max_incidence_rad; // of normals that are estimated
-  const float least_cosine = given ? 0.0f : static_cast<float> (std::cos (max_incidence_rad));
   for (const auto& [label, indices] : members)
     if (label != 0)
-      leaveOutUnreliable (options, *result.view, indices, least_cosine, cloud);
+      leaveOutTrails (options, *result.view, indices, cloud);
   leaveOutFlyingPixels (*result.view, cloud);
   leaveOutScattered (options, objects, background.near, cloud);
 }

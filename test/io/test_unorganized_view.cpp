@@ -149,7 +149,7 @@ TEST_F (UnorganizedView, PointsInTheWorldFrameAreFound)
     for (auto p : ball (8000, false))
     {
       p.getVector3fMap () += behind * middle.normalized ();
-      if (p.getNormalVector3fMap ().dot ((T.translation () - p.getVector3fMap ()).normalized ()) > 0.2f)
+      if (p.getNormalVector3fMap ().dot ((T.translation () - p.getVector3fMap ()).normalized ()) > 0.1f)
         cloud.push_back (p);
     }
   cloud.sensor_origin_.head<3> () = T.translation ();
@@ -342,7 +342,7 @@ TEST_F (UnorganizedView, WhatWasSeenOfObjectsFacesAwayFromTheirSupport)
 TEST_F (UnorganizedView, DenseAndNoisyCloudsGetGoodNormals)
 {
   const LabelledView view = read (withoutNormals (ball (300000, true, 0.001f)));
-  EXPECT_GT (view.objects.at (1).points.size (), 270000u); // the others are seen at too grazing an angle
+  EXPECT_EQ (view.objects.at (1).points.size (), 300000u);
   EXPECT_GT (outward (view, 0.7), 0.95);
 }
 
@@ -377,77 +377,4 @@ TEST_F (UnorganizedView, MemoryIsLimited)
   }
   options.max_memory_bytes = 10000000;
   EXPECT_EQ (readPcdView (path, options).objects.at (1).readings, 4000u);
-}
-
-/** \brief A plate of so many points each way before the sensor, and points along rays that just miss its right edge, so many in depth. */
-static pcl::PointCloud<pcl::PointXYZ>
-plateWithTrail (int columns, int rows, int layers)
-{
-  constexpr float step = 0.005f, depth = 0.8f;
-  pcl::PointCloud<pcl::PointXYZ> cloud;
-  for (int v = 0; v < rows; ++v)
-  {
-    for (int u = 0; u < columns; ++u)
-      cloud.emplace_back (step * static_cast<float> (u), step * static_cast<float> (v), depth);
-    for (int k = 1; k <= layers; ++k)
-    {
-      const float z = depth + 0.05f * static_cast<float> (k);
-      cloud.emplace_back ((static_cast<float> (columns) - 0.5f) * step * z / depth, step * static_cast<float> (v) * z / depth, z);
-    }
-  }
-  return cloud;
-}
-
-static pcl::PointCloud<pcl::PointNormal>
-facingTheSensor (const pcl::PointCloud<pcl::PointXYZ>& bare)
-{
-  pcl::PointCloud<pcl::PointNormal> cloud;
-  for (const auto& p : bare)
-    cloud.emplace_back (p.x, p.y, p.z, 0.0f, 0.0f, -1.0f);
-  return cloud;
-}
-
-TEST_F (UnorganizedView, TrailsBehindEdgesAreLeftOut)
-{
-  for (const int layers : {4, 12}) // 12: so many are hidden from the sensor that it would not be believed to have stood there
-  {
-    SCOPED_TRACE (layers);
-    const pcl::PointCloud<pcl::PointXYZ> cloud = plateWithTrail (41, 41, layers);
-    for (const LabelledView& view : {read (cloud), read (facingTheSensor (cloud))})
-    {
-      ASSERT_TRUE (view.view);
-      EXPECT_TRUE (view.warnings.empty ()) << view.warnings[0];
-      const auto& object = view.objects.at (1);
-      EXPECT_EQ (object.readings, cloud.size ());
-      const auto of_plate = std::count_if (object.points.begin (), object.points.end (), [] (const OrientedPoint& p) { return p.position.z () < 0.801f; });
-      EXPECT_GT (of_plate, 41 * 41 * 97 / 100);
-      EXPECT_EQ (object.points.size (), static_cast<std::size_t> (of_plate));
-    }
-  }
-}
-
-TEST_F (UnorganizedView, WhatWouldLeaveTooLittleIsKept)
-{
-  const pcl::PointCloud<pcl::PointXYZ> cloud = plateWithTrail (9, 10, 1);
-  const LabelledView view = read (facingTheSensor (cloud));
-  ASSERT_TRUE (view.view);
-  EXPECT_EQ (view.objects.at (1).points.size (), cloud.size ());
-}
-
-/** \brief As of damaged files: single precision says nothing about what is beside what. */
-TEST_F (UnorganizedView, AbsurdPointsAndPlacesHarmNothing)
-{
-  std::mt19937 random (5);
-  std::uniform_real_distribution<float> exponent (-30.0f, 37.0f), unit (-1.0f, 1.0f);
-  const auto absurd = [&] { return unit (random) * std::pow (10.0f, exponent (random)); };
-  for (int n = 0; n < 60; ++n)
-  {
-    pcl::PointCloud<pcl::PointXYZ> cloud = plateWithTrail (20, 10, 1);
-    for (int k = 0; k < 150 * (n % 3); ++k)
-      cloud.emplace_back (absurd (), absurd (), n % 2 == 0 ? std::abs (absurd ()) : absurd ());
-    cloud.sensor_origin_ << 0.1f, -0.2f, n % 5 == 0 ? 2147483647.0f : 0.1f, 1.0f;
-    PcdViewOptions options;
-    options.world_points = n % 7 < 3;
-    EXPECT_GE (read (cloud, options).objects.at (1).readings, 100u);
-  }
 }
