@@ -98,17 +98,15 @@ TEST_F (Trails, WhatWouldLeaveTooLittleIsKept)
   EXPECT_EQ (view.objects.at (1).points.size (), cloud.size ());
 }
 
-/** \brief Thinned, and seen 7 degrees from its plane: each row of points lies far behind the one before, and just beside it. */
+/** \brief Thinned, and seen 5 degrees from its plane, as the top of a box: each row of points lies far behind the one before, and just beside it. */
 TEST_F (Trails, ASurfaceSeenAtAGrazingAngleIsNone)
 {
-  pcl::PointCloud<pcl::PointXYZ> cloud;
+  pcl::PointCloud<pcl::PointXYZ> cloud = plateWithTrail (121, 121, 0); // its front
   for (const auto& p : plateWithTrail (41, 41, 0))
-    cloud.emplace_back (p.x, 0.12f * (p.y - 0.1f), 0.8f + p.y);
-  for (const LabelledView& view : {read (cloud), read (facingTheSensor (cloud))})
-  {
-    ASSERT_TRUE (view.view);
-    EXPECT_EQ (view.objects.at (1).points.size (), cloud.size ());
-  }
+    cloud.emplace_back (p.x, -0.09f * p.y - 0.003f, 0.8f + p.y);
+  const LabelledView view = read (facingTheSensor (cloud));
+  ASSERT_TRUE (view.view);
+  EXPECT_EQ (view.objects.at (1).points.size (), cloud.size ());
 }
 
 /** \brief Of an image, one point per pixel, few are nowhere, and a step is as good as the rest. */
