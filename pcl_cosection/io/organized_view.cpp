@@ -6,13 +6,14 @@
 #include "flying_pixels.h"
 #include "place_text.h"
 #include "sensor_view.h"
+#include "steep_surfaces.h"
 
 #include <pcl/cosection/common/camera_resection.h>
 #include <pcl/cosection/surface/organized_normals.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
-#include <map>
 #include <sstream>
 #include <utility>
 
@@ -111,35 +112,23 @@ findCamera (const std::string& path, const PcdViewOptions& options, SensorCloud&
 /** \brief Give labels of which hardly anything has a reliable normal those of points without an order, towards the sensor.
  * \return whether there is any */
 bool
-addMissingNormals (const PcdViewOptions& options, SensorCloud& cloud)
+addMissingNormals (const PcdViewOptions& options, const Members& members, SensorCloud& cloud)
 {
   bool any = false;
-  struct Label
+  for (const auto& [label, readings] : members)
   {
-    std::vector<std::size_t> readings;
-    std::size_t reliable = 0;
-  };
-  std::map<std::uint32_t, Label> labels;
-  for (std::size_t i = 0; i < cloud.positions.size (); ++i)
-    if (cloud.positions[i].allFinite ())
-    {
-      Label& label = labels[cloud.labels[i]];
-      label.readings.push_back (i);
-      label.reliable += cloud.normals[i].allFinite ();
-    }
-  for (const auto& [id, label] : labels)
-  {
-    if (label.readings.size () < least_points ||
-        (label.reliable >= least_points &&
-         static_cast<double> (label.reliable) >= least_reliable * static_cast<double> (label.readings.size ())))
+    const auto reliable = static_cast<std::size_t> (
+        std::count_if (readings.begin (), readings.end (), [&] (std::size_t i) { return cloud.normals[i].allFinite (); }));
+    if (readings.size () < least_points ||
+        (reliable >= least_points && static_cast<double> (reliable) >= least_reliable * static_cast<double> (readings.size ())))
       continue;
     any = true;
-    const std::vector<Eigen::Vector3f> positions = pick (cloud.positions, label.readings);
+    const std::vector<Eigen::Vector3f> positions = pick (cloud.positions, readings);
     const EstimatedNormals estimated = estimateNormals (options, positions);
-    for (std::size_t k = 0; k < label.readings.size (); ++k)
+    for (std::size_t k = 0; k < readings.size (); ++k)
     {
       const Eigen::Vector3f& normal = estimated.normals[estimated.of[k]];
-      cloud.normals[label.readings[k]] = normal.dot (positions[k]) > 0.0f ? Eigen::Vector3f (-normal) : normal;
+      cloud.normals[readings[k]] = normal.dot (positions[k]) > 0.0f ? Eigen::Vector3f (-normal) : normal;
     }
   }
   return any;
@@ -163,8 +152,10 @@ completeOrganized (const std::string& path, const PcdViewOptions& options, Senso
   OrganizedNormalsOptions normal_options;
   normal_options.threads = options.threads;
   cloud.normals = computeOrganizedNormals (cloud.positions, cloud.width, cloud.height, cloud.labels, normal_options);
-  if (addMissingNormals (options, cloud) && result.view)
+  const Members members = membersOf (cloud);
+  if (addMissingNormals (options, members, cloud) && result.view)
     leaveOutFlyingPixels (*result.view, cloud);
+  addSteepNormals (options.threads, members, cloud);
 }
 
 } // namespace cosection

@@ -141,6 +141,16 @@ moveToSensor (const Eigen::Isometry3d& T_world_points, const Eigen::Isometry3d& 
 
 } // namespace
 
+Members
+membersOf (const SensorCloud& cloud)
+{
+  Members members;
+  for (std::size_t i = 0; i < cloud.positions.size (); ++i)
+    if (cloud.positions[i].allFinite ())
+      members[cloud.labels[i]].push_back (i);
+  return members;
+}
+
 std::string
 percentText (double share)
 {

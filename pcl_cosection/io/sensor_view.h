@@ -21,6 +21,10 @@ namespace cosection
 /** \brief Indices of points by label. */
 using Members = std::map<std::uint32_t, std::vector<std::size_t>>;
 
+/** \brief The points of each label that have a finite position. */
+Members
+membersOf (const SensorCloud& cloud);
+
 /** \brief An unorganised cloud as seen from where it was seen from: where its header tells, if all points are visible from there, or
  * where their order tells. Points of another frame than the sensor's are taken to it. \a result.warnings tells what is not as the header says.
  * \return nothing if that is not known */

@@ -132,10 +132,7 @@ dropUnfilledNormals (SensorCloud& cloud)
 void
 completeUnorganized (const std::string& path, const PcdViewOptions& options, SensorCloud& cloud, LabelledView& result)
 {
-  Members members;
-  for (std::size_t i = 0; i < cloud.positions.size (); ++i)
-    if (cloud.positions[i].allFinite ())
-      members[cloud.labels[i]].push_back (i);
+  const Members members = membersOf (cloud);
   result.view = viewFromSensor (path, options, members, cloud, result);
   dropUnfilledNormals (cloud);
   const bool given = !cloud.normals.empty ();
