@@ -25,6 +25,7 @@ constexpr float steep_cosine = 0.3f;     // 73 degrees: flatter surfaces have no
 constexpr int radius_px = 7;             // half of the window on which a plane is fitted and in which others must be alike
 constexpr std::size_t least_support = 12; // pixels on that plane
 constexpr double trim_sigmas = 3.0;      // those farther from it are not of it
+constexpr double thickest = 0.4;         // standard deviations from the plane, and in the image across it: a steep plane is thin, flying pixels are not
 constexpr float alike_cosine = 0.9f;     // of the angle between two normals: 26 degrees
 constexpr double least_width_px = 1.6;   // standard deviation across the alike pixels: a band of five has 1.4, of six 1.7
 
@@ -51,7 +52,7 @@ cosineToSensor (const Eigen::Vector3f& normal, const Eigen::Vector3f& position)
 }
 
 /** \brief Normal, towards the sensor, of the plane through what the window around \a i has that is steep or without a normal. NaN if that is
- * not steep. */
+ * no plane, or not steep. */
 Eigen::Vector3f
 steepNormal (const SensorCloud& cloud, std::size_t i)
 {
@@ -62,6 +63,8 @@ steepNormal (const SensorCloud& cloud, std::size_t i)
       offsets.push_back ((cloud.positions[j] - cloud.positions[i]).cast<double> ());
   });
   Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen;
+  Eigen::Matrix3d covariance;
+  Eigen::Vector3d plane_normal;
   for (const bool trimmed : {false, true})
   {
     if (offsets.size () < least_support)
@@ -69,21 +72,25 @@ steepNormal (const SensorCloud& cloud, std::size_t i)
     Eigen::Vector3d mean = Eigen::Vector3d::Zero ();
     for (const Eigen::Vector3d& offset : offsets)
       mean += offset / static_cast<double> (offsets.size ());
-    Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero ();
+    covariance.setZero ();
     for (const Eigen::Vector3d& offset : offsets)
       covariance += (offset - mean) * (offset - mean).transpose () / static_cast<double> (offsets.size ());
     eigen.computeDirect (covariance);
+    plane_normal = eigen.eigenvectors ().col (0);
     if (trimmed)
       break;
-    const Eigen::Vector3d normal = eigen.eigenvectors ().col (0);
     const double limit = trim_sigmas * std::sqrt (std::max (0.0, eigen.eigenvalues ()[0]));
-    if (!(std::abs (normal.dot (mean)) <= limit)) // the point itself is of something else
+    if (!(std::abs (plane_normal.dot (mean)) <= limit)) // the point itself is of something else
       return none;
     offsets.erase (std::remove_if (offsets.begin (), offsets.end (),
-                                   [&] (const Eigen::Vector3d& offset) { return !(std::abs (normal.dot (offset - mean)) <= limit); }),
+                                   [&] (const Eigen::Vector3d& offset) { return !(std::abs (plane_normal.dot (offset - mean)) <= limit); }),
                    offsets.end ());
   }
-  const Eigen::Vector3f normal = eigen.eigenvectors ().col (0).cast<float> ();
+  const Eigen::Vector3d ray = cloud.positions[i].cast<double> ().normalized ();
+  const Eigen::Vector3d across = (plane_normal - ray.dot (plane_normal) * ray).normalized ();
+  if (!(eigen.eigenvalues ()[0] <= thickest * thickest * across.dot (covariance * across)))
+    return none;
+  const Eigen::Vector3f normal = plane_normal.cast<float> ();
   const float cosine = cosineToSensor (normal, cloud.positions[i]);
   if (!(std::abs (cosine) >= steepest_cosine && std::abs (cosine) <= steep_cosine))
     return none;

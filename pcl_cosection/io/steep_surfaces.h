@@ -12,8 +12,8 @@ namespace cosection
 /** \brief Give points of objects on surfaces that an organised view sees at grazing angles normals, towards the sensor.
  *
  * From row to row they are as far apart as points on the two sides of a depth edge, so that computeOrganizedNormals () finds none. Here
- * planes are fitted to the pixels around that are steep or have no normal either. Flying pixels, too, lie on surfaces along the rays; but these are a pixel or two wide in the image, whereas
- * normals are given only where several pixels in each direction have like ones.
+ * planes are fitted to the pixels around that are steep or have no normal either. Flying pixels, too, lie on surfaces along the rays;
+ * but these are a few pixels wide in the image and scatter, whereas normals are given only where thin planes are several pixels wide.
  *
  * \param[in] members the readings of each label; those of label 0 are left alone
  * \param[in,out] cloud organised, in the frame of its sensor, with normals, NaN where there is none yet */
