@@ -2,6 +2,7 @@
 // Copyright (c) 2026, the pcl_cosection authors
 #include "steep_surfaces.h"
 
+#include <pcl/cosection/common/camera.h>
 #include <pcl/cosection/common/parallel.h>
 
 #include <Eigen/Eigenvalues>
@@ -27,6 +28,10 @@ constexpr std::size_t least_support = 12; // pixels on that plane
 constexpr double trim_sigmas = 3.0;      // those farther from it are not of it
 constexpr double thickest = 0.4;         // standard deviations from the plane, and in the image across it: a steep plane is thin, flying pixels are not
 constexpr float alike_cosine = 0.9f;     // of the angle between two normals: 26 degrees
+constexpr int reach_px = 20;             // how far the end of the plane is looked for
+constexpr float noise_sigmas = 4.0f;     // there readings are on it, but for noise ...
+constexpr float slope_error = 0.2f;      // ... and this share of the way
+constexpr int most_beyond = 2;           // readings of other labels on it: it goes on there
 constexpr double least_width_px = 1.6;   // standard deviation across the alike pixels: a band of five has 1.4, of six 1.7
 
 /** \brief Call \a visit (pixel, du, dv) at the pixels of the window around \a i with its label. */
@@ -49,6 +54,45 @@ float
 cosineToSensor (const Eigen::Vector3f& normal, const Eigen::Vector3f& position)
 {
   return -normal.dot (position.normalized ());
+}
+
+/** \brief Whether the plane at \a i goes on to where its object ends, with what is behind it far behind. Depth edges that a sensor or a filter has smeared
+ * over several pixels are planes along the rays, too, but go on beyond the label or level out. */
+bool
+endsInJump (const SensorCloud& cloud, const Eigen::Vector3f& normal, std::size_t i)
+{
+  const Eigen::Vector3f& here = cloud.positions[i];
+  const float range = here.norm ();
+  const float offset = normal.dot (here);
+  const Eigen::Vector2f away = (here.z () * normal.head<2> () - normal.z () * here.head<2> ()).normalized (); // in pixels, to where the plane is farther
+  const auto row = static_cast<int> (i / cloud.width);
+  const auto column = static_cast<int> (i % cloud.width);
+  int beyond = 0;
+  for (int k = 1; k <= reach_px; ++k)
+  {
+    const int u = column + static_cast<int> (std::lround (static_cast<float> (k) * away.x ()));
+    const int v = row + static_cast<int> (std::lround (static_cast<float> (k) * away.y ()));
+    if (u < 0 || u >= cloud.width || v < 0 || v >= cloud.height)
+      return true;
+    const std::size_t j = static_cast<std::size_t> (v) * cloud.width + u;
+    const Eigen::Vector3f& there = cloud.positions[j];
+    if (!there.allFinite ())
+      continue;
+    const float along = normal.dot (there.normalized ());
+    const float expected = along < 0.0f ? offset / along : std::numeric_limits<float>::infinity ();
+    const auto noise = static_cast<float> (noise_sigmas * depthNoiseSigma (range));
+    const float difference = there.norm () - expected;
+    if (cloud.labels[j] != cloud.labels[i])
+    {
+      if (!(std::abs (difference) <= noise + 0.5f * (expected - range) / static_cast<float> (k)))
+        return difference > 0.0f;
+      if (++beyond == most_beyond)
+        return false;
+    }
+    else if (!(std::abs (difference) <= noise + slope_error * (expected - range)))
+      return false;
+  }
+  return true;
 }
 
 /** \brief Normal, towards the sensor, of the plane through what the window around \a i has that is steep or without a normal. NaN if that is
@@ -94,7 +138,8 @@ steepNormal (const SensorCloud& cloud, std::size_t i)
   const float cosine = cosineToSensor (normal, cloud.positions[i]);
   if (!(std::abs (cosine) >= steepest_cosine && std::abs (cosine) <= steep_cosine))
     return none;
-  return cosine < 0.0f ? Eigen::Vector3f (-normal) : normal;
+  const Eigen::Vector3f towards = cosine < 0.0f ? Eigen::Vector3f (-normal) : normal;
+  return endsInJump (cloud, towards, i) ? towards : none;
 }
 
 /** \brief Whether pixels around \a i with normals like its \a steep one are no line in the image. */

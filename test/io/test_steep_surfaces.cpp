@@ -12,6 +12,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <limits>
@@ -35,9 +36,11 @@ constexpr float depth_m = 0.3f;
 class SteepSurfaces : public testing::Test
 {
 protected:
-  /** \brief An organised view; \a range tells the depth along a ray (x, y, 1) of the object, NaN where it is not. */
+  /** \brief An organised view; \a depthOf tells the depth along a ray (x, y, 1) of the object, NaN where it is not; the background is so far away, or as
+   * \a backgroundOf tells. */
   LabelledView
-  see (const std::function<float (float, float)>& depthOf, float sigma_m, double missing) const
+  see (const std::function<float (float, float)>& depthOf, float sigma_m, double missing,
+       const std::function<float (float, float)>& backgroundOf = [] (float, float) { return background_m; }) const
   {
     std::mt19937 random (7);
     std::normal_distribution<float> noise (0.0f, 1.0f);
@@ -51,7 +54,7 @@ protected:
         const float depth = depthOf (x, y);
         auto& p = cloud (u, v);
         p.label = std::isnan (depth) ? 0 : 1;
-        const float z = (std::isnan (depth) ? background_m : depth) + sigma_m * noise (random);
+        const float z = (std::isnan (depth) ? backgroundOf (x, y) : depth) + sigma_m * noise (random);
         p.x = x * z;
         p.y = y * z;
         p.z = drops (random) ? std::numeric_limits<float>::quiet_NaN () : z;
@@ -126,4 +129,29 @@ TEST_F (SteepSurfaces, AreNoFlyingPixels)
         flying += p.position.z () > front_m + 0.02f;
       EXPECT_EQ (flying, 0u);
     }
+}
+
+TEST_F (SteepSurfaces, AreNoSmearedEdges)
+{
+  for (const float behind_m : {0.15f, 0.3f, 0.6f})
+    for (const int width_px : {7, 9, 11})
+      for (const int labelled_px : {width_px / 2, width_px, width_px + 3}) // exact labels, and larger ones
+      {
+        SCOPED_TRACE (std::to_string (width_px) + " pixels to " + std::to_string (behind_m) + " m behind, " + std::to_string (labelled_px) + " of them of the plate");
+        const auto beyondEdge = [] (float x) { return (std::abs (x) - half_width_m / front_m) * focal_px; }; // pixels
+        const auto smeared = [&, behind = behind_m, width = width_px] (float x, float y) {
+          const float far_away = std::abs (y) > 0.15f ? 1.0f : beyondEdge (x) / static_cast<float> (width);
+          return front_m + behind * std::min (1.0f, std::max (0.0f, far_away));
+        };
+        const LabelledView view = see (
+            [&, labelled = labelled_px] (float x, float y) {
+              const bool on_plate = std::abs (y) < 0.15f && beyondEdge (x) < static_cast<float> (labelled);
+              return on_plate ? smeared (x, y) : std::numeric_limits<float>::quiet_NaN ();
+            },
+            0.0005f, 0.0, smeared);
+        std::size_t flying = 0;
+        for (const OrientedPoint& p : view.objects.at (1).points)
+          flying += p.normal.z () > -0.3f;
+        EXPECT_EQ (flying, 0u);
+      }
 }
