@@ -79,7 +79,9 @@ endsInJump (const SensorCloud& cloud, const Eigen::Vector3f& normal, std::size_t
     if (!there.allFinite ())
       continue;
     const float along = normal.dot (there.normalized ());
-    const float expected = along < 0.0f ? offset / along : std::numeric_limits<float>::infinity ();
+    if (!(along < 0.0f)) // above the horizon of the plane
+      return false;
+    const float expected = offset / along;
     const auto noise = static_cast<float> (noise_sigmas * depthNoiseSigma (range));
     const float difference = there.norm () - expected;
     if (cloud.labels[j] != cloud.labels[i])
