@@ -29,6 +29,8 @@ endif()
 # we do not use; --as-needed keeps them out of our files.
 add_library(pcl_cosection_build_settings INTERFACE)
 target_compile_options(pcl_cosection_build_settings INTERFACE -Wall -Wextra)
+# Private headers are included as "pcl_cosection/<room>/<file>.h".
+target_include_directories(pcl_cosection_build_settings INTERFACE "${PROJECT_SOURCE_DIR}")
 if(UNIX AND NOT APPLE)
   target_link_options(pcl_cosection_build_settings INTERFACE -Wl,--as-needed)
   # Clang links its sanitizers into programs only, so that they are undefined in a library.

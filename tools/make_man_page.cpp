@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_cosection authors
 
-// make_man_page PROGRAM: prints the manual page of a program, which says what --help says. Part of the build, not installed.
+// make_man_page PROGRAM: prints the manual page of a program, which says what --help says. Part of the build, not
+// installed.
 
 #include "evaluation_commands.h"
 #include "fusion_command_line.h"

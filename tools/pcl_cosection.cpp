@@ -43,7 +43,7 @@ toScene (const Settings& settings, SceneInput input)
   for (const Eigen::Vector4d& plane : settings.planes)
     scene.addSupportPlane (plane);
   for (TriangleMesh& obstacle : input.obstacles)
-    scene.addIntersection (std::move (obstacle));
+    scene.addObstacle (std::move (obstacle));
   return (scene);
 }
 
@@ -87,11 +87,11 @@ complete (const Settings& settings, const OutputTarget& target, std::vector<std:
   for (const std::string& warning : warnings)
     terminal.warning (warning);
 
-  SceneResult result =
-      toScene (settings, std::move (input)).reconstruct ([&] (const std::string& stage, double fraction) {
-        terminal.progress (stage, read_share + (1.0 - read_share) * fraction);
-        return (!interrupted ());
-      });
+  SceneResult result = toScene (settings, std::move (input))
+                           .reconstruct ([&] (const std::string& stage, double fraction) {
+                             terminal.progress (stage, read_share + (1.0 - read_share) * fraction);
+                             return (!interrupted ());
+                           });
   if (interrupted ())
     throw Cancelled ("interrupted");
 

@@ -40,8 +40,9 @@ run (int argc, const char* const* argv, Terminal& terminal)
   }
   if (word[0] == '-')
     throw UsageError ("the command must come first: mesh, trajectory or run; it is " + word);
-  throw UsageError ("unknown command " + word + (nearestName (word, words).empty () ? "; known are mesh, trajectory and run"
-                                                                                     : suggestion (word, words)));
+  throw UsageError (
+      "unknown command " + word +
+      (nearestName (word, words).empty () ? "; known are mesh, trajectory and run" : suggestion (word, words)));
 }
 
 } // namespace

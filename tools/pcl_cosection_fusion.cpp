@@ -36,9 +36,8 @@ summaryLine (const ObjectResult& object, const std::optional<ClassScore>& best_c
   text << "object " << object.id << ": ";
   if (best_class)
     text << classText (best_class->class_id, best_class->class_name, best_class->score) << ", ";
-  text << object.mesh.vertices.size () << " vertices, "
-       << 1000.0 * computeMassProperties (object.mesh).volume_m3 << " litres, voxels of "
-       << 1000.0 * object.signed_distance->grid.voxel_size_m << " mm";
+  text << object.mesh.vertices.size () << " vertices, " << 1000.0 * computeMassProperties (object.mesh).volume_m3
+       << " litres, voxels of " << 1000.0 * object.signed_distance->grid.voxel_size_m << " mm";
   if (object.penetration_m > 0.0)
     text << ", " << 1000.0 * object.penetration_m << " mm inside another body";
   return (text.str ());
@@ -52,7 +51,8 @@ struct Inputs
     warnings = images.warnings ();
     known.images = &images;
     if (settings.segmentation.empty ()) // which is done while tracking
-      known.camera = settings.camera_trajectory.empty () ? images.givenTrajectory (warnings) : loadTrajectory (settings.camera_trajectory);
+      known.camera = settings.camera_trajectory.empty () ? images.givenTrajectory (warnings)
+                                                         : loadTrajectory (settings.camera_trajectory);
     for (const auto& [id, file] : settings.object_trajectories)
       known.objects[id] = loadTrajectory (file);
     if (settings.masks.empty ())
@@ -63,8 +63,7 @@ struct Inputs
   }
 
   Inputs (const Inputs&) = delete;
-  Inputs&
-  operator= (const Inputs&) = delete;
+  Inputs& operator= (const Inputs&) = delete;
 
   RgbdSequence images;
   std::optional<MaskSequence> masks;
@@ -90,7 +89,8 @@ makeFusion (const FusionSettings& settings, const Inputs& inputs)
     return (SequenceFusion (sequence, options));
   }
   if (settings.ids_per_frame)
-    throw InvalidArgument ("with given poses, objects must have the same number in all masks, not --mask-ids per-frame");
+    throw InvalidArgument (
+        "with given poses, objects must have the same number in all masks, not --mask-ids per-frame");
   return (SequenceFusion (inputs.known, options));
 }
 
@@ -191,12 +191,13 @@ run (const FusionSettings& settings, Terminal& terminal)
 int
 main (int argc, char** argv)
 {
-  return (runProgram ({"pcl_cosection_fusion", "interrupted; what was written is whole", out_of_memory}, [&] (Terminal& terminal) {
-    const std::optional<FusionSettings> settings = parseFusionCommandLine (argc, argv);
-    if (!settings)
-      return (true);
-    terminal.setVerbosity (settings->verbosity);
-    catchInterruptions ();
-    return (run (*settings, terminal));
-  }));
+  return (runProgram ({"pcl_cosection_fusion", "interrupted; what was written is whole", out_of_memory},
+                      [&] (Terminal& terminal) {
+                        const std::optional<FusionSettings> settings = parseFusionCommandLine (argc, argv);
+                        if (!settings)
+                          return (true);
+                        terminal.setVerbosity (settings->verbosity);
+                        catchInterruptions ();
+                        return (run (*settings, terminal));
+                      }));
 }

@@ -40,7 +40,8 @@ addTruth (ReportContent& content, Terminal& terminal)
   }
   catch (const Error& error)
   {
-    content.warnings.push_back ("the run cannot be compared with the truth of " + content.truth_folder + ": " + error.what ());
+    content.warnings.push_back ("the run cannot be compared with the truth of " + content.truth_folder + ": " +
+                                error.what ());
   }
 }
 

@@ -14,7 +14,7 @@
 #include <nlohmann/json.hpp>
 
 #include <pcl/cosection/common/error.h>
-#include <pcl/cosection/common/ignored_label.h>
+#include <pcl/cosection/common/image.h>
 
 #include <algorithm>
 #include <optional>
@@ -31,7 +31,8 @@ warningsOf (const SegmentSettings& settings, const OrganizedCloud& cloud)
 {
   std::vector<std::string> warnings;
   if (cloud.moved)
-    warnings.push_back (settings.input + ": its points are not in the frame of their sensor, whose place their pixels tell");
+    warnings.push_back (settings.input +
+                        ": its points are not in the frame of their sensor, whose place their pixels tell");
   float depth = 0.0f;
   for (const Eigen::Vector3f& p : cloud.points)
     if (p.allFinite ())
@@ -113,7 +114,8 @@ run (SegmentSettings settings, Terminal& terminal)
   copyWithLabels (settings.input, found.labels, settings.output);
 
   for (std::size_t n = 0; n < found.objects.size (); ++n)
-    terminal.detail ("object " + std::to_string (n + 1) + ": " + nameOf (found.objects[n]) + numbered (found.objects[n].points, "point"));
+    terminal.detail ("object " + std::to_string (n + 1) + ": " + nameOf (found.objects[n]) +
+                     numbered (found.objects[n].points, "point"));
   terminal.result ("wrote " + settings.output + ": " + numbered (found.objects.size (), "object") +
                    (detector ? "" : " on " + numbered (found.support_planes.size (), "plane")));
   if (settings.json.empty ())

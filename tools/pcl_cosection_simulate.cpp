@@ -12,8 +12,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "pcl_cosection/simulation/penetration_check.h"
 #include <pcl/cosection/common/error.h>
-#include <pcl/cosection/simulation/penetration_check.h>
 #include <pcl/cosection/simulation/scene_spec.h>
 #include <pcl/cosection/simulation/sequence_writer.h>
 
@@ -59,8 +59,8 @@ warningsOf (const SimulatedScene& scene, const SequenceOptions& frames, const Pr
   {
     std::ostringstream text;
     text.precision (2);
-    text << p.second << " is inside " << p.first << ", by " << 1000.0 * p.depth_m << " mm at frame " << p.frame << " (in "
-         << p.frames << (p.frames == 1 ? " frame)" : " frames)");
+    text << p.second << " is inside " << p.first << ", by " << 1000.0 * p.depth_m << " mm at frame " << p.frame
+         << " (in " << p.frames << (p.frames == 1 ? " frame)" : " frames)");
     warnings.push_back (text.str ());
   }
   return (warnings);
@@ -114,19 +114,21 @@ run (const SimulateSettings& settings, Terminal& terminal)
   const double render_s = total_s - read_s - check_s - truth_s;
   std::ostringstream text;
   text.precision (3);
-  text << "wrote " << settings.output << ": " << frames << (frames == 1 ? " frame" : " frames") << " of " << scene.camera.width
-       << " x " << scene.camera.height << ", " << scene.bodies.size () - 1
+  text << "wrote " << settings.output << ": " << frames << (frames == 1 ? " frame" : " frames") << " of "
+       << scene.camera.width << " x " << scene.camera.height << ", " << scene.bodies.size () - 1
        << (scene.bodies.size () == 2 ? " object, " : " objects, ") << frames / render_s << " frames/s";
   terminal.result (text.str ());
   if (settings.json.empty ())
     return;
   nlohmann::ordered_json summary;
-  summary["timings_s"] = {{"read", read_s}, {"check", check_s}, {"truth", truth_s}, {"render", render_s}, {"total", total_s}};
+  summary["timings_s"] = {
+      {"read", read_s}, {"check", check_s}, {"truth", truth_s}, {"render", render_s}, {"total", total_s}};
   summary["frames"] = frames;
   summary["frames_per_second"] = frames / render_s;
-  summary["parameters"] = {{"spec", settings.spec},   {"preset", settings.preset},          {"seed", scene.seed},
-                           {"noise", !!scene.noise},  {"views_every", scene.views_every},   {"threads", settings.threads},
-                           {"first_frame", options.first}};
+  summary["parameters"] = {
+      {"spec", settings.spec},       {"preset", settings.preset},        {"seed", scene.seed},
+      {"noise", !!scene.noise},      {"views_every", scene.views_every}, {"threads", settings.threads},
+      {"first_frame", options.first}};
   summary["objects"] = nlohmann::ordered_json::array ();
   for (const SceneBody& body : scene.bodies)
     if (body.id > 0)
@@ -146,8 +148,8 @@ main (int argc, char** argv)
       return (true);
     if (settings->list_presets)
       for (const ScenePreset& preset : scenePresets ())
-        std::cout << preset.name << std::string (8 - std::min<std::size_t> (7, preset.name.size ()), ' ') << preset.meaning
-                  << "\n";
+        std::cout << preset.name << std::string (8 - std::min<std::size_t> (7, preset.name.size ()), ' ')
+                  << preset.meaning << "\n";
     else if (!settings->print_preset.empty ())
       std::cout << presetOf (settings->print_preset).spec;
     else

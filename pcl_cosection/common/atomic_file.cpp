@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_cosection authors
 
+#include "atomic_file.h"
 #include <pcl/cosection/common/error.h>
-#include <pcl/cosection/common/atomic_file.h>
 
 #include <cerrno>
 #include <filesystem>
@@ -11,9 +11,7 @@
 #include <fcntl.h>
 #include <unistd.h>
 
-namespace pcl
-{
-namespace cosection
+namespace pcl::cosection
 {
 namespace
 {
@@ -81,11 +79,9 @@ createTemporary (const fs::path& target)
 class TemporaryFile
 {
 public:
-  explicit TemporaryFile (const fs::path& target) : path_ (createTemporary (target))
-  {}
+  explicit TemporaryFile (const fs::path& target) : path_ (createTemporary (target)) {}
   TemporaryFile (const TemporaryFile&) = delete;
-  TemporaryFile&
-  operator= (const TemporaryFile&) = delete;
+  TemporaryFile& operator= (const TemporaryFile&) = delete;
 
   ~TemporaryFile ()
   {
@@ -94,14 +90,9 @@ public:
       fs::remove (path_, ignored);
   }
 
-  const fs::path&
-  path () const
-  {
-    return path_;
-  }
+  const fs::path& path () const { return path_; }
 
-  void
-  renameTo (const fs::path& target)
+  void renameTo (const fs::path& target)
   {
     fs::rename (path_, target);
     path_.clear ();
@@ -143,5 +134,4 @@ writeAtomically (const std::string& path, const std::function<void (const std::s
   }
 }
 
-} // namespace cosection
-} // namespace pcl
+} // namespace pcl::cosection

@@ -5,9 +5,7 @@
 #include <cstddef>
 #include <string>
 
-namespace pcl
-{
-namespace cosection
+namespace pcl::cosection
 {
 
 /** \brief A size of memory in words: whole MiB, or KiB or bytes if it is less than one. */
@@ -22,5 +20,4 @@ byteText (std::size_t bytes)
   return std::to_string (bytes / (kibibyte * kibibyte)) + " MiB";
 }
 
-} // namespace cosection
-} // namespace pcl
+} // namespace pcl::cosection

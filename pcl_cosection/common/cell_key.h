@@ -7,9 +7,7 @@
 #include <cstdint>
 #include <optional>
 
-namespace pcl
-{
-namespace cosection
+namespace pcl::cosection
 {
 
 /** \brief Cells of a lattice without borders, as keys of a hash table. */
@@ -35,5 +33,4 @@ keyOf (const CellIndex& cell)
          (static_cast<std::uint64_t> (cell.y ()) & mask) << bits | (static_cast<std::uint64_t> (cell.x ()) & mask);
 }
 
-} // namespace cosection
-} // namespace pcl
+} // namespace pcl::cosection

@@ -7,9 +7,7 @@
 #include <utility>
 #include <vector>
 
-namespace pcl
-{
-namespace cosection
+namespace pcl::cosection
 {
 
 /** \brief Union-find over 0 ... size - 1; the representative of a set is its smallest element. */
@@ -21,8 +19,7 @@ public:
     std::iota (parent_.begin (), parent_.end (), std::size_t{0});
   }
 
-  std::size_t
-  find (std::size_t element)
+  std::size_t find (std::size_t element)
   {
     while (parent_[element] != element)
     {
@@ -32,8 +29,7 @@ public:
     return element;
   }
 
-  void
-  unite (std::size_t a, std::size_t b)
+  void unite (std::size_t a, std::size_t b)
   {
     a = find (a);
     b = find (b);
@@ -46,5 +42,4 @@ private:
   std::vector<std::size_t> parent_;
 };
 
-} // namespace cosection
-} // namespace pcl
+} // namespace pcl::cosection

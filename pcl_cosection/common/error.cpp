@@ -2,9 +2,7 @@
 // Copyright (c) 2026, the pcl_cosection authors
 #include <pcl/cosection/common/error.h>
 
-namespace pcl
-{
-namespace cosection
+namespace pcl::cosection
 {
 
 // Out-of-line destructors anchor the types' run-time information in this library, so that a
@@ -16,5 +14,4 @@ DegenerateInput::~DegenerateInput () = default;
 MemoryLimitExceeded::~MemoryLimitExceeded () = default;
 Cancelled::~Cancelled () = default;
 
-} // namespace cosection
-} // namespace pcl
+} // namespace pcl::cosection

@@ -11,20 +11,14 @@
 #include <memory>
 #include <system_error>
 
-namespace pcl
-{
-namespace cosection
+namespace pcl::cosection
 {
 namespace
 {
 
 struct CloseFile
 {
-  void
-  operator() (std::FILE* file) const
-  {
-    std::fclose (file);
-  }
+  void operator() (std::FILE* file) const { std::fclose (file); }
 };
 
 using File = std::unique_ptr<std::FILE, CloseFile>;
@@ -78,5 +72,4 @@ readBytes (const std::string& path)
   }
 }
 
-} // namespace cosection
-} // namespace pcl
+} // namespace pcl::cosection

@@ -6,19 +6,14 @@
 
 #include <string>
 
-namespace pcl
-{
-namespace cosection
+namespace pcl::cosection
 {
 
 /** \brief Replace the contents of a file. \throws std::system_error with the system's reason, which
  * writeAtomically () turns into an IoError that names the final path. */
-PCL_COSECTION_EXPORT void
-writeBytes (const std::string& path, const std::string& bytes);
+PCL_COSECTION_EXPORT void writeBytes (const std::string& path, const std::string& bytes);
 
 /** \brief \throws IoError naming \a path and the system's reason */
-PCL_COSECTION_EXPORT std::string
-readBytes (const std::string& path);
+PCL_COSECTION_EXPORT std::string readBytes (const std::string& path);
 
-} // namespace cosection
-} // namespace pcl
+} // namespace pcl::cosection

@@ -6,9 +6,7 @@
 #include <cstddef>
 #include <vector>
 
-namespace pcl
-{
-namespace cosection
+namespace pcl::cosection
 {
 
 /** \brief The value that a share of all is below. \param[in,out] values not empty; their order changes */
@@ -20,5 +18,4 @@ quantile (std::vector<double>& values, double share)
   return *rank;
 }
 
-} // namespace cosection
-} // namespace pcl
+} // namespace pcl::cosection

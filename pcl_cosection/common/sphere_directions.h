@@ -6,9 +6,7 @@
 
 #include <cmath>
 
-namespace pcl
-{
-namespace cosection
+namespace pcl::cosection
 {
 
 /** \brief The n-th of \a count directions that are evenly spread over the sphere (Fibonacci lattice). */
@@ -21,5 +19,4 @@ sphereDirection (int n, int count)
   return Eigen::Vector3d (r * std::cos (golden_angle * n), r * std::sin (golden_angle * n), z).cast<float> ();
 }
 
-} // namespace cosection
-} // namespace pcl
+} // namespace pcl::cosection

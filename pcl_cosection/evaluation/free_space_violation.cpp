@@ -8,9 +8,7 @@
 #include <cmath>
 #include <optional>
 
-namespace pcl
-{
-namespace cosection
+namespace pcl::cosection
 {
 
 namespace
@@ -72,5 +70,4 @@ measureFreeSpaceViolation (const std::vector<Eigen::Vector3d>& points, const std
   return result;
 }
 
-} // namespace cosection
-} // namespace pcl
+} // namespace pcl::cosection

@@ -2,18 +2,16 @@
 // Copyright (c) 2026, the pcl_cosection authors
 #include <pcl/cosection/evaluation/mesh_comparison.h>
 
+#include "surface_samples.h"
 #include <pcl/cosection/common/error.h>
 #include <pcl/cosection/evaluation/surface_distance.h>
-#include <pcl/cosection/evaluation/surface_samples.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <sstream>
 
-namespace pcl
-{
-namespace cosection
+namespace pcl::cosection
 {
 
 namespace
@@ -78,10 +76,10 @@ compareMeshes (const TriangleMesh& truth, const TriangleMesh& reconstruction, co
   options.validate ();
   requireSurface (truth, "truth");
   requireSurface (reconstruction, "reconstruction");
-  const auto to_truth = SurfaceDistance (truth).of (
-      sampleSurface (reconstruction, options.samples, options.seed), options.threads);
-  const auto to_reconstruction = SurfaceDistance (reconstruction).of (
-      sampleSurface (truth, options.samples, options.seed), options.threads);
+  const auto to_truth = SurfaceDistance (truth).of (sampleSurface (reconstruction, options.samples, options.seed),
+                                                    options.threads);
+  const auto to_reconstruction = SurfaceDistance (reconstruction)
+                                     .of (sampleSurface (truth, options.samples, options.seed), options.threads);
 
   MeshComparison result;
   result.accuracy = errorStatistics (to_truth);
@@ -126,8 +124,8 @@ frameWarnings (const MeshSummary& truth, const MeshSummary& reconstruction)
   {
     std::ostringstream text;
     text.precision (3);
-    text << "the reconstruction is " << (ratio > 1.0 ? ratio : 1.0 / ratio) << " times as " << (ratio > 1.0 ? "large" : "small")
-         << " as the truth: one is in millimetres, the other in metres?";
+    text << "the reconstruction is " << (ratio > 1.0 ? ratio : 1.0 / ratio) << " times as "
+         << (ratio > 1.0 ? "large" : "small") << " as the truth: one is in millimetres, the other in metres?";
     warnings.push_back (text.str ());
   }
   if (!truth.box.intersects (reconstruction.box))
@@ -145,5 +143,4 @@ transformMesh (TriangleMesh mesh, const Eigen::Isometry3d& T_target_mesh)
   return mesh;
 }
 
-} // namespace cosection
-} // namespace pcl
+} // namespace pcl::cosection

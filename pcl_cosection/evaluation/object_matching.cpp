@@ -2,14 +2,12 @@
 // Copyright (c) 2026, the pcl_cosection authors
 #include "object_matching.h"
 
+#include "surface_samples.h"
 #include <pcl/cosection/evaluation/surface_distance.h>
-#include <pcl/cosection/evaluation/surface_samples.h>
 
 #include <algorithm>
 
-namespace pcl
-{
-namespace cosection
+namespace pcl::cosection
 {
 
 namespace
@@ -24,18 +22,19 @@ constexpr double least_overlap = 0.1;
 struct Shape
 {
   explicit Shape (const TriangleMesh& mesh)
-  : distance (mesh), points (sampleSurface (mesh, match_samples)), diagonal_m (summarizeMesh (mesh).box.diagonal ().norm ())
+      : distance (mesh)
+      , points (sampleSurface (mesh, match_samples))
+      , diagonal_m (summarizeMesh (mesh).box.diagonal ().norm ())
   {}
 
-  double
-  shareNear (const Shape& other, const Eigen::Isometry3d& T_this_other, double reach_m, int threads) const
+  double shareNear (const Shape& other, const Eigen::Isometry3d& T_this_other, double reach_m, int threads) const
   {
     std::vector<Eigen::Vector3d> moved;
     for (const Eigen::Vector3d& p : other.points)
       moved.push_back (T_this_other * p);
     const std::vector<double> distances = distance.of (moved, threads);
-    return static_cast<double> (std::count_if (distances.begin (), distances.end (),
-                                               [reach_m] (double d) { return d <= reach_m; })) /
+    return static_cast<double> (
+               std::count_if (distances.begin (), distances.end (), [reach_m] (double d) { return d <= reach_m; })) /
            static_cast<double> (distances.size ());
   }
 
@@ -97,9 +96,9 @@ matchObjects (const std::vector<ViewedObject>& truth, const std::vector<ViewedOb
       for (std::size_t n = 0; n < frames; ++n)
       {
         const PosePair& pair = pairs[frames > 1 ? n * (pairs.size () - 1) / (frames - 1) : 0];
-        overlaps.push_back (overlapAt (truth_shapes[t], estimate_shapes[e],
-                                       truth[t].poses[pair.truth].pose.inverse () * estimate[e].poses[pair.estimate].pose,
-                                       threads));
+        overlaps.push_back (
+            overlapAt (truth_shapes[t], estimate_shapes[e],
+                       truth[t].poses[pair.truth].pose.inverse () * estimate[e].poses[pair.estimate].pose, threads));
       }
       const double overlap = errorStatistics (overlaps).median;
       if (overlap >= least_overlap)
@@ -118,5 +117,4 @@ matchObjects (const std::vector<ViewedObject>& truth, const std::vector<ViewedOb
   return matches;
 }
 
-} // namespace cosection
-} // namespace pcl
+} // namespace pcl::cosection

@@ -6,9 +6,7 @@
 
 #include <vector>
 
-namespace pcl
-{
-namespace cosection
+namespace pcl::cosection
 {
 
 /** \brief An object as the camera sees it. */
@@ -19,8 +17,8 @@ struct ViewedObject
 };
 
 /** \brief The objects of a scene that have a mesh and poses together with the camera. */
-std::vector<ViewedObject>
-viewObjects (const SceneRecord& scene, double max_difference_s, const char* whose, std::vector<std::string>& warnings);
+std::vector<ViewedObject> viewObjects (const SceneRecord& scene, double max_difference_s, const char* whose,
+                                       std::vector<std::string>& warnings);
 
 struct ObjectMatch
 {
@@ -30,9 +28,7 @@ struct ObjectMatch
 };
 
 /** \brief Match one to one, by ascending index of the estimate. */
-std::vector<ObjectMatch>
-matchObjects (const std::vector<ViewedObject>& truth, const std::vector<ViewedObject>& estimate,
-              double max_difference_s, int threads);
+std::vector<ObjectMatch> matchObjects (const std::vector<ViewedObject>& truth,
+                                       const std::vector<ViewedObject>& estimate, double max_difference_s, int threads);
 
-} // namespace cosection
-} // namespace pcl
+} // namespace pcl::cosection

@@ -4,19 +4,17 @@
 
 #include "solid_depth.h"
 
+#include "pcl_cosection/common/parallel.h"
+#include "surface_samples.h"
 #include <pcl/cosection/common/error.h>
-#include <pcl/cosection/common/parallel.h>
 #include <pcl/cosection/evaluation/mesh_comparison.h>
-#include <pcl/cosection/evaluation/surface_samples.h>
 #include <pcl/cosection/volume/mesh_distance.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-namespace pcl
-{
-namespace cosection
+namespace pcl::cosection
 {
 
 namespace
@@ -43,7 +41,8 @@ PenetrationOptions::validate () const
 }
 
 PenetrationBody::PenetrationBody (const TriangleMesh& mesh, const PenetrationOptions& options)
-: mesh_ (mesh), options_ (options)
+    : mesh_ (mesh)
+    , options_ (options)
 {
   options.validate ();
   box_ = summarizeMesh (mesh).box;
@@ -62,8 +61,7 @@ PenetrationBody::PenetrationBody (const TriangleMesh& mesh, const PenetrationOpt
 
 PenetrationBody::~PenetrationBody () = default;
 PenetrationBody::PenetrationBody (PenetrationBody&&) noexcept = default;
-PenetrationBody&
-PenetrationBody::operator= (PenetrationBody&&) noexcept = default;
+PenetrationBody& PenetrationBody::operator= (PenetrationBody&&) noexcept = default;
 
 bool
 PenetrationBody::isOpen () const
@@ -115,8 +113,8 @@ PenetrationBody::sharedVolume (const PenetrationBody& other, const Eigen::Isomet
 
   const auto distanceOf = [&] (const PenetrationBody& body, const Eigen::Isometry3d& pose) {
     const SolidDepth& solid = *body.solid_;
-    return sampleSignedDistance (transformMesh (body.options_.open_parts ? body.mesh_ : solid.closedParts (), pose), grid,
-                                 solid.hasSheets () ? body.options_.band_m : voxel_m, options_.threads);
+    return sampleSignedDistance (transformMesh (body.options_.open_parts ? body.mesh_ : solid.closedParts (), pose),
+                                 grid, solid.hasSheets () ? body.options_.band_m : voxel_m, options_.threads);
   };
   const SignedDistanceField a = distanceOf (*this, Eigen::Isometry3d::Identity ());
   const SignedDistanceField b = distanceOf (other, T_this_other);
@@ -129,5 +127,4 @@ PenetrationBody::sharedVolume (const PenetrationBody& other, const Eigen::Isomet
   return static_cast<double> (count) * voxel_m * voxel_m * voxel_m;
 }
 
-} // namespace cosection
-} // namespace pcl
+} // namespace pcl::cosection

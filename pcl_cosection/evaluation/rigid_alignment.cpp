@@ -2,8 +2,8 @@
 // Copyright (c) 2026, the pcl_cosection authors
 #include <pcl/cosection/evaluation/rigid_alignment.h>
 
+#include "pcl_cosection/common/parallel.h"
 #include <pcl/cosection/common/error.h>
-#include <pcl/cosection/common/parallel.h>
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/SVD>
@@ -13,9 +13,7 @@
 #include <limits>
 #include <numeric>
 
-namespace pcl
-{
-namespace cosection
+namespace pcl::cosection
 {
 
 namespace
@@ -27,7 +25,8 @@ using Matrix6d = Eigen::Matrix<double, 6, 6>;
 Eigen::Vector3d
 meanOf (const std::vector<Eigen::Vector3d>& points)
 {
-  const Eigen::Vector3d sum = std::accumulate (points.begin (), points.end (), Eigen::Vector3d (Eigen::Vector3d::Zero ()));
+  const Eigen::Vector3d sum = std::accumulate (points.begin (), points.end (),
+                                               Eigen::Vector3d (Eigen::Vector3d::Zero ()));
   return sum / static_cast<double> (std::max<std::size_t> (1, points.size ()));
 }
 
@@ -45,7 +44,10 @@ class PointToPlane
 public:
   PointToPlane (const std::vector<Eigen::Vector3d>& points, const SurfaceDistance& surface,
                 const RefinementOptions& options)
-  : points_ (points), surface_ (surface), options_ (options), centre_ (meanOf (points))
+      : points_ (points)
+      , surface_ (surface)
+      , options_ (options)
+      , centre_ (meanOf (points))
   {
     double squares = 0.0;
     for (const Eigen::Vector3d& p : points)
@@ -53,16 +55,12 @@ public:
     radius_m_ = std::max (std::sqrt (squares / static_cast<double> (points.size ())), 1e-9);
   }
 
-  const Eigen::Vector3d&
-  centre () const
-  {
-    return centre_;
-  }
+  const Eigen::Vector3d& centre () const { return centre_; }
 
-  /** \brief Sum up the normal equations of a small motion: a rotation about the centre, radians times radius, and a translation.
+  /** \brief Sum up the normal equations of a small motion: a rotation about the centre, radians times radius, and a
+   * translation.
    * \return the root mean square distance of the points that count */
-  double
-  linearize (const Eigen::Isometry3d& motion, Matrix6d& hessian, Vector6d& gradient) const
+  double linearize (const Eigen::Isometry3d& motion, Matrix6d& hessian, Vector6d& gradient) const
   {
     std::vector<SurfaceDistance::Nearest> nearest (points_.size ());
     parallelFor (0, static_cast<int> (points_.size ()), options_.threads,
@@ -89,8 +87,7 @@ public:
   }
 
   /** \brief The motion that solves the normal equations, without what they leave undetermined. */
-  Eigen::Isometry3d
-  step (const Eigen::Isometry3d& motion, const Matrix6d& hessian, const Vector6d& gradient) const
+  Eigen::Isometry3d step (const Eigen::Isometry3d& motion, const Matrix6d& hessian, const Vector6d& gradient) const
   {
     constexpr double undetermined = 1e-3; // of the best determined motion
     const Eigen::SelfAdjointEigenSolver<Matrix6d> solver (hessian);
@@ -223,5 +220,4 @@ refineAlignment (const std::vector<Eigen::Vector3d>& points, const SurfaceDistan
   return result;
 }
 
-} // namespace cosection
-} // namespace pcl
+} // namespace pcl::cosection

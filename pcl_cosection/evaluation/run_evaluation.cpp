@@ -11,9 +11,7 @@
 
 #include <algorithm>
 
-namespace pcl
-{
-namespace cosection
+namespace pcl::cosection
 {
 
 namespace
@@ -155,7 +153,8 @@ void
 warnOfRefinement (const std::string& name, const FrameAlignment& alignment, std::vector<std::string>& warnings)
 {
   if (alignment.refinement.limited)
-    warnings.push_back (name + ": the refinement of its alignment wants to go beyond its limits; poses and mesh may not fit together");
+    warnings.push_back (
+        name + ": the refinement of its alignment wants to go beyond its limits; poses and mesh may not fit together");
 }
 
 } // namespace
@@ -216,5 +215,4 @@ evaluateRun (const SceneRecord& truth, const SceneRecord& estimate, const RunOpt
   return result;
 }
 
-} // namespace cosection
-} // namespace pcl
+} // namespace pcl::cosection

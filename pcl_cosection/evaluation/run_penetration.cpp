@@ -7,9 +7,7 @@
 #include <algorithm>
 #include <memory>
 
-namespace pcl
-{
-namespace cosection
+namespace pcl::cosection
 {
 
 namespace
@@ -102,12 +100,10 @@ measurePenetrations (const SceneRecord& scene, double max_difference_s, const Ru
       RelativePoses poses;
       for (const StampedPose& pose : objects[n]->poses)
         poses.push_back ({pose.stamp, pose.pose.inverse ()});
-      add (objects[n]->id, PairPenetration::background,
-           measure (bodies[n], background, poses, options.volume_frames));
+      add (objects[n]->id, PairPenetration::background, measure (bodies[n], background, poses, options.volume_frames));
     }
   }
   return result;
 }
 
-} // namespace cosection
-} // namespace pcl
+} // namespace pcl::cosection

@@ -6,15 +6,12 @@
 
 #include <vector>
 
-namespace pcl
-{
-namespace cosection
+namespace pcl::cosection
 {
 
 /** \brief The penetration of every object that has a mesh and poses with every other and with the background, over all
  * frames of both. */
-std::vector<PairPenetration>
-measurePenetrations (const SceneRecord& scene, double max_difference_s, const RunOptions& options);
+std::vector<PairPenetration> measurePenetrations (const SceneRecord& scene, double max_difference_s,
+                                                  const RunOptions& options);
 
-} // namespace cosection
-} // namespace pcl
+} // namespace pcl::cosection

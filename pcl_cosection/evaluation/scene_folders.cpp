@@ -2,8 +2,8 @@
 // Copyright (c) 2026, the pcl_cosection authors
 #include <pcl/cosection/evaluation/scene_folders.h>
 
+#include "surface_samples.h"
 #include <pcl/cosection/common/error.h>
-#include <pcl/cosection/evaluation/surface_samples.h>
 #include <pcl/cosection/io/mesh_io.h>
 #include <pcl/cosection/io/trajectory.h>
 
@@ -14,9 +14,7 @@
 
 namespace fs = std::filesystem;
 
-namespace pcl
-{
-namespace cosection
+namespace pcl::cosection
 {
 
 namespace
@@ -157,7 +155,8 @@ readRun (const std::string& folder, ReadingNotes& notes)
   SceneRecord run;
   run.camera = loadTrajectory (inFolder (folder, "trajectory/camera.txt"));
   std::vector<std::string> names;
-  const auto trajectories = matchingFiles (inFolder (folder, "trajectory"), std::regex ("object_([0-9]{1,9})\\.txt"), names);
+  const auto trajectories = matchingFiles (inFolder (folder, "trajectory"), std::regex ("object_([0-9]{1,9})\\.txt"),
+                                           names);
   for (const auto& [path, match] : trajectories)
   {
     SceneRecord::Object object;
@@ -171,7 +170,8 @@ readRun (const std::string& folder, ReadingNotes& notes)
   }
   std::sort (run.objects.begin (), run.objects.end (), [] (const auto& a, const auto& b) { return a.id < b.id; });
   std::vector<std::string> mesh_names;
-  for (const auto& [path, match] : matchingFiles (inFolder (folder, "mesh"), std::regex ("object_([0-9]{1,9})\\.ply"), mesh_names))
+  for (const auto& [path, match] :
+       matchingFiles (inFolder (folder, "mesh"), std::regex ("object_([0-9]{1,9})\\.ply"), mesh_names))
     if (!fs::exists (inFolder (folder, "trajectory/object_" + match[1].str () + ".txt")))
       notes.warnings.push_back (path + ": has no trajectory/object_" + match[1].str () + ".txt; it is left out");
   const std::string background = inFolder (folder, "mesh/background.ply");
@@ -207,5 +207,4 @@ readTruth (const std::string& folder, ReadingNotes& notes)
   return truth;
 }
 
-} // namespace cosection
-} // namespace pcl
+} // namespace pcl::cosection

@@ -6,9 +6,7 @@
 
 #include <algorithm>
 
-namespace pcl
-{
-namespace cosection
+namespace pcl::cosection
 {
 
 namespace
@@ -70,5 +68,4 @@ visibleStamps (const SceneRecord& scene, double max_difference_s)
   return stamps;
 }
 
-} // namespace cosection
-} // namespace pcl
+} // namespace pcl::cosection

@@ -6,15 +6,11 @@
 
 #include <vector>
 
-namespace pcl
-{
-namespace cosection
+namespace pcl::cosection
 {
 
 /** \brief The stamps at which each object of a scene is visible: it covers at least a thousandth of the picture, behind
  * others and the background. Without intrinsics, all stamps at which it and the camera have a pose. */
-std::vector<std::vector<double>>
-visibleStamps (const SceneRecord& scene, double max_difference_s);
+std::vector<std::vector<double>> visibleStamps (const SceneRecord& scene, double max_difference_s);
 
-} // namespace cosection
-} // namespace pcl
+} // namespace pcl::cosection

@@ -2,16 +2,14 @@
 // Copyright (c) 2026, the pcl_cosection authors
 #include "solid_depth.h"
 
-#include "../common/mesh_cleaning.h"
-#include "../common/mesh_parts.h"
+#include "pcl_cosection/mesh/mesh_cleaning.h"
+#include "pcl_cosection/mesh/mesh_parts.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 
-namespace pcl
-{
-namespace cosection
+namespace pcl::cosection
 {
 
 namespace
@@ -94,5 +92,4 @@ SolidDepth::at (const Eigen::Vector3d& p) const
   return depth_m;
 }
 
-} // namespace cosection
-} // namespace pcl
+} // namespace pcl::cosection

@@ -2,19 +2,17 @@
 // Copyright (c) 2026, the pcl_cosection authors
 #include <pcl/cosection/evaluation/surface_distance.h>
 
-#include "../volume/triangle_tree.h"
+#include "pcl_cosection/volume/mesh_distance/triangle_tree.h"
 
-#include <pcl/cosection/common/parallel.h>
-#include <pcl/cosection/evaluation/surface_samples.h>
+#include "pcl_cosection/common/parallel.h"
+#include "surface_samples.h"
 
 #include <Eigen/Geometry>
 
 #include <cmath>
 #include <utility>
 
-namespace pcl
-{
-namespace cosection
+namespace pcl::cosection
 {
 
 namespace
@@ -55,8 +53,7 @@ SurfaceDistance::SurfaceDistance (const TriangleMesh& mesh)
 
 SurfaceDistance::~SurfaceDistance () = default;
 SurfaceDistance::SurfaceDistance (SurfaceDistance&&) noexcept = default;
-SurfaceDistance&
-SurfaceDistance::operator= (SurfaceDistance&&) noexcept = default;
+SurfaceDistance& SurfaceDistance::operator= (SurfaceDistance&&) noexcept = default;
 
 std::vector<double>
 SurfaceDistance::of (const std::vector<Eigen::Vector3d>& points, int threads) const
@@ -91,5 +88,4 @@ vertexDistances (const TriangleMesh& mesh, const SurfaceDistance& surface, int t
   return surface.of (points, threads);
 }
 
-} // namespace cosection
-} // namespace pcl
+} // namespace pcl::cosection

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_cosection authors
-#include <pcl/cosection/evaluation/surface_samples.h>
+#include "surface_samples.h"
 
-#include "../common/mesh_checks.h"
+#include "pcl_cosection/mesh/mesh_checks.h"
 
 #include <pcl/cosection/common/error.h>
 
@@ -13,9 +13,7 @@
 #include <random>
 #include <string>
 
-namespace pcl
-{
-namespace cosection
+namespace pcl::cosection
 {
 
 namespace
@@ -88,5 +86,4 @@ sampleSurface (const TriangleMesh& mesh, std::size_t count, std::uint64_t seed)
   return points;
 }
 
-} // namespace cosection
-} // namespace pcl
+} // namespace pcl::cosection

@@ -2,7 +2,7 @@
 // Copyright (c) 2026, the pcl_cosection authors
 #include <pcl/cosection/evaluation/trajectory_error.h>
 
-#include "../io/stamp_span.h"
+#include "pcl_cosection/sequence/stamp_span.h"
 
 #include <pcl/cosection/common/error.h>
 #include <pcl/cosection/evaluation/rigid_alignment.h>
@@ -14,19 +14,17 @@
 #include <sstream>
 #include <tuple>
 
-namespace pcl
-{
-namespace cosection
+namespace pcl::cosection
 {
 
 namespace
 {
 
 constexpr double rpe_span_share = 0.02; // by which the spans of pairs may differ
-constexpr double rounding = 1e-9; ///< relative, of stamps in text files
+constexpr double rounding = 1e-9;       ///< relative, of stamps in text files
 
-/** \brief The stamps of both trajectories in one list, from which matches are taken out. The nearest pair that remains is
- * always one of neighbours. */
+/** \brief The stamps of both trajectories in one list, from which matches are taken out. The nearest pair that remains
+ * is always one of neighbours. */
 class StampList
 {
 public:
@@ -46,8 +44,7 @@ public:
     }
   }
 
-  std::vector<PosePair>
-  match (double max_difference_s)
+  std::vector<PosePair> match (double max_difference_s)
   {
     std::vector<PosePair> pairs;
     while (!candidates_.empty ())
@@ -86,8 +83,7 @@ private:
 
   using Candidate = std::tuple<double, std::size_t, std::size_t>;
 
-  void
-  offer (std::size_t a, std::size_t b)
+  void offer (std::size_t a, std::size_t b)
   {
     if (a != none && b != none && entries_[a].is_truth != entries_[b].is_truth)
       candidates_.emplace (entries_[b].stamp - entries_[a].stamp, a, b);
@@ -109,11 +105,7 @@ struct Matches
 {
   std::vector<StampedPose> truth, estimate;
 
-  std::size_t
-  size () const
-  {
-    return truth.size ();
-  }
+  std::size_t size () const { return truth.size (); }
 };
 
 void
@@ -132,9 +124,10 @@ align (const Matches& matches, const TrajectoryOptions& options, TrajectoryError
   const PointAlignment alignment = alignPoints (target, source);
   error.T_truth_estimate = alignment.T_target_source;
   if (!alignment.determined)
-    error.notes.emplace_back (matches.size () < 3
-                                  ? "fewer than three poses match: the alignment's rotation is not determined"
-                                  : "the positions are on one line, or in one place: the alignment's rotation is not determined");
+    error.notes.emplace_back (
+        matches.size () < 3
+            ? "fewer than three poses match: the alignment's rotation is not determined"
+            : "the positions are on one line, or in one place: the alignment's rotation is not determined");
 }
 
 void
@@ -244,13 +237,12 @@ compareTrajectories (const std::vector<StampedPose>& truth, const std::vector<St
   align (matches, options, error);
   std::vector<double> distances;
   for (std::size_t n = 0; n < matches.size (); ++n)
-    distances.push_back ((matches.truth[n].pose.translation () -
-                          error.T_truth_estimate * matches.estimate[n].pose.translation ())
-                             .norm ());
+    distances.push_back (
+        (matches.truth[n].pose.translation () - error.T_truth_estimate * matches.estimate[n].pose.translation ())
+            .norm ());
   error.ate_m = errorStatistics (std::move (distances));
   computeRpe (matches, options, error);
   return error;
 }
 
-} // namespace cosection
-} // namespace pcl
+} // namespace pcl::cosection

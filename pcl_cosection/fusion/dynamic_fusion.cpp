@@ -2,15 +2,15 @@
 // Copyright (c) 2026, the pcl_cosection authors
 #include <pcl/cosection/fusion/dynamic_fusion.h>
 
-#include "camera_tracking.h"
 #include "dynamic_fusion_options.h"
 #include "event_log.h"
-#include "frame_cloud.h"
-#include "frame_segmentation.h"
-#include "object_map.h"
-#include "object_tracking.h"
-#include "pose_tracking.h"
-#include "scheduled_segmenter.h"
+#include "pcl_cosection/fusion/association/frame_segmentation.h"
+#include "pcl_cosection/fusion/mapping/object_map.h"
+#include "pcl_cosection/fusion/segmenters/scheduled_segmenter.h"
+#include "pcl_cosection/fusion/tracking/camera_tracking.h"
+#include "pcl_cosection/fusion/tracking/frame_cloud.h"
+#include "pcl_cosection/fusion/tracking/object_tracking.h"
+#include "pcl_cosection/fusion/tracking/pose_tracking.h"
 
 #include <pcl/cosection/common/error.h>
 
@@ -20,17 +20,15 @@
 #include <set>
 #include <utility>
 
-namespace pcl
-{
-namespace cosection
+namespace pcl::cosection
 {
 
 namespace
 {
 
-constexpr std::size_t min_readings = 500;     // of an image of 640 x 480
+constexpr std::size_t min_readings = 500; // of an image of 640 x 480
 constexpr double min_readings_share = min_readings / (640.0 * 480.0);
-constexpr int mask_border_px = 2;              // beside an object, readings are mixed with its own
+constexpr int mask_border_px = 2;        // beside an object, readings are mixed with its own
 constexpr double uncounted_object = 0.5; // foreground probability of what no mask showed yet
 
 } // namespace
@@ -39,27 +37,20 @@ struct DynamicFusion::Impl
 {
   Impl (const PinholeCamera& camera, const DynamicFusionOptions& options);
 
-  void
-  process (const RgbdFrame& frame, const Image<std::uint16_t>* mask);
-  bool
-  trackCamera (const FrameCloud& cloud, const RgbdFrame& frame);
-  FrameSegmentation
-  segment (const RgbdFrame& frame, const FrameCloud& cloud, const Image<std::uint16_t>* mask);
+  void process (const RgbdFrame& frame, const Image<std::uint16_t>* mask);
+  bool trackCamera (const FrameCloud& cloud, const RgbdFrame& frame);
+  FrameSegmentation segment (const RgbdFrame& frame, const FrameCloud& cloud, const Image<std::uint16_t>* mask);
   /** \brief What the segmenter finds, beside what is known; no mask: it is not its turn, or it cannot tell. */
-  FrameInstances
-  findInstances (const RgbdFrame& frame, const FrameCloud& cloud, const Image<std::uint16_t>& labels);
-  void
-  integrate (const RgbdFrame& frame, const FrameCloud& cloud, const Image<std::uint16_t>& labels);
-  void
-  report (const FrameSegmentation& segmentation);
+  FrameInstances findInstances (const RgbdFrame& frame, const FrameCloud& cloud, const Image<std::uint16_t>& labels);
+  void integrate (const RgbdFrame& frame, const FrameCloud& cloud, const Image<std::uint16_t>& labels);
+  void report (const FrameSegmentation& segmentation);
 
   /** \brief The background, and the objects of a state or of any; relative to a camera at \a T_world_camera.
    * \param[in] predicted where objects should be in this frame, not where they were */
-  std::vector<AssociatedModel>
-  models (const Eigen::Isometry3d& T_world_camera, bool predicted, std::vector<TrackedObject*>& objects) const;
+  std::vector<AssociatedModel> models (const Eigen::Isometry3d& T_world_camera, bool predicted,
+                                       std::vector<TrackedObject*>& objects) const;
 
-  template <typename Function> void
-  timed (const char* stage, Function&& f)
+  template <typename Function> void timed (const char* stage, Function&& f)
   {
     const auto start = std::chrono::steady_clock::now ();
     f ();
@@ -78,29 +69,30 @@ struct DynamicFusion::Impl
   TrackedFrame result;
   std::map<std::string, double> timings;
 
-  Eigen::Isometry3d T_world_camera;                                 // the last good one
+  Eigen::Isometry3d T_world_camera;                               // the last good one
   Eigen::Isometry3d last_motion = Eigen::Isometry3d::Identity (); // of the camera, its own frame
-  std::size_t last_frame = 0;                                       // of that pose
-  int frames_lost = 0;                                              // of the camera, in a row
+  std::size_t last_frame = 0;                                     // of that pose
+  int frames_lost = 0;                                            // of the camera, in a row
 };
 
 DynamicFusion::Impl::Impl (const PinholeCamera& camera, const DynamicFusionOptions& options)
-: camera (camera)
-, options (options)
-, background (backgroundOptions (options))
-, objects (camera, options)
-, camera_tracking (options.tracking_points, associationOptions (options), options.threads)
-, tracking (options.tracking_points, associationOptions (options), options.threads)
-, association (associationOptions (options))
-, segmenter (options.segment_every)
-, T_world_camera (options.first_pose)
+    : camera (camera)
+    , options (options)
+    , background (backgroundOptions (options))
+    , objects (camera, options)
+    , camera_tracking (options.tracking_points, associationOptions (options), options.threads)
+    , tracking (options.tracking_points, associationOptions (options), options.threads)
+    , association (associationOptions (options))
+    , segmenter (options.segment_every)
+    , T_world_camera (options.first_pose)
 {
   camera.validate ();
   options.validate ();
 }
 
 std::vector<AssociatedModel>
-DynamicFusion::Impl::models (const Eigen::Isometry3d& T_world_sensor, bool predicted, std::vector<TrackedObject*>& used) const
+DynamicFusion::Impl::models (const Eigen::Isometry3d& T_world_sensor, bool predicted,
+                             std::vector<TrackedObject*>& used) const
 {
   std::vector<AssociatedModel> result{{&*background.volume (), T_world_sensor, 1.0}};
   used.clear ();
@@ -153,7 +145,8 @@ DynamicFusion::Impl::trackCamera (const FrameCloud& cloud, const RgbdFrame& fram
     log.add (stamp, "the camera is found again after ", frames_lost, " frames");
   // What the surroundings do not tell must not go on by itself.
   const bool steady = frames_passed == 1.0 && estimate.observed_directions == all_directions;
-  last_motion = steady ? Eigen::Isometry3d (T_world_camera.inverse () * estimate.T_model_camera) : Eigen::Isometry3d::Identity ();
+  last_motion = steady ? Eigen::Isometry3d (T_world_camera.inverse () * estimate.T_model_camera)
+                       : Eigen::Isometry3d::Identity ();
   T_world_camera = estimate.T_model_camera;
   camera_tracking.keep (cloud, T_world_camera);
   frames_lost = 0;
@@ -177,7 +170,7 @@ DynamicFusion::Impl::findInstances (const RgbdFrame& frame, const FrameCloud& cl
     return found;
   ReconciledMask reconciled = reconcile (*found.mask, labels, moving, cloud);
   objects.judge (frame.stamp, reconciled, labels, log);
-  takeAlong (objects.moved (), labels, cloud, reconciled);
+  attach (objects.moved (), labels, cloud, reconciled);
   found.classes = carryOver (found, reconciled.mask, cloud);
   found.mask = std::move (reconciled.mask);
   return found;
@@ -196,8 +189,8 @@ DynamicFusion::Impl::segment (const RgbdFrame& frame, const FrameCloud& cloud, c
   std::vector<AssociatedModel> known = models (T_world_camera, false, used);
   const bool exact = mask || segmenter.isExact ();
   // Masks that are not exact do not take back what joined wrongly.
-  FrameSegmentation segmentation =
-      segmentFrame (cloud, known, idsOf (used), association, exact ? ObjectGrowth::Any : ObjectGrowth::Small);
+  FrameSegmentation segmentation = segmentFrame (cloud, known, idsOf (used), association,
+                                                 exact ? ObjectGrowth::Any : ObjectGrowth::Small);
   FrameInstances found;
   if (!mask)
     found = findInstances (frame, cloud, segmentation.labels);
@@ -212,7 +205,7 @@ DynamicFusion::Impl::segment (const RgbdFrame& frame, const FrameCloud& cloud, c
     const std::set<int> before = objects.found ();
     const auto object_of = objects.readMask (masked, segmentation.labels, tracking, log);
     if (!exact)
-      removeScraps (cloud, object_of, *found.mask);
+      dropSmallComponents (cloud, object_of, *found.mask);
     known = models (T_world_camera, false, used);
     applyMask (cloud, *mask, object_of, known, idsOf (used), association, segmentation);
     for (const auto& [instance, id] : object_of)
@@ -263,8 +256,8 @@ DynamicFusion::Impl::report (const FrameSegmentation& segmentation)
   for (const auto& object : objects.active ())
   {
     if (!object->confirmed)
-      std::replace (result.instances.pixels.begin (), result.instances.pixels.end (), static_cast<std::uint16_t> (object->id),
-                    TrackedFrame::unassigned);
+      std::replace (result.instances.pixels.begin (), result.instances.pixels.end (),
+                    static_cast<std::uint16_t> (object->id), TrackedFrame::unassigned);
     else if (object->state == ObjectState::Tracked)
       result.T_world_object[object->id] = object->T_world_object;
     result.lost += object->state == ObjectState::Lost;
@@ -310,13 +303,12 @@ DynamicFusion::Impl::process (const RgbdFrame& frame, const Image<std::uint16_t>
 }
 
 DynamicFusion::DynamicFusion (const PinholeCamera& camera, const DynamicFusionOptions& options)
-: impl_ (std::make_unique<Impl> (camera, options))
+    : impl_ (std::make_unique<Impl> (camera, options))
 {}
 
 DynamicFusion::~DynamicFusion () = default;
 DynamicFusion::DynamicFusion (DynamicFusion&& other) noexcept = default;
-DynamicFusion&
-DynamicFusion::operator= (DynamicFusion&& other) noexcept = default;
+DynamicFusion& DynamicFusion::operator= (DynamicFusion&& other) noexcept = default;
 
 void
 DynamicFusion::setSegmenter (std::shared_ptr<FrameSegmenter> segmenter)
@@ -377,5 +369,4 @@ DynamicFusion::timings () const
   return impl_->timings;
 }
 
-} // namespace cosection
-} // namespace pcl
+} // namespace pcl::cosection

@@ -6,9 +6,7 @@
 
 #include <cmath>
 
-namespace pcl
-{
-namespace cosection
+namespace pcl::cosection
 {
 
 namespace
@@ -28,11 +26,14 @@ DynamicFusionOptions::validate () const
 {
   association.validate ();
   check (background_resolution >= 16 && background_resolution <= 1024, "background_resolution must be in [16, 1024]");
-  check (background_voxel_size_m >= 0.0 && std::isfinite (background_voxel_size_m), "background_voxel_size_m must be positive, or 0");
+  check (background_voxel_size_m >= 0.0 && std::isfinite (background_voxel_size_m),
+         "background_voxel_size_m must be positive, or 0");
   check (segment_every >= 1, "segment_every must be at least 1");
   check (object_resolution >= 16 && object_resolution <= 512, "object_resolution must be in [16, 512]");
-  check (max_object_resolution >= object_resolution, "max_object_resolution must not be smaller than object_resolution");
-  check (background_truncation_vox >= 2.0 && object_truncation_vox >= 2.0, "truncation distances must be at least 2 voxels");
+  check (max_object_resolution >= object_resolution,
+         "max_object_resolution must not be smaller than object_resolution");
+  check (background_truncation_vox >= 2.0 && object_truncation_vox >= 2.0,
+         "truncation distances must be at least 2 voxels");
   check (max_weight >= 1.0 && std::isfinite (max_weight), "max_weight must be at least 1");
   check (max_depth_m > 0.0 && max_object_depth_m > 0.0, "the largest depths must be positive");
   check (tracking_points >= 1000, "tracking_points must be at least 1000");
@@ -63,5 +64,4 @@ associationOptions (const DynamicFusionOptions& options)
   return association;
 }
 
-} // namespace cosection
-} // namespace pcl
+} // namespace pcl::cosection

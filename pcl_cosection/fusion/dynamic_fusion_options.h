@@ -2,22 +2,17 @@
 // Copyright (c) 2026, the pcl_cosection authors
 #pragma once
 
-#include "background_model.h"
+#include "pcl_cosection/fusion/mapping/background_model.h"
 
 #include <pcl/cosection/fusion/dynamic_fusion.h>
 
-namespace pcl
-{
-namespace cosection
+namespace pcl::cosection
 {
 
 /** \brief What the options of the front end mean for its background. */
-BackgroundOptions
-backgroundOptions (const DynamicFusionOptions& options);
+BackgroundOptions backgroundOptions (const DynamicFusionOptions& options);
 
 /** \brief What they mean for its association. */
-AssociationOptions
-associationOptions (const DynamicFusionOptions& options);
+AssociationOptions associationOptions (const DynamicFusionOptions& options);
 
-} // namespace cosection
-} // namespace pcl
+} // namespace pcl::cosection

@@ -8,17 +8,14 @@
 #include <string>
 #include <vector>
 
-namespace pcl
-{
-namespace cosection
+namespace pcl::cosection
 {
 
 /** \brief Lines about decisions; what it keeps is bounded. */
 class EventLog
 {
 public:
-  template <typename... Parts> void
-  add (double stamp, const Parts&... parts)
+  template <typename... Parts> void add (double stamp, const Parts&... parts)
   {
     if (lines_.size () >= most)
     {
@@ -33,8 +30,7 @@ public:
     lines_.push_back (text.str ());
   }
 
-  std::vector<std::string>
-  lines () const
+  std::vector<std::string> lines () const
   {
     std::vector<std::string> result = lines_;
     if (more_ > 0)
@@ -48,5 +44,4 @@ private:
   std::size_t more_ = 0;
 };
 
-} // namespace cosection
-} // namespace pcl
+} // namespace pcl::cosection

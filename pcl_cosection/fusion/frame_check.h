@@ -4,19 +4,14 @@
 
 #include <pcl/cosection/fusion/sequence_fusion.h>
 
-namespace pcl
-{
-namespace cosection
+namespace pcl::cosection
 {
 
-/** \brief What can be known of a sequence's frames before any is read. \throws InvalidArgument if there is no frame in the range, or
- * the ignored pixels are not of the images' size */
-void
-requireFrames (const RgbdSequence& images, const FusionOptions& options);
+/** \brief What can be known of a sequence's frames before any is read. \throws InvalidArgument if there is no frame in
+ * the range, or the ignored pixels are not of the images' size */
+void requireFrames (const RgbdSequence& images, const FusionOptions& options);
 
 /** \throws InvalidArgument if no frame of the range has a pose of the camera */
-void
-requirePoses (const KnownSequence& sequence, const FrameRange& frames);
+void requirePoses (const KnownSequence& sequence, const FrameRange& frames);
 
-} // namespace cosection
-} // namespace pcl
+} // namespace pcl::cosection

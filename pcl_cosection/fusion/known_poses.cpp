@@ -1,73 +1,50 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_cosection authors
-#include "frame_knowledge.h"
+#include "frame_context.h"
 
-#include <pcl/cosection/common/ignored_label.h>
-#include <pcl/cosection/io/stamp_matching.h>
+#include "pcl_cosection/sequence/stamp_matching.h"
+#include <pcl/cosection/common/image.h>
 
 #include <map>
 #include <set>
 
-namespace pcl
-{
-namespace cosection
+namespace pcl::cosection
 {
 
 namespace
 {
 
 /** \brief Poses and masks are given; TSDF volumes are made of the masked pixels. */
-class KnownPoses : public FrameKnowledge
+class KnownPoses : public FrameContext
 {
 public:
   KnownPoses (const KnownSequence& sequence, const FusionOptions& options);
 
-  std::optional<Eigen::Isometry3d>
-  next (const RgbdFrame& frame) override;
+  std::optional<Eigen::Isometry3d> next (const RgbdFrame& frame) override;
 
-  const std::optional<Image<std::uint16_t>>&
-  instances () const override
-  {
-    return instances_;
-  }
+  const std::optional<Image<std::uint16_t>>& instances () const override { return instances_; }
 
-  bool
-  isFitForKeyframe (std::size_t) const override
-  {
-    return instances_.has_value ();
-  }
+  bool isFitForKeyframe (std::size_t) const override { return instances_.has_value (); }
 
-  void
-  look (Keyframe& keyframe) override;
+  void look (Keyframe& keyframe) override;
 
   /** \brief Those without a trajectory that were seen are at rest. */
-  CoSectionBackend::Poses
-  poses () const override;
+  CoSectionBackend::Poses poses () const override;
 
-  void
-  map (const RgbdFrame& frame, const Eigen::Isometry3d& T_world_camera) override;
+  void map (const RgbdFrame& frame, const Eigen::Isometry3d& T_world_camera) override;
 
-  TriangleMesh
-  seen (int id) const override
+  TriangleMesh seen (int id) const override
   {
     const auto found = tsdf_.find (id);
-    return found == tsdf_.end () || !found->second.volume () ? TriangleMesh () : found->second.volume ()->surfaceMesh ();
+    return found == tsdf_.end () || !found->second.volume () ? TriangleMesh ()
+                                                             : found->second.volume ()->surfaceMesh ();
   }
 
-  std::string
-  status () const override
-  {
-    return "";
-  }
+  std::string status () const override { return ""; }
 
-  std::vector<std::string>
-  maskWarnings () const override
-  {
-    return masks_.warnings ();
-  }
+  std::vector<std::string> maskWarnings () const override { return masks_.warnings (); }
 
-  void
-  finish (FusionResult& result) override;
+  void finish (FusionResult& result) override;
 
 private:
   const KnownSequence& sequence_;
@@ -87,7 +64,9 @@ private:
 };
 
 KnownPoses::KnownPoses (const KnownSequence& sequence, const FusionOptions& options)
-: sequence_ (sequence), options_ (options), masks_ (sequence.masks)
+    : sequence_ (sequence)
+    , options_ (options)
+    , masks_ (sequence.masks)
 {
   const std::vector<double> stamps = sequence.images->stamps ();
   const double period = sequence.images->period ();
@@ -106,9 +85,7 @@ KnownPoses::next (const RgbdFrame& frame)
     return std::nullopt;
   }
   ++frames_with_pose_;
-  addSeconds (segmentation_s_, [&] {
-    instances_ = sequence_.masks ? masks_.read (frame) : Image<std::uint16_t> ();
-  });
+  addSeconds (segmentation_s_, [&] { instances_ = sequence_.masks ? masks_.read (frame) : Image<std::uint16_t> (); });
   return camera_[frame_];
 }
 
@@ -179,7 +156,8 @@ KnownPoses::finish (FusionResult& result)
     if (tsdf.volume ())
       result.objects[id].tsdf = tsdf.volume ()->surfaceMesh ();
   for (const int id : at_rest_)
-    result.warnings.push_back ("object " + std::to_string (id) + " of the masks has no trajectory: it is taken to be at rest");
+    result.warnings.push_back ("object " + std::to_string (id) +
+                               " of the masks has no trajectory: it is taken to be at rest");
   if (frames_without_pose_ > 0)
     result.warnings.push_back (std::to_string (frames_without_pose_) + " of " +
                                std::to_string (frames_without_pose_ + frames_with_pose_) +
@@ -193,11 +171,10 @@ KnownPoses::finish (FusionResult& result)
 
 } // namespace
 
-std::unique_ptr<FrameKnowledge>
+std::unique_ptr<FrameContext>
 makeKnownPoses (const KnownSequence& sequence, const FusionOptions& options)
 {
   return std::make_unique<KnownPoses> (sequence, options);
 }
 
-} // namespace cosection
-} // namespace pcl
+} // namespace pcl::cosection

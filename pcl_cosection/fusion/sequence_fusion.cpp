@@ -3,7 +3,7 @@
 #include <pcl/cosection/fusion/sequence_fusion.h>
 
 #include "frame_check.h"
-#include "frame_knowledge.h"
+#include "frame_context.h"
 
 #include <pcl/cosection/common/error.h>
 #include <pcl/cosection/fusion/backend_thread.h>
@@ -18,9 +18,7 @@
 #include <sstream>
 #include <utility>
 
-namespace pcl
-{
-namespace cosection
+namespace pcl::cosection
 {
 
 namespace
@@ -28,47 +26,39 @@ namespace
 
 constexpr double frames_share = 0.5; // of the progress; the rest is the last solution
 constexpr std::size_t min_object_points = 100;
-constexpr std::size_t status_every = 10; // frames
+constexpr std::size_t status_every = 10;           // frames
 constexpr std::chrono::milliseconds patience (50); // until a cancellation is heard
 
 /** \brief One execution of SequenceFusion::run (). */
 class FusionRun
 {
 public:
-  FusionRun (const RgbdSequence& images, FrameKnowledge& knowledge, const FusionOptions& options, const ProgressCallback& progress,
-             const SequenceFusion::KeyframeCallback& report, const SequenceFusion::FrameCallback& report_frame);
+  FusionRun (const RgbdSequence& images, FrameContext& knowledge, const FusionOptions& options,
+             const ProgressCallback& progress, const SequenceFusion::KeyframeCallback& report,
+             const SequenceFusion::FrameCallback& report_frame);
 
-  FusionResult
-  run ();
+  FusionResult run ();
 
 private:
-  void
-  report (const std::string& stage, double fraction) const;
+  void report (const std::string& stage, double fraction) const;
   /** \brief Say how it goes. */
-  void
-  reportFrame (const RgbdFrame& frame);
-  void
-  use (const RgbdFrame& frame);
-  void
-  addKeyframe (const RgbdFrame& frame, const Eigen::Isometry3d& T_world_camera);
-  void
-  addFrame (const RgbdFrame& frame, const Eigen::Isometry3d& T_world_camera);
-  /** \brief Pass updates on, once no more than so many views wait for the back end; 0: once all that were asked for are done. */
-  void
-  followUpdates (std::size_t waiting_views);
-  void
-  finish ();
-  /** \brief Those with too few points, which are no failure: masks have stray pixels. */
-  void
-  leaveOutSmallObjects ();
-  template <typename Function> void
-  timed (const char* stage, Function&& f)
+  void reportFrame (const RgbdFrame& frame);
+  void use (const RgbdFrame& frame);
+  void addKeyframe (const RgbdFrame& frame, const Eigen::Isometry3d& T_world_camera);
+  void addFrame (const RgbdFrame& frame, const Eigen::Isometry3d& T_world_camera);
+  /** \brief Pass updates on, once no more than so many views wait for the back end; 0: once all that were asked for are
+   * done. */
+  void followUpdates (std::size_t waiting_views);
+  void finish ();
+  /** \brief Those with too few points, which are no failure: masks have outlier pixels. */
+  void leaveOutSmallObjects ();
+  template <typename Function> void timed (const char* stage, Function&& f)
   {
     addSeconds (result_.timings_s[stage], f);
   }
 
   const RgbdSequence& images_;
-  FrameKnowledge& knowledge_;
+  FrameContext& knowledge_;
   const FusionOptions& options_;
   const ProgressCallback& progress_;
   const SequenceFusion::KeyframeCallback& report_;
@@ -77,7 +67,7 @@ private:
   CoSectionBackend backend_;
   std::optional<BackendThread> thread_; // has the backend, if there are updates
   std::size_t frames_of_range_ = 0;
-  double done_ = 0.0;          // of all, so far
+  double done_ = 0.0; // of all, so far
   std::size_t frames_read_ = 0;
   std::string status_ = "frames";
   std::chrono::steady_clock::time_point status_time_ = std::chrono::steady_clock::now ();
@@ -86,11 +76,16 @@ private:
   std::optional<std::size_t> next_keyframe_;
 };
 
-FusionRun::FusionRun (const RgbdSequence& images, FrameKnowledge& knowledge, const FusionOptions& options,
+FusionRun::FusionRun (const RgbdSequence& images, FrameContext& knowledge, const FusionOptions& options,
                       const ProgressCallback& progress, const SequenceFusion::KeyframeCallback& report,
                       const SequenceFusion::FrameCallback& report_frame)
-: images_ (images), knowledge_ (knowledge), options_ (options), progress_ (progress), report_ (report), report_frame_ (report_frame),
-  backend_ (options.backend)
+    : images_ (images)
+    , knowledge_ (knowledge)
+    , options_ (options)
+    , progress_ (progress)
+    , report_ (report)
+    , report_frame_ (report_frame)
+    , backend_ (options.backend)
 {
   frames_of_range_ = std::min (options.frames.last, images.size ()) - std::min (options.frames.first, images.size ());
   for (const char* stage : {"read", "tracking", "raycast", "segmentation", "integration", "keyframes", "updates"})
@@ -129,7 +124,8 @@ FusionRun::reportFrame (const RgbdFrame& frame)
 void
 FusionRun::addKeyframe (const RgbdFrame& frame, const Eigen::Isometry3d& T_world_camera)
 {
-  Keyframe keyframe = makeKeyframe (frame, images_.camera (), *knowledge_.instances (), T_world_camera, options_.keyframe);
+  Keyframe keyframe = makeKeyframe (frame, images_.camera (), *knowledge_.instances (), T_world_camera,
+                                    options_.keyframe);
   knowledge_.look (keyframe);
   const CoSectionBackend::Poses T_world_object = knowledge_.poses ();
   for (const auto& [id, points] : keyframe.points)
@@ -186,7 +182,8 @@ FusionRun::use (const RgbdFrame& frame)
   if (!next_keyframe_)
     next_keyframe_ = frame.index;
 
-  const bool is_keyframe = frame.index >= *next_keyframe_ && knowledge_.isFitForKeyframe (frame.index - *next_keyframe_);
+  const bool is_keyframe = frame.index >= *next_keyframe_ &&
+                           knowledge_.isFitForKeyframe (frame.index - *next_keyframe_);
   if (is_keyframe)
   {
     timed ("keyframes", [&] { addKeyframe (frame, *T_world_camera); });
@@ -245,12 +242,14 @@ FusionRun::leaveOutSmallObjects ()
       continue;
     }
     if (fused.points > 0)
-      result_.warnings.push_back ("object " + std::to_string (id) + " was left out: it has only " + std::to_string (fused.points) +
-                                  " points in all keyframes; " + std::to_string (min_object_points) + " are needed");
+      result_.warnings.push_back ("object " + std::to_string (id) + " was left out: it has only " +
+                                  std::to_string (fused.points) + " points in all keyframes; " +
+                                  std::to_string (min_object_points) + " are needed");
     auto& completed = result_.scene.objects;
-    completed.erase (std::remove_if (completed.begin (), completed.end (),
-                                     [id = id] (const ObjectResult& result) { return result.id == id && !result.error.empty (); }),
-                     completed.end ());
+    completed.erase (
+        std::remove_if (completed.begin (), completed.end (),
+                        [id = id] (const ObjectResult& result) { return result.id == id && !result.error.empty (); }),
+        completed.end ());
     object = result_.objects.erase (object);
   }
 }
@@ -259,8 +258,8 @@ FusionResult
 FusionRun::run ()
 {
   if (options_.frames.last > images_.size () && options_.frames.last != FrameRange ().last)
-    result_.warnings.push_back ("frames from " + std::to_string (images_.size ()) + " on are not there; the sequence has 0:" +
-                                std::to_string (images_.size ()));
+    result_.warnings.push_back ("frames from " + std::to_string (images_.size ()) +
+                                " on are not there; the sequence has 0:" + std::to_string (images_.size ()));
   FrameReader reader (images_, options_.frames);
   while (true)
   {
@@ -276,11 +275,14 @@ FusionRun::run ()
   }
   const std::vector<std::string> mask_warnings = knowledge_.maskWarnings ();
   const std::vector<std::string> warnings = reader.warnings ();
-  const auto firstOf = [] (const std::vector<std::string>& lines) { return lines.empty () ? std::string () : ": " + lines.front (); };
+  const auto firstOf = [] (const std::vector<std::string>& lines) {
+    return lines.empty () ? std::string () : ": " + lines.front ();
+  };
   result_.warnings.insert (result_.warnings.end (), warnings.begin (), warnings.end ());
   result_.warnings.insert (result_.warnings.end (), mask_warnings.begin (), mask_warnings.end ());
   if (result_.frames == 0)
-    throw IoError ((frames_read_ == 0 ? "no frame can be read" : "no frame that has a pose can be read") + firstOf (warnings));
+    throw IoError ((frames_read_ == 0 ? "no frame can be read" : "no frame that has a pose can be read") +
+                   firstOf (warnings));
   if (result_.keyframes == 0)
     throw IoError ("no frame has a mask that can be used" + firstOf (mask_warnings));
   if (points_ == 0)
@@ -314,7 +316,8 @@ FusionOptions::validate () const
 }
 
 SequenceFusion::SequenceFusion (KnownSequence sequence, const FusionOptions& options)
-: sequence_ (std::move (sequence)), options_ (options)
+    : sequence_ (std::move (sequence))
+    , options_ (options)
 {
   options.validate ();
   if (!sequence_.images)
@@ -325,7 +328,9 @@ SequenceFusion::SequenceFusion (KnownSequence sequence, const FusionOptions& opt
   requirePoses (sequence_, options_.frames);
 }
 
-SequenceFusion::SequenceFusion (const TrackedSequence& sequence, const FusionOptions& options) : tracked_ (sequence), options_ (options)
+SequenceFusion::SequenceFusion (const TrackedSequence& sequence, const FusionOptions& options)
+    : tracked_ (sequence)
+    , options_ (options)
 {
   if (sequence.segmenter && sequence.segmenter->isExact ()) // what it finds was background until then
     options_.backend.method.leave_out_moved = true;
@@ -334,13 +339,13 @@ SequenceFusion::SequenceFusion (const TrackedSequence& sequence, const FusionOpt
 }
 
 FusionResult
-SequenceFusion::run (const ProgressCallback& progress, const KeyframeCallback& keyframe, const FrameCallback& frame) const
+SequenceFusion::run (const ProgressCallback& progress, const KeyframeCallback& keyframe,
+                     const FrameCallback& frame) const
 {
-  const std::unique_ptr<FrameKnowledge> knowledge =
-      tracked_ ? makeTrackedPoses (*tracked_, options_) : makeKnownPoses (sequence_, options_);
+  const std::unique_ptr<FrameContext> knowledge = tracked_ ? makeTrackedPoses (*tracked_, options_)
+                                                           : makeKnownPoses (sequence_, options_);
   const RgbdSequence& images = tracked_ ? *tracked_->images : *sequence_.images;
   return FusionRun (images, *knowledge, options_, progress, keyframe, frame).run ();
 }
 
-} // namespace cosection
-} // namespace pcl
+} // namespace pcl::cosection

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_cosection authors
-#include "frame_knowledge.h"
+#include "frame_context.h"
 
 #include <pcl/cosection/fusion/dynamic_fusion.h>
 
@@ -9,9 +9,7 @@
 #include <iterator>
 #include <set>
 
-namespace pcl
-{
-namespace cosection
+namespace pcl::cosection
 {
 
 namespace
@@ -32,76 +30,51 @@ frontEndOptions (const TrackedSequence& sequence, const FusionOptions& options)
 }
 
 /** \brief Poses and what shows which object are found out frame by frame. */
-class TrackedPoses : public FrameKnowledge
+class TrackedPoses : public FrameContext
 {
 public:
   TrackedPoses (const TrackedSequence& sequence, const FusionOptions& options)
-  : options_ (options)
-  , masks_ (sequence.masks)
-  , with_masks_ (hasObjects (sequence))
-  , fusion_ (sequence.images->camera (), frontEndOptions (sequence, options))
+      : options_ (options)
+      , masks_ (sequence.masks)
+      , with_masks_ (hasObjects (sequence))
+      , fusion_ (sequence.images->camera (), frontEndOptions (sequence, options))
   {
     fusion_.setSegmenter (sequence.segmenter);
   }
 
-  std::optional<Eigen::Isometry3d>
-  next (const RgbdFrame& frame) override;
+  std::optional<Eigen::Isometry3d> next (const RgbdFrame& frame) override;
 
-  const std::optional<Image<std::uint16_t>>&
-  instances () const override
-  {
-    return instances_;
-  }
+  const std::optional<Image<std::uint16_t>>& instances () const override { return instances_; }
 
   /** \brief A mask is waited for as long as one may still come. */
-  bool
-  isFitForKeyframe (std::size_t overdue) const override
+  bool isFitForKeyframe (std::size_t overdue) const override
   {
-    return instances_ && (!with_masks_ || tracked_->masked || overdue >= static_cast<std::size_t> (options_.keyframe_every));
+    return instances_ &&
+           (!with_masks_ || tracked_->masked || overdue >= static_cast<std::size_t> (options_.keyframe_every));
   }
 
-  void
-  look (Keyframe& keyframe) override
-  {
-    keyframe.points.erase (TrackedFrame::unassigned);
-  }
+  void look (Keyframe& keyframe) override { keyframe.points.erase (TrackedFrame::unassigned); }
 
-  CoSectionBackend::Poses
-  poses () const override
-  {
-    return tracked_->T_world_object;
-  }
+  CoSectionBackend::Poses poses () const override { return tracked_->T_world_object; }
 
-  std::set<int>
-  wrongObjects () const override
+  std::set<int> wrongObjects () const override
   {
     const std::set<int> found = fusion_.foundObjects ();
     std::set<int> wrong;
-    std::set_difference (told_.begin (), told_.end (), found.begin (), found.end (), std::inserter (wrong, wrong.end ()));
+    std::set_difference (told_.begin (), told_.end (), found.begin (), found.end (),
+                         std::inserter (wrong, wrong.end ()));
     return wrong;
   }
 
-  void
-  map (const RgbdFrame&, const Eigen::Isometry3d&) override
-  {}
+  void map (const RgbdFrame&, const Eigen::Isometry3d&) override {}
 
-  TriangleMesh
-  seen (int id) const override
-  {
-    return fusion_.surfaceMesh (id);
-  }
+  TriangleMesh seen (int id) const override { return fusion_.surfaceMesh (id); }
 
-  std::string
-  status () const override;
+  std::string status () const override;
 
-  std::vector<std::string>
-  maskWarnings () const override
-  {
-    return masks_.warnings ();
-  }
+  std::vector<std::string> maskWarnings () const override { return masks_.warnings (); }
 
-  void
-  finish (FusionResult& result) override;
+  void finish (FusionResult& result) override;
 
 private:
   const FusionOptions& options_;
@@ -170,19 +143,19 @@ TrackedPoses::finish (FusionResult& result)
       continue;
     }
     auto& completed = result.scene.objects;
-    completed.erase (std::remove_if (completed.begin (), completed.end (), [id] (const ObjectResult& o) { return o.id == id; }),
-                     completed.end ());
+    completed.erase (
+        std::remove_if (completed.begin (), completed.end (), [id] (const ObjectResult& o) { return o.id == id; }),
+        completed.end ());
     object = result.objects.erase (object);
   }
 }
 
 } // namespace
 
-std::unique_ptr<FrameKnowledge>
+std::unique_ptr<FrameContext>
 makeTrackedPoses (const TrackedSequence& sequence, const FusionOptions& options)
 {
   return std::make_unique<TrackedPoses> (sequence, options);
 }
 
-} // namespace cosection
-} // namespace pcl
+} // namespace pcl::cosection

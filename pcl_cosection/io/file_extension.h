@@ -7,9 +7,7 @@
 #include <filesystem>
 #include <string>
 
-namespace pcl
-{
-namespace cosection
+namespace pcl::cosection
 {
 
 inline std::string
@@ -21,5 +19,4 @@ lowerCaseExtension (const std::string& path)
   return extension;
 }
 
-} // namespace cosection
-} // namespace pcl
+} // namespace pcl::cosection

@@ -9,9 +9,7 @@
 #include <optional>
 #include <string_view>
 
-namespace pcl
-{
-namespace cosection
+namespace pcl::cosection
 {
 
 namespace
@@ -198,5 +196,4 @@ imageDamage (const std::string& bytes)
   return {};
 }
 
-} // namespace cosection
-} // namespace pcl
+} // namespace pcl::cosection

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_cosection authors
-#include <pcl/cosection/io/image_io.h>
+#include "image_io.h"
 
-#include "../common/file_bytes.h"
 #include "file_extension.h"
 #include "image_damage.h"
+#include "pcl_cosection/common/file_bytes.h"
 
-#include <pcl/cosection/common/atomic_file.h>
+#include "pcl_cosection/common/atomic_file.h"
 #include <pcl/cosection/common/error.h>
 
 #include <opencv2/core/mat.hpp>
@@ -17,9 +17,7 @@
 #include <cstdlib>
 #include <limits>
 
-namespace pcl
-{
-namespace cosection
+namespace pcl::cosection
 {
 
 namespace
@@ -71,7 +69,8 @@ decode (const std::string& path, int flags)
   cv::Mat image;
   try
   {
-    image = cv::imdecode (cv::Mat (1, static_cast<int> (bytes.size ()), CV_8U, const_cast<char*> (bytes.data ())), flags);
+    image = cv::imdecode (cv::Mat (1, static_cast<int> (bytes.size ()), CV_8U, const_cast<char*> (bytes.data ())),
+                          flags);
   }
   catch (const cv::Exception&)
   {
@@ -185,5 +184,4 @@ loadColourImage (const std::string& path)
   return picture;
 }
 
-} // namespace cosection
-} // namespace pcl
+} // namespace pcl::cosection

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_cosection authors
-#include <pcl/cosection/io/mask_image.h>
+#include "mask_image.h"
 
-#include "../common/file_bytes.h"
 #include "image_damage.h"
-#include "vtk_errors.h"
+#include "pcl_cosection/common/file_bytes.h"
+#include "pcl_cosection/io/mesh/vtk_errors.h"
 
 #include <pcl/cosection/common/error.h>
 
@@ -14,9 +14,7 @@
 
 #include <algorithm>
 
-namespace pcl
-{
-namespace cosection
+namespace pcl::cosection
 {
 
 namespace
@@ -62,5 +60,4 @@ loadMaskImage (const std::string& path)
   return mask;
 }
 
-} // namespace cosection
-} // namespace pcl
+} // namespace pcl::cosection

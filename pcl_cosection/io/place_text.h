@@ -10,9 +10,7 @@
 #include <sstream>
 #include <string>
 
-namespace pcl
-{
-namespace cosection
+namespace pcl::cosection
 {
 
 /** \brief "(0.5, -1.25, 2)"; micrometres are zero */
@@ -33,5 +31,4 @@ sourceOfViewpoint (const PcdViewOptions& options)
   return options.viewpoint ? "--viewpoint" : "its VIEWPOINT";
 }
 
-} // namespace cosection
-} // namespace pcl
+} // namespace pcl::cosection

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_cosection authors
 
-#include "../common/file_bytes.h"
-#include "vtk_errors.h"
+#include "pcl_cosection/common/file_bytes.h"
+#include "pcl_cosection/io/mesh/vtk_errors.h"
 
+#include "pcl_cosection/common/atomic_file.h"
 #include <pcl/cosection/common/error.h>
-#include <pcl/cosection/common/atomic_file.h>
 #include <pcl/cosection/io/sdf_io.h>
 
 #include <vtkFloatArray.h>
@@ -15,9 +15,7 @@
 #include <vtkUnsignedCharArray.h>
 #include <vtkXMLImageDataWriter.h>
 
-namespace pcl
-{
-namespace cosection
+namespace pcl::cosection
 {
 namespace
 {
@@ -67,5 +65,4 @@ saveSignedDistance (const SignedDistanceField& field, const std::string& path)
   });
 }
 
-} // namespace cosection
-} // namespace pcl
+} // namespace pcl::cosection

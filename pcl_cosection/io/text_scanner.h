@@ -11,29 +11,24 @@
 #include <string>
 #include <string_view>
 
-namespace pcl
-{
-namespace cosection
+namespace pcl::cosection
 {
 
 /** \brief Takes a text apart, word by word or line by line. */
 class TextScanner
 {
 public:
-  explicit TextScanner (std::string_view text) : left_ (text)
-  {}
+  explicit TextScanner (std::string_view text) : left_ (text) {}
 
   /** \brief The next word, on whatever line; empty at the end. */
-  std::string_view
-  word ()
+  std::string_view word ()
   {
     left_.remove_prefix (std::min (left_.find_first_not_of (" \t\r\n\v\f"), left_.size ()));
     return take (std::min (left_.find_first_of (" \t\r\n\v\f"), left_.size ()));
   }
 
   /** \brief The rest of this line, without its end. */
-  std::string_view
-  line ()
+  std::string_view line ()
   {
     const std::string_view line = take (std::min (left_.find ('\n'), left_.size ()));
     left_.remove_prefix (left_.empty () ? 0 : 1);
@@ -41,22 +36,13 @@ public:
   }
 
   /** \brief The next bytes, as many as there are. */
-  std::string_view
-  bytes (std::size_t size)
-  {
-    return take (std::min (size, left_.size ()));
-  }
+  std::string_view bytes (std::size_t size) { return take (std::min (size, left_.size ())); }
 
   /** \brief What comes next. */
-  std::string_view
-  left () const
-  {
-    return left_;
-  }
+  std::string_view left () const { return left_; }
 
 private:
-  std::string_view
-  take (std::size_t size)
+  std::string_view take (std::size_t size)
   {
     const std::string_view taken = left_.substr (0, size);
     left_.remove_prefix (size);
@@ -107,5 +93,4 @@ toInteger (std::string_view word)
   return value;
 }
 
-} // namespace cosection
-} // namespace pcl
+} // namespace pcl::cosection

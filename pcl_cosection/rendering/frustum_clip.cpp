@@ -3,9 +3,7 @@
 
 #include "frustum_clip.h"
 
-namespace pcl
-{
-namespace cosection
+namespace pcl::cosection
 {
 
 FrustumClip::FrustumClip (const PinholeCamera& camera, double near_m)
@@ -63,5 +61,4 @@ FrustumClip::clip (const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eig
   return polygon;
 }
 
-} // namespace cosection
-} // namespace pcl
+} // namespace pcl::cosection

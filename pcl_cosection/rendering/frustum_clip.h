@@ -8,9 +8,7 @@
 
 #include <array>
 
-namespace pcl
-{
-namespace cosection
+namespace pcl::cosection
 {
 
 /** \brief A convex polygon in the sensor frame: a triangle after clipping. */
@@ -32,24 +30,17 @@ public:
 
   FrustumClip (const PinholeCamera& camera, double near_m);
 
-  bool
-  contains (const Eigen::Vector3d& p) const;
+  bool contains (const Eigen::Vector3d& p) const;
 
-  ClippedPolygon
-  clip (const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c) const;
+  ClippedPolygon clip (const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c) const;
 
 private:
   static constexpr int plane_count = 5;
 
-  double
-  distance (int plane, const Eigen::Vector3d& p) const
-  {
-    return normals_[plane].dot (p) - offsets_[plane];
-  }
+  double distance (int plane, const Eigen::Vector3d& p) const { return normals_[plane].dot (p) - offsets_[plane]; }
 
   std::array<Eigen::Vector3d, plane_count> normals_;
   std::array<double, plane_count> offsets_;
 };
 
-} // namespace cosection
-} // namespace pcl
+} // namespace pcl::cosection

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_cosection authors
 
-#include "../common/file_bytes.h"
-#include "../io/vtk_errors.h"
+#include "pcl_cosection/common/file_bytes.h"
+#include "pcl_cosection/io/mesh/vtk_errors.h"
 
+#include "pcl_cosection/common/atomic_file.h"
+#include "picture.h"
 #include <pcl/cosection/common/error.h>
-#include <pcl/cosection/common/atomic_file.h>
-#include <pcl/cosection/rendering/picture.h>
 
 #include <vtkImageData.h>
 #include <vtkNew.h>
@@ -16,9 +16,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace pcl
-{
-namespace cosection
+namespace pcl::cosection
 {
 namespace
 {
@@ -59,8 +57,8 @@ shade (const RasterImage& image, const PinholeCamera& camera, const std::array<s
       const double cosine = std::max (0.0, to_camera.dot (image.normals[pixel].cast<double> ()));
       const double light = ambient_light + (1.0 - ambient_light) * cosine;
       for (int channel = 0; channel < 3; ++channel)
-        picture.pixels[pixel][channel] =
-            static_cast<std::uint8_t> (std::lround (std::min (1.0, light) * image.colours[pixel][channel]));
+        picture.pixels[pixel][channel] = static_cast<std::uint8_t> (
+            std::lround (std::min (1.0, light) * image.colours[pixel][channel]));
     }
   return picture;
 }
@@ -139,5 +137,4 @@ writePng (const Picture& picture, const std::string& path)
   });
 }
 
-} // namespace cosection
-} // namespace pcl
+} // namespace pcl::cosection

@@ -9,9 +9,7 @@
 #include <cstdint>
 #include <utility>
 
-namespace pcl
-{
-namespace cosection
+namespace pcl::cosection
 {
 
 /** \brief Pixel coordinates in 1/256 of a pixel: coverage is decided in exact integer arithmetic. */
@@ -22,8 +20,7 @@ struct SubpixelPoint
   std::int64_t x = 0;
   std::int64_t y = 0;
 
-  static SubpixelPoint
-  fromPixel (const Eigen::Vector2d& pixel)
+  static SubpixelPoint fromPixel (const Eigen::Vector2d& pixel)
   {
     return {std::llround (pixel.x () * subpixels), std::llround (pixel.y () * subpixels)};
   }
@@ -58,11 +55,7 @@ forEachCoveredPixel (SubpixelPoint a, SubpixelPoint b, SubpixelPoint c, int widt
         --constant;
     }
 
-    std::int64_t
-    at (int u, int v) const
-    {
-      return constant + step_u * u + step_v * v;
-    }
+    std::int64_t at (int u, int v) const { return constant + step_u * u + step_v * v; }
 
     std::int64_t step_u;
     std::int64_t step_v;
@@ -98,5 +91,4 @@ forEachCoveredPixel (SubpixelPoint a, SubpixelPoint b, SubpixelPoint c, int widt
   }
 }
 
-} // namespace cosection
-} // namespace pcl
+} // namespace pcl::cosection

@@ -4,7 +4,7 @@
 #include "frustum_clip.h"
 #include "pixel_coverage.h"
 
-#include "../common/mesh_checks.h"
+#include "pcl_cosection/mesh/mesh_checks.h"
 
 #include <pcl/cosection/common/error.h>
 #include <pcl/cosection/rendering/rasterizer.h>
@@ -15,9 +15,7 @@
 #include <cmath>
 #include <limits>
 
-namespace pcl
-{
-namespace cosection
+namespace pcl::cosection
 {
 namespace
 {
@@ -46,15 +44,13 @@ public:
   }
 
   /** \brief Depth along the ray, kept within the triangle's where it is seen edge-on. */
-  double
-  depth (const Eigen::Vector3d& ray) const
+  double depth (const Eigen::Vector3d& ray) const
   {
     const double z = determinant_ / (weights_ * ray).sum ();
     return std::isfinite (z) ? std::clamp (z, z_min_, z_max_) : z_min_;
   }
 
-  Eigen::Vector3d
-  barycentric (const Eigen::Vector3d& ray) const
+  Eigen::Vector3d barycentric (const Eigen::Vector3d& ray) const
   {
     const Eigen::Vector3d w = (weights_ * ray) / (weights_ * ray).sum ();
     if (!w.allFinite ())
@@ -64,17 +60,9 @@ public:
   }
 
   /** \brief Of any length, towards the camera's side. */
-  Eigen::Vector3d
-  normal () const
-  {
-    return faces_camera_ ? normal_ : -normal_;
-  }
+  Eigen::Vector3d normal () const { return faces_camera_ ? normal_ : -normal_; }
 
-  bool
-  facesCamera () const
-  {
-    return faces_camera_;
-  }
+  bool facesCamera () const { return faces_camera_; }
 
 private:
   Eigen::Matrix3d weights_;
@@ -217,5 +205,4 @@ Rasterizer::drawPoints (const std::vector<Eigen::Vector3f>& points, const std::v
   }
 }
 
-} // namespace cosection
-} // namespace pcl
+} // namespace pcl::cosection

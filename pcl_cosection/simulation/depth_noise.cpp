@@ -2,7 +2,7 @@
 // Copyright (c) 2026, the pcl_cosection authors
 #include <pcl/cosection/simulation/depth_noise.h>
 
-#include "sine_table.h"
+#include "pcl_cosection/simulation/shapes/sine_table.h"
 
 #include <pcl/cosection/common/error.h>
 
@@ -11,36 +11,33 @@
 #include <limits>
 #include <string>
 
-namespace pcl
-{
-namespace cosection
+namespace pcl::cosection
 {
 
 namespace
 {
 
 constexpr float missing = std::numeric_limits<float>::quiet_NaN ();
-constexpr double shadow_margin = 0.01; // of the depth: what is so much farther than what the projector lights is in its shadow
+constexpr double
+    shadow_margin = 0.01; // of the depth: what is so much farther than what the projector lights is in its shadow
 
 /** \brief Random numbers that belong to a pixel of a frame, whoever draws them (splitmix64). */
 class PixelRandom
 {
 public:
   PixelRandom (std::uint64_t seed, std::uint64_t frame, std::uint64_t pixel)
-  : state_ (mix (seed + mix (frame + mix (pixel))))
+      : state_ (mix (seed + mix (frame + mix (pixel))))
   {}
 
   /** \brief In (0, 1). */
-  double
-  uniform ()
+  double uniform ()
   {
     state_ += 0x9e3779b97f4a7c15ull;
     return (static_cast<double> (mix (state_) >> 11) + 0.5) * 0x1p-53;
   }
 
   /** \brief Two independent numbers of the standard normal distribution (Box and Muller). */
-  Eigen::Vector2d
-  normal ()
+  Eigen::Vector2d normal ()
   {
     const double radius = std::sqrt (-2.0 * std::log (uniform ()));
     const double turns = uniform ();
@@ -48,8 +45,7 @@ public:
   }
 
 private:
-  static std::uint64_t
-  mix (std::uint64_t x)
+  static std::uint64_t mix (std::uint64_t x)
   {
     x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9ull;
     x = (x ^ (x >> 27)) * 0x94d049bb133111ebull;
@@ -59,12 +55,15 @@ private:
   std::uint64_t state_;
 };
 
-/** \brief Which pixels of row \a v the projector does not light: another pixel of the row is in front, in its picture. */
+/** \brief Which pixels of row \a v the projector does not light: another pixel of the row is in front, in its picture.
+ */
 void
-findShadows (const Image<float>& depth, int v, double disparity_m_px, std::vector<float>& lit, std::vector<bool>& shadow)
+findShadows (const Image<float>& depth, int v, double disparity_m_px, std::vector<float>& lit,
+             std::vector<bool>& shadow)
 {
   const int width = depth.width;
-  lit.assign (width, std::numeric_limits<float>::infinity ()); // nearest depth in each column of the projector's picture
+  lit.assign (width,
+              std::numeric_limits<float>::infinity ()); // nearest depth in each column of the projector's picture
   const auto column = [&] (int u) {
     return static_cast<int> (std::max (std::floor (u - disparity_m_px / depth.at (u, v) + 0.5), -2.0));
   };
@@ -136,7 +135,8 @@ DepthNoise::validate () const
   };
   const auto length = [] (double x) { return std::isfinite (x) && x >= 0.0; };
   const auto probability = [] (double x) { return x >= 0.0 && x <= 1.0; };
-  require (length (baseline_m) && baseline_m > 0.0 && baseline_m <= 10.0, "baseline", "a positive number of metres, 10 at most");
+  require (length (baseline_m) && baseline_m > 0.0 && baseline_m <= 10.0, "baseline",
+           "a positive number of metres, 10 at most");
   require (length (disparity_sigma_px), "disparity_sigma", "a number of pixels, not negative");
   require (length (disparity_step_px), "disparity_step", "a number of pixels, not negative");
   require (length (lateral_sigma_px) && lateral_sigma_px <= 10.0, "lateral_sigma", "a number of pixels, 0 to 10");
@@ -194,5 +194,4 @@ measureDepth (const Image<float>& depth, const std::vector<Eigen::Vector3f>& nor
   return measured;
 }
 
-} // namespace cosection
-} // namespace pcl
+} // namespace pcl::cosection

@@ -2,26 +2,24 @@
 // Copyright (c) 2026, the pcl_cosection authors
 #include <pcl/cosection/simulation/keyed_motion.h>
 
+#include "pcl_cosection/view/look_at.h"
 #include <pcl/cosection/common/error.h>
-#include <pcl/cosection/common/look_at.h>
 
 #include <algorithm>
 #include <cmath>
 #include <string>
 
-namespace pcl
-{
-namespace cosection
+namespace pcl::cosection
 {
 
 namespace
 {
 
 constexpr double largest_turn_rad = 0.99 * M_PI;
-constexpr double farthest_m = 1e6; // of a position, from the origin
-constexpr double longest_s = 1e9;  // of a time, from zero
+constexpr double farthest_m = 1e6;  // of a position, from the origin
+constexpr double longest_s = 1e9;   // of a time, from zero
 constexpr double shortest_s = 1e-6; // from key to key
-constexpr double steepest = 3.0; // of a tangent, in slopes of the chord, for a monotone cubic
+constexpr double steepest = 3.0;    // of a tangent, in slopes of the chord, for a monotone cubic
 
 void
 checkTimes (const std::vector<double>& times, std::size_t values)
@@ -56,7 +54,8 @@ monotoneTangent (const Eigen::Vector3d& a, double da, const Eigen::Vector3d& b, 
   return tangent;
 }
 
-/** \brief Cubic from \a a to \a b with the tangents \a ta and \a tb over a time of \a length, at the fraction \a s of it. */
+/** \brief Cubic from \a a to \a b with the tangents \a ta and \a tb over a time of \a length, at the fraction \a s of
+ * it. */
 Eigen::Vector3d
 hermite (const Eigen::Vector3d& a, const Eigen::Vector3d& ta, const Eigen::Vector3d& b, const Eigen::Vector3d& tb,
          double length, double s)
@@ -103,8 +102,9 @@ Eigen::Vector3d
 vectorRate (const Eigen::Vector3d& v, const Eigen::Vector3d& w)
 {
   const double angle = v.norm ();
-  const double factor = angle < 1e-4 ? 1.0 / 12.0
-                                     : 1.0 / (angle * angle) - (1.0 + std::cos (angle)) / (2.0 * angle * std::sin (angle));
+  const double factor = angle < 1e-4
+                            ? 1.0 / 12.0
+                            : 1.0 / (angle * angle) - (1.0 + std::cos (angle)) / (2.0 * angle * std::sin (angle));
   return w + 0.5 * v.cross (w) + factor * v.cross (v.cross (w));
 }
 
@@ -124,7 +124,9 @@ staysMonotone (const Eigen::Vector3d& rate, const Eigen::Vector3d& rise, double 
 } // namespace
 
 KeyedVector::KeyedVector (std::vector<double> times, std::vector<Eigen::Vector3d> values)
-: times_ (std::move (times)), values_ (std::move (values)), tangents_ (values_.size (), Eigen::Vector3d::Zero ())
+    : times_ (std::move (times))
+    , values_ (std::move (values))
+    , tangents_ (values_.size (), Eigen::Vector3d::Zero ())
 {
   checkTimes (times_, values_.size ());
   for (const Eigen::Vector3d& v : values_)
@@ -148,7 +150,8 @@ KeyedVector::at (double time) const
 }
 
 KeyedRotation::KeyedRotation (std::vector<double> times, std::vector<Eigen::Quaterniond> values)
-: times_ (std::move (times)), values_ (std::move (values))
+    : times_ (std::move (times))
+    , values_ (std::move (values))
 {
   checkTimes (times_, values_.size ());
   for (Eigen::Quaterniond& q : values_)
@@ -169,10 +172,11 @@ KeyedRotation::KeyedRotation (std::vector<double> times, std::vector<Eigen::Quat
   {
     const double da = times_[n] - times_[n - 1], db = times_[n + 1] - times_[n];
     // Both turns in the frame of the key between them: a turn leaves its own axis where it is.
-    Eigen::Vector3d velocity =
-        monotoneTangent (Eigen::Vector3d (turns_[n - 1] / da), da, Eigen::Vector3d (turns_[n] / db), db);
+    Eigen::Vector3d velocity = monotoneTangent (Eigen::Vector3d (turns_[n - 1] / da), da,
+                                                Eigen::Vector3d (turns_[n] / db), db);
     Eigen::Vector3d before = vectorRate (turns_[n - 1], velocity);
-    for (int tries = 0; !(staysMonotone (before, turns_[n - 1], da) && staysMonotone (velocity, turns_[n], db)); ++tries)
+    for (int tries = 0; !(staysMonotone (before, turns_[n - 1], da) && staysMonotone (velocity, turns_[n], db));
+         ++tries)
     {
       velocity = tries < 6 ? Eigen::Vector3d (0.5 * velocity) : Eigen::Vector3d::Zero ();
       before = vectorRate (turns_[n - 1], velocity);
@@ -196,15 +200,19 @@ KeyedRotation::at (double time) const
 }
 
 KeyedMotion::KeyedMotion (const Eigen::Isometry3d& pose)
-: position_ ({0.0}, {pose.translation ()}), rotation_ (KeyedRotation ({0.0}, {Eigen::Quaterniond (pose.linear ())}))
+    : position_ ({0.0}, {pose.translation ()})
+    , rotation_ (KeyedRotation ({0.0}, {Eigen::Quaterniond (pose.linear ())}))
 {}
 
 KeyedMotion::KeyedMotion (KeyedVector position, KeyedRotation rotation)
-: position_ (std::move (position)), rotation_ (std::move (rotation))
+    : position_ (std::move (position))
+    , rotation_ (std::move (rotation))
 {}
 
 KeyedMotion::KeyedMotion (KeyedVector position, KeyedVector target, const Eigen::Vector3d& up)
-: position_ (std::move (position)), target_ (std::move (target)), up_ (up)
+    : position_ (std::move (position))
+    , target_ (std::move (target))
+    , up_ (up)
 {}
 
 Eigen::Isometry3d
@@ -218,5 +226,4 @@ KeyedMotion::at (double time) const
   return pose;
 }
 
-} // namespace cosection
-} // namespace pcl
+} // namespace pcl::cosection

@@ -1,30 +1,28 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_cosection authors
-#include <pcl/cosection/simulation/penetration_check.h>
+#include "penetration_check.h"
 
+#include "pcl_cosection/common/parallel.h"
 #include <pcl/cosection/common/error.h>
-#include <pcl/cosection/common/parallel.h>
 
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <utility>
 
-namespace pcl
-{
-namespace cosection
+namespace pcl::cosection
 {
 
 namespace
 {
 
 constexpr double chord_m = 5e-4;
-constexpr int surface_points = 2000; // on each part, evenly
+constexpr int surface_points = 2000;        // on each part, evenly
 constexpr std::size_t most_vertices = 2000; // of a part
 constexpr std::size_t most_edges = 300;     // of a part, the longest
 constexpr double sharp_cosine = 0.85;       // between the normals at an edge
 constexpr double edge_step_m = 5e-4;        // least step along one
-constexpr double mesh_tolerance = 0.012;   // of the size of a mesh: a voxel of its distance
+constexpr double mesh_tolerance = 0.012;    // of the size of a mesh: a voxel of its distance
 constexpr double same_pose = 1e-9;
 
 using Segment = std::pair<Eigen::Vector3d, Eigen::Vector3d>;
@@ -40,7 +38,8 @@ struct Probe
 /** \brief Points on the triangles, as many on each as its share of the area; where in it is a low-discrepancy sequence
  * (M. Roberts' R2). */
 void
-addSurfacePoints (const std::vector<Eigen::Vector3d>& vertices, const std::vector<TriangleMesh::Triangle>& triangles, Probe& probe)
+addSurfacePoints (const std::vector<Eigen::Vector3d>& vertices, const std::vector<TriangleMesh::Triangle>& triangles,
+                  Probe& probe)
 {
   const auto areaOf = [&vertices] (const TriangleMesh::Triangle& t) {
     return 0.5 * (vertices[t[1]] - vertices[t[0]]).cross (vertices[t[2]] - vertices[t[0]]).norm ();
@@ -57,7 +56,8 @@ addSurfacePoints (const std::vector<Eigen::Vector3d>& vertices, const std::vecto
     passed += areaOf (t);
     for (; point < surface_points && (point + 0.5) * area < passed * surface_points; ++point)
     {
-      double u = std::fmod (0.7548776662466927 * (point + 1), 1.0), v = std::fmod (0.5698402909980532 * (point + 1), 1.0);
+      double u = std::fmod (0.7548776662466927 * (point + 1), 1.0),
+             v = std::fmod (0.5698402909980532 * (point + 1), 1.0);
       if (u + v > 1.0)
       {
         u = 1.0 - u;
@@ -71,12 +71,15 @@ addSurfacePoints (const std::vector<Eigen::Vector3d>& vertices, const std::vecto
 
 /** \brief Edges at which the surface bends sharply, or ends. */
 void
-addEdges (const std::vector<Eigen::Vector3d>& vertices, const std::vector<TriangleMesh::Triangle>& triangles, Probe& probe)
+addEdges (const std::vector<Eigen::Vector3d>& vertices, const std::vector<TriangleMesh::Triangle>& triangles,
+          Probe& probe)
 {
-  std::map<std::pair<std::uint32_t, std::uint32_t>, std::vector<Eigen::Vector3d>> normals; // of the triangles at each edge
+  std::map<std::pair<std::uint32_t, std::uint32_t>, std::vector<Eigen::Vector3d>>
+      normals; // of the triangles at each edge
   for (const TriangleMesh::Triangle& t : triangles)
   {
-    const Eigen::Vector3d n = (vertices[t[1]] - vertices[t[0]]).cross (vertices[t[2]] - vertices[t[0]]).stableNormalized ();
+    const Eigen::Vector3d
+        n = (vertices[t[1]] - vertices[t[0]]).cross (vertices[t[2]] - vertices[t[0]]).stableNormalized ();
     for (int k = 0; k < 3; ++k)
       normals[std::minmax (t[k], t[(k + 1) % 3])].push_back (n);
   }
@@ -180,7 +183,8 @@ findPenetrations (const SimulatedScene& scene, const PenetrationCheckOptions& op
     const double time = scene.timeOf (frame);
     parallelFor (0, static_cast<int> (pairs.size ()), options.threads, [&] (int n) {
       Pair& pair = pairs[n];
-      const Eigen::Isometry3d T_ab = scene.bodies[pair.a].motion.at (time).inverse () * scene.bodies[pair.b].motion.at (time);
+      const Eigen::Isometry3d T_ab = scene.bodies[pair.a].motion.at (time).inverse () *
+                                     scene.bodies[pair.b].motion.at (time);
       if (frame == options.first || !T_ab.isApprox (pair.T_ab, same_pose))
         pair.depth_m = std::max (depthIn (scene.bodies[pair.a], probes[pair.a], probes[pair.b], T_ab),
                                  depthIn (scene.bodies[pair.b], probes[pair.b], probes[pair.a], T_ab.inverse ()));
@@ -200,5 +204,4 @@ findPenetrations (const SimulatedScene& scene, const PenetrationCheckOptions& op
   return found;
 }
 
-} // namespace cosection
-} // namespace pcl
+} // namespace pcl::cosection

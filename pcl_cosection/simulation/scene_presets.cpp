@@ -2,9 +2,7 @@
 // Copyright (c) 2026, the pcl_cosection authors
 #include <pcl/cosection/simulation/scene_spec.h>
 
-namespace pcl
-{
-namespace cosection
+namespace pcl::cosection
 {
 
 namespace
@@ -210,5 +208,4 @@ scenePresets ()
   return presets;
 }
 
-} // namespace cosection
-} // namespace pcl
+} // namespace pcl::cosection

@@ -2,16 +2,14 @@
 // Copyright (c) 2026, the pcl_cosection authors
 #include <pcl/cosection/simulation/scene_renderer.h>
 
-#include "sine_table.h"
+#include "pcl_cosection/simulation/shapes/sine_table.h"
 
 #include <pcl/cosection/rendering/rasterizer.h>
 
 #include <algorithm>
 #include <cmath>
 
-namespace pcl
-{
-namespace cosection
+namespace pcl::cosection
 {
 
 namespace
@@ -145,7 +143,8 @@ SceneRenderer::render (double time) const
         frame.depth.pixels[pixel] = static_cast<float> (
             refined (*part.part->shape, T.translation (), T.linear () * ray, image.depth[pixel]));
       frame.mask.pixels[pixel] = static_cast<std::uint16_t> (body.id);
-      double brightness = ambient + (1.0 - ambient) * std::max (0.0, light_camera.dot (image.normals[pixel].cast<double> ()));
+      double brightness = ambient +
+                          (1.0 - ambient) * std::max (0.0, light_camera.dot (image.normals[pixel].cast<double> ()));
       if (body.pattern_size_m > 0.0)
         brightness *= 1.0 + pattern_contrast * pattern (T * (image.depth[pixel] * ray), body.pattern_size_m);
       frame.colour.pixels[pixel] = lit (image.colours[pixel], brightness);
@@ -153,5 +152,4 @@ SceneRenderer::render (double time) const
   return frame;
 }
 
-} // namespace cosection
-} // namespace pcl
+} // namespace pcl::cosection

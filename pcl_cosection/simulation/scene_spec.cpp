@@ -4,19 +4,17 @@
 
 #include "spec_shapes.h"
 
-#include "../common/file_bytes.h"
+#include "pcl_cosection/common/file_bytes.h"
 
 #include <pcl/cosection/common/error.h>
-#include <pcl/cosection/common/ignored_label.h>
+#include <pcl/cosection/common/image.h>
 
 #include <cmath>
 #include <filesystem>
 #include <optional>
 #include <set>
 
-namespace pcl
-{
-namespace cosection
+namespace pcl::cosection
 {
 
 namespace
@@ -25,8 +23,8 @@ namespace
 constexpr int largest_image = 8192;
 constexpr int most_frames = 1000000;
 const TriangleMesh::Colour background_colour{190, 185, 175};
-const TriangleMesh::Colour object_colours[] = {{205, 75, 60}, {60, 120, 190}, {80, 160, 95}, {215, 170, 60},
-                                               {150, 95, 170}, {70, 165, 170}};
+const TriangleMesh::Colour object_colours[] = {{205, 75, 60},  {60, 120, 190}, {80, 160, 95},
+                                               {215, 170, 60}, {150, 95, 170}, {70, 165, 170}};
 
 double
 radians (double degrees)
@@ -71,7 +69,7 @@ parseKeys (const SpecNode& list, bool is_camera)
     KeyedVector position (times, positions);
     KeyedMotion motion = targets.empty () ? KeyedMotion (position, KeyedRotation (times, rotations))
                                           : KeyedMotion (position, KeyedVector (times, targets),
-                                                          up.value_or (Eigen::Vector3d::UnitZ ()));
+                                                         up.value_or (Eigen::Vector3d::UnitZ ()));
     for (const double time : times)
       motion.at (time); // looks somewhere
     return motion;
@@ -179,7 +177,9 @@ parseBody (SpecNode node, int number, const std::string& folder)
   node.requireObject ();
   SceneBody body;
   body.id = number == 0 ? 0 : node.whole ("id", number, 1, ignored_label - 1);
-  body.name = node.has ("name") ? node.field ("name").text () : number == 0 ? "room" : "object_" + std::to_string (body.id);
+  body.name = node.has ("name") ? node.field ("name").text ()
+              : number == 0     ? "room"
+                                : "object_" + std::to_string (body.id);
   body.pattern_size_m = node.number ("pattern_size", 0.0);
   const TriangleMesh::Colour colour = parseColour (
       node, number == 0 ? background_colour : object_colours[(number - 1) % std::size (object_colours)]);
@@ -315,5 +315,4 @@ loadSceneSpec (const std::string& path)
   return parseSceneSpec (readBytes (path), path, std::filesystem::path (path).parent_path ().string ());
 }
 
-} // namespace cosection
-} // namespace pcl
+} // namespace pcl::cosection

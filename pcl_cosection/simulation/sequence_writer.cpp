@@ -2,12 +2,12 @@
 // Copyright (c) 2026, the pcl_cosection authors
 #include <pcl/cosection/simulation/sequence_writer.h>
 
-#include "../common/file_bytes.h"
+#include "pcl_cosection/common/file_bytes.h"
 
+#include "pcl_cosection/common/parallel.h"
+#include "pcl_cosection/io/image_io.h"
+#include "pcl_cosection/view/labelled_cloud.h"
 #include <pcl/cosection/common/error.h>
-#include <pcl/cosection/common/parallel.h>
-#include <pcl/cosection/io/image_io.h>
-#include <pcl/cosection/io/labelled_cloud.h>
 #include <pcl/cosection/io/mesh_io.h>
 #include <pcl/cosection/io/trajectory.h>
 #include <pcl/cosection/simulation/scene_renderer.h>
@@ -25,9 +25,7 @@
 
 namespace fs = std::filesystem;
 
-namespace pcl
-{
-namespace cosection
+namespace pcl::cosection
 {
 
 namespace
@@ -69,17 +67,11 @@ public:
   }
 
   NewFolder (const NewFolder&) = delete;
-  NewFolder&
-  operator= (const NewFolder&) = delete;
+  NewFolder& operator= (const NewFolder&) = delete;
 
-  std::string
-  file (const std::string& name) const
-  {
-    return (temporary_ / name).string ();
-  }
+  std::string file (const std::string& name) const { return (temporary_ / name).string (); }
 
-  void
-  makeFolder (const std::string& name) const
+  void makeFolder (const std::string& name) const
   {
     std::error_code failure;
     fs::create_directory (temporary_ / name, failure);
@@ -87,8 +79,7 @@ public:
       throw IoError ((path_ / name).string () + ": cannot be made: " + failure.message ());
   }
 
-  void
-  keep ()
+  void keep ()
   {
     std::error_code failure;
     fs::remove (path_, failure); // an empty folder
@@ -99,8 +90,7 @@ public:
   }
 
   /** \brief A message in which the temporary name is the folder's own. */
-  std::string
-  named (std::string message) const
+  std::string named (std::string message) const
   {
     const std::string temporary = temporary_.string ();
     for (std::size_t at; (at = message.find (temporary)) != std::string::npos;)
@@ -125,14 +115,16 @@ class SequenceWriter
 {
 public:
   SequenceWriter (const SimulatedScene& scene, const NewFolder& folder, const SequenceOptions& options)
-  : scene_ (scene), folder_ (folder), options_ (options), renderer_ (scene)
+      : scene_ (scene)
+      , folder_ (folder)
+      , options_ (options)
+      , renderer_ (scene)
   {
     for (const SceneBody& body : scene.bodies)
       wide_mask_ = wide_mask_ || body.id > 255;
   }
 
-  void
-  write (const ProgressCallback& progress)
+  void write (const ProgressCallback& progress)
   {
     makeFolders ();
     writeCalibration ();
@@ -150,21 +142,15 @@ public:
   }
 
 private:
-  static void
-  report (const ProgressCallback& progress, const char* stage, double fraction)
+  static void report (const ProgressCallback& progress, const char* stage, double fraction)
   {
     if (progress && !progress (stage, fraction))
       throw Cancelled ("cancelled");
   }
 
-  bool
-  isView (int frame) const
-  {
-    return scene_.views_every > 0 && frame % scene_.views_every == 0;
-  }
+  bool isView (int frame) const { return scene_.views_every > 0 && frame % scene_.views_every == 0; }
 
-  void
-  makeFolders () const
+  void makeFolders () const
   {
     for (const char* name : {"colour", "mask", "gt-mesh"})
       folder_.makeFolder (name);
@@ -176,8 +162,7 @@ private:
       folder_.makeFolder ("views");
   }
 
-  void
-  writeCalibration () const
+  void writeCalibration () const
   {
     std::ostringstream out;
     out.imbue (std::locale::classic ());
@@ -189,8 +174,7 @@ private:
       writeText ("scene.json", effectiveSpec (scene_));
   }
 
-  void
-  writeText (const std::string& name, const std::string& text) const
+  void writeText (const std::string& name, const std::string& text) const
   {
     try
     {
@@ -202,8 +186,7 @@ private:
     }
   }
 
-  void
-  writeMotion (const KeyedMotion& motion, const std::string& name) const
+  void writeMotion (const KeyedMotion& motion, const std::string& name) const
   {
     std::vector<StampedPose> frames, views;
     for (int frame = options_.first; frame < options_.last; ++frame)
@@ -217,8 +200,7 @@ private:
       saveTrajectory (views, folder_.file ("views/" + name));
   }
 
-  void
-  writeTruth () const
+  void writeTruth () const
   {
     writeMotion (scene_.camera_motion, "gt-cam-0.txt");
     for (const SceneBody& body : scene_.bodies)
@@ -230,8 +212,7 @@ private:
     }
   }
 
-  void
-  writeFrame (int number) const
+  void writeFrame (int number) const
   {
     const SimulatedFrame frame = renderer_.render (scene_.timeOf (number));
     const char* extension = scene_.depth_format == DepthFormat::Exr ? "exr" : "png";
@@ -242,7 +223,8 @@ private:
     {
       measured = measureDepth (frame.depth, frame.normals, scene_.camera, *scene_.noise, scene_.seed,
                                static_cast<std::uint64_t> (number));
-      saveDepthImage (measured, folder_.file ("depth_noise/" + numbered ("Depth", number, extension)), scene_.depth_scale);
+      saveDepthImage (measured, folder_.file ("depth_noise/" + numbered ("Depth", number, extension)),
+                      scene_.depth_scale);
     }
     if (!scene_.noise || scene_.exact_depth)
       saveDepthImage (frame.depth, folder_.file ("depth/" + numbered ("Depth", number, extension)), scene_.depth_scale);
@@ -286,5 +268,4 @@ writeSequence (const SimulatedScene& scene, const std::string& path, const Seque
   }
 }
 
-} // namespace cosection
-} // namespace pcl
+} // namespace pcl::cosection

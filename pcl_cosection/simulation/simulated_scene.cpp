@@ -2,9 +2,9 @@
 // Copyright (c) 2026, the pcl_cosection authors
 #include <pcl/cosection/simulation/simulated_scene.h>
 
+#include "pcl_cosection/common/parallel.h"
 #include <pcl/cosection/common/error.h>
-#include <pcl/cosection/common/ignored_label.h>
-#include <pcl/cosection/common/parallel.h>
+#include <pcl/cosection/common/image.h>
 #include <pcl/cosection/volume/iso_surface.h>
 
 #include <algorithm>
@@ -12,9 +12,7 @@
 #include <limits>
 #include <set>
 
-namespace pcl
-{
-namespace cosection
+namespace pcl::cosection
 {
 
 namespace
@@ -75,26 +73,26 @@ unionSurface (const SceneBody& body, const Eigen::AlignedBox3d& box)
   SignedDistanceField field;
   field.grid.voxel_size_m = box.sizes ().maxCoeff () / union_resolution;
   field.grid.origin_m = box.min () - Eigen::Vector3d::Constant (union_margin * field.grid.voxel_size_m);
-  field.grid.dims =
-      ((box.sizes () / field.grid.voxel_size_m).array ().ceil ().cast<int> () + 2 * union_margin + 1).matrix ();
+  field.grid.dims = ((box.sizes () / field.grid.voxel_size_m).array ().ceil ().cast<int> () + 2 * union_margin + 1)
+                        .matrix ();
   field.values.resize (field.grid.size ());
   const VoxelGrid& grid = field.grid;
   // The distance at the middle of a block bounds that in all of it.
   const double half_block_m = 0.5 * std::sqrt (3.0) * (block - 1) * grid.voxel_size_m;
   const Eigen::Vector3i blocks = (grid.dims.array () + block - 1) / block;
   parallelFor (0, blocks.prod (), 0, [&] (int b) {
-    const Eigen::Vector3i first =
-        block * Eigen::Vector3i (b % blocks.x (), b / blocks.x () % blocks.y (), b / blocks.x () / blocks.y ());
+    const Eigen::Vector3i first = block * Eigen::Vector3i (b % blocks.x (), b / blocks.x () % blocks.y (),
+                                                           b / blocks.x () / blocks.y ());
     const Eigen::Vector3i last = (first.array () + block).min (grid.dims.array ());
-    const Eigen::Vector3d middle =
-        grid.origin_m + grid.voxel_size_m * (first.cast<double> () + Eigen::Vector3d::Constant (0.5 * (block - 1)));
+    const Eigen::Vector3d middle = grid.origin_m + grid.voxel_size_m * (first.cast<double> () +
+                                                                        Eigen::Vector3d::Constant (0.5 * (block - 1)));
     const double at_middle = body.distance (middle);
     const bool far = std::abs (at_middle) > half_block_m + 2.0 * grid.voxel_size_m;
     for (int k = first.z (); k < last.z (); ++k)
       for (int j = first.y (); j < last.y (); ++j)
         for (int i = first.x (); i < last.x (); ++i)
-          field.values[grid.index (i, j, k)] =
-              static_cast<float> (far ? at_middle : body.distance (grid.center (i, j, k)));
+          field.values[grid.index (i, j, k)] = static_cast<float> (far ? at_middle
+                                                                       : body.distance (grid.center (i, j, k)));
   });
   TriangleMesh mesh = extractIsoSurface (field);
   mesh.normals.clear ();
@@ -129,9 +127,8 @@ SceneBody::distance (const Eigen::Vector3d& p) const
 bool
 SceneBody::isSupported (const Eigen::Vector3d& p) const
 {
-  return std::all_of (parts.begin (), parts.end (), [&] (const BodyPart& part) {
-    return part.shape->isSupported (toPart (part, p));
-  });
+  return std::all_of (parts.begin (), parts.end (),
+                      [&] (const BodyPart& part) { return part.shape->isSupported (toPart (part, p)); });
 }
 
 TriangleMesh
@@ -140,8 +137,8 @@ SceneBody::surface (double chord_m) const
   TriangleMesh all;
   for (const BodyPart& part : parts)
     appendMesh (all, transformed (part.shape->tessellate (chord_m), part.T_body_part));
-  const bool analytic =
-      std::all_of (parts.begin (), parts.end (), [] (const BodyPart& part) { return part.shape->isAnalytic (); });
+  const bool analytic = std::all_of (parts.begin (), parts.end (),
+                                     [] (const BodyPart& part) { return part.shape->isAnalytic (); });
   if (id == 0 || parts.size () == 1 || !analytic)
     return all;
   Eigen::AlignedBox3d box;
@@ -171,12 +168,14 @@ SimulatedScene::validate () const
   for (const SceneBody& body : bodies)
   {
     if (!isFileName (body.name))
-      throw InvalidArgument ("\"" + printable (body.name) + "\" is no name for an object: it becomes part of file names");
+      throw InvalidArgument ("\"" + printable (body.name) +
+                             "\" is no name for an object: it becomes part of file names");
     const bool is_background_name = body.name == "room" || body.name == "background";
     if (body.id == 0 && !is_background_name)
       throw InvalidArgument ("the background is called " + body.name + "; it must be room or background");
     if (body.id != 0 && (is_background_name || body.name == "cam"))
-      throw InvalidArgument ("an object must not be called " + body.name + ": the files of the truth would be mistaken");
+      throw InvalidArgument ("an object must not be called " + body.name +
+                             ": the files of the truth would be mistaken");
     if (body.id < 0 || body.id >= ignored_label || !ids.insert (body.id).second)
       throw InvalidArgument ("the id " + std::to_string (body.id) + " of " + body.name +
                              " is used twice, or not from 1 to 65534");
@@ -192,5 +191,4 @@ SimulatedScene::validate () const
   }
 }
 
-} // namespace cosection
-} // namespace pcl
+} // namespace pcl::cosection

@@ -7,9 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace pcl
-{
-namespace cosection
+namespace pcl::cosection
 {
 
 void
@@ -130,5 +128,4 @@ SpecNode::finish () const
     }
 }
 
-} // namespace cosection
-} // namespace pcl
+} // namespace pcl::cosection

@@ -14,9 +14,7 @@
 #include <string>
 #include <vector>
 
-namespace pcl
-{
-namespace cosection
+namespace pcl::cosection
 {
 
 /** \brief A value of a description and where it is, for messages. Every field that is asked for is known from then on;
@@ -24,51 +22,36 @@ namespace cosection
 class SpecNode
 {
 public:
-  SpecNode (const nlohmann::ordered_json& value, std::string path) : value_ (value), path_ (std::move (path))
-  {}
+  SpecNode (const nlohmann::ordered_json& value, std::string path) : value_ (value), path_ (std::move (path)) {}
 
-  [[noreturn]] void
-  refuse (const std::string& why) const;
+  [[noreturn]] void refuse (const std::string& why) const;
 
   /** \brief Must be called on an object, before its fields are asked for. */
-  void
-  requireObject () const;
+  void requireObject () const;
 
-  bool
-  has (const std::string& field);
+  bool has (const std::string& field);
 
   /** \brief A field that must be there. */
-  SpecNode
-  field (const std::string& field);
+  SpecNode field (const std::string& field);
 
-  std::vector<SpecNode>
-  elements (std::size_t least = 0) const;
+  std::vector<SpecNode> elements (std::size_t least = 0) const;
 
-  double
-  number () const;
+  double number () const;
 
-  double
-  number (const std::string& field, double otherwise);
+  double number (const std::string& field, double otherwise);
 
-  int
-  whole (int least, int most) const;
+  int whole (int least, int most) const;
 
-  int
-  whole (const std::string& field, int otherwise, int least, int most);
+  int whole (const std::string& field, int otherwise, int least, int most);
 
-  bool
-  flag (const std::string& field, bool otherwise);
+  bool flag (const std::string& field, bool otherwise);
 
-  std::string
-  text () const;
+  std::string text () const;
 
   /** \brief One of \a words. */
-  std::string
-  word (std::initializer_list<const char*> words) const;
+  std::string word (std::initializer_list<const char*> words) const;
 
-  template <int N>
-  Eigen::Matrix<double, N, 1>
-  vector () const
+  template <int N> Eigen::Matrix<double, N, 1> vector () const
   {
     const std::vector<SpecNode> numbers = elements ();
     if (numbers.size () != N)
@@ -79,27 +62,14 @@ public:
     return result;
   }
 
-  bool
-  isFalse () const
-  {
-    return value_.is_boolean () && !value_.get<bool> ();
-  }
+  bool isFalse () const { return value_.is_boolean () && !value_.get<bool> (); }
 
-  bool
-  isTrue () const
-  {
-    return value_.is_boolean () && value_.get<bool> ();
-  }
+  bool isTrue () const { return value_.is_boolean () && value_.get<bool> (); }
 
   /** \brief Refuse fields that nobody asked for. */
-  void
-  finish () const;
+  void finish () const;
 
-  const std::string&
-  path () const
-  {
-    return path_;
-  }
+  const std::string& path () const { return path_; }
 
 private:
   const nlohmann::ordered_json& value_;
@@ -107,5 +77,4 @@ private:
   std::set<std::string> known_;
 };
 
-} // namespace cosection
-} // namespace pcl
+} // namespace pcl::cosection

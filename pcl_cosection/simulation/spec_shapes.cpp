@@ -8,9 +8,7 @@
 #include <cmath>
 #include <filesystem>
 
-namespace pcl
-{
-namespace cosection
+namespace pcl::cosection
 {
 
 namespace
@@ -124,5 +122,4 @@ parsePart (SpecNode node, const TriangleMesh::Colour& colour, const std::string&
   return part;
 }
 
-} // namespace cosection
-} // namespace pcl
+} // namespace pcl::cosection

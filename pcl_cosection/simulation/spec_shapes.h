@@ -8,21 +8,15 @@
 
 #include <string>
 
-namespace pcl
-{
-namespace cosection
+namespace pcl::cosection
 {
 
 /** \brief A rotation from the fields rpy_deg or quaternion; none is none. */
-Eigen::Quaterniond
-parseRotation (SpecNode& node);
+Eigen::Quaterniond parseRotation (SpecNode& node);
 
 /** \brief A part of a body: shape, place and colour. */
-BodyPart
-parsePart (SpecNode node, const TriangleMesh::Colour& colour, const std::string& folder);
+BodyPart parsePart (SpecNode node, const TriangleMesh::Colour& colour, const std::string& folder);
 
-TriangleMesh::Colour
-parseColour (SpecNode& node, const TriangleMesh::Colour& otherwise);
+TriangleMesh::Colour parseColour (SpecNode& node, const TriangleMesh::Colour& otherwise);
 
-} // namespace cosection
-} // namespace pcl
+} // namespace pcl::cosection

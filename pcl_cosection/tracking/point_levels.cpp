@@ -7,9 +7,7 @@
 #include <cstdint>
 #include <limits>
 
-namespace pcl
-{
-namespace cosection
+namespace pcl::cosection
 {
 
 namespace
@@ -30,14 +28,15 @@ bool
 isUsable (const Eigen::Vector3f& p, float weight)
 {
   constexpr float largest = std::numeric_limits<float>::max ();
-  return std::abs (p.x ()) <= largest && std::abs (p.y ()) <= largest && std::abs (p.z ()) <= largest && weight > 0.0f &&
-         weight <= largest;
+  return std::abs (p.x ()) <= largest && std::abs (p.y ()) <= largest && std::abs (p.z ()) <= largest &&
+         weight > 0.0f && weight <= largest;
 }
 
 } // namespace
 
 void
-PointLevels::assign (const std::vector<Eigen::Vector3f>& points, const std::vector<float>& weights, const LevelSizes& sizes)
+PointLevels::assign (const std::vector<Eigen::Vector3f>& points, const std::vector<float>& weights,
+                     const LevelSizes& sizes)
 {
   const auto weightOf = [&] (std::size_t i) { return weights.empty () ? 1.0f : weights[i]; };
   std::size_t usable = 0;
@@ -52,7 +51,8 @@ PointLevels::assign (const std::vector<Eigen::Vector3f>& points, const std::vect
   double level_points = expected;
   for (int level = 0; level < sizes.levels && usable > 0; ++level, level_points /= 4.0)
     if (level == 0 || level_points >= sizes.min_points)
-      thresholds.insert (thresholds.begin (), static_cast<std::uint64_t> (range * (level_points / static_cast<double> (usable))));
+      thresholds.insert (thresholds.begin (),
+                         static_cast<std::uint64_t> (range * (level_points / static_cast<double> (usable))));
 
   constexpr std::uint8_t unusable = 255;
   level_.resize (points.size ());
@@ -92,5 +92,4 @@ PointLevels::assign (const std::vector<Eigen::Vector3f>& points, const std::vect
   }
 }
 
-} // namespace cosection
-} // namespace pcl
+} // namespace pcl::cosection

@@ -8,9 +8,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace pcl
-{
-namespace cosection
+namespace pcl::cosection
 {
 
 /** \brief How many points the levels of a coarse-to-fine search may have. */
@@ -30,18 +28,12 @@ public:
 
   /** \brief Take the finite points of positive weight. Vectors keep their memory.
    * \param[in] weights one per point, or none: 1 */
-  void
-  assign (const std::vector<Eigen::Vector3f>& points, const std::vector<float>& weights, const LevelSizes& sizes);
+  void assign (const std::vector<Eigen::Vector3f>& points, const std::vector<float>& weights, const LevelSizes& sizes);
 
-  std::size_t
-  size () const
-  {
-    return ends.empty () ? 0 : ends.back ();
-  }
+  std::size_t size () const { return ends.empty () ? 0 : ends.back (); }
 
 private:
   std::vector<std::uint8_t> level_; // of each point of the input
 };
 
-} // namespace cosection
-} // namespace pcl
+} // namespace pcl::cosection

@@ -7,9 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace pcl
-{
-namespace cosection
+namespace pcl::cosection
 {
 
 namespace
@@ -36,7 +34,7 @@ changeOfCenter (const Eigen::Vector3d& center, double scale, const Eigen::Vector
 } // namespace
 
 PoseStep::PoseStep (const ResidualSums& sums, const SampledVolume& volume, double min_observability)
-: min_observability_ (min_observability)
+    : min_observability_ (min_observability)
 {
   Matrix6d squares;
   int entry = 0;
@@ -85,7 +83,8 @@ PoseStep::observed () const
 {
   if (!solvable ())
     return 0;
-  return static_cast<int> ((eigenvalues_.array () >= min_observability_ * eigenvalues_[5] && eigenvalues_.array () > 0.0).count ());
+  return static_cast<int> (
+      (eigenvalues_.array () >= min_observability_ * eigenvalues_[5] && eigenvalues_.array () > 0.0).count ());
 }
 
 PoseStep::Matrix6d
@@ -95,5 +94,4 @@ PoseStep::information () const
   return change.transpose () * squares_ * change;
 }
 
-} // namespace cosection
-} // namespace pcl
+} // namespace pcl::cosection

@@ -13,15 +13,13 @@
 #include <string>
 #include <utility>
 
-namespace pcl
-{
-namespace cosection
+namespace pcl::cosection
 {
 
 namespace
 {
 
-constexpr double tsdf_huber = 0.2;      ///< of the truncation distance
+constexpr double tsdf_huber = 0.2; ///< of the truncation distance
 constexpr double field_huber_vox = 2.0;
 constexpr float any_distance_m = 1e9f;    ///< squares of it can still be summed up
 constexpr double coarse_tolerance = 20.0; ///< of levels that are not the last, in units of the last one's
@@ -45,7 +43,8 @@ void
 SdfAlignmentOptions::validate () const
 {
   check (huber_m >= 0.0 && std::isfinite (huber_m), "Huber's bound must be positive, in metres, or 0 for the volume's");
-  check (max_distance_m >= 0.0 && std::isfinite (max_distance_m), "the largest distance must be positive, in metres, or 0 for any");
+  check (max_distance_m >= 0.0 && std::isfinite (max_distance_m),
+         "the largest distance must be positive, in metres, or 0 for any");
   check (max_iterations >= 1, "there must be at least 1 iteration");
   check (levels >= 1 && levels <= 10, "there must be 1 to 10 levels");
   check (min_level_points >= 1, "a level must have at least 1 point");
@@ -61,56 +60,54 @@ describe (SdfAlignmentStop stop)
 {
   switch (stop)
   {
-    case SdfAlignmentStop::Converged: return "converged";
-    case SdfAlignmentStop::MaxIterations: return "the pose still moved in the last iteration";
-    case SdfAlignmentStop::TooFewPoints: return "too few points have a distance";
-    case SdfAlignmentStop::NoGradient: return "no point says in which direction the surface is";
+  case SdfAlignmentStop::Converged:
+    return "converged";
+  case SdfAlignmentStop::MaxIterations:
+    return "the pose still moved in the last iteration";
+  case SdfAlignmentStop::TooFewPoints:
+    return "too few points have a distance";
+  case SdfAlignmentStop::NoGradient:
+    return "no point says in which direction the surface is";
   }
   return "";
 }
 
 SdfTarget::SdfTarget (const TsdfVolume& volume)
-: field_ (&volume.field ())
-, weights_ (&volume.weights ())
-, max_weight_ (volume.options ().max_weight)
-, huber_m_ (tsdf_huber * volume.truncation ())
+    : field_ (&volume.field ())
+    , weights_ (&volume.weights ())
+    , max_weight_ (volume.options ().max_weight)
+    , huber_m_ (tsdf_huber * volume.truncation ())
 {}
 
 SdfTarget::SdfTarget (const SignedDistanceField& field)
-: field_ (&field)
-, huber_m_ (field_huber_vox * field.grid.voxel_size_m)
+    : field_ (&field)
+    , huber_m_ (field_huber_vox * field.grid.voxel_size_m)
 {
-  check ((field.grid.dims.array () > 0).all () && field.grid.voxel_size_m > 0.0 && std::isfinite (field.grid.voxel_size_m) &&
-             field.grid.origin_m.allFinite (),
+  check ((field.grid.dims.array () > 0).all () && field.grid.voxel_size_m > 0.0 &&
+             std::isfinite (field.grid.voxel_size_m) && field.grid.origin_m.allFinite (),
          "the field has no voxels");
   check (field.values.size () == field.grid.size (), "the field must have one value per voxel");
-  check (field.supported.empty () || field.supported.size () == field.grid.size (), "the field must have one mark per voxel, or none");
+  check (field.supported.empty () || field.supported.size () == field.grid.size (),
+         "the field must have one mark per voxel, or none");
 }
 
 struct SdfAlignment::Impl
 {
-  explicit Impl (const SdfAlignmentOptions& options) : options (options)
-  {
-    options.validate ();
-  }
+  explicit Impl (const SdfAlignmentOptions& options) : options (options) { options.validate (); }
 
-  SdfAlignmentResult
-  align (const std::vector<Eigen::Vector3f>& input, const std::vector<float>& weights, const SdfTarget& target,
-         const Eigen::Isometry3d& guess);
+  SdfAlignmentResult align (const std::vector<Eigen::Vector3f>& input, const std::vector<float>& weights,
+                            const SdfTarget& target, const Eigen::Isometry3d& guess);
 
-  void
-  sample (const SdfTarget& target);
+  void sample (const SdfTarget& target);
 
   /** \brief Sums at \a pose, compared with the last accepted ones. */
-  ResidualSums
-  evaluate (std::size_t count, const Eigen::Isometry3d& pose)
+  ResidualSums evaluate (std::size_t count, const Eigen::Isometry3d& pose)
   {
     return residuals.evaluate (points, count, volume, pose, robust, options.threads, accepted, tried);
   }
 
   /** \brief Minimise over the first \a count points from the result's pose. */
-  void
-  solveLevel (std::size_t count, int max_steps, double tolerance_m, SdfAlignmentResult& result);
+  void solveLevel (std::size_t count, int max_steps, double tolerance_m, SdfAlignmentResult& result);
 
   SdfAlignmentOptions options;
   PointLevels points;
@@ -144,8 +141,9 @@ SdfAlignment::Impl::sample (const SdfTarget& target)
     volume.weights = marks.data ();
   }
   robust.huber_m = static_cast<float> (options.huber_m > 0.0 ? options.huber_m : target.huber ());
-  robust.max_distance_m =
-      options.max_distance_m > 0.0 ? static_cast<float> (std::min<double> (options.max_distance_m, any_distance_m)) : any_distance_m;
+  robust.max_distance_m = options.max_distance_m > 0.0
+                              ? static_cast<float> (std::min<double> (options.max_distance_m, any_distance_m))
+                              : any_distance_m;
 }
 
 void
@@ -234,13 +232,11 @@ SdfAlignment::Impl::align (const std::vector<Eigen::Vector3f>& input, const std:
   return result;
 }
 
-SdfAlignment::SdfAlignment (const SdfAlignmentOptions& options) : impl_ (std::make_unique<Impl> (options))
-{}
+SdfAlignment::SdfAlignment (const SdfAlignmentOptions& options) : impl_ (std::make_unique<Impl> (options)) {}
 
 SdfAlignment::~SdfAlignment () = default;
 SdfAlignment::SdfAlignment (SdfAlignment&& other) noexcept = default;
-SdfAlignment&
-SdfAlignment::operator= (SdfAlignment&& other) noexcept = default;
+SdfAlignment& SdfAlignment::operator= (SdfAlignment&& other) noexcept = default;
 
 const SdfAlignmentOptions&
 SdfAlignment::options () const
@@ -249,11 +245,10 @@ SdfAlignment::options () const
 }
 
 SdfAlignmentResult
-SdfAlignment::align (const std::vector<Eigen::Vector3f>& points, const std::vector<float>& weights, const SdfTarget& target,
-                     const Eigen::Isometry3d& guess)
+SdfAlignment::align (const std::vector<Eigen::Vector3f>& points, const std::vector<float>& weights,
+                     const SdfTarget& target, const Eigen::Isometry3d& guess)
 {
   return impl_->align (points, weights, target, guess);
 }
 
-} // namespace cosection
-} // namespace pcl
+} // namespace pcl::cosection

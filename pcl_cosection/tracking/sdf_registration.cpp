@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_cosection authors
-#include <pcl/cosection/tracking/sdf_registration.h>
 #include <pcl/cosection/tracking/impl/sdf_registration.hpp>
+#include <pcl/cosection/tracking/sdf_registration.h>
 
 #include <pcl/impl/instantiate.hpp>
 #include <pcl/point_types.h>
 
-PCL_INSTANTIATE (CosectionSdfRegistration,
-                 (pcl::PointXYZ) (pcl::PointXYZI) (pcl::PointXYZRGB) (pcl::PointXYZRGBA) (pcl::PointNormal)
-                 (pcl::PointXYZRGBNormal) (pcl::PointXYZINormal))
+PCL_INSTANTIATE (CosectionSdfRegistration, (pcl::PointXYZ) (pcl::PointXYZI) (pcl::PointXYZRGB) (pcl::PointXYZRGBA) (
+                                               pcl::PointNormal) (pcl::PointXYZRGBNormal) (pcl::PointXYZINormal))

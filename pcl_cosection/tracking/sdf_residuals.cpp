@@ -2,26 +2,24 @@
 // Copyright (c) 2026, the pcl_cosection authors
 #include "sdf_residuals.h"
 
-#include "../common/multiversion.h"
+#include "pcl_cosection/common/multiversion.h"
 
-#include <pcl/cosection/common/parallel.h>
+#include "pcl_cosection/common/parallel.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <limits>
 
-namespace pcl
-{
-namespace cosection
+namespace pcl::cosection
 {
 
 namespace
 {
 
-constexpr int block_points = 128;   ///< what is known of a block fits into the first cache
-constexpr int blocks_per_sum = 8;   ///< sums of so many blocks are added up in order
-constexpr float steepest = 1e6f;    ///< beside voxels that hold a largest number instead of a distance it is steeper
+constexpr int block_points = 128; ///< what is known of a block fits into the first cache
+constexpr int blocks_per_sum = 8; ///< sums of so many blocks are added up in order
+constexpr float steepest = 1e6f;  ///< beside voxels that hold a largest number instead of a distance it is steeper
 
 using Row = float[block_points];
 
@@ -63,7 +61,7 @@ struct Block
   Row fraction[3]; // within the cell
   int cell[block_points];
   int nearest[block_points];
-  float inside[block_points]; // 1 or 0
+  float inside[block_points];         // 1 or 0
   float corners[4][2 * block_points]; // pairs along x
   Row voxel_weight;
   Row distance;
@@ -73,7 +71,7 @@ struct Block
   Row robust;      // w h
   Row inlier;      // w or 0
   Row squared_lever;
-  Row known;       // 1 or 0
+  Row known; // 1 or 0
 };
 
 /** \brief One component of the cell that \a v is in; anything that is not within [0, last] ends up at its border. */
@@ -209,24 +207,21 @@ struct Lanes
 {
   static constexpr int count = 8;
 
-  PCL_COSECTION_INLINE void
-  add (const float* __restrict a, const float* __restrict b)
+  PCL_COSECTION_INLINE void add (const float* __restrict a, const float* __restrict b)
   {
     for (int n = 0; n < block_points; n += count)
       for (int lane = 0; lane < count; ++lane)
         sums[lane] += a[n + lane] * b[n + lane];
   }
 
-  PCL_COSECTION_INLINE void
-  add (const float* __restrict a)
+  PCL_COSECTION_INLINE void add (const float* __restrict a)
   {
     for (int n = 0; n < block_points; n += count)
       for (int lane = 0; lane < count; ++lane)
         sums[lane] += a[n + lane];
   }
 
-  PCL_COSECTION_INLINE double
-  total () const
+  PCL_COSECTION_INLINE double total () const
   {
     double total = 0.0;
     for (const float sum : sums)
@@ -278,8 +273,9 @@ accumulate (const Block& b, ResidualSums& sums)
 
 /** \brief What \a count points cost, and how much that is for those that had a distance before. */
 PCL_COSECTION_MULTIVERSION void
-compare (const Block& b, float huber, int count, const float* __restrict weight_before, const float* __restrict cost_before,
-         float* __restrict weight_now, float* __restrict cost_now, ResidualSums& sums)
+compare (const Block& b, float huber, int count, const float* __restrict weight_before,
+         const float* __restrict cost_before, float* __restrict weight_now, float* __restrict cost_now,
+         ResidualSums& sums)
 {
   Row weight = {}, before = {}, now = {};
   for (int n = 0; n < count; ++n)
@@ -357,5 +353,4 @@ SdfResiduals::evaluate (const PointLevels& points, std::size_t count, const Samp
   return total;
 }
 
-} // namespace cosection
-} // namespace pcl
+} // namespace pcl::cosection

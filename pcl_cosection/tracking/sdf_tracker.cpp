@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_cosection authors
-#include <pcl/cosection/tracking/sdf_tracker.h>
 #include <pcl/cosection/tracking/impl/sdf_tracker.hpp>
+#include <pcl/cosection/tracking/sdf_tracker.h>
 
 #include <pcl/impl/instantiate.hpp>
 #include <pcl/point_types.h>
 
-PCL_INSTANTIATE (CosectionSdfTracker,
-                 (pcl::PointXYZ) (pcl::PointXYZI) (pcl::PointXYZRGB) (pcl::PointXYZRGBA) (pcl::PointNormal)
-                 (pcl::PointXYZRGBNormal))
+PCL_INSTANTIATE (CosectionSdfTracker, (pcl::PointXYZ) (pcl::PointXYZI) (pcl::PointXYZRGB) (pcl::PointXYZRGBA) (
+                                          pcl::PointNormal) (pcl::PointXYZRGBNormal))

@@ -2,29 +2,29 @@
 // Copyright (c) 2026, the pcl_cosection authors
 #include <pcl/cosection/tracking/surface_points.h>
 
-#include "../common/multiversion.h"
+#include "pcl_cosection/common/multiversion.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
 
-namespace pcl
-{
-namespace cosection
+namespace pcl::cosection
 {
 
 namespace
 {
 
-/** \brief Whether the sign changes from a voxel to the next of its row (1), of the next row (2) and of the next slice (4). */
+/** \brief Whether the sign changes from a voxel to the next of its row (1), of the next row (2) and of the next slice
+ * (4). */
 PCL_COSECTION_MULTIVERSION void
-compareSigns (const float* __restrict row, const float* __restrict next_row, const float* __restrict next_slice, int count,
-              std::uint8_t* __restrict changes)
+compareSigns (const float* __restrict row, const float* __restrict next_row, const float* __restrict next_slice,
+              int count, std::uint8_t* __restrict changes)
 {
   for (int i = 0; i < count; ++i)
   {
     const bool negative = row[i] < 0.0f;
-    changes[i] = static_cast<std::uint8_t> ((negative != (row[i + 1] < 0.0f) ? 1 : 0) | (negative != (next_row[i] < 0.0f) ? 2 : 0) |
+    changes[i] = static_cast<std::uint8_t> ((negative != (row[i + 1] < 0.0f) ? 1 : 0) |
+                                            (negative != (next_row[i] < 0.0f) ? 2 : 0) |
                                             (negative != (next_slice[i] < 0.0f) ? 4 : 0));
   }
 }
@@ -50,8 +50,8 @@ surfacePoints (const SignedDistanceField& field)
       const float* row = field.values.data () + first;
       std::copy_n (row, grid.dims.x (), padded.begin ());
       padded.back () = row[grid.dims.x () - 1];
-      compareSigns (padded.data (), j + 1 < grid.dims.y () ? row + to_next[1] : row, k + 1 < grid.dims.z () ? row + to_next[2] : row,
-                    grid.dims.x (), changes.data ());
+      compareSigns (padded.data (), j + 1 < grid.dims.y () ? row + to_next[1] : row,
+                    k + 1 < grid.dims.z () ? row + to_next[2] : row, grid.dims.x (), changes.data ());
       for (int i = 0; i < grid.dims.x (); ++i)
       {
         if (changes[i] == 0 || !known (first + i)) // most voxels
@@ -72,5 +72,4 @@ surfacePoints (const SignedDistanceField& field)
   return points;
 }
 
-} // namespace cosection
-} // namespace pcl
+} // namespace pcl::cosection

@@ -2,16 +2,14 @@
 // Copyright (c) 2026, the pcl_cosection authors
 #include <pcl/cosection/visualization/frame_points.h>
 
+#include "pcl_cosection/sequence/stamp_matching.h"
 #include <pcl/cosection/common/error.h>
-#include <pcl/cosection/io/stamp_matching.h>
 
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
 
-namespace pcl
-{
-namespace cosection
+namespace pcl::cosection
 {
 
 namespace
@@ -24,23 +22,26 @@ openImages (const RunScene& scene, const std::string& dataset)
 {
   const std::string folder = dataset.empty () ? scene.dataset : dataset;
   if (folder.empty ())
-    throw IoError (scene.folder + ": does not tell which images the run has read, so there are no points to show; name them with --dataset");
+    throw IoError (
+        scene.folder +
+        ": does not tell which images the run has read, so there are no points to show; name them with --dataset");
   std::error_code ignored;
   if (dataset.empty () && !std::filesystem::is_directory (folder, ignored))
-    throw IoError (folder + ": the images that the run has read are not there any more; name their folder with --dataset");
+    throw IoError (folder +
+                   ": the images that the run has read are not there any more; name their folder with --dataset");
   return std::make_unique<RgbdSequence> (folder, scene.source);
 }
 
 } // namespace
 
 FramePointReader::FramePointReader (const RunScene& scene, const std::string& dataset)
-: images_ (openImages (scene, dataset)), stamps_ (images_->stamps ())
+    : images_ (openImages (scene, dataset))
+    , stamps_ (images_->stamps ())
 {}
 
 FramePointReader::~FramePointReader () = default;
 FramePointReader::FramePointReader (FramePointReader&&) noexcept = default;
-FramePointReader&
-FramePointReader::operator= (FramePointReader&&) noexcept = default;
+FramePointReader& FramePointReader::operator= (FramePointReader&&) noexcept = default;
 
 FramePoints
 FramePointReader::read (const RunScene& scene, double stamp, int every) const
@@ -67,5 +68,4 @@ FramePointReader::read (const RunScene& scene, double stamp, int every) const
   return result;
 }
 
-} // namespace cosection
-} // namespace pcl
+} // namespace pcl::cosection

@@ -4,19 +4,17 @@
 
 #include "run_summary.h"
 
+#include "pcl_cosection/sequence/stamp_matching.h"
 #include <pcl/cosection/common/error.h>
 #include <pcl/cosection/common/mesh_decimation.h>
 #include <pcl/cosection/io/mesh_io.h>
-#include <pcl/cosection/io/stamp_matching.h>
 
 #include <algorithm>
 #include <filesystem>
 
 namespace fs = std::filesystem;
 
-namespace pcl
-{
-namespace cosection
+namespace pcl::cosection
 {
 
 namespace
@@ -39,7 +37,8 @@ nearestPose (const std::vector<StampedPose>& poses, double stamp, double limit)
                                        [] (const StampedPose& pose, double wanted) { return pose.stamp < wanted; });
   const StampedPose* nearest = nullptr;
   for (const auto& candidate : {after, after == poses.begin () ? poses.end () : after - 1})
-    if (candidate != poses.end () && (!nearest || std::abs (candidate->stamp - stamp) < std::abs (nearest->stamp - stamp)))
+    if (candidate != poses.end () &&
+        (!nearest || std::abs (candidate->stamp - stamp) < std::abs (nearest->stamp - stamp)))
       nearest = &*candidate;
   if (!nearest || !(std::abs (nearest->stamp - stamp) < limit))
     return std::nullopt;
@@ -54,8 +53,10 @@ requireRun (const std::string& folder, const RunSummary& summary)
   if (!isThere (path / "trajectory" / "camera.txt") && !summary.error.empty ())
     throw IoError (folder + ": that run failed: " + summary.error);
   std::error_code ignored;
-  if (fs::is_directory (path, ignored) && !isThere (path / "trajectory" / "camera.txt") && !isThere (path / "gt-cam-0.txt"))
-    throw IoError (folder + ": has no trajectory/camera.txt: it is not what pcl_cosection_fusion wrote, or that run did not come to its end");
+  if (fs::is_directory (path, ignored) && !isThere (path / "trajectory" / "camera.txt") &&
+      !isThere (path / "gt-cam-0.txt"))
+    throw IoError (folder + ": has no trajectory/camera.txt: it is not what pcl_cosection_fusion wrote, or that run "
+                            "did not come to its end");
 }
 
 void
@@ -130,7 +131,8 @@ RunScene::surface (int id, SurfaceMode mode) const
     const auto found = tsdf.find (id);
     return found == tsdf.end () ? none : found->second;
   }
-  const auto object = std::find_if (run.objects.begin (), run.objects.end (), [id] (const auto& o) { return o.id == id; });
+  const auto object = std::find_if (run.objects.begin (), run.objects.end (),
+                                    [id] (const auto& o) { return o.id == id; });
   return object == run.objects.end () ? none : object->mesh;
 }
 
@@ -173,5 +175,4 @@ loadRunScene (const std::string& folder, ReadingNotes& notes, const RunSceneOpti
   return scene;
 }
 
-} // namespace cosection
-} // namespace pcl
+} // namespace pcl::cosection

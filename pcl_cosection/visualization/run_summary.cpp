@@ -11,9 +11,7 @@
 
 namespace fs = std::filesystem;
 
-namespace pcl
-{
-namespace cosection
+namespace pcl::cosection
 {
 
 namespace
@@ -127,5 +125,4 @@ readRunSummary (const std::string& folder, ReadingNotes& notes)
   return summary;
 }
 
-} // namespace cosection
-} // namespace pcl
+} // namespace pcl::cosection

@@ -10,9 +10,7 @@
 #include <optional>
 #include <string>
 
-namespace pcl
-{
-namespace cosection
+namespace pcl::cosection
 {
 
 /** \brief What a run's summary.json says of its images. */
@@ -26,9 +24,8 @@ struct RunSummary
   std::map<int, std::string> classes; ///< of objects, by their numbers
 };
 
-/** \brief Read summary.json. What is missing in it, as in those of earlier versions, stays empty. \param[out] notes if it cannot be read */
-RunSummary
-readRunSummary (const std::string& folder, ReadingNotes& notes);
+/** \brief Read summary.json. What is missing in it, as in those of earlier versions, stays empty. \param[out] notes if
+ * it cannot be read */
+RunSummary readRunSummary (const std::string& folder, ReadingNotes& notes);
 
-} // namespace cosection
-} // namespace pcl
+} // namespace pcl::cosection

@@ -1,15 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_cosection authors
-#include <pcl/cosection/visualization/scene_caption.h>
+#include "scene_caption.h"
 
-#include <pcl/cosection/io/stamp_matching.h>
+#include "pcl_cosection/sequence/stamp_matching.h"
 
 #include <algorithm>
 #include <sstream>
 
-namespace pcl
-{
-namespace cosection
+namespace pcl::cosection
 {
 
 const std::vector<std::string>&
@@ -36,14 +34,16 @@ sceneCaption (const RunScene& scene, double stamp, SurfaceMode surface, ColourMo
     text << "frame " << *frame + 1 << " of " << stamps.size () << ", stamp " << stamps[*frame];
   else
     text << "stamp " << stamp;
-  const auto known = std::count_if (scene.run.objects.begin (), scene.run.objects.end (),
-                                    [&] (const SceneRecord::Object& object) { return scene.poseAt (object, stamp).has_value (); });
+  const auto known = std::count_if (
+      scene.run.objects.begin (), scene.run.objects.end (),
+      [&] (const SceneRecord::Object& object) { return scene.poseAt (object, stamp).has_value (); });
   text << ", " << known << (known == 1 ? " object" : " objects");
-  text << (surface == SurfaceMode::Completed ? ", completed" : surface == SurfaceMode::Tsdf ? ", as seen" : ", points of this frame");
+  text << (surface == SurfaceMode::Completed ? ", completed"
+           : surface == SurfaceMode::Tsdf    ? ", as seen"
+                                             : ", points of this frame");
   if (surface != SurfaceMode::Points && colour != ColourMode::Real)
     text << ", colour: " << colourNames ()[static_cast<std::size_t> (colour)];
   return text.str ();
 }
 
-} // namespace cosection
-} // namespace pcl
+} // namespace pcl::cosection

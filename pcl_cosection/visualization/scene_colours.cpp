@@ -2,21 +2,19 @@
 // Copyright (c) 2026, the pcl_cosection authors
 #include <pcl/cosection/visualization/scene_colours.h>
 
-#include <pcl/cosection/evaluation/error_picture.h>
-#include <pcl/cosection/rendering/picture.h>
+#include "pcl_cosection/evaluation/pictures/error_picture.h"
+#include "pcl_cosection/rendering/picture.h"
 
 #include <algorithm>
 #include <array>
 
-namespace pcl
-{
-namespace cosection
+namespace pcl::cosection
 {
 
 namespace
 {
 
-constexpr TriangleMesh::Colour plain = {200, 200, 200};      ///< nothing is told
+constexpr TriangleMesh::Colour plain = {200, 200, 200}; ///< nothing is told
 constexpr TriangleMesh::Colour background_grey = {225, 222, 216};
 
 /** \brief ", cup"; nothing if that is not known. */
@@ -42,15 +40,15 @@ TriangleMesh::Colour
 instanceColour (int id)
 {
   static constexpr std::array<TriangleMesh::Colour, 10> colours = {{{214, 84, 60},
-                                                                   {66, 126, 190},
-                                                                   {240, 180, 50},
-                                                                   {94, 160, 84},
-                                                                   {150, 104, 176},
-                                                                   {80, 182, 190},
-                                                                   {228, 134, 178},
-                                                                   {150, 116, 84},
-                                                                   {170, 190, 60},
-                                                                   {96, 96, 130}}};
+                                                                    {66, 126, 190},
+                                                                    {240, 180, 50},
+                                                                    {94, 160, 84},
+                                                                    {150, 104, 176},
+                                                                    {80, 182, 190},
+                                                                    {228, 134, 178},
+                                                                    {150, 116, 84},
+                                                                    {170, 190, 60},
+                                                                    {96, 96, 130}}};
   if (id == RunScene::background)
     return background_grey;
   return colours[static_cast<std::size_t> (id - 1) % colours.size ()];
@@ -64,26 +62,26 @@ surfaceColours (const RunScene& scene, int id, SurfaceMode surface, ColourMode c
   std::vector<TriangleMesh::Colour> colours (count, id == RunScene::background ? background_grey : plain);
   switch (colour)
   {
-    case ColourMode::Real:
-      if (mesh.colours.size () == count)
-        colours = mesh.colours;
-      break;
-    case ColourMode::Instance:
-      std::fill (colours.begin (), colours.end (), instanceColour (id));
-      break;
-    case ColourMode::Provenance:
-      if (mesh.provenance.size () == count)
-        colours = provenanceColours (mesh);
-      break;
-    case ColourMode::Confidence:
-      if (mesh.confidence.size () == count)
-        std::transform (mesh.confidence.begin (), mesh.confidence.end (), colours.begin (),
-                        [] (float confidence) { return errorColour (1.0 - static_cast<double> (confidence)); });
-      break;
-    case ColourMode::Error:
-      if (scene.surfaceErrors (id, surface).size () == count)
-        colours = errorColours (scene.surfaceErrors (id, surface), scene.error_max_m);
-      break;
+  case ColourMode::Real:
+    if (mesh.colours.size () == count)
+      colours = mesh.colours;
+    break;
+  case ColourMode::Instance:
+    std::fill (colours.begin (), colours.end (), instanceColour (id));
+    break;
+  case ColourMode::Provenance:
+    if (mesh.provenance.size () == count)
+      colours = provenanceColours (mesh);
+    break;
+  case ColourMode::Confidence:
+    if (mesh.confidence.size () == count)
+      std::transform (mesh.confidence.begin (), mesh.confidence.end (), colours.begin (),
+                      [] (float confidence) { return errorColour (1.0 - static_cast<double> (confidence)); });
+    break;
+  case ColourMode::Error:
+    if (scene.surfaceErrors (id, surface).size () == count)
+      colours = errorColours (scene.surfaceErrors (id, surface), scene.error_max_m);
+    break;
   }
   return colours;
 }
@@ -94,39 +92,38 @@ legendOf (const RunScene& scene, ColourMode colour)
   ColourLegend legend;
   switch (colour)
   {
-    case ColourMode::Real:
-      break;
-    case ColourMode::Instance:
-      legend.title = "instance";
-      for (const SceneRecord::Object& object : scene.run.objects)
-        legend.entries.push_back ({instanceColour (object.id), "object " + object.name + classIn (scene, object.id)});
-      break;
-    case ColourMode::Provenance:
-    {
-      legend.title = "provenance";
-      TriangleMesh all;
-      all.provenance = {0, 1, 2, 3};
-      all.vertices.resize (all.provenance.size ());
-      const std::vector<TriangleMesh::Colour> colours = provenanceColours (all);
-      legend.entries = {{colours[0], "observed"},
-                        {colours[1], "inferred"},
-                        {colours[2], "bounded by free space"},
-                        {colours[3], "bounded by a body"}};
-      break;
-    }
-    case ColourMode::Confidence:
-      legend.title = "confidence";
-      legend.least = 1.0;
-      legend.most = 0.0;
-      break;
-    case ColourMode::Error:
-      legend.title = "error in mm";
-      legend.most = 1000.0 * scene.error_max_m;
-      legend.more = true;
-      break;
+  case ColourMode::Real:
+    break;
+  case ColourMode::Instance:
+    legend.title = "instance";
+    for (const SceneRecord::Object& object : scene.run.objects)
+      legend.entries.push_back ({instanceColour (object.id), "object " + object.name + classIn (scene, object.id)});
+    break;
+  case ColourMode::Provenance:
+  {
+    legend.title = "provenance";
+    TriangleMesh all;
+    all.provenance = {0, 1, 2, 3};
+    all.vertices.resize (all.provenance.size ());
+    const std::vector<TriangleMesh::Colour> colours = provenanceColours (all);
+    legend.entries = {{colours[0], "observed"},
+                      {colours[1], "inferred"},
+                      {colours[2], "bounded by free space"},
+                      {colours[3], "bounded by a body"}};
+    break;
+  }
+  case ColourMode::Confidence:
+    legend.title = "confidence";
+    legend.least = 1.0;
+    legend.most = 0.0;
+    break;
+  case ColourMode::Error:
+    legend.title = "error in mm";
+    legend.most = 1000.0 * scene.error_max_m;
+    legend.more = true;
+    break;
   }
   return legend;
 }
 
-} // namespace cosection
-} // namespace pcl
+} // namespace pcl::cosection

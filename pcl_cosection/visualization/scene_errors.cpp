@@ -1,16 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_cosection authors
 
-#include <pcl/cosection/evaluation/error_picture.h>
+#include "pcl_cosection/evaluation/pictures/error_picture.h"
 #include <pcl/cosection/evaluation/mesh_comparison.h>
 #include <pcl/cosection/evaluation/surface_distance.h>
 #include <pcl/cosection/visualization/run_scene.h>
 
 #include <algorithm>
 
-namespace pcl
-{
-namespace cosection
+namespace pcl::cosection
 {
 
 namespace
@@ -47,8 +45,9 @@ measureErrors (RunScene& scene, const SceneRecord& truth, const RunEvaluation& e
     all.insert (all.end (), errors.completed.begin (), errors.completed.end ());
   }
   if (evaluation.background && !truth.background.empty ())
-    scene.errors[RunScene::background].completed =
-        errorsOf (scene.run.background, SurfaceDistance (truth.background), evaluation.background->alignment.T_truth_estimate, threads);
+    scene.errors[RunScene::background].completed = errorsOf (scene.run.background, SurfaceDistance (truth.background),
+                                                             evaluation.background->alignment.T_truth_estimate,
+                                                             threads);
   if (all.empty () && scene.errors.count (RunScene::background) > 0)
     all = scene.errors[RunScene::background].completed;
   if (all.empty ())
@@ -70,5 +69,4 @@ measureErrors (RunScene& scene, const SceneRecord& truth, int threads)
   return evaluation.warnings;
 }
 
-} // namespace cosection
-} // namespace pcl
+} // namespace pcl::cosection

@@ -7,9 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace pcl
-{
-namespace cosection
+namespace pcl::cosection
 {
 
 namespace
@@ -29,7 +27,8 @@ pathLines (const RunScene& scene, double stamp)
 {
   std::vector<SceneLine> lines;
   for (std::size_t n = 1; n < scene.run.camera.size () && scene.run.camera[n].stamp <= stamp; ++n)
-    lines.push_back ({scene.run.camera[n - 1].pose.translation (), scene.run.camera[n].pose.translation (), path_colour});
+    lines.push_back (
+        {scene.run.camera[n - 1].pose.translation (), scene.run.camera[n].pose.translation (), path_colour});
   return lines;
 }
 
@@ -39,12 +38,16 @@ frustumLines (const RunScene& scene, const Eigen::Isometry3d& T_world_camera)
   double nearest_m = longest_frustum_m / frustum_share;
   for (const SceneRecord::Object& object : scene.run.objects)
     if (!object.poses.empty ())
-      nearest_m = std::min (nearest_m, (object.poses.front ().pose.translation () - T_world_camera.translation ()).norm ());
+      nearest_m = std::min (nearest_m,
+                            (object.poses.front ().pose.translation () - T_world_camera.translation ()).norm ());
   const double depth_m = frustum_share * nearest_m;
   const PinholeCamera camera = scene.camera ();
   const Eigen::Vector3d eye = T_world_camera.translation ();
   std::vector<Eigen::Vector3d> corners;
-  for (const auto& [u, v] : {std::pair{-0.5, -0.5}, {camera.width - 0.5, -0.5}, {camera.width - 0.5, camera.height - 0.5}, {-0.5, camera.height - 0.5}})
+  for (const auto& [u, v] : {std::pair{-0.5, -0.5},
+                             {camera.width - 0.5, -0.5},
+                             {camera.width - 0.5, camera.height - 0.5},
+                             {-0.5, camera.height - 0.5}})
     corners.push_back (T_world_camera * camera.unproject (u, v, depth_m));
   std::vector<SceneLine> lines;
   for (std::size_t n = 0; n < corners.size (); ++n)
@@ -64,7 +67,8 @@ std::vector<SceneLine>
 boxLines (const RunScene& scene, const SceneRecord::Object& object, SurfaceMode surface, double stamp)
 {
   const std::optional<Eigen::Isometry3d> pose = scene.poseAt (object, stamp);
-  const TriangleMesh& mesh = scene.surface (object.id, surface == SurfaceMode::Points ? SurfaceMode::Completed : surface);
+  const TriangleMesh& mesh = scene.surface (object.id,
+                                            surface == SurfaceMode::Points ? SurfaceMode::Completed : surface);
   if (!pose || mesh.vertices.empty ())
     return {};
   Eigen::AlignedBox3d box;
@@ -106,5 +110,4 @@ samplePoints (const std::vector<SceneLine>& lines, const PinholeCamera& camera, 
   }
 }
 
-} // namespace cosection
-} // namespace pcl
+} // namespace pcl::cosection

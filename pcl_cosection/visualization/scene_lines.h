@@ -11,9 +11,7 @@
 
 #include <vector>
 
-namespace pcl
-{
-namespace cosection
+namespace pcl::cosection
 {
 
 /** \brief A straight line in the world. */
@@ -24,21 +22,19 @@ struct SceneLine
 };
 
 /** \brief The way of the camera up to a time. */
-PCL_COSECTION_EXPORT std::vector<SceneLine>
-pathLines (const RunScene& scene, double stamp);
+PCL_COSECTION_EXPORT std::vector<SceneLine> pathLines (const RunScene& scene, double stamp);
 
 /** \brief What a camera sees up to half a metre away, or less in small scenes. */
-PCL_COSECTION_EXPORT std::vector<SceneLine>
-frustumLines (const RunScene& scene, const Eigen::Isometry3d& T_world_camera);
+PCL_COSECTION_EXPORT std::vector<SceneLine> frustumLines (const RunScene& scene,
+                                                          const Eigen::Isometry3d& T_world_camera);
 
 /** \brief The box around an object, along the axes of its frame; nothing where it is not known. */
-PCL_COSECTION_EXPORT std::vector<SceneLine>
-boxLines (const RunScene& scene, const SceneRecord::Object& object, SurfaceMode surface, double stamp);
+PCL_COSECTION_EXPORT std::vector<SceneLine> boxLines (const RunScene& scene, const SceneRecord::Object& object,
+                                                      SurfaceMode surface, double stamp);
 
 /** \brief Points of lines, so near each other that they touch in the picture of a camera. */
-PCL_COSECTION_EXPORT void
-samplePoints (const std::vector<SceneLine>& lines, const PinholeCamera& camera, const Eigen::Isometry3d& T_world_camera,
-              std::vector<Eigen::Vector3f>& points, std::vector<TriangleMesh::Colour>& colours);
+PCL_COSECTION_EXPORT void samplePoints (const std::vector<SceneLine>& lines, const PinholeCamera& camera,
+                                        const Eigen::Isometry3d& T_world_camera, std::vector<Eigen::Vector3f>& points,
+                                        std::vector<TriangleMesh::Colour>& colours);
 
-} // namespace cosection
-} // namespace pcl
+} // namespace pcl::cosection

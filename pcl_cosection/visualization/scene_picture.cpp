@@ -4,20 +4,18 @@
 
 #include "scene_lines.h"
 
-#include "../evaluation/picture_canvas.h"
+#include "pcl_cosection/evaluation/pictures/picture_canvas.h"
 
+#include "pcl_cosection/rendering/picture.h"
+#include "scene_caption.h"
 #include <pcl/cosection/common/error.h>
-#include <pcl/cosection/rendering/picture.h>
 #include <pcl/cosection/rendering/rasterizer.h>
-#include <pcl/cosection/visualization/scene_caption.h>
 
 #include <algorithm>
 #include <cmath>
 #include <sstream>
 
-namespace pcl
-{
-namespace cosection
+namespace pcl::cosection
 {
 
 namespace
@@ -50,7 +48,8 @@ removeTrianglesThatFaceAway (const Eigen::Vector3d& eye, TriangleMesh& mesh)
     const Eigen::Vector3f &a = mesh.vertices[t[0]], &b = mesh.vertices[t[1]], &c = mesh.vertices[t[2]];
     return (b - a).cross (c - a).dot (from - a) < 0.0f;
   };
-  mesh.triangles.erase (std::remove_if (mesh.triangles.begin (), mesh.triangles.end (), faces_away), mesh.triangles.end ());
+  mesh.triangles.erase (std::remove_if (mesh.triangles.begin (), mesh.triangles.end (), faces_away),
+                        mesh.triangles.end ());
 }
 
 /** \brief From where, and with which camera. */
@@ -93,7 +92,8 @@ drawSurfaces (const RunScene& scene, double stamp, const SceneView& view, const 
     const std::optional<Eigen::Isometry3d> pose = scene.poseAt (object, stamp);
     const TriangleMesh& mesh = scene.surface (object.id, view.surface);
     if (pose && !mesh.empty ())
-      rasterizer.draw (recoloured (mesh, surfaceColours (scene, object.id, view.surface, view.colour)), object.id, *pose);
+      rasterizer.draw (recoloured (mesh, surfaceColours (scene, object.id, view.surface, view.colour)), object.id,
+                       *pose);
   }
 }
 
@@ -101,7 +101,9 @@ void
 drawLines (const RunScene& scene, double stamp, const SceneView& view, const Eye& eye, Rasterizer& rasterizer)
 {
   std::vector<SceneLine> lines;
-  const auto add = [&lines] (const std::vector<SceneLine>& more) { lines.insert (lines.end (), more.begin (), more.end ()); };
+  const auto add = [&lines] (const std::vector<SceneLine>& more) {
+    lines.insert (lines.end (), more.begin (), more.end ());
+  };
   const std::optional<Eigen::Isometry3d> camera = scene.cameraAt (stamp);
   if (view.path && view.viewpoint)
     add (pathLines (scene, stamp));
@@ -163,8 +165,10 @@ drawLegend (const ColourLegend& legend, const SceneView& view, PictureCanvas& ca
   for (int n = 0; n < count; ++n)
   {
     const int top = 2 * margin_px + n * line_px - margin_px / 2;
-    canvas.fill (cv::Rect (left + margin_px / 2, top, swatch_px, swatch_px), legend.entries[static_cast<std::size_t> (n)].colour);
-    canvas.write (legend.entries[static_cast<std::size_t> (n)].text, left + swatch_px + margin_px, top + swatch_px - 2, text_size);
+    canvas.fill (cv::Rect (left + margin_px / 2, top, swatch_px, swatch_px),
+                 legend.entries[static_cast<std::size_t> (n)].colour);
+    canvas.write (legend.entries[static_cast<std::size_t> (n)].text, left + swatch_px + margin_px, top + swatch_px - 2,
+                  text_size);
   }
 }
 
@@ -210,5 +214,4 @@ drawScene (const RunScene& scene, double stamp, const SceneView& view, const Fra
   return canvas.picture ();
 }
 
-} // namespace cosection
-} // namespace pcl
+} // namespace pcl::cosection

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_cosection authors
-#include <pcl/cosection/visualization/sdf_slices.h>
+#include "sdf_slices.h"
 
 #include <pcl/cosection/common/error.h>
 #include <pcl/cosection/volume/mesh_distance.h>
@@ -10,17 +10,15 @@
 #include <algorithm>
 #include <cmath>
 
-namespace pcl
-{
-namespace cosection
+namespace pcl::cosection
 {
 
 namespace
 {
 
-constexpr double margin = 0.25;       ///< of the longest side, at each side
-constexpr double limit_share = 0.2;   ///< of the longest side
-constexpr double line_px = 0.75;      ///< half the width of the line where the surface is cut
+constexpr double margin = 0.25;     ///< of the longest side, at each side
+constexpr double limit_share = 0.2; ///< of the longest side
+constexpr double line_px = 0.75;    ///< half the width of the line where the surface is cut
 constexpr TriangleMesh::Colour line = {20, 20, 20};
 
 } // namespace
@@ -63,7 +61,8 @@ SdfSlices::slice (int axis, double share, int pixels) const
   const int across = (axis + 1) % 3, down = (axis + 2) % 3;
   const double pixel_m = std::max (size[across], size[down]) / std::max (2, pixels);
   SdfSlice result;
-  result.picture = Picture (std::max (2, static_cast<int> (size[across] / pixel_m)), std::max (2, static_cast<int> (size[down] / pixel_m)));
+  result.picture = Picture (std::max (2, static_cast<int> (size[across] / pixel_m)),
+                            std::max (2, static_cast<int> (size[down] / pixel_m)));
   Eigen::Vector3d p = grid.origin_m;
   p[axis] += std::clamp (share, 0.0, 1.0) * size[axis];
   const Eigen::Vector3d first = p;
@@ -73,7 +72,8 @@ SdfSlices::slice (int axis, double share, int pixels) const
       p[across] = first[across] + size[across] * (u + 0.5) / result.picture.width;
       p[down] = first[down] + size[down] * (v + 0.5) / result.picture.height;
       const double distance_m = field_.sample (p).value_or (limit_m_);
-      result.picture.at (u, v) = std::abs (distance_m) < line_px * pixel_m ? line : distanceColour (distance_m, limit_m_);
+      result.picture.at (u, v) = std::abs (distance_m) < line_px * pixel_m ? line
+                                                                           : distanceColour (distance_m, limit_m_);
     }
   Eigen::Vector3d along = Eigen::Vector3d::Zero (), downward = Eigen::Vector3d::Zero ();
   along[across] = size[across];
@@ -83,5 +83,4 @@ SdfSlices::slice (int axis, double share, int pixels) const
   return result;
 }
 
-} // namespace cosection
-} // namespace pcl
+} // namespace pcl::cosection

@@ -2,9 +2,9 @@
 // Copyright (c) 2026, the pcl_cosection authors
 #include <pcl/cosection/visualization/viewpoint.h>
 
-#include <pcl/cosection/common/atomic_file.h>
+#include "pcl_cosection/common/atomic_file.h"
+#include "pcl_cosection/view/look_at.h"
 #include <pcl/cosection/common/error.h>
-#include <pcl/cosection/common/look_at.h>
 
 #include <nlohmann/json.hpp>
 
@@ -12,9 +12,7 @@
 #include <cmath>
 #include <fstream>
 
-namespace pcl
-{
-namespace cosection
+namespace pcl::cosection
 {
 
 namespace
@@ -22,12 +20,12 @@ namespace
 
 using Json = nlohmann::ordered_json;
 
-constexpr double raised_rad = 0.25;  ///< the overview, above the cameras
+constexpr double raised_rad = 0.25;                             ///< the overview, above the cameras
 constexpr double least_raised_rad = 0.4, most_raised_rad = 1.0; ///< above the floor
-constexpr double upward = 0.6;       ///< cosine of the angle up to which a normal may be the floor's
-constexpr double floor_share = 0.1;  ///< of the vertices, for a floor
+constexpr double upward = 0.6;         ///< cosine of the angle up to which a normal may be the floor's
+constexpr double floor_share = 0.1;    ///< of the vertices, for a floor
 constexpr double behind_cameras = 1.8; ///< of their distance
-constexpr double beyond = 1.15;      ///< room around what is to be seen
+constexpr double beyond = 1.15;        ///< room around what is to be seen
 constexpr double least_radius_m = 0.05;
 constexpr double deepest_share = 0.02; ///< of a background's vertices, beyond its box at each end
 
@@ -67,9 +65,11 @@ boxOfMost (const TriangleMesh& mesh)
   std::vector<float> values (mesh.vertices.size ());
   for (int axis = 0; axis < 3; ++axis)
   {
-    std::transform (mesh.vertices.begin (), mesh.vertices.end (), values.begin (), [axis] (const auto& v) { return v[axis]; });
+    std::transform (mesh.vertices.begin (), mesh.vertices.end (), values.begin (),
+                    [axis] (const auto& v) { return v[axis]; });
     const auto at = [&values] (double share) {
-      const auto place = values.begin () + static_cast<std::ptrdiff_t> (share * static_cast<double> (values.size () - 1));
+      const auto place = values.begin () +
+                         static_cast<std::ptrdiff_t> (share * static_cast<double> (values.size () - 1));
       std::nth_element (values.begin (), place, values.end ());
       return static_cast<double> (*place);
     };
@@ -149,7 +149,8 @@ upDirection (const RunScene& scene)
       of_floor += normal.cast<double> ();
       ++count;
     }
-  const bool is_floor = static_cast<double> (count) > floor_share * static_cast<double> (scene.run.background.normals.size ());
+  const bool is_floor = static_cast<double> (count) >
+                        floor_share * static_cast<double> (scene.run.background.normals.size ());
   return is_floor && of_floor.norm () > 1e-6 ? Eigen::Vector3d (of_floor.normalized ()) : of_pictures;
 }
 
@@ -180,17 +181,20 @@ overview (const RunScene& scene, double turn_rad)
     raised_rad_now = most_raised_rad;
   }
   raised_rad_now = std::clamp (raised_rad_now, least_raised_rad, most_raised_rad);
-  const Eigen::Vector3d direction = std::cos (raised_rad_now) * (Eigen::AngleAxisd (turn_rad, view.up) * level.normalized ()) +
+  const Eigen::Vector3d direction = std::cos (raised_rad_now) *
+                                        (Eigen::AngleAxisd (turn_rad, view.up) * level.normalized ()) +
                                     std::sin (raised_rad_now) * view.up;
   const double radius = std::max (least_radius_m, 0.5 * box.diagonal ().norm ());
-  view.eye = view.target + std::max (beyond * radius / std::sin (0.5 * view.angle_rad), behind_cameras * back.norm ()) * direction;
+  view.eye = view.target +
+             std::max (beyond * radius / std::sin (0.5 * view.angle_rad), behind_cameras * back.norm ()) * direction;
   return view;
 }
 
 PinholeCamera
 fittedCamera (const PinholeCamera& camera, int width, int height)
 {
-  const double scale = std::min (static_cast<double> (width) / camera.width, static_cast<double> (height) / camera.height);
+  const double scale = std::min (static_cast<double> (width) / camera.width,
+                                 static_cast<double> (height) / camera.height);
   // Pixel (u, v) covers the square around it.
   return {width,
           height,
@@ -243,5 +247,4 @@ loadViewpoint (const std::string& path)
   return view;
 }
 
-} // namespace cosection
-} // namespace pcl
+} // namespace pcl::cosection

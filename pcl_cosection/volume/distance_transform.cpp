@@ -1,17 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_cosection authors
 
+#include "distance_transform.h"
+#include "pcl_cosection/common/parallel.h"
 #include <pcl/cosection/common/error.h>
-#include <pcl/cosection/common/parallel.h>
-#include <pcl/cosection/volume/distance_transform.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-namespace pcl
-{
-namespace cosection
+namespace pcl::cosection
 {
 namespace
 {
@@ -42,12 +40,10 @@ transformRow (const std::uint8_t* mask, float* squared, int n)
 class LowerEnvelope
 {
 public:
-  explicit LowerEnvelope (int length) : length_ (length), apex_ (length), height_ (length), begin_ (length + 1)
-  {}
+  explicit LowerEnvelope (int length) : length_ (length), apex_ (length), height_ (length), begin_ (length + 1) {}
 
   /** \brief f (q) := min_p (q - p)^2 + f (p), in place. */
-  void
-  transform (float* f)
+  void transform (float* f)
   {
     int last = -1; // parabolas in the envelope - 1
     for (int q = 0; q < length_; ++q)
@@ -102,9 +98,7 @@ public:
       , envelope_ (length)
   {}
 
-  template <typename Finish>
-  void
-  transform (float* first, int count, std::size_t stride, Finish&& finish)
+  template <typename Finish> void transform (float* first, int count, std::size_t stride, Finish&& finish)
   {
     for (int q = 0; q < length_; ++q)
       for (int c = 0; c < count; ++c)
@@ -156,5 +150,4 @@ distanceTransform (const Eigen::Vector3i& dims, const std::vector<std::uint8_t>&
   return distance;
 }
 
-} // namespace cosection
-} // namespace pcl
+} // namespace pcl::cosection

@@ -3,8 +3,8 @@
 
 #include "marching_cubes_cases.h"
 
+#include "pcl_cosection/common/parallel.h"
 #include <pcl/cosection/common/error.h>
-#include <pcl/cosection/common/parallel.h>
 #include <pcl/cosection/volume/iso_surface.h>
 
 #include <Eigen/Geometry>
@@ -13,9 +13,7 @@
 #include <cmath>
 #include <limits>
 
-namespace pcl
-{
-namespace cosection
+namespace pcl::cosection
 {
 namespace
 {
@@ -39,11 +37,7 @@ public:
       , ids_ (row_ * dims.y (), no_vertex)
   {}
 
-  std::uint32_t&
-  at (int i, int j, int axis)
-  {
-    return ids_[row_ * j + 3 * i + axis];
-  }
+  std::uint32_t& at (int i, int j, int axis) { return ids_[row_ * j + 3 * i + axis]; }
 
 private:
   std::size_t row_;
@@ -54,7 +48,8 @@ class Extractor
 {
 public:
   /** \param[in] supported one per voxel; nullptr: everywhere */
-  Extractor (const SignedDistanceField& field, const IsoSurfaceOptions& options, const std::uint8_t* supported = nullptr)
+  Extractor (const SignedDistanceField& field, const IsoSurfaceOptions& options,
+             const std::uint8_t* supported = nullptr)
       : field_ (field)
       , supported_ (supported)
       , grid_ (field.grid)
@@ -64,8 +59,7 @@ public:
       , row_state_ (static_cast<std::size_t> (dims_.y ()) * dims_.z ())
   {}
 
-  TriangleMesh
-  run ()
+  TriangleMesh run ()
   {
     const int slices = dims_.z ();
     parallelFor (0, slices, options_.threads, [this] (int k) { classifySlice (k); });
@@ -97,14 +91,12 @@ private:
     mixed = 2,
   };
 
-  bool
-  isBorder (int i, int j, int k) const
+  bool isBorder (int i, int j, int k) const
   {
     return i == 0 || j == 0 || k == 0 || i == dims_.x () - 1 || j == dims_.y () - 1 || k == dims_.z () - 1;
   }
 
-  void
-  classifySlice (int k)
+  void classifySlice (int k)
   {
     const float lowest = std::numeric_limits<float>::lowest ();
     for (int j = 0; j < dims_.y (); ++j)
@@ -129,23 +121,16 @@ private:
     }
   }
 
-  RowState
-  rowState (int j, int k) const
+  RowState rowState (int j, int k) const
   {
     return static_cast<RowState> (row_state_[static_cast<std::size_t> (k) * dims_.y () + j]);
   }
 
   /** \brief Are these two rows of grid points all outside or all inside? */
-  bool
-  uniform (RowState a, RowState b) const
-  {
-    return a == b && a != mixed;
-  }
+  bool uniform (RowState a, RowState b) const { return a == b && a != mixed; }
 
   /** \brief Call visit (i, j, axis) for each cut edge that begins in slice \a k, in a fixed order. */
-  template <typename Visit>
-  void
-  forEachCutEdge (int k, Visit&& visit) const
+  template <typename Visit> void forEachCutEdge (int k, Visit&& visit) const
   {
     const std::size_t step_y = dims_.x ();
     const std::size_t step_z = step_y * dims_.y ();
@@ -175,9 +160,7 @@ private:
   }
 
   /** \brief Call visit (i, j, case) for each cell between slices \a k and k + 1 that has triangles. */
-  template <typename Visit>
-  void
-  forEachCutCell (int k, Visit&& visit) const
+  template <typename Visit> void forEachCutCell (int k, Visit&& visit) const
   {
     if (k + 1 >= dims_.z ())
       return;
@@ -209,8 +192,7 @@ private:
   }
 
   /** \brief Are all corners of this cell? */
-  bool
-  isSupported (int i, int j, int k) const
+  bool isSupported (int i, int j, int k) const
   {
     if (!supported_)
       return true;
@@ -220,8 +202,7 @@ private:
     return true;
   }
 
-  void
-  countSlice (int k)
+  void countSlice (int k)
   {
     std::size_t vertices = 0;
     std::size_t triangles = 0;
@@ -231,8 +212,7 @@ private:
     triangle_begin_[k + 1] = triangles;
   }
 
-  void
-  emitSlices (int first, int last)
+  void emitSlices (int first, int last)
   {
     SliceVertices here (dims_);
     SliceVertices above (dims_);
@@ -262,16 +242,14 @@ private:
   }
 
   /** \brief Entries of edges that are not cut keep whatever they were: no triangle refers to them. */
-  void
-  numberVertices (int k, SliceVertices& slice) const
+  void numberVertices (int k, SliceVertices& slice) const
   {
     std::uint32_t id = static_cast<std::uint32_t> (vertex_begin_[k]);
     forEachCutEdge (k, [&] (int i, int j, int axis) { slice.at (i, j, axis) = id++; });
   }
 
   /** \brief Gradient at a grid point in values per voxel; one-sided at the border of the grid. */
-  Eigen::Vector3d
-  gradient (const Eigen::Vector3i& p) const
+  Eigen::Vector3d gradient (const Eigen::Vector3i& p) const
   {
     Eigen::Vector3d g;
     for (int axis = 0; axis < 3; ++axis)
@@ -285,14 +263,9 @@ private:
     return g;
   }
 
-  float
-  value (const Eigen::Vector3i& p) const
-  {
-    return field_.values[grid_.index (p.x (), p.y (), p.z ())];
-  }
+  float value (const Eigen::Vector3i& p) const { return field_.values[grid_.index (p.x (), p.y (), p.z ())]; }
 
-  void
-  emitVertex (int i, int j, int k, int axis, std::uint32_t id)
+  void emitVertex (int i, int j, int k, int axis, std::uint32_t id)
   {
     const Eigen::Vector3i begin (i, j, k);
     const Eigen::Vector3i end = begin + Eigen::Vector3i::Unit (axis);
@@ -318,8 +291,7 @@ private:
   }
 
   /** \brief Where the gradient gave no outward normal: the area-weighted mean of the triangles'. */
-  void
-  repairNormals ()
+  void repairNormals ()
   {
     std::vector<bool> missing (mesh_.normals.size (), false);
     bool any = false;
@@ -334,8 +306,8 @@ private:
       if (!missing[triangle[0]] && !missing[triangle[1]] && !missing[triangle[2]])
         continue;
       const Eigen::Vector3d p = mesh_.vertices[triangle[0]].cast<double> ();
-      const Eigen::Vector3d area =
-          (mesh_.vertices[triangle[1]].cast<double> () - p).cross (mesh_.vertices[triangle[2]].cast<double> () - p);
+      const Eigen::Vector3d area = (mesh_.vertices[triangle[1]].cast<double> () - p)
+                                       .cross (mesh_.vertices[triangle[2]].cast<double> () - p);
       for (const auto v : triangle)
         sums[v] += area;
     }
@@ -387,5 +359,4 @@ extractOpenIsoSurface (const SignedDistanceField& field, const std::vector<std::
   return extractTriangles (mesh, std::vector<bool> (mesh.triangles.size (), true));
 }
 
-} // namespace cosection
-} // namespace pcl
+} // namespace pcl::cosection

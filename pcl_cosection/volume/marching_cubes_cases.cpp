@@ -9,11 +9,7 @@
 #include <limits>
 #include <vector>
 
-namespace pcl
-{
-namespace cosection
-{
-namespace marching_cubes
+namespace pcl::cosection::marching_cubes
 {
 namespace
 {
@@ -122,8 +118,7 @@ public:
         solve (i, i + length);
   }
 
-  void
-  append (Case& out) const
+  void append (Case& out) const
   {
     assert (cost_[n_ - 1] < std::numeric_limits<double>::infinity ()); // holds for each of the 256 cases
     append (0, n_ - 1, out);
@@ -131,8 +126,7 @@ public:
 
 private:
   /** \brief Cost of the chord from i to j; none for the loop's own sides. */
-  double
-  chord (int i, int j) const
+  double chord (int i, int j) const
   {
     if (j - i == 1 || j - i == n_ - 1)
       return 0.0;
@@ -141,8 +135,7 @@ private:
     return (edgeMidpoint (loop_[i]) - edgeMidpoint (loop_[j])).squaredNorm ();
   }
 
-  void
-  solve (int i, int j)
+  void solve (int i, int j)
   {
     double best = std::numeric_limits<double>::infinity ();
     for (int k = i + 1; k < j; ++k)
@@ -157,8 +150,7 @@ private:
     cost_[i * n_ + j] = best;
   }
 
-  void
-  append (int i, int j, Case& out) const
+  void append (int i, int j, Case& out) const
   {
     if (j - i < 2)
       return;
@@ -194,6 +186,4 @@ caseTable ()
   return table;
 }
 
-} // namespace marching_cubes
-} // namespace cosection
-} // namespace pcl
+} // namespace pcl::cosection::marching_cubes

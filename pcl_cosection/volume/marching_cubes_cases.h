@@ -5,11 +5,7 @@
 #include <array>
 #include <cstdint>
 
-namespace pcl
-{
-namespace cosection
-{
-namespace marching_cubes
+namespace pcl::cosection::marching_cubes
 {
 
 /** \brief The surface inside a cell whose corners are inside or outside.
@@ -42,9 +38,6 @@ edgeBegin (int edge)
  * the same for both cells of the face. The segments close to loops, each of which is triangulated
  * without a diagonal in a face of the cell, where it might coincide with one of the neighbour's.
  * (With the opposite rule, some loops would have no such triangulation.) */
-const CaseTable&
-caseTable ();
+const CaseTable& caseTable ();
 
-} // namespace marching_cubes
-} // namespace cosection
-} // namespace pcl
+} // namespace pcl::cosection::marching_cubes

@@ -4,9 +4,7 @@
 
 #include <limits>
 
-namespace pcl
-{
-namespace cosection
+namespace pcl::cosection
 {
 
 PixelRegion
@@ -23,9 +21,9 @@ projectedRegion (const VoxelGrid& grid, const PinholeCamera& camera, const Eigen
   Eigen::Vector2d high = -low;
   for (int corner = 0; corner < 8; ++corner)
   {
-    const Eigen::Vector3d p =
-        T_sensor_grid * grid.center ((corner & 1) ? grid.dims.x () - 1 : 0, (corner & 2) ? grid.dims.y () - 1 : 0,
-                                     (corner & 4) ? grid.dims.z () - 1 : 0);
+    const Eigen::Vector3d p = T_sensor_grid * grid.center ((corner & 1) ? grid.dims.x () - 1 : 0,
+                                                           (corner & 2) ? grid.dims.y () - 1 : 0,
+                                                           (corner & 4) ? grid.dims.z () - 1 : 0);
     if (!(p.z () > 0.0))
       return wholeImage (camera);
     low = low.cwiseMin (camera.project (p));
@@ -40,5 +38,4 @@ projectedRegion (const VoxelGrid& grid, const PinholeCamera& camera, const Eigen
   return {first.x (), first.y (), last.x (), last.y ()};
 }
 
-} // namespace cosection
-} // namespace pcl
+} // namespace pcl::cosection

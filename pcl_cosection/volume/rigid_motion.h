@@ -4,9 +4,7 @@
 
 #include <Eigen/Geometry>
 
-namespace pcl
-{
-namespace cosection
+namespace pcl::cosection
 {
 
 /** \brief Whether a pose, perhaps kept in single precision, is a finite rigid motion. */
@@ -17,5 +15,4 @@ isRigidMotion (const Eigen::Isometry3d& pose)
   return pose.matrix ().allFinite () && pose.linear ().isUnitary (tolerance) && pose.linear ().determinant () > 0.0;
 }
 
-} // namespace cosection
-} // namespace pcl
+} // namespace pcl::cosection

@@ -7,9 +7,7 @@
 #include <array>
 #include <cmath>
 
-namespace pcl
-{
-namespace cosection
+namespace pcl::cosection
 {
 
 std::optional<float>
@@ -36,13 +34,16 @@ SignedDistanceField::sampleVoxel (const Eigen::Vector3d& v) const
     return t <= 0.0f ? at_0 () : t >= 1.0f ? at_1 () : (1.0f - t) * at_0 () + t * at_1 ();
   };
   const auto along_x = [&] (std::ptrdiff_t offset) {
-    return mix (fraction[0], [&] { return corner[offset]; }, [&] { return corner[offset + 1]; });
+    return mix (
+        fraction[0], [&] { return corner[offset]; }, [&] { return corner[offset + 1]; });
   };
   const std::ptrdiff_t row = grid.dims.x ();
   const auto along_y = [&] (std::ptrdiff_t offset) {
-    return mix (fraction[1], [&] { return along_x (offset); }, [&] { return along_x (offset + row); });
+    return mix (
+        fraction[1], [&] { return along_x (offset); }, [&] { return along_x (offset + row); });
   };
-  const float value = mix (fraction[2], [&] { return along_y (0); }, [&] { return along_y (row * grid.dims.y ()); });
+  const float value = mix (
+      fraction[2], [&] { return along_y (0); }, [&] { return along_y (row * grid.dims.y ()); });
   if (!std::isfinite (value))
     return std::nullopt;
   return value;
@@ -78,5 +79,4 @@ SignedDistanceField::sampleSupported (const Eigen::Vector3d& p) const
   return sampleVoxel (v);
 }
 
-} // namespace cosection
-} // namespace pcl
+} // namespace pcl::cosection

@@ -24,8 +24,7 @@ counted (void* memory)
   const std::size_t now = current_bytes.fetch_add (size, std::memory_order_relaxed) + size;
   std::size_t peak = peak_bytes.load (std::memory_order_relaxed);
   while (peak < now && !peak_bytes.compare_exchange_weak (peak, now, std::memory_order_relaxed))
-  {
-  }
+  {}
   return memory;
 }
 
@@ -83,9 +82,7 @@ operator delete (void* memory, std::size_t, std::align_val_t) noexcept
   release (memory);
 }
 
-namespace pcl
-{
-namespace cosection
+namespace pcl::cosection
 {
 
 std::size_t
@@ -106,5 +103,4 @@ AllocationCounter::restart ()
   peak_bytes = current_bytes.load ();
 }
 
-} // namespace cosection
-} // namespace pcl
+} // namespace pcl::cosection

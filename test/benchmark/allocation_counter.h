@@ -4,9 +4,7 @@
 
 #include <cstddef>
 
-namespace pcl
-{
-namespace cosection
+namespace pcl::cosection
 {
 
 /** \brief What the program has allocated with operator new, in every library it uses. Only programs that
@@ -14,16 +12,12 @@ namespace cosection
 struct AllocationCounter
 {
   /** \brief Bytes allocated now. */
-  static std::size_t
-  current ();
+  static std::size_t current ();
 
   /** \brief The most at once since restart (). */
-  static std::size_t
-  peak ();
+  static std::size_t peak ();
 
-  static void
-  restart ();
+  static void restart ();
 };
 
-} // namespace cosection
-} // namespace pcl
+} // namespace pcl::cosection

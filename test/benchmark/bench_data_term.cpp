@@ -2,7 +2,7 @@
 // Copyright (c) 2026, the pcl_cosection authors
 #include "table_scene.h"
 
-#include <pcl/cosection/surface/imls_data_term.h>
+#include "pcl_cosection/energy/data/imls_data_term.h"
 
 #include <benchmark/benchmark.h>
 

@@ -2,7 +2,7 @@
 // Copyright (c) 2026, the pcl_cosection authors
 #include "volume/analytic_fields.h"
 
-#include "surface/analytic_scene.h"
+#include "completion/analytic_scene.h"
 
 #include <pcl/cosection/surface/hessian_imls.h>
 
@@ -34,7 +34,8 @@ double
 potato (const Eigen::Vector3d& p)
 {
   const Eigen::Vector3d d = p.normalized ();
-  return p.norm () - radius_m * (1.0 + 0.1 * std::sin (4.0 * d.x ()) * std::sin (5.0 * d.y () + 1.0) * std::sin (3.0 * d.z () + 1.0));
+  return p.norm () - radius_m * (1.0 + 0.1 * std::sin (4.0 * d.x ()) * std::sin (5.0 * d.y () + 1.0) *
+                                           std::sin (3.0 * d.z () + 1.0));
 }
 
 Cloud::ConstPtr
@@ -116,6 +117,10 @@ hessianImls64Object (benchmark::State& state)
 
 } // namespace
 
-BENCHMARK (poisson)->Arg (1)->Arg (std::max (1u, std::thread::hardware_concurrency ()))->Unit (benchmark::kSecond)->UseRealTime ();
+BENCHMARK (poisson)
+    ->Arg (1)
+    ->Arg (std::max (1u, std::thread::hardware_concurrency ()))
+    ->Unit (benchmark::kSecond)
+    ->UseRealTime ();
 BENCHMARK (hessianImls64Volume)->Unit (benchmark::kSecond)->UseRealTime ();
 BENCHMARK (hessianImls64Object)->Unit (benchmark::kSecond)->UseRealTime ();

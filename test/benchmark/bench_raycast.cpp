@@ -6,8 +6,9 @@
 
 #include <benchmark/benchmark.h>
 
-// A corner of a room and a ball in it, averaged from five views within the room and seen at 640 x 480 from between them; "CPU" is
-// the time of all threads together. Arguments: voxels along each edge of the volume, stride, and threads.
+// A corner of a room and a ball in it, averaged from five views within the room and seen at 640 x 480 from between
+// them; "CPU" is the time of all threads together. Arguments: voxels along each edge of the volume, stride, and
+// threads.
 
 using namespace pcl::cosection;
 

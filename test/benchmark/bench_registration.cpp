@@ -10,8 +10,9 @@
 #include <cmath>
 #include <vector>
 
-// One frame's pose from 2 degrees and 2 cm away, all pixels used: width of the image, and threads. The background is a room's wall and
-// floor with two balls in a volume of 256^3; the object a truck in one of 64^3 that was made from ten views, seen from 0.7 m.
+// One frame's pose from 2 degrees and 2 cm away, all pixels used: width of the image, and threads. The background is a
+// room's wall and floor with two balls in a volume of 256^3; the object a truck in one of 64^3 that was made from ten
+// views, seen from 0.7 m.
 
 using namespace pcl::cosection;
 
@@ -21,7 +22,8 @@ namespace
 PinholeCamera
 cameraOf (int width)
 {
-  return {width, width * 3 / 4, width * 525.0 / 640.0, width * 525.0 / 640.0, (width - 1) / 2.0, (width * 3 / 4 - 1) / 2.0};
+  return {
+      width, width * 3 / 4, width * 525.0 / 640.0, width * 525.0 / 640.0, (width - 1) / 2.0, (width * 3 / 4 - 1) / 2.0};
 }
 
 struct Frame
@@ -40,7 +42,8 @@ roomFrame (int width)
   const auto balls = test::nearerRay (test::sphereRay (0.3), test::sphereRay (0.15, {0.2, 0.2, -0.1}));
   const Eigen::Isometry3d T_grid_sensor = test::lookAtOrigin ({0.2, -0.1, -2.4});
   const test::BodyView view{T_grid_sensor, test::renderDepth (test::nearerRay (walls, balls), camera, T_grid_sensor)};
-  Frame frame{TsdfVolume (test::cubeGrid (256, 2.6 / 256)), view.points (camera), T_grid_sensor, Eigen::Vector3d::Zero ()};
+  Frame frame{TsdfVolume (test::cubeGrid (256, 2.6 / 256)), view.points (camera), T_grid_sensor,
+              Eigen::Vector3d::Zero ()};
   frame.volume.integrate (view.depth, camera, T_grid_sensor);
   return frame;
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_cosection authors
-#include "surface/analytic_scene.h"
+#include "completion/analytic_scene.h"
 
 #include <pcl/cosection/surface/co_section.h>
 

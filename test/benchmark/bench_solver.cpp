@@ -26,7 +26,8 @@ constexpr int cycles_per_look = 10;  // of Fast Jacobi, between looks at its err
 const EnergyProblem&
 problem ()
 {
-  static const EnergyProblem value = benchmark_scenes::makeEnergyProblem (benchmark_scenes::makeTableScene (resolution));
+  static const EnergyProblem value = benchmark_scenes::makeEnergyProblem (
+      benchmark_scenes::makeTableScene (resolution));
   return value;
 }
 

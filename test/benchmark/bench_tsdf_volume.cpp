@@ -8,9 +8,9 @@
 
 #include <cmath>
 
-// A room's wall and a ball seen at 640 x 480: voxels along each edge of the volume, and threads. The background's volume is
-// all in view but its corners; the object's stands around the ball. The plain loop, in one thread, is what the definition
-// costs as it is written down.
+// A room's wall and a ball seen at 640 x 480: voxels along each edge of the volume, and threads. The background's
+// volume is all in view but its corners; the object's stands around the ball. The plain loop, in one thread, is what
+// the definition costs as it is written down.
 
 using namespace pcl::cosection;
 
@@ -23,11 +23,11 @@ const PinholeCamera camera{640, 480, 525.0, 525.0, 319.5, 239.5};
 struct View
 {
   View ()
-  : T_grid_sensor (test::lookAtOrigin ({0.2, -0.1, -2.4}))
-  , depth (test::renderDepth (test::nearerRay (test::sphereRay (0.3), test::planeRay ({0.1, 0.0, 1.0}, 0.8)), camera,
-                              T_grid_sensor))
-  , weights (camera.width, camera.height, 0.8f)
-  , colours (camera.width, camera.height, {200, 120, 40})
+      : T_grid_sensor (test::lookAtOrigin ({0.2, -0.1, -2.4}))
+      , depth (test::renderDepth (test::nearerRay (test::sphereRay (0.3), test::planeRay ({0.1, 0.0, 1.0}, 0.8)),
+                                  camera, T_grid_sensor))
+      , weights (camera.width, camera.height, 0.8f)
+      , colours (camera.width, camera.height, {200, 120, 40})
   {}
 
   Eigen::Isometry3d T_grid_sensor;
@@ -160,7 +160,12 @@ sample (benchmark::State& state)
 
 } // namespace
 
-BENCHMARK (background)->Args ({256, 1})->Args ({256, 2})->Args ({512, 2})->UseRealTime ()->Unit (benchmark::kMillisecond);
+BENCHMARK (background)
+    ->Args ({256, 1})
+    ->Args ({256, 2})
+    ->Args ({512, 2})
+    ->UseRealTime ()
+    ->Unit (benchmark::kMillisecond);
 BENCHMARK (backgroundWeighted)->Args ({256, 2})->UseRealTime ()->Unit (benchmark::kMillisecond);
 BENCHMARK (backgroundColoured)->Args ({256, 2})->UseRealTime ()->Unit (benchmark::kMillisecond);
 BENCHMARK (object)->Args ({64, 2})->UseRealTime ()->Unit (benchmark::kMillisecond);

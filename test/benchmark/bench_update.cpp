@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_cosection authors
-#include "surface/analytic_scene.h"
+#include "completion/analytic_scene.h"
 
 #include <pcl/cosection/surface/co_section.h>
 
@@ -67,8 +67,8 @@ update (benchmark::State& state, CoSection& followed, const std::vector<test::Re
     result = followed.update (UpdateOutput::Fields);
     benchmark::DoNotOptimize (result);
   }
-  const SignedDistanceField& field =
-      object ? *result.objects.at (0).signed_distance : *result.background_pieces.at (0).signed_distance;
+  const SignedDistanceField& field = object ? *result.objects.at (0).signed_distance
+                                            : *result.background_pieces.at (0).signed_distance;
   state.counters["voxels"] = static_cast<double> (field.grid.size ());
   for (const auto& [stage, seconds] : result.timings_s)
     state.counters[stage + "_s"] = seconds;
@@ -91,8 +91,8 @@ updateObject (benchmark::State& state)
   update (state, followed, views, true);
 }
 
-/** \brief A room of 256^3 voxels, seen all around but for one gap; the last view looks into that, or at what others have
- * seen. */
+/** \brief A room of 256^3 voxels, seen all around but for one gap; the last view looks into that, or at what others
+ * have seen. */
 void
 updateBackground (benchmark::State& state)
 {
@@ -124,5 +124,18 @@ updateBackground (benchmark::State& state)
 
 } // namespace
 
-BENCHMARK (updateObject)->Arg (usual_keyframes)->Arg (most_keyframes)->Unit (benchmark::kMillisecond)->UseRealTime ()->MeasureProcessCPUTime ()->Iterations (3);
-BENCHMARK (updateBackground)->ArgName ("gap")->Arg (0)->Arg (1)->Unit (benchmark::kMillisecond)->UseRealTime ()->MeasureProcessCPUTime ()->Iterations (1);
+BENCHMARK (updateObject)
+    ->Arg (usual_keyframes)
+    ->Arg (most_keyframes)
+    ->Unit (benchmark::kMillisecond)
+    ->UseRealTime ()
+    ->MeasureProcessCPUTime ()
+    ->Iterations (3);
+BENCHMARK (updateBackground)
+    ->ArgName ("gap")
+    ->Arg (0)
+    ->Arg (1)
+    ->Unit (benchmark::kMillisecond)
+    ->UseRealTime ()
+    ->MeasureProcessCPUTime ()
+    ->Iterations (1);

@@ -2,27 +2,23 @@
 // Copyright (c) 2026, the pcl_cosection authors
 #include "table_scene.h"
 
-#include <pcl/cosection/surface/extent_prior.h>
+#include "pcl_cosection/energy/constraints/intersection_constraint.h"
+#include "pcl_cosection/energy/data/imls_data_term.h"
+#include "pcl_cosection/priors/extent_prior.h"
+#include "pcl_cosection/volume/distance_transform.h"
 #include <pcl/cosection/surface/hull_constraint.h>
-#include <pcl/cosection/surface/imls_data_term.h>
-#include <pcl/cosection/surface/intersection_constraint.h>
-#include <pcl/cosection/volume/distance_transform.h>
 
 #include <algorithm>
 
-namespace pcl
-{
-namespace cosection
-{
-namespace benchmark_scenes
+namespace pcl::cosection::benchmark_scenes
 {
 
 namespace
 {
 
 constexpr double volume_edge_m = 0.35;
-constexpr double observed_weight = 0.3;         // sum of weights that makes a voxel one with data
-constexpr double pixels_per_voxel_edge = 6.0;   // of the whole image
+constexpr double observed_weight = 0.3;       // sum of weights that makes a voxel one with data
+constexpr double pixels_per_voxel_edge = 6.0; // of the whole image
 constexpr double focal_length_per_width = 1.25;
 
 } // namespace
@@ -73,8 +69,8 @@ makeEnergyProblem (const TableScene& scene, const CoSectionOptions& options)
   hull.add (FreeSpaceView (view), view.T_world_sensor);
   const std::vector<std::uint8_t> free_space = hull.freeSpace (options.revise_votes);
   const std::vector<float> hull_distance = hullDistance (grid.dims, free_space);
-  const std::vector<float> extent =
-      ExtentPrior ().bounds (grid, distanceTransform (grid.dims, observed), points, {{&view, view.T_world_sensor}});
+  const std::vector<float> extent = ExtentPrior ().bounds (grid, distanceTransform (grid.dims, observed), points,
+                                                           {{&view, view.T_world_sensor}});
   problem.exterior.resize (grid.size ());
   for (std::size_t n = 0; n < grid.size (); ++n)
     if (free_space[n])
@@ -91,6 +87,4 @@ makeEnergyProblem (const TableScene& scene, const CoSectionOptions& options)
   return problem;
 }
 
-} // namespace benchmark_scenes
-} // namespace cosection
-} // namespace pcl
+} // namespace pcl::cosection::benchmark_scenes

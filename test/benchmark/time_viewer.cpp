@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_cosection authors
 
-// time_viewer OUTPUT [WIDTH HEIGHT]: plays what pcl_cosection_fusion wrote to OUTPUT in a window, as fast as that is drawn, and prints frames per second for
-// each colour mode. Without a screen: xvfb-run -s "-screen 0 1400x900x24" time_viewer OUTPUT
+// time_viewer OUTPUT [WIDTH HEIGHT]: plays what pcl_cosection_fusion wrote to OUTPUT in a window, as fast as that is
+// drawn, and prints frames per second for each colour mode. Without a screen: xvfb-run -s "-screen 0 1400x900x24"
+// time_viewer OUTPUT
 
 #include <pcl/cosection/visualization/run_window.h>
 
@@ -29,7 +30,8 @@ processorSeconds ()
 {
   rusage usage;
   getrusage (RUSAGE_SELF, &usage);
-  return (static_cast<double> (usage.ru_utime.tv_sec + usage.ru_stime.tv_sec) + 1e-6 * static_cast<double> (usage.ru_utime.tv_usec + usage.ru_stime.tv_usec));
+  return (static_cast<double> (usage.ru_utime.tv_sec + usage.ru_stime.tv_sec) +
+          1e-6 * static_cast<double> (usage.ru_utime.tv_usec + usage.ru_stime.tv_usec));
 }
 
 void

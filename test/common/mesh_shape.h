@@ -13,11 +13,7 @@
 #include <utility>
 #include <vector>
 
-namespace pcl
-{
-namespace cosection
-{
-namespace test
+namespace pcl::cosection::test
 {
 
 /** \brief Columns: the corners. */
@@ -107,6 +103,4 @@ expectSameTopology (const TriangleMesh& a, const TriangleMesh& b)
   EXPECT_EQ (eulerOfComponents (a), eulerOfComponents (b));
 }
 
-} // namespace test
-} // namespace cosection
-} // namespace pcl
+} // namespace pcl::cosection::test

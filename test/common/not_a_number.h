@@ -4,15 +4,9 @@
 
 #include <limits>
 
-namespace pcl
-{
-namespace cosection
-{
-namespace test
+namespace pcl::cosection::test
 {
 
 constexpr float not_a_number = std::numeric_limits<float>::quiet_NaN ();
 
-} // namespace test
-} // namespace cosection
-} // namespace pcl
+} // namespace pcl::cosection::test

@@ -10,11 +10,7 @@
 #include <utility>
 #include <vector>
 
-namespace pcl
-{
-namespace cosection
-{
-namespace test
+namespace pcl::cosection::test
 {
 
 /** \brief The box from \a lower to \a upper as 12 triangles. */
@@ -129,6 +125,4 @@ shellMesh (double thickness)
   return mesh;
 }
 
-} // namespace test
-} // namespace cosection
-} // namespace pcl
+} // namespace pcl::cosection::test

@@ -14,11 +14,7 @@
 
 #include <csignal>
 
-namespace pcl
-{
-namespace cosection
-{
-namespace test
+namespace pcl::cosection::test
 {
 
 /** \brief A new folder that lives as long as the object. */
@@ -33,8 +29,7 @@ public:
     path_ = pattern;
   }
   TemporaryFolder (const TemporaryFolder&) = delete;
-  TemporaryFolder&
-  operator= (const TemporaryFolder&) = delete;
+  TemporaryFolder& operator= (const TemporaryFolder&) = delete;
 
   ~TemporaryFolder ()
   {
@@ -42,14 +37,9 @@ public:
     std::filesystem::remove_all (path_, ignored);
   }
 
-  std::string
-  file (const std::string& name) const
-  {
-    return (path_ / name).string ();
-  }
+  std::string file (const std::string& name) const { return (path_ / name).string (); }
 
-  std::size_t
-  entries () const
+  std::size_t entries () const
   {
     return static_cast<std::size_t> (
         std::distance (std::filesystem::directory_iterator (path_), std::filesystem::directory_iterator ()));
@@ -71,8 +61,7 @@ public:
     ::setrlimit (RLIMIT_FSIZE, &limited);
   }
   FileSizeLimit (const FileSizeLimit&) = delete;
-  FileSizeLimit&
-  operator= (const FileSizeLimit&) = delete;
+  FileSizeLimit& operator= (const FileSizeLimit&) = delete;
 
   ~FileSizeLimit ()
   {
@@ -117,6 +106,4 @@ messageOf (Action&& action)
   return {};
 }
 
-} // namespace test
-} // namespace cosection
-} // namespace pcl
+} // namespace pcl::cosection::test

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_cosection authors
 
-#include "common/temporary_folder.h"
+#include "temporary_folder.h"
 
+#include "pcl_cosection/common/atomic_file.h"
 #include <pcl/cosection/common/error.h>
-#include <pcl/cosection/common/atomic_file.h>
 
 #include <gtest/gtest.h>
 

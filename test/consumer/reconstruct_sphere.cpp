@@ -35,6 +35,7 @@ main ()
   pcl::PolygonMesh mesh;
   imls.reconstruct (mesh);
   const bool closed = pcl::cosection::computeTopology (imls.getTriangleMesh ()).closed_manifold;
-  std::cout << "half a sphere: " << mesh.polygons.size () << (closed ? " triangles, closed\n" : " triangles, not closed\n");
+  std::cout << "half a sphere: " << mesh.polygons.size ()
+            << (closed ? " triangles, closed\n" : " triangles, not closed\n");
   return !mesh.polygons.empty () && closed ? 0 : 1;
 }

@@ -22,6 +22,7 @@ main ()
   scene.bodies = {background, ball};
   const SimulatedFrame frame = SceneRenderer (scene).render (0.0);
   const TriangleMesh mesh = ball.surface (1e-4);
-  std::cout << "depth " << frame.depth.at (320, 240) << " m, error " << compareMeshes (mesh, mesh).accuracy.mean << " m\n";
+  std::cout << "depth " << frame.depth.at (320, 240) << " m, error " << compareMeshes (mesh, mesh).accuracy.mean
+            << " m\n";
   return (std::abs (frame.depth.at (320, 240) - 0.9f) < 1e-3f ? 0 : 1);
 }

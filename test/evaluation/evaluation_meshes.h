@@ -13,11 +13,7 @@
 #include <limits>
 #include <vector>
 
-namespace pcl
-{
-namespace cosection
-{
-namespace test
+namespace pcl::cosection::test
 {
 
 /** \brief A square of n x n cells of edge \a size from the origin, at height \a z, facing up. */
@@ -45,17 +41,20 @@ upperPart (const TriangleMesh& mesh)
   constexpr float rounding = 1e-6f;
   std::vector<bool> keep;
   for (const auto& t : mesh.triangles)
-    keep.push_back (std::all_of (t.begin (), t.end (), [&] (std::uint32_t v) { return mesh.vertices[v].z () > -rounding; }));
+    keep.push_back (
+        std::all_of (t.begin (), t.end (), [&] (std::uint32_t v) { return mesh.vertices[v].z () > -rounding; }));
   return extractTriangles (mesh, keep);
 }
 
-/** \brief Distance of a point to a triangle by Voronoi regions (C. Ericson, "Real-Time Collision Detection", 5.1.5): another
- * way than the one under test. */
+/** \brief Distance of a point to a triangle by Voronoi regions (C. Ericson, "Real-Time Collision Detection", 5.1.5):
+ * another way than the one under test. */
 inline double
-triangleDistance (const Eigen::Vector3d& p, const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c)
+triangleDistance (const Eigen::Vector3d& p, const Eigen::Vector3d& a, const Eigen::Vector3d& b,
+                  const Eigen::Vector3d& c)
 {
   const Eigen::Vector3d ab = b - a, ac = c - a, ap = p - a, bp = p - b, cp = p - c;
-  const double d1 = ab.dot (ap), d2 = ac.dot (ap), d3 = ab.dot (bp), d4 = ac.dot (bp), d5 = ab.dot (cp), d6 = ac.dot (cp);
+  const double d1 = ab.dot (ap), d2 = ac.dot (ap), d3 = ab.dot (bp), d4 = ac.dot (bp), d5 = ab.dot (cp),
+               d6 = ac.dot (cp);
   if (d1 <= 0.0 && d2 <= 0.0)
     return ap.norm ();
   if (d3 >= 0.0 && d4 <= d3)
@@ -80,8 +79,9 @@ bruteForceSurfaceDistance (const TriangleMesh& mesh, const Eigen::Vector3d& p)
 {
   double least = std::numeric_limits<double>::infinity ();
   for (const auto& t : mesh.triangles)
-    least = std::min (least, triangleDistance (p, mesh.vertices[t[0]].cast<double> (), mesh.vertices[t[1]].cast<double> (),
-                                               mesh.vertices[t[2]].cast<double> ()));
+    least = std::min (least,
+                      triangleDistance (p, mesh.vertices[t[0]].cast<double> (), mesh.vertices[t[1]].cast<double> (),
+                                        mesh.vertices[t[2]].cast<double> ()));
   return least;
 }
 
@@ -95,6 +95,4 @@ motion (double angle, const Eigen::Vector3d& axis, const Eigen::Vector3d& transl
   return pose;
 }
 
-} // namespace test
-} // namespace cosection
-} // namespace pcl
+} // namespace pcl::cosection::test

@@ -2,17 +2,13 @@
 // Copyright (c) 2026, the pcl_cosection authors
 #pragma once
 
-#include "evaluation/evaluation_meshes.h"
+#include "evaluation_meshes.h"
 
-#include <pcl/cosection/common/look_at.h>
+#include "pcl_cosection/view/look_at.h"
 #include <pcl/cosection/evaluation/mesh_comparison.h>
 #include <pcl/cosection/evaluation/run_evaluation.h>
 
-namespace pcl
-{
-namespace cosection
-{
-namespace test
+namespace pcl::cosection::test
 {
 
 /** \brief A torus and a box before a floor, both in motion, and a camera that circles around them; 24 frames. */
@@ -68,6 +64,4 @@ inOtherFrames (const SceneRecord& truth)
   return estimate;
 }
 
-} // namespace test
-} // namespace cosection
-} // namespace pcl
+} // namespace pcl::cosection::test

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_cosection authors
 
-#include "evaluation/evaluation_meshes.h"
+#include "evaluation_meshes.h"
 
+#include "pcl_cosection/evaluation/pictures/error_picture.h"
 #include <pcl/cosection/common/error.h>
-#include <pcl/cosection/evaluation/error_picture.h>
 
 #include <gtest/gtest.h>
 

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_cosection authors
 
-#include "evaluation/evaluation_meshes.h"
 #include "common/temporary_folder.h"
+#include "evaluation_meshes.h"
 
+#include "pcl_cosection/evaluation/surface_samples.h"
 #include <pcl/cosection/common/error.h>
 #include <pcl/cosection/evaluation/mesh_comparison.h>
 #include <pcl/cosection/evaluation/surface_distance.h>
-#include <pcl/cosection/evaluation/surface_samples.h>
 
 #include <gtest/gtest.h>
 
@@ -140,8 +140,10 @@ TEST (MeshComparison, RefusesWhatIsNoSurface)
   const TriangleMesh good = planeMesh (1.0, 2);
   TriangleMesh points = good;
   points.triangles.clear ();
-  EXPECT_NE (messageOf<DegenerateInput> ([&] { compareMeshes (good, points); }).find ("reconstruction"), std::string::npos);
-  EXPECT_NE (messageOf<DegenerateInput> ([&] { compareMeshes (TriangleMesh (), good); }).find ("truth"), std::string::npos);
+  EXPECT_NE (messageOf<DegenerateInput> ([&] { compareMeshes (good, points); }).find ("reconstruction"),
+             std::string::npos);
+  EXPECT_NE (messageOf<DegenerateInput> ([&] { compareMeshes (TriangleMesh (), good); }).find ("truth"),
+             std::string::npos);
   TriangleMesh flat = good;
   flat.triangles = {{0, 1, 2}, {3, 3, 4}};
   EXPECT_THROW (compareMeshes (good, flat), DegenerateInput);

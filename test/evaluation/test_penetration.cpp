@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_cosection authors
 
-#include "evaluation/evaluation_meshes.h"
+#include "evaluation_meshes.h"
 
+#include "pcl_cosection/evaluation/surface_samples.h"
 #include <pcl/cosection/common/error.h>
 #include <pcl/cosection/evaluation/free_space_violation.h>
 #include <pcl/cosection/evaluation/mesh_comparison.h>
 #include <pcl/cosection/evaluation/penetration.h>
-#include <pcl/cosection/evaluation/surface_samples.h>
 
 #include <gtest/gtest.h>
 
@@ -203,7 +203,8 @@ TEST (FreeSpaceViolation, ASilhouetteIsNone)
   for (int v = 0; v < 48; ++v)
     for (int u = 0; u < 32; ++u)
       view.depth[static_cast<std::size_t> (v) * 64 + u] = 1.0f;
-  const Eigen::Vector3d at_edge = view.camera.unproject (31.7, 20.2, 1.0), beyond = view.camera.unproject (33.2, 20.2, 1.0);
+  const Eigen::Vector3d at_edge = view.camera.unproject (31.7, 20.2, 1.0),
+                        beyond = view.camera.unproject (33.2, 20.2, 1.0);
   EXPECT_EQ (measureFreeSpaceViolation ({at_edge}, {view}).share, 0.0);
   EXPECT_EQ (measureFreeSpaceViolation ({beyond}, {view}).share, 1.0);
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_cosection authors
 
-#include "evaluation/moving_scene.h"
+#include "moving_scene.h"
 
 #include <pcl/cosection/common/error.h>
 #include <pcl/cosection/evaluation/run_evaluation.h>
@@ -206,7 +206,8 @@ TEST (RunEvaluation, DoesNotDependOnThreads)
   for (std::size_t n = 0; n < 2; ++n)
   {
     EXPECT_EQ (one.objects[n].mesh.comparison.accuracy.mean, three.objects[n].mesh.comparison.accuracy.mean);
-    EXPECT_EQ (one.objects[n].mesh.alignment.T_truth_estimate.matrix (), three.objects[n].mesh.alignment.T_truth_estimate.matrix ());
+    EXPECT_EQ (one.objects[n].mesh.alignment.T_truth_estimate.matrix (),
+               three.objects[n].mesh.alignment.T_truth_estimate.matrix ());
     EXPECT_EQ (one.objects[n].penetration_m, three.objects[n].penetration_m);
   }
 }

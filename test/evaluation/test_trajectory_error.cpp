@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_cosection authors
 
-#include "evaluation/evaluation_meshes.h"
 #include "common/temporary_folder.h"
+#include "evaluation_meshes.h"
 
+#include "pcl_cosection/evaluation/surface_samples.h"
 #include <pcl/cosection/common/error.h>
 #include <pcl/cosection/evaluation/rigid_alignment.h>
-#include <pcl/cosection/evaluation/surface_samples.h>
 #include <pcl/cosection/evaluation/trajectory_error.h>
 
 #include <gtest/gtest.h>
@@ -73,7 +73,8 @@ TEST (TrajectoryError, WithoutAlignmentTheOffsetIsTheError)
 {
   const Trajectory truth = curve (20);
   const auto shift = motion (0.0, Eigen::Vector3d::UnitX (), {0.03, 0.0, 0.04});
-  const TrajectoryError error = compareTrajectories (truth, moved (truth, shift), alignedBy (TrajectoryAlignment::None));
+  const TrajectoryError error = compareTrajectories (truth, moved (truth, shift),
+                                                     alignedBy (TrajectoryAlignment::None));
   EXPECT_NEAR (error.ate_m.rmse, 0.05, 1e-12);
   EXPECT_NEAR (error.ate_m.median, 0.05, 1e-12);
   EXPECT_NEAR (error.ate_m.max, 0.05, 1e-12);

@@ -2,7 +2,7 @@
 // Copyright (c) 2026, the pcl_cosection authors
 #pragma once
 
-#include "surface/analytic_scene.h"
+#include "completion/analytic_scene.h"
 
 #include <pcl/cosection/fusion/co_section_backend.h>
 
@@ -10,11 +10,7 @@
 
 #include <cstddef>
 
-namespace pcl
-{
-namespace cosection
-{
-namespace test
+namespace pcl::cosection::test
 {
 
 /** \brief A ball on a table, seen from places on a line: their distances are those of the views. */
@@ -29,16 +25,14 @@ protected:
     scene_.add (ball, placed (sphere (0.05), middle));
   }
 
-  Eigen::Isometry3d
-  sensor (double x) const
+  Eigen::Isometry3d sensor (double x) const
   {
     Eigen::Isometry3d T = lookAt ({0.0, -0.4, 0.3}, middle);
     T.translation ().x () = x;
     return T;
   }
 
-  Keyframe
-  keyframe (double x) const
+  Keyframe keyframe (double x) const
   {
     const RenderedView seen = scene_.render (camera_, sensor (x));
     Keyframe keyframe;
@@ -53,8 +47,7 @@ protected:
     return keyframe;
   }
 
-  static BackendOptions
-  options (std::size_t views = 100, std::size_t keyframes = 40)
+  static BackendOptions options (std::size_t views = 100, std::size_t keyframes = 40)
   {
     BackendOptions options;
     options.method.voxel_size_m = 0.006;
@@ -65,15 +58,13 @@ protected:
     return options;
   }
 
-  static const CoSectionBackend::Poses&
-  atRest ()
+  static const CoSectionBackend::Poses& atRest ()
   {
     static const CoSectionBackend::Poses poses = {{ball, Eigen::Isometry3d::Identity ()}};
     return poses;
   }
 
-  static void
-  expectSame (const SceneResult& a, const SceneResult& b)
+  static void expectSame (const SceneResult& a, const SceneResult& b)
   {
     ASSERT_EQ (a.objects.size (), b.objects.size ());
     for (std::size_t n = 0; n < a.objects.size (); ++n)
@@ -93,6 +84,4 @@ protected:
   AnalyticScene scene_;
 };
 
-} // namespace test
-} // namespace cosection
-} // namespace pcl
+} // namespace pcl::cosection::test

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_cosection authors
 
+#include "pcl_cosection/fusion/association/mask_matching.h"
 #include <pcl/cosection/common/error.h>
 #include <pcl/cosection/fusion/data_association.h>
-#include <pcl/cosection/fusion/mask_matching.h>
 
 #include <gtest/gtest.h>
 
@@ -40,7 +40,8 @@ TEST (DataAssociation, SharesOutWhatIsNearAndRefusesWhatWasSeenFree)
   const std::vector<AssociatedModel> models{{&far}, {&near}};
   const DataAssociation association;
   const float nan = std::numeric_limits<float>::quiet_NaN ();
-  const std::vector<Eigen::Vector3f> points{{0, 0, 1.2f}, {0, 0, 0.8f}, {0, 0, 0.55f}, {0, 0, 1.0f}, {nan, nan, nan}, {0, 0, 5.0f}};
+  const std::vector<Eigen::Vector3f> points{{0, 0, 1.2f}, {0, 0, 0.8f},    {0, 0, 0.55f},
+                                            {0, 0, 1.0f}, {nan, nan, nan}, {0, 0, 5.0f}};
   const PointAssignment assigned = association.assign (points, models);
   constexpr std::uint8_t none = PointAssignment::none;
   EXPECT_EQ (assigned.model, (std::vector<std::uint8_t>{0, 1, none, none, PointAssignment::no_point, none}));

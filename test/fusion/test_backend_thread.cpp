@@ -3,7 +3,7 @@
 
 // The back end in a thread of its own: what it has in the end does not depend on how the threads run.
 
-#include "fusion/backend_fixture.h"
+#include "backend_fixture.h"
 
 #include <pcl/cosection/common/error.h>
 #include <pcl/cosection/fusion/backend_thread.h>
@@ -21,23 +21,20 @@ constexpr std::chrono::milliseconds moment (20);
 class BackendThreadTest : public BackendTest
 {
 protected:
-  Keyframe
-  stamped (int n) const
+  Keyframe stamped (int n) const
   {
     Keyframe result = keyframe (0.05 * n);
     result.stamp = n;
     return result;
   }
 
-  static void
-  waitForAll (BackendThread& thread)
+  static void waitForAll (BackendThread& thread)
   {
     while (!thread.wait (0, moment))
       ;
   }
 
-  SceneResult
-  solutionOf (int keyframes) const
+  SceneResult solutionOf (int keyframes) const
   {
     CoSectionBackend backend (options ());
     for (int n = 0; n < keyframes; ++n)

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_cosection authors
 
+#include "pcl_cosection/fusion/tracking/bilateral_filter.h"
 #include <pcl/cosection/common/error.h>
-#include <pcl/cosection/fusion/bilateral_filter.h>
 
 #include <gtest/gtest.h>
 
@@ -159,7 +159,8 @@ TEST (BilateralFilter, RefusesWhatIsNotValid)
     options.window_px = window_px;
     EXPECT_THROW (bilateralFilter (depth, options), InvalidArgument) << window_px;
   }
-  for (const double bad : {0.0, -1.0, std::numeric_limits<double>::quiet_NaN (), std::numeric_limits<double>::infinity ()})
+  for (const double bad :
+       {0.0, -1.0, std::numeric_limits<double>::quiet_NaN (), std::numeric_limits<double>::infinity ()})
   {
     BilateralFilterOptions options;
     options.sigma_depth_m = bad;

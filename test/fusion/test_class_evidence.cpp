@@ -89,7 +89,8 @@ TEST (ClassEvidence, UnitedObjectsHaveAllDetections)
 TEST (ClassEvidence, WhatIsNoScoreIsRefused)
 {
   ClassEvidence evidence = evidenceOf ({clear_cup});
-  for (const double score : {-0.1, 1.1, std::numeric_limits<double>::quiet_NaN (), std::numeric_limits<double>::infinity ()})
+  for (const double score :
+       {-0.1, 1.1, std::numeric_limits<double>::quiet_NaN (), std::numeric_limits<double>::infinity ()})
     EXPECT_THROW (evidence.add (ClassScore{1, "", score}), InvalidArgument) << score;
   EXPECT_EQ (evidence.detections (), 1u);
   EXPECT_EQ (evidence.best ()->score, 0.9);

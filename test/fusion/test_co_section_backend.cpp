@@ -3,7 +3,7 @@
 
 // What the back end keeps is bounded, and its result is that of what it keeps.
 
-#include "fusion/backend_fixture.h"
+#include "backend_fixture.h"
 
 #include <pcl/cosection/common/error.h>
 
@@ -151,7 +151,8 @@ TEST_F (BackendTest, AfterThinningNothingNearIsTaken)
     backend.addKeyframe (keyframe (x), atRest ());
   ASSERT_EQ (backend.keyframes (), 3u);
   EXPECT_FALSE (backend.addKeyframe (keyframe (0.0), atRest ()));
-  EXPECT_FALSE (backend.addKeyframe (keyframe (0.31), atRest ())) << "0.19 from that at 0.5, less than what was given up";
+  EXPECT_FALSE (backend.addKeyframe (keyframe (0.31), atRest ()))
+      << "0.19 from that at 0.5, less than what was given up";
   EXPECT_FALSE (backend.addFrame (keyframe (-0.4).view, atRest ()));
   EXPECT_TRUE (backend.addKeyframe (keyframe (0.25), atRest ()));
   EXPECT_EQ (backend.views (), 4u);

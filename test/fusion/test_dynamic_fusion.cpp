@@ -3,7 +3,7 @@
 
 // The front end on simulated scenes, against their exact truth.
 
-#include "fusion/tracked_scene.h"
+#include "tracked_scene.h"
 
 #include <pcl/cosection/common/error.h>
 
@@ -117,7 +117,8 @@ TEST (DynamicFusion, AnObjectThatNoMaskShowsAgainIsGivenUp)
   });
   EXPECT_TRUE (run.found.empty ());
   ASSERT_FALSE (run.events.empty ());
-  EXPECT_NE (run.events.back ().find ("object 1 is given up: it was in 1 of "), std::string::npos) << run.events.back ();
+  EXPECT_NE (run.events.back ().find ("object 1 is given up: it was in 1 of "), std::string::npos)
+      << run.events.back ();
 }
 
 TEST (DynamicFusion, SmallInstancesBeginNoObject)

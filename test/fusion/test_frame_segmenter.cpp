@@ -3,7 +3,7 @@
 
 // What the front end does with what a segmenter finds while it tracks.
 
-#include "fusion/tracked_scene.h"
+#include "tracked_scene.h"
 
 #include <pcl/cosection/common/error.h>
 
@@ -22,23 +22,13 @@ namespace
 class MiddleOfFloor : public FrameSegmenter
 {
 public:
-  explicit MiddleOfFloor (std::uint16_t label = 0) : label_ (label)
-  {}
+  explicit MiddleOfFloor (std::uint16_t label = 0) : label_ (label) {}
 
-  void
-  begin () override
-  {
-    looked = asked = 0;
-  }
+  void begin () override { looked = asked = 0; }
 
-  void
-  look (const ObservedFrame&) override
-  {
-    ++looked;
-  }
+  void look (const ObservedFrame&) override { ++looked; }
 
-  FrameInstances
-  segment (const ObservedFrame& frame) override
+  FrameInstances segment (const ObservedFrame& frame) override
   {
     ++asked;
     if (silent)
@@ -58,8 +48,8 @@ public:
   }
 
   int looked = 7, asked = 7;
-  std::size_t tracked = 0;     // objects, when it was asked last
-  std::size_t unassigned = 0;  // pixels
+  std::size_t tracked = 0;    // objects, when it was asked last
+  std::size_t unassigned = 0; // pixels
   std::size_t moving = 0;
   bool silent = false;
 
@@ -70,11 +60,7 @@ private:
 class WrongSize : public FrameSegmenter
 {
 public:
-  FrameInstances
-  segment (const ObservedFrame&) override
-  {
-    return {Image<std::uint16_t> (4, 4), ""};
-  }
+  FrameInstances segment (const ObservedFrame&) override { return {Image<std::uint16_t> (4, 4), ""}; }
 };
 
 } // namespace
@@ -104,7 +90,8 @@ TEST (FrameSegmenter, GivenMasksComeFirst)
   TrackedScene scene (4);
   scene.addThing (1, movingThing ({0.0, 0.0, 0.0}, {0.0, 0.0, 0.0}, 0.0));
   const auto segmenter = std::make_shared<MiddleOfFloor> ();
-  const TrackedRun run = scene.run ([] (int, const Image<std::uint16_t>& truth) { return std::optional (truth); }, {}, segmenter);
+  const TrackedRun run = scene.run ([] (int, const Image<std::uint16_t>& truth) { return std::optional (truth); }, {},
+                                    segmenter);
   EXPECT_EQ (segmenter->asked, 0);
   EXPECT_EQ (run.found.size (), 1u);
 }
@@ -142,10 +129,12 @@ TEST (FrameSegmenter, WhatIsToBeIgnoredIsNeitherTrackedWithNorMapped)
   EXPECT_LT (run.cameraError (), segmented_camera_limit_m);
   EXPECT_TRUE (run.found.empty ());
   // What is mapped of it is its outline, where readings fray.
-  EXPECT_LT (run.shareOfBackgroundInside (scene, 1, 0.03), 0.25 * scene.run (noMask).shareOfBackgroundInside (scene, 1, 0.03));
+  EXPECT_LT (run.shareOfBackgroundInside (scene, 1, 0.03),
+             0.25 * scene.run (noMask).shareOfBackgroundInside (scene, 1, 0.03));
   for (int n = 0; n < 30; ++n)
     for (std::size_t pixel = 0; pixel < run.masks[n].pixels.size (); ++pixel)
-      ASSERT_TRUE (run.frames[n].instances.pixels[pixel] == 0 || run.frames[n].instances.pixels[pixel] == TrackedFrame::unassigned);
+      ASSERT_TRUE (run.frames[n].instances.pixels[pixel] == 0 ||
+                   run.frames[n].instances.pixels[pixel] == TrackedFrame::unassigned);
 }
 
 TEST (FrameSegmenter, MasksOfAnotherSizeAreRefused)

@@ -3,7 +3,7 @@
 
 // Objects that are found by geometry while they are tracked, and what masks that are not exact do to them.
 
-#include "fusion/tracked_scene.h"
+#include "tracked_scene.h"
 
 #include <pcl/cosection/common/error.h>
 #include <pcl/cosection/fusion/geometric_segmenter.h>
@@ -25,11 +25,9 @@ class PointsOfTheWorld : public FrameSegmenter
 public:
   using Label = std::function<int (const Eigen::Vector3d& world, int frame)>;
 
-  explicit PointsOfTheWorld (Label label) : label_ (std::move (label))
-  {}
+  explicit PointsOfTheWorld (Label label) : label_ (std::move (label)) {}
 
-  FrameInstances
-  segment (const ObservedFrame& frame) override
+  FrameInstances segment (const ObservedFrame& frame) override
   {
     FrameInstances found;
     found.mask = Image<std::uint16_t> (frame.camera.width, frame.camera.height, 0);
@@ -40,17 +38,9 @@ public:
     return found;
   }
 
-  bool
-  findsAll () const override
-  {
-    return false;
-  }
+  bool findsAll () const override { return false; }
 
-  bool
-  isExact () const override
-  {
-    return false;
-  }
+  bool isExact () const override { return false; }
 
 private:
   Label label_;
@@ -104,7 +94,8 @@ TEST (GeometricSegmenter, WithoutAPlaneItSaysNothing)
   for (int v = 0; v < camera.height; ++v)
     for (int u = 0; u < camera.width; ++u)
     {
-      images.depth.at (u, v) = 0.8f + 0.15f * std::sin (0.4f * static_cast<float> (u)) * std::sin (0.4f * static_cast<float> (v));
+      images.depth.at (u, v) = 0.8f + 0.15f * std::sin (0.4f * static_cast<float> (u)) *
+                                          std::sin (0.4f * static_cast<float> (v));
       points.push_back (camera.unproject (u, v, images.depth.at (u, v)).cast<float> ());
     }
   const Eigen::Isometry3d T_world_camera = Eigen::Isometry3d::Identity ();
@@ -136,11 +127,12 @@ TEST (GeometricSegmenter, ResultsDoNotDependOnThreads)
     EXPECT_EQ (runs[0].frames[n].instances.pixels, runs[1].frames[n].instances.pixels) << n;
 }
 
-TEST (InexactMasks, AnObjectThatFallsIntoPartsInOneMaskStaysOne)
+TEST (UnreliableMasks, AnObjectThatFallsIntoPartsInOneMaskStaysOne)
 {
   TrackedScene scene (24);
   scene.addThing (1, along ({0.0}, {{0.0, 0.0, 0.0}}));
-  const TrackedRun run = scene.run (noMask, everyFive (), std::make_shared<PointsOfTheWorld> ([] (const Eigen::Vector3d& p, int frame) {
+  const TrackedRun run = scene.run (noMask, everyFive (),
+                                    std::make_shared<PointsOfTheWorld> ([] (const Eigen::Vector3d& p, int frame) {
                                       return !isThing (p, 0.0) ? 0 : frame == 10 && p.x () > 0.0 ? 7 : 3;
                                     }));
   EXPECT_EQ (run.found.size (), 1u);
@@ -148,26 +140,28 @@ TEST (InexactMasks, AnObjectThatFallsIntoPartsInOneMaskStaysOne)
   EXPECT_GT (imageIou (run, 12, 1, 1), 0.8);
 }
 
-TEST (InexactMasks, TwoObjectsThatAreOneInstanceOnceStayTwo)
+TEST (UnreliableMasks, TwoObjectsThatAreOneInstanceOnceStayTwo)
 {
   TrackedScene scene (24);
   scene.addThing (1, along ({0.0}, {{-0.15, 0.0, 0.0}}));
   scene.addThing (2, along ({0.0}, {{0.15, 0.0, 0.0}}));
-  const TrackedRun run = scene.run (noMask, everyFive (), std::make_shared<PointsOfTheWorld> ([] (const Eigen::Vector3d& p, int frame) {
-                                      const int label = isThing (p, -0.15) && p.x () < 0.0 ? 1 : isThing (p, 0.15) ? 2 : 0;
-                                      return label > 0 && frame == 10 ? 9 : label;
-                                    }));
+  const TrackedRun run = scene.run (
+      noMask, everyFive (), std::make_shared<PointsOfTheWorld> ([] (const Eigen::Vector3d& p, int frame) {
+        const int label = isThing (p, -0.15) && p.x () < 0.0 ? 1 : isThing (p, 0.15) ? 2 : 0;
+        return label > 0 && frame == 10 ? 9 : label;
+      }));
   EXPECT_EQ (run.found.size (), 2u);
   for (const int body : {1, 2})
     EXPECT_GT (imageIou (run, 12, body, run.foundAs (body)), 0.75) << body;
 }
 
-TEST (InexactMasks, PartsThatMoveAsOneAreUnited)
+TEST (UnreliableMasks, PartsThatMoveAsOneAreUnited)
 {
   TrackedScene scene (36);
   const KeyedMotion motion = along ({0.0, 0.3, 1.0}, {{-0.2, 0.0, 0.0}, {-0.2, 0.0, 0.0}, {0.25, 0.0, 0.0}});
   scene.addThing (1, motion);
-  const TrackedRun run = scene.run (noMask, everyFive (), std::make_shared<PointsOfTheWorld> ([&] (const Eigen::Vector3d& p, int frame) {
+  const TrackedRun run = scene.run (noMask, everyFive (),
+                                    std::make_shared<PointsOfTheWorld> ([&] (const Eigen::Vector3d& p, int frame) {
                                       const double x = motion.at (frame / 36.0).translation ().x ();
                                       return !isThing (p, x) ? 0 : p.x () < x + 0.05 ? 1 : 2;
                                     }));
@@ -176,14 +170,15 @@ TEST (InexactMasks, PartsThatMoveAsOneAreUnited)
   EXPECT_GT (imageIou (run, 35, 1, run.foundAs (1)), 0.8);
 }
 
-TEST (InexactMasks, PartsThatAreUnitedBetweenMasksStayOne)
+TEST (UnreliableMasks, PartsThatAreUnitedBetweenMasksStayOne)
 {
   for (const double end : {0.05, 0.25}) // the faster it moves, the sooner it is seen to be one
   {
     TrackedScene scene (36);
     const KeyedMotion motion = along ({0.0, 0.3, 1.0}, {{-0.2, 0.0, 0.0}, {-0.2, 0.0, 0.0}, {end, 0.0, 0.0}});
     scene.addThing (1, motion);
-    const TrackedRun run = scene.run (noMask, everyFive (), std::make_shared<PointsOfTheWorld> ([&] (const Eigen::Vector3d& p, int frame) {
+    const TrackedRun run = scene.run (noMask, everyFive (),
+                                      std::make_shared<PointsOfTheWorld> ([&] (const Eigen::Vector3d& p, int frame) {
                                         const double x = motion.at (frame / 36.0).translation ().x ();
                                         return !isThing (p, x) ? 0 : p.x () < x + 0.05 ? 1 : 2;
                                       }));
@@ -194,12 +189,13 @@ TEST (InexactMasks, PartsThatAreUnitedBetweenMasksStayOne)
   }
 }
 
-TEST (InexactMasks, WhatOneMaskShowedIsNoObject)
+TEST (UnreliableMasks, WhatOneMaskShowedIsNoObject)
 {
   TrackedScene scene (20);
-  const TrackedRun run = scene.run (noMask, everyFive (), std::make_shared<PointsOfTheWorld> ([] (const Eigen::Vector3d& p, int frame) {
-                                      return frame == 0 && std::hypot (p.x (), p.y ()) < 0.25 && p.z () < 0.1 ? 1 : 0; // of the floor
-                                    }));
+  const TrackedRun run = scene.run (
+      noMask, everyFive (), std::make_shared<PointsOfTheWorld> ([] (const Eigen::Vector3d& p, int frame) {
+        return frame == 0 && std::hypot (p.x (), p.y ()) < 0.25 && p.z () < 0.1 ? 1 : 0; // of the floor
+      }));
   EXPECT_TRUE (run.found.empty ());
   EXPECT_TRUE (run.said ("only one mask showed it"));
   for (const TrackedFrame& frame : run.frames)
@@ -207,10 +203,11 @@ TEST (InexactMasks, WhatOneMaskShowedIsNoObject)
   EXPECT_LT (run.shareOfBackgroundWrong (scene, 0.04), 0.01);
 }
 
-TEST (InexactMasks, WhatTheBorderCutsBeginsNoObject)
+TEST (UnreliableMasks, WhatTheBorderCutsBeginsNoObject)
 {
   TrackedScene scene (12);
-  const TrackedRun run = scene.run (noMask, everyFive (), std::make_shared<PointsOfTheWorld> ([] (const Eigen::Vector3d& p, int) {
+  const TrackedRun run = scene.run (noMask, everyFive (),
+                                    std::make_shared<PointsOfTheWorld> ([] (const Eigen::Vector3d& p, int) {
                                       return p.z () < 0.1 && p.y () < -0.3 ? 1 : 0; // the floor at the lower border
                                     }));
   EXPECT_TRUE (run.found.empty ());

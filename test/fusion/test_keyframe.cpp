@@ -42,8 +42,7 @@ protected:
     T_world_camera_.translate (Eigen::Vector3d (1.0, 2.0, 3.0));
   }
 
-  Keyframe
-  keyframe (const KeyframeOptions& options = {}) const
+  Keyframe keyframe (const KeyframeOptions& options = {}) const
   {
     return makeKeyframe (frame_, camera_, mask_, T_world_camera_, options);
   }
@@ -83,7 +82,8 @@ TEST_F (KeyframeTest, OnlyTheBackgroundIsThinned)
   few.background_step = 4;
   const Keyframe dense = keyframe (all), sparse = keyframe (few);
   EXPECT_EQ (dense.points.at (300).size (), sparse.points.at (300).size ());
-  EXPECT_NEAR (static_cast<double> (dense.points.at (0).size ()) / static_cast<double> (sparse.points.at (0).size ()), 16.0, 4.0);
+  EXPECT_NEAR (static_cast<double> (dense.points.at (0).size ()) / static_cast<double> (sparse.points.at (0).size ()),
+               16.0, 4.0);
   EXPECT_EQ (dense.view.depth, sparse.view.depth) << "free space is that of all pixels";
 }
 

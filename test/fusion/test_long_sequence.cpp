@@ -81,9 +81,11 @@ TEST (LongSequence, MemoryDoesNotGrowWithItsLength)
   for (int n = 0; n < played; ++n)
   {
     const std::string name = SequenceFolder::fourDigits (n) + ".png";
-    fs::create_symlink (folder.path ("rendered/depth_noise/Depth" + renderedName (n)), folder.newPath ("long/depth/Depth" + name));
+    fs::create_symlink (folder.path ("rendered/depth_noise/Depth" + renderedName (n)),
+                        folder.newPath ("long/depth/Depth" + name));
     if (n % mask_every == 0)
-      fs::create_symlink (folder.path ("rendered/mask/Mask" + renderedName (n)), folder.newPath ("long/mask/Mask" + name));
+      fs::create_symlink (folder.path ("rendered/mask/Mask" + renderedName (n)),
+                          folder.newPath ("long/mask/Mask" + name));
   }
   const RgbdSequence images (folder.path ("long"));
   const MaskSequence masks (folder.path ("long/mask"), images);
@@ -98,8 +100,8 @@ TEST (LongSequence, MemoryDoesNotGrowWithItsLength)
     return true;
   };
   std::size_t updates = 0;
-  const FusionResult result =
-      SequenceFusion (TrackedSequence (images, &masks), smallOptions ()).run (watch, [&] (const KeyframeReport&) { ++updates; });
+  const FusionResult result = SequenceFusion (TrackedSequence (images, &masks), smallOptions ())
+                                  .run (watch, [&] (const KeyframeReport&) { ++updates; });
 
   EXPECT_EQ (result.frames, static_cast<std::size_t> (played));
   EXPECT_LE (result.kept_keyframes, 4u);

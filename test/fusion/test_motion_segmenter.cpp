@@ -3,7 +3,7 @@
 
 // Objects that the front end finds by their motion alone.
 
-#include "fusion/tracked_scene.h"
+#include "tracked_scene.h"
 
 #include <pcl/cosection/fusion/motion_segmenter.h>
 
@@ -18,7 +18,8 @@ namespace
 {
 
 constexpr double misled_limit_m = 0.03; // before bare walls, by what moves and is not yet found
-// Of the background: what an object left before it was found goes as fast as free space is averaged in; what was where it is then, at once.
+// Of the background: what an object left before it was found goes as fast as free space is averaged in; what was where
+// it is then, at once.
 constexpr double left_behind_share = 0.03, inside_share = 0.004;
 
 TrackedRun

@@ -32,14 +32,12 @@ protected:
     images_.colour = test::spotPicture (8, 6);
   }
 
-  FrameInstances
-  segment (const ClassRoles& roles) const
+  FrameInstances segment (const ClassRoles& roles) const
   {
     return (NetworkSegmenter (options_, roles).segment ({images_, camera_, points_, pose_, {}, labels_, moving_}));
   }
 
-  static std::ptrdiff_t
-  count (const FrameInstances& found, std::uint16_t label)
+  static std::ptrdiff_t count (const FrameInstances& found, std::uint16_t label)
   {
     return (std::count (found.mask->pixels.begin (), found.mask->pixels.end (), label));
   }

@@ -3,7 +3,7 @@
 
 // What the front end says objects are, of segmenters that name the classes of instances.
 
-#include "fusion/tracked_scene.h"
+#include "tracked_scene.h"
 
 #include <pcl/cosection/common/error.h>
 
@@ -32,33 +32,28 @@ public:
   using Label = std::function<int (const Eigen::Vector3d& world, int frame)>;
   using Classes = std::function<std::map<std::uint16_t, ClassScore> (int frame)>;
 
-  NamingSegmenter (bool exact, Label label, Classes classes) : exact_ (exact), label_ (std::move (label)), classes_ (std::move (classes))
+  NamingSegmenter (bool exact, Label label, Classes classes)
+      : exact_ (exact)
+      , label_ (std::move (label))
+      , classes_ (std::move (classes))
   {}
 
-  FrameInstances
-  segment (const ObservedFrame& frame) override
+  FrameInstances segment (const ObservedFrame& frame) override
   {
     const auto index = static_cast<int> (frame.images.index);
     FrameInstances found;
     found.mask = Image<std::uint16_t> (frame.camera.width, frame.camera.height, 0);
     for (std::size_t n = 0; n < frame.points.size (); ++n)
       if (std::isfinite (frame.points[n].z ()))
-        found.mask->pixels[n] = static_cast<std::uint16_t> (label_ (frame.T_world_camera * frame.points[n].cast<double> (), index));
+        found.mask->pixels[n] = static_cast<std::uint16_t> (
+            label_ (frame.T_world_camera * frame.points[n].cast<double> (), index));
     found.classes = classes_ (index);
     return found;
   }
 
-  bool
-  findsAll () const override
-  {
-    return exact_;
-  }
+  bool findsAll () const override { return exact_; }
 
-  bool
-  isExact () const override
-  {
-    return exact_;
-  }
+  bool isExact () const override { return exact_; }
 
 private:
   bool exact_;
@@ -67,7 +62,8 @@ private:
 };
 
 TrackedRun
-runWith (const TrackedScene& scene, bool exact, NamingSegmenter::Label label, NamingSegmenter::Classes classes, const MaskPolicy& masks = noMask)
+runWith (const TrackedScene& scene, bool exact, NamingSegmenter::Label label, NamingSegmenter::Classes classes,
+         const MaskPolicy& masks = noMask)
 {
   DynamicFusionOptions options;
   options.segment_every = frames_per_mask;
@@ -84,7 +80,10 @@ TEST (ObjectClasses, DetectionsAreCountedForTheObjectsThatTheyShow)
   // Instances have other numbers in each mask. The last one tells nothing of the left thing.
   const auto left = [] (int frame) { return 1 + frame % 2; };
   const TrackedRun run = runWith (
-      scene, true, [&] (const Eigen::Vector3d& p, int frame) { return isThing (p, -0.3) ? left (frame) : isThing (p, 0.3) ? 3 - left (frame) : 0; },
+      scene, true,
+      [&] (const Eigen::Vector3d& p, int frame) {
+        return isThing (p, -0.3) ? left (frame) : isThing (p, 0.3) ? 3 - left (frame) : 0;
+      },
       [&] (int frame) {
         std::map<std::uint16_t, ClassScore> classes = {{3 - left (frame), part_score}, {99, cup_score}};
         if (frame < 3 * frames_per_mask)
@@ -111,7 +110,8 @@ TEST (ObjectClasses, WithoutNamesNothingIsKnown)
   EXPECT_TRUE (unnamed.classes.empty ());
   // Masks from files have no classes, whatever a segmenter would say.
   const auto named = [] (int) { return std::map<std::uint16_t, ClassScore>{{1, cup_score}}; };
-  const TrackedRun masked = runWith (scene, true, label, named, [] (int, const Image<std::uint16_t>& truth) { return std::optional (truth); });
+  const TrackedRun masked = runWith (scene, true, label, named,
+                                     [] (int, const Image<std::uint16_t>& truth) { return std::optional (truth); });
   EXPECT_EQ (masked.found.size (), 1u);
   EXPECT_TRUE (masked.classes.empty ());
 }
@@ -122,8 +122,12 @@ TEST (ObjectClasses, APartThatOneMaskShowsSaysNothingOfTheWhole)
   scene.addThing (1, along ({0.0}, {{0.0, 0.0, 0.0}}));
   const TrackedRun run = runWith (
       scene, false,
-      [] (const Eigen::Vector3d& p, int frame) { return !isThing (p, 0.0) ? 0 : frame == 2 * frames_per_mask && p.x () > 0.08 ? 7 : 3; },
-      [] (int) { return std::map<std::uint16_t, ClassScore>{{3, cup_score}, {7, part_score}}; });
+      [] (const Eigen::Vector3d& p, int frame) {
+        return !isThing (p, 0.0) ? 0 : frame == 2 * frames_per_mask && p.x () > 0.08 ? 7 : 3;
+      },
+      [] (int) {
+        return std::map<std::uint16_t, ClassScore>{{3, cup_score}, {7, part_score}};
+      });
   ASSERT_EQ (run.found.size (), 1u);
   ASSERT_EQ (run.classes.size (), 1u);
   EXPECT_EQ (run.classes.begin ()->second.class_name, "cup");
@@ -138,14 +142,19 @@ TEST (ObjectClasses, UnitedPartsHaveTheDetectionsOfBoth)
   const TrackedRun run = runWith (
       scene, false,
       [&] (const Eigen::Vector3d& p, int frame) {
-        return !isThing (p, motion.at (frame / 36.0).translation ().x ()) ? 0 : p.z () < 0.09 ? 1 : 2; // well below the box's top
+        return !isThing (p, motion.at (frame / 36.0).translation ().x ()) ? 0
+               : p.z () < 0.09                                            ? 1
+                                                                          : 2; // well below the box's top
       },
-      [] (int) { return std::map<std::uint16_t, ClassScore>{{1, cup_score}, {2, part_score}}; });
+      [] (int) {
+        return std::map<std::uint16_t, ClassScore>{{1, cup_score}, {2, part_score}};
+      });
   ASSERT_EQ (run.found.size (), 1u);
   ASSERT_TRUE (run.said (" is a part of object "));
   ASSERT_EQ (run.classes.size (), 1u);
   const ClassScore& united = run.classes.begin ()->second;
-  // The upper part is most of the thing in the image, so that it is what remains; the detections of the lower one said something else.
+  // The upper part is most of the thing in the image, so that it is what remains; the detections of the lower one said
+  // something else.
   EXPECT_EQ (united.class_name, "part");
   EXPECT_LT (united.score, 0.6 - score_rounding);
   EXPECT_GT (united.score, 0.3);
@@ -155,8 +164,13 @@ TEST (ObjectClasses, WhatIsGivenUpIsNothing)
 {
   TrackedScene scene (20);
   const TrackedRun run = runWith (
-      scene, false, [] (const Eigen::Vector3d& p, int frame) { return frame == 0 && std::hypot (p.x (), p.y ()) < 0.25 && p.z () < 0.1 ? 1 : 0; },
-      [] (int) { return std::map<std::uint16_t, ClassScore>{{1, cup_score}}; });
+      scene, false,
+      [] (const Eigen::Vector3d& p, int frame) {
+        return frame == 0 && std::hypot (p.x (), p.y ()) < 0.25 && p.z () < 0.1 ? 1 : 0;
+      },
+      [] (int) {
+        return std::map<std::uint16_t, ClassScore>{{1, cup_score}};
+      });
   ASSERT_TRUE (run.said ("only one mask showed it"));
   EXPECT_TRUE (run.found.empty ());
   EXPECT_TRUE (run.classes.empty ());
@@ -168,7 +182,9 @@ TEST (ObjectClasses, WhatIsNoScoreIsRefused)
   for (const double score : {-0.5, 1.5, std::numeric_limits<double>::quiet_NaN ()})
     EXPECT_THROW (runWith (
                       scene, true, [] (const Eigen::Vector3d&, int) { return 0; },
-                      [score] (int) { return std::map<std::uint16_t, ClassScore>{{1, {1, "cup", score}}}; }),
+                      [score] (int) {
+                        return std::map<std::uint16_t, ClassScore>{{1, {1, "cup", score}}};
+                      }),
                   InvalidArgument)
         << score;
 }

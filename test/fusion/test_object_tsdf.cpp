@@ -3,7 +3,7 @@
 
 // The TSDF volume of an object finds its place, grows, and shows what was seen.
 
-#include "surface/analytic_scene.h"
+#include "completion/analytic_scene.h"
 
 #include <pcl/cosection/common/error.h>
 #include <pcl/cosection/fusion/object_tsdf.h>
@@ -32,14 +32,9 @@ protected:
       views_.push_back (scene_.render (camera_, lookAt ({x, -0.2, 0.1}, Eigen::Vector3d::Zero ())));
   }
 
-  std::vector<OrientedPoint>
-  pointsOf (int view) const
-  {
-    return views_.at (view).points.at (1);
-  }
+  std::vector<OrientedPoint> pointsOf (int view) const { return views_.at (view).points.at (1); }
 
-  void
-  integrate (int view, ObjectTsdf& tsdf) const
+  void integrate (int view, ObjectTsdf& tsdf) const
   {
     Image<float> depth (camera_.width, camera_.height);
     depth.pixels = views_.at (view).view.depth;
@@ -53,8 +48,7 @@ protected:
   }
 
   /** \brief The mesh's extent along x, and a check that it lies on the ball. */
-  static Eigen::Vector2d
-  extent (const ObjectTsdf& tsdf)
+  static Eigen::Vector2d extent (const ObjectTsdf& tsdf)
   {
     const TriangleMesh mesh = tsdf.volume ()->surfaceMesh ();
     EXPECT_GT (mesh.vertices.size (), 100u);
@@ -124,7 +118,8 @@ TEST_F (ObjectTsdfTest, AVolumeGrowsAndKeepsWhatItHas)
   EXPECT_NEAR (sum / static_cast<double> (mesh.vertices.size ()), 0.0, 1e-6);
 }
 
-/** \brief At first a sliver, as of what comes into the image: its voxels would be so small that the whole does not fit. */
+/** \brief At first a sliver, as of what comes into the image: its voxels would be so small that the whole does not fit.
+ */
 TEST_F (ObjectTsdfTest, ASliverDoesNotDecideForTheWhole)
 {
   ObjectTsdf tsdf;
@@ -147,7 +142,7 @@ TEST_F (ObjectTsdfTest, ASliverDoesNotDecideForTheWhole)
   EXPECT_GT (x[1], 0.95 * radius_m);
 }
 
-TEST_F (ObjectTsdfTest, StrayPointsDoNotTakeTheRoom)
+TEST_F (ObjectTsdfTest, OutlierPointsDoNotTakeTheRoom)
 {
   ObjectTsdfOptions options;
   options.max_resolution = 128;
@@ -155,8 +150,8 @@ TEST_F (ObjectTsdfTest, StrayPointsDoNotTakeTheRoom)
   tsdf.makeRoom (pointsOf (0));
   const double voxel_m = tsdf.volume ()->grid ().voxel_size_m;
   std::vector<OrientedPoint> points = pointsOf (0);
-  const std::size_t stray = points.size () / 20; // of the wall behind it
-  for (std::size_t n = 0; n < stray; ++n)
+  const std::size_t outlier = points.size () / 20; // of the wall behind it
+  for (std::size_t n = 0; n < outlier; ++n)
     points[n].position.y () = 5.0f;
   tsdf.makeRoom (points);
   EXPECT_EQ (tsdf.volume ()->grid ().voxel_size_m, voxel_m);

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_cosection authors
 
-// What the front end does where it is difficult: things that no mask shows, that touch, that are cut off, hidden, fast, gone.
+// What the front end does where it is difficult: things that no mask shows, that touch, that are cut off, hidden, fast,
+// gone.
 
-#include "fusion/tracked_scene.h"
+#include "tracked_scene.h"
 
 #include <gtest/gtest.h>
 
@@ -46,7 +47,8 @@ TEST (RobustTracking, APersonWhomNoMaskShowsMovesFromTheStart)
   const TrackedRun run = scene.run (only ({2}, 10));
   EXPECT_EQ (run.framesWithCamera (), 30);
   EXPECT_LT (run.cameraError (), 0.01); // walls without texture: most of what tells is the person
-  EXPECT_LT (run.frames.back ().T_world_camera->translation ().x () - run.T_world_camera.back ().translation ().x (), camera_limit_m);
+  EXPECT_LT (run.frames.back ().T_world_camera->translation ().x () - run.T_world_camera.back ().translation ().x (),
+             camera_limit_m);
   EXPECT_EQ (run.found.size (), 1u);
   EXPECT_LT (run.objectError (1, scene.body (2)), object_limit_m);
 }
@@ -142,8 +144,8 @@ TEST (RobustTracking, PatchesWithoutReadingsMoveOverTheImage)
     for (int patch = 0; patch < 4 && frame > 0; ++patch)
       for (int v = 0; v < 64; ++v)
         for (int u = 0; u < 64; ++u)
-          depth.at ((u + 97 * patch + 13 * frame) % depth.width, (v + 61 * patch + 7 * frame) % depth.height) =
-              std::numeric_limits<float>::quiet_NaN ();
+          depth.at ((u + 97 * patch + 13 * frame) % depth.width,
+                    (v + 61 * patch + 7 * frame) % depth.height) = std::numeric_limits<float>::quiet_NaN ();
   });
   const TrackedRun run = scene.run (empty_first_mask);
   EXPECT_EQ (run.framesWithCamera (), 24);
@@ -154,7 +156,8 @@ TEST (RobustTracking, PatchesWithoutReadingsMoveOverTheImage)
 TEST (RobustTracking, AnObjectThatLeftAndComesBackIsRecognised)
 {
   TrackedScene scene (60);
-  scene.addThing (1, along ({0.0, 0.4, 0.6, 1.0}, {{0.1, 0.1, 0.0}, {1.1, 0.1, 0.0}, {1.1, 0.1, 0.0}, {0.1, 0.1, 0.0}}));
+  scene.addThing (1,
+                  along ({0.0, 0.4, 0.6, 1.0}, {{0.1, 0.1, 0.0}, {1.1, 0.1, 0.0}, {1.1, 0.1, 0.0}, {0.1, 0.1, 0.0}}));
   const TrackedRun run = scene.run (only ({1}, 5));
   EXPECT_LT (run.cameraError (), camera_limit_m);
   EXPECT_EQ (run.found.size (), 1u);
@@ -167,7 +170,8 @@ TEST (RobustTracking, AnObjectThatLeftAndComesBackIsRecognised)
 TEST (RobustTracking, AnObjectThatJumpsIsReportedLostAndNoPartOfTheBackground)
 {
   TrackedScene scene (24);
-  scene.addThing (1, along ({0.0, 0.499, 0.5, 1.0}, {{-0.3, 0.0, 0.0}, {-0.3, 0.0, 0.0}, {0.3, 0.0, 0.0}, {0.3, 0.0, 0.0}}));
+  scene.addThing (
+      1, along ({0.0, 0.499, 0.5, 1.0}, {{-0.3, 0.0, 0.0}, {-0.3, 0.0, 0.0}, {0.3, 0.0, 0.0}, {0.3, 0.0, 0.0}}));
   const TrackedRun run = scene.run (only ({1}, 1000));
   EXPECT_LT (run.cameraError (), camera_limit_m);
   EXPECT_TRUE (run.said ("object 1 is lost"));

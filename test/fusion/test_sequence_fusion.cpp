@@ -3,11 +3,11 @@
 
 // Sequences whose poses and masks are known: which frames are used, and for what.
 
+#include "completion/analytic_scene.h"
 #include "io/sequence_folder.h"
-#include "surface/analytic_scene.h"
 
 #include <pcl/cosection/common/error.h>
-#include <pcl/cosection/common/ignored_label.h>
+#include <pcl/cosection/common/image.h>
 #include <pcl/cosection/fusion/sequence_fusion.h>
 
 #include <gtest/gtest.h>
@@ -50,40 +50,23 @@ protected:
     }
   }
 
-  static std::string
-  depthName (int n)
-  {
-    return "depth/Depth" + SequenceFolder::fourDigits (n) + ".png";
-  }
+  static std::string depthName (int n) { return "depth/Depth" + SequenceFolder::fourDigits (n) + ".png"; }
 
-  static std::string
-  maskName (int n)
-  {
-    return "mask/Mask" + SequenceFolder::fourDigits (n) + ".png";
-  }
+  static std::string maskName (int n) { return "mask/Mask" + SequenceFolder::fourDigits (n) + ".png"; }
 
-  static Eigen::Isometry3d
-  T_world_ball (int n)
+  static Eigen::Isometry3d T_world_ball (int n)
   {
     Eigen::Isometry3d T = Eigen::Isometry3d::Identity ();
     T.translate (Eigen::Vector3d (-0.1 + 0.01 * n, 0.0, 0.05));
     return T;
   }
 
-  static Eigen::Isometry3d
-  T_world_camera (int n)
-  {
-    return lookAt ({-0.1 + 0.02 * n, -0.4, 0.3}, {0.0, 0.0, 0.04});
-  }
+  static Eigen::Isometry3d T_world_camera (int n) { return lookAt ({-0.1 + 0.02 * n, -0.4, 0.3}, {0.0, 0.0, 0.04}); }
 
-  void
-  remove (const std::string& name) const
-  {
-    std::filesystem::remove (folder_.path (name));
-  }
+  void remove (const std::string& name) const { std::filesystem::remove (folder_.path (name)); }
 
-  FusionResult
-  run (const FusionOptions& options, const SequenceFusion::KeyframeCallback& report = {}, bool masks = true) const
+  FusionResult run (const FusionOptions& options, const SequenceFusion::KeyframeCallback& report = {},
+                    bool masks = true) const
   {
     const RgbdSequence images (folder_.path ());
     std::optional<MaskSequence> mask_sequence;
@@ -99,8 +82,7 @@ protected:
     return SequenceFusion (known, options).run ({}, report);
   }
 
-  static FusionOptions
-  every (int keyframe_every)
+  static FusionOptions every (int keyframe_every)
   {
     FusionOptions options;
     options.keyframe_every = keyframe_every;
@@ -109,8 +91,7 @@ protected:
     return options;
   }
 
-  static std::vector<double>
-  stampsOf (const std::vector<StampedPose>& poses)
+  static std::vector<double> stampsOf (const std::vector<StampedPose>& poses)
   {
     std::vector<double> stamps;
     for (const StampedPose& pose : poses)
@@ -119,8 +100,7 @@ protected:
   }
 
   /** \brief The stamps of the keyframes. */
-  std::vector<double>
-  keyframesOf (FusionOptions options) const
+  std::vector<double> keyframesOf (FusionOptions options) const
   {
     options.updates = KeyframeUpdates::InStep;
     std::vector<double> stamps;
@@ -199,7 +179,8 @@ TEST_F (SequenceFusionTest, OnlyTheRangeIsUsed)
   options.frames.last = FrameRange ().last;
   EXPECT_FALSE (mentions (run (options).warnings, "are not there"));
   options.frames.first = 8;
-  EXPECT_EQ (messageOf<InvalidArgument> ([&] { run (options); }), "the frames from 8 on are not there; the sequence has 0:8");
+  EXPECT_EQ (messageOf<InvalidArgument> ([&] { run (options); }),
+             "the frames from 8 on are not there; the sequence has 0:8");
 }
 
 TEST_F (SequenceFusionTest, WithoutMasksThereIsOnlyBackground)
@@ -250,13 +231,16 @@ TEST_F (SequenceFusionTest, WhatCannotBeUsedIsRefused)
 
   for (int n = 0; n < frames; ++n)
     saveMaskImage (Image<std::uint16_t> (4, 4), folder_.newPath (maskName (n)));
-  EXPECT_NE (messageOf<IoError> ([&] { run (options); }).find ("no frame has a mask that can be used: "), std::string::npos);
+  EXPECT_NE (messageOf<IoError> ([&] { run (options); }).find ("no frame has a mask that can be used: "),
+             std::string::npos);
   for (int n = 0; n < frames; ++n)
     writeFile (folder_.path (depthName (n)), "damaged");
   EXPECT_NE (messageOf<IoError> ([&] { run (options, {}, false); }).find ("no frame can be read: "), std::string::npos);
   for (StampedPose& pose : camera_poses_)
     pose.stamp += 100.0;
-  EXPECT_NE (messageOf<InvalidArgument> ([&] { run (options, {}, false); }).find ("its stamps are 100 to 107, those of the frames 0 to 7"),
+  EXPECT_NE (messageOf<InvalidArgument> ([&] {
+               run (options, {}, false);
+             }).find ("its stamps are 100 to 107, those of the frames 0 to 7"),
              std::string::npos);
   camera_poses_.clear ();
   EXPECT_THROW (run (options, {}, false), InvalidArgument);
@@ -294,7 +278,8 @@ TEST_F (SequenceFusionTest, UpdatesBesideEndWithTheRun)
   const SequenceFusion fusion (known, options);
   for (const double until : {0.0, 0.2, 0.4, 0.7})
     EXPECT_THROW (fusion.run ([&] (const std::string&, double done) { return done < until; }), Cancelled) << until;
-  EXPECT_THROW (fusion.run ({}, [] (const KeyframeReport&) { throw std::runtime_error ("the user's"); }), std::runtime_error);
+  EXPECT_THROW (fusion.run ({}, [] (const KeyframeReport&) { throw std::runtime_error ("the user's"); }),
+                std::runtime_error);
 }
 
 TEST_F (SequenceFusionTest, CanBeCancelled)
@@ -304,7 +289,9 @@ TEST_F (SequenceFusionTest, CanBeCancelled)
   known.images = &images;
   known.camera = camera_poses_;
   for (const double until : {0.2, 0.7})
-    EXPECT_THROW (SequenceFusion (known, every (3)).run ([&] (const std::string&, double done) { return done < until; }), Cancelled);
+    EXPECT_THROW (
+        SequenceFusion (known, every (3)).run ([&] (const std::string&, double done) { return done < until; }),
+        Cancelled);
 }
 
 TEST_F (SequenceFusionTest, IgnoredPixelsAreNotCompleted)

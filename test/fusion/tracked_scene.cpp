@@ -1,19 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_cosection authors
-#include "fusion/tracked_scene.h"
+#include "tracked_scene.h"
 
-#include <pcl/cosection/common/look_at.h>
+#include "pcl_cosection/view/look_at.h"
 #include <pcl/cosection/simulation/scene_renderer.h>
 
 #include <algorithm>
 #include <cmath>
 #include <map>
 
-namespace pcl
-{
-namespace cosection
-{
-namespace test
+namespace pcl::cosection::test
 {
 
 namespace
@@ -79,15 +75,16 @@ along (const std::vector<double>& times, const std::vector<Eigen::Vector3d>& pla
 int
 TrackedRun::framesWithCamera () const
 {
-  return static_cast<int> (
-      std::count_if (frames.begin (), frames.end (), [] (const TrackedFrame& frame) { return frame.T_world_camera.has_value (); }));
+  return static_cast<int> (std::count_if (
+      frames.begin (), frames.end (), [] (const TrackedFrame& frame) { return frame.T_world_camera.has_value (); }));
 }
 
 int
 TrackedRun::framesOf (int id) const
 {
-  return static_cast<int> (
-      std::count_if (frames.begin (), frames.end (), [id] (const TrackedFrame& frame) { return frame.T_world_object.count (id) > 0; }));
+  return static_cast<int> (std::count_if (frames.begin (), frames.end (), [id] (const TrackedFrame& frame) {
+    return frame.T_world_object.count (id) > 0;
+  }));
 }
 
 double
@@ -96,7 +93,8 @@ TrackedRun::cameraError () const
   double largest = 0.0;
   for (std::size_t n = 0; n < frames.size (); ++n)
     if (frames[n].T_world_camera)
-      largest = std::max (largest, (frames[n].T_world_camera->translation () - T_world_camera[n].translation ()).norm ());
+      largest = std::max (largest,
+                          (frames[n].T_world_camera->translation () - T_world_camera[n].translation ()).norm ());
   return largest;
 }
 
@@ -139,8 +137,8 @@ TrackedRun::foundAs (int body) const
     if (masks.back ().pixels[n] == body)
       ++counts[frames.back ().instances.pixels[n]];
   counts.erase (TrackedFrame::unassigned);
-  const auto most =
-      std::max_element (counts.begin (), counts.end (), [] (const auto& a, const auto& b) { return a.second < b.second; });
+  const auto most = std::max_element (counts.begin (), counts.end (),
+                                      [] (const auto& a, const auto& b) { return a.second < b.second; });
   return most == counts.end () ? 0 : most->first;
 }
 
@@ -160,9 +158,9 @@ double
 TrackedRun::shareOfBackgroundWrong (const TrackedScene& scene, double tolerance_m) const
 {
   const SceneBody& room = scene.body (0);
-  const auto wrong = std::count_if (background.vertices.begin (), background.vertices.end (), [&] (const Eigen::Vector3f& vertex) {
-    return std::abs (room.distance (vertex.cast<double> ())) > tolerance_m;
-  });
+  const auto wrong = std::count_if (
+      background.vertices.begin (), background.vertices.end (),
+      [&] (const Eigen::Vector3f& vertex) { return std::abs (room.distance (vertex.cast<double> ())) > tolerance_m; });
   return static_cast<double> (wrong) / static_cast<double> (std::max<std::size_t> (1, background.vertices.size ()));
 }
 
@@ -262,18 +260,20 @@ TrackedScene::paint (double period_m)
 void
 TrackedScene::moveCamera (const Eigen::Vector3d& from, const Eigen::Vector3d& to)
 {
-  scene_.camera_motion =
-      KeyedMotion (KeyedVector ({0.0, 1.0}, {from, to}), KeyedVector ({0.0}, {middle}), Eigen::Vector3d::UnitZ ());
+  scene_.camera_motion = KeyedMotion (KeyedVector ({0.0, 1.0}, {from, to}), KeyedVector ({0.0}, {middle}),
+                                      Eigen::Vector3d::UnitZ ());
 }
 
 const SceneBody&
 TrackedScene::body (int id) const
 {
-  return *std::find_if (scene_.bodies.begin (), scene_.bodies.end (), [id] (const SceneBody& body) { return body.id == id; });
+  return *std::find_if (scene_.bodies.begin (), scene_.bodies.end (),
+                        [id] (const SceneBody& body) { return body.id == id; });
 }
 
 TrackedRun
-TrackedScene::run (const MaskPolicy& masks, DynamicFusionOptions options, std::shared_ptr<FrameSegmenter> segmenter) const
+TrackedScene::run (const MaskPolicy& masks, DynamicFusionOptions options,
+                   std::shared_ptr<FrameSegmenter> segmenter) const
 {
   const SceneRenderer renderer (scene_);
   options.first_pose = scene_.camera_motion.at (0.0);
@@ -289,7 +289,8 @@ TrackedScene::run (const MaskPolicy& masks, DynamicFusionOptions options, std::s
     frame.index = static_cast<std::size_t> (n);
     frame.stamp = n;
     frame.colour = seen.colour;
-    frame.depth = measureDepth (seen.depth, seen.normals, scene_.camera, *scene_.noise, scene_.seed, static_cast<std::uint64_t> (n));
+    frame.depth = measureDepth (seen.depth, seen.normals, scene_.camera, *scene_.noise, scene_.seed,
+                                static_cast<std::uint64_t> (n));
     if (spoil_)
       spoil_ (n, frame.depth);
     const std::optional<Image<std::uint16_t>> mask = masks (n, seen.mask);
@@ -307,6 +308,4 @@ TrackedScene::run (const MaskPolicy& masks, DynamicFusionOptions options, std::s
   return run;
 }
 
-} // namespace test
-} // namespace cosection
-} // namespace pcl
+} // namespace pcl::cosection::test

@@ -13,42 +13,33 @@
 #include <string>
 #include <vector>
 
-namespace pcl
-{
-namespace cosection
-{
-namespace test
+namespace pcl::cosection::test
 {
 
 /** \brief The mask that the front end gets for a frame, made of the true one; nothing: none. */
 using MaskPolicy = std::function<std::optional<Image<std::uint16_t>> (int frame, const Image<std::uint16_t>& truth)>;
 
 /** \brief Never any. */
-std::optional<Image<std::uint16_t>>
-noMask (int frame, const Image<std::uint16_t>& truth);
+std::optional<Image<std::uint16_t>> noMask (int frame, const Image<std::uint16_t>& truth);
 
-/** \brief How far the front end may be off, metres: the camera, the camera where a segmenter finds the objects, whose instances end above
- * the floor, and an object. */
+/** \brief How far the front end may be off, metres: the camera, the camera where a segmenter finds the objects, whose
+ * instances end above the floor, and an object. */
 constexpr double camera_limit_m = 0.004, segmented_camera_limit_m = 0.006, object_limit_m = 0.010;
 
 /** \brief A vertex of the background this far from the true one is wrong, metres. */
 constexpr double wrong_m = 0.04;
 
 /** \brief Whether a point of the world is of a thing, see TrackedScene::addThing (), that stands at (\a x, 0, 0). */
-bool
-isThing (const Eigen::Vector3d& p, double x);
+bool isThing (const Eigen::Vector3d& p, double x);
 
 /** \brief The same instances with other numbers, which differ from frame to frame. */
-Image<std::uint16_t>
-reshuffled (const Image<std::uint16_t>& mask, int frame);
+Image<std::uint16_t> reshuffled (const Image<std::uint16_t>& mask, int frame);
 
 /** \brief From one place to another in a second, turning about z by \a turn_rad. */
-KeyedMotion
-movingThing (const Eigen::Vector3d& from, const Eigen::Vector3d& to, double turn_rad);
+KeyedMotion movingThing (const Eigen::Vector3d& from, const Eigen::Vector3d& to, double turn_rad);
 
 /** \brief Through places at times, of a second, without turning. */
-KeyedMotion
-along (const std::vector<double>& times, const std::vector<Eigen::Vector3d>& places);
+KeyedMotion along (const std::vector<double>& times, const std::vector<Eigen::Vector3d>& places);
 
 /** \brief What the front end made of a scene, and the truth. */
 struct TrackedRun
@@ -58,48 +49,40 @@ struct TrackedRun
   std::vector<double> times;                     ///< s
   std::vector<Image<std::uint16_t>> masks;       ///< true
   std::set<int> found;
-  std::map<int, ClassScore> classes;             ///< of any object of a number up to 100, as far as they are known
+  std::map<int, ClassScore> classes; ///< of any object of a number up to 100, as far as they are known
   std::vector<std::string> events;
   TriangleMesh background;
 
-  int
-  framesWithCamera () const;
+  int framesWithCamera () const;
 
   /** \brief In how many an object of the front end was tracked. */
-  int
-  framesOf (int id) const;
+  int framesOf (int id) const;
 
   /** \brief Largest distance of the camera from where it was, metres. */
-  double
-  cameraError () const;
+  double cameraError () const;
 
-  /** \brief Distances of the object's origin from where it was, metres, relative to its first pose; of the frames in which it was tracked. */
-  std::vector<double>
-  objectErrors (int id, const SceneBody& body) const;
+  /** \brief Distances of the object's origin from where it was, metres, relative to its first pose; of the frames in
+   * which it was tracked. */
+  std::vector<double> objectErrors (int id, const SceneBody& body) const;
 
   /** \brief The largest of them. */
-  double
-  objectError (int id, const SceneBody& body) const;
+  double objectError (int id, const SceneBody& body) const;
 
   /** \brief The last of them, if there is one. */
-  double
-  lastObjectError (int id, const SceneBody& body) const;
+  double lastObjectError (int id, const SceneBody& body) const;
 
   /** \brief The object of the front end that most pixels of a body belong to in the last frame. */
-  int
-  foundAs (int body) const;
+  int foundAs (int body) const;
 
   /** \brief Share of the background's vertices that were deeper than \a depth_m within a body in some frame. */
-  double
-  shareOfBackgroundInside (const class TrackedScene& scene, int body, double depth_m) const;
+  double shareOfBackgroundInside (const class TrackedScene& scene, int body, double depth_m) const;
 
-  /** \brief Share of the background's vertices that are farther than \a tolerance_m from the surface of the true one. */
-  double
-  shareOfBackgroundWrong (const class TrackedScene& scene, double tolerance_m) const;
+  /** \brief Share of the background's vertices that are farther than \a tolerance_m from the surface of the true one.
+   */
+  double shareOfBackgroundWrong (const class TrackedScene& scene, double tolerance_m) const;
 
   /** \brief Whether a line about a decision contains this. */
-  bool
-  said (const std::string& words) const;
+  bool said (const std::string& words) const;
 };
 
 /** \brief A corner of a room with things in it, as a structured-light camera sees it in a second. */
@@ -115,46 +98,33 @@ public:
   explicit TrackedScene (int frames, Surroundings surroundings = Surroundings::Room);
 
   /** \brief A box with a ball beside it, on the floor. */
-  void
-  addThing (int id, const KeyedMotion& motion);
+  void addThing (int id, const KeyedMotion& motion);
 
   /** \brief As wide and high as a person who leans over the floor. */
-  void
-  addPerson (int id, const KeyedMotion& motion);
+  void addPerson (int id, const KeyedMotion& motion);
 
   /** \brief A fist and an arm that comes from the left. */
-  void
-  addHand (int id, const KeyedMotion& motion);
+  void addHand (int id, const KeyedMotion& motion);
 
-  void
-  addBall (int id, const KeyedMotion& motion);
+  void addBall (int id, const KeyedMotion& motion);
 
   /** \brief Give all that has been added a pattern of this period. */
-  void
-  paint (double period_m);
+  void paint (double period_m);
 
   /** \brief Along a line, looking at the middle of the floor. */
-  void
-  moveCamera (const Eigen::Vector3d& from, const Eigen::Vector3d& to);
+  void moveCamera (const Eigen::Vector3d& from, const Eigen::Vector3d& to);
 
   /** \brief Change the depth of each frame before the front end gets it. */
-  void
-  spoil (std::function<void (int frame, Image<float>& depth)> change)
-  {
-    spoil_ = std::move (change);
-  }
+  void spoil (std::function<void (int frame, Image<float>& depth)> change) { spoil_ = std::move (change); }
 
-  const SceneBody&
-  body (int id) const;
+  const SceneBody& body (int id) const;
 
-  TrackedRun
-  run (const MaskPolicy& masks, DynamicFusionOptions options = {}, std::shared_ptr<FrameSegmenter> segmenter = nullptr) const;
+  TrackedRun run (const MaskPolicy& masks, DynamicFusionOptions options = {},
+                  std::shared_ptr<FrameSegmenter> segmenter = nullptr) const;
 
 private:
   SimulatedScene scene_;
   std::function<void (int frame, Image<float>& depth)> spoil_;
 };
 
-} // namespace test
-} // namespace cosection
-} // namespace pcl
+} // namespace pcl::cosection::test

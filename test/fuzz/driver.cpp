@@ -144,8 +144,8 @@ fuzzOn (const std::string& program, const Arguments& arguments)
   {
     if (arguments.seconds && std::chrono::duration<double> (Clock::now () - start).count () > *arguments.seconds)
       break;
-    accepted += read (mutator.make (arguments.seed, run), program + "_" + std::to_string (arguments.seed) + "_" +
-                                                              std::to_string (run) + ".input");
+    accepted += read (mutator.make (arguments.seed, run),
+                      program + "_" + std::to_string (arguments.seed) + "_" + std::to_string (run) + ".input");
   }
   std::cout << program << ": " << run << " changed inputs read, " << accepted << " of them accepted" << std::endl;
 }

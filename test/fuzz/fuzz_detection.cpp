@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_cosection authors
 
-// Bytes as class names and as the outputs of a network: a list of names, a line "%%", a line for each output (its name and its shape), an
-// empty line, and the values as they stand in memory.
+// Bytes as class names and as the outputs of a network: a list of names, a line "%%", a line for each output (its name
+// and its shape), an empty line, and the values as they stand in memory.
 
 #include "fuzz_target.h"
 #include "memory_file.h"
@@ -97,8 +97,21 @@ fuzz::seeds ()
 std::vector<std::string>
 fuzz::dictionary ()
 {
-  return {"\n", "%%\n", "1 ", "0 ", "-1 ", "7", "2147483647", "boxes", "labels", "scores", std::string ("\0\0\xc0\x7f", 4),
-          std::string ("\0\0\x80\x7f", 4), std::string ("\0\0\x80\xff", 4), std::string ("\0\0\x80\x3f", 4), "\xff\xff\x7f\x7f"};
+  return {"\n",
+          "%%\n",
+          "1 ",
+          "0 ",
+          "-1 ",
+          "7",
+          "2147483647",
+          "boxes",
+          "labels",
+          "scores",
+          std::string ("\0\0\xc0\x7f", 4),
+          std::string ("\0\0\x80\x7f", 4),
+          std::string ("\0\0\x80\xff", 4),
+          std::string ("\0\0\x80\x3f", 4),
+          "\xff\xff\x7f\x7f"};
 }
 
 bool
@@ -111,7 +124,8 @@ fuzz::accepts (const std::string& input)
   {
     InstanceDecodingOptions options;
     options.class_names = loadClassNames (file.path ());
-    const std::vector<NetworkOutput> outputs = parseOutputs (names_end == input.size () ? "" : input.substr (names_end + 3));
+    const std::vector<NetworkOutput> outputs = parseOutputs (names_end == input.size () ? ""
+                                                                                        : input.substr (names_end + 3));
     for (const bool letterbox : {false, true})
       check (decodeInstances (outputs, ImagePlacement (width, height, 32, 32, letterbox), options), options);
   }

@@ -43,8 +43,9 @@ readsOtherFiles (const std::vector<std::string>& arguments, const std::string& o
     if (arguments[i].rfind (option, 0) == 0)
     {
       const bool inside = arguments[i].size () > option.size ();
-      const std::string file =
-          inside ? arguments[i].substr (option.size () + 1) : i + 1 < arguments.size () ? arguments[i + 1] : "";
+      const std::string file = inside                      ? arguments[i].substr (option.size () + 1)
+                               : i + 1 < arguments.size () ? arguments[i + 1]
+                                                           : "";
       if (file != own && file.find ('/') != std::string::npos)
         return (true);
     }
@@ -55,15 +56,10 @@ readsOtherFiles (const std::vector<std::string>& arguments, const std::string& o
 class SilentOutput
 {
 public:
-  SilentOutput () : buffer_ (std::cout.rdbuf (&nowhere_))
-  {}
+  SilentOutput () : buffer_ (std::cout.rdbuf (&nowhere_)) {}
   SilentOutput (const SilentOutput&) = delete;
-  SilentOutput&
-  operator= (const SilentOutput&) = delete;
-  ~SilentOutput ()
-  {
-    std::cout.rdbuf (buffer_);
-  }
+  SilentOutput& operator= (const SilentOutput&) = delete;
+  ~SilentOutput () { std::cout.rdbuf (buffer_); }
 
 private:
   std::stringbuf nowhere_;
@@ -106,17 +102,82 @@ fuzz::seeds ()
 std::vector<std::string>
 fuzz::dictionary ()
 {
-  return {"--voxel-size", "--resolution", "--padding",      "--background-voxel-size", "--max-memory", "--preset",
-          "paper",        "--constraints", "hull",          "none",         "all",     "intersection", "--no-planes",
-          "--alpha",      "--beta-hull",  "--beta-inter",   "--sigma",      "--weighting", "mean",     "sum",
-          "--solver",     "multigrid",    "fast-jacobi",    "--max-iterations", "--tolerance", "--format", "ply",
-          "--save-sdf",   "--json",       "--threads",      "--verbose",    "--quiet", "--config",     "@config@",
-          "--version",    "--help",       "-h",             "--",           "-",       "--plane",      "--intrinsics",
-          "--scale",      "--world-points", "0,0,1,0",      "1,2,3",        "1G",      "5k",           "[",
-          "]",            "[a.b]",        "\"",             "'",            "%%\n",    "true",         "false",
-          "=",            ",",            "++",             "--x",          "\\",      "a.pcd",        "a.ply",
-          "--free-space", "--obstacle",   "--object-trajectory", "1=t.txt", "--max-faces", "--save-hull", "--save-bounds", "--viewpoint",
-          "[[",           "\"\"\"",       "'''",            "{",            ";",       "out.pcd"};
+  return {"--voxel-size",
+          "--resolution",
+          "--padding",
+          "--background-voxel-size",
+          "--max-memory",
+          "--preset",
+          "paper",
+          "--constraints",
+          "hull",
+          "none",
+          "all",
+          "intersection",
+          "--no-planes",
+          "--alpha",
+          "--beta-hull",
+          "--beta-inter",
+          "--sigma",
+          "--weighting",
+          "mean",
+          "sum",
+          "--solver",
+          "multigrid",
+          "fast-jacobi",
+          "--max-iterations",
+          "--tolerance",
+          "--format",
+          "ply",
+          "--save-sdf",
+          "--json",
+          "--threads",
+          "--verbose",
+          "--quiet",
+          "--config",
+          "@config@",
+          "--version",
+          "--help",
+          "-h",
+          "--",
+          "-",
+          "--plane",
+          "--intrinsics",
+          "--scale",
+          "--world-points",
+          "0,0,1,0",
+          "1,2,3",
+          "1G",
+          "5k",
+          "[",
+          "]",
+          "[a.b]",
+          "\"",
+          "'",
+          "%%\n",
+          "true",
+          "false",
+          "=",
+          ",",
+          "++",
+          "--x",
+          "\\",
+          "a.pcd",
+          "a.ply",
+          "--free-space",
+          "--obstacle",
+          "--object-trajectory",
+          "1=t.txt",
+          "--max-faces",
+          "--save-hull",
+          "--save-bounds",
+          "--viewpoint",
+          "[[",
+          "\"\"\"",
+          "'''",
+          "{",
+          ";",
+          "out.pcd"};
 }
 
 bool

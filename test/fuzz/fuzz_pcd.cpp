@@ -54,11 +54,12 @@ fuzz::seeds ()
 std::vector<std::string>
 fuzz::dictionary ()
 {
-  return {"VERSION", "FIELDS",   "COLUMNS",  "SIZE",   "TYPE", "COUNT", "WIDTH", "HEIGHT", "VIEWPOINT",
-          "POINTS",  "DATA",     "ascii",    "binary", "binary_compressed",     "x",      "y",
-          "z",       "rgb",      "rgba",     "label",  "_",    "normal_x",      "normal_y", "normal_z",
-          "intensity", "curvature", "F",      "U",      "I",    "1",     "2",     "4",      "8",
-          "#",       "# .PCD v0.7", "\n"};
+  return {"VERSION",  "FIELDS",    "COLUMNS",  "SIZE",      "TYPE",      "COUNT",  "WIDTH",
+          "HEIGHT",   "VIEWPOINT", "POINTS",   "DATA",      "ascii",     "binary", "binary_compressed",
+          "x",        "y",         "z",        "rgb",       "rgba",      "label",  "_",
+          "normal_x", "normal_y",  "normal_z", "intensity", "curvature", "F",      "U",
+          "I",        "1",         "2",        "4",         "8",         "#",      "# .PCD v0.7",
+          "\n"};
 }
 
 bool

@@ -13,7 +13,8 @@ using namespace pcl::cosection;
 namespace
 {
 
-const char* const camera = R"("camera": {"width": 8, "height": 6, "keys": [{"position": [0, -1, 0.5], "look_at": [0, 0, 0]}]})";
+const char* const
+    camera = R"("camera": {"width": 8, "height": 6, "keys": [{"position": [0, -1, 0.5], "look_at": [0, 0, 0]}]})";
 
 void
 check (const SimulatedScene& scene)
@@ -46,9 +47,36 @@ fuzz::seeds ()
 std::vector<std::string>
 fuzz::dictionary ()
 {
-  return {"\"time\"", "\"position\"", "\"look_at\"", "\"up\"", "\"rpy_deg\"", "\"quaternion\"", "\"frames\"", "\"type\"", "\"plane\"", "\"capsule\"",
-          "\"cylinder\"", "\"name\"", "[", "]", "{", "}", ",", ":", "null", "true", "false", "1e308", "-1e308", "1e-320", "-0.0", "0", "\"\\u0000\"",
-          "\"mesh\"", "\"file\": \"/dev/null\"", "//"};
+  return {"\"time\"",
+          "\"position\"",
+          "\"look_at\"",
+          "\"up\"",
+          "\"rpy_deg\"",
+          "\"quaternion\"",
+          "\"frames\"",
+          "\"type\"",
+          "\"plane\"",
+          "\"capsule\"",
+          "\"cylinder\"",
+          "\"name\"",
+          "[",
+          "]",
+          "{",
+          "}",
+          ",",
+          ":",
+          "null",
+          "true",
+          "false",
+          "1e308",
+          "-1e308",
+          "1e-320",
+          "-0.0",
+          "0",
+          "\"\\u0000\"",
+          "\"mesh\"",
+          "\"file\": \"/dev/null\"",
+          "//"};
 }
 
 bool

@@ -14,18 +14,15 @@ namespace fuzz
 {
 
 /** \brief Valid inputs of every kind. */
-std::vector<std::string>
-seeds ();
+std::vector<std::string> seeds ();
 
 /** \brief Words that mean something in the inputs. */
-std::vector<std::string>
-dictionary ();
+std::vector<std::string> dictionary ();
 
 /** \brief Read \a input as the program would.
  * \return whether it was accepted; false if it was refused by an error of ours. Ends the program if
  * anything else is thrown, or if what was read is inconsistent. */
-bool
-accepts (const std::string& input);
+bool accepts (const std::string& input);
 
 /** \brief A property of what was read. */
 inline void
@@ -47,5 +44,4 @@ requireMessage (const std::string& message)
 } // namespace fuzz
 
 /** \brief The entry point of libFuzzer and AFL++. */
-extern "C" int
-LLVMFuzzerTestOneInput (const std::uint8_t* data, std::size_t size);
+extern "C" int LLVMFuzzerTestOneInput (const std::uint8_t* data, std::size_t size);

@@ -18,23 +18,19 @@ class MemoryFile
 {
 public:
   MemoryFile ()
-      : descriptor_ (memfd_create ("fuzz", MFD_CLOEXEC)), path_ ("/proc/self/fd/" + std::to_string (descriptor_))
+      : descriptor_ (memfd_create ("fuzz", MFD_CLOEXEC))
+      , path_ ("/proc/self/fd/" + std::to_string (descriptor_))
   {
     if (descriptor_ < 0)
       throw std::runtime_error ("no file in memory");
   }
   MemoryFile (const MemoryFile&) = delete;
-  MemoryFile&
-  operator= (const MemoryFile&) = delete;
+  MemoryFile& operator= (const MemoryFile&) = delete;
 
-  ~MemoryFile ()
-  {
-    close (descriptor_);
-  }
+  ~MemoryFile () { close (descriptor_); }
 
   /** \brief Replace its contents. */
-  void
-  set (const std::string& bytes)
+  void set (const std::string& bytes)
   {
     if (ftruncate (descriptor_, 0) != 0 ||
         pwrite (descriptor_, bytes.data (), bytes.size (), 0) != static_cast<ssize_t> (bytes.size ()))
@@ -42,11 +38,7 @@ public:
   }
 
   /** \brief Opens as any other file, in this process. */
-  const std::string&
-  path () const
-  {
-    return (path_);
-  }
+  const std::string& path () const { return (path_); }
 
 private:
   const int descriptor_;
@@ -65,8 +57,7 @@ public:
     path_ = pattern;
   }
   TemporaryFolder (const TemporaryFolder&) = delete;
-  TemporaryFolder&
-  operator= (const TemporaryFolder&) = delete;
+  TemporaryFolder& operator= (const TemporaryFolder&) = delete;
 
   ~TemporaryFolder ()
   {
@@ -74,11 +65,7 @@ public:
     std::filesystem::remove_all (path_, ignored);
   }
 
-  std::string
-  file (const std::string& name) const
-  {
-    return ((path_ / name).string ());
-  }
+  std::string file (const std::string& name) const { return ((path_ / name).string ()); }
 
 private:
   std::filesystem::path path_;
@@ -89,8 +76,7 @@ class NamedMemoryFile : public MemoryFile
 {
 public:
   /** \param[in] extension ".ply" ... */
-  std::string
-  path (const std::string& extension) const
+  std::string path (const std::string& extension) const
   {
     const std::string link = folder_.file ("fuzz" + extension);
     if (!std::filesystem::is_symlink (link))

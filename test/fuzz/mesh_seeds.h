@@ -16,7 +16,6 @@ struct MeshSeed
 
 /** \brief Small mesh files of every format and encoding, as the library, VTK and others write them: polygons, strips,
  * bodies in each other, repeated and flat triangles. */
-std::vector<MeshSeed>
-meshSeeds ();
+std::vector<MeshSeed> meshSeeds ();
 
 } // namespace fuzz

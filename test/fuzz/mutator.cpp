@@ -18,16 +18,43 @@ constexpr std::size_t header_bytes = 400;
 constexpr std::size_t max_bytes = 1 << 16;
 constexpr std::size_t max_changes = 8;
 
-const std::array<const char*, 34> numbers = {
-    "0",          "-0",    "1",        "-1",         "2",          "3",           "7",
-    "8",          "127",   "255",      "256",        "65535",      "65536",       "2147483647",
-    "2147483648", "-2147483649",       "4294967295", "4294967296", "1073741824",  "18446744073709551615",
-    "9223372036854775807",             "99999999999999999999999",  "1e308",       "-1e308",
-    "1e999",      "1e-310", "nan",     "-nan",       "inf",        "-inf",        "0x10",
-    "1.5",        "1e38",  ""};
+const std::array<const char*, 34> numbers = {"0",
+                                             "-0",
+                                             "1",
+                                             "-1",
+                                             "2",
+                                             "3",
+                                             "7",
+                                             "8",
+                                             "127",
+                                             "255",
+                                             "256",
+                                             "65535",
+                                             "65536",
+                                             "2147483647",
+                                             "2147483648",
+                                             "-2147483649",
+                                             "4294967295",
+                                             "4294967296",
+                                             "1073741824",
+                                             "18446744073709551615",
+                                             "9223372036854775807",
+                                             "99999999999999999999999",
+                                             "1e308",
+                                             "-1e308",
+                                             "1e999",
+                                             "1e-310",
+                                             "nan",
+                                             "-nan",
+                                             "inf",
+                                             "-inf",
+                                             "0x10",
+                                             "1.5",
+                                             "1e38",
+                                             ""};
 
-constexpr std::array<std::uint32_t, 12> integers = {
-    0, 1, 2, 16, 255, 256, 0x7fff, 0xffff, 0x10000, 0x7fffffff, 0x80000000, 0xffffffff};
+constexpr std::array<std::uint32_t, 12> integers = {0,      1,      2,       16,         255,        256,
+                                                    0x7fff, 0xffff, 0x10000, 0x7fffffff, 0x80000000, 0xffffffff};
 
 bool
 isSpace (char c)
@@ -48,7 +75,8 @@ splitWords (const std::string& line)
 } // namespace
 
 Mutator::Mutator (const std::vector<std::string>& seeds, const std::vector<std::string>& dictionary)
-    : seeds_ (seeds), dictionary_ (dictionary)
+    : seeds_ (seeds)
+    , dictionary_ (dictionary)
 {}
 
 std::string

@@ -21,8 +21,7 @@ public:
   Mutator (const std::vector<std::string>& seeds, const std::vector<std::string>& dictionary);
 
   /** \brief The input number \a run of the sequence \a seed: one of the seeds after one to eight changes. */
-  std::string
-  make (std::uint64_t seed, std::uint64_t run);
+  std::string make (std::uint64_t seed, std::uint64_t run);
 
 private:
   struct Span
@@ -30,36 +29,26 @@ private:
     std::size_t begin, end;
   };
 
-  std::size_t
-  below (std::size_t limit);
+  std::size_t below (std::size_t limit);
 
   /** \brief A place in \a text, half of the time in its beginning, where headers are. */
-  std::size_t
-  place (const std::string& text);
+  std::size_t place (const std::string& text);
 
-  std::string
-  word ();
+  std::string word ();
 
-  Span
-  lineAt (const std::string& text, std::size_t i) const;
+  Span lineAt (const std::string& text, std::size_t i) const;
 
-  Span
-  tokenAt (const std::string& text, std::size_t i) const;
+  Span tokenAt (const std::string& text, std::size_t i) const;
 
-  void
-  change (std::string& text);
+  void change (std::string& text);
 
-  void
-  changeBytes (std::string& text);
+  void changeBytes (std::string& text);
 
-  void
-  changeTokens (std::string& text);
+  void changeTokens (std::string& text);
 
-  void
-  changeLines (std::string& text);
+  void changeLines (std::string& text);
 
-  void
-  changeColumn (std::string& text);
+  void changeColumn (std::string& text);
 
   const std::vector<std::string> seeds_;
   const std::vector<std::string> dictionary_;

@@ -76,8 +76,8 @@ header (const Cloud& cloud, const std::string& encoding)
   text << "\nCOUNT";
   for (const Field& f : cloud.fields)
     text << ' ' << f.count;
-  text << "\nWIDTH " << cloud.width << "\nHEIGHT " << cloud.height << "\nVIEWPOINT "
-       << cloud.viewpoint << "\nPOINTS " << cloud.rows.size () << "\nDATA " << encoding << "\n";
+  text << "\nWIDTH " << cloud.width << "\nHEIGHT " << cloud.height << "\nVIEWPOINT " << cloud.viewpoint << "\nPOINTS "
+       << cloud.rows.size () << "\nDATA " << encoding << "\n";
   return (text.str ());
 }
 
@@ -124,8 +124,8 @@ compressedFile (const Cloud& cloud)
   }
   std::string packed (2 * raw.size () + 64, '\0');
   const auto raw_size = static_cast<std::uint32_t> (raw.size ());
-  const std::uint32_t size =
-      pcl::lzfCompress (raw.data (), raw_size, &packed[0], static_cast<std::uint32_t> (packed.size ()));
+  const std::uint32_t size = pcl::lzfCompress (raw.data (), raw_size, &packed[0],
+                                               static_cast<std::uint32_t> (packed.size ()));
   if (size == 0)
     throw std::runtime_error ("cannot compress");
   std::string bytes = header (cloud, "binary_compressed");
@@ -181,9 +181,9 @@ struct Ball
   int points = 60;
   bool seen = false;
   bool around = false;
-  double normal = 0.0;    ///< length of the normals, negative: inward; 0: there are none
+  double normal = 0.0; ///< length of the normals, negative: inward; 0: there are none
   bool intensity = false;
-  bool labels = false;    ///< 0 and 2, each a half
+  bool labels = false; ///< 0 and 2, each a half
   std::string viewpoint = default_viewpoint;
 };
 

@@ -11,7 +11,6 @@ namespace fuzz
 /** \brief Small PCD files of every kind: organised or not, ASCII, binary and compressed, with colours,
  * labels, normals, doubles, fields of several elements, padding and comments; unorganised ones seen from a viewpoint,
  * not from theirs, or from nowhere. */
-std::vector<std::string>
-pcdSeeds ();
+std::vector<std::string> pcdSeeds ();
 
 } // namespace fuzz

@@ -12,16 +12,13 @@ namespace fuzz
  *
  * Without a sanitizer memory is limited by RLIMIT_AS, so that an allocation beyond it throws
  * std::bad_alloc; with AddressSanitizer by its own limits. */
-void
-startWatching (const std::string& program);
+void startWatching (const std::string& program);
 
 /** \brief \a input is read from now on; it must stay alive until watchEnd ().
  * \param[in] name file of the working directory to which it is saved if it fails; empty: it is not
  * saved, as it is a file already */
-void
-watchBegin (const std::string& input, const std::string& name);
+void watchBegin (const std::string& input, const std::string& name);
 
-void
-watchEnd ();
+void watchEnd ();
 
 } // namespace fuzz

@@ -16,11 +16,7 @@
 #include <fstream>
 #include <string>
 
-namespace pcl
-{
-namespace cosection
-{
-namespace test
+namespace pcl::cosection::test
 {
 
 class PcdView : public testing::Test
@@ -34,28 +30,18 @@ protected:
     std::filesystem::create_directories (folder_);
   }
 
-  ~PcdView () override
-  {
-    std::filesystem::remove_all (folder_);
-  }
+  ~PcdView () override { std::filesystem::remove_all (folder_); }
 
-  std::string
-  path (const std::string& name) const
-  {
-    return ((folder_ / name).string ());
-  }
+  std::string path (const std::string& name) const { return ((folder_ / name).string ()); }
 
-  std::string
-  write (const std::string& content, const std::string& name = "cloud.pcd") const
+  std::string write (const std::string& content, const std::string& name = "cloud.pcd") const
   {
     std::ofstream (path (name), std::ios::binary) << content;
     return (path (name));
   }
 
   /** \brief The message of the error that reading \a file gives. */
-  template <typename Expected>
-  std::string
-  failure (const std::string& file, const PcdViewOptions& options = {}) const
+  template <typename Expected> std::string failure (const std::string& file, const PcdViewOptions& options = {}) const
   {
     try
     {
@@ -126,6 +112,4 @@ moveBy (const Eigen::Isometry3f& T, pcl::PointCloud<pcl::PointXYZRGBL>& cloud)
     p.getVector3fMap () = T * Eigen::Vector3f (p.getVector3fMap ());
 }
 
-} // namespace test
-} // namespace cosection
-} // namespace pcl
+} // namespace pcl::cosection::test

@@ -4,8 +4,8 @@
 
 #include "common/temporary_folder.h"
 
+#include "pcl_cosection/io/image_io.h"
 #include <pcl/cosection/common/image.h>
-#include <pcl/cosection/io/image_io.h>
 
 #include <cmath>
 #include <filesystem>
@@ -13,53 +13,40 @@
 #include <string>
 #include <vector>
 
-namespace pcl
-{
-namespace cosection
-{
-namespace test
+namespace pcl::cosection::test
 {
 
 /** \brief A folder to write a small sequence into. */
 class SequenceFolder
 {
 public:
-  std::string
-  path (const std::string& name = "") const
+  std::string path (const std::string& name = "") const
   {
     return name.empty () ? folder_.file ("sequence") : folder_.file ("sequence/" + name);
   }
 
   /** \brief A path whose folders are there. */
-  std::string
-  newPath (const std::string& name) const
+  std::string newPath (const std::string& name) const
   {
     std::filesystem::create_directories (std::filesystem::path (path (name)).parent_path ());
     return path (name);
   }
 
-  void
-  text (const std::string& name, const std::string& content) const
-  {
-    writeFile (newPath (name), content);
-  }
+  void text (const std::string& name, const std::string& content) const { writeFile (newPath (name), content); }
 
   /** \brief Depth that tells its frame: depthOf (frame, width, height). */
-  void
-  depth (const std::string& name, int frame, double scale = 1000.0, int width = 8, int height = 6) const
+  void depth (const std::string& name, int frame, double scale = 1000.0, int width = 8, int height = 6) const
   {
     saveDepthImage (depthOf (frame, width, height), newPath (name), scale);
   }
 
   /** \brief Colour that tells its frame: red is the frame, green the column, blue the row. */
-  void
-  colour (const std::string& name, int frame, int width = 8, int height = 6) const
+  void colour (const std::string& name, int frame, int width = 8, int height = 6) const
   {
     saveColourImage (colourOf (frame, width, height), newPath (name));
   }
 
-  static Image<float>
-  depthOf (int frame, int width = 8, int height = 6)
+  static Image<float> depthOf (int frame, int width = 8, int height = 6)
   {
     Image<float> depth (width, height);
     for (std::size_t n = 0; n < depth.pixels.size (); ++n)
@@ -68,19 +55,18 @@ public:
     return depth;
   }
 
-  static Picture
-  colourOf (int frame, int width = 8, int height = 6)
+  static Picture colourOf (int frame, int width = 8, int height = 6)
   {
     Picture picture (width, height);
     for (int v = 0; v < height; ++v)
       for (int u = 0; u < width; ++u)
-        picture.at (u, v) = {static_cast<std::uint8_t> (frame), static_cast<std::uint8_t> (u), static_cast<std::uint8_t> (v)};
+        picture.at (u, v) = {static_cast<std::uint8_t> (frame), static_cast<std::uint8_t> (u),
+                             static_cast<std::uint8_t> (v)};
     return picture;
   }
 
   /** \brief Frames \a numbers in the Co-Fusion layout, with calibration and colour. */
-  void
-  coFusion (const std::vector<int>& numbers) const
+  void coFusion (const std::vector<int>& numbers) const
   {
     text ("calibration.txt", "10 11 3.5 2.5 8 6\n");
     for (const int number : numbers)
@@ -90,8 +76,7 @@ public:
     }
   }
 
-  static std::string
-  fourDigits (int number)
+  static std::string fourDigits (int number)
   {
     const std::string digits = std::to_string (number);
     return std::string (digits.size () < 4 ? 4 - digits.size () : 0, '0') + digits;
@@ -125,6 +110,4 @@ mentions (const std::vector<std::string>& lines, const std::string& words)
   return false;
 }
 
-} // namespace test
-} // namespace cosection
-} // namespace pcl
+} // namespace pcl::cosection::test

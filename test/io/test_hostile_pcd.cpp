@@ -29,8 +29,8 @@ header (const std::string& encoding, const std::string& label = "label", const s
         const std::string& type = "U")
 {
   return ("VERSION 0.7\nFIELDS x y z" + normals + " " + label + "\nSIZE 4 4 4 4 4 4 " + size + "\nTYPE F F F F F F " +
-          type + "\nCOUNT 1 1 1 1 1 1 1\nWIDTH 2\nHEIGHT 1\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS 2\nDATA " +
-          encoding + "\n");
+          type + "\nCOUNT 1 1 1 1 1 1 1\nWIDTH 2\nHEIGHT 1\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS 2\nDATA " + encoding +
+          "\n");
 }
 
 const std::string two_lines = "1 2 3 0 0 1 7\n4 5 6 0 0 1 7\n";
@@ -44,22 +44,19 @@ replaced (std::string text, const std::string& from, const std::string& to)
 class HostilePcd : public testing::Test
 {
 protected:
-  LabelledView
-  read (const std::string& content) const
+  LabelledView read (const std::string& content) const
   {
     test::writeFile (folder_.file ("a.pcd"), content);
     return (readPcdView (folder_.file ("a.pcd")));
   }
 
-  std::string
-  failure (const std::string& content) const
+  std::string failure (const std::string& content) const
   {
     return (messageOf<IoError> ([&] { read (content); }));
   }
 
   /** \brief Holds (1, 2, 3) and (4, 5, 6) of label 7. */
-  static void
-  expectTwoPoints (const LabelledView& view)
+  static void expectTwoPoints (const LabelledView& view)
   {
     ASSERT_EQ (view.objects.count (7), 1u);
     const auto& points = view.objects.at (7).points;
@@ -101,8 +98,8 @@ TEST_F (HostilePcd, LinesOfTheHeaderTwiceAreRefused)
 
 TEST_F (HostilePcd, EmptyLinesAndCarriageReturns)
 {
-  std::string text =
-      "#\n  \n\r\n" + replaced (header ("ascii"), "WIDTH", "\n \t\n# WIDTH 9\nWIDTH") + "\n  \n" + two_lines;
+  std::string text = "#\n  \n\r\n" + replaced (header ("ascii"), "WIDTH", "\n \t\n# WIDTH 9\nWIDTH") + "\n  \n" +
+                     two_lines;
   expectTwoPoints (read (text));
   for (std::size_t i = text.find ('\n'); i != std::string::npos; i = text.find ('\n', i + 2))
     text.insert (i, "\r");
@@ -155,8 +152,11 @@ TEST_F (HostilePcd, NumbersThatAFieldCannotHold)
   };
   EXPECT_EQ (read_label ("1.2e+01", "4", "U").objects.count (12), 1u); // numbers as some programs write them
   EXPECT_EQ (read_label ("255", "1", "U").objects.count (255), 1u);
-  for (const auto& [label, size, type] : {std::array<const char*, 3>{"256", "1", "U"}, {"128", "1", "I"},
-                                          {"-1", "4", "U"}, {"1e30", "8", "I"}, {"inf", "2", "U"}})
+  for (const auto& [label, size, type] : {std::array<const char*, 3>{"256", "1", "U"},
+                                          {"128", "1", "I"},
+                                          {"-1", "4", "U"},
+                                          {"1e30", "8", "I"},
+                                          {"inf", "2", "U"}})
   {
     const std::string message = messageOf<IoError> ([&, l = label, s = size, t = type] { read_label (l, s, t); });
     EXPECT_NE (message.find (std::string ("point 0 holds \"") + label + "\", which field label cannot hold"),
@@ -179,8 +179,8 @@ TEST_F (HostilePcd, NormalsOfPointsAbsurdlyFarApart)
   std::string lines = "1 0 0\n0 0 1\n0 3e13 0\n";
   for (int i = 0; i < 16; ++i)
     lines += "0 1e-30 0\n";
-  const LabelledView view =
-      read ("FIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nWIDTH 19\nHEIGHT 1\nPOINTS 19\nDATA ascii\n" + lines);
+  const LabelledView view = read ("FIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nWIDTH 19\nHEIGHT 1\nPOINTS 19\nDATA ascii\n" +
+                                  lines);
   EXPECT_EQ (view.objects.at (1).readings, 19u);
   for (const OrientedPoint& point : view.objects.at (1).points)
     EXPECT_NEAR (point.normal.norm (), 1.0f, 1e-5f);

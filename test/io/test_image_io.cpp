@@ -2,8 +2,8 @@
 // Copyright (c) 2026, the pcl_cosection authors
 #include "common/temporary_folder.h"
 
+#include "pcl_cosection/io/image_io.h"
 #include <pcl/cosection/common/error.h>
-#include <pcl/cosection/io/image_io.h>
 
 #include <gtest/gtest.h>
 
@@ -44,7 +44,8 @@ plainExr (const std::vector<std::array<float, 3>>& rows)
   const auto height = static_cast<std::int32_t> (rows.size ());
   std::string channels;
   for (const char* name : {"B", "G", "R"})
-    channels += name + std::string (1, '\0') + bytesOf (std::int32_t (2)) + std::string (4, '\0') + bytesOf (1) + bytesOf (1);
+    channels += name + std::string (1, '\0') + bytesOf (std::int32_t (2)) + std::string (4, '\0') + bytesOf (1) +
+                bytesOf (1);
   const std::string window = bytesOf (0) + bytesOf (0) + bytesOf (0) + bytesOf (height - 1);
   std::string bytes = "\x76\x2f\x31\x01" + bytesOf (2);
   bytes += exrAttribute ("channels", "chlist", channels + '\0');

@@ -149,8 +149,9 @@ TEST (MeshReader, ReadsEveryKindOfOff)
   const TemporaryFolder folder;
   const auto path = folder.file ("a.off");
   const std::string body = "3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
-  const std::vector<std::string> texts = {"OFF\n" + body, "OFF " + body, "OFF" + body, "STCNOFF\n" + body, body,
-                                          "OFF\r\n3 1 0\r\n0 0 0\r\n1 0 0\r\n0 1 0\r\n3 0 1 2\r\n"};
+  const std::vector<std::string> texts = {"OFF\n" + body, "OFF " + body,
+                                          "OFF" + body,   "STCNOFF\n" + body,
+                                          body,           "OFF\r\n3 1 0\r\n0 0 0\r\n1 0 0\r\n0 1 0\r\n3 0 1 2\r\n"};
   for (const std::string& text : texts)
   {
     writeFile (path, text);

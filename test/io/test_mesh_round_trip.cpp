@@ -71,7 +71,8 @@ readByVtk (const std::string& path)
   while (data->GetPolys ()->GetNextCell (corners))
   {
     EXPECT_EQ (corners->GetNumberOfIds (), 3);
-    mesh.triangles.push_back ({static_cast<std::uint32_t> (corners->GetId (0)), static_cast<std::uint32_t> (corners->GetId (1)),
+    mesh.triangles.push_back ({static_cast<std::uint32_t> (corners->GetId (0)),
+                               static_cast<std::uint32_t> (corners->GetId (1)),
                                static_cast<std::uint32_t> (corners->GetId (2))});
   }
   return mesh;

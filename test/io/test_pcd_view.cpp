@@ -178,9 +178,9 @@ TEST_F (PcdView, SensorAmongThePointsIsWarnedOf)
 
 TEST_F (PcdView, NormalsOfTheFileAreKept)
 {
-  const std::string file =
-      write (header (3, 1, "ascii", "x y z normal_x normal_y normal_z", "4 4 4 4 4 4", "F F F F F F", "0 0 5 0 1 0 0") +
-             "1 2 3 0 0 2\n4 5 6 nan nan nan\n7 8 9 0 0 0\n");
+  const std::string file = write (
+      header (3, 1, "ascii", "x y z normal_x normal_y normal_z", "4 4 4 4 4 4", "F F F F F F", "0 0 5 0 1 0 0") +
+      "1 2 3 0 0 2\n4 5 6 nan nan nan\n7 8 9 0 0 0\n");
   const LabelledView view = readPcdView (file);
   EXPECT_EQ (view.objects.at (1).readings, 3u);
   ASSERT_EQ (view.objects.at (1).points.size (), 1u); // normals of no length are none
@@ -232,9 +232,10 @@ TEST_F (PcdView, BadFilesAreRefusedInOneLine)
                  .find ("label 4.5, which is no integer"),
              std::string::npos);
   for (const char* large : {"4e9", "inf", "1e300"})
-    EXPECT_NE (failure<IoError> (write (header (1, 1, "ascii", "x y z label", "4 4 4 8", "F F F F") + "1 2 3 " + large + "\n"))
-                   .find ("too large"),
-               std::string::npos);
+    EXPECT_NE (
+        failure<IoError> (write (header (1, 1, "ascii", "x y z label", "4 4 4 8", "F F F F") + "1 2 3 " + large + "\n"))
+            .find ("too large"),
+        std::string::npos);
   EXPECT_NE (failure<IoError> (write (header (1, 1, "ascii", "x y z", "4 4 3") + "1 2 3\n")).find ("SIZE"),
              std::string::npos);
   EXPECT_NE (failure<IoError> (write (header (1, 1, "gzip") + "1 2 3\n")).find ("ascii, binary"), std::string::npos);
@@ -273,8 +274,8 @@ TEST_F (PcdView, DamagedFilesNeverCrash)
         bad.resize (generator () % good.size ());
       else
         for (int k = 0; k < 3; ++k) // in the header, or right after it
-          bad[generator () % std::min<std::size_t> (bad.size (), trial % 3 == 1 ? 180 : 400)] =
-              static_cast<char> (generator ());
+          bad[generator () % std::min<std::size_t> (bad.size (), trial % 3 == 1 ? 180 : 400)] = static_cast<char> (
+              generator ());
       try
       {
         readPcdView (write (bad));

@@ -73,13 +73,9 @@ public:
     ::setrlimit (RLIMIT_AS, &limited);
   }
   MemoryLimit (const MemoryLimit&) = delete;
-  MemoryLimit&
-  operator= (const MemoryLimit&) = delete;
+  MemoryLimit& operator= (const MemoryLimit&) = delete;
 
-  ~MemoryLimit ()
-  {
-    ::setrlimit (RLIMIT_AS, &before_);
-  }
+  ~MemoryLimit () { ::setrlimit (RLIMIT_AS, &before_); }
 
 private:
   rlimit before_;

@@ -14,11 +14,7 @@
 #include <vtkSTLWriter.h>
 #include <vtkXMLPolyDataWriter.h>
 
-namespace pcl
-{
-namespace cosection
-{
-namespace test
+namespace pcl::cosection::test
 {
 namespace
 {
@@ -50,10 +46,11 @@ write (Writer& writer, vtkPolyData& data, const std::string& path)
 std::vector<VtkFile>
 vtkFiles ()
 {
-  return {VtkFile::PlyAscii,     VtkFile::PlyLittleEndian, VtkFile::PlyBigEndian,   VtkFile::StlAscii,
-          VtkFile::StlBinary,    VtkFile::Obj,             VtkFile::LegacyAscii,    VtkFile::LegacyBinary,
-          VtkFile::OldLegacyAscii, VtkFile::OldLegacyBinary, VtkFile::XmlAscii,     VtkFile::XmlBinary,
-          VtkFile::XmlAppended,  VtkFile::XmlRaw};
+  return {VtkFile::PlyAscii,        VtkFile::PlyLittleEndian, VtkFile::PlyBigEndian,
+          VtkFile::StlAscii,        VtkFile::StlBinary,       VtkFile::Obj,
+          VtkFile::LegacyAscii,     VtkFile::LegacyBinary,    VtkFile::OldLegacyAscii,
+          VtkFile::OldLegacyBinary, VtkFile::XmlAscii,        VtkFile::XmlBinary,
+          VtkFile::XmlAppended,     VtkFile::XmlRaw};
 }
 
 std::string
@@ -140,6 +137,4 @@ writeWithVtk (const Polygons& polygons, VtkFile file, const std::string& path)
   }
 }
 
-} // namespace test
-} // namespace cosection
-} // namespace pcl
+} // namespace pcl::cosection::test

@@ -7,11 +7,7 @@
 #include <string>
 #include <vector>
 
-namespace pcl
-{
-namespace cosection
-{
-namespace test
+namespace pcl::cosection::test
 {
 
 /** \brief Polygons and strips for VTK to write. */
@@ -41,21 +37,15 @@ enum class VtkFile
 };
 
 /** \brief All of them. */
-std::vector<VtkFile>
-vtkFiles ();
+std::vector<VtkFile> vtkFiles ();
 
 /** \brief ".ply" ... */
-std::string
-extensionOf (VtkFile file);
+std::string extensionOf (VtkFile file);
 
 /** \brief An OFF file, which VTK does not write. */
-std::string
-tetrahedronOff ();
+std::string tetrahedronOff ();
 
 /** \brief Let VTK write a file. */
-void
-writeWithVtk (const Polygons& polygons, VtkFile file, const std::string& path);
+void writeWithVtk (const Polygons& polygons, VtkFile file, const std::string& path);
 
-} // namespace test
-} // namespace cosection
-} // namespace pcl
+} // namespace pcl::cosection::test

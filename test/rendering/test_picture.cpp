@@ -4,8 +4,8 @@
 #include "common/small_meshes.h"
 #include "common/temporary_folder.h"
 
+#include "pcl_cosection/rendering/picture.h"
 #include <pcl/cosection/common/error.h>
-#include <pcl/cosection/rendering/picture.h>
 
 #include <gtest/gtest.h>
 

@@ -4,11 +4,7 @@
 
 #include "protobuf_message.h"
 
-namespace pcl
-{
-namespace cosection
-{
-namespace test
+namespace pcl::cosection::test
 {
 
 namespace
@@ -16,7 +12,8 @@ namespace
 
 using TensorShape = std::vector<std::int64_t>;
 
-// --- ONNX (onnx.proto) ---------------------------------------------------------------------------------------------------
+// --- ONNX (onnx.proto)
+// ---------------------------------------------------------------------------------------------------
 
 constexpr int onnx_float = 1, onnx_int64 = 7;
 
@@ -50,7 +47,8 @@ onnxValue (const std::string& name, const TensorShape& shape)
   return (ProtobufMessage ().text (1, name).message (2, ProtobufMessage ().message (1, tensor)));
 }
 
-// --- TensorFlow (graph.proto) --------------------------------------------------------------------------------------------
+// --- TensorFlow (graph.proto)
+// --------------------------------------------------------------------------------------------
 
 constexpr int tensorflow_float = 1, tensorflow_int32 = 3;
 
@@ -99,9 +97,11 @@ affineOnnx (int width, int height, const std::vector<AffineOutput>& outputs, boo
     graph.message (1, onnxNode ("Add", {name + "_linear", name + "_bias"}, name + "_affine"));
     graph.message (1, onnxNode ("Reshape", {name + "_affine", name + "_shape"}, name));
     const Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> weights = output.weights.transpose ();
-    graph.message (5, onnxTensor (name + "_weights", {weights.rows (), weights.cols ()}, onnx_float, rawBytes (weights)));
+    graph.message (5,
+                   onnxTensor (name + "_weights", {weights.rows (), weights.cols ()}, onnx_float, rawBytes (weights)));
     graph.message (5, onnxTensor (name + "_bias", {1, output.bias.size ()}, onnx_float, rawBytes (output.bias)));
-    graph.message (5, onnxTensor (name + "_shape", {static_cast<std::int64_t> (output.shape.size ())}, onnx_int64, rawBytes (output.shape)));
+    graph.message (5, onnxTensor (name + "_shape", {static_cast<std::int64_t> (output.shape.size ())}, onnx_int64,
+                                  rawBytes (output.shape)));
     graph.message (12, onnxValue (name, output.shape));
   }
   const ProtobufMessage operators = ProtobufMessage ().text (1, "").number (2, 11);
@@ -125,9 +125,11 @@ affineTensorflow (int width, int height, const std::vector<AffineOutput>& output
         for (Eigen::Index value = 0; value < values; ++value)
           kernel.push_back (output.weights (value, channel * pixels + pixel));
     const std::vector<std::int32_t> shape (output.shape.begin (), output.shape.end ());
-    graph.message (1, tensorflowConstant (name + "_weights", {height, width, 3, values}, tensorflow_float, rawBytes (kernel)));
+    graph.message (
+        1, tensorflowConstant (name + "_weights", {height, width, 3, values}, tensorflow_float, rawBytes (kernel)));
     graph.message (1, tensorflowConstant (name + "_bias", {values}, tensorflow_float, rawBytes (output.bias)));
-    graph.message (1, tensorflowConstant (name + "_shape", {static_cast<std::int64_t> (shape.size ())}, tensorflow_int32, rawBytes (shape)));
+    graph.message (1, tensorflowConstant (name + "_shape", {static_cast<std::int64_t> (shape.size ())},
+                                          tensorflow_int32, rawBytes (shape)));
     ProtobufMessage strides;
     for (int n = 0; n < 4; ++n)
       strides.number (3, 1);
@@ -141,6 +143,4 @@ affineTensorflow (int width, int height, const std::vector<AffineOutput>& output
   return (graph.bytes ());
 }
 
-} // namespace test
-} // namespace cosection
-} // namespace pcl
+} // namespace pcl::cosection::test

@@ -9,11 +9,7 @@
 #include <utility>
 #include <vector>
 
-namespace pcl
-{
-namespace cosection
-{
-namespace test
+namespace pcl::cosection::test
 {
 
 /** \brief How well labels agree with the true ones. */
@@ -48,8 +44,8 @@ compareLabels (const std::vector<std::uint32_t>& truth, const std::vector<std::u
     const auto [object, piece] = pair;
     if (object > 0 && piece > 0)
     {
-      const double iou =
-          static_cast<double> (pixels) / static_cast<double> (true_pixels[object] + found_pixels[piece] - pixels);
+      const double iou = static_cast<double> (pixels) /
+                         static_cast<double> (true_pixels[object] + found_pixels[piece] - pixels);
       result.best_iou[object] = std::max (result.best_iou[object], iou);
     }
     if (object == 0 && piece > 0 && 2 * pixels > found_pixels[piece])
@@ -60,6 +56,4 @@ compareLabels (const std::vector<std::uint32_t>& truth, const std::vector<std::u
   return (result);
 }
 
-} // namespace test
-} // namespace cosection
-} // namespace pcl
+} // namespace pcl::cosection::test

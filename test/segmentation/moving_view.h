@@ -9,11 +9,7 @@
 #include <string>
 #include <vector>
 
-namespace pcl
-{
-namespace cosection
-{
-namespace test
+namespace pcl::cosection::test
 {
 
 /** \brief A frame of a scene in which things move, and the truth. */
@@ -25,7 +21,8 @@ struct MovingView
   std::vector<float> room_depth; ///< without the objects
 };
 
-/** \brief Things that move on a table with a wall behind, as a noisy camera of 320 x 240 sees them at times in seconds. */
+/** \brief Things that move on a table with a wall behind, as a noisy camera of 320 x 240 sees them at times in seconds.
+ */
 class MovingTable
 {
 public:
@@ -34,8 +31,7 @@ public:
   explicit MovingTable (const std::string& objects, const std::string& camera_keys = "");
 
   /** \brief The n-th of frames that are a thirtieth of a second apart. */
-  MovingView
-  at (int n) const;
+  MovingView at (int n) const;
 
 private:
   SimulatedScene scene_;
@@ -43,9 +39,6 @@ private:
 };
 
 /** \brief A box of a scene's description. \param[in] keys of its motion */
-std::string
-movingBox (int id, const Eigen::Vector3d& size, const std::string& keys);
+std::string movingBox (int id, const Eigen::Vector3d& size, const std::string& keys);
 
-} // namespace test
-} // namespace cosection
-} // namespace pcl
+} // namespace pcl::cosection::test

@@ -6,11 +6,7 @@
 #include <cstring>
 #include <string>
 
-namespace pcl
-{
-namespace cosection
-{
-namespace test
+namespace pcl::cosection::test
 {
 
 /** \brief A message in the encoding of Protocol Buffers, field by field. */
@@ -18,8 +14,7 @@ class ProtobufMessage
 {
 public:
   /** \brief A whole number. */
-  ProtobufMessage&
-  number (int field, std::int64_t value)
+  ProtobufMessage& number (int field, std::int64_t value)
   {
     varint (static_cast<std::uint64_t> (field) << 3);
     varint (static_cast<std::uint64_t> (value));
@@ -27,8 +22,7 @@ public:
   }
 
   /** \brief A string, or bytes. */
-  ProtobufMessage&
-  text (int field, const std::string& bytes)
+  ProtobufMessage& text (int field, const std::string& bytes)
   {
     varint (static_cast<std::uint64_t> (field) << 3 | 2);
     varint (bytes.size ());
@@ -36,21 +30,12 @@ public:
     return (*this);
   }
 
-  ProtobufMessage&
-  message (int field, const ProtobufMessage& inner)
-  {
-    return (text (field, inner.bytes_));
-  }
+  ProtobufMessage& message (int field, const ProtobufMessage& inner) { return (text (field, inner.bytes_)); }
 
-  const std::string&
-  bytes () const
-  {
-    return (bytes_);
-  }
+  const std::string& bytes () const { return (bytes_); }
 
 private:
-  void
-  varint (std::uint64_t value)
+  void varint (std::uint64_t value)
   {
     for (; value > 127; value >>= 7)
       bytes_ += static_cast<char> ((value & 127) | 128);
@@ -70,6 +55,4 @@ rawBytes (const Container& values)
   return (bytes);
 }
 
-} // namespace test
-} // namespace cosection
-} // namespace pcl
+} // namespace pcl::cosection::test

@@ -2,18 +2,15 @@
 // Copyright (c) 2026, the pcl_cosection authors
 #include "spot_network.h"
 
-namespace pcl
-{
-namespace cosection
-{
-namespace test
+namespace pcl::cosection::test
 {
 
 namespace
 {
 
 AffineOutput
-constantOutput (const std::string& name, const std::vector<std::int64_t>& shape, int inputs = 3 * SpotNetwork::width * SpotNetwork::height)
+constantOutput (const std::string& name, const std::vector<std::int64_t>& shape,
+                int inputs = 3 * SpotNetwork::width * SpotNetwork::height)
 {
   std::int64_t values = 1;
   for (const std::int64_t size : shape)
@@ -60,8 +57,8 @@ detectionOut (float brightest)
 std::vector<AffineOutput>
 boxList (float brightest)
 {
-  AffineOutput boxes = constantOutput ("boxes", {1, 4}), labels = constantOutput ("labels", {1}), scores = constantOutput ("scores", {1}),
-               masks = constantOutput ("masks", {1, 1, 2, 2});
+  AffineOutput boxes = constantOutput ("boxes", {1, 4}), labels = constantOutput ("labels", {1}),
+               scores = constantOutput ("scores", {1}), masks = constantOutput ("masks", {1, 1, 2, 2});
   setCorners (boxes, 0, 1.0f, 1.0f, brightest);
   labels.bias[0] = 2.0f;
   scores.bias[0] = 0.9f;
@@ -74,7 +71,7 @@ prototypes (float brightest)
 {
   constexpr int candidates = 10;
   AffineOutput proposals = constantOutput ("output0", {1, 4 + 3 + 2, candidates}); // box, classes, coefficients
-  for (const int candidate : {0, 1}) // the second tells of the same
+  for (const int candidate : {0, 1})                                               // the second tells of the same
   {
     setEdge (proposals, candidate, true, 0.5f * candidate, 1.0f, brightest);
     setEdge (proposals, candidates + candidate, false, 0.0f, 1.0f, brightest);
@@ -113,21 +110,24 @@ colourNetwork (int width, int height, const std::vector<Eigen::Vector3f>& colour
   AffineOutput masks = constantOutput ("output1", {1, classes, height, width}, static_cast<int> (3 * pixels));
   for (Eigen::Index n = 0; n < classes; ++n)
   {
-    const std::vector<float> box = {0.5f * width, 0.5f * height, static_cast<float> (width), static_cast<float> (height)};
+    const std::vector<float> box = {0.5f * width, 0.5f * height, static_cast<float> (width),
+                                    static_cast<float> (height)};
     for (Eigen::Index k = 0; k < 4; ++k)
       proposals.bias[k * candidates + n] = box[static_cast<std::size_t> (k)];
     proposals.bias[(4 + n) * candidates + n] = 0.9f;
     proposals.bias[(4 + classes + n) * candidates + n] = 1.0f;
     for (Eigen::Index pixel = 0; pixel < pixels; ++pixel)
       for (Eigen::Index channel = 0; channel < 3; ++channel)
-        masks.weights (n * pixels + pixel, channel * pixels + pixel) = steepness * colours[static_cast<std::size_t> (n)][channel];
+        masks.weights (n * pixels + pixel, channel * pixels + pixel) = steepness *
+                                                                       colours[static_cast<std::size_t> (n)][channel];
     masks.bias.segment (n * pixels, pixels).setConstant (-steepness * threshold);
   }
   return {proposals, masks};
 }
 
 Picture
-spotPicture (int left, int top, const std::array<std::uint8_t, 3>& colour, int enlarged, int picture_width, int picture_height)
+spotPicture (int left, int top, const std::array<std::uint8_t, 3>& colour, int enlarged, int picture_width,
+             int picture_height)
 {
   Picture picture (enlarged * picture_width, enlarged * picture_height, {0, 0, 0});
   for (int v = enlarged * top; v < enlarged * (top + SpotNetwork::spot_height); ++v)
@@ -136,6 +136,4 @@ spotPicture (int left, int top, const std::array<std::uint8_t, 3>& colour, int e
   return (picture);
 }
 
-} // namespace test
-} // namespace cosection
-} // namespace pcl
+} // namespace pcl::cosection::test

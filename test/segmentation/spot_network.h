@@ -11,15 +11,11 @@
 #include <string>
 #include <vector>
 
-namespace pcl
-{
-namespace cosection
-{
-namespace test
+namespace pcl::cosection::test
 {
 
-/** \brief Networks that find a spot of one colour and known size in an image of 24 x 16 pixels, of which they take the first channel. They say
- * that it is of class 2 of 3, with a score of 0.9. */
+/** \brief Networks that find a spot of one colour and known size in an image of 24 x 16 pixels, of which they take the
+ * first channel. They say that it is of class 2 of 3, with a score of 0.9. */
 struct SpotNetwork
 {
   static constexpr int width = 24, height = 16;
@@ -29,20 +25,16 @@ struct SpotNetwork
   float brightest = 1.0f; ///< what the network takes for the spot's colour
 
   /** \brief Prototypes: the mask is the spot. Others: the left half of it. */
-  std::vector<AffineOutput>
-  outputs () const;
+  std::vector<AffineOutput> outputs () const;
 };
 
 /** \brief A one-stage network that takes all pixels of a colour for one thing of a class, with a score of 0.9.
  * \param[in] colours by class: factors of red, green and blue, 0 to 1, the sum of which is above \a threshold */
-std::vector<AffineOutput>
-colourNetwork (int width, int height, const std::vector<Eigen::Vector3f>& colours, float threshold);
+std::vector<AffineOutput> colourNetwork (int width, int height, const std::vector<Eigen::Vector3f>& colours,
+                                         float threshold);
 
 /** \brief A black picture with a spot whose first column and row are given, enlarged. */
-Picture
-spotPicture (int left, int top, const std::array<std::uint8_t, 3>& colour = {255, 0, 0}, int enlarged = 1,
-             int width = SpotNetwork::width, int height = SpotNetwork::height);
+Picture spotPicture (int left, int top, const std::array<std::uint8_t, 3>& colour = {255, 0, 0}, int enlarged = 1,
+                     int width = SpotNetwork::width, int height = SpotNetwork::height);
 
-} // namespace test
-} // namespace cosection
-} // namespace pcl
+} // namespace pcl::cosection::test

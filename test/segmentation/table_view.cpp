@@ -10,11 +10,7 @@
 #include <limits>
 #include <sstream>
 
-namespace pcl
-{
-namespace cosection
-{
-namespace test
+namespace pcl::cosection::test
 {
 
 SceneView
@@ -65,6 +61,4 @@ boxOnTable (int id, const Eigen::Vector3d& size, const Eigen::Vector3d& foot, do
   return (text.str ());
 }
 
-} // namespace test
-} // namespace cosection
-} // namespace pcl
+} // namespace pcl::cosection::test

@@ -10,11 +10,7 @@
 #include <string>
 #include <vector>
 
-namespace pcl
-{
-namespace cosection
-{
-namespace test
+namespace pcl::cosection::test
 {
 
 /** \brief What a noisy camera sees of a scene, and the truth. */
@@ -30,19 +26,14 @@ struct SceneView
 /** \brief Objects on a table with a wall behind and a floor below.
  * \param[in] objects description of the objects, the contents of "objects" of a scene's
  * \param[in] eye where the camera is; it looks at the middle of the table, which is at the origin */
-SceneView
-viewOfTable (const std::string& objects, const Eigen::Vector3d& eye = {-0.3, -0.85, 0.65});
+SceneView viewOfTable (const std::string& objects, const Eigen::Vector3d& eye = {-0.3, -0.85, 0.65});
 
 /** \brief What a noisy camera sees of a scene.
  * \param[in] background, objects descriptions of their shapes, the contents of "parts" and of "objects" of a scene's */
-SceneView
-viewOfScene (const std::string& background, const std::string& objects, const Eigen::Vector3d& eye,
-             const Eigen::Vector3d& look_at);
+SceneView viewOfScene (const std::string& background, const std::string& objects, const Eigen::Vector3d& eye,
+                       const Eigen::Vector3d& look_at);
 
-/** \brief A box on the table, upright. */
-std::string
-boxOnTable (int id, const Eigen::Vector3d& size, const Eigen::Vector3d& foot, double yaw_deg);
+/** \brief A box on the table, vertical. */
+std::string boxOnTable (int id, const Eigen::Vector3d& size, const Eigen::Vector3d& foot, double yaw_deg);
 
-} // namespace test
-} // namespace cosection
-} // namespace pcl
+} // namespace pcl::cosection::test

@@ -39,8 +39,8 @@ TEST (ObjectSegmentationData, ObjectsOfTheDatabase)
       truth.push_back (p.label);
       valid.push_back (std::isfinite (p.z));
     }
-    const ObjectSegmentation found =
-        segmentObjects (points, static_cast<int> (cloud.width), static_cast<int> (cloud.height));
+    const ObjectSegmentation found = segmentObjects (points, static_cast<int> (cloud.width),
+                                                     static_cast<int> (cloud.height));
     const LabelComparison comparison = compareLabels (truth, found.labels, valid);
     EXPECT_LE (comparison.background_pixels, 2000u) << entry.path ();
     EXPECT_GE (comparison.mean_iou, 0.8) << entry.path ();

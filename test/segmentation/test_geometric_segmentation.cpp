@@ -36,10 +36,7 @@ protected:
       (*cloud_)[i].getVector3fMap () = view.points[i];
   }
 
-  ~PclSegmentation () override
-  {
-    pcl::console::setVerbosityLevel (pcl::console::L_INFO);
-  }
+  ~PclSegmentation () override { pcl::console::setVerbosityLevel (pcl::console::L_INFO); }
 
   const Points::Ptr cloud_{new Points};
   GeometricSegmentation<pcl::PointXYZ> segmentation_;

@@ -32,8 +32,7 @@ constexpr Colour red = {255, 0, 0}, blue = {0, 0, 255};
 class Detector : public testing::TestWithParam<NetworkOutputForm>
 {
 protected:
-  InstanceDetectorOptions
-  write (const std::string& name, const std::string& bytes) const
+  InstanceDetectorOptions write (const std::string& name, const std::string& bytes) const
   {
     std::ofstream (folder_.file (name), std::ios::binary) << bytes;
     InstanceDetectorOptions options;
@@ -42,20 +41,19 @@ protected:
   }
 
   /** \brief A network that finds spots, with what its form does not tell. */
-  InstanceDetectorOptions
-  spotNetwork (NetworkOutputForm form, float brightest = 255.0f, bool fixed_size = true) const
+  InstanceDetectorOptions spotNetwork (NetworkOutputForm form, float brightest = 255.0f, bool fixed_size = true) const
   {
     if (form != NetworkOutputForm::DetectionOut)
       brightest /= 255.0f;
-    InstanceDetectorOptions options =
-        write ("spot.onnx", affineOnnx (SpotNetwork::width, SpotNetwork::height, SpotNetwork{form, brightest}.outputs (), fixed_size));
+    InstanceDetectorOptions options = write (
+        "spot.onnx",
+        affineOnnx (SpotNetwork::width, SpotNetwork::height, SpotNetwork{form, brightest}.outputs (), fixed_size));
     options.input_width = SpotNetwork::width;
     options.input_height = SpotNetwork::height;
     return (options);
   }
 
-  std::string
-  failure (const InstanceDetectorOptions& options, const Picture& picture = test::spotPicture (0, 0)) const
+  std::string failure (const InstanceDetectorOptions& options, const Picture& picture = test::spotPicture (0, 0)) const
   {
     try
     {
@@ -109,8 +107,10 @@ expectSpot (const std::vector<DetectedInstance>& found, const Picture& picture, 
   EXPECT_EQ (found[0].class_id, 2);
   EXPECT_NEAR (found[0].score, 0.9, 1e-5);
   const bool is_spot = form == NetworkOutputForm::Prototypes;
-  const std::vector<std::uint8_t> mask = inPicture (found[0], picture).pixels, expected = expectedMask (picture, !is_spot).pixels;
-  const double wrong = std::inner_product (mask.begin (), mask.end (), expected.begin (), 0.0, std::plus<> (), std::not_equal_to<> ());
+  const std::vector<std::uint8_t> mask = inPicture (found[0], picture).pixels,
+                                  expected = expectedMask (picture, !is_spot).pixels;
+  const double wrong = std::inner_product (mask.begin (), mask.end (), expected.begin (), 0.0, std::plus<> (),
+                                           std::not_equal_to<> ());
   const double pixels = std::accumulate (expected.begin (), expected.end (), 0.0);
   EXPECT_LE (wrong, is_spot ? 0.08 * pixels : 0.0); // interpolation between few cells rounds corners
 }
@@ -168,7 +168,8 @@ TEST_P (Detector, TakesTheSizeThatTheFileFixes)
 }
 
 INSTANTIATE_TEST_SUITE_P (Forms, Detector,
-                          testing::Values (NetworkOutputForm::DetectionOut, NetworkOutputForm::BoxList, NetworkOutputForm::Prototypes));
+                          testing::Values (NetworkOutputForm::DetectionOut, NetworkOutputForm::BoxList,
+                                           NetworkOutputForm::Prototypes));
 
 TEST_F (Detector, ElseTakesTheImagesSizeUnlessItIsAOneStageNetwork)
 {
@@ -207,7 +208,8 @@ TEST_F (Detector, SubtractsTheMeanAndScales)
       outputs[0].bias << 0, 0, 8, 8;
       outputs[2].weights (0, channel * SpotNetwork::width * SpotNetwork::height) = 1.0f; // the first pixel is the score
       outputs[2].bias.setZero ();
-      InstanceDetectorOptions options = write ("score.onnx", affineOnnx (SpotNetwork::width, SpotNetwork::height, outputs));
+      InstanceDetectorOptions options = write ("score.onnx",
+                                               affineOnnx (SpotNetwork::width, SpotNetwork::height, outputs));
       options.mean = mean;
       options.scale = 0.005;
       options.blue_first = blue_first;
@@ -240,16 +242,16 @@ TEST_F (Detector, ReadsTensorFlow)
   const SpotNetwork network{NetworkOutputForm::BoxList};
   std::vector<test::AffineOutput> outputs = network.outputs ();
   outputs[3].shape.erase (outputs[3].shape.begin ());
-  const InstanceDetectorOptions options =
-      write ("spot.pb", affineTensorflow (SpotNetwork::width, SpotNetwork::height, outputs));
+  const InstanceDetectorOptions options = write ("spot.pb",
+                                                 affineTensorflow (SpotNetwork::width, SpotNetwork::height, outputs));
   const Picture picture = test::spotPicture (8, 6);
   expectSpot (InstanceDetector (options).detect (picture), picture, network.form);
 }
 
 TEST_F (Detector, SaysWhatIsWrongWithAModel)
 {
-  const std::string good =
-      affineOnnx (SpotNetwork::width, SpotNetwork::height, SpotNetwork{NetworkOutputForm::BoxList}.outputs ());
+  const std::string good = affineOnnx (SpotNetwork::width, SpotNetwork::height,
+                                       SpotNetwork{NetworkOutputForm::BoxList}.outputs ());
   InstanceDetectorOptions options;
   EXPECT_NE (failure (options).find (".onnx"), std::string::npos);
   options.model = "model.pt";
@@ -257,7 +259,8 @@ TEST_F (Detector, SaysWhatIsWrongWithAModel)
   options.model = folder_.file ("absent.onnx");
   EXPECT_NE (failure (options).find ("absent.onnx"), std::string::npos);
   for (const char* const name : {"bad.onnx", "bad.pb"})
-    for (const std::string& bytes : {std::string (), std::string ("no network\n"), good.substr (0, good.size () / 2), good.substr (0, 60)})
+    for (const std::string& bytes :
+         {std::string (), std::string ("no network\n"), good.substr (0, good.size () / 2), good.substr (0, 60)})
       EXPECT_EQ (failure (write (name, bytes)).find (folder_.file (name)), 0u) << name << ' ' << bytes.size ();
   options = write ("good.onnx", good);
   options.config = "graph.pbtxt";

@@ -34,14 +34,14 @@ const std::vector<DetectedInstance> table_scene = {
 std::size_t
 count (const InstanceLabels& labelled, std::uint16_t label)
 {
-  return (static_cast<std::size_t> (std::count (labelled.labels.pixels.begin (), labelled.labels.pixels.end (), label)));
+  return (
+      static_cast<std::size_t> (std::count (labelled.labels.pixels.begin (), labelled.labels.pixels.end (), label)));
 }
 
 class ClassNames : public testing::Test
 {
 protected:
-  std::string
-  write (const std::string& text) const
+  std::string write (const std::string& text) const
   {
     std::ofstream (folder_.file ("names"), std::ios::binary) << text;
     return (folder_.file ("names"));
@@ -78,7 +78,8 @@ TEST (InstanceLabels, RolesOfClasses)
   EXPECT_EQ (labelled.labels.at (10, 4), ignored_label);
   EXPECT_EQ (labelled.labels.at (9, 4), 1); // the bottle is more certain than the person
   EXPECT_EQ (count (labelled, ignored_label), 48u);
-  EXPECT_EQ (labelInstances (table_scene, labels_width, labels_height).instances, std::vector<std::size_t>{0}); // the table has everything
+  EXPECT_EQ (labelInstances (table_scene, labels_width, labels_height).instances,
+             std::vector<std::size_t>{0}); // the table has everything
 }
 
 TEST (InstanceLabels, WhatIsHiddenHasNoLabel)
@@ -101,13 +102,14 @@ TEST (InstanceLabels, PixelsWithoutReadingsHaveNone)
   const InstanceLabels labelled = labelInstances (table_scene, labels_width, labels_height, roles, readings);
   EXPECT_EQ (labelled.instances, std::vector<std::size_t>{2}); // nothing is left of the cup
   EXPECT_EQ (count (labelled, 1), 24u);
-  EXPECT_THROW (labelInstances (table_scene, labels_width, labels_height, roles, Image<std::uint8_t> (labels_width, 1)), InvalidArgument);
+  EXPECT_THROW (labelInstances (table_scene, labels_width, labels_height, roles, Image<std::uint8_t> (labels_width, 1)),
+                InvalidArgument);
 }
 
 TEST (InstanceLabels, MasksMayReachBeyondTheImage)
 {
-  const InstanceLabels labelled = labelInstances ({block (1, "a", 0.6f, -3, -2, 5, 5), block (1, "a", 0.6f, 18, 8, 50, 50)},
-                                                  labels_width, labels_height);
+  const InstanceLabels labelled = labelInstances (
+      {block (1, "a", 0.6f, -3, -2, 5, 5), block (1, "a", 0.6f, 18, 8, 50, 50)}, labels_width, labels_height);
   EXPECT_EQ (count (labelled, 1), 6u);
   EXPECT_EQ (count (labelled, 2), 4u);
   EXPECT_TRUE (labelInstances ({}, labels_width, labels_height).instances.empty ());

@@ -53,13 +53,9 @@ protected:
     segmentation_.setInputCloud (cloud_);
   }
 
-  ~Segmentation () override
-  {
-    pcl::console::setVerbosityLevel (pcl::console::L_INFO);
-  }
+  ~Segmentation () override { pcl::console::setVerbosityLevel (pcl::console::L_INFO); }
 
-  void
-  expectNothing ()
+  void expectNothing ()
   {
     segmentation_.segment (labels_, label_indices_);
     EXPECT_TRUE (labels_.empty ());

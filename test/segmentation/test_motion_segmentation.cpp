@@ -30,8 +30,7 @@ struct Found
   std::vector<std::uint32_t> labels;
   LabelComparison comparison;
 
-  std::set<std::uint32_t>
-  bodies () const
+  std::set<std::uint32_t> bodies () const
   {
     std::set<std::uint32_t> numbers (labels.begin (), labels.end ());
     numbers.erase (0);
@@ -40,8 +39,7 @@ struct Found
   }
 
   /** \brief Pixels that are at rest and are found to move. */
-  long
-  wrong () const
+  long wrong () const
   {
     long count = 0;
     for (std::size_t i = 0; i < labels.size (); ++i)
@@ -117,7 +115,8 @@ TEST (MotionSegmentation, PushedSideways)
 
 TEST (MotionSegmentation, OnlyTheCameraMoves)
 {
-  const MovingTable table (resting + movingBox (2, carton, R"({"position": [-0.2, -0.1, 0.051], "rpy_deg": [0, 0, 20]})"),
+  const MovingTable table (resting +
+                               movingBox (2, carton, R"({"position": [-0.2, -0.1, 0.051], "rpy_deg": [0, 0, 20]})"),
                            R"({"time": 0, "position": [-0.4, -0.9, 0.7], "look_at": [0, 0, 0.05]},
                               {"time": 2, "position": [0.5, -0.7, 0.5], "look_at": [0.1, 0, 0.05]})");
   for (const int last : {20, 40, 58})
@@ -251,7 +250,8 @@ TEST (MotionSegmentation, WhatMovesAsAKnownBodyIsAPartOfIt)
   const LabelComparison comparison = compareLabels (view.labels, labels, view.valid);
   EXPECT_GE (comparison.best_iou.at (2), 0.8);
   EXPECT_GT (std::count (labels.begin (), labels.end (), 7u), 0);
-  EXPECT_EQ (std::count_if (labels.begin (), labels.end (), [] (std::uint32_t label) { return label != 0 && label != 7; }), 0);
+  EXPECT_EQ (
+      std::count_if (labels.begin (), labels.end (), [] (std::uint32_t label) { return label != 0 && label != 7; }), 0);
 }
 
 TEST (MotionSegmentation, AnyNumberOfThreads)
@@ -311,7 +311,9 @@ TEST (MotionSegmentation, WrongInput)
   finder.add (good);
   refused ([] (MotionFrame& frame) { frame.points.pop_back (); });
   refused ([] (MotionFrame& frame) { frame.camera.fx = 0.0; });
-  refused ([] (MotionFrame& frame) { frame.points.assign (frame.points.size (), Eigen::Vector3f::Constant (not_a_number)); });
+  refused ([] (MotionFrame& frame) {
+    frame.points.assign (frame.points.size (), Eigen::Vector3f::Constant (not_a_number));
+  });
   refused ([] (MotionFrame& frame) { frame.bodies.assign (3, 0); });
   refused ([] (MotionFrame& frame) { frame.expected_depth.assign (3, 0.0f); });
   refused ([] (MotionFrame& frame) { frame.T_world_sensor.translation ().x () = not_a_number; });

@@ -34,7 +34,8 @@ output (const std::string& name, const std::vector<int>& shape, float value = 0.
 std::vector<NetworkOutput>
 oneStage (int candidates)
 {
-  std::vector<NetworkOutput> outputs = {output ("proposals", {1, 9, candidates}), output ("prototypes", {1, 2, 12, 16}, 8.0f)};
+  std::vector<NetworkOutput> outputs = {output ("proposals", {1, 9, candidates}),
+                                        output ("prototypes", {1, 2, 12, 16}, 8.0f)};
   std::fill (outputs[1].values.begin () + 12 * 16, outputs[1].values.end (), -8.0f);
   return (outputs);
 }
@@ -107,8 +108,8 @@ TEST (NetworkOutputs, CandidatesMayStandInRows)
 TEST (NetworkOutputs, MasksAreInterpolatedBetweenTheMiddlesOfCells)
 {
   // A ramp of 4 cells over 32 pixels: the middles of cells are at 4, 12, 20, 28; 0.5 is reached at 16.
-  std::vector<NetworkOutput> outputs = {output ("boxes", {1, 4}), output ("labels", {1}, 1.0f), output ("scores", {1}, 1.0f),
-                                        output ("masks", {1, 1, 1, 4})};
+  std::vector<NetworkOutput> outputs = {output ("boxes", {1, 4}), output ("labels", {1}, 1.0f),
+                                        output ("scores", {1}, 1.0f), output ("masks", {1, 1, 1, 4})};
   outputs[0].values = {8, 8, 40, 16};
   outputs[3].values = {0.125f, 0.375f, 0.625f, 0.875f};
   const std::vector<DetectedInstance> found = decodeInstances (outputs, same_size);
@@ -137,8 +138,8 @@ TEST (NetworkOutputs, MasksMayCoverTheInput)
 
 TEST (NetworkOutputs, NamesTellLabelsFromScores)
 {
-  std::vector<NetworkOutput> outputs = {output ("boxes", {1, 4}), output ("masks", {1, 1, 2, 2}, 1.0f), output ("scores", {1, 1}, 0.75f),
-                                        output ("labels", {1, 1}, 5.0f)};
+  std::vector<NetworkOutput> outputs = {output ("boxes", {1, 4}), output ("masks", {1, 1, 2, 2}, 1.0f),
+                                        output ("scores", {1, 1}, 0.75f), output ("labels", {1, 1}, 5.0f)};
   outputs[0].values = {0, 0, 8, 8};
   EXPECT_EQ (outputForm (outputs), NetworkOutputForm::BoxList);
   const std::vector<DetectedInstance> found = decodeInstances (outputs, same_size);
@@ -152,7 +153,9 @@ TEST (NetworkOutputs, NothingFoundIsNoError)
   EXPECT_TRUE (decodeInstances ({output ("d", {1, 1, 0, 7}), output ("m", {0, 90, 15, 15})}, same_size).empty ());
   EXPECT_TRUE (decodeInstances ({output ("d", {1, 1, 100, 7}), output ("m", {100, 90, 2, 2})}, same_size).empty ());
   EXPECT_TRUE (
-      decodeInstances ({output ("b", {0, 4}), output ("l", {0}), output ("s", {0}), output ("m", {0, 1, 28, 28})}, same_size).empty ());
+      decodeInstances ({output ("b", {0, 4}), output ("l", {0}), output ("s", {0}), output ("m", {0, 1, 28, 28})},
+                       same_size)
+          .empty ());
   EXPECT_TRUE (decodeInstances (oneStage (100), same_size).empty ());
 }
 
@@ -182,13 +185,15 @@ TEST (NetworkOutputs, WhatIsOutsideOrNotFiniteIsLeftOut)
 
 TEST (NetworkOutputs, OfNoKnownFormIsAnError)
 {
-  const auto refused = [] (const std::vector<NetworkOutput>& outputs) { EXPECT_THROW (outputForm (outputs), InvalidArgument); };
+  const auto refused = [] (const std::vector<NetworkOutput>& outputs) {
+    EXPECT_THROW (outputForm (outputs), InvalidArgument);
+  };
   refused ({});
-  refused ({output ("boxes", {1, 84, 8400})});                                        // no masks
-  refused ({output ("a", {1, 36, 100}), output ("b", {1, 32, 8, 8})});                // no class
-  refused ({output ("a", {1, 36, 100}), output ("b", {1, 0, 8, 8})});                 // no prototype
-  refused ({output ("a", {2, 116, 100}), output ("b", {2, 32, 8, 8})});               // two images
-  refused ({output ("a", {1, 1, 5, 7}), output ("b", {4, 9, 8, 8})});                 // fewer masks
+  refused ({output ("boxes", {1, 84, 8400})});                          // no masks
+  refused ({output ("a", {1, 36, 100}), output ("b", {1, 32, 8, 8})});  // no class
+  refused ({output ("a", {1, 36, 100}), output ("b", {1, 0, 8, 8})});   // no prototype
+  refused ({output ("a", {2, 116, 100}), output ("b", {2, 32, 8, 8})}); // two images
+  refused ({output ("a", {1, 1, 5, 7}), output ("b", {4, 9, 8, 8})});   // fewer masks
   refused ({output ("a", {5, 4}), output ("b", {5}), output ("c", {4}), output ("d", {5, 1, 8, 8})});
   std::vector<NetworkOutput> outputs = oneStage (20);
   outputs[0].values.pop_back (); // not what the shape says

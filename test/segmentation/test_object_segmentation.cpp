@@ -73,7 +73,7 @@ TEST (ObjectSegmentation, InsideOfACup)
   expectFound (viewOfTable (cup, {-0.1, -0.5, 0.5}), 0.9);
 }
 
-TEST (ObjectSegmentation, ADifferentUpright)
+TEST (ObjectSegmentation, ADifferentVertical)
 {
   // Nothing is said about where is up: the same view, turned by half a revolution.
   SceneView view = viewOfTable (boxOnTable (1, {0.10, 0.10, 0.12}, {-0.2, 0, 0}, 20) +
@@ -135,10 +135,11 @@ TEST (ObjectSegmentation, NothingToStandOn)
   EXPECT_THROW (segmentObjects (points, 64, 48), DegenerateInput);
   for (int i = 0; i < 64 * 48; ++i) // a ball
   {
-    const Eigen::Vector3f ray =
-        Eigen::Vector3f (static_cast<float> (i % 64 - 32), static_cast<float> (i / 64 - 24), 60).normalized ();
+    const Eigen::Vector3f ray = Eigen::Vector3f (static_cast<float> (i % 64 - 32), static_cast<float> (i / 64 - 24), 60)
+                                    .normalized ();
     const float b = ray.z () * 0.5f, c = 0.25f - 0.01f;
-    points[i] = b * b > c ? Eigen::Vector3f (ray * (b - std::sqrt (b * b - c))) : Eigen::Vector3f::Constant (not_a_number);
+    points[i] = b * b > c ? Eigen::Vector3f (ray * (b - std::sqrt (b * b - c)))
+                          : Eigen::Vector3f::Constant (not_a_number);
   }
   EXPECT_THROW (segmentObjects (points, 64, 48), DegenerateInput);
   EXPECT_THROW (segmentObjects (std::vector<Eigen::Vector3f> (64 * 48, Eigen::Vector3f::Zero ()), 64, 48),

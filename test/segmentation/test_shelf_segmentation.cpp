@@ -116,10 +116,11 @@ TEST (ShelfSegmentation, ALegThatTheBorderCutsIsNoObject)
 {
   // Less of it is in view than an object may be long, but it goes on to the floor.
   const std::string desk = R"({"type": "room", "size": [3, 2, 2.5], "position": [0, -0.4, 1.25]}, )" +
-                           boxAt ({1.4, 0.7, 0.03}, {0, 0.25, 0.735}) + ", " + boxAt ({0.05, 0.05, 0.72}, {-0.65, -0.05, 0.36}) +
-                           ", " + boxAt ({0.05, 0.05, 0.72}, {0.65, -0.05, 0.36});
-  const SceneView view =
-      viewOfScene (desk, boxOnTable (1, {0.4, 0.14, 0.05}, {-0.1, 0.1, 0.75}, 3), {-0.3, -0.95, 1.25}, {0, 0.1, 0.78});
+                           boxAt ({1.4, 0.7, 0.03}, {0, 0.25, 0.735}) + ", " +
+                           boxAt ({0.05, 0.05, 0.72}, {-0.65, -0.05, 0.36}) + ", " +
+                           boxAt ({0.05, 0.05, 0.72}, {0.65, -0.05, 0.36});
+  const SceneView view = viewOfScene (desk, boxOnTable (1, {0.4, 0.14, 0.05}, {-0.1, 0.1, 0.75}, 3),
+                                      {-0.3, -0.95, 1.25}, {0, 0.1, 0.78});
   expectFoundOnShelf (view, 0.85, 1200);
 }
 
@@ -128,16 +129,16 @@ TEST (ShelfSegmentation, FlushWithTheEdgeOfATable)
   // Readings of its front alternate between its plane and that of the table's edge.
   const std::string desk = R"({"type": "room", "size": [3, 2, 2.5], "position": [0, -0.4, 1.25]}, )" +
                            boxAt ({1.4, 0.7, 0.03}, {0, 0.25, 0.735});
-  const SceneView view =
-      viewOfScene (desk, boxOnTable (1, {0.22, 0.15, 0.05}, {0.3, -0.025, 0.75}, 0), {0.2, -0.8, 1.0}, {0, 0.1, 0.8});
+  const SceneView view = viewOfScene (desk, boxOnTable (1, {0.22, 0.15, 0.05}, {0.3, -0.025, 0.75}, 0),
+                                      {0.2, -0.8, 1.0}, {0, 0.1, 0.8});
   expectFoundOnShelf (view, 0.5, 1200);
 }
 
 TEST (ShelfSegmentation, AnyNumberOfThreads)
 {
-  const SceneView view =
-      viewOfScene (shelf ({0.1, 0.45, 0.8}), boxOnTable (1, {0.12, 0.08, 0.2}, {-0.4, -0.02, 0.46}, 0), {0, -1.3, 0.75},
-                   {0, 0, 0.45});
+  const SceneView view = viewOfScene (shelf ({0.1, 0.45, 0.8}),
+                                      boxOnTable (1, {0.12, 0.08, 0.2}, {-0.4, -0.02, 0.46}, 0), {0, -1.3, 0.75},
+                                      {0, 0, 0.45});
   ObjectSegmentationOptions options;
   options.threads = 1;
   const ObjectSegmentation one = segmentObjects (view.points, view.width, view.height, options);

@@ -20,8 +20,7 @@ const PinholeCamera camera{200, 150, 250.0, 250.0, 99.5, 74.5};
 /** \brief A wall at \a z, turned about the vertical by \a angle, and its normals. */
 struct Wall
 {
-  explicit Wall (double z, double angle = 0.0)
-  : depth (camera.width, camera.height), normals (depth.pixels.size ())
+  explicit Wall (double z, double angle = 0.0) : depth (camera.width, camera.height), normals (depth.pixels.size ())
   {
     const Eigen::Vector3d n (std::sin (angle), 0.0, -std::cos (angle));
     for (int v = 0; v < camera.height; ++v)
@@ -51,7 +50,8 @@ only ()
 double
 missingShare (const Image<float>& image)
 {
-  return static_cast<double> (std::count_if (image.pixels.begin (), image.pixels.end (), [] (float z) { return !std::isfinite (z); })) /
+  return static_cast<double> (
+             std::count_if (image.pixels.begin (), image.pixels.end (), [] (float z) { return !std::isfinite (z); })) /
          static_cast<double> (image.pixels.size ());
 }
 
@@ -82,7 +82,8 @@ TEST (DepthNoise, AxialNoiseGrowsWithTheSquareOfTheDepth)
   {
     const Wall wall (z);
     const double expected = z * z / (camera.fx * noise.baseline_m) * noise.disparity_sigma_px;
-    EXPECT_NEAR (deviation (measureDepth (wall.depth, wall.normals, camera, noise, 1, 0), wall.depth) / expected, 1.0, 0.05);
+    EXPECT_NEAR (deviation (measureDepth (wall.depth, wall.normals, camera, noise, 1, 0), wall.depth) / expected, 1.0,
+                 0.05);
   }
 }
 
@@ -117,7 +118,8 @@ TEST (DepthNoise, LateralNoiseMovesEdgesByAPixelOrTwo)
       const bool other = std::abs (measured.at (u, v) - wall.depth.at (u, v)) > 0.5;
       moved += other;
       EXPECT_TRUE (!other || std::abs (u - 99.5) < 3.0) << u;
-      EXPECT_TRUE (std::abs (measured.at (u, v) - 1.0f) < 1e-6 || std::abs (measured.at (u, v) - 2.0f) < 1e-6); // nothing between
+      EXPECT_TRUE (std::abs (measured.at (u, v) - 1.0f) < 1e-6 ||
+                   std::abs (measured.at (u, v) - 2.0f) < 1e-6); // nothing between
     }
   EXPECT_GT (moved, camera.height / 20);
 }
@@ -210,7 +212,10 @@ TEST (DepthNoise, WrongParametersAreRefused)
   refused ([] (DepthNoise& n) { n.baseline_m = 0.0; });
   refused ([] (DepthNoise& n) { n.disparity_sigma_px = -1.0; });
   refused ([] (DepthNoise& n) { n.dropout = 1.5; });
-  refused ([] (DepthNoise& n) { n.grazing_begin_rad = 1.56; n.grazing_end_rad = 1.2; });
+  refused ([] (DepthNoise& n) {
+    n.grazing_begin_rad = 1.56;
+    n.grazing_end_rad = 1.2;
+  });
   refused ([] (DepthNoise& n) { n.max_m = n.min_m; });
   refused ([] (DepthNoise& n) { n.lateral_sigma_px = std::nan (""); });
 }

@@ -77,7 +77,8 @@ TEST (KeyedRotation, TurnsAboutAFixedAxisAsAnAngle)
 TEST (KeyedRotation, IsSmoothAcrossKeysOfDifferentAxes)
 {
   const std::vector<double> times{0.0, 1.0, 1.7, 3.0};
-  const std::vector<Eigen::Quaterniond> values{turn (0, {1, 0, 0}), turn (50, {1, 0.5, 0.3}), turn (95, {0.8, 0.7, 0.5}), turn (140, {0.4, 1, 1})};
+  const std::vector<Eigen::Quaterniond> values{turn (0, {1, 0, 0}), turn (50, {1, 0.5, 0.3}),
+                                               turn (95, {0.8, 0.7, 0.5}), turn (140, {0.4, 1, 1})};
   const KeyedRotation rotation (times, values);
   constexpr double h = 1e-5;
   double speed = 0.0;
@@ -95,20 +96,22 @@ TEST (KeyedRotation, IsSmoothAcrossKeysOfDifferentAxes)
 TEST (KeyedRotation, TurnsNoFartherThanItsKeys)
 {
   const std::vector<double> times{0.0, 0.2, 3.0, 3.1};
-  const std::vector<Eigen::Quaterniond> values{turn (0, {0, 0, 1}), turn (80, {0, 0, 1}), turn (90, {0.1, 0, 1}), turn (170, {0.3, 0.2, 1})};
+  const std::vector<Eigen::Quaterniond> values{turn (0, {0, 0, 1}), turn (80, {0, 0, 1}), turn (90, {0.1, 0, 1}),
+                                               turn (170, {0.3, 0.2, 1})};
   const KeyedRotation rotation (times, values);
   for (std::size_t n = 0; n + 1 < times.size (); ++n)
   {
     const double whole = values[n].angularDistance (values[n + 1]);
     for (int s = 0; s <= 50; ++s)
-      EXPECT_LE (values[n].angularDistance (rotation.at (times[n] + (times[n + 1] - times[n]) * s / 50.0)), whole + 1e-9);
+      EXPECT_LE (values[n].angularDistance (rotation.at (times[n] + (times[n + 1] - times[n]) * s / 50.0)),
+                 whole + 1e-9);
   }
 }
 
 TEST (KeyedMotion, LooksAtItsTarget)
 {
-  const KeyedMotion motion (KeyedVector ({0.0, 2.0}, {{1, 0, 1}, {0, 1, 1}}), KeyedVector ({0.0, 2.0}, {{0, 0, 0}, {0, 0, 0.5}}),
-                            Eigen::Vector3d::UnitZ ());
+  const KeyedMotion motion (KeyedVector ({0.0, 2.0}, {{1, 0, 1}, {0, 1, 1}}),
+                            KeyedVector ({0.0, 2.0}, {{0, 0, 0}, {0, 0, 0.5}}), Eigen::Vector3d::UnitZ ());
   for (const double t : {0.0, 0.7, 2.0})
   {
     const Eigen::Isometry3d T = motion.at (t);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_cosection authors
+#include "pcl_cosection/simulation/penetration_check.h"
 #include <pcl/cosection/common/error.h>
-#include <pcl/cosection/simulation/penetration_check.h>
 #include <pcl/cosection/simulation/scene_renderer.h>
 #include <pcl/cosection/simulation/scene_spec.h>
 
@@ -23,7 +23,8 @@ bodyOf (int id, std::vector<BodyPart> parts, const Eigen::Isometry3d& T = Eigen:
 Eigen::Isometry3d
 at (double x, double y, double z, double turn = 0.0)
 {
-  return Eigen::Isometry3d (Eigen::Translation3d (x, y, z) * Eigen::AngleAxisd (turn, Eigen::Vector3d (1, 2, 3).normalized ()));
+  return Eigen::Isometry3d (Eigen::Translation3d (x, y, z) *
+                            Eigen::AngleAxisd (turn, Eigen::Vector3d (1, 2, 3).normalized ()));
 }
 
 /** \brief Depth of a sphere along the ray of a pixel; NaN if there is none. */
@@ -118,8 +119,9 @@ TEST (SceneRenderer, DepthOfAMeshIsThatOfItsTriangles)
 TEST (SceneRenderer, NearerBodiesHideOthers)
 {
   SimulatedScene scene;
-  scene.bodies = {bodyOf (0, {{makeHalfSpace (20.0), at (0, 0, 3) * Eigen::AngleAxisd (M_PI, Eigen::Vector3d::UnitX ())}}),
-                  bodyOf (1, {{makeSphere (0.2)}}, at (0, 0, 1.5)), bodyOf (300, {{makeSphere (0.1)}}, at (0, 0, 1.0))};
+  scene.bodies = {
+      bodyOf (0, {{makeHalfSpace (20.0), at (0, 0, 3) * Eigen::AngleAxisd (M_PI, Eigen::Vector3d::UnitX ())}}),
+      bodyOf (1, {{makeSphere (0.2)}}, at (0, 0, 1.5)), bodyOf (300, {{makeSphere (0.1)}}, at (0, 0, 1.0))};
   const SimulatedFrame frame = SceneRenderer (scene).render (0.0);
   EXPECT_EQ (frame.mask.at (320, 240), 300);
   EXPECT_NEAR (frame.depth.at (320, 240), 0.9, 1e-3);
@@ -143,7 +145,8 @@ TEST (PenetrationCheck, FindsHowDeepAndWhen)
   SceneBody ball = bodyOf (2, {{makeSphere (0.05)}});
   ball.motion = KeyedMotion (KeyedVector ({0.0, 1.0}, {{0.2, 0, 0.05}, {0.09, 0, 0.05}}),
                              KeyedRotation ({0.0}, {Eigen::Quaterniond::Identity ()}));
-  scene.bodies = {bodyOf (0, {{makeHalfSpace (5.0)}}), bodyOf (1, {{makeBox ({0.1, 0.1, 0.1})}}, at (0, 0, 0.05)), ball};
+  scene.bodies = {bodyOf (0, {{makeHalfSpace (5.0)}}), bodyOf (1, {{makeBox ({0.1, 0.1, 0.1})}}, at (0, 0, 0.05)),
+                  ball};
   const std::vector<ScenePenetration> found = findPenetrations (scene);
   ASSERT_EQ (found.size (), 1u);
   EXPECT_EQ (found[0].first, "body1");
@@ -157,7 +160,8 @@ TEST (PenetrationCheck, FindsHowDeepAndWhen)
 TEST (PenetrationCheck, FindsThinBoardsThatCross)
 {
   SimulatedScene scene;
-  scene.bodies = {bodyOf (0, {}), bodyOf (1, {{makeBox ({2.0, 2.0, 0.003})}}), bodyOf (2, {{makeBox ({2.0, 0.003, 2.0})}})};
+  scene.bodies = {bodyOf (0, {}), bodyOf (1, {{makeBox ({2.0, 2.0, 0.003})}}),
+                  bodyOf (2, {{makeBox ({2.0, 0.003, 2.0})}})};
   EXPECT_EQ (findPenetrations (scene).size (), 1u);
 }
 
@@ -165,7 +169,8 @@ TEST (PenetrationCheck, LongThinTrianglesAreNoWorkMore)
 {
   SimulatedScene scene;
   const Shape::ConstPtr pipe = makeCylinder (0.025, 1.0);
-  scene.bodies = {bodyOf (0, {}), bodyOf (1, {{makeMeshShape (pipe->tessellate (1e-9))}}), bodyOf (2, {{makeSphere (0.02)}}, at (0.1, 0, 0))};
+  scene.bodies = {bodyOf (0, {}), bodyOf (1, {{makeMeshShape (pipe->tessellate (1e-9))}}),
+                  bodyOf (2, {{makeSphere (0.02)}}, at (0.1, 0, 0))};
   EXPECT_TRUE (findPenetrations (scene).empty ());
   const ProgressCallback stop = [] (const std::string&, double) { return false; };
   EXPECT_THROW (findPenetrations (scene, {}, stop), Cancelled);

@@ -76,7 +76,8 @@ TEST (SceneSpec, EveryMistakeIsNamed)
   const std::string sphere = R"("type": "sphere", "radius": 0.1)";
   const std::vector<std::array<std::string, 3>> cases = {
       {"\"objects\"", "\"objekts\"", "lacks the field \"objects\""},
-      {"\"objects\"", "\"frame\": 3, \"objects\"", "has the unknown field \"frame\"; its fields are background, camera"},
+      {"\"objects\"", "\"frame\": 3, \"objects\"",
+       "has the unknown field \"frame\"; its fields are background, camera"},
       {"\"radius\"", "\"radious\"", "objects[0].shape lacks the field \"radius\""},
       {sphere, sphere + ", \"size\": 3", "objects[0].shape has the unknown field \"size\""},
       {"0.1}", "-0.1}", "objects[0].shape is not right: radius must be a positive number"},
@@ -89,26 +90,31 @@ TEST (SceneSpec, EveryMistakeIsNamed)
       {"\"width\": 64", "\"width\": 64, \"fx\": 1e300", "camera has an impossible fx"},
       {"\"width\": 64", "\"width\": 64, \"cx\": 5000", "camera has a principal point cx, cy far outside the image"},
       {"[0, 0, 0]", "[0, -1, 0.5]", "camera.keys are not right: look_at is where the camera is"},
-      {"\"look_at\": [0, 0, 0]", "\"look_at\": [0, 0, 0], \"rpy_deg\": [0, 0, 0]", "camera.keys[0] has both look_at and a rotation"},
+      {"\"look_at\": [0, 0, 0]", "\"look_at\": [0, 0, 0], \"rpy_deg\": [0, 0, 0]",
+       "camera.keys[0] has both look_at and a rotation"},
       {"\"name\": \"ball\"", "\"name\": \"a/b\"", "\"a/b\" is no name for an object"},
       {"\"name\": \"ball\"", "\"name\": \"room\"", "an object must not be called room"},
       {"\"name\": \"ball\"", "\"name\": \"cam\"", "an object must not be called cam"},
       {"\"name\": \"ball\"", "\"name\": \"..\"", "\"..\" is no name for an object"},
       {"\"name\": \"ball\"", "\"name\": \"a\\u0000b\"", "\"a?b\" is no name for an object"},
       {"\"name\": \"ball\"", "\"name\": \"a\", \"name\": \"b\"", "has the field \"name\" twice in one object"},
-      {"\"objects\"", "\"background\": {\"name\": \"wall\", \"parts\": []}, \"objects\"", "the background is called wall"},
+      {"\"objects\"", "\"background\": {\"name\": \"wall\", \"parts\": []}, \"objects\"",
+       "the background is called wall"},
       {"\"name\": \"ball\"", "\"id\": 0", "objects[0].id must be a whole number from 1 to 65534"},
       {"\"name\": \"ball\"", "\"colour\": [1, 2, 300]", "objects[0].colour[2] must be a whole number from 0 to 255"},
       {"{\"position\": [0, 0, 0.1]}", "", "objects[0].keys must have at least 1 element"},
       {"{\"position\": [0, 0, 0.1]}", "{\"position\": [0, 0, 0]}, {\"position\": [0, 0, 1]}",
        "objects[0].keys are not right: keys: the time of key 1 is not after that of the key before"},
-      {"\"objects\"", "\"depth\": {\"noise\": {\"dropout\": 2}}, \"objects\"", "depth.noise is not right: dropout must be a probability"},
-      {"\"objects\"", "\"depth\": {\"format\": \"tiff\"}, \"objects\"", "depth.format is \"tiff\"; it must be one of png, exr"},
+      {"\"objects\"", "\"depth\": {\"noise\": {\"dropout\": 2}}, \"objects\"",
+       "depth.noise is not right: dropout must be a probability"},
+      {"\"objects\"", "\"depth\": {\"format\": \"tiff\"}, \"objects\"",
+       "depth.format is \"tiff\"; it must be one of png, exr"},
       {"\"objects\"", "\"frames\": 0, \"objects\"", "frames must be a whole number"},
       {"\"objects\"", "\"rate\": 0, \"objects\"", "rate must be a positive number"},
       {"\"objects\": [", "\"objects\": 3, \"x\": [", "objects must be a list"},
       {sphere, "\"type\": \"mesh\", \"file\": \"nowhere.ply\"", "nowhere.ply"},
-      {sphere, "\"type\": \"revolution\", \"profile\": [[0, 0], [1, 0]]", "objects[0].shape.profile must have at least 3 elements"},
+      {sphere, "\"type\": \"revolution\", \"profile\": [[0, 0], [1, 0]]",
+       "objects[0].shape.profile must have at least 3 elements"},
   };
   for (const auto& [what, with, message] : cases)
     if (message == "nowhere.ply")
@@ -124,7 +130,9 @@ TEST (SceneSpec, ACameraThatPassesWhatItLooksAtIsSaid)
   const std::string keys = "\"look_at\": [0, 0, 0]}, {\"time\": 1, \"position\": [0, 1, -0.5], \"look_at\": [0, 0, 0]}";
   std::string text = spec ("\"look_at\": [0, 0, 0]}", keys);
   text.replace (text.find ("\"objects\""), 9, "\"frames\": 3, \"rate\": 2, \"objects\"");
-  EXPECT_NE (errorOf (text).find ("camera.keys are not right: at frame 1, look_at is where the camera is"), std::string::npos) << errorOf (text);
+  EXPECT_NE (errorOf (text).find ("camera.keys are not right: at frame 1, look_at is where the camera is"),
+             std::string::npos)
+      << errorOf (text);
 }
 
 TEST (SceneSpec, NamesHaveADefault)

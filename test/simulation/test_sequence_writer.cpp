@@ -2,8 +2,8 @@
 // Copyright (c) 2026, the pcl_cosection authors
 #include "common/temporary_folder.h"
 
+#include "pcl_cosection/io/image_io.h"
 #include <pcl/cosection/common/error.h>
-#include <pcl/cosection/io/image_io.h>
 #include <pcl/cosection/io/mesh_io.h>
 #include <pcl/cosection/io/pcd_view.h>
 #include <pcl/cosection/io/trajectory.h>
@@ -38,7 +38,8 @@ smallScene ()
       {"name": "ball", "shape": {"type": "sphere", "radius": 0.1}, "keys": [{"position": [0, 0, 0.1]}, {"time": 1, "position": [0.1, 0, 0.1]}]},
       {"name": "box", "id": 9, "shape": {"type": "box", "size": [0.1, 0.1, 0.1]}, "keys": [{"position": [-0.2, 0.1, 0.05]}]}
     ]
-  })", "small");
+  })",
+                         "small");
 }
 
 std::map<std::string, std::string>
@@ -62,9 +63,10 @@ TEST (SequenceWriter, WritesTheLayout)
   const SimulatedScene scene = smallScene ();
   writeSequence (scene, folder.file ("out"));
   const auto files = contents (folder.file ("out"));
-  for (const char* name : {"calibration.txt", "scene.json", "colour/Color0000.png", "colour/Color0006.png", "depth_noise/Depth0003.png",
-                           "mask/Mask0006.png", "gt-cam-0.txt", "gt-ball-1.txt", "gt-box-9.txt", "gt-mesh/ball.ply", "gt-mesh/box.ply",
-                           "gt-mesh/room.ply", "views/View0000.pcd", "views/View0002.pcd", "views/gt-ball-1.txt"})
+  for (const char* name :
+       {"calibration.txt", "scene.json", "colour/Color0000.png", "colour/Color0006.png", "depth_noise/Depth0003.png",
+        "mask/Mask0006.png", "gt-cam-0.txt", "gt-ball-1.txt", "gt-box-9.txt", "gt-mesh/ball.ply", "gt-mesh/box.ply",
+        "gt-mesh/room.ply", "views/View0000.pcd", "views/View0002.pcd", "views/gt-ball-1.txt"})
     EXPECT_EQ (files.count (name), 1u) << name;
   EXPECT_EQ (files.size (), 2u + 3 * 7 + 3 + 3 + 3 + 3);
   EXPECT_EQ (files.at ("calibration.txt"), "78.75 78.75 47.5 35.5 96 72\n");
@@ -97,7 +99,8 @@ TEST (SequenceWriter, ViewsAreReadAsViews)
   EXPECT_EQ (view.objects.count (9), 1u);
   double sum = 0.0;
   for (const OrientedPoint& p : view.objects.at (1).points)
-    sum += std::abs (scene.bodies[1].distance (scene.bodies[1].motion.at (scene.timeOf (3)).inverse () * p.position.cast<double> ()));
+    sum += std::abs (scene.bodies[1].distance (scene.bodies[1].motion.at (scene.timeOf (3)).inverse () *
+                                               p.position.cast<double> ()));
   EXPECT_LE (sum / static_cast<double> (view.objects.at (1).points.size ()), 0.02);
 }
 
@@ -112,7 +115,8 @@ TEST (SequenceWriter, ExactDepthIsExact)
   const Image<float> truth = SceneRenderer (scene).render (0.0).depth;
   const Image<float> read = loadDepthImage (folder.file ("exr/depth/Depth0000.exr"));
   for (std::size_t n = 0; n < truth.pixels.size (); ++n)
-    ASSERT_TRUE (read.pixels[n] == truth.pixels[n] || (!std::isfinite (read.pixels[n]) && !std::isfinite (truth.pixels[n])));
+    ASSERT_TRUE (read.pixels[n] == truth.pixels[n] ||
+                 (!std::isfinite (read.pixels[n]) && !std::isfinite (truth.pixels[n])));
   scene.depth_format = DepthFormat::Png;
   scene.depth_scale = 5000.0;
   writeSequence (scene, folder.file ("png"));
@@ -159,7 +163,8 @@ TEST (SequenceWriter, LeavesNothingWhenItFails)
 {
   const test::TemporaryFolder folder;
   const SimulatedScene scene = smallScene ();
-  EXPECT_THROW (writeSequence (scene, folder.file ("out"), {}, [] (const std::string&, double f) { return f < 0.5; }), Cancelled);
+  EXPECT_THROW (writeSequence (scene, folder.file ("out"), {}, [] (const std::string&, double f) { return f < 0.5; }),
+                Cancelled);
   EXPECT_EQ (folder.entries (), 0u);
   SequenceOptions options;
   options.first = 7;

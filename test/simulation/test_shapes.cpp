@@ -25,7 +25,8 @@ struct Case
 };
 
 const Polygon2d cup{{0.0, 0.0}, {0.04, 0.0}, {0.04, 0.1}, {0.034, 0.1}, {0.034, 0.008}, {0.0, 0.008}};
-const Polygon2d star{{0.1, 0.0}, {0.03, 0.02}, {0.02, 0.09}, {-0.02, 0.02}, {-0.1, 0.0}, {-0.02, -0.03}, {0.04, -0.1}, {0.03, -0.02}};
+const Polygon2d star{{0.1, 0.0},  {0.03, 0.02},   {0.02, 0.09}, {-0.02, 0.02},
+                     {-0.1, 0.0}, {-0.02, -0.03}, {0.04, -0.1}, {0.03, -0.02}};
 
 double
 areaOf (const Polygon2d& p)
@@ -44,7 +45,8 @@ roundedBoxVolume (double x, double y, double z, double r)
 }
 
 double
-distanceToTriangle (const Eigen::Vector3d& p, const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c)
+distanceToTriangle (const Eigen::Vector3d& p, const Eigen::Vector3d& a, const Eigen::Vector3d& b,
+                    const Eigen::Vector3d& c)
 {
   const auto toSegment = [&p] (const Eigen::Vector3d& s, const Eigen::Vector3d& e) {
     const double t = std::clamp ((p - s).dot (e - s) / (e - s).squaredNorm (), 0.0, 1.0);
@@ -52,7 +54,8 @@ distanceToTriangle (const Eigen::Vector3d& p, const Eigen::Vector3d& a, const Ei
   };
   const Eigen::Vector3d n = (b - a).cross (c - a);
   const Eigen::Vector3d foot = p - n.dot (p - a) / n.squaredNorm () * n;
-  const bool inside = n.dot ((b - a).cross (foot - a)) >= 0 && n.dot ((c - b).cross (foot - b)) >= 0 && n.dot ((a - c).cross (foot - c)) >= 0;
+  const bool inside = n.dot ((b - a).cross (foot - a)) >= 0 && n.dot ((c - b).cross (foot - b)) >= 0 &&
+                      n.dot ((a - c).cross (foot - c)) >= 0;
   const double edges = std::min ({toSegment (a, b), toSegment (b, c), toSegment (c, a)});
   return inside ? std::min (edges, (p - foot).norm ()) : edges;
 }
@@ -61,16 +64,29 @@ class Shapes : public testing::TestWithParam<Case>
 {};
 
 const Case cases[] = {
-    {"Sphere", [] { return makeSphere (0.06); }, 4.0 / 3.0 * M_PI * std::pow (0.06, 3)},
-    {"Box", [] { return makeBox ({0.1, 0.06, 0.04}); }, 0.1 * 0.06 * 0.04},
-    {"RoundedBox", [] { return makeBox ({0.1, 0.06, 0.04}, 0.01); }, roundedBoxVolume (0.1, 0.06, 0.04, 0.01)},
-    {"Pill", [] { return makeBox ({0.1, 0.06, 0.04}, 0.02); }, roundedBoxVolume (0.1, 0.06, 0.04, 0.02)},
+    {"Sphere", [] { return makeSphere (0.06); }, 4.0 / 3.0 * M_PI* std::pow (0.06, 3)},
+    {"Box",
+     [] {
+       return makeBox ({0.1, 0.06, 0.04});
+     },
+     0.1 * 0.06 * 0.04},
+    {"RoundedBox",
+     [] {
+       return makeBox ({0.1, 0.06, 0.04}, 0.01);
+     },
+     roundedBoxVolume (0.1, 0.06, 0.04, 0.01)},
+    {"Pill",
+     [] {
+       return makeBox ({0.1, 0.06, 0.04}, 0.02);
+     },
+     roundedBoxVolume (0.1, 0.06, 0.04, 0.02)},
     {"Cylinder", [] { return makeCylinder (0.03, 0.1); }, M_PI * 0.03 * 0.03 * 0.1},
     {"Cone", [] { return makeCone (0.04, 0.0, 0.1); }, M_PI * 0.04 * 0.04 * 0.1 / 3.0},
     {"Funnel", [] { return makeCone (0.0, 0.04, 0.1); }, M_PI * 0.04 * 0.04 * 0.1 / 3.0},
-    {"Capsule", [] { return makeCapsule (0.02, 0.07); }, M_PI * 0.02 * 0.02 * 0.07 + 4.0 / 3.0 * M_PI * std::pow (0.02, 3)},
-    {"Torus", [] { return makeTorus (0.05, 0.015); }, 2.0 * M_PI * M_PI * 0.05 * 0.015 * 0.015},
-    {"Cup", [] { return makeRevolution (cup); }, M_PI * (0.04 * 0.04 * 0.1 - 0.034 * 0.034 * 0.092)},
+    {"Capsule", [] { return makeCapsule (0.02, 0.07); },
+     M_PI * 0.02 * 0.02 * 0.07 + 4.0 / 3.0 * M_PI* std::pow (0.02, 3)},
+    {"Torus", [] { return makeTorus (0.05, 0.015); }, 2.0 * M_PI* M_PI * 0.05 * 0.015 * 0.015},
+    {"Cup", [] { return makeRevolution (cup); }, M_PI*(0.04 * 0.04 * 0.1 - 0.034 * 0.034 * 0.092)},
     {"Star", [] { return makeExtrusion (star, 0.05); }, areaOf (star) * 0.05},
 };
 
@@ -103,8 +119,9 @@ TEST_P (Shapes, DistanceIsThatToTheSurface)
     const Eigen::Vector3d p (place (random), place (random), place (random));
     double nearest = 1.0;
     for (const auto& [a, b, c] : mesh.triangles)
-      nearest = std::min (nearest, distanceToTriangle (p, mesh.vertices[a].cast<double> (), mesh.vertices[b].cast<double> (),
-                                                       mesh.vertices[c].cast<double> ()));
+      nearest = std::min (nearest,
+                          distanceToTriangle (p, mesh.vertices[a].cast<double> (), mesh.vertices[b].cast<double> (),
+                                              mesh.vertices[c].cast<double> ()));
     EXPECT_NEAR (std::abs (shape->distance (p)), nearest, 1.5e-4) << p.transpose ();
   }
 }
@@ -126,7 +143,8 @@ TEST_P (Shapes, SignSaysWhatIsInside)
   EXPECT_NEAR (inside * std::pow (side / n, 3) / GetParam ().volume_m3, 1.0, 0.05);
 }
 
-INSTANTIATE_TEST_SUITE_P (Analytic, Shapes, testing::ValuesIn (cases), [] (const auto& info) { return info.param.name; });
+INSTANTIATE_TEST_SUITE_P (Analytic, Shapes, testing::ValuesIn (cases),
+                          [] (const auto& info) { return info.param.name; });
 
 TEST (Shape, RoomAndHalfSpaceAreMatterAround)
 {
@@ -145,7 +163,8 @@ TEST (Shape, WrongSizesAreRefused)
   EXPECT_THROW (makeTorus (0.02, 0.03), InvalidArgument);
   EXPECT_THROW (makeCone (0.0, 0.0, 0.1), InvalidArgument);
   EXPECT_THROW (makeRevolution ({{-0.1, 0.0}, {0.1, 0.0}, {0.1, 0.1}}), InvalidArgument);
-  EXPECT_THROW (makeExtrusion ({{0.0, 0.0}, {0.1, 0.1}, {0.1, 0.0}, {0.0, 0.1}}, 0.1), InvalidArgument); // crosses itself
+  EXPECT_THROW (makeExtrusion ({{0.0, 0.0}, {0.1, 0.1}, {0.1, 0.0}, {0.0, 0.1}}, 0.1),
+                InvalidArgument); // crosses itself
   EXPECT_THROW (makeExtrusion ({{0.0, 0.0}, {0.1, 0.0}, {0.2, 0.0}}, 0.1), InvalidArgument);
   EXPECT_THROW (makeExtrusion ({{0.0, 0.0}, {0.1, 0.0}}, 0.1), InvalidArgument);
   EXPECT_THROW (makeMeshShape ({}), InvalidArgument);

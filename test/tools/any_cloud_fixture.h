@@ -25,21 +25,15 @@ constexpr double ball_m3 = 4.0 / 3.0 * M_PI * 0.001; ///< of writeSphere ()
 class AnyCloud : public testing::Test
 {
 protected:
-  std::string
-  path (const std::string& name) const
-  {
-    return (folder_.file (name));
-  }
+  std::string path (const std::string& name) const { return (folder_.file (name)); }
 
-  void
-  write (const std::string& name, const std::string& content) const
+  void write (const std::string& name, const std::string& content) const
   {
     std::ofstream (path (name), std::ios::binary) << content;
   }
 
   /** \brief Run in the folder. \return the exit status; what it printed is in output_ and errors_ */
-  int
-  run (const std::vector<std::string>& arguments)
+  int run (const std::vector<std::string>& arguments)
   {
     ToolRun tool (arguments, folder_.file (""));
     const int status = tool.wait ();
@@ -48,15 +42,13 @@ protected:
     return (status);
   }
 
-  nlohmann::json
-  summary () const
+  nlohmann::json summary () const
   {
     std::ifstream file (path ("s.json"));
     return (nlohmann::json::parse (file));
   }
 
-  double
-  volume (const std::string& name) const
+  double volume (const std::string& name) const
   {
     const pcl::cosection::TriangleMesh mesh = pcl::cosection::loadMesh (path (name));
     EXPECT_TRUE (computeTopology (mesh).closed_manifold) << name;
@@ -64,8 +56,7 @@ protected:
   }
 
   /** \brief Every second point of the ball, moved by \a T. */
-  void
-  writeHalf (const std::string& name, std::size_t first, const Eigen::Isometry3f& T) const
+  void writeHalf (const std::string& name, std::size_t first, const Eigen::Isometry3f& T) const
   {
     writeSphere (path ("whole.pcd"), 4000);
     pcl::PointCloud<pcl::PointNormal> whole, half;

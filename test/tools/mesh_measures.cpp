@@ -12,11 +12,7 @@
 #include <random>
 #include <sstream>
 
-namespace pcl
-{
-namespace cosection
-{
-namespace test
+namespace pcl::cosection::test
 {
 
 namespace
@@ -154,8 +150,8 @@ MeshDistance::operator() (const Eigen::Vector3d& p) const
       continue;
     }
     const std::uint32_t left = index + 1;
-    const bool left_first =
-        nodes_[left].box.squaredExteriorDistance (p) < nodes_[node.right].box.squaredExteriorDistance (p);
+    const bool left_first = nodes_[left].box.squaredExteriorDistance (p) <
+                            nodes_[node.right].box.squaredExteriorDistance (p);
     open.push_back (left_first ? node.right : left);
     open.push_back (left_first ? left : node.right);
   }
@@ -183,8 +179,8 @@ sampleByArea (const TriangleMesh& mesh, std::size_t count, unsigned seed)
   for (std::size_t i = 0; i < count; ++i)
   {
     const auto found = std::upper_bound (area_up_to.begin (), area_up_to.end (), uniform (random) * area);
-    const auto triangle =
-        std::min<std::ptrdiff_t> (found - area_up_to.begin (), static_cast<std::ptrdiff_t> (area_up_to.size ()) - 1);
+    const auto triangle = std::min<std::ptrdiff_t> (found - area_up_to.begin (),
+                                                    static_cast<std::ptrdiff_t> (area_up_to.size ()) - 1);
     const TriangleMesh::Triangle& t = mesh.triangles[static_cast<std::size_t> (triangle)];
     const double root = std::sqrt (uniform (random));
     const double along = uniform (random);
@@ -201,8 +197,8 @@ percentile (std::vector<double> values, double fraction)
   if (values.empty ())
     return (std::numeric_limits<double>::quiet_NaN ());
   const auto rank = static_cast<std::ptrdiff_t> (std::ceil (fraction * static_cast<double> (values.size ()))) - 1;
-  const auto at =
-      values.begin () + std::clamp<std::ptrdiff_t> (rank, 0, static_cast<std::ptrdiff_t> (values.size ()) - 1);
+  const auto at = values.begin () +
+                  std::clamp<std::ptrdiff_t> (rank, 0, static_cast<std::ptrdiff_t> (values.size ()) - 1);
   std::nth_element (values.begin (), at, values.end ());
   return (*at);
 }
@@ -242,10 +238,9 @@ fitDominantPlane (const std::vector<Eigen::Vector3d>& points, double tolerance_m
     FittedPlane plane;
     plane.normal = normal.normalized ();
     plane.d = -plane.normal.dot (a);
-    plane.inliers =
-        static_cast<std::size_t> (std::count_if (points.begin (), points.end (), [&] (const Eigen::Vector3d& p) {
-          return (std::abs (plane.height (p)) <= tolerance_m);
-        }));
+    plane.inliers = static_cast<std::size_t> (
+        std::count_if (points.begin (), points.end (),
+                       [&] (const Eigen::Vector3d& p) { return (std::abs (plane.height (p)) <= tolerance_m); }));
     if (plane.inliers > best.inliers)
       best = plane;
   }
@@ -279,6 +274,4 @@ readVolumeBox (const std::string& vti_path)
   return (volume);
 }
 
-} // namespace test
-} // namespace cosection
-} // namespace pcl
+} // namespace pcl::cosection::test

@@ -60,7 +60,8 @@ TEST_F (AnyCloud, TrajectoryPutsAMovedObjectTogether)
   writeHalf ("a.pcd", 0, Eigen::Isometry3f::Identity ());
   writeHalf ("b.pcd", 1, T);
   write ("poses.txt", "# view tx ty tz qx qy qz qw\n0 0 0 0 0 0 0 1\n1 0.3 0.2 0.1 0.70710678 0 0 0.70710678\n");
-  ASSERT_EQ (run ({"--object-trajectory", "1=poses.txt", "--json", "s.json", "a.pcd", "b.pcd", "out.ply"}), 0) << errors_;
+  ASSERT_EQ (run ({"--object-trajectory", "1=poses.txt", "--json", "s.json", "a.pcd", "b.pcd", "out.ply"}), 0)
+      << errors_;
   EXPECT_NEAR (volume ("out.ply"), ball_m3, 0.02 * ball_m3); // in the object's frame
   EXPECT_NEAR (summary ()["objects"][0]["centroid_m"][2].get<double> (), 0.5, 0.002);
 
@@ -106,7 +107,7 @@ TEST_F (AnyCloud, WrongTrajectoriesAreNamed)
 
 TEST_F (AnyCloud, ObstaclesOfAnyFormatKeepObjectsOut)
 {
-  writeSphere (path ("ball.pcd"), 4000); // at z = 0.5
+  writeSphere (path ("ball.pcd"), 4000);                                   // at z = 0.5
   const std::string quad = "1 1 0.45\n-1 1 0.45\n-1 -1 0.45\n1 -1 0.45\n"; // crosses it; free above
   write ("table.off", "OFF\n4 1 0\n" + quad + "4 0 1 2 3\n");
   std::string obj;
@@ -134,7 +135,10 @@ TEST_F (AnyCloud, FewFacesStayClosedInEveryFormat)
   writeTableScene (path ("scene.pcd"));
   for (const std::string format : {"ply", "stl", "obj"})
   {
-    ASSERT_EQ (run ({"--resolution", "32", "--max-faces", "500", "--format", format, "--json", "s.json", "scene.pcd", format}), 0) << errors_;
+    ASSERT_EQ (
+        run ({"--resolution", "32", "--max-faces", "500", "--format", format, "--json", "s.json", "scene.pcd", format}),
+        0)
+        << errors_;
     for (const std::string object : {"/object_1.", "/object_2."})
     {
       const TriangleMesh mesh = loadMesh (path (format + object + format));
@@ -171,7 +175,8 @@ TEST_F (AnyCloud, AFailingObjectLosesNoOther)
   pcl::io::loadPCDFile (path ("ball.pcd"), ghost);
   for (auto& p : ghost)
   {
-    p.getVector3fMap () = 0.2f * (p.getVector3fMap () - Eigen::Vector3f (0.0f, 0.0f, 0.5f)) + Eigen::Vector3f (0.0f, -0.15f, 0.18f);
+    p.getVector3fMap () = 0.2f * (p.getVector3fMap () - Eigen::Vector3f (0.0f, 0.0f, 0.5f)) +
+                          Eigen::Vector3f (0.0f, -0.15f, 0.18f);
     p.label = 3;
   }
   pcl::io::savePCDFileBinary (path ("ghost.pcd"), ghost);
@@ -222,12 +227,17 @@ TEST_F (AnyCloud, UnorganisedViewsAreAsGoodAsOrganisedOnes)
   const nlohmann::json at = {{{"position", {0.0, 0.0, 0.0505}}}};
   nlohmann::json keys;
   for (int v = 0; v < 3; ++v)
-    keys.push_back ({{"time", v}, {"position", {0.8 * std::cos (2.1 * v), 0.8 * std::sin (2.1 * v), 0.5}}, {"look_at", {0.0, 0.0, 0.05}}});
+    keys.push_back ({{"time", v},
+                     {"position", {0.8 * std::cos (2.1 * v), 0.8 * std::sin (2.1 * v), 0.5}},
+                     {"look_at", {0.0, 0.0, 0.05}}});
   std::ofstream (path ("scene.json")) << nlohmann::json{
-      {"frames", 3}, {"rate", 1}, {"camera", {{"keys", keys}}}, {"views", {{"every", 1}}},
+      {"frames", 3},
+      {"rate", 1},
+      {"camera", {{"keys", keys}}},
+      {"views", {{"every", 1}}},
       {"background", {{"parts", {{{"type", "plane"}, {"extent", 3}}}}}},
       {"objects", {{{"name", "ball"}, {"shape", {{"type", "sphere"}, {"radius", 0.05}}}, {"keys", at}}}}};
-  ToolRun simulate ({"scene.json", "sim"}, folder_.file (""), {}, PCL_COSECTION_SIMULATE_TOOL);
+  ToolRun simulate ({"scene.json", "sim"}, folder_.file (""), {}, PCL_COSECTION_SIMULATE);
   ASSERT_EQ (simulate.wait (), 0) << simulate.errors ();
   std::vector<std::string> organised, unorganised;
   for (int v = 0; v < 3; ++v)
@@ -289,7 +299,9 @@ TEST_F (AnyCloud, LabelsThatBeginAtZeroAreToldOf)
     }
   pcl::io::savePCDFileBinary (path ("two.pcd"), both);
   ASSERT_EQ (run ({"two.pcd", "out"}), 0) << errors_;
-  EXPECT_NE (errors_.find ("reaches no farther than object 1: if labels count the objects from 0, add 1"), std::string::npos) << errors_;
+  EXPECT_NE (errors_.find ("reaches no farther than object 1: if labels count the objects from 0, add 1"),
+             std::string::npos)
+      << errors_;
   writeTableScene (path ("scene.pcd"));
   ASSERT_EQ (run ({"--resolution", "24", "scene.pcd", "out"}), 0) << errors_;
   EXPECT_EQ (errors_.find ("count the objects from 0"), std::string::npos) << errors_;

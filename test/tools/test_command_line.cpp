@@ -57,10 +57,7 @@ public:
   {
     std::ofstream (path) << content;
   }
-  ~ConfigFile ()
-  {
-    std::remove (path.c_str ());
-  }
+  ~ConfigFile () { std::remove (path.c_str ()); }
 
   const std::string path;
 };
@@ -118,11 +115,11 @@ TEST (CommandLine, PlainUse)
 
 TEST (CommandLine, OptionsReachTheMethod)
 {
-  const Settings s =
-      parse ("--voxel-size 0.004 --padding 0.5 --background-voxel-size=0.02 --constraints hull --no-planes "
-             "--plane 0,0,1,0.5 --plane -1,0,0,2 --alpha 0.1 --beta-hull 0.2 --beta-inter 0.3 --sigma 2 --weighting "
-             "sum --solver fast-jacobi --max-iterations 7 --tolerance 0.5 --threads 3 --max-memory 1G "
-             "--world-points --intrinsics 500,510,320,240 --scale 0.001 --save-sdf --json s.json --quiet a.pcd out");
+  const Settings s = parse (
+      "--voxel-size 0.004 --padding 0.5 --background-voxel-size=0.02 --constraints hull --no-planes "
+      "--plane 0,0,1,0.5 --plane -1,0,0,2 --alpha 0.1 --beta-hull 0.2 --beta-inter 0.3 --sigma 2 --weighting "
+      "sum --solver fast-jacobi --max-iterations 7 --tolerance 0.5 --threads 3 --max-memory 1G "
+      "--world-points --intrinsics 500,510,320,240 --scale 0.001 --save-sdf --json s.json --quiet a.pcd out");
   EXPECT_EQ (s.method.voxel_size_m, 0.004);
   EXPECT_EQ (s.method.padding, 0.5);
   EXPECT_EQ (s.method.background_voxel_size_m, 0.02);
@@ -247,7 +244,8 @@ TEST (CommandLine, SpansOfFrames)
     EXPECT_FALSE (parseFrames (to_the_end).last) << to_the_end;
   EXPECT_EQ (parseFrames ("7:1000000000").last, 1000000000u);
   EXPECT_EQ (parseFrames ("1000000000000:", 1e12).first, 1000000000000u);
-  for (const char* wrong : {"", "3", "a:b", "3:2", "5:5", ":0", "-1:2", "1:2:3", "1.5:2", "nan:", ":inf", "1000000001:", ":1e300"})
+  for (const char* wrong :
+       {"", "3", "a:b", "3:2", "5:5", ":0", "-1:2", "1:2:3", "1.5:2", "nan:", ":inf", "1000000001:", ":1e300"})
     EXPECT_THROW (parseFrames (wrong), UsageError) << wrong;
 }
 

@@ -102,8 +102,8 @@ loadScene (const std::string& path)
       ++count;
     }
   }
-  const std::optional<PinholeCamera> camera =
-      fitPinholeCamera (positions, static_cast<int> (cloud.width), static_cast<int> (cloud.height));
+  const std::optional<PinholeCamera> camera = fitPinholeCamera (positions, static_cast<int> (cloud.width),
+                                                                static_cast<int> (cloud.height));
   if (!camera || count == 0)
     throw std::runtime_error (path + ": not a pinhole's image of objects");
   scene.view.camera = *camera;
@@ -240,8 +240,7 @@ describe (const Measures& m)
 class OsdView : public testing::TestWithParam<std::string>
 {
 protected:
-  void
-  SetUp () override
+  void SetUp () override
   {
     file_ = (dataFolder ("osd") / (GetParam () + ".pcd")).string ();
     if (!fs::exists (file_))
@@ -249,8 +248,7 @@ protected:
   }
 
   /** \brief Complete the view. \return the summary; null if there is none */
-  nlohmann::json
-  complete () const
+  nlohmann::json complete () const
   {
     ToolRun tool ({file_, "meshes", "--json", "summary.json", "--save-sdf", "--quiet"}, folder_.file (""));
     const int status = tool.wait ();
@@ -259,8 +257,7 @@ protected:
     return (summary ? nlohmann::json::parse (summary) : nlohmann::json ());
   }
 
-  std::optional<Measures>
-  measureObject (const Scene& scene, const nlohmann::json& summary, std::uint32_t label) const
+  std::optional<Measures> measureObject (const Scene& scene, const nlohmann::json& summary, std::uint32_t label) const
   {
     const std::string name = folder_.file ("meshes/object_" + std::to_string (label));
     const std::optional<VolumeBox> volume = readVolumeBox (name + ".vti");

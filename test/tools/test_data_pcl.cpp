@@ -53,15 +53,15 @@ TEST_P (PclClouds, GiveASensibleMesh)
   EXPECT_LE (volume, GetParam ().most_m3);
 }
 
-// The bunny has three quarters of a litre, and only its right side was scanned; the carton holds one litre, and is cut out with
-// some of what stands behind it. The scenes are taken as one object: table and all.
-INSTANTIATE_TEST_SUITE_P (Clouds, PclClouds,
-                          testing::Values (Expected{"bun0.pcd", 0.0005, 0.0015, "point inward; they were turned"},
-                                           Expected{"bunny.pcd", 0.0005, 0.0015, "is not known"},
-                                           Expected{"milk.pcd", 0.0012, 0.0030, ""},
-                                           Expected{"milk_cartoon_all_small_clorox.pcd", 0.05, 1.5, "has no field label"},
-                                           Expected{"table_scene_mug_stereo_textured.pcd", 0.02, 0.5, "has no field label"}),
-                          [] (const auto& info) {
-                            std::string name = fs::path (info.param.file).stem ().string ();
-                            return (name);
-                          });
+// The bunny has three quarters of a litre, and only its right side was scanned; the carton holds one litre, and is cut
+// out with some of what stands behind it. The scenes are taken as one object: table and all.
+INSTANTIATE_TEST_SUITE_P (
+    Clouds, PclClouds,
+    testing::Values (Expected{"bun0.pcd", 0.0005, 0.0015, "point inward; they were turned"},
+                     Expected{"bunny.pcd", 0.0005, 0.0015, "is not known"}, Expected{"milk.pcd", 0.0012, 0.0030, ""},
+                     Expected{"milk_cartoon_all_small_clorox.pcd", 0.05, 1.5, "has no field label"},
+                     Expected{"table_scene_mug_stereo_textured.pcd", 0.02, 0.5, "has no field label"}),
+    [] (const auto& info) {
+      std::string name = fs::path (info.param.file).stem ().string ();
+      return (name);
+    });

@@ -29,8 +29,7 @@ class Evaluate : public testing::Test
 {
 protected:
   /** \brief Run the program. \return the exit status */
-  int
-  run (const Words& arguments)
+  int run (const Words& arguments)
   {
     ToolRun tool (arguments, folder_.file (""), {}, PCL_COSECTION_EVALUATE);
     const int status = tool.wait ();
@@ -39,21 +38,15 @@ protected:
     return (status);
   }
 
-  nlohmann::json
-  json (const std::string& name) const
+  nlohmann::json json (const std::string& name) const
   {
     return (nlohmann::json::parse (readFile (folder_.file (name))));
   }
 
-  void
-  save (const std::string& name, const TriangleMesh& mesh) const
-  {
-    saveMesh (mesh, folder_.file (name));
-  }
+  void save (const std::string& name, const TriangleMesh& mesh) const { saveMesh (mesh, folder_.file (name)); }
 
   /** \brief One line, with the name of the program. */
-  void
-  expectOneLine (const std::string& part) const
+  void expectOneLine (const std::string& part) const
   {
     EXPECT_EQ (errors_.rfind ("pcl_cosection_evaluate: error: ", 0), 0u) << errors_;
     EXPECT_EQ (std::count (errors_.begin (), errors_.end (), '\n'), 1) << errors_;
@@ -87,7 +80,8 @@ writeDataset (const SceneRecord& truth, const TemporaryFolder& folder)
   writeFile (folder.file ("dataset/calibration.txt"), "260 260 159.5 119.5 320 240\n");
   for (const SceneRecord::Object& object : truth.objects)
   {
-    writeFile (folder.file ("dataset/gt-" + object.name + "-" + std::to_string (object.id) + ".txt"), poseLines (object.poses));
+    writeFile (folder.file ("dataset/gt-" + object.name + "-" + std::to_string (object.id) + ".txt"),
+               poseLines (object.poses));
     saveMesh (object.mesh, folder.file ("dataset/gt-mesh/" + object.name + ".ply"));
   }
   saveMesh (truth.background, folder.file ("dataset/gt-mesh/room.ply"));
@@ -182,7 +176,9 @@ TEST_F (Evaluate, ComparesMeshes)
 {
   save ("truth.ply", boxMesh ({0.0f, 0.0f, 0.0f}, {0.1f, 0.2f, 0.3f}));
   save ("moved.stl", boxMesh ({1.0f, 0.0f, 0.0f}, {1.1f, 0.2f, 0.3f}));
-  EXPECT_EQ (run ({"mesh", "truth.ply", "moved.stl", "--pose", "-1,0,0,0,0,0,1", "--json", "e.json", "--csv", "e.csv"}), 0) << errors_;
+  EXPECT_EQ (run ({"mesh", "truth.ply", "moved.stl", "--pose", "-1,0,0,0,0,0,1", "--json", "e.json", "--csv", "e.csv"}),
+             0)
+      << errors_;
   EXPECT_EQ (errors_, "");
   nlohmann::json result = json ("e.json");
   EXPECT_LT (result["accuracy_m"].get<double> (), 1e-6);
@@ -231,7 +227,10 @@ TEST_F (Evaluate, MeasuresObstaclesAndFreeSpace)
   view.width = 64;
   view.height = 48;
   pcl::io::savePCDFileBinary (folder_.file ("view.pcd"), view);
-  ASSERT_EQ (run ({"mesh", "box.ply", "box.ply", "--obstacle", "block.ply", "--free-space", "view.pcd", "--json", "e.json"}), 0) << errors_;
+  ASSERT_EQ (
+      run ({"mesh", "box.ply", "box.ply", "--obstacle", "block.ply", "--free-space", "view.pcd", "--json", "e.json"}),
+      0)
+      << errors_;
   const nlohmann::json result = json ("e.json");
   EXPECT_NEAR (result["penetration_m"].get<double> (), 0.01, 1e-6);
   EXPECT_NEAR (result["obstacles"][0]["penetration_m3"].get<double> (), 1e-4, 5e-6);
@@ -247,7 +246,9 @@ TEST_F (Evaluate, ShowsErrors)
 {
   save ("truth.ply", sphereMesh (0.1, 16));
   save ("rec.ply", sphereMesh (0.11, 16));
-  EXPECT_EQ (run ({"mesh", "truth.ply", "rec.ply", "--error-picture", "e.png", "--error-mesh", "e.ply", "--error-max", "0.02"}), 0);
+  EXPECT_EQ (run ({"mesh", "truth.ply", "rec.ply", "--error-picture", "e.png", "--error-mesh", "e.ply", "--error-max",
+                   "0.02"}),
+             0);
   EXPECT_EQ (readFile (folder_.file ("e.png")).substr (1, 3), "PNG");
   const TriangleMesh mesh = loadPlyMesh (folder_.file ("e.ply"));
   ASSERT_EQ (mesh.colours.size (), mesh.vertices.size ());

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_cosection authors
 
-// Views that nobody has labelled, of which the program uses the space that they saw free; and what any view takes from hulls.
+// Views that nobody has labelled, of which the program uses the space that they saw free; and what any view takes from
+// hulls.
 
 #include "common/temporary_folder.h"
 #include "scene_files.h"
@@ -29,7 +30,8 @@ namespace
 constexpr int views = 5;
 constexpr int objects = 3;
 
-/** \brief A ball, a corner of a wall and a bowl on a table, and a camera that goes around them; with a camera's noise. */
+/** \brief A ball, a corner of a wall and a bowl on a table, and a camera that goes around them; with a camera's noise.
+ */
 nlohmann::json
 sceneOf ()
 {
@@ -38,7 +40,9 @@ sceneOf ()
   for (int v = 0; v < views; ++v)
   {
     const double angle = 2.0 * M_PI * v / views;
-    keys.push_back ({{"time", v}, {"position", {0.8 * std::cos (angle), 0.8 * std::sin (angle), 0.6}}, {"look_at", {0.0, 0.0, 0.05}}});
+    keys.push_back ({{"time", v},
+                     {"position", {0.8 * std::cos (angle), 0.8 * std::sin (angle), 0.6}},
+                     {"look_at", {0.0, 0.0, 0.05}}});
   }
   return {{"frames", views},
           {"rate", 1},
@@ -49,40 +53,33 @@ sceneOf ()
            {{{"name", "ball"}, {"shape", {{"type", "sphere"}, {"radius", 0.05}}}, {"keys", at (0.15, 0.12, 0.0505)}},
             {{"name", "corner"},
              {"shape",
-              {{"type", "extrusion"}, {"outline", {{0, 0}, {0.16, 0}, {0.16, 0.05}, {0.05, 0.05}, {0.05, 0.16}, {0, 0.16}}}, {"height", 0.1}}},
+              {{"type", "extrusion"},
+               {"outline", {{0, 0}, {0.16, 0}, {0.16, 0.05}, {0.05, 0.05}, {0.05, 0.16}, {0, 0.16}}},
+               {"height", 0.1}}},
              {"keys", at (-0.2, -0.2, 0.0005)}},
             {{"name", "bowl"},
              {"shape",
-              {{"type", "revolution"}, {"profile", {{0, 0}, {0.04, 0}, {0.08, 0.06}, {0.072, 0.06}, {0.036, 0.008}, {0, 0.008}}}}},
+              {{"type", "revolution"},
+               {"profile", {{0, 0}, {0.04, 0}, {0.08, 0.06}, {0.072, 0.06}, {0.036, 0.008}, {0, 0.008}}}}},
              {"keys", at (0.15, -0.15, 0.0005)}}}}};
 }
 
 class FreeSpaceViews : public testing::Test
 {
 protected:
-  static void
-  SetUpTestSuite ()
+  static void SetUpTestSuite ()
   {
     folder_ = std::make_unique<pcl::cosection::test::TemporaryFolder> ();
     std::ofstream (folder_->file ("scene.json")) << sceneOf ();
-    ToolRun tool ({"scene.json", "sim"}, folder_->file (""), {}, PCL_COSECTION_SIMULATE_TOOL);
+    ToolRun tool ({"scene.json", "sim"}, folder_->file (""), {}, PCL_COSECTION_SIMULATE);
     ASSERT_EQ (tool.wait (), 0) << tool.errors ();
   }
 
-  static void
-  TearDownTestSuite ()
-  {
-    folder_.reset ();
-  }
+  static void TearDownTestSuite () { folder_.reset (); }
 
-  static std::string
-  view (int v)
-  {
-    return "sim/views/View000" + std::to_string (v) + ".pcd";
-  }
+  static std::string view (int v) { return "sim/views/View000" + std::to_string (v) + ".pcd"; }
 
-  int
-  run (const std::vector<std::string>& arguments)
+  int run (const std::vector<std::string>& arguments)
   {
     ToolRun tool (arguments, folder_->file (""));
     const int status = tool.wait ();
@@ -90,8 +87,7 @@ protected:
     return status;
   }
 
-  static double
-  volume (const std::string& name)
+  static double volume (const std::string& name)
   {
     const TriangleMesh mesh = loadMesh (folder_->file (name));
     EXPECT_TRUE (computeTopology (mesh).closed_manifold) << name;
@@ -124,7 +120,8 @@ TEST_F (FreeSpaceViews, HullsShrinkWithEachView)
     for (std::size_t n = 0; n < before.size (); n += 2)
     {
       EXPECT_LE (now[n], 1.001 * before[n]) << "hull of object " << n / 2 + 1 << ", " << v + 1 << " views";
-      EXPECT_LE (now[n + 1], 1.02 * before[n + 1]) << "object " << n / 2 + 1 << ", " << v + 1 << " views"; // smoothness may give a little elsewhere
+      EXPECT_LE (now[n + 1], 1.02 * before[n + 1])
+          << "object " << n / 2 + 1 << ", " << v + 1 << " views"; // smoothness may give a little elsewhere
     }
     if (v == 0)
       first = now;
@@ -227,6 +224,7 @@ TEST_F (FreeSpaceViews, BadOnesAreRefused)
   EXPECT_EQ (run ({"--free-space", view (2), "--json", view (2), view (0), "no"}), 2) << errors_;
   EXPECT_EQ (run ({"--free-space"}), 2);
   // In millimetres: said, as of an INPUT.
-  EXPECT_EQ (run ({"--scale", "1000", "--free-space", view (2), "--voxel-size", "10", view (0), "large"}), 0) << errors_;
+  EXPECT_EQ (run ({"--scale", "1000", "--free-space", view (2), "--voxel-size", "10", view (0), "large"}), 0)
+      << errors_;
   EXPECT_NE (errors_.find (view (2) + ": extends over"), std::string::npos) << errors_;
 }

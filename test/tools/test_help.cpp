@@ -32,10 +32,7 @@ namespace
 class Help : public testing::Test
 {
 protected:
-  Help ()
-  {
-    declareOptions (app_, given_);
-  }
+  Help () { declareOptions (app_, given_); }
 
   CLI::App app_;
   Given given_;
@@ -58,9 +55,11 @@ withoutBackslashes (std::string text)
   return (text);
 }
 
-/** \brief Every option is on the help screen, the manual page and in the document, and is described. \return how many there are */
+/** \brief Every option is on the help screen, the manual page and in the document, and is described. \return how many
+ * there are */
 int
-expectEverywhere (const CLI::App& app, const std::string& screen, const std::string& man_page, const std::string& document_name)
+expectEverywhere (const CLI::App& app, const std::string& screen, const std::string& man_page,
+                  const std::string& document_name)
 {
   std::ifstream file (std::string (PCL_COSECTION_SOURCE_DIR) + "/doc/" + document_name);
   const std::string document ((std::istreambuf_iterator<char> (file)), {});
@@ -98,7 +97,9 @@ TEST_F (Help, EachTopicFitsAScreen)
 
 TEST_F (Help, EveryOptionIsEverywhere)
 {
-  EXPECT_GE (expectEverywhere (app_, helpText (app_, completionText ()), manPage (app_, completionText ()), "pcl_cosection.md"), 30);
+  EXPECT_GE (expectEverywhere (app_, helpText (app_, completionText ()), manPage (app_, completionText ()),
+                               "pcl_cosection.md"),
+             30);
 }
 
 TEST_F (Help, SimulationIsExplained)

@@ -57,15 +57,10 @@ protected:
     writeSphere (path ("sphere.pcd"), 400);
   }
 
-  std::string
-  path (const std::string& name) const
-  {
-    return (folder_.file ("work/" + name));
-  }
+  std::string path (const std::string& name) const { return (folder_.file ("work/" + name)); }
 
   /** \brief The contents of all files, links as "-> target", folders as "/". */
-  std::map<std::string, std::string>
-  everything () const
+  std::map<std::string, std::string> everything () const
   {
     std::map<std::string, std::string> contents;
     for (const auto& entry : fs::recursive_directory_iterator (folder_.file ("work")))
@@ -73,24 +68,22 @@ protected:
       const std::string name = entry.path ().lexically_relative (folder_.file ("work")).string ();
       if (name.rfind ("tool_std", 0) == 0)
         continue;
-      contents[name] = entry.is_symlink ()          ? "-> " + fs::read_symlink (entry.path ()).string ()
-                       : entry.is_regular_file ()   ? test::readFile (entry.path ().string ())
-                       : entry.is_directory ()      ? "/"
-                                                    : "special";
+      contents[name] = entry.is_symlink ()        ? "-> " + fs::read_symlink (entry.path ()).string ()
+                       : entry.is_regular_file () ? test::readFile (entry.path ().string ())
+                       : entry.is_directory ()    ? "/"
+                                                  : "special";
     }
     return (contents);
   }
 
-  static std::vector<std::string>
-  coarse (std::vector<std::string> arguments)
+  static std::vector<std::string> coarse (std::vector<std::string> arguments)
   {
     arguments.insert (arguments.begin (), {"--resolution", "10", "--threads", "1"});
     return (arguments);
   }
 
   /** \brief Runs well; \a output is then a mesh. */
-  void
-  expectSuccess (const std::vector<std::string>& arguments, const std::string& output) const
+  void expectSuccess (const std::vector<std::string>& arguments, const std::string& output) const
   {
     SCOPED_TRACE (testing::PrintToString (arguments));
     ToolRun run (coarse (arguments), folder_.file ("work"));
@@ -98,16 +91,14 @@ protected:
     EXPECT_TRUE (isMesh (output));
   }
 
-  bool
-  isMesh (const std::string& name) const
+  bool isMesh (const std::string& name) const
   {
     return (fs::exists (path (name)) && !loadPlyMesh (path (name)).empty ());
   }
 
   /** \brief Ends with \a status and one line that says \a part; all files are as before. */
-  void
-  expectFailure (const std::vector<std::string>& arguments, int status, const std::string& part,
-                 const std::function<void ()>& prepare = {}) const
+  void expectFailure (const std::vector<std::string>& arguments, int status, const std::string& part,
+                      const std::function<void ()>& prepare = {}) const
   {
     SCOPED_TRACE (testing::PrintToString (arguments));
     const auto before = everything ();
@@ -117,8 +108,7 @@ protected:
     EXPECT_TRUE (everything () == before);
   }
 
-  static void
-  expectOneError (const std::string& errors, const std::string& part)
+  static void expectOneError (const std::string& errors, const std::string& part)
   {
     EXPECT_NE (errors.find (part), std::string::npos) << errors;
     int error_lines = 0;
@@ -132,8 +122,7 @@ protected:
   }
 
   /** \brief Whether a user without rights can start the program at all. */
-  bool
-  canDropPrivileges () const
+  bool canDropPrivileges () const
   {
     fs::permissions (folder_.file ("."), fs::perms (0755));
     ToolRun run ({"--version"}, folder_.file ("work"), dropPrivileges);

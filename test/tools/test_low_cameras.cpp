@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_cosection authors
 
-// The program with what a camera sees that is hardly higher than the things: their tops at grazing angles, with half of the readings missing.
+// The program with what a camera sees that is hardly higher than the things: their tops at grazing angles, with half of
+// the readings missing.
 
 #include "common/temporary_folder.h"
 #include "tool_run.h"
@@ -27,13 +28,14 @@ TEST (LowCameras, BoxesAreNoPlates)
   {
     SCOPED_TRACE (std::to_string (degrees) + " degrees");
     const std::string scene = "seen_from_" + std::to_string (degrees);
-    std::ofstream (folder.file ("box.json")) << R"({"name": "box", "frames": 1, "seed": 3, "views": {"every": 1},
-      "camera": {"keys": [{"time": 0, "position": [0, -0.9, )" << 0.2 + 0.9 * std::tan (degrees * M_PI / 180.0)
-                                             << R"(], "look_at": [0, 0, 0.1]}]},
+    std::ofstream (folder.file ("box.json"))
+        << R"({"name": "box", "frames": 1, "seed": 3, "views": {"every": 1},
+      "camera": {"keys": [{"time": 0, "position": [0, -0.9, )"
+        << 0.2 + 0.9 * std::tan (degrees * M_PI / 180.0) << R"(], "look_at": [0, 0, 0.1]}]},
       "objects": [{"name": "box", "id": 1, "parts": [{"type": "box", "size": [0.12, 0.3, 0.2], "position": [0, 0, 0.1]}],
         "keys": [{"position": [0, 0, 0], "rpy_deg": [0, 0, 15]}]}],
       "background": {"name": "background", "parts": [{"type": "box", "size": [1.4, 1.1, 0.04], "position": [0, 0, -0.02]}]}})";
-    ToolRun simulate ({"box.json", scene}, folder.file (""), {}, PCL_COSECTION_SIMULATE_TOOL);
+    ToolRun simulate ({"box.json", scene}, folder.file (""), {}, PCL_COSECTION_SIMULATE);
     ASSERT_EQ (simulate.wait (), 0) << simulate.errors ();
     ToolRun tool ({scene + "/views/View0000.pcd", "mesh.ply"}, folder.file (""));
     ASSERT_EQ (tool.wait (), 0) << tool.errors ();

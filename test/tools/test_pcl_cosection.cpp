@@ -39,33 +39,23 @@ protected:
     fs::create_directories (folder_);
   }
 
-  ~PclCosection () override
-  {
-    fs::remove_all (folder_);
-  }
+  ~PclCosection () override { fs::remove_all (folder_); }
 
-  std::string
-  path (const std::string& name) const
-  {
-    return ((folder_ / name).string ());
-  }
+  std::string path (const std::string& name) const { return ((folder_ / name).string ()); }
 
-  void
-  write (const std::string& name, const std::string& content) const
+  void write (const std::string& name, const std::string& content) const
   {
     std::ofstream (path (name), std::ios::binary) << content;
   }
 
-  std::string
-  read (const std::string& name) const
+  std::string read (const std::string& name) const
   {
     std::ifstream file (path (name), std::ios::binary);
     return (std::string ((std::istreambuf_iterator<char> (file)), {}));
   }
 
   /** \brief Run to a failure of \a status that says \a part in one line and leaves no output. */
-  void
-  expectFailure (const std::vector<std::string>& arguments, int status, const std::string& part) const
+  void expectFailure (const std::vector<std::string>& arguments, int status, const std::string& part) const
   {
     SCOPED_TRACE (testing::PrintToString (arguments));
     ToolRun run (arguments, folder_.string ());
@@ -85,8 +75,7 @@ protected:
     EXPECT_FALSE (fs::exists (path ("out.ply")));
   }
 
-  std::set<std::string>
-  files (const std::string& name) const
+  std::set<std::string> files (const std::string& name) const
   {
     std::set<std::string> names;
     for (const auto& entry : fs::directory_iterator (path (name)))
@@ -144,7 +133,7 @@ TEST_F (PclCosection, LabelledSceneGivesAMeshPerObject)
   for (const Eigen::Vector3f& v : surface.vertices)
     mean_error += std::abs ((v.cast<double> () - Eigen::Vector3d (-0.09, 0.0, 0.06)).norm () - 0.06) /
                   static_cast<double> (surface.vertices.size ());
-  EXPECT_LT (mean_error, 0.0075); // two voxels
+  EXPECT_LT (mean_error, 0.0075);                                                    // two voxels
   EXPECT_LT ((ball.centroid_m - Eigen::Vector3d (-0.09, 0.0, 0.06)).norm (), 0.015); // world frame
 
   const nlohmann::json summary = nlohmann::json::parse (read ("s.json"));
@@ -159,10 +148,9 @@ TEST_F (PclCosection, LabelledSceneGivesAMeshPerObject)
              (std::set<std::string>{"read", "data_term", "constraints", "solve", "mesh", "total"}));
   ASSERT_EQ (summary["objects"].size (), 2u);
   const nlohmann::json& object = summary["objects"][0];
-  EXPECT_EQ (keys (object),
-             (std::set<std::string>{"id", "label", "voxel_size_m", "dimensions", "vertices", "closed", "euler",
-                                    "volume_m3", "centroid_m", "inertia", "provenance", "penetration_m", "solver",
-                                    "stray_points", "contradicted_share"}));
+  EXPECT_EQ (keys (object), (std::set<std::string>{"id", "label", "voxel_size_m", "dimensions", "vertices", "closed",
+                                                   "euler", "volume_m3", "centroid_m", "inertia", "provenance",
+                                                   "penetration_m", "solver", "stray_points", "contradicted_share"}));
   EXPECT_EQ (keys (object["solver"]), (std::set<std::string>{"iterations", "converged", "energy"}));
   EXPECT_EQ (object["label"], 1);
   EXPECT_EQ (object["closed"], true);

@@ -51,14 +51,9 @@ protected:
     save (cloud_);
   }
 
-  void
-  save (const Cloud& cloud) const
-  {
-    pcl::io::savePCDFileBinary (folder_.file ("in.pcd"), cloud);
-  }
+  void save (const Cloud& cloud) const { pcl::io::savePCDFileBinary (folder_.file ("in.pcd"), cloud); }
 
-  std::string
-  failure (const std::vector<std::string>& arguments, int status) const
+  std::string failure (const std::vector<std::string>& arguments, int status) const
   {
     ToolRun run (arguments, folder_.file (""), {}, PCL_COSECTION_SEGMENT);
     EXPECT_EQ (run.wait (), status);
@@ -107,7 +102,8 @@ TEST_F (Segment, LabelsAndKeepsTheRest)
 
 TEST_F (Segment, LeavesOutARegion)
 {
-  ToolRun run ({"in.pcd", "out.pcd", "--ignore-region", "60,0,40,120"}, folder_.file (""), {}, PCL_COSECTION_SEGMENT); // that the block is in
+  ToolRun run ({"in.pcd", "out.pcd", "--ignore-region", "60,0,40,120"}, folder_.file (""), {},
+               PCL_COSECTION_SEGMENT); // that the block is in
   ASSERT_EQ (run.wait (), 0) << run.errors ();
   EXPECT_EQ (run.output (), "wrote out.pcd: 0 objects on 1 plane\n");
   Cloud out;

@@ -7,7 +7,7 @@
 #include "segmentation/spot_network.h"
 #include "tool_run.h"
 
-#include <pcl/cosection/io/image_io.h>
+#include "pcl_cosection/io/image_io.h"
 
 #include <pcl/io/pcd_io.h>
 #include <pcl/point_types.h>
@@ -35,7 +35,8 @@ protected:
   /** \brief A red spot of 6 x 4 pixels from (8, 6) on, and a network that finds such. */
   SegmentNetwork ()
   {
-    write ("spot.onnx", affineOnnx (SpotNetwork::width, SpotNetwork::height, SpotNetwork{NetworkOutputForm::Prototypes}.outputs ()));
+    write ("spot.onnx",
+           affineOnnx (SpotNetwork::width, SpotNetwork::height, SpotNetwork{NetworkOutputForm::Prototypes}.outputs ()));
     write ("names", "person\ntable\ncup\n");
     const Picture picture = test::spotPicture (8, 6);
     for (int v = 0; v < picture.height; ++v)
@@ -49,23 +50,21 @@ protected:
     pcl::io::savePCDFileBinary (folder_.file ("in.pcd"), cloud_);
   }
 
-  void
-  write (const std::string& name, const std::string& bytes) const
+  void write (const std::string& name, const std::string& bytes) const
   {
     std::ofstream (folder_.file (name), std::ios::binary) << bytes;
   }
 
-  static std::vector<std::string>
-  arguments (const std::vector<std::string>& more = {})
+  static std::vector<std::string> arguments (const std::vector<std::string>& more = {})
   {
-    std::vector<std::string> all = {"in.pcd", "out.pcd", "--method", "mask-rcnn", "--model", "spot.onnx", "--input-size", "24,16"};
+    std::vector<std::string> all = {"in.pcd",  "out.pcd",   "--method",     "mask-rcnn",
+                                    "--model", "spot.onnx", "--input-size", "24,16"};
     all.insert (all.end (), more.begin (), more.end ());
     return (all);
   }
 
   /** \brief How often each label is in what comes out. */
-  std::map<std::uint32_t, std::size_t>
-  labels (const std::vector<std::string>& words) const
+  std::map<std::uint32_t, std::size_t> labels (const std::vector<std::string>& words) const
   {
     ToolRun run (words, folder_.file (""), {}, PCL_COSECTION_SEGMENT);
     EXPECT_EQ (run.wait (), 0) << run.errors ();
@@ -78,8 +77,7 @@ protected:
     return (counts);
   }
 
-  std::string
-  failure (const std::vector<std::string>& words, int status) const
+  std::string failure (const std::vector<std::string>& words, int status) const
   {
     ToolRun run (words, folder_.file (""), {}, PCL_COSECTION_SEGMENT);
     EXPECT_EQ (run.wait (), status);
@@ -101,7 +99,8 @@ constexpr std::size_t spot = 24, rest = 24 * 16 - spot;
 
 TEST_F (SegmentNetwork, LabelsWhatTheNetworkFinds)
 {
-  EXPECT_EQ (labels (arguments ({"--class-names", "names", "--classes", "cup", "--json", "s.json", "--quiet"})), (Counts{{0, rest}, {1, spot}}));
+  EXPECT_EQ (labels (arguments ({"--class-names", "names", "--classes", "cup", "--json", "s.json", "--quiet"})),
+             (Counts{{0, rest}, {1, spot}}));
   std::ifstream file (folder_.file ("s.json"));
   const nlohmann::json summary = nlohmann::json::parse (file);
   ASSERT_EQ (summary["objects"].size (), 1u);
@@ -125,13 +124,15 @@ TEST_F (SegmentNetwork, ClassesHaveRoles)
 
 TEST_F (SegmentNetwork, PartsOfTheImageAreLeftOut)
 {
-  EXPECT_EQ (labels (arguments ({"--ignore-region", "0,0,24,7"})), (Counts{{0, rest - 24 * 7 + 6}, {1, spot - 6}, {65535, 24 * 7}}));
+  EXPECT_EQ (labels (arguments ({"--ignore-region", "0,0,24,7"})),
+             (Counts{{0, rest - 24 * 7 + 6}, {1, spot - 6}, {65535, 24 * 7}}));
   Image<std::uint16_t> mask (SpotNetwork::width, SpotNetwork::height, 0);
   mask.at (9, 7) = 300;
   mask.at (0, 15) = 1;
   saveMaskImage (mask, folder_.file ("mask.png"), true);
-  EXPECT_EQ (labels (arguments ({"--ignore-mask", "mask.png", "--ignore-region", "1,1,1,1", "--ignore-region", "2,1,1,1"})),
-             (Counts{{0, rest - 3}, {1, spot - 1}, {65535, 4}}));
+  EXPECT_EQ (
+      labels (arguments ({"--ignore-mask", "mask.png", "--ignore-region", "1,1,1,1", "--ignore-region", "2,1,1,1"})),
+      (Counts{{0, rest - 3}, {1, spot - 1}, {65535, 4}}));
 }
 
 TEST_F (SegmentNetwork, IgnoredPointsAreNotCompleted)
@@ -152,14 +153,20 @@ TEST_F (SegmentNetwork, WrongUsageIsOneLine)
   EXPECT_NE (failure ({"in.pcd", "out.pcd", "--method", "magic"}, 2).find ("geometric"), std::string::npos);
   EXPECT_NE (failure ({"in.pcd", "out.pcd", "--model", "spot.onnx"}, 2).find ("--method mask-rcnn"), std::string::npos);
   EXPECT_NE (failure (arguments ({"--concave-angle", "0.3"}), 2).find ("--method geometric"), std::string::npos);
-  EXPECT_NE (failure ({"in.pcd", "out.pcd", "--method", "mask-rcnn", "--model", "spot.pt"}, 2).find (".onnx"), std::string::npos);
-  EXPECT_NE (failure (arguments ({"--class-names", "names", "--classes", "cups"}), 2).find ("did you mean cup?"), std::string::npos);
+  EXPECT_NE (failure ({"in.pcd", "out.pcd", "--method", "mask-rcnn", "--model", "spot.pt"}, 2).find (".onnx"),
+             std::string::npos);
+  EXPECT_NE (failure (arguments ({"--class-names", "names", "--classes", "cups"}), 2).find ("did you mean cup?"),
+             std::string::npos);
   EXPECT_NE (failure (arguments ({"--classes", "cup"}), 2).find ("--class-names"), std::string::npos);
-  EXPECT_NE (failure (arguments ({"--class-names", "names", "--classes", "cup", "--ignore", "cup"}), 2).find ("\"cup\""), std::string::npos);
+  EXPECT_NE (
+      failure (arguments ({"--class-names", "names", "--classes", "cup", "--ignore", "cup"}), 2).find ("\"cup\""),
+      std::string::npos);
   EXPECT_NE (failure (arguments ({"--score", "2"}), 2).find ("--score"), std::string::npos);
   EXPECT_NE (failure (arguments ({"--input-mean", "1,2"}), 2).find ("--input-mean"), std::string::npos);
-  EXPECT_NE (failure ({"in.pcd", "out.pcd", "--ignore-region", "1,2,3"}, 2).find ("--ignore-region"), std::string::npos);
-  EXPECT_NE (failure ({"in.pcd", "out.pcd", "--ignore-region", "1,2,3,-4"}, 2).find ("--ignore-region"), std::string::npos);
+  EXPECT_NE (failure ({"in.pcd", "out.pcd", "--ignore-region", "1,2,3"}, 2).find ("--ignore-region"),
+             std::string::npos);
+  EXPECT_NE (failure ({"in.pcd", "out.pcd", "--ignore-region", "1,2,3,-4"}, 2).find ("--ignore-region"),
+             std::string::npos);
   EXPECT_NE (failure ({"in.pcd", "out.pcd", "--ignore-region", "23,0,2,4"}, 2).find ("24 x 16"), std::string::npos);
 }
 
@@ -167,11 +174,14 @@ TEST_F (SegmentNetwork, BadInputIsOneLine)
 {
   const std::string model = test::readFile (folder_.file ("spot.onnx"));
   write ("cut.onnx", model.substr (0, model.size () / 2));
-  write ("any_size.onnx",
-         affineOnnx (SpotNetwork::width, SpotNetwork::height, SpotNetwork{NetworkOutputForm::Prototypes}.outputs (), false));
-  EXPECT_NE (failure ({"in.pcd", "out.pcd", "--method", "mask-rcnn", "--model", "absent.onnx"}, 1).find ("absent.onnx"), std::string::npos);
-  EXPECT_NE (failure ({"in.pcd", "out.pcd", "--method", "mask-rcnn", "--model", "cut.onnx"}, 1).find ("cut.onnx"), std::string::npos);
-  EXPECT_NE (failure ({"in.pcd", "out.pcd", "--method", "mask-rcnn", "--model", "any_size.onnx"}, 1).find ("640 x 640"), std::string::npos);
+  write ("any_size.onnx", affineOnnx (SpotNetwork::width, SpotNetwork::height,
+                                      SpotNetwork{NetworkOutputForm::Prototypes}.outputs (), false));
+  EXPECT_NE (failure ({"in.pcd", "out.pcd", "--method", "mask-rcnn", "--model", "absent.onnx"}, 1).find ("absent.onnx"),
+             std::string::npos);
+  EXPECT_NE (failure ({"in.pcd", "out.pcd", "--method", "mask-rcnn", "--model", "cut.onnx"}, 1).find ("cut.onnx"),
+             std::string::npos);
+  EXPECT_NE (failure ({"in.pcd", "out.pcd", "--method", "mask-rcnn", "--model", "any_size.onnx"}, 1).find ("640 x 640"),
+             std::string::npos);
   EXPECT_NE (failure (arguments ({"--class-names", "absent"}), 1).find ("absent"), std::string::npos);
   write ("two", "cup\nbottle\n");
   EXPECT_NE (failure (arguments ({"--class-names", "two"}), 1).find ("3 classes"), std::string::npos);

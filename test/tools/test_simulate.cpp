@@ -33,18 +33,16 @@ const char* const small = R"({
 class Simulate : public testing::Test
 {
 protected:
-  void
-  writeScene (const std::string& height = "0.1") const
+  void writeScene (const std::string& height = "0.1") const
   {
     std::string text = small;
     text.replace (text.find ("HEIGHT"), 6, height);
     std::ofstream (folder_.file ("scene.json")) << text;
   }
 
-  std::string
-  failure (const std::vector<std::string>& arguments, int status) const
+  std::string failure (const std::vector<std::string>& arguments, int status) const
   {
-    ToolRun run (arguments, folder_.file (""), {}, PCL_COSECTION_SIMULATE_TOOL);
+    ToolRun run (arguments, folder_.file (""), {}, PCL_COSECTION_SIMULATE);
     EXPECT_EQ (run.wait (), status);
     const std::string errors = run.errors ();
     EXPECT_EQ (errors.rfind ("pcl_cosection_simulate: error: ", 0), 0u) << errors;
@@ -60,7 +58,8 @@ protected:
 TEST_F (Simulate, WritesASceneAndASummary)
 {
   writeScene ();
-  ToolRun run ({"scene.json", "out", "--json", "s.json", "--views-every", "2"}, folder_.file (""), {}, PCL_COSECTION_SIMULATE_TOOL);
+  ToolRun run ({"scene.json", "out", "--json", "s.json", "--views-every", "2"}, folder_.file (""), {},
+               PCL_COSECTION_SIMULATE);
   EXPECT_EQ (run.wait (), 0) << run.errors ();
   EXPECT_EQ (run.errors (), "");
   EXPECT_EQ (run.output ().rfind ("wrote out: 4 frames of 64 x 48, 1 object, ", 0), 0u) << run.output ();
@@ -77,23 +76,24 @@ TEST_F (Simulate, WritesASceneAndASummary)
 TEST_F (Simulate, SaysWhatPenetrates)
 {
   writeScene ("0.08");
-  ToolRun run ({"scene.json", "out"}, folder_.file (""), {}, PCL_COSECTION_SIMULATE_TOOL);
+  ToolRun run ({"scene.json", "out"}, folder_.file (""), {}, PCL_COSECTION_SIMULATE);
   EXPECT_EQ (run.wait (), 0);
-  EXPECT_EQ (run.errors (), "pcl_cosection_simulate: warning: ball is inside room, by 20 mm at frame 0 (in 4 frames)\n");
+  EXPECT_EQ (run.errors (),
+             "pcl_cosection_simulate: warning: ball is inside room, by 20 mm at frame 0 (in 4 frames)\n");
 }
 
 TEST_F (Simulate, PresetsAreListedPrintedAndRendered)
 {
-  ToolRun list ({"--list-presets"}, folder_.file (""), {}, PCL_COSECTION_SIMULATE_TOOL);
+  ToolRun list ({"--list-presets"}, folder_.file (""), {}, PCL_COSECTION_SIMULATE);
   EXPECT_EQ (list.wait (), 0);
   for (const char* name : {"table", "toys", "stack"})
     EXPECT_NE (list.output ().find (std::string (name) + " "), std::string::npos);
-  ToolRun print ({"--print-preset", "stack"}, folder_.file (""), {}, PCL_COSECTION_SIMULATE_TOOL);
+  ToolRun print ({"--print-preset", "stack"}, folder_.file (""), {}, PCL_COSECTION_SIMULATE);
   EXPECT_EQ (print.wait (), 0);
   std::ofstream (folder_.file ("mine.json")) << print.output ();
-  ToolRun mine ({"--frames", "50:51", "mine.json", "mine"}, folder_.file (""), {}, PCL_COSECTION_SIMULATE_TOOL);
+  ToolRun mine ({"--frames", "50:51", "mine.json", "mine"}, folder_.file (""), {}, PCL_COSECTION_SIMULATE);
   EXPECT_EQ (mine.wait (), 0) << mine.errors ();
-  ToolRun preset ({"--frames", "50:51", "--preset", "stack", "preset"}, folder_.file (""), {}, PCL_COSECTION_SIMULATE_TOOL);
+  ToolRun preset ({"--frames", "50:51", "--preset", "stack", "preset"}, folder_.file (""), {}, PCL_COSECTION_SIMULATE);
   EXPECT_EQ (preset.wait (), 0) << preset.errors ();
   const auto bytes = [&] (const std::string& name) {
     std::ifstream in (folder_.file (name), std::ios::binary);
@@ -109,8 +109,10 @@ TEST_F (Simulate, WrongUsageIsOneLine)
   EXPECT_NE (failure ({}, 2).find ("SPEC.json and OUTPUT are missing"), std::string::npos);
   EXPECT_NE (failure ({"scene.json"}, 2).find ("OUTPUT is missing after scene.json"), std::string::npos);
   EXPECT_NE (failure ({"--preset", "table"}, 2).find ("OUTPUT is missing"), std::string::npos);
-  EXPECT_NE (failure ({"--preset", "tabel", "out"}, 2).find ("no preset tabel; did you mean table?"), std::string::npos);
-  EXPECT_NE (failure ({"--preset", "table", "scene.json", "out"}, 2).find ("one argument too many: out"), std::string::npos);
+  EXPECT_NE (failure ({"--preset", "tabel", "out"}, 2).find ("no preset tabel; did you mean table?"),
+             std::string::npos);
+  EXPECT_NE (failure ({"--preset", "table", "scene.json", "out"}, 2).find ("one argument too many: out"),
+             std::string::npos);
   EXPECT_NE (failure ({"--sead", "3", "scene.json", "out"}, 2).find ("did you mean --seed?"), std::string::npos);
   for (const char* frames : {"3", "a:b", "3:2", "-1:2", "1:2:3", "1.5:2"})
     EXPECT_NE (failure ({"--frames", frames, "scene.json", "out"}, 2).find ("--frames"), std::string::npos) << frames;
@@ -124,10 +126,14 @@ TEST_F (Simulate, BadInputIsOneLineAndWritesNothing)
   EXPECT_NE (failure ({"nowhere.json", "out"}, 1).find ("nowhere.json"), std::string::npos);
   std::ofstream (folder_.file ("bad.json")) << "{\"frames\": }";
   EXPECT_NE (failure ({"bad.json", "out"}, 1).find ("bad.json: is not well-formed JSON"), std::string::npos);
-  std::ofstream (folder_.file ("unknown.json")) << "{\"camera\": {\"keys\": [{\"position\": [0,0,0]}]}, \"objects\": [], \"fps\": 3}";
-  EXPECT_NE (failure ({"unknown.json", "out"}, 1).find ("unknown.json: has the unknown field \"fps\""), std::string::npos);
-  EXPECT_NE (failure ({"--frames", "2:9", "scene.json", "out"}, 1).find ("frames 2:9 are not there; the scene has 0:4"), std::string::npos);
-  EXPECT_NE (failure ({"scene.json", "out", "--json", "scene.json"}, 2).find ("scene.json would be overwritten"), std::string::npos);
+  std::ofstream (folder_.file ("unknown.json"))
+      << "{\"camera\": {\"keys\": [{\"position\": [0,0,0]}]}, \"objects\": [], \"fps\": 3}";
+  EXPECT_NE (failure ({"unknown.json", "out"}, 1).find ("unknown.json: has the unknown field \"fps\""),
+             std::string::npos);
+  EXPECT_NE (failure ({"--frames", "2:9", "scene.json", "out"}, 1).find ("frames 2:9 are not there; the scene has 0:4"),
+             std::string::npos);
+  EXPECT_NE (failure ({"scene.json", "out", "--json", "scene.json"}, 2).find ("scene.json would be overwritten"),
+             std::string::npos);
   EXPECT_NE (failure ({"scene.json", "out", "--json", "no/s.json"}, 1).find ("no/s.json"), std::string::npos);
   EXPECT_NE (failure ({"scene.json", "."}, 1).find ("give the name of a new folder"), std::string::npos);
   EXPECT_FALSE (fs::exists (folder_.file ("out")));

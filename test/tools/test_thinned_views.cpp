@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_cosection authors
 
-// The program with what others made of a view before: thinned by pcl::VoxelGrid, with normals of pcl::NormalEstimation, one cluster alone. Readings
-// between things and what is behind them, which a camera has few of, are as many there as those of surfaces.
+// The program with what others made of a view before: thinned by pcl::VoxelGrid, with normals of pcl::NormalEstimation,
+// one cluster alone. Readings between things and what is behind them, which a camera has few of, are as many there as
+// those of surfaces.
 
 #include "common/temporary_folder.h"
 #include "tool_run.h"
@@ -30,30 +31,28 @@ namespace
 
 using Cloud = pcl::PointCloud<pcl::PointXYZL>;
 
-const std::map<int, std::string> things = {{2, "carton"}, {3, "ball"}, {4, "bottle"}}; // those of the scene whose walls are not thin
+const std::map<int, std::string> things = {
+    {2, "carton"}, {3, "ball"}, {4, "bottle"}}; // those of the scene whose walls are not thin
 
 class ThinnedViews : public testing::Test
 {
 protected:
-  static void
-  SetUpTestSuite ()
+  static void SetUpTestSuite ()
   {
     folder_ = std::make_unique<pcl::cosection::test::TemporaryFolder> ();
-    ToolRun tool ({"--preset", "table", "--frames", "0:1", "sim"}, folder_->file (""), {}, PCL_COSECTION_SIMULATE_TOOL);
+    ToolRun tool ({"--preset", "table", "--frames", "0:1", "sim"}, folder_->file (""), {}, PCL_COSECTION_SIMULATE);
     ASSERT_EQ (tool.wait (), 0) << tool.errors ();
     pcl::io::loadPCDFile (folder_->file ("sim/views/View0000.pcd"), view_);
   }
 
-  static void
-  TearDownTestSuite ()
+  static void TearDownTestSuite ()
   {
     folder_.reset ();
     view_ = Cloud ();
   }
 
   /** \brief One point of each label per cell; zero: all that have a reading. */
-  static Cloud::Ptr
-  thinned (float cell_m)
+  static Cloud::Ptr thinned (float cell_m)
   {
     std::map<std::uint32_t, Cloud::Ptr> parts;
     for (const auto& p : view_)
@@ -86,8 +85,7 @@ protected:
     return all;
   }
 
-  void
-  save (const Cloud::ConstPtr& cloud, bool with_normals) const
+  void save (const Cloud::ConstPtr& cloud, bool with_normals) const
   {
     if (!with_normals)
     {
@@ -111,12 +109,13 @@ protected:
   }
 
   /** \brief Relative error of a mesh's volume. */
-  static double
-  volumeError (const std::string& mesh, const std::string& thing)
+  static double volumeError (const std::string& mesh, const std::string& thing)
   {
     const TriangleMesh body = loadMesh (folder_->file (mesh));
     EXPECT_TRUE (computeTopology (body).closed_manifold);
-    return computeMassProperties (body).volume_m3 / computeMassProperties (loadMesh (folder_->file ("sim/gt-mesh/" + thing + ".ply"))).volume_m3 - 1.0;
+    return computeMassProperties (body).volume_m3 /
+               computeMassProperties (loadMesh (folder_->file ("sim/gt-mesh/" + thing + ".ply"))).volume_m3 -
+           1.0;
   }
 
   static std::unique_ptr<pcl::cosection::test::TemporaryFolder> folder_;
@@ -136,7 +135,8 @@ TEST_F (ThinnedViews, HaveTheirVolumes)
     bool with_normals;
     double most; // error
   };
-  for (const Case& c : {Case{0.0f, true, 0.05}, Case{0.005f, false, 0.08}, Case{0.005f, true, 0.08}, Case{0.01f, false, 0.15}, Case{0.01f, true, 0.15}})
+  for (const Case& c : {Case{0.0f, true, 0.05}, Case{0.005f, false, 0.08}, Case{0.005f, true, 0.08},
+                        Case{0.01f, false, 0.15}, Case{0.01f, true, 0.15}})
   {
     SCOPED_TRACE (std::to_string (c.cell_m) + (c.with_normals ? " m, with normals" : " m"));
     save (thinned (c.cell_m), c.with_normals);

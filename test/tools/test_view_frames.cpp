@@ -37,15 +37,17 @@ TEST_F (ViewFrames, ViewsInTheWorldFrameAreAsGood)
   pcl::io::savePCDFileBinary (path ("shuffled.pcd"), unordered);
   unordered.sensor_origin_.head<3> () = sensor;
   pcl::io::savePCDFileBinary (path ("shuffled_told.pcd"), unordered);
-  const std::string place = std::to_string (sensor.x ()) + "," + std::to_string (sensor.y ()) + "," + std::to_string (sensor.z ());
+  const std::string place = std::to_string (sensor.x ()) + "," + std::to_string (sensor.y ()) + "," +
+                            std::to_string (sensor.z ());
 
   ASSERT_EQ (run ({"view.pcd", "expected"}), 0) << errors_;
-  const std::pair<std::vector<std::string>, std::string> views[] = {{{"organized.pcd"}, "their pixels tell that it stood at"},
-                                                                    {{"told.pcd"}, "taken as with --world-points"},
-                                                                    {{"unorganized.pcd"}, "the order of its points tells"},
-                                                                    {{"--viewpoint", place, "organized.pcd"}, ""},
-                                                                    {{"--viewpoint", place, "shuffled.pcd"}, ""},
-                                                                    {{"shuffled_told.pcd"}, "taken as with --world-points"}};
+  const std::pair<std::vector<std::string>, std::string> views[] = {
+      {{"organized.pcd"}, "their pixels tell that it stood at"},
+      {{"told.pcd"}, "taken as with --world-points"},
+      {{"unorganized.pcd"}, "the order of its points tells"},
+      {{"--viewpoint", place, "organized.pcd"}, ""},
+      {{"--viewpoint", place, "shuffled.pcd"}, ""},
+      {{"shuffled_told.pcd"}, "taken as with --world-points"}};
   for (const auto& [arguments, said] : views)
   {
     SCOPED_TRACE (arguments.back ());
@@ -77,7 +79,8 @@ TEST_F (ViewFrames, MergedViewsHaveNoViewpoint)
       if (std::isfinite (p.x))
       {
         merged.push_back (p);
-        merged.back ().getVector3fMap () = Eigen::AngleAxisf (turn, Eigen::Vector3f::UnitZ ()) * (T * Eigen::Vector3f (p.getVector3fMap ()));
+        merged.back ().getVector3fMap () = Eigen::AngleAxisf (turn, Eigen::Vector3f::UnitZ ()) *
+                                           (T * Eigen::Vector3f (p.getVector3fMap ()));
       }
   pcl::io::savePCDFileBinary (path ("merged.pcd"), merged);
   EXPECT_EQ (run ({"merged.pcd", "out"}), 0);

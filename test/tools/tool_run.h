@@ -21,26 +21,20 @@ public:
   /** \brief Kills the program if it is still running. */
   ~ToolRun ();
   ToolRun (const ToolRun&) = delete;
-  ToolRun&
-  operator= (const ToolRun&) = delete;
+  ToolRun& operator= (const ToolRun&) = delete;
 
-  void
-  send (int signal) const;
+  void send (int signal) const;
 
   /** \brief Wait until standard error contains \a text. \return false after a minute, or if the
    * program ends before */
-  bool
-  waitForError (const std::string& text);
+  bool waitForError (const std::string& text);
 
   /** \brief Wait for the end. \return the exit status, or minus the signal that ended the program */
-  int
-  wait ();
+  int wait ();
 
-  std::string
-  output () const;
+  std::string output () const;
 
-  std::string
-  errors () const;
+  std::string errors () const;
 
 private:
   const std::string folder_;

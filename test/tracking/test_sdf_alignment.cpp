@@ -31,13 +31,14 @@ struct Bounds
 
 struct Outcome
 {
-  int good = 0;      // within the bounds
+  int good = 0; // within the bounds
   int converged = 0;
 };
 
 /** \brief From poses up to 10 degrees and 5 cm away. */
 Outcome
-alignPerturbed (const SdfTarget& target, const Eigen::Vector3d& center, const std::vector<BodyView>& views, const Bounds& bounds)
+alignPerturbed (const SdfTarget& target, const Eigen::Vector3d& center, const std::vector<BodyView>& views,
+                const Bounds& bounds)
 {
   std::mt19937 random (7);
   SdfAlignment alignment;
@@ -79,8 +80,9 @@ TEST_P (SdfAlignmentOfToys, ConvergesWithTheNoiseOfStructuredLight)
   EXPECT_GE (outcome.good, trials * 95 / 100);
 }
 
-/** \brief What a camera that goes around the object has averaged, and views between those. Averages of projective distances seen at
- * different angles are not zero on the surface: a quarter of a voxel is asked for, at the centre and at the ends. */
+/** \brief What a camera that goes around the object has averaged, and views between those. Averages of projective
+ * distances seen at different angles are not zero on the surface: a quarter of a voxel is asked for, at the centre and
+ * at the ends. */
 TEST_P (SdfAlignmentOfToys, ConvergesInTheTsdfOfASequence)
 {
   std::vector<Eigen::Isometry3d> integrated, between;
@@ -92,7 +94,8 @@ TEST_P (SdfAlignmentOfToys, ConvergesInTheTsdfOfASequence)
   }
   TsdfOptions options;
   options.truncation_vox = 5.0;
-  const TsdfVolume volume = bodyTsdf (body_, body_camera, renderBody (body_, body_camera, integrated, false), resolution, options);
+  const TsdfVolume volume = bodyTsdf (body_, body_camera, renderBody (body_, body_camera, integrated, false),
+                                      resolution, options);
   const double half_length_vox = 0.5 * resolution / 1.25; // the volume is a quarter larger
   const Bounds bounds{0.25 * volume.grid ().voxel_size_m, 0.25 / half_length_vox};
   const Outcome outcome = alignPerturbed (volume, center_, renderBody (body_, body_camera, between, false), bounds);
@@ -128,8 +131,9 @@ TEST_P (SdfAlignmentOfToys, IsTheSameForAnyNumberOfThreads)
 TEST_P (SdfAlignmentOfToys, InformationIsThatOfFiniteDifferences)
 {
   const BodyView view = renderBody (body_, body_camera, {poseOnCircle (center_, body_distance_m, 1.0)}, false).front ();
-  const std::vector<BodyView> integrated =
-      renderBody (body_, body_camera, {poseOnCircle (center_, body_distance_m, 0.9), poseOnCircle (center_, body_distance_m, 1.1)}, false);
+  const std::vector<BodyView> integrated = renderBody (
+      body_, body_camera, {poseOnCircle (center_, body_distance_m, 0.9), poseOnCircle (center_, body_distance_m, 1.1)},
+      false);
   const TsdfVolume volume = bodyTsdf (body_, body_camera, integrated, resolution);
   const std::vector<Eigen::Vector3f> points = view.points (body_camera);
   std::vector<float> weights (points.size ());
@@ -166,8 +170,10 @@ TEST_P (SdfAlignmentOfToys, InformationIsThatOfFiniteDifferences)
   EXPECT_NEAR (static_cast<double> (result.points_with_distance), static_cast<double> (with_distance), 2.0);
   EXPECT_LT ((result.information - information).norm (), 1e-3 * information.norm ());
   // Rotations and translations are of different size.
-  EXPECT_LT ((result.information - information).topLeftCorner (3, 3).norm (), 1e-3 * information.topLeftCorner (3, 3).norm ());
-  EXPECT_LT ((result.information - information).bottomRightCorner (3, 3).norm (), 1e-3 * information.bottomRightCorner (3, 3).norm ());
+  EXPECT_LT ((result.information - information).topLeftCorner (3, 3).norm (),
+             1e-3 * information.topLeftCorner (3, 3).norm ());
+  EXPECT_LT ((result.information - information).bottomRightCorner (3, 3).norm (),
+             1e-3 * information.bottomRightCorner (3, 3).norm ());
 }
 
 INSTANTIATE_TEST_SUITE_P (Toys, SdfAlignmentOfToys, testing::Values ("truck", "car"),

@@ -103,13 +103,15 @@ TEST (SdfAlignmentLimits, BallHoldsItsRotation)
   EXPECT_EQ (result.observed_directions, 3);
   EXPECT_LT (result.observability[2], 1e-3);
   EXPECT_LT (result.T_grid_sensor.translation ().norm (), 2e-4);
-  EXPECT_LT (Eigen::AngleAxisd (result.T_grid_sensor.linear () * guess.linear ().transpose ()).angle (), radians (0.01));
+  EXPECT_LT (Eigen::AngleAxisd (result.T_grid_sensor.linear () * guess.linear ().transpose ()).angle (),
+             radians (0.01));
 }
 
 TEST (SdfAlignmentLimits, CornerDeterminesAllDirections)
 {
   const SignedDistanceField field = cornerField ();
-  const SdfAlignmentResult result = SdfAlignment ().align (surfacePoints (field), {}, field, nearby (0.01, radians (3.0)));
+  const SdfAlignmentResult result = SdfAlignment ().align (surfacePoints (field), {}, field,
+                                                           nearby (0.01, radians (3.0)));
   EXPECT_TRUE (result.converged);
   EXPECT_EQ (result.observed_directions, 6);
   EXPECT_GT (result.inlier_share, 0.95);
@@ -149,7 +151,8 @@ TEST (SdfAlignmentLimits, PointsThatSayNothingAreLeftOut)
 TEST (SdfAlignmentLimits, VoxelsWithoutADistanceSayNothing)
 {
   const std::vector<Eigen::Vector3f> points = surfacePoints (cornerField ());
-  for (const float unknown : {not_a_number, std::numeric_limits<float>::infinity (), std::numeric_limits<float>::max (), -1e30f})
+  for (const float unknown :
+       {not_a_number, std::numeric_limits<float>::infinity (), std::numeric_limits<float>::max (), -1e30f})
   {
     SignedDistanceField field = cornerField ();
     for (std::size_t v = 0; v < field.values.size (); v += 50)
@@ -170,7 +173,8 @@ TEST (SdfAlignmentLimits, UnsupportedVoxelsSayNothing)
   const std::size_t all = SdfAlignment ().align (points, {}, field, guess).points_with_distance;
   field.supported.assign (field.values.size (), 1);
   EXPECT_EQ (SdfAlignment ().align (points, {}, field, guess).points_with_distance, all);
-  std::fill (field.supported.begin (), field.supported.begin () + static_cast<std::ptrdiff_t> (field.supported.size () / 2), 0);
+  std::fill (field.supported.begin (),
+             field.supported.begin () + static_cast<std::ptrdiff_t> (field.supported.size () / 2), 0);
   const SdfAlignmentResult half = SdfAlignment ().align (points, {}, field, guess);
   EXPECT_LT (half.points_with_distance, all * 3 / 4);
   EXPECT_GT (half.points_with_distance, all / 4);
@@ -184,7 +188,8 @@ TEST (SdfAlignmentLimits, NoPoseIsNoError)
   const Eigen::Isometry3d guess = nearby (0.01, radians (3.0));
   for (const std::vector<Eigen::Vector3f>& points :
        {std::vector<Eigen::Vector3f> (), std::vector<Eigen::Vector3f> (100, Eigen::Vector3f::Constant (not_a_number)),
-        std::vector<Eigen::Vector3f> (100, Eigen::Vector3f::Constant (9.0f)), std::vector<Eigen::Vector3f> (5, Eigen::Vector3f::Zero ())})
+        std::vector<Eigen::Vector3f> (100, Eigen::Vector3f::Constant (9.0f)),
+        std::vector<Eigen::Vector3f> (5, Eigen::Vector3f::Zero ())})
   {
     const SdfAlignmentResult result = SdfAlignment ().align (points, {}, field, guess);
     EXPECT_FALSE (result.converged);

@@ -37,27 +37,27 @@ cloudOf (const std::vector<Eigen::Vector3f>& points)
 class SdfRegistrationTest : public testing::Test
 {
 protected:
-  static const SceneBody&
-  body ()
+  static const SceneBody& body ()
   {
     static const SceneBody truck = presetBody ("toys", "truck");
     return truck;
   }
 
-  static const SignedDistanceField::ConstPtr&
-  field ()
+  static const SignedDistanceField::ConstPtr& field ()
   {
-    static const SignedDistanceField::ConstPtr exact = std::make_shared<SignedDistanceField> (bodyDistance (body (), 64));
+    static const SignedDistanceField::ConstPtr exact = std::make_shared<SignedDistanceField> (
+        bodyDistance (body (), 64));
     return exact;
   }
 
-  static BodyView
-  viewFrom (const Eigen::Isometry3d& T_body_sensor)
+  static BodyView viewFrom (const Eigen::Isometry3d& T_body_sensor)
   {
     return renderBody (body (), body_camera, {T_body_sensor}, false).front ();
   }
 
-  SdfRegistrationTest () : view_ (viewFrom (poseOnCircle (center_, body_distance_m, 0.8))), points_ (view_.points (body_camera))
+  SdfRegistrationTest ()
+      : view_ (viewFrom (poseOnCircle (center_, body_distance_m, 0.8)))
+      , points_ (view_.points (body_camera))
   {
     std::mt19937 random (5);
     const Eigen::Isometry3d first = randomMotion (random, center_, radians (6.0), 0.04) * view_.T_body_sensor;
@@ -88,7 +88,9 @@ TEST_F (SdfRegistrationTest, EqualsTheAlignment)
   EXPECT_EQ (registration->getInformationMatrix (), expected.information);
   ASSERT_EQ (aligned.size (), points_.size ());
   for (std::size_t n = 0; n < aligned.size (); n += 100)
-    EXPECT_LT ((aligned[n].getVector3fMap ().cast<double> () - expected.T_grid_sensor * points_[n].cast<double> ()).norm (), 1e-6);
+    EXPECT_LT (
+        (aligned[n].getVector3fMap ().cast<double> () - expected.T_grid_sensor * points_[n].cast<double> ()).norm (),
+        1e-6);
   const double spacing_m = field ()->grid.voxel_size_m;
   EXPECT_LT (base->getFitnessScore (), spacing_m * spacing_m);
 
@@ -116,7 +118,8 @@ TEST_F (SdfRegistrationTest, HonoursIndicesWeightsAndTheBase)
   registration.setIndices (indices);
   Cloud aligned;
   registration.align (aligned, guess_);
-  const Eigen::Matrix4f expected = SdfAlignment ().align (points_, {}, *field (), T_guess_).T_grid_sensor.matrix ().cast<float> ();
+  const Eigen::Matrix4f
+      expected = SdfAlignment ().align (points_, {}, *field (), T_guess_).T_grid_sensor.matrix ().cast<float> ();
   EXPECT_EQ (registration.getFinalTransformation (), expected);
   EXPECT_EQ (aligned.size (), points_.size ());
 
@@ -169,7 +172,8 @@ TEST_F (SdfRegistrationTest, SaysWhatIsMissing)
 
   EXPECT_THROW (registration.setSignedDistance (SignedDistanceField::ConstPtr ()), InvalidArgument);
   EXPECT_THROW (registration.setSignedDistance (TsdfVolume::ConstPtr ()), InvalidArgument);
-  EXPECT_THROW (registration.setSignedDistance (std::make_shared<TsdfVolume> (field ()->grid)), InvalidArgument); // no surface
+  EXPECT_THROW (registration.setSignedDistance (std::make_shared<TsdfVolume> (field ()->grid)),
+                InvalidArgument); // no surface
 }
 
 TEST_F (SdfRegistrationTest, TrackerFollowsAndSaysWhenTheObjectIsLost)
@@ -197,7 +201,8 @@ TEST_F (SdfRegistrationTest, TrackerFollowsAndSaysWhenTheObjectIsLost)
       steps[static_cast<int> (model)] += tracker.getAlignment ().iterations;
       const auto state = tracker.getResult ();
       EXPECT_GT (state.weight, 0.5f);
-      EXPECT_LT ((tracker.toEigenMatrix (state).matrix ().cast<double> () - tracker.getPose ().matrix ()).norm (), 1e-5);
+      EXPECT_LT ((tracker.toEigenMatrix (state).matrix ().cast<double> () - tracker.getPose ().matrix ()).norm (),
+                 1e-5);
     }
   }
   EXPECT_LT (steps[1], steps[0]); // the velocity is a better guess

@@ -2,18 +2,14 @@
 // Copyright (c) 2026, the pcl_cosection authors
 #include "tracking_scene.h"
 
+#include "pcl_cosection/view/look_at.h"
 #include <pcl/cosection/common/error.h>
-#include <pcl/cosection/common/look_at.h>
 #include <pcl/cosection/simulation/scene_renderer.h>
 #include <pcl/cosection/simulation/scene_spec.h>
 
 #include <algorithm>
 
-namespace pcl
-{
-namespace cosection
-{
-namespace test
+namespace pcl::cosection::test
 {
 
 namespace
@@ -158,9 +154,8 @@ randomMotion (std::mt19937& random, const Eigen::Vector3d& center, double max_an
   const Eigen::Vector3d direction = randomDirection (random);
   const double angle = max_angle_rad * share (random);
   const double shift = max_shift_m * share (random);
-  return Eigen::Translation3d (center + shift * direction) * Eigen::AngleAxisd (angle, axis) * Eigen::Translation3d (-center);
+  return Eigen::Translation3d (center + shift * direction) * Eigen::AngleAxisd (angle, axis) *
+         Eigen::Translation3d (-center);
 }
 
-} // namespace test
-} // namespace cosection
-} // namespace pcl
+} // namespace pcl::cosection::test

@@ -14,11 +14,7 @@
 #include <string>
 #include <vector>
 
-namespace pcl
-{
-namespace cosection
-{
-namespace test
+namespace pcl::cosection::test
 {
 
 /** \brief A camera that sees a body well from a distance. */
@@ -31,47 +27,42 @@ struct BodyView
   Eigen::Isometry3d T_body_sensor;
   Image<float> depth;
 
-  std::vector<Eigen::Vector3f>
-  points (const PinholeCamera& camera) const;
+  std::vector<Eigen::Vector3f> points (const PinholeCamera& camera) const;
 };
 
 /** \brief An object of one of the presets, at the origin of its frame. */
-SceneBody
-presetBody (const std::string& preset, const std::string& name);
+SceneBody presetBody (const std::string& preset, const std::string& name);
 
 /** \brief Sensors on a sphere about \a center: \a count of them, spread evenly over the upper three quarters. */
-std::vector<Eigen::Isometry3d>
-posesAroundBody (const Eigen::Vector3d& center, double distance_m, int count, double turn_rad = 0.0);
+std::vector<Eigen::Isometry3d> posesAroundBody (const Eigen::Vector3d& center, double distance_m, int count,
+                                                double turn_rad = 0.0);
 
 /** \brief A sensor on a circle about \a center, which it sees from above, and the same \a turn_rad on. */
-Eigen::Isometry3d
-poseOnCircle (const Eigen::Vector3d& center, double distance_m, double turn_rad);
+Eigen::Isometry3d poseOnCircle (const Eigen::Vector3d& center, double distance_m, double turn_rad);
 
 /** \brief What a camera sees of a body alone. \param[in] noise of structured light */
-std::vector<BodyView>
-renderBody (const SceneBody& body, const PinholeCamera& camera, const std::vector<Eigen::Isometry3d>& poses, bool noise);
+std::vector<BodyView> renderBody (const SceneBody& body, const PinholeCamera& camera,
+                                  const std::vector<Eigen::Isometry3d>& poses, bool noise);
 
 /** \brief A cube of voxels around the body, a quarter larger than it. */
-VoxelGrid
-bodyGrid (const SceneBody& body, int resolution);
+VoxelGrid bodyGrid (const SceneBody& body, int resolution);
 
 /** \brief The body's true signed distance. */
-SignedDistanceField
-bodyDistance (const SceneBody& body, int resolution);
+SignedDistanceField bodyDistance (const SceneBody& body, int resolution);
 
-TsdfVolume
-bodyTsdf (const SceneBody& body, const PinholeCamera& camera, const std::vector<BodyView>& views, int resolution,
-          const TsdfOptions& options = {});
+TsdfVolume bodyTsdf (const SceneBody& body, const PinholeCamera& camera, const std::vector<BodyView>& views,
+                     int resolution, const TsdfOptions& options = {});
 
 /** \brief Centre of the body's box. */
-Eigen::Vector3d
-bodyCenter (const SceneBody& body);
+Eigen::Vector3d bodyCenter (const SceneBody& body);
 
-/** \brief A turn about a random axis through \a center, and a shift in a random direction, each uniform up to its bound. */
-Eigen::Isometry3d
-randomMotion (std::mt19937& random, const Eigen::Vector3d& center, double max_angle_rad, double max_shift_m);
+/** \brief A turn about a random axis through \a center, and a shift in a random direction, each uniform up to its
+ * bound. */
+Eigen::Isometry3d randomMotion (std::mt19937& random, const Eigen::Vector3d& center, double max_angle_rad,
+                                double max_shift_m);
 
-/** \brief How far a pose of the sensor is from the true one, as seen from the body: where the body's \a center comes to lie. */
+/** \brief How far a pose of the sensor is from the true one, as seen from the body: where the body's \a center comes to
+ * lie. */
 struct PoseError
 {
   PoseError (const Eigen::Isometry3d& estimate, const Eigen::Isometry3d& truth, const Eigen::Vector3d& center)
@@ -91,6 +82,4 @@ radians (double degrees)
   return degrees * M_PI / 180.0;
 }
 
-} // namespace test
-} // namespace cosection
-} // namespace pcl
+} // namespace pcl::cosection::test

@@ -4,9 +4,9 @@
 
 #include "tools/demo/shapes.h"
 
+#include "pcl_cosection/rendering/picture.h"
+#include "pcl_cosection/view/look_at.h"
 #include <pcl/cosection/common/camera.h>
-#include <pcl/cosection/common/look_at.h>
-#include <pcl/cosection/rendering/picture.h>
 #include <pcl/cosection/rendering/rasterizer.h>
 
 #include <pcl/io/pcd_io.h>
@@ -23,23 +23,18 @@ using namespace pcl::cosection;
 namespace
 {
 
-constexpr double depth_edge_m = 0.05;   ///< across larger steps between pixels a reading may be a mixture
-constexpr double flying_share = 0.3;    ///< of the pixels at such steps
-constexpr double min_incidence = 0.17;  ///< cosine; at flatter angles nothing is read
+constexpr double depth_edge_m = 0.05;  ///< across larger steps between pixels a reading may be a mixture
+constexpr double flying_share = 0.3;   ///< of the pixels at such steps
+constexpr double min_incidence = 0.17; ///< cosine; at flatter angles nothing is read
 constexpr float missing = std::numeric_limits<float>::quiet_NaN ();
 
 /** \brief Numbers that are the same with every standard library. */
 class Random
 {
 public:
-  double
-  uniform ()
-  {
-    return (generator_ () + 0.5) / 4294967296.0;
-  }
+  double uniform () { return (generator_ () + 0.5) / 4294967296.0; }
 
-  double
-  gauss ()
+  double gauss ()
   {
     const double radius = std::sqrt (-2.0 * std::log (uniform ()));
     return radius * std::cos (2.0 * M_PI * uniform ());
@@ -52,15 +47,21 @@ private:
 RasterImage
 render (const PinholeCamera& camera, const Eigen::Isometry3d& T_world_camera, bool with_visitor)
 {
-  const TriangleMesh bottle =
-      revolve ({{0.0f, 0.0f}, {0.036f, 0.0f}, {0.038f, 0.002f}, {0.038f, 0.110f}, {0.034f, 0.125f},
-                {0.020f, 0.145f}, {0.015f, 0.155f}, {0.015f, 0.190f}, {0.0f, 0.190f}});
+  const TriangleMesh bottle = revolve ({{0.0f, 0.0f},
+                                        {0.036f, 0.0f},
+                                        {0.038f, 0.002f},
+                                        {0.038f, 0.110f},
+                                        {0.034f, 0.125f},
+                                        {0.020f, 0.145f},
+                                        {0.015f, 0.155f},
+                                        {0.015f, 0.190f},
+                                        {0.0f, 0.190f}});
   const auto at = [] (double x, double y, double z, double turn_rad = 0.0) {
     return Eigen::Isometry3d (Eigen::Translation3d (x, y, z) * Eigen::AngleAxisd (turn_rad, Eigen::Vector3d::UnitZ ()));
   };
   Rasterizer rasterizer (camera, T_world_camera);
   rasterizer.draw (makeBox ({1.3f, 1.1f, 0.03f}), 0, at (0.0, 0.15, -0.015), {196, 164, 124}); // the table
-  rasterizer.draw (makeBox ({6.0f, 6.0f, 0.03f}), 0, at (0.0, 0.0, -0.75), {120, 120, 125});  // the floor
+  rasterizer.draw (makeBox ({6.0f, 6.0f, 0.03f}), 0, at (0.0, 0.0, -0.75), {120, 120, 125});   // the floor
   rasterizer.draw (makeBox ({0.16f, 0.10f, 0.12f}), 1, at (-0.12, 0.04, 0.06, 0.5), {60, 120, 190});
   rasterizer.draw (makeBall (0.055f), 2, at (0.035, -0.06, 0.055), {205, 75, 60});
   rasterizer.draw (bottle, 3, at (0.15, 0.07, 0.0), {80, 160, 95});

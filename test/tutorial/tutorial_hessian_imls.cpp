@@ -65,8 +65,8 @@ poisson (const pcl::PointCloud<pcl::PointNormal>::ConstPtr& points, pcl::Polygon
 }
 
 pcl::cosection::SignedDistanceField::ConstPtr
-hessianImls (const pcl::PointCloud<pcl::PointNormal>::ConstPtr& points, const pcl::PointCloud<pcl::PointXYZ>& depth_image,
-             pcl::PolygonMesh& mesh)
+hessianImls (const pcl::PointCloud<pcl::PointNormal>::ConstPtr& points,
+             const pcl::PointCloud<pcl::PointXYZ>& depth_image, pcl::PolygonMesh& mesh)
 {
   pcl::ModelCoefficients table;
   table.values = {0.0f, 1.0f, 0.0f, -table_y};
@@ -90,7 +90,7 @@ theNextObject (const pcl::PointCloud<pcl::PointNormal>::ConstPtr& points,
 {
   pcl::cosection::HessianIMLS<pcl::PointNormal> imls;
   imls.setInputCloud (points);
-  imls.addIntersection (ball_sdf, {T_ball_object});
+  imls.addObstacle (ball_sdf, {T_ball_object});
   imls.reconstruct (mesh);
   for (const auto& vertex : imls.getTriangleMesh ().vertices)
     if (ball_sdf->sample (T_ball_object * vertex.cast<double> ()).value_or (0.0f) < -0.01f)

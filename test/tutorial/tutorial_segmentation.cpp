@@ -3,8 +3,8 @@
 
 // The code of doc/tutorial_segmentation.md.
 //
-// tutorial_segmentation [VIEW.pcd]: closed meshes of the objects in one organised view, to the folder segmentation; without an
-// argument of a view of a scene that the program makes up.
+// tutorial_segmentation [VIEW.pcd]: closed meshes of the objects in one organised view, to the folder segmentation;
+// without an argument of a view of a scene that the program makes up.
 
 #include "table_views.h"
 

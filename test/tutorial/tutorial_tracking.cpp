@@ -33,8 +33,7 @@ public:
   }
 
   /** \brief The points of the car in a frame, as a segmentation gives them. */
-  Cloud::Ptr
-  cloud (int frame) const
+  Cloud::Ptr cloud (int frame) const
   {
     const auto image = renderer_->render (scene_.timeOf (frame));
     auto cloud = pcl::make_shared<Cloud> ();
@@ -48,16 +47,15 @@ public:
     return cloud;
   }
 
-  Eigen::Affine3f
-  T_sensor_car (int frame) const
+  Eigen::Affine3f T_sensor_car (int frame) const
   {
     const double time = scene_.timeOf (frame);
-    return Eigen::Affine3f ((scene_.camera_motion.at (time).inverse () * car ().motion.at (time)).matrix ().cast<float> ());
+    return Eigen::Affine3f (
+        (scene_.camera_motion.at (time).inverse () * car ().motion.at (time)).matrix ().cast<float> ());
   }
 
   /** \brief What is known of its shape: here everything. */
-  pcl::cosection::SignedDistanceField::ConstPtr
-  shape () const
+  pcl::cosection::SignedDistanceField::ConstPtr shape () const
   {
     auto field = std::make_shared<pcl::cosection::SignedDistanceField> ();
     auto& grid = field->grid;
@@ -72,11 +70,7 @@ public:
   }
 
 private:
-  const pcl::cosection::SceneBody&
-  car () const
-  {
-    return scene_.bodies.at (2);
-  }
+  const pcl::cosection::SceneBody& car () const { return scene_.bodies.at (2); }
 
   pcl::cosection::SimulatedScene scene_;
   std::unique_ptr<pcl::cosection::SceneRenderer> renderer_;
@@ -112,7 +106,8 @@ follow (const pcl::cosection::SignedDistanceField::ConstPtr& shape, const Scene&
     const Eigen::Affine3f T_sensor_car = tracker.toEigenMatrix (tracker.getResult ());
     std::cout << frame << ": " << T_sensor_car.translation ().transpose () << '\n';
   }
-  return (tracker.getPose ().translation ().cast<float> () - scene.T_sensor_car (frames.back ()).translation ()).norm () < 1e-3f;
+  return (tracker.getPose ().translation ().cast<float> () - scene.T_sensor_car (frames.back ()).translation ())
+             .norm () < 1e-3f;
 }
 
 } // namespace

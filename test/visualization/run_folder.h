@@ -12,11 +12,7 @@
 #include <filesystem>
 #include <string>
 
-namespace pcl
-{
-namespace cosection
-{
-namespace test
+namespace pcl::cosection::test
 {
 
 /** \brief Write a scene as pcl_cosection_fusion does; as TSDF, the upper part of each object. */
@@ -40,7 +36,8 @@ writeRun (const SceneRecord& scene, const std::string& folder)
              R"( "parameters": {"dataset": "images", "images": {"format": "tum", "depth_scale": 5000.0}}})");
 }
 
-/** \brief A torus and a box before a floor (moving_scene.h), as a run has them; the box is not known from frame 12 on. */
+/** \brief A torus and a box before a floor (moving_scene.h), as a run has them; the box is not known from frame 12 on.
+ */
 inline RunScene
 movingRun ()
 {
@@ -53,6 +50,4 @@ movingRun ()
   return scene;
 }
 
-} // namespace test
-} // namespace cosection
-} // namespace pcl
+} // namespace pcl::cosection::test

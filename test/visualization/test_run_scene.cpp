@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_cosection authors
 
-#include "visualization/run_folder.h"
+#include "run_folder.h"
 
 #include <pcl/cosection/common/error.h>
 
@@ -17,19 +17,11 @@ namespace
 class RunSceneFolder : public testing::Test
 {
 protected:
-  RunSceneFolder ()
-  {
-    writeRun (movingScene (), run_);
-  }
+  RunSceneFolder () { writeRun (movingScene (), run_); }
 
-  RunScene
-  load ()
-  {
-    return loadRunScene (run_, notes_);
-  }
+  RunScene load () { return loadRunScene (run_, notes_); }
 
-  std::string
-  failure ()
+  std::string failure ()
   {
     return messageOf<IoError> ([this] { load (); });
   }
@@ -52,8 +44,10 @@ TEST_F (RunSceneFolder, EverythingIsRead)
   EXPECT_EQ (scene.dataset, "images");
   EXPECT_EQ (scene.source.format, SequenceFormat::Tum);
   EXPECT_EQ (scene.source.depth_scale, 5000.0);
-  EXPECT_EQ (scene.surface (1, SurfaceMode::Completed).triangles.size (), movingScene ().objects[0].mesh.triangles.size ());
-  EXPECT_LT (scene.surface (1, SurfaceMode::Tsdf).triangles.size (), scene.surface (1, SurfaceMode::Completed).triangles.size ());
+  EXPECT_EQ (scene.surface (1, SurfaceMode::Completed).triangles.size (),
+             movingScene ().objects[0].mesh.triangles.size ());
+  EXPECT_LT (scene.surface (1, SurfaceMode::Tsdf).triangles.size (),
+             scene.surface (1, SurfaceMode::Completed).triangles.size ());
   EXPECT_FALSE (scene.surface (1, SurfaceMode::Tsdf).empty ());
   EXPECT_FALSE (scene.surface (RunScene::background, SurfaceMode::Tsdf).empty ());
   EXPECT_TRUE (scene.surface (1, SurfaceMode::Points).empty ());
@@ -80,7 +74,8 @@ TEST_F (RunSceneFolder, NothingIsWritten)
   std::map<std::string, std::pair<std::string, fs::file_time_type>> before, after;
   const auto look = [this] (auto& files) {
     for (const auto& entry : fs::recursive_directory_iterator (run_))
-      files[entry.path ().string ()] = {entry.is_regular_file () ? readFile (entry.path ().string ()) : "", entry.last_write_time ()};
+      files[entry.path ().string ()] = {entry.is_regular_file () ? readFile (entry.path ().string ()) : "",
+                                        entry.last_write_time ()};
   };
   look (before);
   load ();
@@ -133,15 +128,18 @@ TEST_F (RunSceneFolder, WhatIsMissingIsTold)
 TEST_F (RunSceneFolder, ClassesAreThoseOfTheSummary)
 {
   EXPECT_TRUE (load ().classes.empty ());
-  writeFile (run_ + "/summary.json", R"({"objects": [{"id": 1, "class": "cup", "class_id": 41, "score": 0.9}, {"id": 2, "class": "45", "class_id": 45}]})");
+  writeFile (
+      run_ + "/summary.json",
+      R"({"objects": [{"id": 1, "class": "cup", "class_id": 41, "score": 0.9}, {"id": 2, "class": "45", "class_id": 45}]})");
   EXPECT_EQ (load ().classes, (std::map<int, std::string>{{1, "cup"}}));
 }
 
 TEST_F (RunSceneFolder, AnySummaryIsBorne)
 {
-  for (const char* const text : {"", "[1, 2]", "{", R"({"camera": 3, "parameters": [], "error": {}, "objects": {"id": 1}})",
-                                 R"({"objects": [5, null, {"id": "1", "class": "cup"}, {"id": 1, "class": 7}, {"id": 1e300, "class": "cup"}]})",
-                                 R"({"camera": {"width": -3, "height": 1e300, "fx": "a"}, "parameters": {"dataset": 7, "images": "x"}})"})
+  for (const char* const text :
+       {"", "[1, 2]", "{", R"({"camera": 3, "parameters": [], "error": {}, "objects": {"id": 1}})",
+        R"({"objects": [5, null, {"id": "1", "class": "cup"}, {"id": 1, "class": 7}, {"id": 1e300, "class": "cup"}]})",
+        R"({"camera": {"width": -3, "height": 1e300, "fx": "a"}, "parameters": {"dataset": 7, "images": "x"}})"})
   {
     writeFile (run_ + "/summary.json", text);
     const RunScene scene = load ();
@@ -161,7 +159,8 @@ TEST (SceneErrors, AreTheDistanceToTheTruth)
     if (object.id == 8) // the torus
     {
       const TriangleMesh thicker = torusMesh (0.12, 0.05 + error_m, 48, 24);
-      const Eigen::Isometry3d T_frame_object = object.poses[0].pose.inverse () * truth.camera[0].pose.inverse () * truth.objects[0].poses[0].pose;
+      const Eigen::Isometry3d T_frame_object = object.poses[0].pose.inverse () * truth.camera[0].pose.inverse () *
+                                               truth.objects[0].poses[0].pose;
       object.mesh = transformMesh (thicker, T_frame_object);
     }
   measureErrors (scene, truth);

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_cosection authors
 
-#include "visualization/run_folder.h"
+#include "run_folder.h"
 
+#include "pcl_cosection/io/image_io.h"
+#include "pcl_cosection/visualization/scene_caption.h"
 #include <pcl/cosection/common/error.h>
-#include <pcl/cosection/io/image_io.h>
-#include <pcl/cosection/visualization/scene_caption.h>
 #include <pcl/cosection/visualization/scene_picture.h>
 
 #include <gtest/gtest.h>
@@ -54,7 +54,8 @@ projected (const RunScene& scene, const SceneRecord::Object& object, double stam
   const Eigen::Isometry3d T_camera_object = scene.cameraAt (stamp)->inverse () * *scene.poseAt (object, stamp);
   std::vector<Eigen::Vector2i> pixels;
   for (const Eigen::Vector3f& v : object.mesh.vertices)
-    pixels.push_back (scene.camera ().project (T_camera_object * (share * v.cast<double> ())).array ().round ().cast<int> ());
+    pixels.push_back (
+        scene.camera ().project (T_camera_object * (share * v.cast<double> ())).array ().round ().cast<int> ());
   return pixels;
 }
 
@@ -73,7 +74,8 @@ TEST (ScenePicture, ObjectsAreWhereTheyWere)
       const std::vector<Eigen::Vector2i> pixels = projected (scene, object, stamp, 0.85);
       for (const Eigen::Vector2i& p : pixels)
         hit += hasHue (picture.at (p.x (), p.y ()), instanceColour (object.id));
-      EXPECT_GT (static_cast<double> (hit), 0.8 * static_cast<double> (pixels.size ())) << object.name << ' ' << stamp; // the objects may hide each other
+      EXPECT_GT (static_cast<double> (hit), 0.8 * static_cast<double> (pixels.size ()))
+          << object.name << ' ' << stamp; // the objects may hide each other
     }
   }
 }
@@ -160,7 +162,8 @@ TEST (ScenePicture, BoxesEncloseTheObjects)
           drawn.extend (Eigen::Vector2i (u, v));
     for (const Eigen::Vector2i& p : projected (scene, object, 0.0))
       covered.extend (p);
-    EXPECT_TRUE ((drawn.min ().array () <= covered.min ().array () + 1).all () && (drawn.max ().array () >= covered.max ().array () - 1).all ());
+    EXPECT_TRUE ((drawn.min ().array () <= covered.min ().array () + 1).all () &&
+                 (drawn.max ().array () >= covered.max ().array () - 1).all ());
   }
 }
 
@@ -172,7 +175,9 @@ TEST (ScenePicture, ColoursTellWhatIsAskedFor)
   mesh.confidence.assign (mesh.vertices.size (), 1.0f);
   mesh.colours.assign (mesh.vertices.size (), {10, 200, 30});
   scene.errors[1].completed.assign (mesh.vertices.size (), 1.0);
-  const auto colourOf = [&scene] (ColourMode mode) { return surfaceColours (scene, 1, SurfaceMode::Completed, mode).front (); };
+  const auto colourOf = [&scene] (ColourMode mode) {
+    return surfaceColours (scene, 1, SurfaceMode::Completed, mode).front ();
+  };
   EXPECT_EQ (colourOf (ColourMode::Real), (TriangleMesh::Colour{10, 200, 30}));
   EXPECT_EQ (colourOf (ColourMode::Provenance), legendOf (scene, ColourMode::Provenance).entries[2].colour);
   EXPECT_EQ (colourOf (ColourMode::Confidence), (TriangleMesh::Colour{62, 112, 200}));
@@ -195,7 +200,8 @@ TEST (ScenePicture, ColoursTellWhatIsAskedFor)
   scene.classes[2] = std::string (200, 'x');
   EXPECT_LT (legendOf (scene, ColourMode::Instance).entries[1].text.size (), 40u);
   scene.classes[2] = "123456789012345678\u6C34\u676F"; // two letters of three bytes
-  EXPECT_NE (legendOf (scene, ColourMode::Instance).entries[1].text.find (", 123456789012345678..."), std::string::npos);
+  EXPECT_NE (legendOf (scene, ColourMode::Instance).entries[1].text.find (", 123456789012345678..."),
+             std::string::npos);
   EXPECT_TRUE (legendOf (scene, ColourMode::Real).entries.empty ());
 }
 
@@ -220,7 +226,8 @@ TEST (ScenePicture, LegendAndCaptionAreWritten)
   EXPECT_TRUE (differs (160, 320, 0, 120));
   EXPECT_EQ (sceneCaption (scene, 3.0, SurfaceMode::Completed, ColourMode::Instance),
              "frame 4 of 24, stamp 3, 2 objects, completed, colour: instance");
-  EXPECT_EQ (sceneCaption (scene, 13.0, SurfaceMode::Tsdf, ColourMode::Real), "frame 14 of 24, stamp 13, 1 object, as seen");
+  EXPECT_EQ (sceneCaption (scene, 13.0, SurfaceMode::Tsdf, ColourMode::Real),
+             "frame 14 of 24, stamp 13, 1 object, as seen");
 }
 
 TEST (ScenePicture, PointsAreThoseOfTheFrame)
@@ -249,10 +256,12 @@ TEST (ScenePicture, PointsAreThoseOfTheFrame)
   SceneView view = plainView ();
   view.surface = SurfaceMode::Points;
   const Picture picture = drawScene (scene, 3.0, view, &points);
-  EXPECT_GT (std::count_if (picture.pixels.begin (), picture.pixels.end (), [] (const auto& p) { return p[0] < 220; }), 64 * 48); // squares of two pixels
+  EXPECT_GT (std::count_if (picture.pixels.begin (), picture.pixels.end (), [] (const auto& p) { return p[0] < 220; }),
+             64 * 48); // squares of two pixels
 
   scene.dataset = folder.file ("gone");
-  EXPECT_NE (messageOf<IoError> ([&] { FramePointReader reader (scene); }).find ("name their folder with --dataset"), std::string::npos);
+  EXPECT_NE (messageOf<IoError> ([&] { FramePointReader reader (scene); }).find ("name their folder with --dataset"),
+             std::string::npos);
   scene.dataset.clear ();
   EXPECT_NE (messageOf<IoError> ([&] { FramePointReader reader (scene); }).find ("--dataset"), std::string::npos);
 }
@@ -260,7 +269,8 @@ TEST (ScenePicture, PointsAreThoseOfTheFrame)
 TEST (ScenePicture, OptionsAreChecked)
 {
   const RunScene scene = movingRun ();
-  for (const auto& [width, height, oversampling] : {std::tuple{10, 240, 1}, {320, 100000, 1}, {320, 240, 0}, {320, 240, 9}})
+  for (const auto& [width, height, oversampling] :
+       {std::tuple{10, 240, 1}, {320, 100000, 1}, {320, 240, 0}, {320, 240, 9}})
   {
     SceneView view = plainView ();
     view.width = width;

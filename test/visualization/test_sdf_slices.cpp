@@ -3,8 +3,8 @@
 
 #include "evaluation/evaluation_meshes.h"
 
+#include "pcl_cosection/visualization/sdf_slices.h"
 #include <pcl/cosection/common/error.h>
-#include <pcl/cosection/visualization/sdf_slices.h>
 
 #include <gtest/gtest.h>
 
@@ -29,7 +29,8 @@ TEST (SdfSlices, CutsOfABoxShowItsInside)
         {
           const float s = (static_cast<float> (u) + 0.5f) / static_cast<float> (picture.width);
           const float t = (static_cast<float> (v) + 0.5f) / static_cast<float> (picture.height);
-          const Eigen::Vector3f p = slice.corners[0] + s * (slice.corners[1] - slice.corners[0]) + t * (slice.corners[3] - slice.corners[0]);
+          const Eigen::Vector3f p = slice.corners[0] + s * (slice.corners[1] - slice.corners[0]) +
+                                    t * (slice.corners[3] - slice.corners[0]);
           const bool is_inside = ((p - low).array () > 0.004f).all () && ((high - p).array () > 0.004f).all ();
           const bool is_outside = ((p - low).array () < -0.004f).any () || ((high - p).array () < -0.004f).any ();
           const auto& pixel = picture.at (u, v);

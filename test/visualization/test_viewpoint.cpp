@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_cosection authors
 
-#include "visualization/run_folder.h"
+#include "run_folder.h"
 
 #include <pcl/cosection/common/error.h>
 #include <pcl/cosection/visualization/viewpoint.h>
@@ -56,7 +56,8 @@ TEST (Viewpoint, WrongFilesAreTold)
       {"", "JSON object"},
       {"[1]", "JSON object"},
       {R"({"eye": [0, 0], "target": [0, 0, 1], "up": [0, 1, 0], "angle_deg": 40})", "eye must be three numbers"},
-      {R"({"eye": [0, 0, 0], "target": [0, 0, "a"], "up": [0, 1, 0], "angle_deg": 40})", "target must be three numbers"},
+      {R"({"eye": [0, 0, 0], "target": [0, 0, "a"], "up": [0, 1, 0], "angle_deg": 40})",
+       "target must be three numbers"},
       {R"({"eye": [0, 0, 0], "target": [0, 0, 0], "up": [0, 1, 0], "angle_deg": 40})", "different places"},
       {R"({"eye": [0, 0, 0], "target": [0, 0, 1], "up": [0, 0, 2], "angle_deg": 40})", "up must be a direction"},
       {R"({"eye": [0, 0, 0], "target": [0, 0, 1], "up": [0, 1, 0]})", "angle_deg must be a number"},
@@ -91,7 +92,9 @@ TEST (Viewpoint, OverviewShowsAllObjectsAtAllTimes)
         {
           const Eigen::Vector3d p = T_camera_world * pose.pose * v.cast<double> ();
           const Eigen::Vector2d pixel = camera.project (p);
-          ASSERT_TRUE (p.z () > 0.0 && pixel.x () > 0.0 && pixel.x () < 1280.0 && pixel.y () > 0.0 && pixel.y () < 720.0) << turn;
+          ASSERT_TRUE (p.z () > 0.0 && pixel.x () > 0.0 && pixel.x () < 1280.0 && pixel.y () > 0.0 &&
+                       pixel.y () < 720.0)
+              << turn;
         }
   }
 }

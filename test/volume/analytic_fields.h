@@ -10,11 +10,7 @@
 #include <cmath>
 #include <functional>
 
-namespace pcl
-{
-namespace cosection
-{
-namespace test
+namespace pcl::cosection::test
 {
 
 using Distance = std::function<double (const Eigen::Vector3d&)>;
@@ -68,6 +64,4 @@ sampleField (const Distance& distance, double half_edge_m, double voxel_size_m)
   return field;
 }
 
-} // namespace test
-} // namespace cosection
-} // namespace pcl
+} // namespace pcl::cosection::test

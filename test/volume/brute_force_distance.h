@@ -11,11 +11,7 @@
 #include <cmath>
 #include <limits>
 
-namespace pcl
-{
-namespace cosection
-{
-namespace test
+namespace pcl::cosection::test
 {
 
 inline double
@@ -56,6 +52,4 @@ bruteForceDistance (const TriangleMesh& mesh, const Eigen::Vector3d& p)
   return solid_angle > 2.0 * M_PI ? -distance : distance;
 }
 
-} // namespace test
-} // namespace cosection
-} // namespace pcl
+} // namespace pcl::cosection::test

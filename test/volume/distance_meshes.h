@@ -17,11 +17,7 @@
 #include <utility>
 #include <vector>
 
-namespace pcl
-{
-namespace cosection
-{
-namespace test
+namespace pcl::cosection::test
 {
 
 inline VoxelGrid
@@ -66,8 +62,9 @@ expectField (const SignedDistanceField& field, const Distance& truth, double ban
 inline void
 expectBruteForce (const TriangleMesh& mesh, const VoxelGrid& grid, double band_m)
 {
-  expectField (sampleSignedDistance (mesh, grid, band_m),
-               [&] (const Eigen::Vector3d& p) { return bruteForceDistance (mesh, p); }, band_m, 1e-6);
+  expectField (
+      sampleSignedDistance (mesh, grid, band_m),
+      [&] (const Eigen::Vector3d& p) { return bruteForceDistance (mesh, p); }, band_m, 1e-6);
 }
 
 inline TriangleMesh
@@ -184,7 +181,7 @@ bin (const Eigen::Vector3f& half)
 inline TriangleMesh
 horseshoe ()
 {
-  const std::vector<Eigen::Vector2d> path = {{0.0, 0.0},   {0.1, 0.05},  {0.2, 0.07},  {0.26, 0.0},
+  const std::vector<Eigen::Vector2d> path = {{0.0, 0.0},   {0.1, 0.05},  {0.2, 0.07}, {0.26, 0.0},
                                              {0.2, -0.07}, {0.1, -0.05}, {0.0, 0.0}};
   const double radius = 0.02;
   TriangleMesh mesh;
@@ -215,6 +212,4 @@ horseshoe ()
   return mesh;
 }
 
-} // namespace test
-} // namespace cosection
-} // namespace pcl
+} // namespace pcl::cosection::test

@@ -26,7 +26,8 @@ gyroidField (double waves_per_m)
   return test::sampleField (
       [w] (const Eigen::Vector3d& p) {
         return (std::sin (w * p.x ()) * std::cos (w * p.y ()) + std::sin (w * p.y ()) * std::cos (w * p.z ()) +
-                std::sin (w * p.z ()) * std::cos (w * p.x ())) / w;
+                std::sin (w * p.z ()) * std::cos (w * p.x ())) /
+               w;
       },
       0.13, 0.0083);
 }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_cosection authors
 
+#include "pcl_cosection/volume/distance_transform.h"
 #include <pcl/cosection/common/error.h>
-#include <pcl/cosection/volume/distance_transform.h>
 
 #include <gtest/gtest.h>
 
@@ -36,8 +36,8 @@ bruteForce (const Eigen::Vector3i& dims, const std::vector<std::uint8_t>& mask)
   for (int a = 0; a < dims.prod (); ++a)
     for (int b = 0; b < dims.prod (); ++b)
       if (mask[b] != 0)
-        distance[a] =
-            std::min (distance[a], std::sqrt (static_cast<float> ((position (a) - position (b)).squaredNorm ())));
+        distance[a] = std::min (distance[a],
+                                std::sqrt (static_cast<float> ((position (a) - position (b)).squaredNorm ())));
   return distance;
 }
 

@@ -47,7 +47,7 @@ TEST (MeshDistance, IsExactForABoxWhereverTheGridIs)
   const TriangleMesh mesh = test::boxMesh (-half, half);
   const auto truth = test::box (half.cast<double> ());
   const double band = 0.03;
-  for (const Eigen::Vector3d& centre : {Eigen::Vector3d (0, 0, 0), Eigen::Vector3d (0.1, 0.06, 0.25),  // the corner
+  for (const Eigen::Vector3d& centre : {Eigen::Vector3d (0, 0, 0), Eigen::Vector3d (0.1, 0.06, 0.25), // the corner
                                         Eigen::Vector3d (0.1, 0, 0), Eigen::Vector3d (0, 0, 0.1),
                                         Eigen::Vector3d (0.5, 0.4, 0.3), Eigen::Vector3d (-30, 20, 1000)})
     for (const double voxel_size : {0.0007, 0.011, 0.2})
@@ -82,8 +82,8 @@ TEST (MeshDistance, HasTheRightSignAtSharpEdgesVerticesAndSaddles)
 {
   // A wedge of about one degree, seen from all around; its tip is an edge, with two vertices at the ends.
   TriangleMesh wedge;
-  wedge.vertices = {{0, 0, 0},           {0, 0.1f, 0},        {0.2f, 0, 0.002f},
-                    {0.2f, 0.1f, 0.002f}, {0.2f, 0, -0.002f}, {0.2f, 0.1f, -0.002f}};
+  wedge.vertices = {{0, 0, 0},          {0, 0.1f, 0},         {0.2f, 0, 0.002f}, {0.2f, 0.1f, 0.002f},
+                    {0.2f, 0, -0.002f}, {0.2f, 0.1f, -0.002f}};
   wedge.triangles = {{0, 2, 1}, {1, 2, 3}, {0, 1, 4}, {1, 5, 4}, {2, 4, 3}, {3, 4, 5}, {0, 4, 2}, {1, 3, 5}};
   ASSERT_TRUE (computeTopology (wedge).closed_manifold);
   // Few quadrilaterals: the vertices on the inner side of the ring are sharp saddles.
@@ -107,14 +107,15 @@ TEST (MeshDistance, TrianglesWithoutAreaLeaveNoGap)
 {
   // A box whose upper front edge has a vertex in the middle on one side only; a flat triangle closes the gap.
   TriangleMesh mesh = test::boxMesh ({0, 0, 0}, {0.25f, 0.25f, 0.25f});
-  mesh.vertices.emplace_back (0.125f, 0.0f, 0.25f);                        // 8, between 4 and 5
-  mesh.triangles[5] = {1, 5, 8};                                           // was {1, 5, 4}
+  mesh.vertices.emplace_back (0.125f, 0.0f, 0.25f); // 8, between 4 and 5
+  mesh.triangles[5] = {1, 5, 8};                    // was {1, 5, 4}
   mesh.triangles.push_back ({1, 8, 4});
   mesh.triangles.push_back ({4, 8, 5});
   ASSERT_TRUE (computeTopology (mesh).closed_manifold);
   const auto truth = test::box ({0.125, 0.125, 0.125});
-  expectField (sampleSignedDistance (mesh, cubicGrid ({0.125, 0.125, 0.125}, 25, 0.013), 0.1),
-               [&] (const Eigen::Vector3d& p) { return truth (p - Eigen::Vector3d::Constant (0.125)); }, 0.1, 1e-6);
+  expectField (
+      sampleSignedDistance (mesh, cubicGrid ({0.125, 0.125, 0.125}, 25, 0.013), 0.1),
+      [&] (const Eigen::Vector3d& p) { return truth (p - Eigen::Vector3d::Constant (0.125)); }, 0.1, 1e-6);
 }
 
 TEST (MeshDistance, OverlappingBodiesAreTheirUnion)
@@ -125,24 +126,26 @@ TEST (MeshDistance, OverlappingBodiesAreTheirUnion)
     return test::boxMesh ({float (x) - 0.1f, -0.1f, -0.1f}, {float (x) + 0.1f, 0.1f, 0.1f});
   };
   for (const double shift : {0.05, 0.17, 0.35}) // nearly all, a bit, not at all
-    expectField (sampleSignedDistance (united (at (0.0), at (shift)), cubicGrid ({0.1, 0, 0}, 25, 0.017), 0.06),
-                 [&] (const Eigen::Vector3d& p) {
-                   return std::min (box (p), box (p - Eigen::Vector3d (shift, 0, 0)));
-                 },
-                 0.06, 1e-6);
+    expectField (
+        sampleSignedDistance (united (at (0.0), at (shift)), cubicGrid ({0.1, 0, 0}, 25, 0.017), 0.06),
+        [&] (const Eigen::Vector3d& p) { return std::min (box (p), box (p - Eigen::Vector3d (shift, 0, 0))); }, 0.06,
+        1e-6);
   // Touching with a face of other triangles.
   TriangleMesh other = at (0.2);
   other.triangles[8] = {0, 4, 6}; // were {0, 4, 2} and {2, 4, 6}
   other.triangles[9] = {0, 6, 2};
   for (auto& v : other.vertices)
     v.x () = (v.x () < 0.2f ? 0.1f : 0.3f);
-  expectField (sampleSignedDistance (united (at (0.0), other), cubicGrid ({0.1, 0, 0}, 25, 0.017), 0.06),
-               [&] (const Eigen::Vector3d& p) { return std::min (box (p), box (p - Eigen::Vector3d (0.2, 0, 0))); },
-               0.06, 1e-6);
+  expectField (
+      sampleSignedDistance (united (at (0.0), other), cubicGrid ({0.1, 0, 0}, 25, 0.017), 0.06),
+      [&] (const Eigen::Vector3d& p) { return std::min (box (p), box (p - Eigen::Vector3d (0.2, 0, 0))); }, 0.06, 1e-6);
   // Where two share a face, there is no surface between them.
-  expectField (sampleSignedDistance (united (at (0.0), at (0.2)), cubicGrid ({0.1, 0, 0}, 25, 0.017), 0.06),
-               [&] (const Eigen::Vector3d& p) { return test::box ({0.2, 0.1, 0.1}) (p - Eigen::Vector3d (0.1, 0, 0)); },
-               0.06, 1e-6);
+  expectField (
+      sampleSignedDistance (united (at (0.0), at (0.2)), cubicGrid ({0.1, 0, 0}, 25, 0.017), 0.06),
+      [&] (const Eigen::Vector3d& p) {
+        return test::box ({0.2, 0.1, 0.1}) (p - Eigen::Vector3d (0.1, 0, 0));
+      },
+      0.06, 1e-6);
 }
 
 TEST (MeshDistance, BodiesMayTouchAtAnEdgeOrAVertex)
@@ -155,9 +158,9 @@ TEST (MeshDistance, BodiesMayTouchAtAnEdgeOrAVertex)
     for (auto& v : two.vertices)
       for (int axis = 0; axis < 3; ++axis) // the common corners are equal to the last bit
         v[axis] = (shift[axis] == 0.0f ? v[axis] : v[axis] < 0.0f ? 0.1f : 0.3f);
-    expectField (sampleSignedDistance (united (one, two), cubicGrid ({0.1, 0.1, 0.05}, 25, 0.017), 0.06),
-                 [&] (const Eigen::Vector3d& p) { return std::min (box (p), box (p - shift.cast<double> ())); }, 0.06,
-                 1e-6);
+    expectField (
+        sampleSignedDistance (united (one, two), cubicGrid ({0.1, 0.1, 0.05}, 25, 0.017), 0.06),
+        [&] (const Eigen::Vector3d& p) { return std::min (box (p), box (p - shift.cast<double> ())); }, 0.06, 1e-6);
   }
 }
 
@@ -179,10 +182,11 @@ TEST (MeshDistance, InwardPartsAreCavitiesOrRooms)
   const auto outside = test::box (outer_half.cast<double> ());
   const auto cavity = test::box (inner_half.cast<double> ());
   const VoxelGrid grid = cubicGrid ({0.05, 0, 0}, 27, 0.019);
-  expectField (sampleSignedDistance (united (inner, outer), grid, 0.3),
-               [&] (const Eigen::Vector3d& p) { return std::max (outside (p), -cavity (p)); }, 0.3, 1e-6);
-  expectField (sampleSignedDistance (inner, grid, 0.05), [&] (const Eigen::Vector3d& p) { return -cavity (p); }, 0.05,
-               1e-6);
+  expectField (
+      sampleSignedDistance (united (inner, outer), grid, 0.3),
+      [&] (const Eigen::Vector3d& p) { return std::max (outside (p), -cavity (p)); }, 0.3, 1e-6);
+  expectField (
+      sampleSignedDistance (inner, grid, 0.05), [&] (const Eigen::Vector3d& p) { return -cavity (p); }, 0.05, 1e-6);
 }
 
 TEST (MeshDistance, DoesNotDependOnTheNumberOfThreads)

@@ -8,8 +8,8 @@
 #include <random>
 
 using namespace pcl::cosection;
-using test::cubicGrid;
 using test::bin;
+using test::cubicGrid;
 using test::forEachVoxel;
 using test::square;
 using test::united;
@@ -52,8 +52,8 @@ TEST (MeshDistanceSheets, ABinIsFreeInsideAndMatterBehindItsWalls)
   int free = 0, matter = 0;
   forEachVoxel (field, [&] (const Eigen::Vector3d& p, std::size_t n) {
     const bool below_rim = p.z () <= half.z ();
-    const double to_wall =
-        std::max ({std::abs (p.x ()) - half.x (), std::abs (p.y ()) - half.y (), -p.z () - half.z ()});
+    const double to_wall = std::max (
+        {std::abs (p.x ()) - half.x (), std::abs (p.y ()) - half.y (), -p.z () - half.z ()});
     if (field.supported[n] == 0)
     {
       // Above the rim, or nearer to it than to all walls, or too far from everything.

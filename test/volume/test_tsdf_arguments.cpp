@@ -58,7 +58,8 @@ TEST (TsdfArguments, RefusesWhatIsNotValid)
   TsdfVolume volume (grid);
   const PinholeCamera camera = test::smallCamera ();
   EXPECT_THROW (volume.integrate (Image<float> (), PinholeCamera (), test::frontPose ()), InvalidArgument);
-  EXPECT_THROW (volume.integrate (Image<float> (camera.height, camera.width), camera, test::frontPose ()), InvalidArgument);
+  EXPECT_THROW (volume.integrate (Image<float> (camera.height, camera.width), camera, test::frontPose ()),
+                InvalidArgument);
   Image<float> torn = test::wallDepth (0.5f);
   torn.pixels.pop_back ();
   EXPECT_THROW (volume.integrate (torn, camera, test::frontPose ()), InvalidArgument);

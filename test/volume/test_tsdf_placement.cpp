@@ -21,7 +21,8 @@ TsdfVolume
 seenSphere ()
 {
   const PinholeCamera camera = test::smallCamera ();
-  VoxelGrid grid = test::cubeGrid (24, 1.0 / 128.0); // positions have no rounding error, so that colours are those of voxels
+  VoxelGrid grid = test::cubeGrid (
+      24, 1.0 / 128.0); // positions have no rounding error, so that colours are those of voxels
   grid.dims = {24, 20, 27};
   TsdfOptions options;
   options.colour = true;
@@ -32,7 +33,8 @@ seenSphere ()
   for (int v = 0; v < camera.height; ++v)
     for (int u = 0; u < camera.width; ++u)
     {
-      colours.at (u, v) = {static_cast<std::uint8_t> (u), static_cast<std::uint8_t> (v), static_cast<std::uint8_t> (u * v)};
+      colours.at (u, v) = {static_cast<std::uint8_t> (u), static_cast<std::uint8_t> (v),
+                           static_cast<std::uint8_t> (u * v)};
       labels.at (u, v) = static_cast<std::uint16_t> ((u / 5 + v / 7) % 2);
     }
   TsdfPixels pixels;
@@ -111,7 +113,8 @@ TEST (TsdfPlacement, ReframingDropsWhatIsOutside)
 {
   const TsdfVolume before = seenSphere ();
   const Eigen::Vector3i dims (12, 30, 9);
-  for (const Eigen::Vector3i& offset : {Eigen::Vector3i (-6, 4, -10), Eigen::Vector3i (5, -3, 2), Eigen::Vector3i (0, 0, 0)})
+  for (const Eigen::Vector3i& offset :
+       {Eigen::Vector3i (-6, 4, -10), Eigen::Vector3i (5, -3, 2), Eigen::Vector3i (0, 0, 0)})
   {
     TsdfVolume volume = before;
     volume.reframe (offset, dims);

@@ -20,7 +20,8 @@ namespace
 
 constexpr double voxel_size_m = 0.005;
 
-/** \brief Leave out what is seen at a small angle: there a truncated distance along a ray is not that to the surface. */
+/** \brief Leave out what is seen at a small angle: there a truncated distance along a ray is not that to the surface.
+ */
 Image<float>
 frontal (const Image<float>& depth, const PinholeCamera& camera)
 {
@@ -29,8 +30,8 @@ frontal (const Image<float>& depth, const PinholeCamera& camera)
     for (int u = 1; u + 1 < depth.width; ++u)
     {
       const auto point = [&] (int column, int row) { return camera.unproject (column, row, depth.at (column, row)); };
-      const Eigen::Vector3d normal =
-          (point (u + 1, v) - point (u - 1, v)).cross (point (u, v + 1) - point (u, v - 1)).normalized ();
+      const Eigen::Vector3d
+          normal = (point (u + 1, v) - point (u - 1, v)).cross (point (u, v + 1) - point (u, v - 1)).normalized ();
       if (normal.dot (point (u, v).normalized ()) > 0.7)
         kept.at (u, v) = depth.at (u, v);
     }
@@ -83,13 +84,15 @@ frontPoses ()
 std::size_t
 countHits (const RaycastImage& image)
 {
-  return std::count_if (image.depth.pixels.begin (), image.depth.pixels.end (), [] (float z) { return !std::isnan (z); });
+  return std::count_if (image.depth.pixels.begin (), image.depth.pixels.end (),
+                        [] (float z) { return !std::isnan (z); });
 }
 
 /** \brief Pixels of a hit agree with the scene where that is seen at less than 60 degrees; its normals are given. */
-template <typename Normal> void
-expectScene (const RaycastImage& image, const test::RayLength& scene, const Eigen::Isometry3d& pose, const Normal& normalAt,
-             double share)
+template <typename Normal>
+void
+expectScene (const RaycastImage& image, const test::RayLength& scene, const Eigen::Isometry3d& pose,
+             const Normal& normalAt, double share)
 {
   const Image<float> truth = test::renderDepth (scene, image.camera, pose);
   int frontal = 0;
@@ -127,7 +130,8 @@ everything ()
   return options;
 }
 
-template <typename Pixel> bool
+template <typename Pixel>
+bool
 sameBytes (const Image<Pixel>& a, const Image<Pixel>& b)
 {
   return a.pixels.size () == b.pixels.size () &&
@@ -149,7 +153,8 @@ TEST (TsdfRaycast, ASphereIsWhereItIs)
   {
     const auto pose = test::lookAtOrigin (eye);
     const auto image = raycast (volume, test::smallCamera (), pose, everything ());
-    expectScene (image, scene, pose, [] (const Eigen::Vector3d& p) { return p.normalized (); }, 1.0);
+    expectScene (
+        image, scene, pose, [] (const Eigen::Vector3d& p) { return p.normalized (); }, 1.0);
   }
 }
 
@@ -171,11 +176,12 @@ TEST (TsdfRaycast, APlaneIsSeenFromWithinTheVolume)
 
 TEST (TsdfRaycast, FindsWhatSmallStepsFind)
 {
-  const auto scene = test::nearerRay (test::sphereRay (0.05, {0.02, 0.0, -0.05}), test::planeRay ({0.1, 0.0, 1.0}, 0.1));
+  const auto scene = test::nearerRay (test::sphereRay (0.05, {0.02, 0.0, -0.05}),
+                                      test::planeRay ({0.1, 0.0, 1.0}, 0.1));
   const TsdfVolume volume = fused (scene, frontPoses ());
   const PinholeCamera camera = test::smallCamera ();
-  for (const Eigen::Vector3d& eye : {Eigen::Vector3d (0.02, 0.0, -0.45), Eigen::Vector3d (-0.3, 0.1, -0.25),
-                                     Eigen::Vector3d (0.1, -0.1, -0.12)})
+  for (const Eigen::Vector3d& eye :
+       {Eigen::Vector3d (0.02, 0.0, -0.45), Eigen::Vector3d (-0.3, 0.1, -0.25), Eigen::Vector3d (0.1, -0.1, -0.12)})
   {
     const auto pose = test::lookAtOrigin (eye);
     const auto image = raycast (volume, camera, pose);
@@ -278,7 +284,8 @@ TEST (TsdfRaycast, TheNearestBodyIsSeen)
 
 TEST (TsdfRaycast, OnlyTheForegroundIsSeenIfAskedFor)
 {
-  const auto scene = test::nearerRay (test::sphereRay (0.05, {0.0, 0.0, -0.04}), test::planeRay (Eigen::Vector3d::UnitZ (), 0.06));
+  const auto scene = test::nearerRay (test::sphereRay (0.05, {0.0, 0.0, -0.04}),
+                                      test::planeRay (Eigen::Vector3d::UnitZ (), 0.06));
   const PinholeCamera camera = test::smallCamera ();
   TsdfOptions options;
   options.foreground = true;

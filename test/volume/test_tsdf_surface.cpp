@@ -21,7 +21,8 @@ namespace
 
 /** \brief Keep the pixels that see a surface at less than 60 degrees: the others are for the caller to leave out. */
 Image<float>
-frontalDepth (const Eigen::Vector3d& center, const PinholeCamera& camera, const Eigen::Isometry3d& pose, Image<float> depth)
+frontalDepth (const Eigen::Vector3d& center, const PinholeCamera& camera, const Eigen::Isometry3d& pose,
+              Image<float> depth)
 {
   for (int v = 0; v < camera.height; ++v)
     for (int u = 0; u < camera.width; ++u)

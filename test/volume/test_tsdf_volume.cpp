@@ -289,7 +289,8 @@ TEST (TsdfVolume, VoxelsOfAnySize)
     TsdfVolume volume (test::cubeGrid (20, size), options);
     Eigen::Isometry3d inside = test::lookAtOrigin ({1.0, 1.0, 1.0});
     inside.translation ().setConstant (size);
-    for (const Eigen::Isometry3d& pose : {Eigen::Isometry3d (Eigen::Isometry3d::Identity ()), test::frontPose (), inside})
+    for (const Eigen::Isometry3d& pose :
+         {Eigen::Isometry3d (Eigen::Isometry3d::Identity ()), test::frontPose (), inside})
     {
       volume.integrate (test::wallDepth (0.5f), camera, pose, pixels);
       volume.countForeground (test::wallDepth (0.5f), camera, pose, labels, 1);
@@ -323,13 +324,15 @@ TEST (TsdfVolume, ForegroundCounts)
 
   const Image<std::uint16_t> labels (camera.width, camera.height, 7);
   TsdfVolume without (test::cubeGrid (4, 0.01));
-  EXPECT_THROW (without.countForeground (test::wallDepth (0.5f), camera, test::frontPose (), labels, 7), InvalidArgument);
+  EXPECT_THROW (without.countForeground (test::wallDepth (0.5f), camera, test::frontPose (), labels, 7),
+                InvalidArgument);
   EXPECT_FALSE (without.foregroundProbability (p));
 
   TsdfVolume often (test::cubeGrid (2, 0.01), options);
   const PinholeCamera pixel{1, 1, 10.0, 10.0, 0.0, 0.0};
   for (int n = 0; n < 70000; ++n)
-    often.countForeground (Image<float> (1, 1, 0.5f), pixel, test::frontPose (), Image<std::uint16_t> (1, 1, n % 4 ? 7 : 0), 7);
+    often.countForeground (Image<float> (1, 1, 0.5f), pixel, test::frontPose (),
+                           Image<std::uint16_t> (1, 1, n % 4 ? 7 : 0), 7);
   EXPECT_NEAR (*often.foregroundProbability (Eigen::Vector3d::Zero ()), 0.75, 0.01);
 }
 

@@ -13,11 +13,7 @@
 #include <limits>
 #include <vector>
 
-namespace pcl
-{
-namespace cosection
-{
-namespace test
+namespace pcl::cosection::test
 {
 
 /** \brief Length of a ray (unit direction) to a surface; NaN: it misses. */
@@ -125,6 +121,4 @@ cubeGrid (int dim, double voxel_size_m)
   return grid;
 }
 
-} // namespace test
-} // namespace cosection
-} // namespace pcl
+} // namespace pcl::cosection::test

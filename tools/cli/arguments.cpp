@@ -24,11 +24,9 @@ unknownOption (const std::string& given, const std::vector<std::string>& names)
 class ConfigurationFile : public CLI::ConfigBase
 {
 public:
-  explicit ConfigurationFile (std::vector<std::string> names) : names_ (std::move (names))
-  {}
+  explicit ConfigurationFile (std::vector<std::string> names) : names_ (std::move (names)) {}
 
-  std::vector<CLI::ConfigItem>
-  from_config (std::istream& input) const override
+  std::vector<CLI::ConfigItem> from_config (std::istream& input) const override
   {
     const std::vector<CLI::ConfigItem> entries = CLI::ConfigBase::from_config (input);
     for (const CLI::ConfigItem& item : entries)
@@ -71,18 +69,20 @@ optionLetters (const CLI::App& app)
 
 /** \brief CLI11 would take the value of an unknown option for an input. */
 void
-refuseUnknownOptions (const std::vector<std::string>& arguments, const std::vector<std::string>& names, const std::string& letters)
+refuseUnknownOptions (const std::vector<std::string>& arguments, const std::vector<std::string>& names,
+                      const std::string& letters)
 {
   for (const std::string& argument : arguments)
   {
     if (argument == "--")
       return;
     const std::string name = argument.substr (0, argument.find ('='));
-    const bool is_option =
-        name.size () > 1 && name[0] == '-' && !std::isdigit (static_cast<unsigned char> (name[1])) && name[1] != '.';
+    const bool is_option = name.size () > 1 && name[0] == '-' && !std::isdigit (static_cast<unsigned char> (name[1])) &&
+                           name[1] != '.';
     const bool is_value = name == "-nan" || name == "-inf"; // refused later, by the option that it was given to
     const bool is_letter = name.size () > 1 && name[1] != '-' && letters.find (name[1]) != std::string::npos;
-    if (is_option && !is_value && !(is_letter && (name.size () == 2 || name[1] != 'h')) && std::find (names.begin (), names.end (), name) == names.end ())
+    if (is_option && !is_value && !(is_letter && (name.size () == 2 || name[1] != 'h')) &&
+        std::find (names.begin (), names.end (), name) == names.end ())
       throw UsageError (unknownOption (name, names));
   }
 }

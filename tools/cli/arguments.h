@@ -16,11 +16,9 @@ public:
 };
 
 /** \brief Add what all programs have, in the group "General": --verbose, --quiet, --config, --version and --help. */
-void
-declareGeneralOptions (CLI::App& app, const std::string& program, bool& verbose, bool& quiet);
+void declareGeneralOptions (CLI::App& app, const std::string& program, bool& verbose, bool& quiet);
 
 /** \brief Read the command line, and the configuration file that it names. Prints what --help and --version ask for.
  * \return whether there is anything left to do
  * \throws UsageError */
-bool
-parseArguments (CLI::App& app, const ProgramText& program, int argc, const char* const* argv);
+bool parseArguments (CLI::App& app, const ProgramText& program, int argc, const char* const* argv);

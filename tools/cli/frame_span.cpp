@@ -11,7 +11,8 @@ FrameSpan
 parseFrames (const std::string& text, double largest)
 {
   const auto wrong = [&text] {
-    return (UsageError ("--frames must be A:B, frames from A up to but without B, such as 0:50; it is \"" + text + "\""));
+    return (
+        UsageError ("--frames must be A:B, frames from A up to but without B, such as 0:50; it is \"" + text + "\""));
   };
   const auto frame = [&] (const std::string& part) -> std::optional<std::size_t> {
     if (part.empty ())

@@ -15,5 +15,4 @@ struct FrameSpan
 
 /** \brief The value of --frames: "A:B", "A:" or ":B". \param[in] largest number that is allowed
  * \throws UsageError if it is anything else, or holds no frame */
-FrameSpan
-parseFrames (const std::string& text, double largest = 1e9);
+FrameSpan parseFrames (const std::string& text, double largest = 1e9);

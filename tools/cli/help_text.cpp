@@ -14,8 +14,8 @@ namespace
 constexpr std::size_t text_width = 80;
 constexpr std::size_t name_width = 30; ///< of the column of option names
 
-const char* const configuration_text =
-    "A configuration file has a line NAME = VALUE for each option, without the dashes:";
+const char* const
+    configuration_text = "A configuration file has a line NAME = VALUE for each option, without the dashes:";
 
 const char* const status_text = "Exit status: 0 all went well, 1 something failed, 2 wrong usage, 130 interrupted.";
 

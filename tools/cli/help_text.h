@@ -27,17 +27,14 @@ struct ProgramText
 };
 
 /** \brief What the parts of the help screen are called, in lower case: the groups of options, and "examples". */
-std::vector<std::string>
-helpTopics (const CLI::App& app);
+std::vector<std::string> helpTopics (const CLI::App& app);
 
-/** \brief The help screen; of one topic only, unless \a topic is empty. Lines have at most 80 characters, topics at most
- * 24 lines. */
-std::string
-helpText (const CLI::App& app, const ProgramText& program, const std::string& topic = "");
+/** \brief The help screen; of one topic only, unless \a topic is empty. Lines have at most 80 characters, topics at
+ * most 24 lines. */
+std::string helpText (const CLI::App& app, const ProgramText& program, const std::string& topic = "");
 
 /** \brief The same as a page for man (1). */
-std::string
-manPage (const CLI::App& app, const ProgramText& program);
+std::string manPage (const CLI::App& app, const ProgramText& program);
 
 /** \brief A command of a program that has several, each with options of its own. */
 struct CommandHelp
@@ -48,9 +45,7 @@ struct CommandHelp
 };
 
 /** \brief The help screen of a program that has commands: what they are, without their options. */
-std::string
-helpText (const ProgramText& program, const std::vector<CommandHelp>& commands);
+std::string helpText (const ProgramText& program, const std::vector<CommandHelp>& commands);
 
 /** \brief All commands as one page for man (1). */
-std::string
-manPage (const ProgramText& program, const std::vector<CommandHelp>& commands);
+std::string manPage (const ProgramText& program, const std::vector<CommandHelp>& commands);

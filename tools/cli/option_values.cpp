@@ -50,8 +50,8 @@ parseSize (const std::string& text)
   double factor = 1.0;
   if (!unit.empty ())
   {
-    const std::size_t power =
-        unit.size () == 1 ? units.find (static_cast<char> (std::tolower (unit[0]))) : std::string::npos;
+    const std::size_t power = unit.size () == 1 ? units.find (static_cast<char> (std::tolower (unit[0])))
+                                                : std::string::npos;
     if (power == std::string::npos)
       return (std::nullopt);
     factor = std::pow (1024.0, static_cast<double> (power + 1));

@@ -42,22 +42,18 @@ oneOf (const std::vector<std::string>& words)
 }
 
 /** \brief A finite number that fills \a text; nothing if it is anything else. */
-std::optional<double>
-parseNumber (const std::string& text);
+std::optional<double> parseNumber (const std::string& text);
 
 /** \brief Bytes from "500M", "2G", "1.5GiB" or "1000000"; k, M, G and T are powers of 1024.
  * Nothing if \a text is no such size, or zero. */
-std::optional<std::size_t>
-parseSize (const std::string& text);
+std::optional<std::size_t> parseSize (const std::string& text);
 
 /** \brief The memory of this machine, bytes. */
-std::size_t
-physicalMemory ();
+std::size_t physicalMemory ();
 
-/** \brief The numbers of values "a,b,c", \a size each, or of values of one number (a list in a configuration file). Nothing if they do not come in
- * groups of \a size. */
-std::optional<std::vector<double>>
-parseGroups (const std::vector<std::string>& values, std::size_t size);
+/** \brief The numbers of values "a,b,c", \a size each, or of values of one number (a list in a configuration file).
+ * Nothing if they do not come in groups of \a size. */
+std::optional<std::vector<double>> parseGroups (const std::vector<std::string>& values, std::size_t size);
 
 /** \brief The same, group by group. */
 template <std::size_t Size>
@@ -75,13 +71,10 @@ parseTuples (const std::vector<std::string>& values)
 
 /** \brief The numbers of values "a,b,c", or of values of one number (a list in a configuration file). Nothing if one of
  * them is no number. */
-std::optional<std::vector<double>>
-parseNumbers (const std::vector<std::string>& values);
+std::optional<std::vector<double>> parseNumbers (const std::vector<std::string>& values);
 
 /** \brief Accepts a finite number in [\a least, \a most]; in (\a least, \a most] if \a open. */
-CLI::Validator
-numberRange (double least, double most, bool open = false);
+CLI::Validator numberRange (double least, double most, bool open = false);
 
 /** \brief Accepts a whole number in [\a least, \a most]. */
-CLI::Validator
-wholeRange (long least, long most);
+CLI::Validator wholeRange (long least, long most);

@@ -4,7 +4,7 @@
 
 #include "arguments.h"
 
-#include <pcl/cosection/common/atomic_file.h>
+#include "pcl_cosection/common/atomic_file.h"
 #include <pcl/cosection/common/error.h>
 
 #include <nlohmann/json.hpp>

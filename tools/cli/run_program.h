@@ -9,8 +9,7 @@
 #include <string>
 
 /** \brief What is to be said of an error. \param[in] out_of_memory of that one, which says nothing itself */
-std::string
-describe (const std::exception& error, const std::string& out_of_memory = "out of memory");
+std::string describe (const std::exception& error, const std::string& out_of_memory = "out of memory");
 
 /** \brief A program, and what it says when it ends early. */
 struct Program
@@ -22,6 +21,6 @@ struct Program
 
 /** \brief The main function of all programs: what \a work throws becomes one line and an exit status.
  * \param[in] work returns whether all went well; reads the command line first
- * \return Success, Failure, also if anything else is thrown, WrongUsage after a UsageError, Interrupted after pcl::cosection::Cancelled */
-int
-runProgram (const Program& program, const std::function<bool (Terminal&)>& work);
+ * \return Success, Failure, also if anything else is thrown, WrongUsage after a UsageError, Interrupted after
+ * pcl::cosection::Cancelled */
+int runProgram (const Program& program, const std::function<bool (Terminal&)>& work);

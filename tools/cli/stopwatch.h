@@ -8,8 +8,7 @@
 class Stopwatch
 {
 public:
-  double
-  seconds () const
+  double seconds () const
   {
     return (std::chrono::duration<double> (std::chrono::steady_clock::now () - start_).count ());
   }

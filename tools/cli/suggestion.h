@@ -7,9 +7,7 @@
 
 /** \brief Of \a names, the one with the smallest edit distance to \a word; the first if several
  * are as near, nothing if none is near. */
-std::string
-nearestName (const std::string& word, const std::vector<std::string>& names);
+std::string nearestName (const std::string& word, const std::vector<std::string>& names);
 
 /** \brief "; did you mean NAME?" of the nearest name, without dashes if \a bare; nothing if none is near. */
-std::string
-suggestion (const std::string& word, const std::vector<std::string>& names, bool bare = false);
+std::string suggestion (const std::string& word, const std::vector<std::string>& names, bool bare = false);

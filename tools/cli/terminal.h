@@ -18,38 +18,29 @@ public:
   explicit Terminal (const std::string& program, Verbosity verbosity = Verbosity::Normal);
   ~Terminal ();
   Terminal (const Terminal&) = delete;
-  Terminal&
-  operator= (const Terminal&) = delete;
+  Terminal& operator= (const Terminal&) = delete;
 
-  void
-  setVerbosity (Verbosity verbosity);
+  void setVerbosity (Verbosity verbosity);
 
   /** \brief One line on standard output; not if quiet. */
-  void
-  result (const std::string& line);
+  void result (const std::string& line);
 
   /** \brief One line of detail; only if verbose. */
-  void
-  detail (const std::string& line);
+  void detail (const std::string& line);
 
   /** \brief One line; not if quiet. */
-  void
-  warning (const std::string& line);
+  void warning (const std::string& line);
 
   /** \brief One line, always. */
-  void
-  error (const std::string& line);
+  void error (const std::string& line);
 
   /** \brief Draw the progress bar, if standard error is a terminal; say each new stage if verbose. */
-  void
-  progress (const std::string& stage, double fraction);
+  void progress (const std::string& stage, double fraction);
 
 private:
-  void
-  clearBar ();
+  void clearBar ();
 
-  void
-  say (const std::string& kind, const std::string& line);
+  void say (const std::string& kind, const std::string& line);
 
   const std::string program_;
   Verbosity verbosity_;

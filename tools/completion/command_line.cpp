@@ -35,10 +35,11 @@ setPaths (const Given& given, Settings& settings)
   if (extension == ".pcd")
     throw UsageError ("OUTPUT is " + settings.output +
                       ", a point cloud; it must be a folder, or a file ending in .ply, .stl or .obj");
-  constexpr std::array<const char*, 10> unwritten{".off", ".vtk", ".vtp", ".dae", ".glb", ".gltf",
-                                                  ".fbx", ".3ds", ".3mf", ".wrl"};
+  constexpr std::array<const char*, 10> unwritten{".off",  ".vtk", ".vtp", ".dae", ".glb",
+                                                  ".gltf", ".fbx", ".3ds", ".3mf", ".wrl"};
   if (std::find (unwritten.begin (), unwritten.end (), extension) != unwritten.end ())
-    throw UsageError ("OUTPUT is " + settings.output + ", a format that is not written; it must be a folder, or a file ending "
+    throw UsageError ("OUTPUT is " + settings.output +
+                      ", a format that is not written; it must be a folder, or a file ending "
                       "in .ply, .stl or .obj");
   const std::string mesh = meshExtension (settings.output);
   if (!mesh.empty () && !given.format.empty () && given.format != mesh)
@@ -59,8 +60,8 @@ setViewpoints (const Given& given, Settings& settings)
   if (settings.viewpoints.size () == 1)
     settings.viewpoints.assign (views, settings.viewpoints[0]);
   if (settings.viewpoints.size () != views)
-    throw UsageError ("--viewpoint is given " + std::to_string (settings.viewpoints.size ()) + " times for " + std::to_string (views) +
-                      " views; give one for all, or one for each");
+    throw UsageError ("--viewpoint is given " + std::to_string (settings.viewpoints.size ()) + " times for " +
+                      std::to_string (views) + " views; give one for all, or one for each");
 }
 
 Settings

@@ -30,21 +30,19 @@ struct Settings
   std::string preset;      ///< empty: our own defaults
   std::string constraints; ///< none, hull, intersection or all
   std::vector<Eigen::Vector4d> planes;
-  std::vector<std::string> free_space;                   ///< views of which nothing else is used
-  std::vector<std::string> obstacles;                    ///< mesh files
-  std::map<int, std::string> object_trajectories;        ///< files, by label
-  std::vector<std::array<double, 3>> viewpoints;         ///< one per view, inputs before free space; or none
+  std::vector<std::string> free_space;            ///< views of which nothing else is used
+  std::vector<std::string> obstacles;             ///< mesh files
+  std::map<int, std::string> object_trajectories; ///< files, by label
+  std::vector<std::array<double, 3>> viewpoints;  ///< one per view, inputs before free space; or none
   pcl::cosection::PcdViewOptions reading;
   pcl::cosection::CoSectionOptions method;
 };
 
 /** \brief The extension of \a path in lower case without the dot, if it is one of a mesh format
  * that can be written; else empty. */
-std::string
-meshExtension (const std::string& path);
+std::string meshExtension (const std::string& path);
 
 /** \brief Read the command line and the configuration file that it names.
  * \return nothing if all that was asked for was printed (--help, --version)
  * \throws UsageError */
-std::optional<Settings>
-parseCommandLine (int argc, const char* const* argv);
+std::optional<Settings> parseCommandLine (int argc, const char* const* argv);

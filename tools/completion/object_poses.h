@@ -17,19 +17,13 @@ public:
    * \throws pcl::cosection::IoError */
   ObjectPoses (const std::map<int, std::string>& files, std::size_t views);
 
-  bool
-  empty () const
-  {
-    return (T_world_object_.empty ());
-  }
+  bool empty () const { return (T_world_object_.empty ()); }
 
   /** \brief One pose per view, not finite where the trajectory has none; empty for an object that rests. */
-  const std::vector<Eigen::Isometry3d>&
-  of (int label) const;
+  const std::vector<Eigen::Isometry3d>& of (int label) const;
 
   /** \brief Warnings about trajectories of other labels than the given ones. */
-  std::vector<std::string>
-  unused (const std::vector<int>& labels) const;
+  std::vector<std::string> unused (const std::vector<int>& labels) const;
 
 private:
   std::map<int, std::string> files_;

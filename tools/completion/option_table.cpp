@@ -17,7 +17,8 @@ declareInput (CLI::App& app, Given& given)
   app.add_option ("paths", given.paths)->group ("")->configurable (false);
   app.add_flag ("--world-points", given.world_points, "Points are in the world frame already")->group (group);
   app.add_option ("--viewpoint", given.viewpoints,
-                  "Where the sensor stood, for points in the world frame whose header does not tell; once for all views, or once for each")
+                  "Where the sensor stood, for points in the world frame whose header does not tell; once for all "
+                  "views, or once for each")
       ->option_text ("X,Y,Z")
       ->allow_extra_args (false)
       ->group (group);
@@ -59,7 +60,8 @@ declareSurroundings (CLI::App& app, Given& given)
       ->option_text ("MESH")
       ->allow_extra_args (false)
       ->group (group);
-  app.add_flag ("--no-planes", given.no_planes, "Do not look for support planes in the background, nor guess them")->group (group);
+  app.add_flag ("--no-planes", given.no_planes, "Do not look for support planes in the background, nor guess them")
+      ->group (group);
 }
 
 void
@@ -76,10 +78,12 @@ declareOutput (CLI::App& app, Given& given)
       ->group (output);
   app.add_flag ("--save-hull", given.save_hull,
                 "Write each object's hull: all that may be it, as no view "
-                  "saw it free (_hull)")->group (output);
+                "saw it free (_hull)")
+      ->group (output);
   app.add_flag ("--save-bounds", given.save_bounds,
                 "Write bounds for collision checks: matter surely there "
-                  "(_inner), and the mesh with its hull (_outer)")->group (output);
+                "(_inner), and the mesh with its hull (_outer)")
+      ->group (output);
   app.add_flag ("--save-sdf", given.save_sdf, "Write each object's signed distance beside its mesh (.vti)")
       ->group (output);
   app.add_option ("--json", given.json, "Write a summary for programs")->option_text ("FILE")->group (output);

@@ -22,5 +22,4 @@ struct Given : GivenMethod
 };
 
 /** \brief Declare every option of the program, and where the help screen shows it. */
-void
-declareOptions (CLI::App& app, Given& given);
+void declareOptions (CLI::App& app, Given& given);

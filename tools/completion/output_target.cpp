@@ -4,7 +4,7 @@
 
 #include "output_files.h"
 
-#include <pcl/cosection/common/atomic_file.h>
+#include "pcl_cosection/common/atomic_file.h"
 #include <pcl/cosection/common/error.h>
 #include <pcl/cosection/io/mesh_io.h>
 #include <pcl/cosection/io/sdf_io.h>

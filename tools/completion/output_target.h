@@ -20,12 +20,10 @@ public:
   /** \brief Removes the folders again that were made here, if nothing was written into them. */
   ~OutputFolder ();
   OutputFolder (const OutputFolder&) = delete;
-  OutputFolder&
-  operator= (const OutputFolder&) = delete;
+  OutputFolder& operator= (const OutputFolder&) = delete;
 
 private:
-  void
-  removeMade () const;
+  void removeMade () const;
 
   std::vector<std::filesystem::path> made_; ///< the deepest one last
 };
@@ -44,20 +42,16 @@ public:
 
   /** \brief Write what succeeded. \return the files, in the order written
    * \throws pcl::cosection::IoError */
-  std::vector<std::string>
-  write (const pcl::cosection::SceneResult& result) const;
+  std::vector<std::string> write (const pcl::cosection::SceneResult& result) const;
 
 private:
   /** \brief Whether a file of this name in the folder of the output may be written. */
-  bool
-  isOwnName (const std::filesystem::path& name) const;
+  bool isOwnName (const std::filesystem::path& name) const;
 
-  void
-  refuseToOverwrite (const Settings& settings) const;
+  void refuseToOverwrite (const Settings& settings) const;
 
-  std::string
-  objectPath (const pcl::cosection::ObjectResult& object, const std::string& extension, bool only,
-              const std::string& suffix = "") const;
+  std::string objectPath (const pcl::cosection::ObjectResult& object, const std::string& extension, bool only,
+                          const std::string& suffix = "") const;
 
   const std::string output_;
   const std::string format_;

@@ -5,5 +5,4 @@
 #include "help_text.h"
 
 /** \brief What pcl_cosection says about itself. */
-const ProgramText&
-completionText ();
+const ProgramText& completionText ();

@@ -27,7 +27,7 @@ constexpr double whole_image_share = 0.5;   ///< of the pixels; an object that w
 constexpr std::size_t image_pixels = 70000; ///< ... or is smaller than a camera's image
 constexpr double long_object = 5.0;         ///< metres; what is longer is hardly one thing in metres
 constexpr double outlier_share = 0.02;      ///< of its points, on each side
-constexpr float large_extent = 100.0f; ///< metres; what is larger is probably not in metres
+constexpr float large_extent = 100.0f;      ///< metres; what is larger is probably not in metres
 
 std::string
 tooFew (std::uint32_t label, const LabelledView::Points& object)
@@ -61,7 +61,8 @@ extentOf (const std::vector<OrientedPoint>& points)
   std::vector<float> along (points.size ());
   for (int axis = 0; axis < 3; ++axis)
   {
-    std::transform (points.begin (), points.end (), along.begin (), [axis] (const OrientedPoint& p) { return p.position[axis]; });
+    std::transform (points.begin (), points.end (), along.begin (),
+                    [axis] (const OrientedPoint& p) { return p.position[axis]; });
     const auto cut = static_cast<std::ptrdiff_t> (outlier_share * static_cast<double> (along.size ()));
     std::nth_element (along.begin (), along.begin () + cut, along.end ());
     const double least = along[cut];
@@ -71,7 +72,8 @@ extentOf (const std::vector<OrientedPoint>& points)
   return extent;
 }
 
-/** \brief A warning of an object that is too long to be one, if it is: without labels it may be a whole scene, or its unit is not the metre. */
+/** \brief A warning of an object that is too long to be one, if it is: without labels it may be a whole scene, or its
+ * unit is not the metre. */
 std::optional<std::string>
 tooLong (std::uint32_t label, const std::vector<OrientedPoint>& points)
 {
@@ -80,7 +82,8 @@ tooLong (std::uint32_t label, const std::vector<OrientedPoint>& points)
     return std::nullopt;
   std::ostringstream text;
   text.precision (3);
-  text << "object " << label << " is " << longest << " m long: is it one (else give labels), and is its unit the metre (else --scale 0.01 for "
+  text << "object " << label << " is " << longest
+       << " m long: is it one (else give labels), and is its unit the metre (else --scale 0.01 for "
        << "centimetres, 0.001 for millimetres)?";
   return text.str ();
 }
@@ -159,7 +162,7 @@ readObstacle (const std::string& path, std::vector<std::string>& warnings)
                         " m; obstacles are in metres, in the world frame");
   try
   {
-    CoSection ().addIntersection (mesh); // refuses what bounds nothing
+    CoSection ().addObstacle (mesh); // refuses what bounds nothing
   }
   catch (const InvalidArgument& error)
   {
@@ -206,7 +209,8 @@ readScene (const Settings& settings, const ProgressCallback& progress)
     LabelledView view = readPcdView (settings.inputs[i], optionsOf (i, settings, labels));
     std::move (view.warnings.begin (), view.warnings.end (), std::back_inserter (scene.warnings));
     if (isWholeImage (view))
-      scene.warnings.push_back (settings.inputs[i] + ": has no field label, so all that it shows is taken as one object; " +
+      scene.warnings.push_back (settings.inputs[i] +
+                                ": has no field label, so all that it shows is taken as one object; " +
                                 "if it shows several, give them labels or cut one out");
     merge (settings.inputs[i], i, view, poses, labels, scene.warnings);
     if (view.view)
@@ -221,7 +225,8 @@ readScene (const Settings& settings, const ProgressCallback& progress)
     LabelledView view = readPcdView (path, optionsOf (settings.inputs.size () + i, settings, labels));
     std::move (view.warnings.begin (), view.warnings.end (), std::back_inserter (scene.warnings));
     if (!view.view)
-      throw DegenerateInput (path + ": tells of no free space: it is no image of a pinhole camera, nor seen from its VIEWPOINT");
+      throw DegenerateInput (
+          path + ": tells of no free space: it is no image of a pinhole camera, nor seen from its VIEWPOINT");
     scene.free_space.push_back (std::move (*view.view));
   }
 

@@ -17,13 +17,12 @@ struct SceneInput
 {
   std::map<int, pcl::cosection::ObjectInput> objects; ///< by label
   std::vector<pcl::cosection::OrientedPoint> background;
-  std::vector<pcl::cosection::DepthView> views;      ///< of the INPUTs
-  std::vector<pcl::cosection::DepthView> free_space; ///< further views, of which nothing else is used
+  std::vector<pcl::cosection::DepthView> views;        ///< of the INPUTs
+  std::vector<pcl::cosection::DepthView> free_space;   ///< further views, of which nothing else is used
   std::vector<pcl::cosection::TriangleMesh> obstacles; ///< world frame
   std::vector<std::string> warnings;
 };
 
 /** \brief Read and merge the views; labels of too few points are dropped with a warning.
  * \throws pcl::cosection::Error also if no object is left, or if \a progress returns false */
-SceneInput
-readScene (const Settings& settings, const pcl::cosection::ProgressCallback& progress);
+SceneInput readScene (const Settings& settings, const pcl::cosection::ProgressCallback& progress);

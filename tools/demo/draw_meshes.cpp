@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_cosection authors
 
-// draw_meshes UP FRONT OUTPUT.png FILE...: each file, a mesh (.ply) or a cloud (.pcd), from two sides, all with the camera that fits
-// the first one: from the direction FRONT in the upper row, turned about UP in the lower one. UP and FRONT are vectors
-// such as 0,1,0. Vertices of known provenance are coloured by it.
+// draw_meshes UP FRONT OUTPUT.png FILE...: each file, a mesh (.ply) or a cloud (.pcd), from two sides, all with the
+// camera that fits the first one: from the direction FRONT in the upper row, turned about UP in the lower one. UP and
+// FRONT are vectors such as 0,1,0. Vertices of known provenance are coloured by it.
 
+#include "pcl_cosection/rendering/picture.h"
+#include "pcl_cosection/view/look_at.h"
 #include <pcl/cosection/common/error.h>
-#include <pcl/cosection/common/look_at.h>
 #include <pcl/cosection/io/mesh_io.h>
-#include <pcl/cosection/rendering/picture.h>
 #include <pcl/cosection/rendering/rasterizer.h>
 
 #include <pcl/common/point_tests.h>
@@ -30,8 +30,8 @@ namespace
 {
 
 constexpr int panel_px = 360;
-constexpr double turn_rad = 2.4;   ///< between the rows
-constexpr double distance = 4.0;   ///< of the camera, in radii
+constexpr double turn_rad = 2.4; ///< between the rows
+constexpr double distance = 4.0; ///< of the camera, in radii
 constexpr double margin = 1.15;
 constexpr TriangleMesh::Colour point_colour = {60, 90, 160};
 

@@ -5,10 +5,10 @@
 // meshes in the folder MESHES from there, and the meshes from behind, coloured by provenance. Up is where most of the
 // background faces.
 
+#include "pcl_cosection/rendering/picture.h"
+#include "pcl_cosection/view/look_at.h"
 #include <pcl/cosection/common/error.h>
-#include <pcl/cosection/common/look_at.h>
 #include <pcl/cosection/io/mesh_io.h>
-#include <pcl/cosection/rendering/picture.h>
 #include <pcl/cosection/rendering/rasterizer.h>
 
 #include <pcl/common/point_tests.h>
@@ -121,24 +121,15 @@ class Panel
 public:
   Panel (const Scene& scene, double turn_rad)
   {
-    const Eigen::Vector3d offset =
-        Eigen::AngleAxisd (turn_rad, scene.up) * (scene.sensor - scene.middle);
+    const Eigen::Vector3d offset = Eigen::AngleAxisd (turn_rad, scene.up) * (scene.sensor - scene.middle);
     const double focal_length = 0.5 * std::min (width_px, height_px) * offset.norm () / (margin * scene.radius);
     camera_ = {width_px, height_px, focal_length, focal_length, 0.5 * (width_px - 1), 0.5 * (height_px - 1)};
     T_world_camera_ = lookAt (scene.middle + offset, scene.middle, scene.up);
   }
 
-  Rasterizer
-  rasterizer () const
-  {
-    return (Rasterizer (camera_, T_world_camera_));
-  }
+  Rasterizer rasterizer () const { return (Rasterizer (camera_, T_world_camera_)); }
 
-  Picture
-  picture (const Rasterizer& rasterizer) const
-  {
-    return (shade (rasterizer.image (), camera_));
-  }
+  Picture picture (const Rasterizer& rasterizer) const { return (shade (rasterizer.image (), camera_)); }
 
 private:
   PinholeCamera camera_;

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_cosection authors
 
-// make_demo_scene OUTPUT.pcd: renders the sample of the demo, a box, a ball and a bottle on a table, as a structured-light
-// camera sees them from one side. The same file every time.
+// make_demo_scene OUTPUT.pcd: renders the sample of the demo, a box, a ball and a bottle on a table, as a
+// structured-light camera sees them from one side. The same file every time.
 
 #include "shapes.h"
 
+#include "pcl_cosection/rendering/picture.h"
+#include "pcl_cosection/view/look_at.h"
 #include <pcl/cosection/common/camera.h>
-#include <pcl/cosection/common/look_at.h>
-#include <pcl/cosection/rendering/picture.h>
 #include <pcl/cosection/rendering/rasterizer.h>
 
 #include <pcl/io/pcd_io.h>
@@ -52,8 +52,15 @@ at (double x, double y, double z, double turn_rad = 0.0)
 std::vector<Body>
 makeBodies ()
 {
-  const TriangleMesh bottle = revolve ({{0.0f, 0.0f}, {0.036f, 0.0f}, {0.038f, 0.002f}, {0.038f, 0.110f}, {0.034f, 0.125f},
-                                        {0.020f, 0.145f}, {0.015f, 0.155f}, {0.015f, 0.190f}, {0.0f, 0.190f}});
+  const TriangleMesh bottle = revolve ({{0.0f, 0.0f},
+                                        {0.036f, 0.0f},
+                                        {0.038f, 0.002f},
+                                        {0.038f, 0.110f},
+                                        {0.034f, 0.125f},
+                                        {0.020f, 0.145f},
+                                        {0.015f, 0.155f},
+                                        {0.015f, 0.190f},
+                                        {0.0f, 0.190f}});
   return {{0, makeBox ({1.3f, 1.1f, 0.03f}), at (0.0, 0.15, -0.015), {196, 164, 124}},
           {0, makeBox ({6.0f, 6.0f, 0.03f}), at (0.0, 0.0, -0.75), {120, 120, 125}},
           {1, makeBox ({0.16f, 0.10f, 0.12f}), at (-0.11, 0.03, 0.06, 0.5), {60, 120, 190}},
@@ -74,19 +81,14 @@ render (const std::vector<Body>& bodies, const PinholeCamera& camera, const Eige
 class Gauss
 {
 public:
-  double
-  operator() ()
+  double operator() ()
   {
     const double radius = std::sqrt (-2.0 * std::log (uniform ()));
     return (radius * std::cos (2.0 * M_PI * uniform ()));
   }
 
 private:
-  double
-  uniform ()
-  {
-    return ((generator_ () + 0.5) / 4294967296.0);
-  }
+  double uniform () { return ((generator_ () + 0.5) / 4294967296.0); }
 
   std::mt19937 generator_{2020};
 };
@@ -109,8 +111,8 @@ pcl::PointCloud<pcl::PointXYZRGBL>
 measure (const std::vector<Body>& bodies, const PinholeCamera& camera, const Eigen::Isometry3d& T_world_camera)
 {
   const RasterImage image = render (bodies, camera, T_world_camera);
-  const RasterImage seen_by_projector =
-      render (bodies, camera, T_world_camera * Eigen::Translation3d (baseline_m, 0.0, 0.0));
+  const RasterImage seen_by_projector = render (bodies, camera,
+                                                T_world_camera * Eigen::Translation3d (baseline_m, 0.0, 0.0));
   const Picture picture = shade (image, camera);
 
   Gauss gauss;
@@ -118,8 +120,10 @@ measure (const std::vector<Body>& bodies, const PinholeCamera& camera, const Eig
   for (int v = 0; v < camera.height; ++v)
     for (int u = 0; u < camera.width; ++u)
     {
-      const auto read_u = std::clamp (static_cast<int> (std::lround (u + edge_jitter_px * gauss ())), 0, camera.width - 1);
-      const auto read_v = std::clamp (static_cast<int> (std::lround (v + edge_jitter_px * gauss ())), 0, camera.height - 1);
+      const auto read_u = std::clamp (static_cast<int> (std::lround (u + edge_jitter_px * gauss ())), 0,
+                                      camera.width - 1);
+      const auto read_v = std::clamp (static_cast<int> (std::lround (v + edge_jitter_px * gauss ())), 0,
+                                      camera.height - 1);
       const double noise = gauss ();
       const std::size_t pixel = static_cast<std::size_t> (v) * camera.width + u;
       const std::size_t read = static_cast<std::size_t> (read_v) * camera.width + read_u;

@@ -15,9 +15,9 @@ makeBox (const Eigen::Vector3f& size)
 {
   pcl::cosection::TriangleMesh mesh;
   for (int corner = 0; corner < 8; ++corner)
-    mesh.vertices.push_back (0.5f * size.cwiseProduct (Eigen::Vector3f ((corner & 1) ? 1.0f : -1.0f,
-                                                                        (corner & 2) ? 1.0f : -1.0f,
-                                                                        (corner & 4) ? 1.0f : -1.0f)));
+    mesh.vertices.push_back (
+        0.5f * size.cwiseProduct (Eigen::Vector3f ((corner & 1) ? 1.0f : -1.0f, (corner & 2) ? 1.0f : -1.0f,
+                                                   (corner & 4) ? 1.0f : -1.0f)));
   mesh.triangles = {{0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5}, {0, 1, 5}, {0, 5, 4},
                     {2, 6, 7}, {2, 7, 3}, {0, 2, 3}, {0, 3, 1}, {4, 5, 7}, {4, 7, 6}};
   return (mesh);

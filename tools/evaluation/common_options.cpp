@@ -5,7 +5,6 @@
 #include "arguments.h"
 #include "option_values.h"
 
-
 void
 declareCommonOptions (CLI::App& app, CommonOptions& given)
 {

@@ -21,13 +21,10 @@ struct CommonOptions
 };
 
 /** \brief Declare --json and --csv in the group "Output", and the general ones. */
-void
-declareCommonOptions (CLI::App& app, CommonOptions& given);
+void declareCommonOptions (CLI::App& app, CommonOptions& given);
 
 /** \brief \throws UsageError unless there are two paths, which are not empty, and the verbosity is clear
  * \param[in] first, second what the paths are */
-void
-checkCommonOptions (const CommonOptions& given, const std::string& first, const std::string& second);
+void checkCommonOptions (const CommonOptions& given, const std::string& first, const std::string& second);
 
-Verbosity
-verbosityOf (const CommonOptions& given);
+Verbosity verbosityOf (const CommonOptions& given);

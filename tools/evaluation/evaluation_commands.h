@@ -21,13 +21,10 @@ struct EvaluationCommand
   void (*run) (int argc, const char* const* argv, Terminal& terminal);
 };
 
-const std::vector<EvaluationCommand>&
-evaluationCommands ();
+const std::vector<EvaluationCommand>& evaluationCommands ();
 
 /** \brief What --help shows; see helpText (). */
-std::string
-evaluationHelp ();
+std::string evaluationHelp ();
 
 /** \brief The manual page of all commands. */
-std::string
-evaluationManPage ();
+std::string evaluationManPage ();

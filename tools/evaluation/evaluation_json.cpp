@@ -18,7 +18,8 @@ addDistances (const std::string& name, const ErrorStatistics& statistics, Json& 
 }
 
 void
-addErrors (const std::string& name, const std::string& unit, const ErrorStatistics& statistics, double factor, Json& json)
+addErrors (const std::string& name, const std::string& unit, const ErrorStatistics& statistics, double factor,
+           Json& json)
 {
   json[name + "_rmse_" + unit] = factor * statistics.rmse;
   json[name + "_mean_" + unit] = factor * statistics.mean;

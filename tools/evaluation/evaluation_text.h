@@ -5,14 +5,10 @@
 #include "help_text.h"
 
 /** \brief What pcl_cosection_evaluate says about itself, and about each of its commands. */
-const ProgramText&
-evaluationText ();
+const ProgramText& evaluationText ();
 
-const ProgramText&
-meshText ();
+const ProgramText& meshText ();
 
-const ProgramText&
-trajectoryText ();
+const ProgramText& trajectoryText ();
 
-const ProgramText&
-runText ();
+const ProgramText& runText ();

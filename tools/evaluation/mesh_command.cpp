@@ -11,14 +11,14 @@
 #include "output_files.h"
 #include "text_table.h"
 
+#include "pcl_cosection/evaluation/pictures/error_picture.h"
+#include "pcl_cosection/evaluation/surface_samples.h"
+#include "pcl_cosection/rendering/picture.h"
 #include <pcl/cosection/common/error.h>
-#include <pcl/cosection/evaluation/error_picture.h>
 #include <pcl/cosection/evaluation/mesh_comparison.h>
 #include <pcl/cosection/evaluation/rigid_alignment.h>
 #include <pcl/cosection/evaluation/surface_distance.h>
-#include <pcl/cosection/evaluation/surface_samples.h>
 #include <pcl/cosection/io/mesh_io.h>
-#include <pcl/cosection/rendering/picture.h>
 
 #include <algorithm>
 #include <chrono>
@@ -103,10 +103,12 @@ struct MeshReport
 void
 noteVolumes (MeshReport& report)
 {
-  for (const auto& [name, summary] : {std::pair{"truth", &report.truth}, std::pair{"reconstruction", &report.reconstruction}})
+  for (const auto& [name, summary] :
+       {std::pair{"truth", &report.truth}, std::pair{"reconstruction", &report.reconstruction}})
     if (!summary->volume_m3)
       report.notes.push_back (std::string ("the ") + name + " is " +
-                              (summary->topology.boundary_edges > 0 ? "open" : "not a manifold") + " and has no volume");
+                              (summary->topology.boundary_edges > 0 ? "open" : "not a manifold") +
+                              " and has no volume");
   if (report.truth.volume_m3 && report.reconstruction.volume_m3 && *report.truth.volume_m3 != 0.0)
     report.volume_error = *report.reconstruction.volume_m3 / *report.truth.volume_m3 - 1.0;
 }
@@ -132,11 +134,12 @@ print (const MeshSettings& settings, const MeshReport& report, Terminal& termina
   row ("completeness", report.comparison.completeness);
   for (const std::string& text : table.lines ())
     terminal.result (text);
-  terminal.result ("F-score at " + toShortText (1000.0 * settings.f_threshold_m) + " mm: " + toText (report.comparison.f_score) +
-                   " (precision " + toText (report.comparison.precision) + ", recall " +
-                   toText (report.comparison.recall) + ")");
+  terminal.result ("F-score at " + toShortText (1000.0 * settings.f_threshold_m) +
+                   " mm: " + toText (report.comparison.f_score) + " (precision " +
+                   toText (report.comparison.precision) + ", recall " + toText (report.comparison.recall) + ")");
   if (report.volume_error)
-    terminal.result ("volume: " + std::string (*report.volume_error >= 0.0 ? "+" : "") + inPercent (*report.volume_error));
+    terminal.result ("volume: " + std::string (*report.volume_error >= 0.0 ? "+" : "") +
+                     inPercent (*report.volume_error));
   for (const std::string& note : report.notes)
     terminal.result ("note: " + note);
   print (report.surroundings, terminal);
@@ -169,10 +172,10 @@ std::string
 toCsv (const MeshSettings& settings, const MeshReport& report)
 {
   const MeshComparison& c = report.comparison;
-  return (csvRow ({"truth", "reconstruction", "accuracy_m", "completeness_m", "f_score", "precision", "recall", "closed",
-                   "volume_error", "penetration_m", "free_space_violation"}) +
-          csvRow ({settings.common.paths[0], settings.common.paths[1], toField (c.accuracy.mean), toField (c.completeness.mean),
-                   toField (c.f_score), toField (c.precision), toField (c.recall),
+  return (csvRow ({"truth", "reconstruction", "accuracy_m", "completeness_m", "f_score", "precision", "recall",
+                   "closed", "volume_error", "penetration_m", "free_space_violation"}) +
+          csvRow ({settings.common.paths[0], settings.common.paths[1], toField (c.accuracy.mean),
+                   toField (c.completeness.mean), toField (c.f_score), toField (c.precision), toField (c.recall),
                    report.reconstruction.topology.closed_manifold ? "1" : "0",
                    report.volume_error ? toField (*report.volume_error) : "",
                    report.surroundings.obstacles.empty () ? "" : toField (report.surroundings.penetration_m ()),
@@ -181,13 +184,12 @@ toCsv (const MeshSettings& settings, const MeshReport& report)
 
 /** \brief The mesh and the picture that show where the errors are. */
 void
-writeErrors (const MeshSettings& settings, const MeshReport& report, const TriangleMesh& truth, TriangleMesh reconstruction,
-             Terminal& terminal)
+writeErrors (const MeshSettings& settings, const MeshReport& report, const TriangleMesh& truth,
+             TriangleMesh reconstruction, Terminal& terminal)
 {
-  const double error_max_m =
-      settings.error_max_m > 0.0
-          ? settings.error_max_m
-          : roundErrorUp (std::max (report.comparison.accuracy.p95, report.comparison.completeness.p95));
+  const double error_max_m = settings.error_max_m > 0.0 ? settings.error_max_m
+                                                        : roundErrorUp (std::max (report.comparison.accuracy.p95,
+                                                                                  report.comparison.completeness.p95));
   if (!settings.error_picture.empty ())
   {
     ErrorPictureOptions options;
@@ -202,8 +204,8 @@ writeErrors (const MeshSettings& settings, const MeshReport& report, const Trian
   }
   if (!settings.error_mesh.empty ())
   {
-    reconstruction.colours =
-        errorColours (vertexDistances (reconstruction, SurfaceDistance (truth), settings.common.threads.value_or (0)), error_max_m);
+    reconstruction.colours = errorColours (
+        vertexDistances (reconstruction, SurfaceDistance (truth), settings.common.threads.value_or (0)), error_max_m);
     saveMesh (reconstruction, settings.error_mesh);
     terminal.result ("wrote " + settings.error_mesh + ", red at " + inMillimetres (error_max_m) + " mm");
   }
@@ -226,7 +228,8 @@ compare (const MeshSettings& settings, Terminal& terminal)
     report.refinement = alignByIcp (truth, settings.common.threads.value_or (0), reconstruction);
     report.T_truth_reconstruction = report.refinement->correction * report.T_truth_reconstruction;
     if (report.refinement->limited)
-      report.warnings.emplace_back ("icp wants to move the reconstruction farther than is allowed: give a better --pose");
+      report.warnings.emplace_back (
+          "icp wants to move the reconstruction farther than is allowed: give a better --pose");
   }
   report.truth = summarizeMesh (truth);
   report.reconstruction = summarizeMesh (reconstruction);

@@ -16,16 +16,17 @@ declareMeshOptions (CLI::App& app, MeshSettings& settings)
       ->check (wholeRange (0, std::numeric_limits<long>::max ()))
       ->group (comparison);
   app.add_option ("--f-threshold", settings.f_threshold_m,
-                  "Distance up to which a point counts for precision, recall and F-score" + byDefault (settings.f_threshold_m))
+                  "Distance up to which a point counts for precision, recall and F-score" +
+                      byDefault (settings.f_threshold_m))
       ->option_text ("METRES")
       ->check (numberRange (0, unlimited, true))
       ->group (comparison);
-  app.add_option ("--pose", settings.pose, "Pose of the reconstruction in the frame of the truth (default: the same frame)")
+  app.add_option ("--pose", settings.pose,
+                  "Pose of the reconstruction in the frame of the truth (default: the same frame)")
       ->option_text ("TX,TY,TZ,QX,QY,QZ,QW")
       ->allow_extra_args (false)
       ->group (comparison);
-  app.add_option ("--align", settings.align,
-                  "Refine the pose, by point-to-plane ICP, before comparing (default: none)")
+  app.add_option ("--align", settings.align, "Refine the pose, by point-to-plane ICP, before comparing (default: none)")
       ->option_text ("none|icp")
       ->check (CLI::IsMember (std::vector<std::string>{"none", "icp"}))
       ->group (comparison);
@@ -54,10 +55,12 @@ declareMeshOptions (CLI::App& app, MeshSettings& settings)
       ->group (surroundings);
 
   const std::string output = "Output";
-  app.add_option ("--error-picture", settings.error_picture, "Draw both meshes, coloured by their distance to each other")
+  app.add_option ("--error-picture", settings.error_picture,
+                  "Draw both meshes, coloured by their distance to each other")
       ->option_text ("FILE.png")
       ->group (output);
-  app.add_option ("--error-mesh", settings.error_mesh, "Write the reconstruction, its vertices coloured by their distance to the truth")
+  app.add_option ("--error-mesh", settings.error_mesh,
+                  "Write the reconstruction, its vertices coloured by their distance to the truth")
       ->option_text ("FILE.ply")
       ->group (output);
   app.add_option ("--error-max", settings.error_max_m,

@@ -4,9 +4,9 @@
 
 #include "text_table.h"
 
+#include "pcl_cosection/evaluation/surface_samples.h"
 #include <pcl/cosection/common/error.h>
 #include <pcl/cosection/evaluation/penetration.h>
-#include <pcl/cosection/evaluation/surface_samples.h>
 #include <pcl/cosection/io/mesh_io.h>
 #include <pcl/cosection/io/pcd_view.h>
 
@@ -37,8 +37,8 @@ measureObstacles (const MeshSettings& settings, const TriangleMesh& reconstructi
     result.depth_m = obstacle.depthOf (body);
     result.volume_m3 = obstacle.sharedVolume (body);
     if (result.is_open)
-      warnings.push_back (file + " is open and has no inside: only what is less than " + inMillimetres (options.band_m) +
-                          " mm behind it counts as penetration");
+      warnings.push_back (file + " is open and has no inside: only what is less than " +
+                          inMillimetres (options.band_m) + " mm behind it counts as penetration");
     obstacles.push_back (result);
   }
   return (obstacles);
@@ -55,7 +55,8 @@ measureFreeSpace (const MeshSettings& settings, const TriangleMesh& reconstructi
     LabelledView view = readPcdView (file, options);
     warnings.insert (warnings.end (), view.warnings.begin (), view.warnings.end ());
     if (!view.view)
-      throw DegenerateInput (file + ": has no depth image to tell free space by; it must be an organised cloud of a pinhole camera");
+      throw DegenerateInput (
+          file + ": has no depth image to tell free space by; it must be an organised cloud of a pinhole camera");
     views.push_back (std::move (*view.view));
   }
   const auto points = sampleSurface (reconstruction, static_cast<std::size_t> (settings.samples), settings.seed);
@@ -77,7 +78,8 @@ Surroundings::penetration_m () const
 }
 
 Surroundings
-measureSurroundings (const MeshSettings& settings, const TriangleMesh& reconstruction, std::vector<std::string>& warnings)
+measureSurroundings (const MeshSettings& settings, const TriangleMesh& reconstruction,
+                     std::vector<std::string>& warnings)
 {
   Surroundings surroundings;
   surroundings.obstacles = measureObstacles (settings, reconstruction, warnings);
@@ -94,10 +96,11 @@ print (const Surroundings& surroundings, Terminal& terminal)
                      (obstacle.depth_m > 0.0 ? inMillimetres (obstacle.depth_m) + " mm deep" : "none") +
                      (obstacle.volume_m3 ? ", " + inMillilitres (*obstacle.volume_m3) + " ml" : ""));
   if (surroundings.free_space)
-    terminal.result ("in seen free space: " + inPercent (surroundings.free_space->share) + " of the surface" +
-                     (surroundings.free_space->share > 0.0
-                          ? ", up to " + inMillimetres (surroundings.free_space->max_depth_m) + " mm in front of a reading"
-                          : ""));
+    terminal.result (
+        "in seen free space: " + inPercent (surroundings.free_space->share) + " of the surface" +
+        (surroundings.free_space->share > 0.0
+             ? ", up to " + inMillimetres (surroundings.free_space->max_depth_m) + " mm in front of a reading"
+             : ""));
 }
 
 void

@@ -27,18 +27,14 @@ struct Surroundings
   std::optional<pcl::cosection::FreeSpaceViolation> free_space;
 
   /** \brief The deepest of all obstacles. */
-  double
-  penetration_m () const;
+  double penetration_m () const;
 };
 
 /** \brief Read obstacles and views, and measure them. \throws pcl::cosection::Error */
-Surroundings
-measureSurroundings (const MeshSettings& settings, const pcl::cosection::TriangleMesh& reconstruction,
-                     std::vector<std::string>& warnings);
+Surroundings measureSurroundings (const MeshSettings& settings, const pcl::cosection::TriangleMesh& reconstruction,
+                                  std::vector<std::string>& warnings);
 
-void
-print (const Surroundings& surroundings, Terminal& terminal);
+void print (const Surroundings& surroundings, Terminal& terminal);
 
 /** \brief Set penetration_m and so on of \a json. */
-void
-addSurroundings (const Surroundings& surroundings, Json& json);
+void addSurroundings (const Surroundings& surroundings, Json& json);

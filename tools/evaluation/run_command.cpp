@@ -70,7 +70,8 @@ declareRunOptions (CLI::App& app, RunSettings& settings)
       ->check (wholeRange (0, std::numeric_limits<long>::max ()))
       ->group (group);
   app.add_option ("--f-threshold", settings.f_threshold_m,
-                  "Distance up to which a point counts for precision, recall and F-score" + byDefault (settings.f_threshold_m))
+                  "Distance up to which a point counts for precision, recall and F-score" +
+                      byDefault (settings.f_threshold_m))
       ->option_text ("METRES")
       ->check (numberRange (0, unlimited, true))
       ->group (group);

@@ -20,9 +20,7 @@ struct RunSettings
   double penetration_voxel_m = 0.0;
 };
 
-void
-declareRunOptions (CLI::App& app, RunSettings& settings);
+void declareRunOptions (CLI::App& app, RunSettings& settings);
 
 /** \brief pcl_cosection_evaluate run. \throws UsageError, pcl::cosection::Error */
-void
-runRunCommand (int argc, const char* const* argv, Terminal& terminal);
+void runRunCommand (int argc, const char* const* argv, Terminal& terminal);

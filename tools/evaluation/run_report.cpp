@@ -67,8 +67,8 @@ addMesh (const MeshEvaluation& mesh, double f_threshold_m, Json& json)
 void
 printObjects (const RunEvaluation& run, const RunSettings& settings, Terminal& terminal)
 {
-  TextTable table ({"object", "accuracy", "complete", "F@" + toShortText (1000.0 * settings.f_threshold_m), "closed", "volume",
-                    "inside others", "ATE", "RPE", "RPE deg", "tracked/visible"});
+  TextTable table ({"object", "accuracy", "complete", "F@" + toShortText (1000.0 * settings.f_threshold_m), "closed",
+                    "volume", "inside others", "ATE", "RPE", "RPE deg", "tracked/visible"});
   for (const ObjectEvaluation& o : run.objects)
     table.add ({std::to_string (o.id) + " " + o.truth_name, inMillimetres (o.mesh.comparison.accuracy.mean),
                 inMillimetres (o.mesh.comparison.completeness.mean), toText (o.mesh.comparison.f_score),
@@ -79,7 +79,8 @@ printObjects (const RunEvaluation& run, const RunSettings& settings, Terminal& t
                 std::to_string (o.frames_tracked_visible) + "/" + std::to_string (o.frames_visible)});
   if (run.background)
     table.add ({"background", inMillimetres (run.background->comparison.accuracy.mean),
-                inMillimetres (run.background->comparison.completeness.mean), toText (run.background->comparison.f_score),
+                inMillimetres (run.background->comparison.completeness.mean),
+                toText (run.background->comparison.f_score),
                 run.background->estimate.topology.closed_manifold ? "yes" : "no", "-"});
   for (const std::string& line : table.lines ())
     terminal.result (line);
@@ -147,12 +148,13 @@ runJson (const RunEvaluation& run, const SceneRecord& truth, const RunSettings& 
     json["background"] = nullptr;
   json["penetrations"] = Json::array ();
   for (const PairPenetration& pair : run.penetrations)
-    json["penetrations"].push_back ({{"first", pair.first},
-                                     {"second", pair.second == PairPenetration::background ? Json ("background") : Json (pair.second)},
-                                     {"penetration_m", pair.depth_m},
-                                     {"penetration_m3", pair.volume_m3 ? Json (*pair.volume_m3) : Json ()},
-                                     {"stamp", pair.stamp},
-                                     {"frames", pair.frames}});
+    json["penetrations"].push_back (
+        {{"first", pair.first},
+         {"second", pair.second == PairPenetration::background ? Json ("background") : Json (pair.second)},
+         {"penetration_m", pair.depth_m},
+         {"penetration_m3", pair.volume_m3 ? Json (*pair.volume_m3) : Json ()},
+         {"stamp", pair.stamp},
+         {"frames", pair.frames}});
   json["unmatched"] = run.unmatched;
   json["missed"] = Json::array ();
   for (const int id : run.missed)
@@ -180,8 +182,9 @@ runCsv (const RunEvaluation& run)
                      o.mesh.estimate.topology.closed_manifold ? "1" : "0",
                      o.mesh.volume_error ? toField (*o.mesh.volume_error) : "", toField (o.penetration_m),
                      toField (o.trajectory.ate_m.rmse), has_rpe ? toField (o.trajectory.rpe_trans_m.rmse) : "",
-                     has_rpe ? toField (degrees_per_rad * o.trajectory.rpe_rot_rad.rmse) : "", std::to_string (o.frames_tracked),
-                     std::to_string (o.frames_visible), toField (o.mesh.alignment.refinement.translation_m),
+                     has_rpe ? toField (degrees_per_rad * o.trajectory.rpe_rot_rad.rmse) : "",
+                     std::to_string (o.frames_tracked), std::to_string (o.frames_visible),
+                     toField (o.mesh.alignment.refinement.translation_m),
                      toField (degrees_per_rad * o.mesh.alignment.refinement.rotation_rad)});
   }
   return (text);

@@ -10,13 +10,11 @@
 
 #include <string>
 
-void
-print (const pcl::cosection::RunEvaluation& run, const pcl::cosection::SceneRecord& truth, const RunSettings& settings,
-       Terminal& terminal);
+void print (const pcl::cosection::RunEvaluation& run, const pcl::cosection::SceneRecord& truth,
+            const RunSettings& settings, Terminal& terminal);
 
-Json
-runJson (const pcl::cosection::RunEvaluation& run, const pcl::cosection::SceneRecord& truth, const RunSettings& settings);
+Json runJson (const pcl::cosection::RunEvaluation& run, const pcl::cosection::SceneRecord& truth,
+              const RunSettings& settings);
 
 /** \brief A row for each object. */
-std::string
-runCsv (const pcl::cosection::RunEvaluation& run);
+std::string runCsv (const pcl::cosection::RunEvaluation& run);

@@ -36,13 +36,14 @@ print (const TrajectoryError& error, int delta, Terminal& terminal)
   const auto share = [&] (std::size_t poses) {
     return (inPercent (static_cast<double> (error.matched) / static_cast<double> (poses)));
   };
-  terminal.result ("matched:  " + std::to_string (error.matched) + ", " + share (error.truth_poses) + " of the truth and " +
-                   share (error.estimate_poses) + " of the estimate; largest gap " + toShortText (error.largest_gap_s) +
-                   ", path " + toText (error.path_m) + " m");
+  terminal.result ("matched:  " + std::to_string (error.matched) + ", " + share (error.truth_poses) +
+                   " of the truth and " + share (error.estimate_poses) + " of the estimate; largest gap " +
+                   toShortText (error.largest_gap_s) + ", path " + toText (error.path_m) + " m");
   terminal.result ("");
   TextTable table ({"", "rmse", "mean", "median", "max"});
   const auto row = [&] (const std::string& name, const ErrorStatistics& s, double factor) {
-    table.add ({name, toText (factor * s.rmse), toText (factor * s.mean), toText (factor * s.median), toText (factor * s.max)});
+    table.add ({name, toText (factor * s.rmse), toText (factor * s.mean), toText (factor * s.median),
+                toText (factor * s.max)});
   };
   row ("ATE (mm)", error.ate_m, 1000.0);
   if (error.rpe_pairs > 0)
@@ -53,9 +54,10 @@ print (const TrajectoryError& error, int delta, Terminal& terminal)
   for (const std::string& line : table.lines ())
     terminal.result (line);
   if (error.rpe_pairs > 0)
-    terminal.result ("RPE of " + std::to_string (error.rpe_pairs) + " motions over " + std::to_string (delta) +
-                     (delta == 1 ? " pose" : " poses") +
-                     (error.rpe_left_out > 0 ? "; " + std::to_string (error.rpe_left_out) + " left out, with gaps" : ""));
+    terminal.result (
+        "RPE of " + std::to_string (error.rpe_pairs) + " motions over " + std::to_string (delta) +
+        (delta == 1 ? " pose" : " poses") +
+        (error.rpe_left_out > 0 ? "; " + std::to_string (error.rpe_left_out) + " left out, with gaps" : ""));
 }
 
 void
@@ -85,12 +87,13 @@ compare (const TrajectorySettings& settings, Terminal& terminal)
     saveJson (json, settings.common.json);
   }
   if (!settings.common.csv.empty ())
-    saveText (csvRow ({"truth", "estimate", "matched", "ate_rmse_m", "ate_max_m", "rpe_trans_rmse_m", "rpe_rot_rmse_deg"}) +
-                  csvRow ({settings.common.paths[0], settings.common.paths[1], std::to_string (error.matched),
-                           toField (error.ate_m.rmse), toField (error.ate_m.max),
-                           error.rpe_pairs > 0 ? toField (error.rpe_trans_m.rmse) : "",
-                           error.rpe_pairs > 0 ? toField (degrees_per_rad * error.rpe_rot_rad.rmse) : ""}),
-              settings.common.csv);
+    saveText (
+        csvRow ({"truth", "estimate", "matched", "ate_rmse_m", "ate_max_m", "rpe_trans_rmse_m", "rpe_rot_rmse_deg"}) +
+            csvRow ({settings.common.paths[0], settings.common.paths[1], std::to_string (error.matched),
+                     toField (error.ate_m.rmse), toField (error.ate_m.max),
+                     error.rpe_pairs > 0 ? toField (error.rpe_trans_m.rmse) : "",
+                     error.rpe_pairs > 0 ? toField (degrees_per_rad * error.rpe_rot_rad.rmse) : ""}),
+        settings.common.csv);
 }
 
 } // namespace
@@ -110,7 +113,8 @@ declareComparisonOptions (CLI::App& app, TrajectorySettings& settings)
       ->option_text ("se3|first|none")
       ->check (CLI::IsMember (std::vector<std::string>{"se3", "first", "none"}))
       ->group (group);
-  app.add_option ("--delta", settings.delta, "Matched poses between the two ends of a motion of the RPE" + byDefault (1))
+  app.add_option ("--delta", settings.delta,
+                  "Matched poses between the two ends of a motion of the RPE" + byDefault (1))
       ->option_text ("N")
       ->check (wholeRange (1, 1000000))
       ->group (group);

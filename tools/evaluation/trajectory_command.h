@@ -21,15 +21,11 @@ struct TrajectorySettings
 };
 
 /** \brief Declare --max-difference, --align and --delta. */
-void
-declareComparisonOptions (CLI::App& app, TrajectorySettings& settings);
+void declareComparisonOptions (CLI::App& app, TrajectorySettings& settings);
 
-void
-declareTrajectoryOptions (CLI::App& app, TrajectorySettings& settings);
+void declareTrajectoryOptions (CLI::App& app, TrajectorySettings& settings);
 
-pcl::cosection::TrajectoryOptions
-trajectoryOptions (const TrajectorySettings& settings);
+pcl::cosection::TrajectoryOptions trajectoryOptions (const TrajectorySettings& settings);
 
 /** \brief pcl_cosection_evaluate trajectory. \throws UsageError, pcl::cosection::Error */
-void
-runTrajectoryCommand (int argc, const char* const* argv, Terminal& terminal);
+void runTrajectoryCommand (int argc, const char* const* argv, Terminal& terminal);

@@ -51,21 +51,26 @@ declareKnown (CLI::App& app, GivenFusion& given)
 {
   const std::string group = "Known";
   app.add_option ("--camera-trajectory", given.camera_trajectory,
-                  "Poses of the camera in the world: lines \"stamp tx ty tz qx qy qz qw\" (default: those of the layout 7scenes; "
+                  "Poses of the camera in the world: lines \"stamp tx ty tz qx qy qz qw\" (default: those of the "
+                  "layout 7scenes; "
                   "without, camera and objects are tracked)")
       ->option_text ("FILE")
       ->group (group);
-  app.add_option ("--object-trajectory", given.object_trajectories,
-                  "Poses of object ID in the world, beside those of the camera; repeatable. Objects without one are at rest")
+  app.add_option (
+         "--object-trajectory", given.object_trajectories,
+         "Poses of object ID in the world, beside those of the camera; repeatable. Objects without one are at rest")
       ->option_text ("ID=FILE")
       ->allow_extra_args (false)
       ->group (group);
-  app.add_option ("--masks", given.masks,
-                  "Folder of PNGs of 8 or 16 bits, one per frame that has one: pixel = number of an object, 0 = background "
-                  "(default: there are no objects)")
+  app.add_option (
+         "--masks", given.masks,
+         "Folder of PNGs of 8 or 16 bits, one per frame that has one: pixel = number of an object, 0 = background "
+         "(default: there are no objects)")
       ->option_text ("DIR")
       ->group (group);
-  app.add_option ("--mask-ids", given.mask_ids, "Whether an object has the same number in all masks (default: persistent with given poses, else per-frame)")
+  app.add_option (
+         "--mask-ids", given.mask_ids,
+         "Whether an object has the same number in all masks (default: persistent with given poses, else per-frame)")
       ->option_text ("persistent|per-frame")
       ->check (CLI::IsMember (std::vector<std::string>{"persistent", "per-frame"}))
       ->group (group);
@@ -97,14 +102,20 @@ declareRun (CLI::App& app, GivenFusion& given)
       ->check (wholeRange (4, 100000))
       ->group (group);
   app.add_flag ("--save-keyframes", given.save_keyframes,
-                "Complete everything at keyframes too, beside the tracking, and write it to keyframes/STAMP/; of keyframes that come "
+                "Complete everything at keyframes too, beside the tracking, and write it to keyframes/STAMP/; of "
+                "keyframes that come "
                 "meanwhile the last")
       ->group (group);
   app.add_flag ("--deterministic", given.deterministic,
-                "With --save-keyframes, wait for each keyframe, so that all are written; the last result is the same in any case")
+                "With --save-keyframes, wait for each keyframe, so that all are written; the last result is the same "
+                "in any case")
       ->group (group);
-  app.add_flag ("--live", given.live, "Show it in a window while it runs, and the result then; without influence on that")->group (group);
-  app.add_option ("--json", given.json, "Write the summary to this file as well")->option_text ("FILE")->group ("General");
+  app.add_flag ("--live", given.live,
+                "Show it in a window while it runs, and the result then; without influence on that")
+      ->group (group);
+  app.add_option ("--json", given.json, "Write the summary to this file as well")
+      ->option_text ("FILE")
+      ->group ("General");
   app.add_option ("--threads", given.threads, "Threads to use, without influence on results (default: all processors)")
       ->option_text ("N")
       ->check (wholeRange (1, 1024))
@@ -113,7 +124,7 @@ declareRun (CLI::App& app, GivenFusion& given)
 }
 
 constexpr double coarsest_tracking_voxel_m = 0.02; // coarser ones lose small objects
-constexpr double last_number = 1e12;                // of a frame
+constexpr double last_number = 1e12;               // of a frame
 
 SequenceSource
 toSource (const GivenFusion& given)
@@ -147,7 +158,8 @@ setPaths (const GivenFusion& given, FusionSettings& settings)
   settings.dataset = given.paths[0];
   settings.output = given.paths[1];
   if (settings.dataset.empty () || settings.output.empty ())
-    throw UsageError (std::string (settings.dataset.empty () ? "DATASET" : "OUTPUT") + " is empty; it must be a folder");
+    throw UsageError (std::string (settings.dataset.empty () ? "DATASET" : "OUTPUT") +
+                      " is empty; it must be a folder");
 }
 
 FusionSettings
@@ -213,7 +225,8 @@ toSettings (const GivenFusion& given)
   if (given.max_views)
   {
     fusion.backend.max_views = static_cast<std::size_t> (*given.max_views);
-    fusion.backend.max_keyframes = std::max<std::size_t> (2, std::min (fusion.backend.max_keyframes, fusion.backend.max_views - 1));
+    fusion.backend.max_keyframes = std::max<std::size_t> (
+        2, std::min (fusion.backend.max_keyframes, fusion.backend.max_views - 1));
   }
   fusion.validate ();
   return (settings);
@@ -228,14 +241,17 @@ fusionText ()
       "pcl_cosection_fusion",
       "complete the objects of an RGB-D sequence",
       "pcl_cosection_fusion [OPTIONS] DATASET OUTPUT",
-      "Tracks the camera and the objects of an RGB-D sequence, unless their poses are given, and completes the objects and the background.",
+      "Tracks the camera and the objects of an RGB-D sequence, unless their poses are given, and completes the objects "
+      "and the background.",
       {"DATASET is a folder with colour and depth images in the layout of Co-Fusion (colour/, depth_noise/ or depth/, "
        "calibration.txt), of TUM's benchmark (associations.txt, or rgb.txt and depth.txt), or of 7-Scenes "
        "(frame-NNNNNN.depth.png).",
-       "OUTPUT is a folder: trajectory/camera.txt and object_ID.txt, mesh/background.ply (world frame), object_ID.ply (closed, "
+       "OUTPUT is a folder: trajectory/camera.txt and object_ID.txt, mesh/background.ply (world frame), object_ID.ply "
+       "(closed, "
        "the object's frame) and object_ID_tsdf.ply (what was seen), summary.json."},
       {
-          {"pcl_cosection_fusion --masks masks sequence out", "camera and objects are tracked; a mask now and then is enough"},
+          {"pcl_cosection_fusion --masks masks sequence out",
+           "camera and objects are tracked; a mask now and then is enough"},
           {"pcl_cosection_fusion --segmentation geometric sequence out", "without masks: what stands on planes"},
           {"pcl_cosection_fusion --segmentation mask-rcnn --model net.onnx sequence out", "with a network of yours"},
           {"pcl_cosection_fusion kitchen room", "a room without objects"},

@@ -37,8 +37,7 @@ struct FusionSettings
 };
 
 /** \brief What pcl_cosection_fusion says about itself. */
-const ProgramText&
-fusionText ();
+const ProgramText& fusionText ();
 
 /** \brief Options as the user gives them. */
 struct GivenFusion : GivenMethod
@@ -52,9 +51,7 @@ struct GivenFusion : GivenMethod
   bool save_keyframes = false, deterministic = false, live = false, verbose = false, quiet = false;
 };
 
-void
-declareFusionOptions (CLI::App& app, GivenFusion& given);
+void declareFusionOptions (CLI::App& app, GivenFusion& given);
 
 /** \brief Read the command line. \return nothing if all that was asked for was printed \throws UsageError */
-std::optional<FusionSettings>
-parseFusionCommandLine (int argc, const char* const* argv);
+std::optional<FusionSettings> parseFusionCommandLine (int argc, const char* const* argv);

@@ -68,7 +68,8 @@ isTrajectory (const std::string& name)
 }
 
 /** \brief Remove the files that \a isOurs, and the folder if nothing is left in it. */
-template <typename Predicate> void
+template <typename Predicate>
+void
 removeFiles (const fs::path& folder, Predicate&& isOurs)
 {
   std::error_code ignored;
@@ -90,7 +91,8 @@ inputFiles (const FusionSettings& settings)
   for (const auto& [id, file] : settings.object_trajectories)
     files.push_back (file);
   if (settings.network)
-    files.insert (files.end (), {settings.network->network.model, settings.network->network.config, settings.network->class_names});
+    files.insert (files.end (),
+                  {settings.network->network.model, settings.network->network.config, settings.network->class_names});
   return (files);
 }
 
@@ -117,8 +119,10 @@ checkJson (const FusionSettings& settings)
 Json
 imagesJson (const SequenceSource& source)
 {
-  static const std::map<SequenceFormat, std::string> names = {
-      {SequenceFormat::Detect, ""}, {SequenceFormat::CoFusion, "cofusion"}, {SequenceFormat::Tum, "tum"}, {SequenceFormat::SevenScenes, "7scenes"}};
+  static const std::map<SequenceFormat, std::string> names = {{SequenceFormat::Detect, ""},
+                                                              {SequenceFormat::CoFusion, "cofusion"},
+                                                              {SequenceFormat::Tum, "tum"},
+                                                              {SequenceFormat::SevenScenes, "7scenes"}};
   return {{"format", names.at (source.format)},
           {"depth_dir", source.depth_folder},
           {"depth_scale", source.depth_scale},
@@ -143,7 +147,9 @@ parameters (const FusionSettings& settings)
   for (const auto& [id, file] : settings.object_trajectories)
     result["object_trajectories"][std::to_string (id)] = file;
   result["masks"] = settings.masks;
-  result["mask_ids"] = settings.fusion.front_end.persistent_ids ? "persistent" : settings.ids_per_frame ? "per-frame" : "";
+  result["mask_ids"] = settings.fusion.front_end.persistent_ids ? "persistent"
+                       : settings.ids_per_frame                 ? "per-frame"
+                                                                : "";
   result["segmentation"] = settings.segmentation;
   if (settings.network)
     result["network"] = networkJson (*settings.network);
@@ -275,7 +281,8 @@ FusionOutputs::writeSummary (const FusionSettings& settings, const FusionResult&
       const auto fused = result.objects.find (object.id);
       entry["frames_tracked"] = fused == result.objects.end () ? 0 : fused->second.trajectory.size ();
       if (fused != result.objects.end () && fused->second.best_class)
-        entry.update (classJson (fused->second.best_class->class_id, fused->second.best_class->class_name, fused->second.best_class->score));
+        entry.update (classJson (fused->second.best_class->class_id, fused->second.best_class->class_name,
+                                 fused->second.best_class->score));
       summary["objects"].push_back (entry);
     }
     else

@@ -15,34 +15,28 @@ class FusionOutputs
 {
 public:
   /** \brief Nothing is touched yet.
-   * \throws UsageError if an input would be overwritten \throws pcl::cosection::IoError if OUTPUT is a file, or the further summary
-   * cannot be written */
+   * \throws UsageError if an input would be overwritten \throws pcl::cosection::IoError if OUTPUT is a file, or the
+   * further summary cannot be written */
   explicit FusionOutputs (const FusionSettings& settings);
 
   /** \brief Make the folder, if there is none, and remove what an earlier run wrote into it. Other files stay.
    * \throws pcl::cosection::IoError if it cannot be written */
-  void
-  begin ();
+  void begin ();
 
   /** \brief Write the meshes of a keyframe. \throws pcl::cosection::IoError */
-  void
-  writeKeyframe (const pcl::cosection::KeyframeReport& keyframe) const;
+  void writeKeyframe (const pcl::cosection::KeyframeReport& keyframe) const;
 
   /** \brief Write meshes and trajectories. \return the files \throws pcl::cosection::IoError */
-  std::vector<std::string>
-  write (const pcl::cosection::FusionResult& result) const;
+  std::vector<std::string> write (const pcl::cosection::FusionResult& result) const;
 
   /** \brief Write summary.json. \throws pcl::cosection::IoError */
-  void
-  writeSummary (const FusionSettings& settings, const pcl::cosection::FusionResult& result) const;
+  void writeSummary (const FusionSettings& settings, const pcl::cosection::FusionResult& result) const;
 
   /** \brief Write a summary of a run that failed as a whole; into the folder only if the run had begun. */
-  void
-  writeFailure (const FusionSettings& settings, const std::string& error) const;
+  void writeFailure (const FusionSettings& settings, const std::string& error) const;
 
 private:
-  void
-  removeEarlierRun () const;
+  void removeEarlierRun () const;
 
   const std::string folder_;
   const std::string json_; ///< a further summary, or empty

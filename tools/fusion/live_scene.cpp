@@ -17,7 +17,7 @@ using namespace pcl::cosection;
 namespace
 {
 
-constexpr int columns = 64;          ///< of the background's mesh
+constexpr int columns = 64;           ///< of the background's mesh
 constexpr double deepest_jump = 0.06; ///< between neighbours on one surface, of their depth
 constexpr TriangleMesh::Colour no_colour = {200, 200, 200};
 constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max ();
@@ -28,7 +28,8 @@ addNormals (TriangleMesh& mesh)
   mesh.normals.assign (mesh.vertices.size (), Eigen::Vector3f::Zero ());
   for (const TriangleMesh::Triangle& t : mesh.triangles)
   {
-    const Eigen::Vector3f normal = (mesh.vertices[t[1]] - mesh.vertices[t[0]]).cross (mesh.vertices[t[2]] - mesh.vertices[t[0]]);
+    const Eigen::Vector3f normal = (mesh.vertices[t[1]] - mesh.vertices[t[0]])
+                                       .cross (mesh.vertices[t[2]] - mesh.vertices[t[0]]);
     for (const std::uint32_t vertex : t)
       mesh.normals[vertex] += normal;
   }
@@ -57,7 +58,8 @@ backgroundOf (const FrameReport& report, const PinholeCamera& camera)
         continue;
       vertex_of[static_cast<std::size_t> (v) * width + u] = static_cast<std::uint32_t> (mesh.vertices.size ());
       mesh.vertices.push_back ((report.T_world_camera * camera.unproject (u * step, v * step, z)).cast<float> ());
-      mesh.colours.push_back (report.frame.colour.pixels.empty () ? no_colour : report.frame.colour.at (u * step, v * step));
+      mesh.colours.push_back (report.frame.colour.pixels.empty () ? no_colour
+                                                                  : report.frame.colour.at (u * step, v * step));
       z_of.push_back (z);
     }
   const auto add = [&] (std::uint32_t a, std::uint32_t b, std::uint32_t c) {
@@ -71,7 +73,8 @@ backgroundOf (const FrameReport& report, const PinholeCamera& camera)
     for (int u = 0; u + 1 < width; ++u)
     {
       const std::size_t n = static_cast<std::size_t> (v) * width + u;
-      add (vertex_of[n], vertex_of[n + width], vertex_of[n + 1]); // counter-clockwise for the camera, whose y points down
+      add (vertex_of[n], vertex_of[n + width],
+           vertex_of[n + 1]); // counter-clockwise for the camera, whose y points down
       add (vertex_of[n + 1], vertex_of[n + width], vertex_of[n + width + 1]);
     }
   addNormals (mesh);
@@ -103,5 +106,6 @@ writeLiveScene (const LiveScene& scene, const std::string& folder)
   for (const auto& [id, poses] : scene.objects)
     saveTrajectory (poses, (trajectory / ("object_" + std::to_string (id) + ".txt")).string ());
   if (!scene.camera.empty ())
-    saveTrajectory (scene.camera, (trajectory / "camera.txt").string ()); // last: its time tells that there is something new
+    saveTrajectory (scene.camera,
+                    (trajectory / "camera.txt").string ()); // last: its time tells that there is something new
 }

@@ -22,9 +22,8 @@ struct LiveScene
 };
 
 /** \brief Of every so manieth pixel of a frame that shows the background, a mesh in the world. */
-pcl::cosection::TriangleMesh
-backgroundOf (const pcl::cosection::FrameReport& report, const pcl::cosection::PinholeCamera& camera);
+pcl::cosection::TriangleMesh backgroundOf (const pcl::cosection::FrameReport& report,
+                                           const pcl::cosection::PinholeCamera& camera);
 
 /** \brief Write what has changed, in the layout of a run; each file is whole. \throws pcl::cosection::IoError */
-void
-writeLiveScene (const LiveScene& scene, const std::string& folder);
+void writeLiveScene (const LiveScene& scene, const std::string& folder);

@@ -39,7 +39,8 @@ makeTemporaryFolder ()
   std::error_code failure;
   std::string folder = (fs::temp_directory_path (failure) / "pcl_cosection_live_XXXXXX").string ();
   if (failure || mkdtemp (folder.data ()) == nullptr)
-    throw IoError ("--live: no temporary folder can be made: " + (failure ? failure.message () : std::string (std::strerror (errno))));
+    throw IoError ("--live: no temporary folder can be made: " +
+                   (failure ? failure.message () : std::string (std::strerror (errno))));
   return (folder);
 }
 
@@ -77,15 +78,20 @@ lastLine (const std::string& path)
 } // namespace
 
 LiveView::LiveView (const std::string& dataset, const PinholeCamera& camera, const std::string& output)
-    : camera_ (camera), folder_ (makeTemporaryFolder ())
+    : camera_ (camera)
+    , folder_ (makeTemporaryFolder ())
 {
   try
   {
     fs::create_directory (fs::path (folder_) / "mesh");
     fs::create_directory (fs::path (folder_) / "trajectory");
     const nlohmann::ordered_json summary = {{"camera",
-                                             {{"width", camera.width}, {"height", camera.height}, {"fx", camera.fx},
-                                              {"fy", camera.fy},       {"cx", camera.cx},         {"cy", camera.cy}}},
+                                             {{"width", camera.width},
+                                              {"height", camera.height},
+                                              {"fx", camera.fx},
+                                              {"fy", camera.fy},
+                                              {"cx", camera.cx},
+                                              {"cy", camera.cy}}},
                                             {"parameters", {{"dataset", dataset}}}};
     saveJson (summary, (fs::path (folder_) / "summary.json").string ());
     start (output);
@@ -173,7 +179,8 @@ LiveView::waitUntilReady ()
     if (hasEnded ())
     {
       const std::string why = lastLine ((fs::path (folder_) / "viewer.log").string ());
-      throw IoError ("--live: " + (why.empty () ? std::string ("there is no program ") + viewer : why.substr (0, why.find (';'))));
+      throw IoError ("--live: " +
+                     (why.empty () ? std::string ("there is no program ") + viewer : why.substr (0, why.find (';'))));
     }
     if (std::chrono::steady_clock::now () - start > patience)
       throw IoError ("--live: the window does not open");

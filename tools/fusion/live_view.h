@@ -12,9 +12,9 @@
 #include <string>
 #include <thread>
 
-/** \brief Shows a run in a window while it goes on: pcl_cosection_viewer as a process of its own, which reads snapshots. Whatever becomes of the
- * window, the run is not concerned. Snapshots are written in a thread; what comes meanwhile is shown together. In the end, the window stays and shows
- * the result. */
+/** \brief Shows a run in a window while it goes on: pcl_cosection_viewer as a process of its own, which reads
+ * snapshots. Whatever becomes of the window, the run is not concerned. Snapshots are written in a thread; what comes
+ * meanwhile is shown together. In the end, the window stays and shows the result. */
 class LiveView
 {
 public:
@@ -26,33 +26,24 @@ public:
   ~LiveView ();
 
   LiveView (const LiveView&) = delete;
-  LiveView&
-  operator= (const LiveView&) = delete;
+  LiveView& operator= (const LiveView&) = delete;
 
   /** \brief Show a frame; of keyframes, what was seen of the objects as well. */
-  void
-  show (const pcl::cosection::FrameReport& frame);
+  void show (const pcl::cosection::FrameReport& frame);
 
   /** \brief Show completed meshes. */
-  void
-  show (const pcl::cosection::KeyframeReport& keyframe);
+  void show (const pcl::cosection::KeyframeReport& keyframe);
 
 private:
-  void
-  start (const std::string& output);
+  void start (const std::string& output);
   /** \brief Wait until the window is there. */
-  void
-  waitUntilReady ();
-  bool
-  hasEnded ();
+  void waitUntilReady ();
+  bool hasEnded ();
   /** \brief What is to be written; with the mutex. */
-  LiveScene
-  takeChanges ();
-  void
-  writeSnapshots ();
+  LiveScene takeChanges ();
+  void writeSnapshots ();
   /** \brief End the process and remove the snapshots. */
-  void
-  giveUp ();
+  void giveUp ();
 
   const pcl::cosection::PinholeCamera camera_;
   std::string folder_;

@@ -12,10 +12,9 @@
 #include <vector>
 
 /** \brief The values of --segmentation. */
-std::vector<std::string>
-segmenterNames ();
+std::vector<std::string> segmenterNames ();
 
-/** \brief What finds objects where there are no masks. \param[in] name one of segmenterNames () \param[in] threads 0: all \param[in] network for
- * mask-rcnn \throws UsageError, pcl::cosection::IoError */
-std::shared_ptr<pcl::cosection::FrameSegmenter>
-makeSegmenter (const std::string& name, int threads, const std::optional<NetworkSettings>& network);
+/** \brief What finds objects where there are no masks. \param[in] name one of segmenterNames () \param[in] threads 0:
+ * all \param[in] network for mask-rcnn \throws UsageError, pcl::cosection::IoError */
+std::shared_ptr<pcl::cosection::FrameSegmenter> makeSegmenter (const std::string& name, int threads,
+                                                               const std::optional<NetworkSettings>& network);

@@ -66,11 +66,11 @@ objectJson (const ObjectResult& object)
   result["euler"] = topology.euler;
   result["volume_m3"] = mass.volume_m3;
   result["centroid_m"] = toJson (mass.centroid_m);
-  result["inertia"] =
-      Json::array ({toJson (mass.inertia.row (0)), toJson (mass.inertia.row (1)), toJson (mass.inertia.row (2))});
+  result["inertia"] = Json::array (
+      {toJson (mass.inertia.row (0)), toJson (mass.inertia.row (1)), toJson (mass.inertia.row (2))});
   result["provenance"] = provenanceShares (object.mesh);
   result["penetration_m"] = object.penetration_m;
-  result["stray_points"] = object.stray_points;
+  result["stray_points"] = object.outlier_points;
   result["contradicted_share"] = object.contradicted_share;
   if (object.guessed_plane)
     result["guessed_plane"] = std::vector<double> (object.guessed_plane->data (), object.guessed_plane->data () + 4);

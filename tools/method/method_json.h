@@ -6,13 +6,10 @@
 
 #include <pcl/cosection/surface/co_section.h>
 
-nlohmann::ordered_json
-solverJson (const pcl::cosection::SolverSummary& solver);
+nlohmann::ordered_json solverJson (const pcl::cosection::SolverSummary& solver);
 
 /** \brief A completed object in a summary for programs. */
-nlohmann::ordered_json
-objectJson (const pcl::cosection::ObjectResult& object);
+nlohmann::ordered_json objectJson (const pcl::cosection::ObjectResult& object);
 
 /** \brief Add the parameters of the method. */
-void
-addMethod (const pcl::cosection::CoSectionOptions& method, nlohmann::ordered_json& parameters);
+void addMethod (const pcl::cosection::CoSectionOptions& method, nlohmann::ordered_json& parameters);

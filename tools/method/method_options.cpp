@@ -4,7 +4,7 @@
 
 #include "option_values.h"
 
-#include <pcl/cosection/common/ignored_label.h>
+#include <pcl/cosection/common/image.h>
 
 #include <algorithm>
 #include <cmath>
@@ -169,10 +169,11 @@ parseObjectFiles (const std::string& option, const std::vector<std::string>& val
     const std::optional<double> id = parseNumber (value.substr (0, equals));
     if (equals == std::string::npos || equals + 1 == value.size () || !id || !(*id >= 1.0 && *id <= 2147483647.0) ||
         *id != std::floor (*id))
-      throw UsageError (option + " must be ID=FILE with the number of an object, such as 2=cup.txt; it is \"" +
-                        value + "\"");
+      throw UsageError (option + " must be ID=FILE with the number of an object, such as 2=cup.txt; it is \"" + value +
+                        "\"");
     if (*id == ignored_label)
-      throw UsageError (option + " " + value + ": label " + std::to_string (ignored_label) + " marks what is no object; number it otherwise");
+      throw UsageError (option + " " + value + ": label " + std::to_string (ignored_label) +
+                        " marks what is no object; number it otherwise");
     if (!files.emplace (static_cast<int> (*id), value.substr (equals + 1)).second)
       throw UsageError (option + " is given twice for object " + value.substr (0, equals));
   }

@@ -20,27 +20,21 @@ struct GivenMethod
   bool no_planes = false;
 };
 
-/** \brief Declare the options about volumes and memory, in the group "Volume". \param[in] background_default what the background's
- * voxels are, if nothing is given */
-void
-declareVolumeOptions (CLI::App& app, GivenMethod& given, const std::string& background_default);
+/** \brief Declare the options about volumes and memory, in the group "Volume". \param[in] background_default what the
+ * background's voxels are, if nothing is given */
+void declareVolumeOptions (CLI::App& app, GivenMethod& given, const std::string& background_default);
 
 /** \brief Declare those about the energy and its minimisation, in the group "Method". */
-void
-declareMethodOptions (CLI::App& app, GivenMethod& given);
+void declareMethodOptions (CLI::App& app, GivenMethod& given);
 
 /** \brief What the command line says of the size of voxels replaces what the configuration file does. */
-void
-preferCommandLine (const std::vector<std::string>& arguments, GivenMethod& given);
+void preferCommandLine (const std::vector<std::string>& arguments, GivenMethod& given);
 
 /** \throws UsageError, pcl::cosection::InvalidArgument */
-pcl::cosection::CoSectionOptions
-methodOptions (const GivenMethod& given);
+pcl::cosection::CoSectionOptions methodOptions (const GivenMethod& given);
 
 /** \brief "none", "hull", "intersection" or "all". */
-std::string
-constraintsOf (const pcl::cosection::CoSectionOptions& method);
+std::string constraintsOf (const pcl::cosection::CoSectionOptions& method);
 
 /** \brief Files by object from values "ID=FILE". \param[in] option for messages \throws UsageError */
-std::map<int, std::string>
-parseObjectFiles (const std::string& option, const std::vector<std::string>& values);
+std::map<int, std::string> parseObjectFiles (const std::string& option, const std::vector<std::string>& values);

@@ -37,7 +37,8 @@ toBase64 (const void* bytes, std::size_t size)
   {
     const std::size_t left = size - i;
     const std::uint32_t group = (static_cast<std::uint32_t> (in[i]) << 16) |
-                                (left > 1 ? static_cast<std::uint32_t> (in[i + 1]) << 8 : 0) | (left > 2 ? in[i + 2] : 0);
+                                (left > 1 ? static_cast<std::uint32_t> (in[i + 1]) << 8 : 0) |
+                                (left > 2 ? in[i + 2] : 0);
     text += letters[group >> 18];
     text += letters[(group >> 12) & 63];
     text += left > 1 ? letters[(group >> 6) & 63] : '=';

@@ -13,13 +13,10 @@
 using TransparentPicture = pcl::cosection::Image<std::array<std::uint8_t, 4>>;
 
 /** \brief Bytes as letters (RFC 4648). */
-std::string
-toBase64 (const void* bytes, std::size_t size);
+std::string toBase64 (const void* bytes, std::size_t size);
 
 /** \brief "data:image/webp;base64,...": the picture in the place of its address. */
-std::string
-dataUri (const TransparentPicture& picture);
+std::string dataUri (const TransparentPicture& picture);
 
 /** \brief The same of a picture that fills its rectangle. */
-std::string
-dataUri (const pcl::cosection::Picture& picture);
+std::string dataUri (const pcl::cosection::Picture& picture);

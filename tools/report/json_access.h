@@ -12,21 +12,16 @@
 using Json = nlohmann::ordered_json;
 
 /** \brief A member; null if there is none. */
-const Json&
-member (const Json& json, const std::string& key);
+const Json& member (const Json& json, const std::string& key);
 
 /** \brief A member that is a finite number. */
-std::optional<double>
-numberIn (const Json& json, const std::string& key);
+std::optional<double> numberIn (const Json& json, const std::string& key);
 
 /** \brief A member that is true or false. */
-std::optional<bool>
-flagIn (const Json& json, const std::string& key);
+std::optional<bool> flagIn (const Json& json, const std::string& key);
 
 /** \brief A member that is text; empty if it is not. */
-std::string
-textIn (const Json& json, const std::string& key);
+std::string textIn (const Json& json, const std::string& key);
 
 /** \brief The texts in a member that is a list. */
-std::vector<std::string>
-textsIn (const Json& json, const std::string& key);
+std::vector<std::string> textsIn (const Json& json, const std::string& key);

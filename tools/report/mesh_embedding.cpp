@@ -25,23 +25,15 @@ constexpr double steps = 65535.0; ///< along each side of the box
 class Bytes
 {
 public:
-  explicit Bytes (std::size_t size)
-  {
-    bytes_.reserve (size);
-  }
+  explicit Bytes (std::size_t size) { bytes_.reserve (size); }
 
-  void
-  add (std::uint32_t value, int bytes)
+  void add (std::uint32_t value, int bytes)
   {
     for (int n = 0; n < bytes; ++n)
       bytes_.push_back (static_cast<std::uint8_t> (value >> (8 * n)));
   }
 
-  std::string
-  letters () const
-  {
-    return (toBase64 (bytes_.data (), bytes_.size ()));
-  }
+  std::string letters () const { return (toBase64 (bytes_.data (), bytes_.size ())); }
 
 private:
   std::vector<std::uint8_t> bytes_;
@@ -51,7 +43,8 @@ void
 check (const TriangleMesh& mesh, const std::vector<double>& errors_m)
 {
   const std::size_t vertices = mesh.vertices.size ();
-  for (const std::size_t size : {mesh.colours.size (), mesh.provenance.size (), mesh.confidence.size (), errors_m.size ()})
+  for (const std::size_t size :
+       {mesh.colours.size (), mesh.provenance.size (), mesh.confidence.size (), errors_m.size ()})
     if (size != 0 && size != vertices)
       throw std::invalid_argument ("a mesh to embed must have one value per vertex, or none");
   for (const TriangleMesh::Triangle& triangle : mesh.triangles)
@@ -68,8 +61,9 @@ asBytes (const std::vector<Value>& values, double one)
   for (const Value value : values)
   {
     const double share = static_cast<double> (value) / one;
-    bytes.add (static_cast<std::uint32_t> (std::lround (255.0 * (std::isfinite (share) ? std::clamp (share, 0.0, 1.0) : 1.0))),
-               1);
+    bytes.add (
+        static_cast<std::uint32_t> (std::lround (255.0 * (std::isfinite (share) ? std::clamp (share, 0.0, 1.0) : 1.0))),
+        1);
   }
   return (bytes.letters ());
 }
@@ -104,7 +98,8 @@ embedMesh (const TriangleMesh& mesh, const std::vector<double>& errors_m, double
   Bytes positions (6 * mesh.vertices.size ());
   for (const Eigen::Vector3f& vertex : mesh.vertices)
     for (int axis = 0; axis < 3; ++axis)
-      positions.add (static_cast<std::uint32_t> (std::lround (steps * (vertex[axis] - box.min ()[axis]) / size[axis])), 2);
+      positions.add (static_cast<std::uint32_t> (std::lround (steps * (vertex[axis] - box.min ()[axis]) / size[axis])),
+                     2);
   const int index_bytes = mesh.vertices.size () <= 65536 ? 2 : 4;
   Bytes indices (3 * mesh.triangles.size () * static_cast<std::size_t> (index_bytes));
   for (const TriangleMesh::Triangle& triangle : mesh.triangles)

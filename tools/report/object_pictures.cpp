@@ -2,8 +2,8 @@
 // Copyright (c) 2026, the pcl_cosection authors
 #include "object_pictures.h"
 
-#include <pcl/cosection/evaluation/error_picture.h>
-#include <pcl/cosection/rendering/picture.h>
+#include "pcl_cosection/evaluation/pictures/error_picture.h"
+#include "pcl_cosection/rendering/picture.h"
 #include <pcl/cosection/rendering/rasterizer.h>
 #include <pcl/cosection/visualization/viewpoint.h>
 
@@ -40,7 +40,8 @@ fittingCamera (const TriangleMesh& mesh, const Eigen::Isometry3d& T_world_camera
 double
 lightOn (const Eigen::Vector3f& normal)
 {
-  static const Eigen::Vector3f to_lamp = Eigen::Vector3f (-0.4f, -0.7f, -1.0f).normalized (); // x right, y down, z forward
+  static const Eigen::Vector3f to_lamp = Eigen::Vector3f (-0.4f, -0.7f, -1.0f)
+                                             .normalized (); // x right, y down, z forward
   constexpr double ambient = 0.56, lamp = 0.5;
   return (ambient + lamp * std::max (0.0f, normal.dot (to_lamp)));
 }
@@ -89,8 +90,8 @@ drawFrontAndBack (const TriangleMesh& mesh, const TriangleMesh& fit_to, const Ob
   TransparentPicture result (size_px, 2 * size_px, {255, 255, 255, 0});
   for (int row = 0; row < 2; ++row)
   {
-    const Eigen::Vector3d eye =
-        box.center () + distance_radii * 0.5 * box.diagonal ().norm () * (Eigen::AngleAxisd (row * turn_rad, up) * front);
+    const Eigen::Vector3d eye = box.center () + distance_radii * 0.5 * box.diagonal ().norm () *
+                                                    (Eigen::AngleAxisd (row * turn_rad, up) * front);
     const Eigen::Isometry3d T_object_camera = Viewpoint{eye, box.center (), up}.pose ();
     const PinholeCamera camera = fittingCamera (fit_to, T_object_camera, oversampling * size_px);
     Rasterizer rasterizer (camera, T_object_camera, 1e-6);
@@ -101,8 +102,8 @@ drawFrontAndBack (const TriangleMesh& mesh, const TriangleMesh& fit_to, const Ob
 }
 
 std::vector<CaptionedPicture>
-drawObject (const RunObject& object, const ObjectDirections& directions, const std::vector<double>& errors_m, double error_max_m,
-            const std::string& name)
+drawObject (const RunObject& object, const ObjectDirections& directions, const std::vector<double>& errors_m,
+            double error_max_m, const std::string& name)
 {
   std::vector<CaptionedPicture> pictures;
   TriangleMesh fit_to; // both, as points
@@ -112,8 +113,8 @@ drawObject (const RunObject& object, const ObjectDirections& directions, const s
     if (mesh.empty ())
       return;
     const TransparentPicture picture = drawFrontAndBack (mesh, fit_to, directions, panel_px);
-    pictures.push_back ({caption, name + ", " + what + ", from the side of the camera above and from behind below", picture.width,
-                         picture.height, dataUri (picture)});
+    pictures.push_back ({caption, name + ", " + what + ", from the side of the camera above and from behind below",
+                         picture.width, picture.height, dataUri (picture)});
   };
   add (object.seen, "Seen", "what was seen");
   add (object.completed, "Completed", "the completed mesh");

@@ -20,13 +20,13 @@ struct CaptionedPicture
 
 /** \brief A mesh from the side of the camera above the same from behind, on nothing.
  * \param[in] fit_to what fills the picture; the same for all pictures of an object */
-TransparentPicture
-drawFrontAndBack (const pcl::cosection::TriangleMesh& mesh, const pcl::cosection::TriangleMesh& fit_to,
-                  const ObjectDirections& directions, int panel_px);
+TransparentPicture drawFrontAndBack (const pcl::cosection::TriangleMesh& mesh,
+                                     const pcl::cosection::TriangleMesh& fit_to, const ObjectDirections& directions,
+                                     int panel_px);
 
 /** \brief What was seen of an object, what was completed, why it is there, and where it is wrong.
  * \param[in] errors_m of the completed mesh's vertices; none: not known
  * \param[in] name of the object, for captions */
-std::vector<CaptionedPicture>
-drawObject (const RunObject& object, const ObjectDirections& directions, const std::vector<double>& errors_m, double error_max_m,
-            const std::string& name);
+std::vector<CaptionedPicture> drawObject (const RunObject& object, const ObjectDirections& directions,
+                                          const std::vector<double>& errors_m, double error_max_m,
+                                          const std::string& name);

@@ -132,14 +132,16 @@ scoresOf (const ComparedRun& other, const std::vector<const ObjectEvaluation*>& 
 void
 compareErrors (HtmlWriter& html, const ReportContent& content, const std::vector<const ObjectEvaluation*>& objects)
 {
-  std::vector<MethodScores> methods{{"this run", constraintsOf (content.run), {}}, {"seen only", "TSDF of all frames, open", {}}};
+  std::vector<MethodScores> methods{{"this run", constraintsOf (content.run), {}},
+                                    {"seen only", "TSDF of all frames, open", {}}};
   std::vector<std::string> header{"Accuracy / completeness (mm) / F"};
   for (const ObjectEvaluation* object : objects)
   {
     header.push_back (object->truth_name);
     methods[0].scores.emplace_back (Score (object->mesh.comparison));
     const auto seen = content.truth->seen.find (object->id);
-    methods[1].scores.push_back (seen == content.truth->seen.end () ? std::nullopt : std::optional<Score> (Score (seen->second)));
+    methods[1].scores.push_back (seen == content.truth->seen.end () ? std::nullopt
+                                                                    : std::optional<Score> (Score (seen->second)));
   }
   for (const ComparedRun& other : content.others)
     methods.push_back (scoresOf (other, objects));
@@ -149,19 +151,22 @@ compareErrors (HtmlWriter& html, const ReportContent& content, const std::vector
     for (MethodScores& method : methods)
       addMean (method);
   }
-  HtmlTable table (html, "Comparison with what was seen" + std::string (content.others.empty () ? "" : " and with other runs"),
-                   header, "scroll");
+  HtmlTable table (
+      html, "Comparison with what was seen" + std::string (content.others.empty () ? "" : " and with other runs"),
+      header, "scroll");
   for (const MethodScores& method : methods)
   {
     std::vector<TableCell> cells{
         {method.name, method.remark.empty () ? "" : "<small>" + escapeHtml (method.remark) + "</small>"}};
     for (std::size_t n = 0; n < method.scores.size (); ++n)
-      cells.push_back (method.scores[n] ? TableCell{"", scoreMarkup (*method.scores[n], bestOf (methods, n))} : TableCell{dash});
+      cells.push_back (method.scores[n] ? TableCell{"", scoreMarkup (*method.scores[n], bestOf (methods, n))}
+                                        : TableCell{dash});
     table.row (cells);
   }
   table.end ();
-  html.element ("p", "The best of each number is bold. What was seen alone is accurate and not complete: it has no hidden sides.",
-                {{"class", "note"}});
+  html.element (
+      "p", "The best of each number is bold. What was seen alone is accurate and not complete: it has no hidden sides.",
+      {{"class", "note"}});
 }
 
 /** \brief Without truth: what each run says of itself. */
@@ -176,8 +181,8 @@ compareSummaries (HtmlWriter& html, const ReportContent& content)
     std::vector<TableCell> cells{{name, "<small>" + escapeHtml (constraintsOf (run)) + "</small>"}};
     for (const RunObject& object : content.run.objects)
     {
-      const auto same =
-          std::find_if (run.objects.begin (), run.objects.end (), [&] (const RunObject& o) { return (o.id == object.id); });
+      const auto same = std::find_if (run.objects.begin (), run.objects.end (),
+                                      [&] (const RunObject& o) { return (o.id == object.id); });
       const ObjectFacts facts = same == run.objects.end () ? factsOf (RunObject ()) : factsOf (*same);
       cells.push_back ({facts.volume_ml + " / " + facts.penetration_mm});
     }
@@ -195,12 +200,12 @@ void
 writeAccuracy (HtmlWriter& html, const ReportContent& content)
 {
   const RunEvaluation& run = content.truth->evaluation;
-  html.element ("p", "Camera: ATE " + inMillimetres (run.camera.ate_m.rmse) + " mm, RPE " + rpeText (run.camera, false) +
-                         " mm and " + rpeText (run.camera, true) + "\xC2\xB0, " + std::to_string (run.camera.matched) + " of " +
-                         counted (run.camera.truth_poses, "pose") + '.');
+  html.element ("p", "Camera: ATE " + inMillimetres (run.camera.ate_m.rmse) + " mm, RPE " +
+                         rpeText (run.camera, false) + " mm and " + rpeText (run.camera, true) + "\xC2\xB0, " +
+                         std::to_string (run.camera.matched) + " of " + counted (run.camera.truth_poses, "pose") + '.');
   HtmlTable table (html, "Accuracy",
-                   {"Object", "Accuracy (mm)", "Completeness (mm)", "F at 10 mm", "Volume", "Inside others (mm)", "ATE (mm)",
-                    "RPE (mm)", "RPE (\xC2\xB0)", "Tracked / visible"});
+                   {"Object", "Accuracy (mm)", "Completeness (mm)", "F at 10 mm", "Volume", "Inside others (mm)",
+                    "ATE (mm)", "RPE (mm)", "RPE (\xC2\xB0)", "Tracked / visible"});
   for (const ObjectEvaluation& o : run.objects)
     table.row ({{o.truth_name},
                 {inMillimetres (o.mesh.comparison.accuracy.mean)},
@@ -224,12 +229,13 @@ writeAccuracy (HtmlWriter& html, const ReportContent& content)
                 {dash},
                 {dash}});
   table.end ();
-  html.element ("p",
-                "Accuracy: mean distance from the completed mesh to the true one; completeness: from the true one to it; F: "
-                "F-score at 10 mm. ATE and RPE: root mean squares of the absolute and the relative error of the trajectory, of "
-                "objects in the camera's frame. "
-                "Volume: the error of it.",
-                {{"class", "note"}});
+  html.element (
+      "p",
+      "Accuracy: mean distance from the completed mesh to the true one; completeness: from the true one to it; F: "
+      "F-score at 10 mm. ATE and RPE: root mean squares of the absolute and the relative error of the trajectory, of "
+      "objects in the camera's frame. "
+      "Volume: the error of it.",
+      {{"class", "note"}});
   for (const int id : run.unmatched)
     html.element ("p", "Object " + std::to_string (id) + " is none of the true objects.", {{"class", "note"}});
   for (const int id : run.missed)

@@ -4,7 +4,7 @@
 
 #include "option_values.h"
 
-#include <pcl/cosection/common/atomic_file.h>
+#include "pcl_cosection/common/atomic_file.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -59,10 +59,12 @@ reportText ()
       "pcl_cosection_report",
       "show a run in one HTML file",
       "pcl_cosection_report [OPTIONS] OUTPUT",
-      "Writes one HTML file that shows what a run of pcl_cosection_fusion did: tables, pictures before and after, trajectories, "
+      "Writes one HTML file that shows what a run of pcl_cosection_fusion did: tables, pictures before and after, "
+      "trajectories, "
       "times, and the meshes to turn and to play. It needs no network and can be sent, printed and read on a phone.",
       {"OUTPUT is the folder that pcl_cosection_fusion wrote. It is only read.",
-       "With --truth, DATASET is a folder with the truth as pcl_cosection_simulate writes it: accuracy, completeness and errors "
+       "With --truth, DATASET is a folder with the truth as pcl_cosection_simulate writes it: accuracy, completeness "
+       "and errors "
        "of trajectories come into the report. With --compare, other runs stand beside this one."},
       {
           {"pcl_cosection_report things", "report.html in the current folder"},
@@ -79,12 +81,16 @@ declareReportOptions (CLI::App& app, GivenReport& given)
 {
   app.add_option ("paths", given.paths)->group ("")->configurable (false);
   const std::string input = "Input", output = "Output";
-  app.add_option ("--truth", given.truth, "Compare with the truth of this dataset")->option_text ("DATASET")->group (input);
+  app.add_option ("--truth", given.truth, "Compare with the truth of this dataset")
+      ->option_text ("DATASET")
+      ->group (input);
   app.add_option ("--compare", given.others, "Another run to set beside this one, with other options; repeatable")
       ->option_text ("OUTPUT2")
       ->allow_extra_args (false)
       ->group (input);
-  app.add_option ("-o,--output", given.output, "The report (default: report.html)")->option_text ("FILE.html")->group (output);
+  app.add_option ("-o,--output", given.output, "The report (default: report.html)")
+      ->option_text ("FILE.html")
+      ->group (output);
   app.add_option ("--threads", given.threads, "Threads to use, without influence on results (default: all processors)")
       ->option_text ("N")
       ->check (wholeRange (1, 1024))

@@ -21,8 +21,7 @@ struct ReportSettings
 };
 
 /** \brief What pcl_cosection_report says about itself. */
-const ProgramText&
-reportText ();
+const ProgramText& reportText ();
 
 /** \brief Options as the user gives them. */
 struct GivenReport
@@ -33,10 +32,8 @@ struct GivenReport
   bool verbose = false, quiet = false;
 };
 
-void
-declareReportOptions (CLI::App& app, GivenReport& given);
+void declareReportOptions (CLI::App& app, GivenReport& given);
 
-/** \brief Read the command line. \return nothing if all that was asked for was printed \throws UsageError, also where the report
- * would be written over an input */
-std::optional<ReportSettings>
-parseReportCommandLine (int argc, const char* const* argv);
+/** \brief Read the command line. \return nothing if all that was asked for was printed \throws UsageError, also where
+ * the report would be written over an input */
+std::optional<ReportSettings> parseReportCommandLine (int argc, const char* const* argv);

@@ -24,25 +24,19 @@ struct ReportContent
 };
 
 /** \brief "truck" if the truth has a name for it; else "cup 1" if the run has found out its class; else "object 1". */
-std::string
-nameOf (const RunObject& object, const ReportContent& content);
+std::string nameOf (const RunObject& object, const ReportContent& content);
 
 /** \brief What is above in the world of the run; z if nothing tells. Unit. */
-Eigen::Vector3d
-upOf (const ReportContent& content);
+Eigen::Vector3d upOf (const ReportContent& content);
 
 /** \brief What the run was made from: the last part of the dataset's name, or of the run's. */
-std::string
-titleOf (const ReportContent& content);
+std::string titleOf (const ReportContent& content);
 
 /** \brief The class in the style sheet of instanceColour (id). */
-std::string
-styleOf (int id);
+std::string styleOf (int id);
 
 /** \brief The last part of a path, whatever slashes it ends in. */
-std::string
-lastPartOf (const std::string& path);
+std::string lastPartOf (const std::string& path);
 
 /** \brief "1 frame", "2 frames". */
-std::string
-counted (std::size_t count, const std::string& what);
+std::string counted (std::size_t count, const std::string& what);

@@ -114,9 +114,12 @@ writeBanner (HtmlWriter& html, const ReportContent& content)
         .text ("it has no summary; below is what it left.")
         .close ("p");
   if (failed.is_array () && !failed.empty ())
-    html.element ("p", counted (failed.size (), "object") + " failed; see the table of objects.", {{"class", "banner failed"}});
+    html.element ("p", counted (failed.size (), "object") + " failed; see the table of objects.",
+                  {{"class", "banner failed"}});
   if (warnings > 0)
-    html.open ("p", {{"class", "banner"}}).element ("a", counted (warnings, "warning"), {{"href", "#warnings"}}).close ("p");
+    html.open ("p", {{"class", "banner"}})
+        .element ("a", counted (warnings, "warning"), {{"href", "#warnings"}})
+        .close ("p");
 }
 
 } // namespace
@@ -130,7 +133,9 @@ writeHeader (HtmlWriter& html, const ReportContent& content)
   html.open ("p", {{"class", "note"}});
   const std::string how = method (parameters);
   html.text (how).text (how.empty () || content.run.date.empty () ? "" : " \xC2\xB7 ").text (content.run.date);
-  html.text (how.empty () && content.run.date.empty () ? "" : " \xC2\xB7 ").text ("run ").element ("code", content.run.path);
+  html.text (how.empty () && content.run.date.empty () ? "" : " \xC2\xB7 ")
+      .text ("run ")
+      .element ("code", content.run.path);
   if (!content.truth_folder.empty ())
     html.text (" \xC2\xB7 truth ").element ("code", content.truth_folder);
   html.close ("p");

@@ -30,14 +30,9 @@ public:
     html_.open ("section", {{"id", id}}).element ("h2", title);
   }
   Section (const Section&) = delete;
-  Section&
-  operator= (const Section&) = delete;
+  Section& operator= (const Section&) = delete;
 
-  void
-  end ()
-  {
-    html_.close ("section");
-  }
+  void end () { html_.close ("section"); }
 
 private:
   HtmlWriter& html_;
@@ -67,7 +62,8 @@ void
 writePictureKeys (HtmlWriter& html, const ReportContent& content)
 {
   html.open ("ul", {{"class", "legend"}});
-  const char* const names[] = {"observed", "inferred by smoothness", "bounded by free space", "bounded by another body"};
+  const char* const names[] = {"observed", "inferred by smoothness", "bounded by free space",
+                               "bounded by another body"};
   for (int n = 0; n < 4; ++n)
     html.open ("li").markup ("<i class=\"key p" + std::to_string (n) + "\"></i>").text (names[n]).close ("li");
   if (content.truth)
@@ -84,8 +80,9 @@ writePictures (HtmlWriter& html, const ReportContent& content, const ProgressCal
   const std::vector<RunObject>& objects = content.run.objects;
   const Eigen::Vector3d up = upOf (content);
   Section section (html, "pictures", "Before and after");
-  html.element ("p", "Left what was seen, the zero level of the truncated distances averaged over all frames; then what was "
-                     "completed. Above from the side of the camera, below from behind.");
+  html.element ("p",
+                "Left what was seen, the zero level of the truncated distances averaged over all frames; then what was "
+                "completed. Above from the side of the camera, below from behind.");
   writePictureKeys (html, content);
   html.open ("div", {{"class", "panels scene"}});
   for (const CaptionedPicture& picture : drawScenePanels (content))
@@ -121,13 +118,16 @@ writeInteractiveView (HtmlWriter& html, const ReportContent& content)
 {
   Section section (html, "scene", "The scene to turn");
   html.open ("div", {{"id", "view"}, {"class", "view"}})
-      .element ("p", "The interactive view needs a browser with scripts and WebGL. All else in this report can be read without.",
-                {{"id", "no-view"}, {"class", "no-view"}})
+      .element (
+          "p",
+          "The interactive view needs a browser with scripts and WebGL. All else in this report can be read without.",
+          {{"id", "no-view"}, {"class", "no-view"}})
       .close ("div");
-  html.element ("p",
-                "Drag to turn, drag with the right button or two fingers to move, pinch to come nearer; the wheel does so once "
-                "the view has been clicked.",
-                {{"class", "note screen-only"}});
+  html.element (
+      "p",
+      "Drag to turn, drag with the right button or two fingers to move, pinch to come nearer; the wheel does so once "
+      "the view has been clicked.",
+      {{"class", "note screen-only"}});
   html.open ("script", {{"type", "application/json"}, {"id", "scene-data"}})
       .markup (asScriptText (sceneData (content)))
       .close ("script");

@@ -11,5 +11,4 @@
 /** \brief The report: one HTML page that needs nothing else. The same for the same content.
  * \param[in] progress told what is being drawn; it may stop the work
  * \throws pcl::cosection::Cancelled if it does */
-std::string
-reportPage (const ReportContent& content, const pcl::cosection::ProgressCallback& progress = {});
+std::string reportPage (const ReportContent& content, const pcl::cosection::ProgressCallback& progress = {});

@@ -29,8 +29,8 @@ sizeText (const RunObject& object, const ReportContent& content)
 {
   if (object.completed.empty ())
     return (dash);
-  const Eigen::Vector3d size =
-      millimetres * standingSize (object.completed, directionsOf (object, content.run, upOf (content)).up);
+  const Eigen::Vector3d size = millimetres *
+                               standingSize (object.completed, directionsOf (object, content.run, upOf (content)).up);
   return (toText (size.x ()) + times + toText (size.y ()) + times + toText (size.z ()));
 }
 
@@ -41,7 +41,8 @@ solverText (const Json& solver)
   if (!iterations)
     return (dash);
   const bool converged = flagIn (solver, "converged").value_or (true);
-  return (counted (static_cast<std::size_t> (std::max (0.0, *iterations)), "iteration") + (converged ? "" : ", not converged"));
+  return (counted (static_cast<std::size_t> (std::max (0.0, *iterations)), "iteration") +
+          (converged ? "" : ", not converged"));
 }
 
 std::string
@@ -77,7 +78,8 @@ writeFailed (HtmlTable& table, const ReportContent& content)
   if (!failed.is_array ())
     return;
   for (const Json& entry : failed)
-    table.row ({{"object " + toShortText (numberIn (entry, "id").value_or (0.0))}, {"failed: " + textIn (entry, "error")}});
+    table.row (
+        {{"object " + toShortText (numberIn (entry, "id").value_or (0.0))}, {"failed: " + textIn (entry, "error")}});
 }
 
 /** \brief A parameter in words. */
@@ -97,7 +99,8 @@ valueText (const Json& value)
 
 } // namespace
 
-HtmlTable::HtmlTable (HtmlWriter& html, const std::string& caption, std::vector<std::string> header, const std::string& style)
+HtmlTable::HtmlTable (HtmlWriter& html, const std::string& caption, std::vector<std::string> header,
+                      const std::string& style)
     : html_ (html)
     , header_ (std::move (header))
 {
@@ -207,8 +210,9 @@ writeObjectTable (HtmlWriter& html, const ReportContent& content)
   for (std::size_t n = 0; n < kinds; ++n)
     html.markup ("<i class=\"key p" + std::to_string (n) + "\"></i>")
         .text (kind_names[n] + std::string (n + 1 < kinds ? ", " : ". "));
-  html.text ("Size: length, width and height of the box around the completed mesh as it stands. Inside others: how deep the "
-             "object remains inside another body.");
+  html.text (
+      "Size: length, width and height of the box around the completed mesh as it stands. Inside others: how deep the "
+      "object remains inside another body.");
   html.close ("p");
 }
 

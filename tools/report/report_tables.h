@@ -21,13 +21,12 @@ struct TableCell
 class HtmlTable
 {
 public:
-  HtmlTable (HtmlWriter& html, const std::string& caption, std::vector<std::string> header, const std::string& style = "cards");
+  HtmlTable (HtmlWriter& html, const std::string& caption, std::vector<std::string> header,
+             const std::string& style = "cards");
 
-  void
-  row (const std::vector<TableCell>& cells);
+  void row (const std::vector<TableCell>& cells);
 
-  void
-  end ();
+  void end ();
 
 private:
   HtmlWriter& html_;
@@ -41,24 +40,19 @@ struct ObjectFacts
   std::optional<bool> is_closed;
 };
 
-ObjectFacts
-factsOf (const RunObject& object);
+ObjectFacts factsOf (const RunObject& object);
 
 /** \brief Shares of the surface by provenance, in its order; empty if they are not known. */
-std::vector<double>
-provenanceShares (const RunObject& object);
+std::vector<double> provenanceShares (const RunObject& object);
 
 /** \brief The table of all objects, those that failed too. */
-void
-writeObjectTable (HtmlWriter& html, const ReportContent& content);
+void writeObjectTable (HtmlWriter& html, const ReportContent& content);
 
 /** \brief All parameters of the run in rows. */
-void
-writeParameters (HtmlWriter& html, const ReportContent& content);
+void writeParameters (HtmlWriter& html, const ReportContent& content);
 
 /** \brief A list that is closed at first, if there is anything in it. */
-void
-writeCollapsedList (HtmlWriter& html, const std::string& title, const std::vector<std::string>& lines);
+void writeCollapsedList (HtmlWriter& html, const std::string& title, const std::vector<std::string>& lines);
 
 /** \brief What is not known. */
 extern const char* const dash;

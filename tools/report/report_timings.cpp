@@ -38,7 +38,8 @@ constexpr Stage stages[] = {
 void
 writeStage (HtmlTable& table, const std::string& name, double seconds, double total_s, const std::string& style)
 {
-  table.row ({{name}, {toText (seconds)}, {"", drawBar ({{style, seconds / total_s}}, inPercent (seconds / total_s), 300)}});
+  table.row (
+      {{name}, {toText (seconds)}, {"", drawBar ({{style, seconds / total_s}}, inPercent (seconds / total_s), 300)}});
 }
 
 } // namespace
@@ -74,6 +75,7 @@ writeTimings (HtmlWriter& html, const ReportContent& content)
   table.row ({{"all"}, {toText (*total_s)}, {""}});
   table.end ();
   if (const std::optional<double> rate = numberIn (content.run.summary, "frames_per_second"))
-    html.element ("p", toText (*rate) + " frames per second until the last completion, with reading.", {{"class", "note"}});
+    html.element ("p", toText (*rate) + " frames per second until the last completion, with reading.",
+                  {{"class", "note"}});
   return (true);
 }

@@ -15,9 +15,9 @@ using namespace pcl::cosection;
 namespace
 {
 
-constexpr double gap_periods = 1.5;  ///< a longer time between poses interrupts the line
+constexpr double gap_periods = 1.5;     ///< a longer time between poses interrupts the line
 constexpr double least_height_m = 0.02; ///< of a chart over time: noise is not motion
-constexpr std::size_t most_open = 6; ///< charts over time; more are folded away
+constexpr std::size_t most_open = 6;    ///< charts over time; more are folded away
 
 /** \brief Where something was, in the frame of the charts: x and y level, z up. */
 struct Path
@@ -89,7 +89,8 @@ pathsOf (const ReportContent& content)
     Path camera{"camera", "s0", {}, {}, {}, {}};
     add (run.camera, T_chart_world, Eigen::Vector3d::Zero (), camera.stamps, camera.places);
     if (content.truth)
-      add (content.truth->truth.camera, T_chart_truth, Eigen::Vector3d::Zero (), camera.true_stamps, camera.true_places);
+      add (content.truth->truth.camera, T_chart_truth, Eigen::Vector3d::Zero (), camera.true_stamps,
+           camera.true_places);
     paths.push_back (camera);
   }
   for (const RunObject& object : run.objects)
@@ -103,8 +104,8 @@ pathsOf (const ReportContent& content)
       if (const ObjectEvaluation* evaluation = evaluationOf (content.truth->evaluation, object.id))
         for (const SceneRecord::Object& true_object : content.truth->truth.objects)
           if (true_object.id == evaluation->truth_id)
-            add (true_object.poses, T_chart_truth, evaluation->mesh.alignment.T_truth_estimate * middle, path.true_stamps,
-                 path.true_places);
+            add (true_object.poses, T_chart_truth, evaluation->mesh.alignment.T_truth_estimate * middle,
+                 path.true_stamps, path.true_places);
     paths.push_back (path);
   }
   return (paths);
@@ -188,7 +189,8 @@ writeTrajectories (HtmlWriter& html, const ReportContent& content)
   const bool frames = areFrames (paths);
   if (!frames)
     beginAtZero (paths);
-  const double period = periodOf (content.run.camera.empty () ? content.run.objects.front ().poses : content.run.camera);
+  const double period = periodOf (content.run.camera.empty () ? content.run.objects.front ().poses
+                                                              : content.run.camera);
   const std::string time = frames ? "frame" : "time (s)";
 
   html.open ("ul", {{"class", "legend"}});
@@ -208,7 +210,8 @@ writeTrajectories (HtmlWriter& html, const ReportContent& content)
   {
     above.series.push_back ({path.style, lineOf (path.stamps, path.places, period, fromAbove, 0), false, true});
     if (content.truth)
-      above.series.push_back ({"truth", lineOf (path.true_stamps, path.true_places, period, fromAbove, 0), true, false});
+      above.series.push_back (
+          {"truth", lineOf (path.true_stamps, path.true_places, period, fromAbove, 0), true, false});
   }
   writeChart (html, above);
   for (std::size_t n = 0; n < paths.size (); ++n)
@@ -238,9 +241,10 @@ writeTrajectories (HtmlWriter& html, const ReportContent& content)
   html.close ("div");
   if (paths.size () > most_open)
     html.close ("details");
-  html.element ("p",
-                "Rings are beginnings, dots are ends; where nothing was tracked the line is interrupted. Of objects, the middle "
-                "of the mesh is shown.",
-                {{"class", "note"}});
+  html.element (
+      "p",
+      "Rings are beginnings, dots are ends; where nothing was tracked the line is interrupted. Of objects, the middle "
+      "of the mesh is shown.",
+      {{"class", "note"}});
   return (true);
 }

@@ -2,8 +2,8 @@
 // Copyright (c) 2026, the pcl_cosection authors
 #include "run_folder.h"
 
+#include "pcl_cosection/evaluation/surface_samples.h"
 #include <pcl/cosection/common/error.h>
-#include <pcl/cosection/evaluation/surface_samples.h>
 #include <pcl/cosection/io/mesh_io.h>
 
 #include <sys/stat.h>
@@ -71,12 +71,12 @@ requireRun (const std::string& path)
     throw IoError (path + ": is a run in which nothing is left: no meshes, trajectories or summary.json");
   const std::vector<std::string> top = namesIn (folder);
   if (std::any_of (top.begin (), top.end (), isRunFile))
-    throw IoError (
-        path +
-        ": has meshes as pcl_cosection writes them, not a run of pcl_cosection_fusion with its folders mesh and trajectory");
-  throw IoError (
-      path + (top.empty () ? ": is an empty folder" : ": is not a run: it has neither summary.json nor mesh/ nor trajectory/") +
-      "; it must be what pcl_cosection_fusion wrote");
+    throw IoError (path + ": has meshes as pcl_cosection writes them, not a run of pcl_cosection_fusion with its "
+                          "folders mesh and trajectory");
+  throw IoError (path +
+                 (top.empty () ? ": is an empty folder"
+                               : ": is not a run: it has neither summary.json nor mesh/ nor trajectory/") +
+                 "; it must be what pcl_cosection_fusion wrote");
 }
 
 std::string
@@ -190,7 +190,8 @@ readRunFolder (const std::string& path)
     tryToRead (run, [&] { run.background = readMesh (mesh / "background.ply"); });
 
   std::map<int, RunObject> objects;
-  static const std::regex mesh_name ("object_([0-9]{1,9})(_tsdf)?\\.ply"), trajectory_name ("object_([0-9]{1,9})\\.txt");
+  static const std::regex mesh_name ("object_([0-9]{1,9})(_tsdf)?\\.ply"),
+      trajectory_name ("object_([0-9]{1,9})\\.txt");
   std::smatch match;
   for (const std::string& name : namesIn (trajectory))
     if (std::regex_match (name, match, trajectory_name))

@@ -15,8 +15,8 @@ namespace
 const SceneRecord::Object*
 trueObject (const SceneRecord& truth, int id)
 {
-  const auto found =
-      std::find_if (truth.objects.begin (), truth.objects.end (), [id] (const auto& object) { return (object.id == id); });
+  const auto found = std::find_if (truth.objects.begin (), truth.objects.end (),
+                                   [id] (const auto& object) { return (object.id == id); });
   return (found == truth.objects.end () || found->mesh.empty () ? nullptr : &*found);
 }
 
@@ -25,8 +25,8 @@ trueObject (const SceneRecord& truth, int id)
 const ObjectEvaluation*
 evaluationOf (const RunEvaluation& run, int id)
 {
-  const auto found =
-      std::find_if (run.objects.begin (), run.objects.end (), [id] (const auto& object) { return (object.id == id); });
+  const auto found = std::find_if (run.objects.begin (), run.objects.end (),
+                                   [id] (const auto& object) { return (object.id == id); });
   return (found == run.objects.end () ? nullptr : &*found);
 }
 
@@ -46,8 +46,8 @@ compareWithTruth (const RunScene& run, const std::string& dataset, int threads)
     const SceneRecord::Object* true_object = trueObject (result.truth, object.truth_id);
     const TriangleMesh& seen = run.surface (object.id, SurfaceMode::Tsdf);
     if (true_object != nullptr && !seen.empty ())
-      result.seen[object.id] =
-          compareMeshes (true_object->mesh, transformMesh (seen, object.mesh.alignment.T_truth_estimate), options.comparison);
+      result.seen[object.id] = compareMeshes (
+          true_object->mesh, transformMesh (seen, object.mesh.alignment.T_truth_estimate), options.comparison);
   }
   return (result);
 }
@@ -56,9 +56,10 @@ std::vector<double>
 errorsOf (const RunTruth& truth, int id, const TriangleMesh& mesh, int threads)
 {
   const ObjectEvaluation* evaluation = evaluationOf (truth.evaluation, id);
-  const SceneRecord::Object* true_object = evaluation == nullptr ? nullptr : trueObject (truth.truth, evaluation->truth_id);
+  const SceneRecord::Object* true_object = evaluation == nullptr ? nullptr
+                                                                 : trueObject (truth.truth, evaluation->truth_id);
   if (true_object == nullptr)
     return {};
-  return (vertexDistances (transformMesh (mesh, evaluation->mesh.alignment.T_truth_estimate), SurfaceDistance (true_object->mesh),
-                           threads));
+  return (vertexDistances (transformMesh (mesh, evaluation->mesh.alignment.T_truth_estimate),
+                           SurfaceDistance (true_object->mesh), threads));
 }

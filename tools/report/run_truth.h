@@ -25,8 +25,7 @@ struct RunTruth
 /** \brief Compare a run with the truth of a dataset.
  * \throws pcl::cosection::IoError if the dataset has no truth
  * \throws pcl::cosection::DegenerateInput if the run has no camera that matches */
-RunTruth
-compareWithTruth (const pcl::cosection::RunScene& run, const std::string& dataset, int threads);
+RunTruth compareWithTruth (const pcl::cosection::RunScene& run, const std::string& dataset, int threads);
 
 /** \brief Another run, beside the one that a report is about. */
 struct ComparedRun
@@ -37,10 +36,8 @@ struct ComparedRun
 };
 
 /** \brief The evaluation of the object \a id of the estimate; null if there is none. */
-const pcl::cosection::ObjectEvaluation*
-evaluationOf (const pcl::cosection::RunEvaluation& run, int id);
+const pcl::cosection::ObjectEvaluation* evaluationOf (const pcl::cosection::RunEvaluation& run, int id);
 
-/** \brief The distance of every vertex of a mesh in the frame of the estimated object to the true surface, metres; empty if there
- * is no counterpart. */
-std::vector<double>
-errorsOf (const RunTruth& truth, int id, const pcl::cosection::TriangleMesh& mesh, int threads);
+/** \brief The distance of every vertex of a mesh in the frame of the estimated object to the true surface, metres;
+ * empty if there is no counterpart. */
+std::vector<double> errorsOf (const RunTruth& truth, int id, const pcl::cosection::TriangleMesh& mesh, int threads);

@@ -130,18 +130,20 @@ sceneData (const ReportContent& content, const SceneBudget& budget)
   json["up"] = toJson (view.up);
   json["target"] = toJson (view.target);
   json["eye"] = toJson (view.eye);
-  json["is_frame"] =
-      std::all_of (stamps.begin (), stamps.end (), [] (double stamp) { return (stamp == std::floor (stamp) && stamp < 1e7); });
+  json["is_frame"] = std::all_of (stamps.begin (), stamps.end (),
+                                  [] (double stamp) { return (stamp == std::floor (stamp) && stamp < 1e7); });
   json["stamps"] = stamps;
   json["camera"] = run.camera.empty () ? Json () : posesAt (run.camera, stamps);
   if (run.intrinsics)
-    json["intrinsics"] = {{"fx", run.intrinsics->fx}, {"fy", run.intrinsics->fy},       {"cx", run.intrinsics->cx},
-                          {"cy", run.intrinsics->cy}, {"width", run.intrinsics->width}, {"height", run.intrinsics->height}};
+    json["intrinsics"] = {{"fx", run.intrinsics->fx},       {"fy", run.intrinsics->fy},
+                          {"cx", run.intrinsics->cx},       {"cy", run.intrinsics->cy},
+                          {"width", run.intrinsics->width}, {"height", run.intrinsics->height}};
   json["error_max_mm"] = content.truth ? Json (1000.0 * content.scene.error_max_m) : Json ();
-  json["background"] = run.background.empty () ? Json () : embedMesh (forDisplay (run.background, budget.background_triangles));
+  json["background"] = run.background.empty () ? Json ()
+                                               : embedMesh (forDisplay (run.background, budget.background_triangles));
   json["objects"] = Json::array ();
-  const std::size_t most =
-      std::min (budget.object_triangles, budget.all_triangles / std::max<std::size_t> (1, run.objects.size ()));
+  const std::size_t most = std::min (budget.object_triangles,
+                                     budget.all_triangles / std::max<std::size_t> (1, run.objects.size ()));
   for (const RunObject& object : run.objects)
   {
     if (object.completed.empty () && object.seen.empty ())

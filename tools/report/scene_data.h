@@ -16,13 +16,12 @@ struct SceneBudget
   std::size_t frames = 1500;            ///< the trajectory is thinned evenly
 };
 
-/** \brief What the interactive view shows, for page/report.js: `up`, `target`, `eye` (metres, world), `is_frame` (whether stamps
- * are numbers of frames), `stamps`, `camera` (a pose per stamp, or null; `intrinsics`), `background`, `error_max_mm`, `objects`
- * (`id`, `name`, `colour`, `poses`, `completed`, `seen`). A pose is [x, y, z, qx, qy, qz, qw]; meshes are as embedMesh () makes
- * them. */
-Json
-sceneData (const ReportContent& content, const SceneBudget& budget = {});
+/** \brief What the interactive view shows, for page/report.js: `up`, `target`, `eye` (metres, world), `is_frame`
+ * (whether stamps are numbers of frames), `stamps`, `camera` (a pose per stamp, or null; `intrinsics`), `background`,
+ * `error_max_mm`, `objects`
+ * (`id`, `name`, `colour`, `poses`, `completed`, `seen`). A pose is [x, y, z, qx, qy, qz, qw]; meshes are as embedMesh
+ * () makes them. */
+Json sceneData (const ReportContent& content, const SceneBudget& budget = {});
 
 /** \brief JSON as the text of a script element, which nothing in it can end. */
-std::string
-asScriptText (const Json& json);
+std::string asScriptText (const Json& json);

@@ -14,18 +14,15 @@ struct ObjectDirections
 };
 
 /** \brief Unit vectors, not along each other; the defaults where poses are missing. */
-ObjectDirections
-directionsOf (const RunObject& object, const RunFolder& run, const Eigen::Vector3d& up);
+ObjectDirections directionsOf (const RunObject& object, const RunFolder& run, const Eigen::Vector3d& up);
 
 /** \brief The pose at a stamp, give or take a millionth; null if there is none. */
-const Eigen::Isometry3d*
-poseAt (const std::vector<pcl::cosection::StampedPose>& poses, double stamp);
+const Eigen::Isometry3d* poseAt (const std::vector<pcl::cosection::StampedPose>& poses, double stamp);
 
-/** \brief Length, width and height (metres) of the smallest box around a mesh that stands upright; zero without vertices.
+/** \brief Length, width and height (metres) of the smallest box around a mesh that stands vertical; zero without
+ * vertices.
  * \param[in] up in the frame of the mesh, unit */
-Eigen::Vector3d
-standingSize (const pcl::cosection::TriangleMesh& mesh, const Eigen::Vector3d& up);
+Eigen::Vector3d standingSize (const pcl::cosection::TriangleMesh& mesh, const Eigen::Vector3d& up);
 
 /** \brief The middle of the box around a mesh. */
-Eigen::Vector3d
-middleOf (const pcl::cosection::TriangleMesh& mesh);
+Eigen::Vector3d middleOf (const pcl::cosection::TriangleMesh& mesh);

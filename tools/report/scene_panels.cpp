@@ -34,8 +34,8 @@ drawScenePanels (const ReportContent& content)
     view.viewpoint = overview (scene, turn_rad);
     view.surface = surface;
     view.colour = colour;
-    pictures.push_back (
-        {caption, "The scene: " + caption, width_px, height_px, dataUri (drawScene (scene, stamps[stamps.size () / 2], view))});
+    pictures.push_back ({caption, "The scene: " + caption, width_px, height_px,
+                         dataUri (drawScene (scene, stamps[stamps.size () / 2], view))});
   };
   add (0.0, SurfaceMode::Tsdf, ColourMode::Real, "Seen, from the side of the camera");
   add (0.0, SurfaceMode::Completed, ColourMode::Real, "Completed, from the side of the camera");

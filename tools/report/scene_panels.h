@@ -7,7 +7,6 @@
 
 #include <vector>
 
-/** \brief The whole scene in the middle of the sequence, as it was seen and as it was completed: from above the cameras and from
- * the other side. None without trajectories or meshes. */
-std::vector<CaptionedPicture>
-drawScenePanels (const ReportContent& content);
+/** \brief The whole scene in the middle of the sequence, as it was seen and as it was completed: from above the cameras
+ * and from the other side. None without trajectories or meshes. */
+std::vector<CaptionedPicture> drawScenePanels (const ReportContent& content);

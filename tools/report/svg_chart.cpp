@@ -49,7 +49,8 @@ struct Axes
       box.extend (Eigen::Vector2d::Zero ());
     for (int axis = 0; axis < 2; ++axis)
     {
-      const double range = std::max (box.sizes ()[axis], axis == 0 ? least_width : chart.least_height), middle = box.center ()[axis];
+      const double range = std::max (box.sizes ()[axis], axis == 0 ? least_width : chart.least_height),
+                   middle = box.center ()[axis];
       const double margin = axis == 0 && !chart.equal_axes ? 0.0 : 0.06 * range;
       box.min ()[axis] = middle - 0.5 * range - margin;
       box.max ()[axis] = middle + 0.5 * range + margin;
@@ -61,17 +62,9 @@ struct Axes
     box = Eigen::AlignedBox2d (middle - half, middle + half);
   }
 
-  double
-  x (double value) const
-  {
-    return (left + field_width * (value - box.min ().x ()) / box.sizes ().x ());
-  }
+  double x (double value) const { return (left + field_width * (value - box.min ().x ()) / box.sizes ().x ()); }
 
-  double
-  y (double value) const
-  {
-    return (top + field_height * (box.max ().y () - value) / box.sizes ().y ());
-  }
+  double y (double value) const { return (top + field_height * (box.max ().y () - value) / box.sizes ().y ()); }
 
   double field_width, field_height;
   Eigen::AlignedBox2d box;
@@ -98,10 +91,12 @@ drawTicks (HtmlWriter& svg, const Axes& axes, const LineChart& chart)
                  {{"x", number (left - 6)}, {"y", number (axes.y (tick) + 4)}, {"text-anchor", "end"}});
   }
   svg.element ("text", chart.x_label,
-               {{"x", number (left + 0.5 * axes.field_width)}, {"y", number (chart.height_px - 6.0)}, {"text-anchor", "middle"}});
-  svg.element (
-      "text", chart.y_label,
-      {{"transform", "translate(12 " + number (top + 0.5 * axes.field_height) + ") rotate(-90)"}, {"text-anchor", "middle"}});
+               {{"x", number (left + 0.5 * axes.field_width)},
+                {"y", number (chart.height_px - 6.0)},
+                {"text-anchor", "middle"}});
+  svg.element ("text", chart.y_label,
+               {{"transform", "translate(12 " + number (top + 0.5 * axes.field_height) + ") rotate(-90)"},
+                {"text-anchor", "middle"}});
 }
 
 /** \brief At most so many of the points, the last one among them. Interruptions are kept. */
@@ -202,9 +197,12 @@ drawBar (const std::vector<BarPart>& parts, const std::string& title, int width_
   {
     const double size = std::clamp (part.share, 0.0, 1.0) * width_px;
     if (size > 0.0)
-      svg.element (
-          "rect", "",
-          {{"class", part.style}, {"x", number (at, "%.2f")}, {"y", "0"}, {"width", number (size, "%.2f")}, {"height", height}});
+      svg.element ("rect", "",
+                   {{"class", part.style},
+                    {"x", number (at, "%.2f")},
+                    {"y", "0"},
+                    {"width", number (size, "%.2f")},
+                    {"height", height}});
     at += size;
   }
   svg.close ("svg");

@@ -22,15 +22,14 @@ struct LineChart
   std::string title; ///< for those who cannot see it, and above the chart
   std::string x_label, y_label;
   std::vector<ChartSeries> series;
-  bool equal_axes = false; ///< a metre is as long on both
-  int height_px = 260;     ///< of 420 in width, at which letters have their size
-  double least_height = 1e-3; ///< of the upright axis: what moves less looks still
+  bool equal_axes = false;    ///< a metre is as long on both
+  int height_px = 260;        ///< of 420 in width, at which letters have their size
+  double least_height = 1e-3; ///< of the vertical axis: what moves less looks still
 };
 
 /** \brief The chart as an SVG element; scales with its width.
  * Lines of more than 400 points are thinned evenly. */
-std::string
-drawLineChart (const LineChart& chart);
+std::string drawLineChart (const LineChart& chart);
 
 /** \brief A part of a bar. */
 struct BarPart
@@ -40,9 +39,7 @@ struct BarPart
 };
 
 /** \brief A bar of parts beside each other as an SVG element. \param[in] title for those who cannot see it */
-std::string
-drawBar (const std::vector<BarPart>& parts, const std::string& title, int width_px = 120);
+std::string drawBar (const std::vector<BarPart>& parts, const std::string& title, int width_px = 120);
 
 /** \brief Round numbers from \a least to \a most, about \a count of them. */
-std::vector<double>
-ticksBetween (double least, double most, int count);
+std::vector<double> ticksBetween (double least, double most, int count);

@@ -12,7 +12,8 @@ std::string
 classText (int class_id, const std::string& class_name, double score)
 {
   std::ostringstream text;
-  text << (class_name == std::to_string (class_id) ? "class " : "") << class_name << ", score " << std::setprecision (2) << score;
+  text << (class_name == std::to_string (class_id) ? "class " : "") << class_name << ", score " << std::setprecision (2)
+       << score;
   return (text.str ());
 }
 

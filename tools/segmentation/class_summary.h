@@ -7,9 +7,7 @@
 #include <string>
 
 /** \brief "cup, score 0.92"; "class 41, score 0.92" where a class has no name but its number. */
-std::string
-classText (int class_id, const std::string& class_name, double score);
+std::string classText (int class_id, const std::string& class_name, double score);
 
 /** \brief For summaries: "class", "class_id", "score" to four digits. */
-nlohmann::ordered_json
-classJson (int class_id, const std::string& class_name, double score);
+nlohmann::ordered_json classJson (int class_id, const std::string& class_name, double score);

@@ -3,7 +3,7 @@
 #include "found_objects.h"
 
 #include <pcl/cosection/common/error.h>
-#include <pcl/cosection/common/ignored_label.h>
+#include <pcl/cosection/common/image.h>
 
 #include <algorithm>
 #include <array>
@@ -21,15 +21,18 @@ findByGeometry (const SegmentSettings& settings, OrganizedCloud cloud, const Ima
     if (ignored.pixels[i] != 0)
       cloud.points[i].setConstant (std::numeric_limits<float>::quiet_NaN ());
   ObjectSegmentation found = segmentObjects (cloud.points, cloud.width, cloud.height, settings.segmentation);
-  return {std::move (found.labels), std::vector<FoundObjects::Object> (found.objects), std::move (found.support_planes)};
+  return {std::move (found.labels), std::vector<FoundObjects::Object> (found.objects),
+          std::move (found.support_planes)};
 }
 
 FoundObjects
-findByNetwork (InstanceDetector& detector, const ClassRoles& roles, const OrganizedCloud& cloud, const Image<std::uint8_t>& ignored)
+findByNetwork (InstanceDetector& detector, const ClassRoles& roles, const OrganizedCloud& cloud,
+               const Image<std::uint8_t>& ignored)
 {
   const std::vector<std::array<std::uint8_t, 3>>& pixels = cloud.picture.pixels;
   if (std::all_of (pixels.begin (), pixels.end (), [] (const auto& c) { return (c == std::array<std::uint8_t, 3>{}); }))
-    throw DegenerateInput (pixels.empty () ? "has no colours (a field rgb or rgba), which --method mask-rcnn needs" : "all of it is black");
+    throw DegenerateInput (pixels.empty () ? "has no colours (a field rgb or rgba), which --method mask-rcnn needs"
+                                           : "all of it is black");
   Image<std::uint8_t> readings (cloud.width, cloud.height, 0);
   for (std::size_t i = 0; i < cloud.points.size (); ++i)
     readings.pixels[i] = cloud.points[i].allFinite () && ignored.pixels[i] == 0 ? 1 : 0;

@@ -29,5 +29,5 @@ struct FoundObjects
 
 /** \brief Find them as the user asked for. \param[in] detector null: by geometry
  * \throws UsageError, pcl::cosection::Error naming the file */
-FoundObjects
-findObjects (const SegmentSettings& settings, const pcl::cosection::OrganizedCloud& cloud, pcl::cosection::InstanceDetector* detector);
+FoundObjects findObjects (const SegmentSettings& settings, const pcl::cosection::OrganizedCloud& cloud,
+                          pcl::cosection::InstanceDetector* detector);

@@ -24,22 +24,15 @@ struct IgnoredArea
   std::vector<std::array<int, 4>> regions; ///< left, top, width, height in pixels
   std::string mask;                        ///< file; empty: none
 
-  bool
-  empty () const
-  {
-    return (regions.empty () && mask.empty ());
-  }
+  bool empty () const { return (regions.empty () && mask.empty ()); }
 };
 
 /** \brief Declare --ignore-region and --ignore-mask in the group "Input". */
-void
-declareIgnoredArea (CLI::App& app, GivenIgnoredArea& given);
+void declareIgnoredArea (CLI::App& app, GivenIgnoredArea& given);
 
 /** \throws UsageError */
-IgnoredArea
-ignoredArea (const GivenIgnoredArea& given);
+IgnoredArea ignoredArea (const GivenIgnoredArea& given);
 
-/** \brief 1: the pixel is left out. \throws UsageError if a region is not within the image \throws pcl::cosection::IoError if the mask cannot be read, or
- * has another size */
-pcl::cosection::Image<std::uint8_t>
-ignoredPixels (const IgnoredArea& area, int width, int height);
+/** \brief 1: the pixel is left out. \throws UsageError if a region is not within the image \throws
+ * pcl::cosection::IoError if the mask cannot be read, or has another size */
+pcl::cosection::Image<std::uint8_t> ignoredPixels (const IgnoredArea& area, int width, int height);

@@ -26,7 +26,8 @@ addList (CLI::App& app, const std::string& name, std::vector<std::string>& value
 
 /** \brief Numbers of an option; \a count of them. */
 std::vector<double>
-numbersOf (const std::string& option, const std::vector<std::string>& values, std::size_t count, double least, const std::string& meaning)
+numbersOf (const std::string& option, const std::vector<std::string>& values, std::size_t count, double least,
+           const std::string& meaning)
 {
   const std::optional<std::vector<double>> numbers = parseNumbers (values);
   if (!numbers || numbers->size () != count ||
@@ -45,8 +46,12 @@ declareNetworkOptions (CLI::App& app, GivenNetwork& given)
   app.add_option ("--model", given.model, "Instance segmentation network: ONNX, or a frozen graph of TensorFlow (.pb)")
       ->option_text ("FILE")
       ->group (group);
-  app.add_option ("--model-config", given.model_config, "Text graph of a .pb (.pbtxt)")->option_text ("FILE")->group (group);
-  app.add_option ("--class-names", given.class_names, "Names of the classes, one in each line")->option_text ("FILE")->group (group);
+  app.add_option ("--model-config", given.model_config, "Text graph of a .pb (.pbtxt)")
+      ->option_text ("FILE")
+      ->group (group);
+  app.add_option ("--class-names", given.class_names, "Names of the classes, one in each line")
+      ->option_text ("FILE")
+      ->group (group);
   addList (app, "--classes", given.classes, "Only these become objects, by name or number (default: all)")
       ->option_text ("A,B,...")
       ->group (group);
@@ -56,11 +61,13 @@ declareNetworkOptions (CLI::App& app, GivenNetwork& given)
   addList (app, "--ignore", given.ignored_classes, "These are neither objects nor background: people")
       ->option_text ("A,B,...")
       ->group (group);
-  app.add_option ("--score", given.score, "What has a lower score is not there" + byDefault (defaults.detection.score_threshold))
+  app.add_option ("--score", given.score,
+                  "What has a lower score is not there" + byDefault (defaults.detection.score_threshold))
       ->option_text ("SCORE")
       ->check (numberRange (0.0, 1.0))
       ->group (group);
-  addList (app, "--input-size", given.input_size, "Pixels that the network takes (default: what an ONNX file fixes; else YOLO: 640,640, others: the image's)")
+  addList (app, "--input-size", given.input_size,
+           "Pixels that the network takes (default: what an ONNX file fixes; else YOLO: 640,640, others: the image's)")
       ->option_text ("W,H")
       ->group (group);
   app.add_option ("--input-fit", given.input_fit, "How an image fills them (default: stretch; YOLO: letterbox)")
@@ -71,7 +78,9 @@ declareNetworkOptions (CLI::App& app, GivenNetwork& given)
       ->option_text ("FACTOR")
       ->check (numberRange (0.0, unlimited, true))
       ->group (group);
-  addList (app, "--input-mean", given.input_mean, "Subtracted from colours before (default: 0,0,0)")->option_text ("R,G,B")->group (group);
+  addList (app, "--input-mean", given.input_mean, "Subtracted from colours before (default: 0,0,0)")
+      ->option_text ("R,G,B")
+      ->group (group);
   app.add_option ("--input-order", given.input_order, "Of colours (default: rgb)")
       ->option_text ("rgb|bgr")
       ->check (oneOf ({"rgb", "bgr"}))
@@ -95,7 +104,8 @@ anyNetworkOption (const GivenNetwork& given)
       {"--input-mean", !given.input_mean.empty ()},
       {"--input-order", !given.input_order.empty ()},
   };
-  const auto found = std::find_if (options.begin (), options.end (), [] (const auto& option) { return (option.second); });
+  const auto found = std::find_if (options.begin (), options.end (),
+                                   [] (const auto& option) { return (option.second); });
   return (found == options.end () ? "" : found->first);
 }
 
@@ -109,7 +119,8 @@ networkSettings (const GivenNetwork& given)
   network.detection.score_threshold = given.score.value_or (network.detection.score_threshold);
   if (!given.input_size.empty ())
   {
-    const std::vector<double> size = numbersOf ("--input-size", given.input_size, 2, 1.0, "two numbers of pixels W,H, such as 640,480");
+    const std::vector<double> size = numbersOf ("--input-size", given.input_size, 2, 1.0,
+                                                "two numbers of pixels W,H, such as 640,480");
     network.input_width = static_cast<int> (std::min (size[0], 1e6));
     network.input_height = static_cast<int> (std::min (size[1], 1e6));
   }
@@ -119,7 +130,8 @@ networkSettings (const GivenNetwork& given)
   if (!given.input_mean.empty ())
   {
     const double lowest = std::numeric_limits<double>::lowest ();
-    const std::vector<double> mean = numbersOf ("--input-mean", given.input_mean, 3, lowest, "three numbers R,G,B, such as 124,116,104");
+    const std::vector<double> mean = numbersOf ("--input-mean", given.input_mean, 3, lowest,
+                                                "three numbers R,G,B, such as 124,116,104");
     std::copy (mean.begin (), mean.end (), network.mean.begin ());
   }
   network.blue_first = given.input_order == "bgr";
@@ -154,7 +166,7 @@ readClassNames (NetworkSettings& settings)
   }
   catch (const InvalidArgument& error)
   {
-    throw UsageError (error.what () + (names.empty () ? "; give --class-names"
+    throw UsageError (error.what () + (names.empty ()  ? "; give --class-names"
                                        : hint.empty () ? ""
                                                        : "; did you mean " + hint + "?"));
   }

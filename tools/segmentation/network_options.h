@@ -30,22 +30,17 @@ struct NetworkSettings
 };
 
 /** \brief Declare them in the group "Network". */
-void
-declareNetworkOptions (CLI::App& app, GivenNetwork& given);
+void declareNetworkOptions (CLI::App& app, GivenNetwork& given);
 
 /** \brief An option that was given; empty if there is none. */
-std::string
-anyNetworkOption (const GivenNetwork& given);
+std::string anyNetworkOption (const GivenNetwork& given);
 
 /** \throws UsageError */
-NetworkSettings
-networkSettings (const GivenNetwork& given);
+NetworkSettings networkSettings (const GivenNetwork& given);
 
 /** \brief Read the class names, and find out whether they have the classes that were asked for.
  * \throws UsageError, pcl::cosection::IoError */
-void
-readClassNames (NetworkSettings& settings);
+void readClassNames (NetworkSettings& settings);
 
 /** \brief For summaries: "model", "score", "classes", "static_classes", "ignore". */
-nlohmann::ordered_json
-networkJson (const NetworkSettings& settings);
+nlohmann::ordered_json networkJson (const NetworkSettings& settings);

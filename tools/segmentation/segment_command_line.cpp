@@ -16,7 +16,8 @@ segmentationText ()
       "pcl_cosection_segment",
       "find the objects in an organised point cloud",
       "pcl_cosection_segment [OPTIONS] INPUT.pcd OUTPUT.pcd",
-      "Finds the objects in a view, one label for each: by their geometry what stands on a table, a shelf or the floor, or by their colours with an "
+      "Finds the objects in a view, one label for each: by their geometry what stands on a table, a shelf or the "
+      "floor, or by their colours with an "
       "instance segmentation network of yours.",
       {"INPUT.pcd is an organised cloud in its sensor's frame, as a depth camera's driver gives it.",
        "OUTPUT.pcd is the same cloud with the field label: 0 background, 1 ... objects, the largest in the image "
@@ -97,10 +98,10 @@ setMethod (const GivenSegmentation& given, SegmentSettings& settings)
   if (given.network.model.empty ())
     throw UsageError ("--method mask-rcnn needs a network: --model FILE");
   if (given.max_object_size || given.min_object_size || given.concave_angle || given.min_support_area)
-    throw UsageError (std::string (given.max_object_size    ? "--max-object-size"
-                                   : given.min_object_size  ? "--min-object-size"
-                                   : given.concave_angle    ? "--concave-angle"
-                                                            : "--min-support-area") +
+    throw UsageError (std::string (given.max_object_size   ? "--max-object-size"
+                                   : given.min_object_size ? "--min-object-size"
+                                   : given.concave_angle   ? "--concave-angle"
+                                                           : "--min-support-area") +
                       " needs --method geometric");
   settings.network = networkSettings (given.network);
 }
@@ -133,7 +134,8 @@ parseSegmentCommandLine (int argc, const char* const* argv)
     throw UsageError ("OUTPUT is \"" + settings.output + "\"; it must be the name of a .pcd file");
   setMethod (given, settings);
   settings.ignored = ignoredArea (given.ignored);
-  refuseToOverwrite ({settings.input, settings.ignored.mask, given.network.model, given.network.model_config, given.network.class_names},
+  refuseToOverwrite ({settings.input, settings.ignored.mask, given.network.model, given.network.model_config,
+                      given.network.class_names},
                      {settings.output, settings.json});
   ObjectSegmentationOptions& options = settings.segmentation;
   options.max_object_size_m = given.max_object_size.value_or (options.max_object_size_m);

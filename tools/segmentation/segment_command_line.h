@@ -27,8 +27,7 @@ struct SegmentSettings
 };
 
 /** \brief What pcl_cosection_segment says about itself. */
-const ProgramText&
-segmentationText ();
+const ProgramText& segmentationText ();
 
 /** \brief Options as the user gives them. */
 struct GivenSegmentation
@@ -42,9 +41,7 @@ struct GivenSegmentation
   bool world_points = false, verbose = false, quiet = false;
 };
 
-void
-declareSegmentationOptions (CLI::App& app, GivenSegmentation& given);
+void declareSegmentationOptions (CLI::App& app, GivenSegmentation& given);
 
 /** \brief Read the command line. \return nothing if all that was asked for was printed \throws UsageError */
-std::optional<SegmentSettings>
-parseSegmentCommandLine (int argc, const char* const* argv);
+std::optional<SegmentSettings> parseSegmentCommandLine (int argc, const char* const* argv);

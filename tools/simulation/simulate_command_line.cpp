@@ -29,7 +29,8 @@ requirePreset (const std::string& option, const std::string& name)
 {
   const std::vector<std::string> names = presetNames ();
   if (std::find (names.begin (), names.end (), name) == names.end ())
-    throw UsageError (option + ": there is no preset " + name + suggestion (name, names) + "; --list-presets names them");
+    throw UsageError (option + ": there is no preset " + name + suggestion (name, names) +
+                      "; --list-presets names them");
 }
 
 void
@@ -60,14 +61,16 @@ simulationText ()
       "pcl_cosection_simulate",
       "render known scenes as an RGB-D camera sees them, with the truth",
       "pcl_cosection_simulate [OPTIONS] SPEC.json OUTPUT\n       pcl_cosection_simulate [OPTIONS] --preset NAME OUTPUT",
-      "Renders a known scene as an RGB-D camera sees it: colour, depth, masks, point clouds, and the truth to compare with.",
+      "Renders a known scene as an RGB-D camera sees it: colour, depth, masks, point clouds, and the truth to compare "
+      "with.",
       {"SPEC.json describes the scene: shapes or mesh files, how they and the camera move, the camera and its noise; "
        "--print-preset shows one, doc/pcl_cosection_simulate.md explains each field.",
        "OUTPUT is a new folder: colour/, depth_noise/ or depth/, mask/, views/ (labelled PCD files), gt-cam-0.txt, "
        "gt-NAME-ID.txt, gt-mesh/, calibration.txt, scene.json."},
       {
           {"pcl_cosection_simulate --preset table table", "things on a table, 81 frames, with their truth"},
-          {"pcl_cosection_simulate --preset toys --frames 0:50 --seed 7 toys", "a part of a sequence, with other noise"},
+          {"pcl_cosection_simulate --preset toys --frames 0:50 --seed 7 toys",
+           "a part of a sequence, with other noise"},
           {"pcl_cosection_simulate --preset stack --no-noise --views-every 10 stack",
            "exact depth, and a point cloud of every tenth frame"},
           {"pcl_cosection_simulate mine.json mine", "a scene of your own"},

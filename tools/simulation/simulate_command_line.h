@@ -27,8 +27,7 @@ struct SimulateSettings
 };
 
 /** \brief What pcl_cosection_simulate says about itself. */
-const ProgramText&
-simulationText ();
+const ProgramText& simulationText ();
 
 /** \brief Options as the user gives them. */
 struct GivenSimulation
@@ -40,9 +39,7 @@ struct GivenSimulation
   bool list_presets = false, no_noise = false, verbose = false, quiet = false;
 };
 
-void
-declareSimulationOptions (CLI::App& app, GivenSimulation& given);
+void declareSimulationOptions (CLI::App& app, GivenSimulation& given);
 
 /** \brief Read the command line. \return nothing if all that was asked for was printed \throws UsageError */
-std::optional<SimulateSettings>
-parseSimulateCommandLine (int argc, const char* const* argv);
+std::optional<SimulateSettings> parseSimulateCommandLine (int argc, const char* const* argv);

@@ -4,8 +4,8 @@
 
 #include "option_values.h"
 
+#include "pcl_cosection/visualization/scene_caption.h"
 #include <pcl/cosection/common/error.h>
-#include <pcl/cosection/visualization/scene_caption.h>
 
 #include <algorithm>
 #include <cmath>
@@ -30,7 +30,8 @@ joined (const std::vector<std::string>& words)
   return (text);
 }
 
-template <typename Mode> Mode
+template <typename Mode>
+Mode
 modeOf (const std::string& word, const std::vector<std::string>& words, Mode otherwise)
 {
   const auto found = std::find (words.begin (), words.end (), word);
@@ -42,21 +43,27 @@ declareWhat (CLI::App& app, GivenViewer& given)
 {
   const std::string group = "What";
   app.add_option ("paths", given.paths)->group ("")->configurable (false);
-  app.add_option ("--mode", given.mode, "The completed meshes, what was seen of the objects, or the readings of the frame (default: completed)")
+  app.add_option (
+         "--mode", given.mode,
+         "The completed meshes, what was seen of the objects, or the readings of the frame (default: completed)")
       ->option_text (joined (surfaceNames ()))
       ->check (oneOf (surfaceNames ()))
       ->group (group);
   app.add_option ("--colour", given.colour,
-                  "Real colours, one for each object, why a surface is where it is, how near a reading is, or the distance to the "
+                  "Real colours, one for each object, why a surface is where it is, how near a reading is, or the "
+                  "distance to the "
                   "truth (default: real)")
       ->option_text (joined (colourNames ()))
       ->check (oneOf (colourNames ()))
       ->group (group);
-  app.add_option ("--truth", given.truth, "Dataset with the truth, for --colour error")->option_text ("DATASET")->group (group);
+  app.add_option ("--truth", given.truth, "Dataset with the truth, for --colour error")
+      ->option_text ("DATASET")
+      ->group (group);
   app.add_option ("--dataset", given.dataset, "Images for --mode points (default: those that the run has read)")
       ->option_text ("DATASET")
       ->group (group);
-  app.add_option ("--frame", given.frame, "The stamp to show, or to begin with (default: the last; in a window, the first)")
+  app.add_option ("--frame", given.frame,
+                  "The stamp to show, or to begin with (default: the last; in a window, the first)")
       ->option_text ("STAMP")
       ->check (numberRange (-unlimited, unlimited))
       ->group (group);
@@ -73,15 +80,21 @@ declareView (CLI::App& app, GivenViewer& given)
 {
   const std::string group = "View";
   app.add_option ("--view", given.view,
-                  "From above and behind the cameras, from the other side, which the cameras did not see, or with the camera of the run "
+                  "From above and behind the cameras, from the other side, which the cameras did not see, or with the "
+                  "camera of the run "
                   "(default: overview)")
       ->option_text (joined (view_names))
       ->check (oneOf (view_names))
       ->group (group);
-  app.add_option ("--viewpoint", given.viewpoint, "A viewpoint that was saved in the window, instead")->option_text ("FILE")->group (group);
-  app.add_option ("--size", given.size, "Of the picture or the window, pixels (default: 1280x720)")->option_text ("WxH")->group (group);
+  app.add_option ("--viewpoint", given.viewpoint, "A viewpoint that was saved in the window, instead")
+      ->option_text ("FILE")
+      ->group (group);
+  app.add_option ("--size", given.size, "Of the picture or the window, pixels (default: 1280x720)")
+      ->option_text ("WxH")
+      ->group (group);
   app.add_option ("--triangles", given.triangles,
-                  "Draw the background with at most so many triangles and each object with half as many; 0: with all (default: 30000 in a window, for "
+                  "Draw the background with at most so many triangles and each object with half as many; 0: with all "
+                  "(default: 30000 in a window, for "
                   "speed; all in pictures)")
       ->option_text ("N")
       ->check (wholeRange (0, most_triangles))
@@ -95,7 +108,8 @@ declareOutput (CLI::App& app, GivenViewer& given)
   app.add_option ("--screenshot", given.screenshot, "Write a picture instead of opening a window; no display is needed")
       ->option_text ("FILE.png")
       ->group (group);
-  app.add_option ("--record", given.record, "Write a picture of every frame, Frame00001.png and so on; no display is needed")
+  app.add_option ("--record", given.record,
+                  "Write a picture of every frame, Frame00001.png and so on; no display is needed")
       ->option_text ("DIR")
       ->group (group);
   app.add_option ("--every", given.every, "Record every N-th frame only (default: 1)")
@@ -171,7 +185,8 @@ toSettings (const GivenViewer& given)
   settings.stamp = given.frame;
   if (given.frame && !settings.record.empty ())
     throw UsageError ("--frame and --record exclude each other: every frame is recorded");
-  settings.triangles = static_cast<std::size_t> (given.triangles.value_or (settings.needsWindow () ? window_triangles : 0));
+  settings.triangles = static_cast<std::size_t> (
+      given.triangles.value_or (settings.needsWindow () ? window_triangles : 0));
   settings.every = static_cast<std::size_t> (given.every.value_or (1));
   settings.threads = given.threads.value_or (0);
   SceneView& view = settings.view;
@@ -181,7 +196,8 @@ toSettings (const GivenViewer& given)
   if (view.colour == ColourMode::Error && settings.truth.empty ())
     throw UsageError ("--colour error needs the truth: --truth DATASET");
   view.boxes = given.boxes;
-  const std::vector<bool*> shown = {&view.objects, &view.background, &view.path, &view.frustum, &view.legend, &view.caption};
+  const std::vector<bool*> shown = {&view.objects, &view.background, &view.path,
+                                    &view.frustum, &view.legend,     &view.caption};
   for (const std::string& word : given.hidden)
     *shown[static_cast<std::size_t> (std::find (parts.begin (), parts.end (), word) - parts.begin ())] = false;
   view.validate ();
@@ -197,16 +213,19 @@ viewerText ()
       "pcl_cosection_viewer",
       "look at what pcl_cosection_fusion made of a sequence",
       "pcl_cosection_viewer [OPTIONS] OUTPUT",
-      "Shows the background and the objects of a run along their trajectories: in a window, or as pictures where there is no display.",
+      "Shows the background and the objects of a run along their trajectories: in a window, or as pictures where there "
+      "is no display.",
       {"OUTPUT is the folder that pcl_cosection_fusion wrote. It is only read.",
-       "In the window, the key h shows all keys: space plays, the arrows step, m and c change surfaces and colours, f follows the camera, "
+       "In the window, the key h shows all keys: space plays, the arrows step, m and c change surfaces and colours, f "
+       "follows the camera, "
        "v saves the viewpoint."},
       {
           {"pcl_cosection_viewer out", "a window"},
           {"pcl_cosection_viewer --screenshot scene.png out", "a picture of the last frame, without a display"},
           {"pcl_cosection_viewer --view behind --colour provenance --screenshot a.png out",
            "the surfaces that the camera did not see, and why they are where they are"},
-          {"pcl_cosection_viewer --colour error --truth toys --screenshot errors.png out", "the distance to the true surfaces"},
+          {"pcl_cosection_viewer --colour error --truth toys --screenshot errors.png out",
+           "the distance to the true surfaces"},
           {"pcl_cosection_viewer --record frames --view camera out", "pictures for a film, from where the camera was"},
       },
       {"colour = provenance", "size = 1920x1080"},

@@ -23,31 +23,26 @@ enum class ViewChoice
 /** \brief What the user of pcl_cosection_viewer asked for. */
 struct ViewerSettings
 {
-  std::string run;              ///< folder
-  std::string truth;            ///< dataset; empty: none
-  std::string dataset;          ///< of the input points; empty: the one that the run names
-  std::string viewpoint;        ///< file; empty: \a choice
+  std::string run;       ///< folder
+  std::string truth;     ///< dataset; empty: none
+  std::string dataset;   ///< of the input points; empty: the one that the run names
+  std::string viewpoint; ///< file; empty: \a choice
   ViewChoice choice = ViewChoice::Overview;
-  std::optional<double> stamp;  ///< nothing: the last
-  std::size_t triangles = 0;    ///< of each surface, at most; 0: all
-  std::string screenshot;       ///< file; empty: none
-  std::string record;           ///< folder; empty: none
-  std::size_t every = 1;        ///< frames, to record
-  std::string follow;           ///< folder of snapshots; empty: nothing is followed
+  std::optional<double> stamp; ///< nothing: the last
+  std::size_t triangles = 0;   ///< of each surface, at most; 0: all
+  std::string screenshot;      ///< file; empty: none
+  std::string record;          ///< folder; empty: none
+  std::size_t every = 1;       ///< frames, to record
+  std::string follow;          ///< folder of snapshots; empty: nothing is followed
   int threads = 0;
   Verbosity verbosity = Verbosity::Normal;
   pcl::cosection::SceneView view; ///< without a viewpoint
 
-  bool
-  needsWindow () const
-  {
-    return (screenshot.empty () && record.empty ());
-  }
+  bool needsWindow () const { return (screenshot.empty () && record.empty ()); }
 };
 
 /** \brief What pcl_cosection_viewer says about itself. */
-const ProgramText&
-viewerText ();
+const ProgramText& viewerText ();
 
 /** \brief Options as the user gives them. */
 struct GivenViewer
@@ -59,9 +54,7 @@ struct GivenViewer
   bool boxes = false, verbose = false, quiet = false;
 };
 
-void
-declareViewerOptions (CLI::App& app, GivenViewer& given);
+void declareViewerOptions (CLI::App& app, GivenViewer& given);
 
 /** \brief Read the command line. \return nothing if all that was asked for was printed \throws UsageError */
-std::optional<ViewerSettings>
-parseViewerCommandLine (int argc, const char* const* argv);
+std::optional<ViewerSettings> parseViewerCommandLine (int argc, const char* const* argv);

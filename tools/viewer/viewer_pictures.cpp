@@ -5,11 +5,11 @@
 #include "interruption.h"
 #include "output_files.h"
 
-#include <pcl/cosection/common/atomic_file.h>
+#include "pcl_cosection/common/atomic_file.h"
+#include "pcl_cosection/rendering/picture.h"
+#include "pcl_cosection/sequence/stamp_matching.h"
 #include <pcl/cosection/common/error.h>
 #include <pcl/cosection/evaluation/scene_folders.h>
-#include <pcl/cosection/io/stamp_matching.h>
-#include <pcl/cosection/rendering/picture.h>
 
 #include <array>
 #include <cmath>
@@ -48,8 +48,7 @@ public:
       reader_.emplace (scene, settings.dataset);
   }
 
-  void
-  draw (double stamp, const std::string& path) const
+  void draw (double stamp, const std::string& path) const
   {
     FramePoints points;
     if (reader_)
@@ -81,8 +80,8 @@ record (const ViewerSettings& settings, const RunScene& scene, Terminal& termina
       throw Cancelled ("cancelled");
     drawer.draw (stamps[n], (fs::path (settings.record) / nameOfFrame (++number)).string ());
   }
-  terminal.result ("wrote " + settings.record + ": " + std::to_string (number) + (number == 1 ? " frame of " : " frames of ") +
-                   sizeOf (settings.view));
+  terminal.result ("wrote " + settings.record + ": " + std::to_string (number) +
+                   (number == 1 ? " frame of " : " frames of ") + sizeOf (settings.view));
 }
 
 } // namespace
@@ -99,7 +98,8 @@ checkPictures (const ViewerSettings& settings)
   if (!settings.screenshot.empty ())
     requireWritable (settings.screenshot);
   std::error_code failure;
-  if (!settings.record.empty () && fs::exists (settings.record, failure) && !fs::is_directory (settings.record, failure))
+  if (!settings.record.empty () && fs::exists (settings.record, failure) &&
+      !fs::is_directory (settings.record, failure))
     throw IoError (settings.record + ": is a file; --record needs a folder");
 }
 
@@ -119,7 +119,8 @@ loadScene (const ViewerSettings& settings, Terminal& terminal)
   for (const std::string& warning : notes.warnings)
     terminal.warning (warning);
   if (scene.run.background.empty () && scene.tsdf.empty () &&
-      std::all_of (scene.run.objects.begin (), scene.run.objects.end (), [] (const auto& object) { return (object.mesh.empty ()); }))
+      std::all_of (scene.run.objects.begin (), scene.run.objects.end (),
+                   [] (const auto& object) { return (object.mesh.empty ()); }))
     terminal.warning (settings.run + ": has no meshes; there is only the path of the camera to show");
   if (!scene.run.intrinsics)
     terminal.warning (settings.run + ": its summary.json does not tell the camera; one of 640 x 480 pixels is assumed");
@@ -147,7 +148,8 @@ chosenFrame (const ViewerSettings& settings, const RunScene& scene, std::size_t 
     return (*frame);
   std::ostringstream text;
   text.precision (12);
-  text << "--frame " << *settings.stamp << ": the run has no such stamp; it has those from " << stamps.front () << " to " << stamps.back ();
+  text << "--frame " << *settings.stamp << ": the run has no such stamp; it has those from " << stamps.front ()
+       << " to " << stamps.back ();
   throw InvalidArgument (text.str ());
 }
 
@@ -159,6 +161,6 @@ writePictures (const ViewerSettings& settings, const RunScene& scene, Terminal& 
   const std::vector<double> stamps = scene.stamps ();
   const std::size_t frame = chosenFrame (settings, scene, stamps.size () - 1);
   FrameDrawer (settings, scene).draw (stamps[frame], settings.screenshot);
-  terminal.result ("wrote " + settings.screenshot + ": frame " + std::to_string (frame + 1) + " of " + std::to_string (stamps.size ()) + ", " +
-                   sizeOf (settings.view));
+  terminal.result ("wrote " + settings.screenshot + ": frame " + std::to_string (frame + 1) + " of " +
+                   std::to_string (stamps.size ()) + ", " + sizeOf (settings.view));
 }

@@ -38,16 +38,13 @@ emptyScene ()
 class FollowedRun
 {
 public:
-  FollowedRun (const ViewerSettings& settings, Terminal& terminal) : settings_ (settings), terminal_ (terminal)
-  {}
+  FollowedRun (const ViewerSettings& settings, Terminal& terminal) : settings_ (settings), terminal_ (terminal) {}
 
   FollowedRun (const FollowedRun&) = delete;
-  FollowedRun&
-  operator= (const FollowedRun&) = delete;
+  FollowedRun& operator= (const FollowedRun&) = delete;
 
   /** \brief The latest snapshot, or the result; nothing if it is not new. */
-  std::optional<SceneUpdate>
-  next ()
+  std::optional<SceneUpdate> next ()
   {
     if (ended_)
       return (std::nullopt);
@@ -73,8 +70,7 @@ public:
   }
 
 private:
-  static bool
-  inputEnded ()
+  static bool inputEnded ()
   {
     pollfd input = {STDIN_FILENO, POLLIN, 0};
     if (poll (&input, 1, 0) <= 0)
@@ -150,7 +146,8 @@ showWindow (const ViewerSettings& settings, Terminal& terminal)
 void
 showWindow (const ViewerSettings& /*settings*/, Terminal& /*terminal*/)
 {
-  throw pcl::cosection::IoError ("this program was built without a window; --screenshot FILE.png and --record DIR draw without one");
+  throw pcl::cosection::IoError (
+      "this program was built without a window; --screenshot FILE.png and --record DIR draw without one");
 }
 
 #endif

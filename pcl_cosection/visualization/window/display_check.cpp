@@ -8,9 +8,7 @@
 
 #include <cstdlib>
 
-namespace pcl
-{
-namespace cosection
+namespace pcl::cosection
 {
 
 // VTK ends the process where there is no display.
@@ -25,12 +23,12 @@ requireDisplay ()
       XCloseDisplay (d);
   });
   if (!display)
-    throw IoError ("no window can be opened: the display " + std::string (name) + " that DISPLAY names does not answer");
+    throw IoError ("no window can be opened: the display " + std::string (name) +
+                   " that DISPLAY names does not answer");
   int opcode = 0, event = 0, error = 0;
   if (XQueryExtension (display.get (), "GLX", &opcode, &event, &error) == 0)
     throw IoError ("no window can be opened: the display " + std::string (name) + " has no OpenGL (GLX)");
   return display;
 }
 
-} // namespace cosection
-} // namespace pcl
+} // namespace pcl::cosection

@@ -4,42 +4,24 @@
 
 #include <map>
 
-namespace pcl
-{
-namespace cosection
+namespace pcl::cosection
 {
 
 std::optional<WindowAction>
 actionOf (const std::string& key)
 {
-  static const std::map<std::string, WindowAction> actions = {{"space", WindowAction::Play},
-                                                              {"Right", WindowAction::Forward},
-                                                              {"Left", WindowAction::Back},
-                                                              {"Next", WindowAction::FarForward}, // page down
-                                                              {"Prior", WindowAction::FarBack},   // page up
-                                                              {"Home", WindowAction::First},
-                                                              {"End", WindowAction::Last},
-                                                              {"m", WindowAction::NextSurface},
-                                                              {"c", WindowAction::NextColour},
-                                                              {"f", WindowAction::Follow},
-                                                              {"o", WindowAction::Overview},
-                                                              {"b", WindowAction::Behind},
-                                                              {"v", WindowAction::SaveViewpoint},
-                                                              {"l", WindowAction::LoadViewpoint},
-                                                              {"g", WindowAction::Background},
-                                                              {"k", WindowAction::Boxes},
-                                                              {"t", WindowAction::Lines},
-                                                              {"Tab", WindowAction::NextObject},
-                                                              {"s", WindowAction::Slices},
-                                                              {"x", WindowAction::SliceX},
-                                                              {"y", WindowAction::SliceY},
-                                                              {"z", WindowAction::SliceZ},
-                                                              {"Up", WindowAction::SliceForward},
-                                                              {"Down", WindowAction::SliceBack},
-                                                              {"p", WindowAction::SavePicture},
-                                                              {"h", WindowAction::Help},
-                                                              {"q", WindowAction::Quit},
-                                                              {"Escape", WindowAction::Quit}};
+  static const std::map<std::string, WindowAction> actions = {
+      {"space", WindowAction::Play},      {"Right", WindowAction::Forward},   {"Left", WindowAction::Back},
+      {"Next", WindowAction::FarForward}, // page down
+      {"Prior", WindowAction::FarBack},   // page up
+      {"Home", WindowAction::First},      {"End", WindowAction::Last},        {"m", WindowAction::NextSurface},
+      {"c", WindowAction::NextColour},    {"f", WindowAction::Follow},        {"o", WindowAction::Overview},
+      {"b", WindowAction::Behind},        {"v", WindowAction::SaveViewpoint}, {"l", WindowAction::LoadViewpoint},
+      {"g", WindowAction::Background},    {"k", WindowAction::Boxes},         {"t", WindowAction::Lines},
+      {"Tab", WindowAction::NextObject},  {"s", WindowAction::Slices},        {"x", WindowAction::SliceX},
+      {"y", WindowAction::SliceY},        {"z", WindowAction::SliceZ},        {"Up", WindowAction::SliceForward},
+      {"Down", WindowAction::SliceBack},  {"p", WindowAction::SavePicture},   {"h", WindowAction::Help},
+      {"q", WindowAction::Quit},          {"Escape", WindowAction::Quit}};
   const auto found = actions.find (key);
   if (found == actions.end ())
     return std::nullopt;
@@ -72,5 +54,4 @@ keyHelp ()
   return help;
 }
 
-} // namespace cosection
-} // namespace pcl
+} // namespace pcl::cosection

@@ -6,9 +6,7 @@
 #include <string>
 #include <vector>
 
-namespace pcl
-{
-namespace cosection
+namespace pcl::cosection
 {
 
 /** \brief What a window can be told to do. */
@@ -44,8 +42,7 @@ enum class WindowAction
 };
 
 /** \brief By the name that X gives a key; nothing if it does nothing. */
-std::optional<WindowAction>
-actionOf (const std::string& key);
+std::optional<WindowAction> actionOf (const std::string& key);
 
 struct KeyHelp
 {
@@ -54,8 +51,6 @@ struct KeyHelp
 };
 
 /** \brief All keys, as people call them. */
-const std::vector<KeyHelp>&
-keyHelp ();
+const std::vector<KeyHelp>& keyHelp ();
 
-} // namespace cosection
-} // namespace pcl
+} // namespace pcl::cosection

@@ -8,9 +8,7 @@
 
 #include <utility>
 
-namespace pcl
-{
-namespace cosection
+namespace pcl::cosection
 {
 
 void
@@ -59,5 +57,4 @@ RunWindow::picture ()
   return impl_->picture ();
 }
 
-} // namespace cosection
-} // namespace pcl
+} // namespace pcl::cosection

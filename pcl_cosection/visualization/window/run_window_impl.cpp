@@ -2,11 +2,11 @@
 // Copyright (c) 2026, the pcl_cosection authors
 #include "run_window_impl.h"
 
+#include "pcl_cosection/visualization/scene_caption.h"
 #include <pcl/cosection/common/error.h>
-#include <pcl/cosection/visualization/scene_caption.h>
 
-#include <vtkCamera.h>
 #include <vtkCallbackCommand.h>
+#include <vtkCamera.h>
 #include <vtkImageData.h>
 #include <vtkInteractorStyleTrackballCamera.h>
 #include <vtkNew.h>
@@ -20,9 +20,7 @@
 #include <cmath>
 #include <functional>
 
-namespace pcl
-{
-namespace cosection
+namespace pcl::cosection
 {
 
 namespace
@@ -37,13 +35,10 @@ constexpr std::array<double, 3> paper = {246 / 255.0, 247 / 255.0, 249 / 255.0};
 class MouseStyle : public vtkInteractorStyleTrackballCamera
 {
 public:
-  static MouseStyle*
-  New ();
+  static MouseStyle* New ();
   vtkTypeMacro (MouseStyle, vtkInteractorStyleTrackballCamera);
 
-  void
-  OnChar () override
-  {}
+  void OnChar () override {}
 };
 vtkStandardNewMacro (MouseStyle);
 
@@ -51,14 +46,9 @@ vtkStandardNewMacro (MouseStyle);
 class FunctionCommand : public vtkCommand
 {
 public:
-  static FunctionCommand*
-  New ();
+  static FunctionCommand* New ();
 
-  void
-  Execute (vtkObject* /*caller*/, unsigned long /*event*/, void* /*data*/) override
-  {
-    function ();
-  }
+  void Execute (vtkObject* /*caller*/, unsigned long /*event*/, void* /*data*/) override { function (); }
 
   std::function<void ()> function;
 };
@@ -67,9 +57,13 @@ vtkStandardNewMacro (FunctionCommand);
 } // namespace
 
 RunWindow::Impl::Impl (RunScene scene, const RunWindowOptions& options)
-: options_ (options), scene_ (std::make_unique<RunScene> (std::move (scene))), stamps_ (scene_->stamps ()),
-  frame_ (std::min (options.first_frame, stamps_.size () - 1)), window_ (vtkSmartPointer<vtkRenderWindow>::New ()),
-  renderer_ (vtkSmartPointer<vtkRenderer>::New ()), interactor_ (vtkSmartPointer<vtkRenderWindowInteractor>::New ())
+    : options_ (options)
+    , scene_ (std::make_unique<RunScene> (std::move (scene)))
+    , stamps_ (scene_->stamps ())
+    , frame_ (std::min (options.first_frame, stamps_.size () - 1))
+    , window_ (vtkSmartPointer<vtkRenderWindow>::New ())
+    , renderer_ (vtkSmartPointer<vtkRenderer>::New ())
+    , interactor_ (vtkSmartPointer<vtkRenderWindowInteractor>::New ())
 {
   renderer_->SetBackground (paper[0], paper[1], paper[2]);
   window_->SetMultiSamples (0); // slow without a graphics card
@@ -208,11 +202,13 @@ RunWindow::Impl::takeScene (SceneUpdate update)
   stamps_ = scene_->stamps ();
   frame_ = stamps_.size () - 1;
   if (!was_last)
-    frame_ = std::min (frame_, static_cast<std::size_t> (std::lower_bound (stamps_.begin (), stamps_.end (), shown) - stamps_.begin ()));
+    frame_ = std::min (frame_, static_cast<std::size_t> (std::lower_bound (stamps_.begin (), stamps_.end (), shown) -
+                                                         stamps_.begin ()));
   actors_->setScene (*scene_);
   points_.reset ();
   options_.view.surface = update.surface.value_or (options_.view.surface);
-  dynamic_cast<vtkSliderRepresentation*> (slider_->GetRepresentation ())->SetMaximumValue (static_cast<double> (std::max<std::size_t> (2, stamps_.size ())));
+  dynamic_cast<vtkSliderRepresentation*> (slider_->GetRepresentation ())
+      ->SetMaximumValue (static_cast<double> (std::max<std::size_t> (2, stamps_.size ())));
   if (slices_.object == 0)
     nextObject ();
   draw ();
@@ -228,7 +224,8 @@ RunWindow::Impl::followCamera ()
   const int* size = window_->GetSize ();
   const PinholeCamera fitted = fittedCamera (scene_->camera (), std::max (1, size[0]), std::max (1, size[1]));
   vtkCamera* camera = renderer_->GetActiveCamera ();
-  const Eigen::Vector3d eye = pose->translation (), target = *pose * Eigen::Vector3d::UnitZ (), up = -pose->linear ().col (1);
+  const Eigen::Vector3d eye = pose->translation (), target = *pose * Eigen::Vector3d::UnitZ (),
+                        up = -pose->linear ().col (1);
   camera->SetPosition (eye.data ());
   camera->SetFocalPoint (target.data ());
   camera->SetViewUp (up.data ());
@@ -285,7 +282,8 @@ RunWindow::Impl::draw ()
   actors_->update (stamp (), view, slices_, points_, options_.threads);
   dynamic_cast<vtkSliderRepresentation*> (slider_->GetRepresentation ())->SetValue (static_cast<double> (frame_ + 1));
   overlay_->setCaption (view.caption ? sceneCaption (*scene_, stamp (), view.surface, view.colour) : "");
-  overlay_->setLegend (view.legend && view.surface != SurfaceMode::Points ? legendOf (*scene_, view.colour) : ColourLegend ());
+  overlay_->setLegend (view.legend && view.surface != SurfaceMode::Points ? legendOf (*scene_, view.colour)
+                                                                          : ColourLegend ());
   renderer_->ResetCameraClippingRange ();
   window_->Render ();
 }
@@ -319,5 +317,4 @@ RunWindow::Impl::say (const std::string& line, bool message)
   message_time_ = std::chrono::steady_clock::now ();
 }
 
-} // namespace cosection
-} // namespace pcl
+} // namespace pcl::cosection

@@ -22,9 +22,7 @@
 #include <string>
 #include <vector>
 
-namespace pcl
-{
-namespace cosection
+namespace pcl::cosection
 {
 
 /** \brief The window, and what it is told by keys, mouse, slider and time. */
@@ -34,62 +32,36 @@ public:
   Impl (RunScene scene, const RunWindowOptions& options);
   ~Impl ();
 
-  void
-  run ();
-  void
-  goTo (std::size_t frame);
-  void
-  press (const std::string& key);
-  Picture
-  picture ();
+  void run ();
+  void goTo (std::size_t frame);
+  void press (const std::string& key);
+  Picture picture ();
 
 private:
-  void
-  makeSlider ();
-  void
-  observe ();
-  void
-  perform (WindowAction action);
-  void
-  performView (WindowAction action);
-  void
-  performSlices (WindowAction action);
-  void
-  onTimer ();
-  void
-  takeScene (SceneUpdate update);
-  void
-  nextSurface ();
-  void
-  nextColour ();
-  void
-  nextObject ();
-  void
-  saveViewpoint ();
-  void
-  loadViewpoint ();
-  void
-  savePicture ();
+  void makeSlider ();
+  void observe ();
+  void perform (WindowAction action);
+  void performView (WindowAction action);
+  void performSlices (WindowAction action);
+  void onTimer ();
+  void takeScene (SceneUpdate update);
+  void nextSurface ();
+  void nextColour ();
+  void nextObject ();
+  void saveViewpoint ();
+  void loadViewpoint ();
+  void savePicture ();
   /** \brief Look from there; nothing: follow the camera. */
-  void
-  look (const std::optional<Viewpoint>& viewpoint);
+  void look (const std::optional<Viewpoint>& viewpoint);
   /** \brief From where it is looked at now. */
-  Viewpoint
-  viewpoint () const;
+  Viewpoint viewpoint () const;
   /** \brief Stand where the camera of the run is. */
-  void
-  followCamera ();
+  void followCamera ();
   /** \brief Show the frame as everything is set now. */
-  void
-  draw ();
-  double
-  stamp () const
-  {
-    return stamps_[frame_];
-  }
+  void draw ();
+  double stamp () const { return stamps_[frame_]; }
   /** \brief Tell who listens; and on the window, if \a message. */
-  void
-  say (const std::string& line, bool message);
+  void say (const std::string& line, bool message);
 
   RunWindowOptions options_;
   std::unique_ptr<RunScene> scene_;
@@ -112,5 +84,4 @@ private:
   std::chrono::steady_clock::time_point last_step_, last_look_, message_time_;
 };
 
-} // namespace cosection
-} // namespace pcl
+} // namespace pcl::cosection

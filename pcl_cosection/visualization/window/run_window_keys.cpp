@@ -5,9 +5,9 @@
 
 #include "run_window_impl.h"
 
+#include "pcl_cosection/rendering/picture.h"
+#include "pcl_cosection/visualization/scene_caption.h"
 #include <pcl/cosection/common/error.h>
-#include <pcl/cosection/rendering/picture.h>
-#include <pcl/cosection/visualization/scene_caption.h>
 
 #include <algorithm>
 #include <array>
@@ -16,9 +16,7 @@
 #include <cstdio>
 #include <filesystem>
 
-namespace pcl
-{
-namespace cosection
+namespace pcl::cosection
 {
 
 namespace
@@ -50,47 +48,47 @@ RunWindow::Impl::perform (WindowAction action)
 {
   switch (action)
   {
-    case WindowAction::Play:
-      playing_ = !playing_;
-      if (playing_ && frame_ + 1 == stamps_.size ())
-        goTo (0);
-      last_step_ = std::chrono::steady_clock::now ();
-      return say (playing_ ? "play" : "play paused", false);
-    case WindowAction::Forward:
-      return goTo (frame_ + 1);
-    case WindowAction::Back:
-      return goTo (frame_ - std::min<std::size_t> (frame_, 1));
-    case WindowAction::FarForward:
-      return goTo (frame_ + far_frames);
-    case WindowAction::FarBack:
-      return goTo (frame_ - std::min (frame_, far_frames));
-    case WindowAction::First:
-      return goTo (0);
-    case WindowAction::Last:
-      return goTo (stamps_.size () - 1);
-    case WindowAction::NextSurface:
-      return nextSurface ();
-    case WindowAction::NextColour:
-      return nextColour ();
-    case WindowAction::SavePicture:
-      return savePicture ();
-    case WindowAction::Help:
-      help_ = !help_;
-      overlay_->showHelp (help_);
-      say (std::string ("help ") + onOff (help_), false);
-      return draw ();
-    case WindowAction::Quit:
-      return interactor_->TerminateApp ();
-    case WindowAction::NextObject:
-    case WindowAction::Slices:
-    case WindowAction::SliceX:
-    case WindowAction::SliceY:
-    case WindowAction::SliceZ:
-    case WindowAction::SliceForward:
-    case WindowAction::SliceBack:
-      return performSlices (action);
-    default:
-      return performView (action);
+  case WindowAction::Play:
+    playing_ = !playing_;
+    if (playing_ && frame_ + 1 == stamps_.size ())
+      goTo (0);
+    last_step_ = std::chrono::steady_clock::now ();
+    return say (playing_ ? "play" : "play paused", false);
+  case WindowAction::Forward:
+    return goTo (frame_ + 1);
+  case WindowAction::Back:
+    return goTo (frame_ - std::min<std::size_t> (frame_, 1));
+  case WindowAction::FarForward:
+    return goTo (frame_ + far_frames);
+  case WindowAction::FarBack:
+    return goTo (frame_ - std::min (frame_, far_frames));
+  case WindowAction::First:
+    return goTo (0);
+  case WindowAction::Last:
+    return goTo (stamps_.size () - 1);
+  case WindowAction::NextSurface:
+    return nextSurface ();
+  case WindowAction::NextColour:
+    return nextColour ();
+  case WindowAction::SavePicture:
+    return savePicture ();
+  case WindowAction::Help:
+    help_ = !help_;
+    overlay_->showHelp (help_);
+    say (std::string ("help ") + onOff (help_), false);
+    return draw ();
+  case WindowAction::Quit:
+    return interactor_->TerminateApp ();
+  case WindowAction::NextObject:
+  case WindowAction::Slices:
+  case WindowAction::SliceX:
+  case WindowAction::SliceY:
+  case WindowAction::SliceZ:
+  case WindowAction::SliceForward:
+  case WindowAction::SliceBack:
+    return performSlices (action);
+  default:
+    return performView (action);
   }
 }
 
@@ -100,35 +98,35 @@ RunWindow::Impl::performView (WindowAction action)
   SceneView& view = options_.view;
   switch (action)
   {
-    case WindowAction::Follow:
-      look (view.viewpoint ? std::nullopt : std::optional<Viewpoint> (viewpoint ()));
-      say (view.viewpoint ? "view is free" : "view follows the camera", true);
-      break;
-    case WindowAction::Overview:
-    case WindowAction::Behind:
-      look (overview (*scene_, action == WindowAction::Behind ? M_PI : 0.0));
-      say (action == WindowAction::Behind ? "view from behind" : "view from above", true);
-      break;
-    case WindowAction::SaveViewpoint:
-      saveViewpoint ();
-      break;
-    case WindowAction::LoadViewpoint:
-      loadViewpoint ();
-      break;
-    case WindowAction::Background:
-      view.background = !view.background;
-      say (std::string ("background ") + onOff (view.background), false);
-      break;
-    case WindowAction::Boxes:
-      view.boxes = !view.boxes;
-      say (std::string ("boxes ") + onOff (view.boxes), false);
-      break;
-    case WindowAction::Lines:
-      view.path = view.frustum = !(view.path || view.frustum);
-      say (std::string ("path ") + onOff (view.path), false);
-      break;
-    default:
-      break;
+  case WindowAction::Follow:
+    look (view.viewpoint ? std::nullopt : std::optional<Viewpoint> (viewpoint ()));
+    say (view.viewpoint ? "view is free" : "view follows the camera", true);
+    break;
+  case WindowAction::Overview:
+  case WindowAction::Behind:
+    look (overview (*scene_, action == WindowAction::Behind ? M_PI : 0.0));
+    say (action == WindowAction::Behind ? "view from behind" : "view from above", true);
+    break;
+  case WindowAction::SaveViewpoint:
+    saveViewpoint ();
+    break;
+  case WindowAction::LoadViewpoint:
+    loadViewpoint ();
+    break;
+  case WindowAction::Background:
+    view.background = !view.background;
+    say (std::string ("background ") + onOff (view.background), false);
+    break;
+  case WindowAction::Boxes:
+    view.boxes = !view.boxes;
+    say (std::string ("boxes ") + onOff (view.boxes), false);
+    break;
+  case WindowAction::Lines:
+    view.path = view.frustum = !(view.path || view.frustum);
+    say (std::string ("path ") + onOff (view.path), false);
+    break;
+  default:
+    break;
   }
   draw ();
 }
@@ -138,31 +136,35 @@ RunWindow::Impl::performSlices (WindowAction action)
 {
   switch (action)
   {
-    case WindowAction::NextObject:
-      nextObject ();
-      break;
-    case WindowAction::Slices:
-      slices_.shown = !slices_.shown;
-      say (std::string ("slices ") + onOff (slices_.shown) + (slices_.shown ? " of object " + std::to_string (slices_.object) : ""), true);
-      break;
-    case WindowAction::SliceX:
-    case WindowAction::SliceY:
-    case WindowAction::SliceZ:
-    {
-      const int axis = action == WindowAction::SliceX ? 0 : action == WindowAction::SliceY ? 1 : 2;
-      bool& is_shown = slices_.axes[static_cast<std::size_t> (axis)];
-      is_shown = !is_shown || chosen_axis_ != axis; // the first time, it is only chosen
-      chosen_axis_ = axis;
-      say ("slices across " + std::string (1, "xyz"[axis]) + " " + onOff (is_shown), true);
-      break;
-    }
-    default:
-    {
-      double& share = slices_.shares[static_cast<std::size_t> (chosen_axis_)];
-      share = std::clamp (share + (action == WindowAction::SliceForward ? slice_step : -slice_step), 0.0, 1.0);
-      say ("slices across " + std::string (1, "xyz"[chosen_axis_]) + " at " + std::to_string (std::lround (100.0 * share)) + " %", true);
-      break;
-    }
+  case WindowAction::NextObject:
+    nextObject ();
+    break;
+  case WindowAction::Slices:
+    slices_.shown = !slices_.shown;
+    say (std::string ("slices ") + onOff (slices_.shown) +
+             (slices_.shown ? " of object " + std::to_string (slices_.object) : ""),
+         true);
+    break;
+  case WindowAction::SliceX:
+  case WindowAction::SliceY:
+  case WindowAction::SliceZ:
+  {
+    const int axis = action == WindowAction::SliceX ? 0 : action == WindowAction::SliceY ? 1 : 2;
+    bool& is_shown = slices_.axes[static_cast<std::size_t> (axis)];
+    is_shown = !is_shown || chosen_axis_ != axis; // the first time, it is only chosen
+    chosen_axis_ = axis;
+    say ("slices across " + std::string (1, "xyz"[axis]) + " " + onOff (is_shown), true);
+    break;
+  }
+  default:
+  {
+    double& share = slices_.shares[static_cast<std::size_t> (chosen_axis_)];
+    share = std::clamp (share + (action == WindowAction::SliceForward ? slice_step : -slice_step), 0.0, 1.0);
+    say ("slices across " + std::string (1, "xyz"[chosen_axis_]) + " at " +
+             std::to_string (std::lround (100.0 * share)) + " %",
+         true);
+    break;
+  }
   }
   draw ();
 }
@@ -186,7 +188,8 @@ RunWindow::Impl::nextSurface ()
     }
   }
   draw ();
-  say ("surfaces " + surfaceNames ()[static_cast<std::size_t> (surface)] + (problem.empty () ? "" : "; " + problem), !problem.empty ());
+  say ("surfaces " + surfaceNames ()[static_cast<std::size_t> (surface)] + (problem.empty () ? "" : "; " + problem),
+       !problem.empty ());
   if (!problem.empty ())
     window_->Render ();
 }
@@ -273,5 +276,4 @@ RunWindow::Impl::savePicture ()
   draw ();
 }
 
-} // namespace cosection
-} // namespace pcl
+} // namespace pcl::cosection

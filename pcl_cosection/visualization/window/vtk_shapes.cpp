@@ -13,9 +13,7 @@
 
 #include <algorithm>
 
-namespace pcl
-{
-namespace cosection
+namespace pcl::cosection
 {
 
 namespace
@@ -66,7 +64,8 @@ toPolyData (const TriangleMesh& mesh)
   auto data = vtkSmartPointer<vtkPolyData>::New ();
   data->SetPoints (toPoints (mesh.vertices));
   vtkNew<vtkCellArray> triangles;
-  triangles->AllocateExact (static_cast<vtkIdType> (mesh.triangles.size ()), 3 * static_cast<vtkIdType> (mesh.triangles.size ()));
+  triangles->AllocateExact (static_cast<vtkIdType> (mesh.triangles.size ()),
+                            3 * static_cast<vtkIdType> (mesh.triangles.size ()));
   for (const TriangleMesh::Triangle& t : mesh.triangles)
     triangles->InsertNextCell ({vtkIdType{t[0]}, vtkIdType{t[1]}, vtkIdType{t[2]}});
   data->SetPolys (triangles);
@@ -158,5 +157,4 @@ makeActor (const SdfSlice& slice)
   return actor;
 }
 
-} // namespace cosection
-} // namespace pcl
+} // namespace pcl::cosection

@@ -2,12 +2,12 @@
 // Copyright (c) 2026, the pcl_cosection authors
 #pragma once
 
-#include "../scene_lines.h"
+#include "pcl_cosection/visualization/scene_lines.h"
 
+#include "pcl_cosection/visualization/sdf_slices.h"
 #include <pcl/cosection/common/image.h>
 #include <pcl/cosection/common/triangle_mesh.h>
 #include <pcl/cosection/visualization/frame_points.h>
-#include <pcl/cosection/visualization/sdf_slices.h>
 
 #include <vtkActor.h>
 #include <vtkImageData.h>
@@ -20,35 +20,25 @@
 
 #include <vector>
 
-namespace pcl
-{
-namespace cosection
+namespace pcl::cosection
 {
 
 /** \brief Triangles and normals, without colours. */
-vtkSmartPointer<vtkPolyData>
-toPolyData (const TriangleMesh& mesh);
+vtkSmartPointer<vtkPolyData> toPolyData (const TriangleMesh& mesh);
 
 /** \brief One per point. */
-vtkSmartPointer<vtkUnsignedCharArray>
-toColours (const std::vector<TriangleMesh::Colour>& colours);
+vtkSmartPointer<vtkUnsignedCharArray> toColours (const std::vector<TriangleMesh::Colour>& colours);
 
-vtkSmartPointer<vtkPolyData>
-toPolyData (const std::vector<SceneLine>& lines);
+vtkSmartPointer<vtkPolyData> toPolyData (const std::vector<SceneLine>& lines);
 
-vtkSmartPointer<vtkPolyData>
-toPolyData (const FramePoints& points);
+vtkSmartPointer<vtkPolyData> toPolyData (const FramePoints& points);
 
-vtkSmartPointer<vtkMatrix4x4>
-toMatrix (const Eigen::Isometry3d& pose);
+vtkSmartPointer<vtkMatrix4x4> toMatrix (const Eigen::Isometry3d& pose);
 
 /** \brief An actor that shows the colours of its points as they are. */
-vtkSmartPointer<vtkActor>
-makeActor (vtkPolyData* data);
+vtkSmartPointer<vtkActor> makeActor (vtkPolyData* data);
 
 /** \brief A picture in space, unlit. */
-vtkSmartPointer<vtkActor>
-makeActor (const SdfSlice& slice);
+vtkSmartPointer<vtkActor> makeActor (const SdfSlice& slice);
 
-} // namespace cosection
-} // namespace pcl
+} // namespace pcl::cosection

@@ -5,7 +5,7 @@
 #include "key_bindings.h"
 #include "vtk_shapes.h"
 
-#include <pcl/cosection/evaluation/error_picture.h>
+#include "pcl_cosection/evaluation/pictures/error_picture.h"
 
 #include <vtkCoordinate.h>
 #include <vtkLookupTable.h>
@@ -20,9 +20,7 @@
 #include <array>
 #include <cmath>
 
-namespace pcl
-{
-namespace cosection
+namespace pcl::cosection
 {
 
 namespace
@@ -68,15 +66,19 @@ helpText ()
     width = std::max (width, key.keys.size ());
   std::string text;
   for (const KeyHelp& key : keyHelp ())
-    text += (text.empty () ? "" : "\n") + std::string (" ") + key.keys + std::string (width + 2 - key.keys.size (), ' ') + key.meaning + " ";
+    text += (text.empty () ? "" : "\n") + std::string (" ") + key.keys +
+            std::string (width + 2 - key.keys.size (), ' ') + key.meaning + " ";
   return text;
 }
 
 } // namespace
 
 WindowOverlay::WindowOverlay (vtkRenderer& renderer)
-: caption_ (makeText (renderer, 0.012, 0.1, false)), message_ (makeText (renderer, 0.012, 0.15, false)), help_ (makeText (renderer, 0.012, 0.98, true)),
-  scale_ (vtkSmartPointer<vtkScalarBarActor>::New ()), entries_ (vtkSmartPointer<vtkLegendBoxActor>::New ())
+    : caption_ (makeText (renderer, 0.012, 0.1, false))
+    , message_ (makeText (renderer, 0.012, 0.15, false))
+    , help_ (makeText (renderer, 0.012, 0.98, true))
+    , scale_ (vtkSmartPointer<vtkScalarBarActor>::New ())
+    , entries_ (vtkSmartPointer<vtkLegendBoxActor>::New ())
 {
   help_->GetTextProperty ()->SetFontFamilyToCourier ();
   help_->GetTextProperty ()->SetFontSize (text_px - 1);
@@ -174,5 +176,4 @@ WindowOverlay::showHelp (bool shown)
   help_->SetVisibility (shown);
 }
 
-} // namespace cosection
-} // namespace pcl
+} // namespace pcl::cosection

@@ -12,9 +12,7 @@
 
 #include <string>
 
-namespace pcl
-{
-namespace cosection
+namespace pcl::cosection
 {
 
 /** \brief What is written over the scene: caption, what colours mean, the keys. */
@@ -24,18 +22,14 @@ public:
   explicit WindowOverlay (vtkRenderer& renderer);
 
   /** \brief What is shown; empty: nothing. */
-  void
-  setCaption (const std::string& text);
+  void setCaption (const std::string& text);
 
   /** \brief A line that tells what a key has done; empty: nothing. */
-  void
-  setMessage (const std::string& text);
+  void setMessage (const std::string& text);
 
-  void
-  setLegend (const ColourLegend& legend);
+  void setLegend (const ColourLegend& legend);
 
-  void
-  showHelp (bool shown);
+  void showHelp (bool shown);
 
 private:
   vtkSmartPointer<vtkTextActor> caption_, message_, help_;
@@ -43,5 +37,4 @@ private:
   vtkSmartPointer<vtkLegendBoxActor> entries_;
 };
 
-} // namespace cosection
-} // namespace pcl
+} // namespace pcl::cosection

@@ -13,9 +13,7 @@
 
 #include <algorithm>
 
-namespace pcl
-{
-namespace cosection
+namespace pcl::cosection
 {
 
 namespace
@@ -70,7 +68,9 @@ void
 WindowScene::showLines (double stamp, const SceneView& view)
 {
   std::vector<SceneLine> lines;
-  const auto add = [&lines] (const std::vector<SceneLine>& more) { lines.insert (lines.end (), more.begin (), more.end ()); };
+  const auto add = [&lines] (const std::vector<SceneLine>& more) {
+    lines.insert (lines.end (), more.begin (), more.end ());
+  };
   const std::optional<Eigen::Isometry3d> camera = scene_->cameraAt (stamp);
   if (view.path && view.viewpoint)
     add (pathLines (*scene_, stamp));
@@ -145,7 +145,8 @@ WindowScene::showSlices (double stamp, const SliceChoice& slices, int threads)
 }
 
 void
-WindowScene::update (double stamp, const SceneView& view, const SliceChoice& slices, const std::shared_ptr<const FramePoints>& points, int threads)
+WindowScene::update (double stamp, const SceneView& view, const SliceChoice& slices,
+                     const std::shared_ptr<const FramePoints>& points, int threads)
 {
   for (const auto& [key, surface] : surfaces_)
     surface.actor->SetVisibility (false);
@@ -166,5 +167,4 @@ WindowScene::update (double stamp, const SceneView& view, const SliceChoice& sli
   showSlices (stamp, slices, threads);
 }
 
-} // namespace cosection
-} // namespace pcl
+} // namespace pcl::cosection

@@ -2,10 +2,10 @@
 // Copyright (c) 2026, the pcl_cosection authors
 #pragma once
 
+#include "pcl_cosection/visualization/sdf_slices.h"
 #include <pcl/cosection/visualization/frame_points.h>
 #include <pcl/cosection/visualization/run_scene.h>
 #include <pcl/cosection/visualization/scene_picture.h>
-#include <pcl/cosection/visualization/sdf_slices.h>
 
 #include <vtkActor.h>
 #include <vtkRenderer.h>
@@ -16,34 +16,30 @@
 #include <memory>
 #include <optional>
 
-namespace pcl
-{
-namespace cosection
+namespace pcl::cosection
 {
 
 /** \brief Cuts through the signed distance of an object. */
 struct SliceChoice
 {
   bool shown = false;
-  int object = 0;                                     ///< id
-  std::array<bool, 3> axes = {true, true, true};      ///< planes across x, y, z
-  std::array<double, 3> shares = {0.5, 0.5, 0.5};     ///< where they are
+  int object = 0;                                 ///< id
+  std::array<bool, 3> axes = {true, true, true};  ///< planes across x, y, z
+  std::array<double, 3> shares = {0.5, 0.5, 0.5}; ///< where they are
 };
 
 /** \brief The surfaces, points and lines of a run in a VTK renderer. */
 class WindowScene
 {
 public:
-  explicit WindowScene (vtkRenderer& renderer) : renderer_ (renderer)
-  {}
+  explicit WindowScene (vtkRenderer& renderer) : renderer_ (renderer) {}
 
   /** \brief Show other surfaces from now on. */
-  void
-  setScene (const RunScene& scene);
+  void setScene (const RunScene& scene);
 
   /** \brief Show a frame. \param[in] points of it, for SurfaceMode::Points; may be null */
-  void
-  update (double stamp, const SceneView& view, const SliceChoice& slices, const std::shared_ptr<const FramePoints>& points, int threads);
+  void update (double stamp, const SceneView& view, const SliceChoice& slices,
+               const std::shared_ptr<const FramePoints>& points, int threads);
 
 private:
   struct Surface
@@ -54,14 +50,10 @@ private:
   using Key = std::pair<int, SurfaceMode>; // object and mode
 
   /** \brief The actor of a surface, made when it is asked for; null: there is no such mesh. */
-  vtkActor*
-  surface (int id, SurfaceMode mode, ColourMode colour);
-  void
-  showLines (double stamp, const SceneView& view);
-  void
-  showPoints (const std::shared_ptr<const FramePoints>& points);
-  void
-  showSlices (double stamp, const SliceChoice& slices, int threads);
+  vtkActor* surface (int id, SurfaceMode mode, ColourMode colour);
+  void showLines (double stamp, const SceneView& view);
+  void showPoints (const std::shared_ptr<const FramePoints>& points);
+  void showSlices (double stamp, const SliceChoice& slices, int threads);
 
   vtkRenderer& renderer_;
   const RunScene* scene_ = nullptr;
@@ -74,5 +66,4 @@ private:
   SliceChoice drawn_slices_;
 };
 
-} // namespace cosection
-} // namespace pcl
+} // namespace pcl::cosection

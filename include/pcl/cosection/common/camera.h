@@ -10,9 +10,7 @@
 #include <string>
 #include <vector>
 
-namespace pcl
-{
-namespace cosection
+namespace pcl::cosection
 {
 
 /** \brief A pinhole camera without distortion: pixel (u, v) of integer coordinates is the centre of
@@ -27,22 +25,16 @@ struct PCL_COSECTION_EXPORT PinholeCamera
   double cy = 0.0; ///< principal point, pixels
 
   /** \brief Pixel coordinates of a point of the sensor frame with z > 0. */
-  Eigen::Vector2d
-  project (const Eigen::Vector3d& p) const
+  Eigen::Vector2d project (const Eigen::Vector3d& p) const
   {
     return {fx * p.x () / p.z () + cx, fy * p.y () / p.z () + cy};
   }
 
   /** \brief Point of the sensor frame at depth \a z (metres along the optical axis). */
-  Eigen::Vector3d
-  unproject (double u, double v, double z) const
-  {
-    return {(u - cx) / fx * z, (v - cy) / fy * z, z};
-  }
+  Eigen::Vector3d unproject (double u, double v, double z) const { return {(u - cx) / fx * z, (v - cy) / fy * z, z}; }
 
   /** \brief \throws InvalidArgument if the size or a focal length is not positive and finite. */
-  void
-  validate () const;
+  void validate () const;
 };
 
 /** \brief One depth image and where it was taken from. */
@@ -53,16 +45,11 @@ struct PCL_COSECTION_EXPORT DepthView
   Eigen::Isometry3d T_world_sensor = Eigen::Isometry3d::Identity ();
   std::string name = {}; ///< in warnings; empty: its number is told
 
-  float
-  at (int u, int v) const
-  {
-    return depth[static_cast<std::size_t> (v) * camera.width + u];
-  }
+  float at (int u, int v) const { return depth[static_cast<std::size_t> (v) * camera.width + u]; }
 
   /** \brief \throws InvalidArgument if the camera is not valid, there is not one depth per pixel, or the pose is not
    * finite. */
-  void
-  validate () const;
+  void validate () const;
 };
 
 /** \brief Standard deviation of the depth of a structured-light sensor at range \a z, metres
@@ -79,8 +66,7 @@ depthNoiseSigma (double z)
  * \param[in] points width * height points, row by row; not finite: no reading
  * \return nothing if fewer than 50 points are usable, or the residual's root mean square exceeds
  * half a pixel (the cloud is not a pinhole's image) */
-PCL_COSECTION_EXPORT std::optional<PinholeCamera>
-fitPinholeCamera (const std::vector<Eigen::Vector3f>& points, int width, int height);
+PCL_COSECTION_EXPORT std::optional<PinholeCamera> fitPinholeCamera (const std::vector<Eigen::Vector3f>& points,
+                                                                    int width, int height);
 
-} // namespace cosection
-} // namespace pcl
+} // namespace pcl::cosection

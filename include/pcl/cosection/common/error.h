@@ -7,9 +7,7 @@
 #include <stdexcept>
 #include <string>
 
-namespace pcl
-{
-namespace cosection
+namespace pcl::cosection
 {
 
 /** \brief Base of everything the library throws; what () is one line fit for a user. */
@@ -60,5 +58,4 @@ public:
   ~Cancelled () override;
 };
 
-} // namespace cosection
-} // namespace pcl
+} // namespace pcl::cosection

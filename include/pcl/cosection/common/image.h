@@ -7,31 +7,22 @@
 #include <cstdint>
 #include <vector>
 
-namespace pcl
-{
-namespace cosection
+namespace pcl::cosection
 {
 
 /** \brief An image, row by row. */
-template <typename Pixel>
-struct Image
+template <typename Pixel> struct Image
 {
   Image () = default;
   Image (int width, int height, const Pixel& value = Pixel ())
-  : width (width), height (height), pixels (static_cast<std::size_t> (width) * height, value)
+      : width (width)
+      , height (height)
+      , pixels (static_cast<std::size_t> (width) * height, value)
   {}
 
-  Pixel&
-  at (int u, int v)
-  {
-    return pixels[static_cast<std::size_t> (v) * width + u];
-  }
+  Pixel& at (int u, int v) { return pixels[static_cast<std::size_t> (v) * width + u]; }
 
-  const Pixel&
-  at (int u, int v) const
-  {
-    return pixels[static_cast<std::size_t> (v) * width + u];
-  }
+  const Pixel& at (int u, int v) const { return pixels[static_cast<std::size_t> (v) * width + u]; }
 
   int width = 0;
   int height = 0;
@@ -41,5 +32,8 @@ struct Image
 /** \brief An 8-bit colour picture: red, green, blue. */
 using Picture = Image<std::array<std::uint8_t, 3>>;
 
-} // namespace cosection
-} // namespace pcl
+/** \brief Label of a pixel that shows neither an object nor the background, a person for example: nothing is tracked by
+ * it, it is in no model, and it is never completed. */
+constexpr std::uint16_t ignored_label = 65535;
+
+} // namespace pcl::cosection

@@ -7,9 +7,7 @@
 
 #include <cstddef>
 
-namespace pcl
-{
-namespace cosection
+namespace pcl::cosection
 {
 
 /** \brief How far decimate () goes, and what it must not do. */
@@ -23,8 +21,7 @@ struct PCL_COSECTION_EXPORT DecimationOptions
   double boundary_weight = 10.0; ///< weight of the distance to an open boundary, relative to that to the surface
 
   /** \brief \throws InvalidArgument naming the first parameter outside its domain. */
-  void
-  validate () const;
+  void validate () const;
 };
 
 /** \brief The same surface with fewer triangles: edges collapse, the least harmful first, until no more than
@@ -41,8 +38,8 @@ struct PCL_COSECTION_EXPORT DecimationOptions
  * characteristic and its boundaries. No component disappears, and no triangle flips, so the surface hardly ever cuts
  * through itself unless the target is near the least that its handles allow. If the target cannot be reached
  * under these conditions (a closed component has no less than 4 triangles, one with handles needs more), the result is
- * the smallest that was reached. Of a closed mesh whose volume would shrink to less than a tenth, as with thin walls that fall onto each
- * other, or be turned inside out, more triangles are left.
+ * the smallest that was reached. Of a closed mesh whose volume would shrink to less than a tenth, as with thin walls
+ * that fall onto each other, or be turned inside out, more triangles are left.
  *
  * Normals are computed anew, from the triangles and their angles at each vertex. Colours, intensity and confidence are
  * interpolated along the collapsed edges, provenance is that of the nearer end. Empty arrays stay empty. Vertices that
@@ -55,12 +52,9 @@ struct PCL_COSECTION_EXPORT DecimationOptions
  * \endcode
  * \throws InvalidArgument if an option is outside its domain, or the mesh is to shrink but is not a manifold (with or
  * without boundary, consistently oriented) or has a vertex that is not finite */
-PCL_COSECTION_EXPORT TriangleMesh
-decimate (const TriangleMesh& mesh, const DecimationOptions& options);
+PCL_COSECTION_EXPORT TriangleMesh decimate (const TriangleMesh& mesh, const DecimationOptions& options);
 
 /** \brief As above, with the defaults of the other options. */
-PCL_COSECTION_EXPORT TriangleMesh
-decimate (const TriangleMesh& mesh, std::size_t max_triangles);
+PCL_COSECTION_EXPORT TriangleMesh decimate (const TriangleMesh& mesh, std::size_t max_triangles);
 
-} // namespace cosection
-} // namespace pcl
+} // namespace pcl::cosection

@@ -5,9 +5,7 @@
 #include <functional>
 #include <string>
 
-namespace pcl
-{
-namespace cosection
+namespace pcl::cosection
 {
 
 /** \brief Called now and then with the name of the running stage and the finished fraction of the
@@ -15,5 +13,4 @@ namespace cosection
  * throws Cancelled and leaves nothing half-written. */
 using ProgressCallback = std::function<bool (const std::string& stage, double fraction)>;
 
-} // namespace cosection
-} // namespace pcl
+} // namespace pcl::cosection

@@ -10,9 +10,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace pcl
-{
-namespace cosection
+namespace pcl::cosection
 {
 
 /** \brief Why a piece of surface is where it is. */
@@ -34,28 +32,24 @@ struct PCL_COSECTION_EXPORT TriangleMesh
 
   std::vector<Eigen::Vector3f> vertices;
   std::vector<Triangle> triangles;
-  std::vector<Eigen::Vector3f> normals;   ///< unit, outward
-  std::vector<Colour> colours;            ///< red, green, blue
-  std::vector<float> intensity;           ///< as the points'
-  std::vector<float> confidence;          ///< exp (-d / 5), d: voxels to the nearest data
-  std::vector<std::uint8_t> provenance;   ///< Provenance
+  std::vector<Eigen::Vector3f> normals; ///< unit, outward
+  std::vector<Colour> colours;          ///< red, green, blue
+  std::vector<float> intensity;         ///< as the points'
+  std::vector<float> confidence;        ///< exp (-d / 5), d: voxels to the nearest data
+  std::vector<std::uint8_t> provenance; ///< Provenance
 
-  bool
-  empty () const
-  {
-    return triangles.empty ();
-  }
+  bool empty () const { return triangles.empty (); }
 };
 
 /** \brief What the connectivity of a mesh says. */
 struct PCL_COSECTION_EXPORT MeshTopology
 {
-  bool closed_manifold = false; ///< every edge in exactly two triangles of opposite direction, every vertex one fan
-  int boundary_edges = 0;       ///< edges of one triangle
-  int non_manifold_edges = 0;   ///< edges of more than two triangles, or of two that disagree on the direction
-  int non_manifold_vertices = 0;///< vertices whose triangles form more than one fan
-  int components = 0;           ///< connected by shared vertices
-  int euler = 0;                ///< V - E + F, over referenced vertices
+  bool closed_manifold = false;  ///< every edge in exactly two triangles of opposite direction, every vertex one fan
+  int boundary_edges = 0;        ///< edges of one triangle
+  int non_manifold_edges = 0;    ///< edges of more than two triangles, or of two that disagree on the direction
+  int non_manifold_vertices = 0; ///< vertices whose triangles form more than one fan
+  int components = 0;            ///< connected by shared vertices
+  int euler = 0;                 ///< V - E + F, over referenced vertices
 };
 
 /** \brief Volume integrals of a closed mesh of unit density. */
@@ -67,25 +61,19 @@ struct PCL_COSECTION_EXPORT MassProperties
 };
 
 /** \brief Analyse the connectivity; O (triangles log triangles). */
-PCL_COSECTION_EXPORT MeshTopology
-computeTopology (const TriangleMesh& mesh);
+PCL_COSECTION_EXPORT MeshTopology computeTopology (const TriangleMesh& mesh);
 
 /** \brief Exact polyhedral volume, centroid and inertia (divergence theorem). */
-PCL_COSECTION_EXPORT MassProperties
-computeMassProperties (const TriangleMesh& mesh);
+PCL_COSECTION_EXPORT MassProperties computeMassProperties (const TriangleMesh& mesh);
 
 /** \brief Connected component (by shared vertices) of every vertex, numbered from 0 in the order
  * of their first vertex; unreferenced vertices are components of their own. */
-PCL_COSECTION_EXPORT std::vector<int>
-labelComponents (const TriangleMesh& mesh);
+PCL_COSECTION_EXPORT std::vector<int> labelComponents (const TriangleMesh& mesh);
 
 /** \brief Keep the triangles for which \a keep is true, and the vertices they use, in their order. */
-PCL_COSECTION_EXPORT TriangleMesh
-extractTriangles (const TriangleMesh& mesh, const std::vector<bool>& keep);
+PCL_COSECTION_EXPORT TriangleMesh extractTriangles (const TriangleMesh& mesh, const std::vector<bool>& keep);
 
 /** \brief Append \a other to \a mesh; a per-vertex array missing in one of them is dropped. */
-PCL_COSECTION_EXPORT void
-appendMesh (TriangleMesh& mesh, const TriangleMesh& other);
+PCL_COSECTION_EXPORT void appendMesh (TriangleMesh& mesh, const TriangleMesh& other);
 
-} // namespace cosection
-} // namespace pcl
+} // namespace pcl::cosection

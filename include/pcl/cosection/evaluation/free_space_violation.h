@@ -10,9 +10,7 @@
 #include <cstddef>
 #include <vector>
 
-namespace pcl
-{
-namespace cosection
+namespace pcl::cosection
 {
 
 /** \brief How much of a surface lies where a camera saw free space. */
@@ -25,15 +23,14 @@ struct PCL_COSECTION_EXPORT FreeSpaceViolation
 
 /** \brief Compare points of a surface with what views measured.
  *
- * A point violates free space if it is nearer than all four readings around its image, by more than \a tolerance_m: at a
- * silhouette the nearest of them counts. Where one of the four has no reading the view says nothing. Area-uniform points
- * (sampleSurface ()) make the share one of the area. Before a distant wall, the smallest bulge is as deep as
- * the wall is far.
+ * A point violates free space if it is nearer than all four readings around its image, by more than \a tolerance_m: at
+ * a silhouette the nearest of them counts. Where one of the four has no reading the view says nothing. Area-uniform
+ * points (sampleSurface ()) make the share one of the area. Before a distant wall, the smallest bulge is as deep as the
+ * wall is far.
  * \param[in] points metres, world frame
  * \throws InvalidArgument if a view is not valid, or the tolerance is not a number of metres, 0 or more */
-PCL_COSECTION_EXPORT FreeSpaceViolation
-measureFreeSpaceViolation (const std::vector<Eigen::Vector3d>& points, const std::vector<DepthView>& views,
-                           double tolerance_m = 0.01);
+PCL_COSECTION_EXPORT FreeSpaceViolation measureFreeSpaceViolation (const std::vector<Eigen::Vector3d>& points,
+                                                                   const std::vector<DepthView>& views,
+                                                                   double tolerance_m = 0.01);
 
-} // namespace cosection
-} // namespace pcl
+} // namespace pcl::cosection

@@ -13,9 +13,7 @@
 #include <string>
 #include <vector>
 
-namespace pcl
-{
-namespace cosection
+namespace pcl::cosection
 {
 
 /** \brief How to compare meshes. */
@@ -27,23 +25,21 @@ struct PCL_COSECTION_EXPORT MeshComparisonOptions
   int threads = 0;             ///< 0: all
 
   /** \brief \throws InvalidArgument naming the first parameter outside its domain. */
-  void
-  validate () const;
+  void validate () const;
 };
 
 /** \brief What distances, or angles, of a set are like; of none, all are 0. */
 struct PCL_COSECTION_EXPORT ErrorStatistics
 {
   double mean = 0.0;
-  double rmse = 0.0;   ///< root of the mean square
+  double rmse = 0.0; ///< root of the mean square
   double median = 0.0;
-  double p95 = 0.0;    ///< 95 % are at most this large
+  double p95 = 0.0; ///< 95 % are at most this large
   double max = 0.0;
 };
 
 /** \brief Quantiles are interpolated linearly between the sorted values. */
-PCL_COSECTION_EXPORT ErrorStatistics
-errorStatistics (std::vector<double> values);
+PCL_COSECTION_EXPORT ErrorStatistics errorStatistics (std::vector<double> values);
 
 /** \brief How near two surfaces are to each other, metres. */
 struct PCL_COSECTION_EXPORT MeshComparison
@@ -62,8 +58,8 @@ struct PCL_COSECTION_EXPORT MeshComparison
  *
  * Both meshes are in one frame; they may be open. The result is the same for any number of threads.
  * \throws InvalidArgument, DegenerateInput as requireSurface (), and for options outside their domain */
-PCL_COSECTION_EXPORT MeshComparison
-compareMeshes (const TriangleMesh& truth, const TriangleMesh& reconstruction, const MeshComparisonOptions& options = {});
+PCL_COSECTION_EXPORT MeshComparison compareMeshes (const TriangleMesh& truth, const TriangleMesh& reconstruction,
+                                                   const MeshComparisonOptions& options = {});
 
 /** \brief What a mesh is like by itself. */
 struct PCL_COSECTION_EXPORT MeshSummary
@@ -77,17 +73,14 @@ struct PCL_COSECTION_EXPORT MeshSummary
 };
 
 /** \throws InvalidArgument, DegenerateInput as requireSurface () */
-PCL_COSECTION_EXPORT MeshSummary
-summarizeMesh (const TriangleMesh& mesh);
+PCL_COSECTION_EXPORT MeshSummary summarizeMesh (const TriangleMesh& mesh);
 
 /** \brief Lines that say why a comparison may mean nothing: the boxes do not overlap, or one mesh is about a thousand
  * times as large as the other (metres and millimetres). Empty if all is well. */
-PCL_COSECTION_EXPORT std::vector<std::string>
-frameWarnings (const MeshSummary& truth, const MeshSummary& reconstruction);
+PCL_COSECTION_EXPORT std::vector<std::string> frameWarnings (const MeshSummary& truth,
+                                                             const MeshSummary& reconstruction);
 
 /** \brief The mesh in another frame: vertices and normals. */
-PCL_COSECTION_EXPORT TriangleMesh
-transformMesh (TriangleMesh mesh, const Eigen::Isometry3d& T_target_mesh);
+PCL_COSECTION_EXPORT TriangleMesh transformMesh (TriangleMesh mesh, const Eigen::Isometry3d& T_target_mesh);
 
-} // namespace cosection
-} // namespace pcl
+} // namespace pcl::cosection

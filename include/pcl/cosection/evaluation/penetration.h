@@ -12,26 +12,23 @@
 #include <memory>
 #include <optional>
 
-namespace pcl
-{
-namespace cosection
+namespace pcl::cosection
 {
 
 /** \brief How to measure penetration. */
 struct PCL_COSECTION_EXPORT PenetrationOptions
 {
-  std::size_t samples = 10000; ///< on the surface, beside its vertices
+  std::size_t samples = 10000;  ///< on the surface, beside its vertices
   std::size_t max_vertices = 0; ///< of so many, evenly chosen; 0: all
-  std::uint64_t seed = 0;      ///< of the samples
-  double voxel_size_m = 0.0;   ///< of the volume; 0: by \a voxels
-  int voxels = 128;            ///< along the longest side of the smaller box
-  bool open_parts = true;      ///< whether there is matter behind open parts
-  double band_m = 0.05;        ///< how far behind them
-  int threads = 0;             ///< 0: all
+  std::uint64_t seed = 0;       ///< of the samples
+  double voxel_size_m = 0.0;    ///< of the volume; 0: by \a voxels
+  int voxels = 128;             ///< along the longest side of the smaller box
+  bool open_parts = true;       ///< whether there is matter behind open parts
+  double band_m = 0.05;         ///< how far behind them
+  int threads = 0;              ///< 0: all
 
   /** \brief \throws InvalidArgument naming the first parameter outside its domain. */
-  void
-  validate () const;
+  void validate () const;
 };
 
 class SolidDepth;
@@ -47,29 +44,25 @@ public:
   explicit PenetrationBody (const TriangleMesh& mesh, const PenetrationOptions& options = {});
   ~PenetrationBody ();
   PenetrationBody (PenetrationBody&&) noexcept;
-  PenetrationBody&
-  operator= (PenetrationBody&&) noexcept;
+  PenetrationBody& operator= (PenetrationBody&&) noexcept;
 
   /** \brief Whether some of the mesh is open: it has no inside, only a band behind it. */
-  bool
-  isOpen () const;
+  bool isOpen () const;
 
   /** \brief Whether some of the mesh is closed: only then it has a volume. */
-  bool
-  hasVolume () const;
+  bool hasVolume () const;
 
   /** \brief How deep the surface of \a other, by its vertices and area-uniform samples of it, lies inside this: the
    * greatest distance to this surface, metres; 0: it does not.
    * \param[in] T_this_other pose of \a other in the frame of this mesh */
-  double
-  depthOf (const PenetrationBody& other, const Eigen::Isometry3d& T_this_other = Eigen::Isometry3d::Identity ()) const;
+  double depthOf (const PenetrationBody& other,
+                  const Eigen::Isometry3d& T_this_other = Eigen::Isometry3d::Identity ()) const;
 
   /** \brief The volume that both bodies fill, cubic metres, by counting the centres of voxels.
    * \return nothing if this or \a other has no closed part, for then it has no volume; nothing for two rooms
    * \throws InvalidArgument if the voxels are so small that there are more than 2e8 */
-  std::optional<double>
-  sharedVolume (const PenetrationBody& other,
-                const Eigen::Isometry3d& T_this_other = Eigen::Isometry3d::Identity ()) const;
+  std::optional<double> sharedVolume (const PenetrationBody& other,
+                                      const Eigen::Isometry3d& T_this_other = Eigen::Isometry3d::Identity ()) const;
 
 private:
   TriangleMesh mesh_;
@@ -79,5 +72,4 @@ private:
   std::unique_ptr<SolidDepth> solid_;
 };
 
-} // namespace cosection
-} // namespace pcl
+} // namespace pcl::cosection

@@ -15,9 +15,7 @@
 #include <string>
 #include <vector>
 
-namespace pcl
-{
-namespace cosection
+namespace pcl::cosection
 {
 
 /** \brief A scene of moving objects before a moving camera, true or estimated. */
@@ -45,20 +43,19 @@ struct PCL_COSECTION_EXPORT RunOptions
   PenetrationOptions penetration = {2000, 3000, 0, 0.0, 64};
   RefinementOptions refinement;
   bool measure_penetration = true; ///< of every pair of bodies, which takes longest
-  bool refine = true;      ///< refine the alignment of each object on its observed surface
-  int volume_frames = 5;   ///< at most so many frames for the volume of each penetration
-  int threads = 0;         ///< 0: all
+  bool refine = true;              ///< refine the alignment of each object on its observed surface
+  int volume_frames = 5;           ///< at most so many frames for the volume of each penetration
+  int threads = 0;                 ///< 0: all
 
   /** \brief \throws InvalidArgument naming the first parameter outside its domain. */
-  void
-  validate () const;
+  void validate () const;
 };
 
 /** \brief How a mesh was brought into the frame of the truth. */
 struct PCL_COSECTION_EXPORT FrameAlignment
 {
   Eigen::Isometry3d T_truth_estimate = Eigen::Isometry3d::Identity ();
-  Refinement refinement; ///< contained in the pose
+  Refinement refinement;  ///< contained in the pose
   std::size_t frames = 0; ///< with poses of both, of which the median is the start
 };
 
@@ -83,7 +80,7 @@ struct PCL_COSECTION_EXPORT ObjectEvaluation
   std::size_t frames_visible = 0;         ///< of the truth's frames
   std::size_t frames_tracked_visible = 0; ///< visible ones that were tracked
   double penetration_m = 0.0;             ///< deepest of all its pairs
-  std::optional<double> penetration_m3;   ///< largest of all its pairs; nothing if it is not known of one that penetrates
+  std::optional<double> penetration_m3; ///< largest of all its pairs; nothing if it is not known of one that penetrates
 };
 
 /** \brief Two estimated bodies. */
@@ -113,14 +110,13 @@ struct PCL_COSECTION_EXPORT RunEvaluation
 /** \brief Evaluate estimated poses and meshes of a scene against the true ones.
  *
  * The world and the objects' frames of the estimate may be any. Objects are matched one to one by how much of their
- * surfaces coincides in the camera's frame (median over frames that have both, best pairs first). The pose of an estimated mesh in
- * the true object's frame is the median over these frames, refined on what was observed (vertices of
+ * surfaces coincides in the camera's frame (median over frames that have both, best pairs first). The pose of an
+ * estimated mesh in the true object's frame is the median over these frames, refined on what was observed (vertices of
  * Provenance::Observed; all if the mesh has none). Objects' trajectories are compared in the camera's frame with this
  * pose as alignment, so that their error is none of the camera's. Penetration is that of the estimate with itself.
  * \throws InvalidArgument if an option is outside its domain
  * \throws DegenerateInput if the cameras' trajectories do not match */
-PCL_COSECTION_EXPORT RunEvaluation
-evaluateRun (const SceneRecord& truth, const SceneRecord& estimate, const RunOptions& options = {});
+PCL_COSECTION_EXPORT RunEvaluation evaluateRun (const SceneRecord& truth, const SceneRecord& estimate,
+                                                const RunOptions& options = {});
 
-} // namespace cosection
-} // namespace pcl
+} // namespace pcl::cosection

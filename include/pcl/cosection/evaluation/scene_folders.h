@@ -8,9 +8,7 @@
 #include <string>
 #include <vector>
 
-namespace pcl
-{
-namespace cosection
+namespace pcl::cosection
 {
 
 /** \brief What was odd about the files. */
@@ -20,18 +18,16 @@ struct PCL_COSECTION_EXPORT ReadingNotes
   bool whole = true; ///< every file that is there could be read
 };
 
-/** \brief Read what a run wrote: trajectory/camera.txt, trajectory/object_ID.txt, mesh/object_ID.ply, mesh/background.ply.
+/** \brief Read what a run wrote: trajectory/camera.txt, trajectory/object_ID.txt, mesh/object_ID.ply,
+ * mesh/background.ply.
  * \param[out] notes what is missing or cannot be read, beside the camera
  * \throws IoError if there is no such folder, or the camera cannot be read */
-PCL_COSECTION_EXPORT SceneRecord
-readRun (const std::string& folder, ReadingNotes& notes);
+PCL_COSECTION_EXPORT SceneRecord readRun (const std::string& folder, ReadingNotes& notes);
 
 /** \brief Read the truth of a dataset: gt-cam-0.txt, gt-NAME-ID.txt, gt-mesh/NAME.ply, gt-mesh/room.ply or
  * background.ply, calibration.txt.
  * \param[out] notes what is missing or cannot be read, beside the camera
  * \throws IoError if there is no such folder, or the camera cannot be read */
-PCL_COSECTION_EXPORT SceneRecord
-readTruth (const std::string& folder, ReadingNotes& notes);
+PCL_COSECTION_EXPORT SceneRecord readTruth (const std::string& folder, ReadingNotes& notes);
 
-} // namespace cosection
-} // namespace pcl
+} // namespace pcl::cosection

@@ -10,9 +10,7 @@
 #include <memory>
 #include <vector>
 
-namespace pcl
-{
-namespace cosection
+namespace pcl::cosection
 {
 
 class TriangleTree;
@@ -32,12 +30,10 @@ public:
   explicit SurfaceDistance (const TriangleMesh& mesh);
   ~SurfaceDistance ();
   SurfaceDistance (SurfaceDistance&&) noexcept;
-  SurfaceDistance&
-  operator= (SurfaceDistance&&) noexcept;
+  SurfaceDistance& operator= (SurfaceDistance&&) noexcept;
 
   /** \brief The distance of each point. \param[in] threads 0: all; without influence on the result */
-  std::vector<double>
-  of (const std::vector<Eigen::Vector3d>& points, int threads = 0) const;
+  std::vector<double> of (const std::vector<Eigen::Vector3d>& points, int threads = 0) const;
 
   /** \brief The point of the mesh that is nearest to \a p, and the unit normal of its triangle. */
   struct Nearest
@@ -45,8 +41,7 @@ public:
     Eigen::Vector3d point;
     Eigen::Vector3d normal;
   };
-  Nearest
-  nearest (const Eigen::Vector3d& p) const;
+  Nearest nearest (const Eigen::Vector3d& p) const;
 
 private:
   std::unique_ptr<TriangleTree> tree_;
@@ -54,8 +49,7 @@ private:
 };
 
 /** \brief The distance of every vertex of \a mesh to \a surface, metres; of vertices without a triangle as well. */
-PCL_COSECTION_EXPORT std::vector<double>
-vertexDistances (const TriangleMesh& mesh, const SurfaceDistance& surface, int threads = 0);
+PCL_COSECTION_EXPORT std::vector<double> vertexDistances (const TriangleMesh& mesh, const SurfaceDistance& surface,
+                                                          int threads = 0);
 
-} // namespace cosection
-} // namespace pcl
+} // namespace pcl::cosection

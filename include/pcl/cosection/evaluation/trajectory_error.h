@@ -13,9 +13,7 @@
 #include <string>
 #include <vector>
 
-namespace pcl
-{
-namespace cosection
+namespace pcl::cosection
 {
 
 /** \brief How the estimate is brought into the frame of the truth. */
@@ -34,8 +32,7 @@ struct PCL_COSECTION_EXPORT TrajectoryOptions
   int delta = 1; ///< of the relative pose error, in matched poses
 
   /** \brief \throws InvalidArgument naming the first parameter outside its domain. */
-  void
-  validate () const;
+  void validate () const;
 };
 
 /** \brief Two poses that belong to each other, by their indices. */
@@ -46,18 +43,18 @@ struct PosePair
 };
 
 /** \brief The median difference of successive stamps; nothing of fewer than two poses. */
-PCL_COSECTION_EXPORT std::optional<double>
-medianPeriod (const std::vector<StampedPose>& trajectory);
+PCL_COSECTION_EXPORT std::optional<double> medianPeriod (const std::vector<StampedPose>& trajectory);
 
 /** \brief Match poses one to one: the two nearest stamps first, then the two nearest of those that remain, up to
  * \a max_difference_s, it included. O (n log n).
  * \param[in] truth, estimate by ascending stamps
  * \return by ascending stamps of the truth */
-PCL_COSECTION_EXPORT std::vector<PosePair>
-associatePoses (const std::vector<StampedPose>& truth, const std::vector<StampedPose>& estimate,
-                double max_difference_s);
+PCL_COSECTION_EXPORT std::vector<PosePair> associatePoses (const std::vector<StampedPose>& truth,
+                                                           const std::vector<StampedPose>& estimate,
+                                                           double max_difference_s);
 
-/** \brief Errors of an estimated trajectory (J. Sturm et al., "A Benchmark for the Evaluation of RGB-D SLAM Systems", IROS 2012). */
+/** \brief Errors of an estimated trajectory (J. Sturm et al., "A Benchmark for the Evaluation of RGB-D SLAM Systems",
+ * IROS 2012). */
 struct PCL_COSECTION_EXPORT TrajectoryError
 {
   std::size_t truth_poses = 0;
@@ -83,14 +80,13 @@ struct PCL_COSECTION_EXPORT TrajectoryError
 /** \brief Compare an estimated trajectory with the true one.
  *
  * ATE: |t_i - (S e_i)| for the positions t_i and e_i of matches and the alignment S. RPE: translation and angle of
- * (T_i^-1 T_j)^-1 (E_i^-1 E_j) for matches i and j = i + delta whose stamps differ by as much as those of most such pairs, give or take
- * half a period or 2 %: a motion over a gap is left out and counted.
+ * (T_i^-1 T_j)^-1 (E_i^-1 E_j) for matches i and j = i + delta whose stamps differ by as much as those of most such
+ * pairs, give or take half a period or 2 %: a motion over a gap is left out and counted.
  * \param[in] truth, estimate by ascending stamps
  * \throws InvalidArgument if an option is outside its domain
  * \throws DegenerateInput if a trajectory is empty, or no stamps match; the message has the spans of both */
-PCL_COSECTION_EXPORT TrajectoryError
-compareTrajectories (const std::vector<StampedPose>& truth, const std::vector<StampedPose>& estimate,
-                     const TrajectoryOptions& options = {});
+PCL_COSECTION_EXPORT TrajectoryError compareTrajectories (const std::vector<StampedPose>& truth,
+                                                          const std::vector<StampedPose>& estimate,
+                                                          const TrajectoryOptions& options = {});
 
-} // namespace cosection
-} // namespace pcl
+} // namespace pcl::cosection

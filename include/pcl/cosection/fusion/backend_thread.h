@@ -15,9 +15,7 @@
 #include <thread>
 #include <vector>
 
-namespace pcl
-{
-namespace cosection
+namespace pcl::cosection
 {
 
 /** \brief Everything completed with the views up to a keyframe. */
@@ -30,9 +28,9 @@ struct PCL_COSECTION_EXPORT BackendUpdate
 
 /** \brief Updates a CoSectionBackend in a thread of its own, while the front end goes on.
  *
- * Views are used in the order in which they are added. After a keyframe, everything is completed; keyframes that come meanwhile
- * are completed together, in the next update. What the back end has in the end does not depend on how the threads run, which
- * updates there were does, unless wait (0) follows each keyframe.
+ * Views are used in the order in which they are added. After a keyframe, everything is completed; keyframes that come
+ * meanwhile are completed together, in the next update. What the back end has in the end does not depend on how the
+ * threads run, which updates there were does, unless wait (0) follows each keyframe.
  *
  * \code
  * CoSectionBackend backend;
@@ -62,26 +60,21 @@ public:
   ~BackendThread ();
 
   BackendThread (const BackendThread&) = delete;
-  BackendThread&
-  operator= (const BackendThread&) = delete;
+  BackendThread& operator= (const BackendThread&) = delete;
 
   /** \brief Have a keyframe used and everything completed. Does not wait: see wait (). */
-  void
-  addKeyframe (Keyframe keyframe, CoSectionBackend::Poses T_world_object);
+  void addKeyframe (Keyframe keyframe, CoSectionBackend::Poses T_world_object);
 
   /** \brief Have the free space of a frame used. */
-  void
-  addFrame (DepthView view, CoSectionBackend::Poses T_world_object);
+  void addFrame (DepthView view, CoSectionBackend::Poses T_world_object);
 
   /** \brief The updates that were finished since the last time, in their order.
    * \throws what CoSectionBackend threw, again and again; nothing is done any more then */
-  std::vector<BackendUpdate>
-  takeUpdates ();
+  std::vector<BackendUpdate> takeUpdates ();
 
   /** \brief Wait until no more than so many views wait to be used; with 0, until no update runs either.
    * \return whether it is so; false: the time was up \throws as takeUpdates () */
-  bool
-  wait (std::size_t views, std::chrono::milliseconds time);
+  bool wait (std::size_t views, std::chrono::milliseconds time);
 
 private:
   struct Item
@@ -91,21 +84,16 @@ private:
     CoSectionBackend::Poses T_world_object;
   };
 
-  void
-  add (Item item);
+  void add (Item item);
 
-  void
-  run () noexcept;
+  void run () noexcept;
 
-  void
-  work ();
+  void work ();
 
   /** \brief Give views to the back end. \return the stamp of the last keyframe among them */
-  std::optional<double>
-  use (std::vector<Item> items);
+  std::optional<double> use (std::vector<Item> items);
 
-  BackendUpdate
-  update (double stamp);
+  BackendUpdate update (double stamp);
 
   CoSectionBackend& backend_; // the thread's
   const UpdateOutput output_;
@@ -121,5 +109,4 @@ private:
   std::thread thread_; // last: it uses the rest
 };
 
-} // namespace cosection
-} // namespace pcl
+} // namespace pcl::cosection

@@ -12,9 +12,7 @@
 #include <map>
 #include <vector>
 
-namespace pcl
-{
-namespace cosection
+namespace pcl::cosection
 {
 
 /** \brief How much of a sequence CoSectionBackend keeps. */
@@ -25,14 +23,13 @@ struct PCL_COSECTION_EXPORT BackendOptions
   std::size_t max_keyframes = 40; ///< at least 2
 
   /** \brief \throws InvalidArgument naming the first parameter outside its domain. */
-  void
-  validate () const;
+  void validate () const;
 };
 
 /** \brief The back end of a sequence: drives CoSection with keyframes as they come.
  *
- * Keyframes give oriented points and free space, frames between them free space. What is kept is bounded: when there are too
- * many views, those whose poses relative to everything in the scene are nearest to another's are given up with
+ * Keyframes give oriented points and free space, frames between them free space. What is kept is bounded: when there
+ * are too many views, those whose poses relative to everything in the scene are nearest to another's are given up with
  * their points, half of all; from then on, a view as near as that to a kept one is not taken.
  *
  * \code
@@ -52,46 +49,32 @@ public:
   /** \brief \throws InvalidArgument */
   explicit CoSectionBackend (const BackendOptions& options = {});
 
-  /** \brief Add the points and the free space of a keyframe. Points of objects without a pose in \a T_world_object are left out;
-   * for objects that never move, give the identity.
+  /** \brief Add the points and the free space of a keyframe. Points of objects without a pose in \a T_world_object are
+   * left out; for objects that never move, give the identity.
    * \return whether it was kept
    * \throws InvalidArgument if the view is not valid, a pose not finite or an id negative; nothing is kept then */
-  bool
-  addKeyframe (const Keyframe& keyframe, const Poses& T_world_object);
+  bool addKeyframe (const Keyframe& keyframe, const Poses& T_world_object);
 
   /** \brief Add the free space of a frame. \return whether it was kept \throws InvalidArgument as addKeyframe () */
-  bool
-  addFrame (DepthView view, const Poses& T_world_object);
+  bool addFrame (DepthView view, const Poses& T_world_object);
 
   /** \brief Give up what turned out to be no object, or a part of another one, with its points. */
-  void
-  removeObject (int id);
+  void removeObject (int id);
 
   /** \brief Complete everything, from the last solution on: CoSection::update (). \throws Cancelled */
-  SceneResult
-  update (UpdateOutput output, const ProgressCallback& progress = {});
+  SceneResult update (UpdateOutput output, const ProgressCallback& progress = {});
 
   /** \brief Complete everything from the start, from all that is kept. Earlier updates only say where voxels are.
    * \throws Cancelled */
-  SceneResult
-  solve (const ProgressCallback& progress = {}) const;
+  SceneResult solve (const ProgressCallback& progress = {}) const;
 
   /** \brief As if there had been no update. */
-  void
-  forgetUpdates ()
-  {
-    scene_.forgetUpdates ();
-  }
+  void forgetUpdates () { scene_.forgetUpdates (); }
 
   /** \brief Views that are kept, keyframes among them. */
-  std::size_t
-  views () const
-  {
-    return kept_.size ();
-  }
+  std::size_t views () const { return kept_.size (); }
 
-  std::size_t
-  keyframes () const;
+  std::size_t keyframes () const;
 
 private:
   /** \brief Where the sensor was, relative to the world (id 0) and to the objects. */
@@ -101,14 +84,11 @@ private:
     bool keyframe;
   };
 
-  static double
-  gap (const KeptView& a, const KeptView& b);
+  static double gap (const KeptView& a, const KeptView& b);
   /** \brief Take the view's place, if it is not too near to another and there is room or can be made. */
-  bool
-  reserve (KeptView view);
+  bool reserve (KeptView view);
   /** \brief Give up half of the keyframes, or of the other views. */
-  void
-  thin (bool keyframes);
+  void thin (bool keyframes);
 
   BackendOptions options_;
   CoSection scene_;
@@ -116,5 +96,4 @@ private:
   double least_gap_m_ = -1.0;  // from a new view to all others; negative: none is asked for
 };
 
-} // namespace cosection
-} // namespace pcl
+} // namespace pcl::cosection

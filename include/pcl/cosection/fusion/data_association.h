@@ -11,23 +11,20 @@
 #include <cstdint>
 #include <vector>
 
-namespace pcl
-{
-namespace cosection
+namespace pcl::cosection
 {
 
 /** \brief How points are shared out among models. */
 struct PCL_COSECTION_EXPORT AssociationOptions
 {
-  double sigma_m = 0.02;        ///< scale of the Laplace distribution of distances; at least the noise of the reading's depth
+  double sigma_m = 0.02; ///< scale of the Laplace distribution of distances; at least the noise of the reading's depth
   double inlier_share = 0.8;    ///< alpha: of readings that show a model at all
   double uniform = 1.0;         ///< density of the others, 1 / m
   double free_truncation = 0.9; ///< distances above this fraction of the truncation distance are seen free
   int threads = 0;              ///< 0: all; no result depends on it
 
   /** \brief \throws InvalidArgument naming the first parameter outside its domain. */
-  void
-  validate () const;
+  void validate () const;
 };
 
 /** \brief A model that may explain points; it refers to the volume, which must live as long. */
@@ -66,7 +63,8 @@ struct PCL_COSECTION_EXPORT PointAssignment
  *
  * where the sum runs over the models that know the place. Where a model has seen space free it is refused: a = 0.
  *
- * M. Strecke, J. Stueckler, "EM-Fusion: Dynamic Object-Level SLAM with Probabilistic Data Association", ICCV 2019, Section 3.2. */
+ * M. Strecke, J. Stueckler, "EM-Fusion: Dynamic Object-Level SLAM with Probabilistic Data Association", ICCV 2019,
+ * Section 3.2. */
 class PCL_COSECTION_EXPORT DataAssociation
 {
 public:
@@ -74,20 +72,17 @@ public:
   explicit DataAssociation (const AssociationOptions& options = {});
 
   /** \brief \param[in] point metres, sensor frame */
-  ModelEvidence
-  evidence (const AssociatedModel& model, const Eigen::Vector3f& point) const;
+  ModelEvidence evidence (const AssociatedModel& model, const Eigen::Vector3f& point) const;
 
   /** \brief P (m) of each point for the model of number \a target; 0 for points that are not finite. */
-  std::vector<float>
-  probabilities (const std::vector<Eigen::Vector3f>& points, const std::vector<AssociatedModel>& models, std::size_t target) const;
+  std::vector<float> probabilities (const std::vector<Eigen::Vector3f>& points,
+                                    const std::vector<AssociatedModel>& models, std::size_t target) const;
 
   /** \brief The most likely model of each point. \throws InvalidArgument if there are more than 250 models */
-  PointAssignment
-  assign (const std::vector<Eigen::Vector3f>& points, const std::vector<AssociatedModel>& models) const;
+  PointAssignment assign (const std::vector<Eigen::Vector3f>& points, const std::vector<AssociatedModel>& models) const;
 
 private:
   AssociationOptions options_;
 };
 
-} // namespace cosection
-} // namespace pcl
+} // namespace pcl::cosection

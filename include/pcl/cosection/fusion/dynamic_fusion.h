@@ -22,41 +22,38 @@
 #include <string>
 #include <vector>
 
-namespace pcl
-{
-namespace cosection
+namespace pcl::cosection
 {
 
 /** \brief How DynamicFusion follows a scene. */
 struct PCL_COSECTION_EXPORT DynamicFusionOptions
 {
-  int background_resolution = 256;         ///< voxels along each axis
-  double background_voxel_size_m = 0.0;    ///< 0: so that the volume holds the first frame, up to 0.02
+  int background_resolution = 256;      ///< voxels along each axis
+  double background_voxel_size_m = 0.0; ///< 0: so that the volume holds the first frame, up to 0.02
   double background_truncation_vox = 5.0;
-  bool objects = true;                     ///< there will be masks or a segmenter; without, the background takes less time and memory
-  int segment_every = 10;                  ///< frames, from one in which the segmenter is asked for objects to the next
-  int object_resolution = 64;              ///< voxels along each axis, at first
-  int max_object_resolution = 160;         ///< to which volumes grow
-  double object_truncation_vox = 5.0;      ///< wider ones bias poses
-  double max_weight = 64.0;                ///< of a voxel
-  double max_depth_m = 10.0;               ///< readings beyond are left out
-  bool smooth_depth = true;                ///< track with bilaterally filtered depth; what is mapped is not filtered
-  int tracking_points = 80000;             ///< of a frame, at most
-  bool persistent_ids = false;             ///< an instance has the same number in all masks, that of its object
-  int min_object_pixels = 1600;            ///< of a new object, in an image of 640 x 480; in proportion in others
-  double max_object_depth_m = 5.0;         ///< of a new object, mean
-  double min_mask_iou = 0.2;               ///< from which on an instance shows an object
-  double max_volume_iou = 0.5;             ///< from which on a new object would be one that is there
-  double min_existence = 0.1;              ///< below, an object is given up
-  double min_association = 0.1;            ///< mean over its pixels; below, an object is given up
-  int max_objects = 64;                    ///< at a time
+  bool objects = true;    ///< there will be masks or a segmenter; without, the background takes less time and memory
+  int segment_every = 10; ///< frames, from one in which the segmenter is asked for objects to the next
+  int object_resolution = 64;         ///< voxels along each axis, at first
+  int max_object_resolution = 160;    ///< to which volumes grow
+  double object_truncation_vox = 5.0; ///< wider ones bias poses
+  double max_weight = 64.0;           ///< of a voxel
+  double max_depth_m = 10.0;          ///< readings beyond are left out
+  bool smooth_depth = true;           ///< track with bilaterally filtered depth; what is mapped is not filtered
+  int tracking_points = 80000;        ///< of a frame, at most
+  bool persistent_ids = false;        ///< an instance has the same number in all masks, that of its object
+  int min_object_pixels = 1600;       ///< of a new object, in an image of 640 x 480; in proportion in others
+  double max_object_depth_m = 5.0;    ///< of a new object, mean
+  double min_mask_iou = 0.2;          ///< from which on an instance shows an object
+  double max_volume_iou = 0.5;        ///< from which on a new object would be one that is there
+  double min_existence = 0.1;         ///< below, an object is given up
+  double min_association = 0.1;       ///< mean over its pixels; below, an object is given up
+  int max_objects = 64;               ///< at a time
   AssociationOptions association;
   Eigen::Isometry3d first_pose = Eigen::Isometry3d::Identity (); ///< T_world_camera of the first frame
-  int threads = 0;                         ///< 0: all; no result depends on it
+  int threads = 0;                                               ///< 0: all; no result depends on it
 
   /** \brief \throws InvalidArgument naming the first parameter outside its domain. */
-  void
-  validate () const;
+  void validate () const;
 };
 
 /** \brief What DynamicFusion knows of a frame. */
@@ -65,23 +62,24 @@ struct PCL_COSECTION_EXPORT TrackedFrame
   /** \brief A pixel that is neither the background's nor a known object's. */
   static constexpr std::uint16_t unassigned = std::numeric_limits<std::uint16_t>::max ();
 
-  std::optional<Eigen::Isometry3d> T_world_camera;   ///< nothing: tracking failed
-  std::map<int, Eigen::Isometry3d> T_world_object;   ///< of the objects that were tracked in this frame
-  Image<std::uint16_t> instances;                    ///< id of the object, 0: background; empty if tracking failed
-  bool masked = false;                               ///< a mask had a part in it
-  double inlier_share = 0.0;                         ///< of the points that the camera was tracked with
-  int lost = 0;                                      ///< objects that should be in view and are not found
+  std::optional<Eigen::Isometry3d> T_world_camera; ///< nothing: tracking failed
+  std::map<int, Eigen::Isometry3d> T_world_object; ///< of the objects that were tracked in this frame
+  Image<std::uint16_t> instances;                  ///< id of the object, 0: background; empty if tracking failed
+  bool masked = false;                             ///< a mask had a part in it
+  double inlier_share = 0.0;                       ///< of the points that the camera was tracked with
+  int lost = 0;                                    ///< objects that should be in view and are not found
 };
 
 /** \brief The front end: tracks the camera and every object through RGB-D frames, and maps them, without given poses.
  *
- * Per frame: association likelihoods, tracking of the camera against the background, association again, tracking of each object relative
- * to the camera, segmentation by association; where there is a mask, instances are matched with objects, new objects begin and existence
- * probabilities change; then depth is integrated into the volumes. After M. Strecke, J. Stueckler, "EM-Fusion: Dynamic Object-Level SLAM with
- * Probabilistic Data Association", ICCV 2019.
+ * Per frame: association likelihoods, tracking of the camera against the background, association again, tracking of
+ * each object relative to the camera, segmentation by association; where there is a mask, instances are matched with
+ * objects, new objects begin and existence probabilities change; then depth is integrated into the volumes. After M.
+ * Strecke, J. Stueckler, "EM-Fusion: Dynamic Object-Level SLAM with Probabilistic Data Association", ICCV 2019.
  *
- * A pose is believed if enough points fit, and it is no jump; of an object, if readings confirm its surface as well. What is lost is neither
- * mapped, nor part of the background: it is looked for where it was, and among the instances of masks that match nothing.
+ * A pose is believed if enough points fit, and it is no jump; of an object, if readings confirm its surface as well.
+ * What is lost is neither mapped, nor part of the background: it is looked for where it was, and among the instances of
+ * masks that match nothing.
  *
  * \code
  * DynamicFusion fusion (images.camera ());
@@ -96,51 +94,43 @@ public:
   explicit DynamicFusion (const PinholeCamera& camera, const DynamicFusionOptions& options = {});
   ~DynamicFusion ();
   DynamicFusion (DynamicFusion&& other) noexcept;
-  DynamicFusion&
-  operator= (DynamicFusion&& other) noexcept;
+  DynamicFusion& operator= (DynamicFusion&& other) noexcept;
 
-  /** \brief Find objects in frames that come without a mask. What it notes is among the events. \param[in] segmenter null: none */
-  void
-  setSegmenter (std::shared_ptr<FrameSegmenter> segmenter);
+  /** \brief Find objects in frames that come without a mask. What it notes is among the events. \param[in] segmenter
+   * null: none */
+  void setSegmenter (std::shared_ptr<FrameSegmenter> segmenter);
 
-  /** \brief \param[in] mask instances of the frame, 0: none, FrameSegmenter::ignored: neither objects nor background; null: there is no mask
+  /** \brief \param[in] mask instances of the frame, 0: none, FrameSegmenter::ignored: neither objects nor background;
+   * null: there is no mask
    * \return valid until the next call
    * \throws InvalidArgument if the depth or a mask is not of the camera's size; what the segmenter throws */
-  const TrackedFrame&
-  process (const RgbdFrame& frame, const Image<std::uint16_t>* mask = nullptr);
+  const TrackedFrame& process (const RgbdFrame& frame, const Image<std::uint16_t>* mask = nullptr);
 
   /** \brief Numbers of the objects that are tracked or looked for. */
-  std::set<int>
-  objects () const;
+  std::set<int> objects () const;
 
   /** \brief Numbers of all objects that were found so far and not given up as wrong. */
-  std::set<int>
-  foundObjects () const;
+  std::set<int> foundObjects () const;
 
   /** \brief What was seen of an object, its frame; empty if there is none. */
-  TriangleMesh
-  surfaceMesh (int id) const;
+  TriangleMesh surfaceMesh (int id) const;
 
-  /** \brief What an object is, by the detections of it; nothing if there is no object of that number, or no segmenter has named its class. */
-  std::optional<ClassScore>
-  objectClass (int id) const;
+  /** \brief What an object is, by the detections of it; nothing if there is no object of that number, or no segmenter
+   * has named its class. */
+  std::optional<ClassScore> objectClass (int id) const;
 
   /** \brief What was seen of the background, world frame. */
-  TriangleMesh
-  backgroundMesh () const;
+  TriangleMesh backgroundMesh () const;
 
   /** \brief Lines about what was decided, with reasons: the first hundred, then how many more. */
-  std::vector<std::string>
-  events () const;
+  std::vector<std::string> events () const;
 
   /** \brief Seconds: tracking, segmentation, integration. */
-  const std::map<std::string, double>&
-  timings () const;
+  const std::map<std::string, double>& timings () const;
 
 private:
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };
 
-} // namespace cosection
-} // namespace pcl
+} // namespace pcl::cosection

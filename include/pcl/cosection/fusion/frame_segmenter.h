@@ -4,7 +4,6 @@
 
 #include <pcl/cosection/common/camera.h>
 #include <pcl/cosection/common/export.h>
-#include <pcl/cosection/common/ignored_label.h>
 #include <pcl/cosection/common/image.h>
 #include <pcl/cosection/fusion/class_evidence.h>
 #include <pcl/cosection/io/rgbd_sequence.h>
@@ -17,20 +16,20 @@
 #include <string>
 #include <vector>
 
-namespace pcl
-{
-namespace cosection
+namespace pcl::cosection
 {
 
-/** \brief What the front end knows of a frame when it asks for its objects; it refers to images that live as long as the call. */
+/** \brief What the front end knows of a frame when it asks for its objects; it refers to images that live as long as
+ * the call. */
 struct PCL_COSECTION_EXPORT ObservedFrame
 {
-  const RgbdFrame& images;                    ///< as they were read; colour may be empty
+  const RgbdFrame& images; ///< as they were read; colour may be empty
   const PinholeCamera& camera;
   const std::vector<Eigen::Vector3f>& points; ///< row by row, sensor frame, metres, smoothed; NaN: no reading
   const Eigen::Isometry3d& T_world_camera;
   std::map<int, Eigen::Isometry3d> T_world_object; ///< of the objects that are tracked
-  /** \brief What known models explain: id of the object, 0: background or no reading, TrackedFrame::unassigned: none of them. */
+  /** \brief What known models explain: id of the object, 0: background or no reading, TrackedFrame::unassigned: none of
+   * them. */
   const Image<std::uint16_t>& labels;
   /** \brief 1: it was found to move against the background and belongs to no object that is known; else 0. */
   const Image<std::uint8_t>& moving;
@@ -39,54 +38,43 @@ struct PCL_COSECTION_EXPORT ObservedFrame
 /** \brief What a FrameSegmenter says of a frame. */
 struct PCL_COSECTION_EXPORT FrameInstances
 {
-  /** \brief Number of an instance, another one in each frame; 0: none, FrameSegmenter::ignored. Of the camera's size; nothing: the frame
-   * tells nothing. */
+  /** \brief Number of an instance, another one in each frame; 0: none, FrameSegmenter::ignored. Of the camera's size;
+   * nothing: the frame tells nothing. */
   std::optional<Image<std::uint16_t>> mask;
   std::string note; ///< what the user should know; the same one is told once
   /** \brief What an instance is, by its number, where that is known. */
   std::map<std::uint16_t, ClassScore> classes = {};
 };
 
-/** \brief Finds objects in frames while they are tracked, instead of masks from files. DynamicFusion calls it now and then, after what is
- * known was tracked, and uses what it returns as it does a mask: instances are matched with objects, others begin. */
+/** \brief Finds objects in frames while they are tracked, instead of masks from files. DynamicFusion calls it now and
+ * then, after what is known was tracked, and uses what it returns as it does a mask: instances are matched with
+ * objects, others begin. */
 class PCL_COSECTION_EXPORT FrameSegmenter
 {
 public:
-  /** \brief A pixel of something that is neither an object nor background, as a person: not tracked with, mapped or completed. */
+  /** \brief A pixel of something that is neither an object nor background, as a person: not tracked with, mapped or
+   * completed. */
   static constexpr std::uint16_t ignored = ignored_label;
 
   virtual ~FrameSegmenter () = default;
 
   /** \brief A sequence begins: forget what was seen before. */
-  virtual void
-  begin ()
-  {}
+  virtual void begin () {}
 
   /** \brief Look at a frame in which objects are not asked for; it is called for each of those that is tracked. */
-  virtual void
-  look (const ObservedFrame&)
-  {}
+  virtual void look (const ObservedFrame&) {}
 
   /** \brief Find the objects in a frame. Errors are thrown: what is wrong with one frame only belongs into the note. */
-  virtual FrameInstances
-  segment (const ObservedFrame& frame) = 0;
+  virtual FrameInstances segment (const ObservedFrame& frame) = 0;
 
-  /** \brief Whether an object in view that a mask does not show is probably none: it is given up when that happens too often. */
-  virtual bool
-  findsAll () const
-  {
-    return true;
-  }
+  /** \brief Whether an object in view that a mask does not show is probably none: it is given up when that happens too
+   * often. */
+  virtual bool findsAll () const { return true; }
 
-  /** \brief Whether an instance is one object. If not, it may be a part of one, several that touch, or none: what frames have shown of an object
-   * goes before a mask; an object begins when two masks show it, and not from an instance that the image's border cuts; objects that move as
-   * one, or that masks show as one, are united. */
-  virtual bool
-  isExact () const
-  {
-    return true;
-  }
+  /** \brief Whether an instance is one object. If not, it may be a part of one, several that touch, or none: what
+   * frames have shown of an object goes before a mask; an object begins when two masks show it, and not from an
+   * instance that the image's border cuts; objects that move as one, or that masks show as one, are united. */
+  virtual bool isExact () const { return true; }
 };
 
-} // namespace cosection
-} // namespace pcl
+} // namespace pcl::cosection

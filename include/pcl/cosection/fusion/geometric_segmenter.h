@@ -8,13 +8,12 @@
 
 #include <memory>
 
-namespace pcl
-{
-namespace cosection
+namespace pcl::cosection
 {
 
-/** \brief Finds objects in frames by their geometry alone: segmentObjects (). What it misses in one, as things at the image's border or flat
- * ones, it may find in the next; what most frames have shown to be too long for an object is none where another one shows but a part of it.
+/** \brief Finds objects in frames by their geometry alone: segmentObjects (). What it misses in one, as things at the
+ * image's border or flat ones, it may find in the next; what most frames have shown to be too long for an object is
+ * none where another one shows but a part of it.
  *
  * \code
  * fusion.setSegmenter (std::make_shared<GeometricSegmenter> ());
@@ -27,29 +26,18 @@ public:
 
   ~GeometricSegmenter () override;
 
-  void
-  begin () override;
+  void begin () override;
 
   /** \brief Without a plane that objects could stand on, the frame tells nothing. */
-  FrameInstances
-  segment (const ObservedFrame& frame) override;
+  FrameInstances segment (const ObservedFrame& frame) override;
 
-  bool
-  findsAll () const override
-  {
-    return false;
-  }
+  bool findsAll () const override { return false; }
 
-  bool
-  isExact () const override
-  {
-    return false;
-  }
+  bool isExact () const override { return false; }
 
 private:
   ObjectSegmentationOptions options_;
-  std::unique_ptr<class LengthMemory> too_long_;
+  std::unique_ptr<class ObjectSizeFilter> too_long_;
 };
 
-} // namespace cosection
-} // namespace pcl
+} // namespace pcl::cosection

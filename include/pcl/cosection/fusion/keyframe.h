@@ -12,9 +12,7 @@
 #include <map>
 #include <vector>
 
-namespace pcl
-{
-namespace cosection
+namespace pcl::cosection
 {
 
 /** \brief What is taken from the frames of a sequence. */
@@ -25,8 +23,7 @@ struct PCL_COSECTION_EXPORT KeyframeOptions
   int threads = 0;           ///< 0: all
 
   /** \brief \throws InvalidArgument naming the first parameter outside its domain. */
-  void
-  validate () const;
+  void validate () const;
 };
 
 /** \brief The readings of one frame as oriented points, sorted by what they belong to. */
@@ -38,16 +35,16 @@ struct PCL_COSECTION_EXPORT Keyframe
 };
 
 /** \brief The depth of a frame as a view of the scene; readings beyond the largest depth are none. */
-PCL_COSECTION_EXPORT DepthView
-makeDepthView (const Image<float>& depth, const PinholeCamera& camera, const Eigen::Isometry3d& T_world_camera,
-               const KeyframeOptions& options = {});
+PCL_COSECTION_EXPORT DepthView makeDepthView (const Image<float>& depth, const PinholeCamera& camera,
+                                              const Eigen::Isometry3d& T_world_camera,
+                                              const KeyframeOptions& options = {});
 
 /** \brief Turn a frame into a keyframe. Points without a reliable normal (computeOrganizedNormals ()) are left out.
  * \param[in] instances one per pixel, 0: background; empty: all is background
  * \throws InvalidArgument if \a instances or the depth have another size than the camera */
-PCL_COSECTION_EXPORT Keyframe
-makeKeyframe (const RgbdFrame& frame, const PinholeCamera& camera, const Image<std::uint16_t>& instances,
-              const Eigen::Isometry3d& T_world_camera, const KeyframeOptions& options = {});
+PCL_COSECTION_EXPORT Keyframe makeKeyframe (const RgbdFrame& frame, const PinholeCamera& camera,
+                                            const Image<std::uint16_t>& instances,
+                                            const Eigen::Isometry3d& T_world_camera,
+                                            const KeyframeOptions& options = {});
 
-} // namespace cosection
-} // namespace pcl
+} // namespace pcl::cosection

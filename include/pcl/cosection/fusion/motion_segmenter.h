@@ -6,13 +6,11 @@
 #include <pcl/cosection/fusion/frame_segmenter.h>
 #include <pcl/cosection/segmentation/moving_body_finder.h>
 
-namespace pcl
-{
-namespace cosection
+namespace pcl::cosection
 {
 
-/** \brief Finds objects in frames when they begin to move: MovingBodyFinder. What the front end tracks already is known to it; what moves with
- * an object is a part of it. Things that move otherwise than as a whole are ignored.
+/** \brief Finds objects in frames when they begin to move: MovingBodyFinder. What the front end tracks already is known
+ * to it; what moves with an object is a part of it. Things that move otherwise than as a whole are ignored.
  *
  * \code
  * fusion.setSegmenter (std::make_shared<MotionSegmenter> ());
@@ -23,25 +21,17 @@ public:
   /** \throws InvalidArgument as MotionSegmentationOptions::validate () */
   explicit MotionSegmenter (const MotionSegmentationOptions& options = {});
 
-  void
-  begin () override;
+  void begin () override;
 
-  void
-  look (const ObservedFrame& frame) override;
+  void look (const ObservedFrame& frame) override;
 
-  FrameInstances
-  segment (const ObservedFrame& frame) override;
+  FrameInstances segment (const ObservedFrame& frame) override;
 
   /** \brief What rests is not found. */
-  bool
-  findsAll () const override
-  {
-    return false;
-  }
+  bool findsAll () const override { return false; }
 
 private:
   MovingBodyFinder finder_;
 };
 
-} // namespace cosection
-} // namespace pcl
+} // namespace pcl::cosection

@@ -7,9 +7,7 @@
 #include <pcl/cosection/segmentation/instance_detector.h>
 #include <pcl/cosection/segmentation/instance_labels.h>
 
-namespace pcl
-{
-namespace cosection
+namespace pcl::cosection
 {
 
 /** \brief Finds objects in the colours of frames with an instance segmentation network: InstanceDetector.
@@ -18,7 +16,8 @@ namespace cosection
  * InstanceDetectorOptions network;
  * network.model = "yolov5s-seg.onnx";
  * network.detection.class_names = loadClassNames ("coco.names");
- * fusion.setSegmenter (std::make_shared<NetworkSegmenter> (network, ClassRoles{{}, {"dining table", "tv"}, {"person"}}));
+ * fusion.setSegmenter (std::make_shared<NetworkSegmenter> (network, ClassRoles{{}, {"dining table", "tv"},
+ * {"person"}}));
  * \endcode */
 class PCL_COSECTION_EXPORT NetworkSegmenter : public FrameSegmenter
 {
@@ -26,14 +25,13 @@ public:
   /** \throws InvalidArgument, IoError as InstanceDetector and ClassRoles::validate () */
   explicit NetworkSegmenter (const InstanceDetectorOptions& options, const ClassRoles& roles = {});
 
-  /** \brief Instances with their classes. A frame without colour tells nothing. \throws IoError if the network cannot be run */
-  FrameInstances
-  segment (const ObservedFrame& frame) override;
+  /** \brief Instances with their classes. A frame without colour tells nothing. \throws IoError if the network cannot
+   * be run */
+  FrameInstances segment (const ObservedFrame& frame) override;
 
 private:
   InstanceDetector detector_;
   ClassRoles roles_;
 };
 
-} // namespace cosection
-} // namespace pcl
+} // namespace pcl::cosection

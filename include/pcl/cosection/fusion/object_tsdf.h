@@ -11,22 +11,19 @@
 #include <optional>
 #include <vector>
 
-namespace pcl
-{
-namespace cosection
+namespace pcl::cosection
 {
 
 /** \brief Where an object's TSDF volume lies. */
 struct PCL_COSECTION_EXPORT ObjectTsdfOptions
 {
-  int resolution = 64;       ///< voxels along the longest side of what is seen first
-  double margin = 0.25;      ///< of the volume beyond what was seen, as a fraction of its longest side
-  int max_resolution = 256;  ///< voxels along a side; what lies beyond is left out
+  int resolution = 64;      ///< voxels along the longest side of what is seen first
+  double margin = 0.25;     ///< of the volume beyond what was seen, as a fraction of its longest side
+  int max_resolution = 256; ///< voxels along a side; what lies beyond is left out
   TsdfOptions tsdf;
 
   /** \brief \throws InvalidArgument naming the first parameter outside its domain. */
-  void
-  validate () const;
+  void validate () const;
 };
 
 /** \brief The TSDF volume of an object, which is placed by the first points that are seen of it and grows with more. */
@@ -35,33 +32,24 @@ class PCL_COSECTION_EXPORT ObjectTsdf
 public:
   explicit ObjectTsdf (const ObjectTsdfOptions& options = {});
 
-  /** \brief Make room for points, object frame; a hundredth of them at either end of each axis counts as outliers. What was
-   * integrated stays, unless most of the points are beyond the largest volume: then a sliver of the object was seen before, and a new
-   * volume with larger voxels begins. Fewer than 20 points make none. */
-  void
-  makeRoom (const std::vector<OrientedPoint>& points);
+  /** \brief Make room for points, object frame; a hundredth of them at either end of each axis counts as outliers. What
+   * was integrated stays, unless most of the points are beyond the largest volume: then a sliver of the object was seen
+   * before, and a new volume with larger voxels begins. Fewer than 20 points make none. */
+  void makeRoom (const std::vector<OrientedPoint>& points);
 
   /** \brief TsdfVolume::integrate (); nothing until there is room. */
-  void
-  integrate (const Image<float>& depth, const PinholeCamera& camera, const Eigen::Isometry3d& T_object_sensor,
-             const TsdfPixels& pixels);
+  void integrate (const Image<float>& depth, const PinholeCamera& camera, const Eigen::Isometry3d& T_object_sensor,
+                  const TsdfPixels& pixels);
 
   /** \brief Nothing until there is room. */
-  const std::optional<TsdfVolume>&
-  volume () const
-  {
-    return volume_;
-  }
+  const std::optional<TsdfVolume>& volume () const { return volume_; }
 
 private:
-  bool
-  canHold (const Eigen::AlignedBox3d& box) const;
-  void
-  place (const Eigen::AlignedBox3d& box, double voxel_size_m);
+  bool canHold (const Eigen::AlignedBox3d& box) const;
+  void place (const Eigen::AlignedBox3d& box, double voxel_size_m);
 
   ObjectTsdfOptions options_;
   std::optional<TsdfVolume> volume_;
 };
 
-} // namespace cosection
-} // namespace pcl
+} // namespace pcl::cosection

@@ -22,9 +22,7 @@
 #include <string>
 #include <vector>
 
-namespace pcl
-{
-namespace cosection
+namespace pcl::cosection
 {
 
 /** \brief A sequence and what is known beside its images. */
@@ -40,16 +38,20 @@ struct PCL_COSECTION_EXPORT KnownSequence
 /** \brief A sequence of which poses are not known. */
 struct PCL_COSECTION_EXPORT TrackedSequence
 {
-  explicit TrackedSequence (const RgbdSequence& images, const MaskSequence* masks = nullptr) : images (&images), masks (masks)
+  explicit TrackedSequence (const RgbdSequence& images, const MaskSequence* masks = nullptr)
+      : images (&images)
+      , masks (masks)
   {}
 
   const RgbdSequence* images;
-  /** \brief A pixel is the number of an instance, which may be another in the next mask; not every frame needs one. Null: no objects. */
+  /** \brief A pixel is the number of an instance, which may be another in the next mask; not every frame needs one.
+   * Null: no objects. */
   const MaskSequence* masks;
   std::shared_ptr<FrameSegmenter> segmenter; ///< finds objects in frames without a mask; null: none
 };
 
-/** \brief Whether SequenceFusion completes everything at keyframes, too, not only at the end. The last result is the same. */
+/** \brief Whether SequenceFusion completes everything at keyframes, too, not only at the end. The last result is the
+ * same. */
 enum class KeyframeUpdates
 {
   None,
@@ -65,23 +67,23 @@ struct PCL_COSECTION_EXPORT FusionOptions
   ObjectTsdfOptions tsdf;         ///< of objects with given poses
   DynamicFusionOptions front_end; ///< where poses are not given
   FrameRange frames;
-  Image<std::uint8_t> ignored;    ///< not 0: a pixel that is not read in any frame, as of something fixed to the camera; empty: all are
-  int keyframe_every = 10;           ///< frames; where one has no mask or no pose, the next that has
+  Image<std::uint8_t>
+      ignored; ///< not 0: a pixel that is not read in any frame, as of something fixed to the camera; empty: all are
+  int keyframe_every = 10; ///< frames; where one has no mask or no pose, the next that has
   KeyframeUpdates updates = KeyframeUpdates::None;
 
   FusionOptions ();
 
   /** \brief \throws InvalidArgument naming the first parameter outside its domain. */
-  void
-  validate () const;
+  void validate () const;
 };
 
 /** \brief One object of a sequence beside its completion. */
 struct PCL_COSECTION_EXPORT FusedObject
 {
-  std::vector<StampedPose> trajectory; ///< T_world_object at the frames at which it is known
-  TriangleMesh tsdf;                   ///< open mesh of what was seen, object frame
-  std::size_t points = 0;              ///< in all keyframes
+  std::vector<StampedPose> trajectory;  ///< T_world_object at the frames at which it is known
+  TriangleMesh tsdf;                    ///< open mesh of what was seen, object frame
+  std::size_t points = 0;               ///< in all keyframes
   std::optional<ClassScore> best_class; ///< what it is, if a segmenter has named its class
 };
 
@@ -95,8 +97,8 @@ struct PCL_COSECTION_EXPORT FusionResult
   std::size_t frames = 0;         ///< that were used
   std::size_t keyframes = 0;      ///< of them
   std::size_t kept_keyframes = 0; ///< of them, in the result
-  /** \brief read, tracking, raycast (0: models are projected, in tracking), segmentation, integration, keyframes, updates (beside the
-   * others, unless in step), final_solve, and those of the scene. */
+  /** \brief read, tracking, raycast (0: models are projected, in tracking), segmentation, integration, keyframes,
+   * updates (beside the others, unless in step), final_solve, and those of the scene. */
   std::map<std::string, double> timings_s;
   bool tracked = false;            ///< poses were not given
   std::vector<std::string> events; ///< what tracking decided, and why
@@ -116,17 +118,19 @@ struct FrameReport
   const RgbdFrame& frame;
   const Eigen::Isometry3d& T_world_camera;
   const std::map<int, Eigen::Isometry3d>& T_world_object; ///< of the objects that are known in the frame
-  const Image<std::uint16_t>* instances;                  ///< id of the object, 0: background; empty: all is; null: not known
-  bool keyframe;                                          ///< its points are used
-  /** \brief What was seen of an object so far, its frame; empty if nothing. Takes some ten milliseconds; to be called while the report is there. */
+  const Image<std::uint16_t>* instances; ///< id of the object, 0: background; empty: all is; null: not known
+  bool keyframe;                         ///< its points are used
+  /** \brief What was seen of an object so far, its frame; empty if nothing. Takes some ten milliseconds; to be called
+   * while the report is there. */
   std::function<TriangleMesh (int id)> seen;
 };
 
-/** \brief Goes through a sequence and completes the objects in it and the background. Poses and masks are known, or the camera and the
- * objects are tracked (DynamicFusion).
+/** \brief Goes through a sequence and completes the objects in it and the background. Poses and masks are known, or the
+ * camera and the objects are tracked (DynamicFusion).
  *
- * Each frame gives free space, and distances for the objects' TSDF volumes; keyframes give oriented points as well. Frames that
- * cannot be read, or without the camera's pose, are left out and told; so are objects of fewer than 100 points.
+ * Each frame gives free space, and distances for the objects' TSDF volumes; keyframes give oriented points as well.
+ * Frames that cannot be read, or without the camera's pose, are left out and told; so are objects of fewer than 100
+ * points.
  *
  * \code
  * KnownSequence known;
@@ -140,19 +144,19 @@ public:
   using KeyframeCallback = std::function<void (const KeyframeReport&)>;
   using FrameCallback = std::function<void (const FrameReport&)>;
 
-  /** \throws InvalidArgument if an option is outside its domain, there are no images, the ignored pixels are not of their size, or no pose of
-   * the camera is for any frame of the range */
+  /** \throws InvalidArgument if an option is outside its domain, there are no images, the ignored pixels are not of
+   * their size, or no pose of the camera is for any frame of the range */
   explicit SequenceFusion (KnownSequence sequence, const FusionOptions& options = {});
 
-  /** \brief Track the camera and the objects. \throws InvalidArgument if an option is outside its domain, the ignored pixels are not of the
-   * images' size, or there are no frames in the range */
+  /** \brief Track the camera and the objects. \throws InvalidArgument if an option is outside its domain, the ignored
+   * pixels are not of the images' size, or there are no frames in the range */
   explicit SequenceFusion (const TrackedSequence& sequence, const FusionOptions& options = {});
 
   /** \param[in] keyframe called after every update, if those are asked for; from the calling thread
    * \param[in] frame called after every frame that is used, from the calling thread; without influence on the result
    * \throws IoError if no frame can be used, no mask, or no keyframe has a point; Cancelled */
-  FusionResult
-  run (const ProgressCallback& progress = {}, const KeyframeCallback& keyframe = {}, const FrameCallback& frame = {}) const;
+  FusionResult run (const ProgressCallback& progress = {}, const KeyframeCallback& keyframe = {},
+                    const FrameCallback& frame = {}) const;
 
 private:
   KnownSequence sequence_;
@@ -160,5 +164,4 @@ private:
   FusionOptions options_;
 };
 
-} // namespace cosection
-} // namespace pcl
+} // namespace pcl::cosection

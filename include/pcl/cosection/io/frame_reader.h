@@ -16,22 +16,21 @@
 #include <thread>
 #include <vector>
 
-namespace pcl
-{
-namespace cosection
+namespace pcl::cosection
 {
 
 /** \brief Which frames FrameReader reads. */
 struct PCL_COSECTION_EXPORT FrameRange
 {
-  std::size_t first = 0;                                        ///< index
-  std::size_t last = std::numeric_limits<std::size_t>::max (); ///< index of the frame behind the last; larger: the sequence's end
+  std::size_t first = 0;                                       ///< index
+  std::size_t last = std::numeric_limits<std::size_t>::max (); ///< index of the frame behind the last; larger: the
+                                                               ///< sequence's end
 };
 
 /** \brief Reads the frames of a sequence ahead, in a thread of its own.
  *
- * Frames come in their order. One that cannot be read is skipped and told in warnings (). The same files give the same frames
- * and warnings, however the threads run.
+ * Frames come in their order. One that cannot be read is skipped and told in warnings (). The same files give the same
+ * frames and warnings, however the threads run.
  *
  * \code
  * FrameReader reader (sequence);
@@ -50,22 +49,18 @@ public:
   ~FrameReader ();
 
   FrameReader (const FrameReader&) = delete;
-  FrameReader&
-  operator= (const FrameReader&) = delete;
+  FrameReader& operator= (const FrameReader&) = delete;
 
   /** \brief The next frame that can be read; waits for it. Nothing at the end, again and again.
    * \throws std::bad_alloc if memory ran out even for a message about a frame */
-  std::optional<RgbdFrame>
-  next ();
+  std::optional<RgbdFrame> next ();
 
-  /** \brief Lines about the frames up to the last that next () returned, in their order: the first twenty, then how many more.
-   * From any thread. */
-  std::vector<std::string>
-  warnings () const;
+  /** \brief Lines about the frames up to the last that next () returned, in their order: the first twenty, then how
+   * many more. From any thread. */
+  std::vector<std::string> warnings () const;
 
   /** \brief How many frames were skipped up to the last that next () returned. From any thread. */
-  std::size_t
-  skipped () const;
+  std::size_t skipped () const;
 
 private:
   struct Result
@@ -74,14 +69,11 @@ private:
     std::vector<std::string> warnings;
   };
 
-  void
-  run (std::size_t first, std::size_t last) noexcept;
+  void run (std::size_t first, std::size_t last) noexcept;
 
-  void
-  readFrames (std::size_t first, std::size_t last);
+  void readFrames (std::size_t first, std::size_t last);
 
-  Result
-  readFrame (std::size_t index) const;
+  Result readFrame (std::size_t index) const;
 
   const RgbdSequence sequence_;
   const std::size_t ahead_;
@@ -99,5 +91,4 @@ private:
   std::thread thread_; // last: it uses the rest
 };
 
-} // namespace cosection
-} // namespace pcl
+} // namespace pcl::cosection

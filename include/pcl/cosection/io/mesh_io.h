@@ -7,9 +7,7 @@
 
 #include <string>
 
-namespace pcl
-{
-namespace cosection
+namespace pcl::cosection
 {
 
 /** \brief Write a mesh; the format follows the extension, through a temporary name.
@@ -17,13 +15,11 @@ namespace cosection
  * `.ply`: binary little endian; normals, colours, `intensity`, `confidence` (float) and `provenance` (uchar) as
  * vertex properties where the mesh has them. `.stl`: binary. `.obj`: with normals.
  * \throws IoError, InvalidArgument for an unknown extension */
-PCL_COSECTION_EXPORT void
-saveMesh (const TriangleMesh& mesh, const std::string& path);
+PCL_COSECTION_EXPORT void saveMesh (const TriangleMesh& mesh, const std::string& path);
 
 /** \brief Read a PLY file of triangles with the vertex properties that saveMesh () writes, as it is.
  * \throws IoError */
-PCL_COSECTION_EXPORT TriangleMesh
-loadPlyMesh (const std::string& path);
+PCL_COSECTION_EXPORT TriangleMesh loadPlyMesh (const std::string& path);
 
 /** \brief Read the surface of any mesh file: PLY, STL, OBJ, OFF, VTK's legacy format (`.vtk` of POLYDATA) and its
  * XML format (`.vtp`), text or binary. What the file begins with decides on the format where it can, else the
@@ -36,8 +32,6 @@ loadPlyMesh (const std::string& path);
  * file's units; vertices without a triangle are dropped.
  * \throws IoError if the file cannot be read, has no known format, is damaged or cut off, has no triangles of
  * any area, or vertices of these that are not finite */
-PCL_COSECTION_EXPORT TriangleMesh
-loadMesh (const std::string& path);
+PCL_COSECTION_EXPORT TriangleMesh loadMesh (const std::string& path);
 
-} // namespace cosection
-} // namespace pcl
+} // namespace pcl::cosection

@@ -14,9 +14,7 @@
 #include <string>
 #include <vector>
 
-namespace pcl
-{
-namespace cosection
+namespace pcl::cosection
 {
 
 /** \brief How to read a PCD file as a view. */
@@ -24,15 +22,15 @@ struct PCL_COSECTION_EXPORT PcdViewOptions
 {
   double scale = 1.0;        ///< multiplies all coordinates, the viewpoint's too: 0.001 for millimetres
   bool world_points = false; ///< the points are in the world frame, not in the sensor's
-  std::optional<std::array<double, 3>> viewpoint; ///< where the sensor stood, world frame, metres, instead of the header's VIEWPOINT; the points are in the world frame
+  std::optional<std::array<double, 3>> viewpoint;  ///< where the sensor stood, world frame, metres, instead of the
+                                                   ///< header's VIEWPOINT; the points are in the world frame
   std::optional<std::array<double, 4>> intrinsics; ///< fx, fy, cx, cy in pixels, where no pinhole fits the points
   int normal_neighbours = 20;                      ///< nearest points for the normals of an unorganised cloud
   std::size_t max_memory_bytes = 0;                ///< refuse clouds that need more; 0: no limit
   int threads = 0;                                 ///< 0: all
 
   /** \brief \throws InvalidArgument naming the first parameter outside its domain. */
-  void
-  validate () const;
+  void validate () const;
 };
 
 /** \brief One view of a scene: what belongs to which object, and the rays that measured it. */
@@ -48,7 +46,7 @@ struct PCL_COSECTION_EXPORT LabelledView
   std::optional<DepthView> view; ///< of an organised cloud from a pinhole camera, or of points seen from the viewpoint
   std::map<std::uint32_t, Points> objects; ///< by label; 0: background
   bool organized = false;
-  bool has_labels = false;                 ///< without, everything is object 1
+  bool has_labels = false; ///< without, everything is object 1
   bool has_colour = false;
   bool has_intensity = false;
   std::vector<std::string> warnings; ///< one line each, naming the file
@@ -71,8 +69,6 @@ struct PCL_COSECTION_EXPORT LabelledView
  * \throws IoError if the file is not a well formed PCD file with these fields
  * \throws DegenerateInput if it holds no finite point
  * \throws InvalidArgument if an option is outside its domain */
-PCL_COSECTION_EXPORT LabelledView
-readPcdView (const std::string& path, const PcdViewOptions& options = {});
+PCL_COSECTION_EXPORT LabelledView readPcdView (const std::string& path, const PcdViewOptions& options = {});
 
-} // namespace cosection
-} // namespace pcl
+} // namespace pcl::cosection

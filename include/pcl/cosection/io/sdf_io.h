@@ -7,16 +7,12 @@
 
 #include <string>
 
-namespace pcl
-{
-namespace cosection
+namespace pcl::cosection
 {
 
 /** \brief Write a signed distance field as VTK image data (`.vti`): point arrays
  * `signed_distance` (float, metres) and, if present, `supported` (unsigned char); the origin is the
  * first voxel's centre. Through a temporary name. \throws IoError */
-PCL_COSECTION_EXPORT void
-saveSignedDistance (const SignedDistanceField& field, const std::string& path);
+PCL_COSECTION_EXPORT void saveSignedDistance (const SignedDistanceField& field, const std::string& path);
 
-} // namespace cosection
-} // namespace pcl
+} // namespace pcl::cosection

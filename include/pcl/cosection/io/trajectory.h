@@ -9,15 +9,13 @@
 #include <string>
 #include <vector>
 
-namespace pcl
-{
-namespace cosection
+namespace pcl::cosection
 {
 
 /** \brief Where something was at a time. */
 struct StampedPose
 {
-  double stamp = 0.0;                                     ///< seconds, or the number of a frame or view
+  double stamp = 0.0;                                      ///< seconds, or the number of a frame or view
   Eigen::Isometry3d pose = Eigen::Isometry3d::Identity (); ///< metres
 };
 
@@ -26,12 +24,9 @@ struct StampedPose
  * \return by ascending stamps
  * \throws IoError if the file cannot be read, has no pose, a line that is none, or a stamp twice; the message names the
  * line */
-PCL_COSECTION_EXPORT std::vector<StampedPose>
-loadTrajectory (const std::string& path);
+PCL_COSECTION_EXPORT std::vector<StampedPose> loadTrajectory (const std::string& path);
 
 /** \brief Write one in the same format; stamps that are whole numbers without a decimal point. \throws IoError */
-PCL_COSECTION_EXPORT void
-saveTrajectory (const std::vector<StampedPose>& poses, const std::string& path);
+PCL_COSECTION_EXPORT void saveTrajectory (const std::vector<StampedPose>& poses, const std::string& path);
 
-} // namespace cosection
-} // namespace pcl
+} // namespace pcl::cosection

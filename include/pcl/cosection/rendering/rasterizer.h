@@ -9,9 +9,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace pcl
-{
-namespace cosection
+namespace pcl::cosection
 {
 
 /** \brief What the rasteriser writes for each pixel; row by row, width * height entries. */
@@ -19,9 +17,10 @@ struct PCL_COSECTION_EXPORT RasterImage
 {
   int width = 0;
   int height = 0;
-  std::vector<float> depth;              ///< metres along the optical axis; NaN: nothing hit
-  std::vector<Eigen::Vector3f> normals;  ///< sensor frame, unit, towards the camera's side of the triangle; zero: nothing
-  std::vector<std::int32_t> ids;         ///< id given to draw (); -1: nothing
+  std::vector<float> depth; ///< metres along the optical axis; NaN: nothing hit
+  std::vector<Eigen::Vector3f>
+      normals;                   ///< sensor frame, unit, towards the camera's side of the triangle; zero: nothing
+  std::vector<std::int32_t> ids; ///< id given to draw (); -1: nothing
   std::vector<std::array<std::uint8_t, 3>> colours; ///< unshaded surface colour; zero: nothing
 };
 
@@ -42,21 +41,15 @@ public:
 
   /** \brief Draw a mesh whose vertices are in the frame of \a T_world_mesh. Colours come from the
    * mesh, else \a colour. Smooth normals if the mesh has normals, else flat. */
-  void
-  draw (const TriangleMesh& mesh, int id, const Eigen::Isometry3d& T_world_mesh = Eigen::Isometry3d::Identity (),
-        const std::array<std::uint8_t, 3>& colour = {200, 200, 200});
+  void draw (const TriangleMesh& mesh, int id, const Eigen::Isometry3d& T_world_mesh = Eigen::Isometry3d::Identity (),
+             const std::array<std::uint8_t, 3>& colour = {200, 200, 200});
 
   /** \brief Draw points as squares of \a size_px pixels; their normal faces the camera.
    * \param[in] colours empty, or one per point */
-  void
-  drawPoints (const std::vector<Eigen::Vector3f>& points, const std::vector<std::array<std::uint8_t, 3>>& colours,
-              int id, int size_px = 2);
+  void drawPoints (const std::vector<Eigen::Vector3f>& points, const std::vector<std::array<std::uint8_t, 3>>& colours,
+                   int id, int size_px = 2);
 
-  const RasterImage&
-  image () const
-  {
-    return image_;
-  }
+  const RasterImage& image () const { return image_; }
 
 private:
   PinholeCamera camera_;
@@ -65,5 +58,4 @@ private:
   RasterImage image_;
 };
 
-} // namespace cosection
-} // namespace pcl
+} // namespace pcl::cosection

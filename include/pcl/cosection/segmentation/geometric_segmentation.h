@@ -44,43 +44,26 @@ public:
   using PointCloud = pcl::PointCloud<PointT>;
 
   /** \brief What is longer is furniture or room, metres; default 0.5. \throws InvalidArgument */
-  void
-  setMaximumObjectSize (double size_m);
+  void setMaximumObjectSize (double size_m);
 
-  double
-  getMaximumObjectSize () const
-  {
-    return options_.max_object_size_m;
-  }
+  double getMaximumObjectSize () const { return options_.max_object_size_m; }
 
   /** \brief What is shorter is no object, metres; default 0.02. \throws InvalidArgument */
-  void
-  setMinimumObjectSize (double size_m);
+  void setMinimumObjectSize (double size_m);
 
-  double
-  getMinimumObjectSize () const
-  {
-    return options_.min_object_size_m;
-  }
+  double getMinimumObjectSize () const { return options_.min_object_size_m; }
 
   /** \brief A crease that is concave by more than this angle separates two objects, radians; default 0.45.
    * \throws InvalidArgument */
-  void
-  setConcaveAngle (double angle_rad);
+  void setConcaveAngle (double angle_rad);
 
-  double
-  getConcaveAngle () const
-  {
-    return options_.concave_angle_rad;
-  }
+  double getConcaveAngle () const { return options_.concave_angle_rad; }
 
   /** \brief All parameters in one. \throws InvalidArgument */
-  void
-  setOptions (const ObjectSegmentationOptions& options);
+  void setOptions (const ObjectSegmentationOptions& options);
 
   /** \brief 0 (default): all processors. */
-  void
-  setNumberOfThreads (unsigned int threads = 0);
+  void setNumberOfThreads (unsigned int threads = 0);
 
   /** \brief Find the objects.
    * \param[out] labels one per point of the input cloud, of its width and height: 0 background, 1 ... objects
@@ -88,15 +71,10 @@ public:
    *
    * Without an organised input cloud, and where there is no plane that objects could stand on, this says so on PCL's
    * console, and both are empty. */
-  void
-  segment (pcl::PointCloud<pcl::Label>& labels, std::vector<pcl::PointIndices>& label_indices);
+  void segment (pcl::PointCloud<pcl::Label>& labels, std::vector<pcl::PointIndices>& label_indices);
 
   /** \brief The planes that the last segment () took for the room, as pcl::SACSegmentation gives them. */
-  const std::vector<pcl::ModelCoefficients>&
-  getSupportPlanes () const
-  {
-    return support_planes_;
-  }
+  const std::vector<pcl::ModelCoefficients>& getSupportPlanes () const { return support_planes_; }
 
 protected:
   using Base::deinitCompute;
@@ -109,8 +87,7 @@ private:
   std::vector<pcl::ModelCoefficients> support_planes_;
 };
 
-} // namespace cosection
-} // namespace pcl
+} // namespace pcl::cosection
 
 #ifdef PCL_NO_PRECOMPILE
 #include <pcl/cosection/segmentation/impl/geometric_segmentation.hpp>
@@ -135,6 +112,5 @@ extern template class PCL_COSECTION_EXPORT GeometricSegmentation<pcl::PointXYZRG
 extern template class PCL_COSECTION_EXPORT GeometricSegmentation<pcl::PointNormal>;
 extern template class PCL_COSECTION_EXPORT GeometricSegmentation<pcl::PointXYZRGBNormal>;
 extern template class PCL_COSECTION_EXPORT GeometricSegmentation<pcl::PointXYZINormal>;
-} // namespace cosection
-} // namespace pcl
+} // namespace pcl::cosection
 #endif

@@ -20,7 +20,8 @@ struct Label;
 namespace cosection
 {
 
-/** \brief Finds the objects in an organised, coloured cloud with an instance segmentation network; InstanceDetector says which.
+/** \brief Finds the objects in an organised, coloured cloud with an instance segmentation network; InstanceDetector
+ * says which.
  *
  * \code
  * pcl::cosection::InstanceDetectorOptions network;
@@ -37,8 +38,8 @@ namespace cosection
  *
  * setIndices () works: other points belong to nothing. The network sees all colours.
  *
- * Instantiated for pcl::PointXYZRGB, PointXYZRGBA, PointXYZRGBL and PointXYZRGBNormal; for other types with colours define
- * PCL_NO_PRECOMPILE before the include. */
+ * Instantiated for pcl::PointXYZRGB, PointXYZRGBA, PointXYZRGBL and PointXYZRGBNormal; for other types with colours
+ * define PCL_NO_PRECOMPILE before the include. */
 template <typename PointT> class PCL_COSECTION_EXPORT InstanceSegmentation : public PCLBase<PointT>
 {
   using Base = PCLBase<PointT>;
@@ -49,24 +50,19 @@ public:
   using PointCloud = pcl::PointCloud<PointT>;
 
   /** \brief Read the network, and say what becomes of its classes. \throws InvalidArgument, IoError */
-  void
-  setNetwork (const InstanceDetectorOptions& options, const ClassRoles& roles = {});
+  void setNetwork (const InstanceDetectorOptions& options, const ClassRoles& roles = {});
 
   /** \brief Find the objects.
    * \param[out] labels one per point of the input cloud, of its width and height: 0 none, 1 ... objects, ignored_label
    * \param[out] label_indices points of each object, in their order; those of label n are label_indices[n - 1]
    *
-   * Without a network or an organised input cloud with colours, and if the network cannot be run, this says so on PCL's console, and both
-   * are empty. That nothing is found is no error: all labels are 0 then. */
-  void
-  segment (pcl::PointCloud<pcl::Label>& labels, std::vector<pcl::PointIndices>& label_indices);
+   * Without a network or an organised input cloud with colours, and if the network cannot be run, this says so on PCL's
+   * console, and both are empty. That nothing is found is no error: all labels are 0 then. */
+  void segment (pcl::PointCloud<pcl::Label>& labels, std::vector<pcl::PointIndices>& label_indices);
 
-  /** \brief Classes, scores and whole masks of the objects that the last segment () found: those of label n are at n - 1. */
-  const std::vector<DetectedInstance>&
-  getInstances () const
-  {
-    return instances_;
-  }
+  /** \brief Classes, scores and whole masks of the objects that the last segment () found: those of label n are at n
+   * - 1. */
+  const std::vector<DetectedInstance>& getInstances () const { return instances_; }
 
 protected:
   using Base::deinitCompute;
@@ -80,8 +76,7 @@ private:
   std::vector<DetectedInstance> instances_;
 };
 
-} // namespace cosection
-} // namespace pcl
+} // namespace pcl::cosection
 
 #ifdef PCL_NO_PRECOMPILE
 #include <pcl/cosection/segmentation/impl/instance_segmentation.hpp>
@@ -98,6 +93,5 @@ extern template class PCL_COSECTION_EXPORT InstanceSegmentation<pcl::PointXYZRGB
 extern template class PCL_COSECTION_EXPORT InstanceSegmentation<pcl::PointXYZRGBA>;
 extern template class PCL_COSECTION_EXPORT InstanceSegmentation<pcl::PointXYZRGBL>;
 extern template class PCL_COSECTION_EXPORT InstanceSegmentation<pcl::PointXYZRGBNormal>;
-} // namespace cosection
-} // namespace pcl
+} // namespace pcl::cosection
 #endif

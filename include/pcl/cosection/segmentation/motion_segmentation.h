@@ -23,7 +23,8 @@ struct Label;
 namespace cosection
 {
 
-/** \brief Finds rigid bodies in a stream of organised clouds by their motion, while the sensor may move, too. MovingBodyFinder says how.
+/** \brief Finds rigid bodies in a stream of organised clouds by their motion, while the sensor may move, too.
+ * MovingBodyFinder says how.
  *
  * \code
  * pcl::cosection::MotionSegmentation<pcl::PointXYZRGB> segmentation;
@@ -37,8 +38,9 @@ namespace cosection
  * }
  * \endcode
  *
- * setIndices () works: other points count as no reading. Instantiated for pcl::PointXYZ, PointXYZI, PointXYZRGB, PointXYZRGBA,
- * PointXYZRGBL, PointNormal, PointXYZRGBNormal and PointXYZINormal; for other types define PCL_NO_PRECOMPILE before the include. */
+ * setIndices () works: other points count as no reading. Instantiated for pcl::PointXYZ, PointXYZI, PointXYZRGB,
+ * PointXYZRGBA, PointXYZRGBL, PointNormal, PointXYZRGBNormal and PointXYZINormal; for other types define
+ * PCL_NO_PRECOMPILE before the include. */
 template <typename PointT> class PCL_COSECTION_EXPORT MotionSegmentation : public PCLBase<PointT>
 {
   using Base = PCLBase<PointT>;
@@ -49,51 +51,37 @@ public:
   using PointCloud = pcl::PointCloud<PointT>;
 
   /** \brief All parameters in one; what was seen is forgotten. \throws InvalidArgument */
-  void
-  setOptions (const MotionSegmentationOptions& options);
+  void setOptions (const MotionSegmentationOptions& options);
 
   /** \brief Where the sensor of the next cloud is; default: what the cloud says itself. */
-  void
-  setSensorPose (const Eigen::Isometry3d& T_world_sensor)
-  {
-    T_world_sensor_ = T_world_sensor;
-  }
+  void setSensorPose (const Eigen::Isometry3d& T_world_sensor) { T_world_sensor_ = T_world_sensor; }
 
   /** \brief The sensor; default: that which fits the cloud best. It saves the fit. */
-  void
-  setCamera (const PinholeCamera& camera)
-  {
-    camera_ = camera;
-  }
+  void setCamera (const PinholeCamera& camera) { camera_ = camera; }
 
-  /** \brief What is known of the next cloud: the body whose model explains a point, 0: none does; and where those bodies are. */
-  void
-  setKnownBodies (const std::vector<std::uint32_t>& bodies, const std::map<std::uint32_t, Eigen::Isometry3d>& T_world_body)
+  /** \brief What is known of the next cloud: the body whose model explains a point, 0: none does; and where those
+   * bodies are. */
+  void setKnownBodies (const std::vector<std::uint32_t>& bodies,
+                       const std::map<std::uint32_t, Eigen::Isometry3d>& T_world_body)
   {
     bodies_ = bodies;
     T_world_body_ = T_world_body;
   }
 
   /** \brief Depth of each point of the next cloud by a model of the room, metres; NaN: nothing. */
-  void
-  setExpectedDepth (const std::vector<float>& depth)
-  {
-    expected_depth_ = depth;
-  }
+  void setExpectedDepth (const std::vector<float>& depth) { expected_depth_ = depth; }
 
   /** \brief Look at the cloud without looking for bodies in it: where that is wanted now and then only.
-   * \throws InvalidArgument if there is no organised cloud, it has no readings or is no pinhole camera's image, sizes do not agree, or a pose is
-   * not a finite rigid motion; the cloud is left out then */
-  void
-  add ();
+   * \throws InvalidArgument if there is no organised cloud, it has no readings or is no pinhole camera's image, sizes
+   * do not agree, or a pose is not a finite rigid motion; the cloud is left out then */
+  void add ();
 
   /** \brief Look at the cloud, and find the moving bodies in it.
-   * \param[out] labels one per point of the input cloud, of its width and height: 0 at rest, 1 ... bodies, MotionSegments::unexplained: what
-   * moves otherwise. A body keeps its label from call to call
+   * \param[out] labels one per point of the input cloud, of its width and height: 0 at rest, 1 ... bodies,
+   * MotionSegments::unexplained: what moves otherwise. A body keeps its label from call to call
    * \param[out] label_indices points of each body; those of label n are label_indices[n - 1]. Empty while nothing moves
    * \throws InvalidArgument as add () */
-  void
-  segment (pcl::PointCloud<pcl::Label>& labels, std::vector<pcl::PointIndices>& label_indices);
+  void segment (pcl::PointCloud<pcl::Label>& labels, std::vector<pcl::PointIndices>& label_indices);
 
 protected:
   using Base::deinitCompute;
@@ -113,8 +101,7 @@ public:
   PCL_MAKE_ALIGNED_OPERATOR_NEW
 };
 
-} // namespace cosection
-} // namespace pcl
+} // namespace pcl::cosection
 
 #ifdef PCL_NO_PRECOMPILE
 #include <pcl/cosection/segmentation/impl/motion_segmentation.hpp>
@@ -139,6 +126,5 @@ extern template class PCL_COSECTION_EXPORT MotionSegmentation<pcl::PointXYZRGBL>
 extern template class PCL_COSECTION_EXPORT MotionSegmentation<pcl::PointNormal>;
 extern template class PCL_COSECTION_EXPORT MotionSegmentation<pcl::PointXYZRGBNormal>;
 extern template class PCL_COSECTION_EXPORT MotionSegmentation<pcl::PointXYZINormal>;
-} // namespace cosection
-} // namespace pcl
+} // namespace pcl::cosection
 #endif

@@ -9,9 +9,7 @@
 #include <string>
 #include <vector>
 
-namespace pcl
-{
-namespace cosection
+namespace pcl::cosection
 {
 
 /** \brief One thing that a network has found in an image. */
@@ -33,7 +31,8 @@ struct PCL_COSECTION_EXPORT NetworkOutput
   std::vector<float> values;
 };
 
-/** \brief Where an image lies in a network's input: stretched over all of it, or in its middle with margins (letterbox). */
+/** \brief Where an image lies in a network's input: stretched over all of it, or in its middle with margins
+ * (letterbox). */
 struct PCL_COSECTION_EXPORT ImagePlacement
 {
   int image_width = 0;
@@ -52,43 +51,46 @@ struct PCL_COSECTION_EXPORT ImagePlacement
 /** \brief Parameters of decodeInstances (). */
 struct PCL_COSECTION_EXPORT InstanceDecodingOptions
 {
-  double score_threshold = 0.5;         ///< what has a lower score is not there
-  double mask_threshold = 0.5;          ///< a pixel is in the mask from this probability on
-  double overlap_threshold = 0.45;      ///< one-stage networks: of boxes of a class with more intersection over union, one stays
-  int max_instances = 100;              ///< those of the highest scores
+  double score_threshold = 0.5;    ///< what has a lower score is not there
+  double mask_threshold = 0.5;     ///< a pixel is in the mask from this probability on
+  double overlap_threshold = 0.45; ///< one-stage networks: of boxes of a class with more intersection over union, one
+                                   ///< stays
+  int max_instances = 100;         ///< those of the highest scores
   std::vector<std::string> class_names; ///< by class_id; empty: not known
 
   /** \brief \throws InvalidArgument naming the first parameter outside its domain. */
-  void
-  validate () const;
+  void validate () const;
 };
 
 /** \brief The arrays that an instance segmentation network may give. */
 enum class NetworkOutputForm
 {
-  /** [1, 1, N, 7]: image, class, score, left, top, right, bottom in [0, 1] of the input; and [N, C, h, w]: masks of the boxes, for each class
-   * or for all (C = 1). Mask R-CNN of TensorFlow's Object Detection API in OpenCV: detection_out_final, detection_masks. */
+  /** [1, 1, N, 7]: image, class, score, left, top, right, bottom in [0, 1] of the input; and [N, C, h, w]: masks of the
+   * boxes, for each class or for all (C = 1). Mask R-CNN of TensorFlow's Object Detection API in OpenCV:
+   * detection_out_final, detection_masks. */
   DetectionOut,
-  /** Boxes [N, 4]: left, top, right, bottom in pixels of the input; labels [N]; scores [N]; masks [N, 1, h, w], of the boxes, or of the
-   * input if they have its size. Mask R-CNN of torchvision. Outputs whose names do not tell come in this order. */
+  /** Boxes [N, 4]: left, top, right, bottom in pixels of the input; labels [N]; scores [N]; masks [N, 1, h, w], of the
+   * boxes, or of the input if they have its size. Mask R-CNN of torchvision. Outputs whose names do not tell come in
+   * this order. */
   BoxList,
-  /** [1, 4 + C + K, A]: centre x, y, width and height in pixels of the input, C scores, K coefficients, for each of A candidates; and
-   * [1, K, h, w]: prototypes, the weighted sums of which are the masks' logits (after D. Bolya et al., "YOLACT", ICCV 2019). YOLOv8, YOLO11.
-   * [1, A, 5 + C + K], with a score of any object before those of the classes: YOLOv5. Of D and A, A is the larger one. */
+  /** [1, 4 + C + K, A]: centre x, y, width and height in pixels of the input, C scores, K coefficients, for each of A
+   * candidates; and [1, K, h, w]: prototypes, the weighted sums of which are the masks' logits (after D. Bolya et al.,
+   * "YOLACT", ICCV 2019). YOLOv8, YOLO11. [1, A, 5 + C + K], with a score of any object before those of the classes:
+   * YOLOv5. Of D and A, A is the larger one. */
   Prototypes
 };
 
 /** \brief Which form outputs have. \throws InvalidArgument saying what they are and what they should be, if none */
-PCL_COSECTION_EXPORT NetworkOutputForm
-outputForm (const std::vector<NetworkOutput>& outputs);
+PCL_COSECTION_EXPORT NetworkOutputForm outputForm (const std::vector<NetworkOutput>& outputs);
 
-/** \brief The instances that the outputs of a network tell, in the image, highest score first. Also for networks that are run by other means
- * than InstanceDetector.
+/** \brief The instances that the outputs of a network tell, in the image, highest score first. Also for networks that
+ * are run by other means than InstanceDetector.
  *
  * What is not finite or not in the image is left out, whatever the numbers are.
- * \throws InvalidArgument if the outputs are of no known form, do not fit the class names, or an option is outside its domain */
-PCL_COSECTION_EXPORT std::vector<DetectedInstance>
-decodeInstances (const std::vector<NetworkOutput>& outputs, const ImagePlacement& placement, const InstanceDecodingOptions& options = {});
+ * \throws InvalidArgument if the outputs are of no known form, do not fit the class names, or an option is outside its
+ * domain */
+PCL_COSECTION_EXPORT std::vector<DetectedInstance> decodeInstances (const std::vector<NetworkOutput>& outputs,
+                                                                    const ImagePlacement& placement,
+                                                                    const InstanceDecodingOptions& options = {});
 
-} // namespace cosection
-} // namespace pcl
+} // namespace pcl::cosection

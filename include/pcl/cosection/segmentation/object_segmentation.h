@@ -9,9 +9,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace pcl
-{
-namespace cosection
+namespace pcl::cosection
 {
 
 /** \brief Parameters of segmentObjects (). */
@@ -24,8 +22,7 @@ struct PCL_COSECTION_EXPORT ObjectSegmentationOptions
   int threads = 0;                   ///< 0: all
 
   /** \brief \throws InvalidArgument naming the first parameter outside its domain. */
-  void
-  validate () const;
+  void validate () const;
 };
 
 /** \brief What segmentObjects () finds. */
@@ -43,10 +40,10 @@ struct PCL_COSECTION_EXPORT ObjectSegmentation
  * beside them rises before them, as it does around the back of a shelf's compartment, while the face of an object ends
  * freely. What stands in front of them is divided into small patches of one orientation; neighbouring patches belong
  * together where they meet smoothly or at a convex edge, and apart where they meet at a concave one (S. C. Stein,
- * M. Schoeler, J. Papon, F. Woergoetter, "Object Partitioning using Local Convexity", CVPR 2014). The evidence of all edges is weighed by greedy additive edge contraction (M. Keuper et al.,
- * "Efficient Decomposition of Image and Mesh Graphs by Lifted Multicuts", ICCV 2015), so that a few wrong edges do not
- * join two objects. Pieces of one surface that something in front divides, and the inside of hollow things, are put
- * together again.
+ * M. Schoeler, J. Papon, F. Woergoetter, "Object Partitioning using Local Convexity", CVPR 2014). The evidence of all
+ * edges is weighed by greedy additive edge contraction (M. Keuper et al., "Efficient Decomposition of Image and Mesh
+ * Graphs by Lifted Multicuts", ICCV 2015), so that a few wrong edges do not join two objects. Pieces of one surface
+ * that something in front divides, and the inside of hollow things, are put together again.
  *
  * \param[in] points width * height points, row by row, in the sensor's frame (sensor at the origin), metres; not
  * finite: no reading
@@ -57,9 +54,7 @@ struct PCL_COSECTION_EXPORT ObjectSegmentation
  * \code
  * const auto scene = segmentObjects (points, 640, 480);
  * \endcode */
-PCL_COSECTION_EXPORT ObjectSegmentation
-segmentObjects (const std::vector<Eigen::Vector3f>& points, int width, int height,
-                const ObjectSegmentationOptions& options = {});
+PCL_COSECTION_EXPORT ObjectSegmentation segmentObjects (const std::vector<Eigen::Vector3f>& points, int width,
+                                                        int height, const ObjectSegmentationOptions& options = {});
 
-} // namespace cosection
-} // namespace pcl
+} // namespace pcl::cosection

@@ -8,9 +8,7 @@
 
 #include <vector>
 
-namespace pcl
-{
-namespace cosection
+namespace pcl::cosection
 {
 
 /** \brief A scene as the camera sees it at a time. */
@@ -23,36 +21,32 @@ struct PCL_COSECTION_EXPORT SimulatedFrame
   std::vector<Eigen::Vector3f> normals; ///< unit, sensor frame, one per pixel; zero: nothing
 };
 
-/** \brief Renders a scene: what the camera sees is found by a rasteriser, analytic shapes are then met where their signed
- * distance is zero, to less than 0.01 mm along the ray. Several threads may render with one renderer. */
+/** \brief Renders a scene: what the camera sees is found by a rasteriser, analytic shapes are then met where their
+ * signed distance is zero, to less than 0.01 mm along the ray. Several threads may render with one renderer. */
 class PCL_COSECTION_EXPORT SceneRenderer
 {
 public:
   /** \brief \throws InvalidArgument as SimulatedScene::validate () */
   explicit SceneRenderer (const SimulatedScene& scene);
   SceneRenderer (const SceneRenderer&) = delete;
-  SceneRenderer&
-  operator= (const SceneRenderer&) = delete;
+  SceneRenderer& operator= (const SceneRenderer&) = delete;
 
   /** \brief What the camera sees at \a time, seconds; runs on the calling thread. */
-  SimulatedFrame
-  render (double time) const;
+  SimulatedFrame render (double time) const;
 
 private:
   struct DrawnPart
   {
     const BodyPart* part;
-    std::size_t body; // its number in the scene
+    std::size_t body;  // its number in the scene
     TriangleMesh mesh; // part frame
   };
 
   /** \brief The depth along the ray through a pixel where the part's distance is zero, near \a z. */
-  double
-  refined (const Shape& shape, const Eigen::Vector3d& origin, const Eigen::Vector3d& ray, double z) const;
+  double refined (const Shape& shape, const Eigen::Vector3d& origin, const Eigen::Vector3d& ray, double z) const;
 
   SimulatedScene scene_;
   std::vector<DrawnPart> parts_;
 };
 
-} // namespace cosection
-} // namespace pcl
+} // namespace pcl::cosection

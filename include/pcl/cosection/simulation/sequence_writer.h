@@ -8,9 +8,7 @@
 
 #include <string>
 
-namespace pcl
-{
-namespace cosection
+namespace pcl::cosection
 {
 
 /** \brief Which frames to write, and how. */
@@ -35,10 +33,9 @@ struct PCL_COSECTION_EXPORT SequenceOptions
  *     views/gt-NAME-ID.txt           T_world_object, stamps = number of the view
  *
  * Frames of the same number have the same bytes whatever part of the sequence is written. Nothing is left if it fails.
- * \throws IoError if the folder exists, or something cannot be written; Cancelled; InvalidArgument if there are no such frames */
-PCL_COSECTION_EXPORT void
-writeSequence (const SimulatedScene& scene, const std::string& folder, const SequenceOptions& options = {},
-               const ProgressCallback& progress = {});
+ * \throws IoError if the folder exists, or something cannot be written; Cancelled; InvalidArgument if there are no such
+ * frames */
+PCL_COSECTION_EXPORT void writeSequence (const SimulatedScene& scene, const std::string& folder,
+                                         const SequenceOptions& options = {}, const ProgressCallback& progress = {});
 
-} // namespace cosection
-} // namespace pcl
+} // namespace pcl::cosection

@@ -13,9 +13,7 @@
 #include <string>
 #include <vector>
 
-namespace pcl
-{
-namespace cosection
+namespace pcl::cosection
 {
 
 /** \brief A shape as a part of a body. */
@@ -31,24 +29,21 @@ struct PCL_COSECTION_EXPORT BodyPart
 struct PCL_COSECTION_EXPORT SceneBody
 {
   std::string name; ///< part of file names; of the background: room or background
-  int id = 0; ///< in the masks; 0: the background
+  int id = 0;       ///< in the masks; 0: the background
   std::vector<BodyPart> parts;
-  KeyedMotion motion;         ///< T_world_body
+  KeyedMotion motion;          ///< T_world_body
   double pattern_size_m = 0.0; ///< period of the pattern on its surface; 0: plain
 
-  /** \brief Signed distance of \a p (body frame) to the union of the parts, metres: exact outside and on the surface; inside, no
-   * more than the true depth. */
-  double
-  distance (const Eigen::Vector3d& p) const;
+  /** \brief Signed distance of \a p (body frame) to the union of the parts, metres: exact outside and on the surface;
+   * inside, no more than the true depth. */
+  double distance (const Eigen::Vector3d& p) const;
 
   /** \brief Whether distance () says on which side \a p is. */
-  bool
-  isSupported (const Eigen::Vector3d& p) const;
+  bool isSupported (const Eigen::Vector3d& p) const;
 
-  /** \brief The surface, body frame: of one part, its triangles; of several, that of their union, without what is inside; of
-   * the background, all parts as they are. */
-  TriangleMesh
-  surface (double chord_m) const;
+  /** \brief The surface, body frame: of one part, its triangles; of several, that of their union, without what is
+   * inside; of the background, all parts as they are. */
+  TriangleMesh surface (double chord_m) const;
 };
 
 /** \brief How depth is stored. */
@@ -74,16 +69,10 @@ struct PCL_COSECTION_EXPORT SimulatedScene
   std::vector<SceneBody> bodies; ///< the background is the first
   std::string spec;              ///< what it was read from, if anything
 
-  double
-  timeOf (int frame) const
-  {
-    return frame / rate;
-  }
+  double timeOf (int frame) const { return frame / rate; }
 
   /** \brief \throws InvalidArgument naming what is not right: no frames, two bodies with one id or name ... */
-  void
-  validate () const;
+  void validate () const;
 };
 
-} // namespace cosection
-} // namespace pcl
+} // namespace pcl::cosection

@@ -18,9 +18,7 @@
 #include <string>
 #include <vector>
 
-namespace pcl
-{
-namespace cosection
+namespace pcl::cosection
 {
 
 /** \brief The measurements of one object. */
@@ -37,24 +35,26 @@ struct PCL_COSECTION_EXPORT ObjectInput
 struct PCL_COSECTION_EXPORT ObjectResult
 {
   int id = 0;
-  std::string error;     ///< empty, or why there is no mesh
-  TriangleMesh mesh;     ///< closed, object frame
-  /** \brief If asked for: closed, object frame. The hull is all that may be the object: what no view saw free, above support planes,
-   * as far as it hangs together with the object's points and lies no farther from them than the longest side of their box (in the
-   * object's volume if there are no views or no background, a padding is given, or memory allows no more). It shrinks as views are
-   * added, also with their points, but for noise. The inner bound is where measured surfaces vouch for matter, a layer of three voxels
-   * behind them; the outer bound is the mesh and the hull. Up to a quarter of a voxel, inner_bound lies inside mesh, and mesh inside
-   * outer_bound; both are right to about a voxel and a half at sharp edges. */
+  std::string error; ///< empty, or why there is no mesh
+  TriangleMesh mesh; ///< closed, object frame
+  /** \brief If asked for: closed, object frame. The hull is all that may be the object: what no view saw free, above
+   * support planes, as far as it hangs together with the object's points and lies no farther from them than the longest
+   * side of their box (in the object's volume if there are no views or no background, a padding is given, or memory
+   * allows no more). It shrinks as views are added, also with their points, but for noise. The inner bound is where
+   * measured surfaces vouch for matter, a layer of three voxels behind them; the outer bound is the mesh and the hull.
+   * Up to a quarter of a voxel, inner_bound lies inside mesh, and mesh inside outer_bound; both are right to about a
+   * voxel and a half at sharp edges. */
   TriangleMesh hull, inner_bound, outer_bound;
   SignedDistanceField::Ptr signed_distance; ///< object frame
-  std::size_t stray_points = 0; ///< left out, because they are a few and far from the others
-  /** \brief Of its points that a view sees or looks through, the share of the latter, for the view of which it is largest (of many views, one
-   * in twenty may be worse): wrong poses and motion make it so. Told by CoSection::reconstruct () where seen free space is used. */
+  std::size_t outlier_points = 0;           ///< left out, because they are a few and far from the others
+  /** \brief Of its points that a view sees or looks through, the share of the latter, for the view of which it is
+   * largest (of many views, one in twenty may be worse): wrong poses and motion make it so. Told by
+   * CoSection::reconstruct () where seen free space is used. */
   double contradicted_share = 0.0;
-  /** \brief Of an object around which nothing is known, the plane on which it seems to have stood, world frame, n.x + d = 0, unit n towards it:
-   * guessed from where it ends, or how it is open. It bounds the mesh. */
+  /** \brief Of an object around which nothing is known, the plane on which it seems to have stood, world frame, n.x + d
+   * = 0, unit n towards it: guessed from where it ends, or how it is open. It bounds the mesh. */
   std::optional<Eigen::Vector4d> guessed_plane;
-  SolverSummary solver;            ///< of the last pass; its iterations are those of all passes at full resolution
+  SolverSummary solver;       ///< of the last pass; its iterations are those of all passes at full resolution
   double penetration_m = 0.0; ///< deepest place of its surface in supported parts of another body
 };
 
@@ -63,16 +63,18 @@ struct PCL_COSECTION_EXPORT BackgroundResult
 {
   SignedDistanceField::Ptr signed_distance; ///< world frame
   SolverSummary solver;
-  double solved_share = 1.0; ///< of its voxels that were solved; less where an update found the others as they have to be
+  double
+      solved_share = 1.0; ///< of its voxels that were solved; less where an update found the others as they have to be
 };
 
 /** \brief Everything CoSection::reconstruct () computes. */
 struct PCL_COSECTION_EXPORT SceneResult
 {
-  std::vector<ObjectResult> objects;       ///< in the order of addObject ()
-  TriangleMesh background;                 ///< open, trimmed to supported regions; world frame
+  std::vector<ObjectResult> objects;               ///< in the order of addObject ()
+  TriangleMesh background;                         ///< open, trimmed to supported regions; world frame
   std::vector<BackgroundResult> background_pieces; ///< around the objects, or the whole in one
-  std::vector<Eigen::Vector4d> planes;     ///< support planes used: unit normal n towards the objects, n.x + d = 0, world frame
+  std::vector<Eigen::Vector4d>
+      planes; ///< support planes used: unit normal n towards the objects, n.x + d = 0, world frame
   std::map<std::string, double> timings_s; ///< data_term, constraints, solve, mesh
   std::vector<std::string> warnings;
 };
@@ -110,85 +112,75 @@ public:
   explicit CoSection (const CoSectionOptions& options = {});
   ~CoSection ();
   CoSection (CoSection&&) noexcept;
-  CoSection&
-  operator= (CoSection&&) noexcept;
+  CoSection& operator= (CoSection&&) noexcept;
 
   /** \brief Add a depth view of the whole scene; what lies in front of its readings is free.
    * \return its index, to which ObjectInput::T_world_object refers
    * \throws InvalidArgument if the camera is not valid or the depth has another size */
-  int
-  addView (DepthView view);
+  int addView (DepthView view);
 
-  /** \brief The same, with the poses at this view of objects that move: of those that were added, and of those that will be.
-   * Objects that are not named are where they have been if they have no poses, and unknown at this view if they have.
+  /** \brief The same, with the poses at this view of objects that move: of those that were added, and of those that
+   * will be. Objects that are not named are where they have been if they have no poses, and unknown at this view if
+   * they have.
    * \param[in] T_world_object by id */
-  int
-  addView (DepthView view, const std::map<int, Eigen::Isometry3d>& T_world_object, ViewUse use = ViewUse::Full);
+  int addView (DepthView view, const std::map<int, Eigen::Isometry3d>& T_world_object, ViewUse use = ViewUse::Full);
 
   /** \brief Give up views, and the points that were added since each of them and before the next. Those that remain are
    * numbered anew, in their order.
    * \param[in] remove one per view
    * \throws InvalidArgument if there is not one per view */
-  void
-  removeViews (const std::vector<bool>& remove);
+  void removeViews (const std::vector<bool>& remove);
 
-  /** \brief Give up an object, with its points and poses, as if it had never been. Nothing happens if there is none of that number. */
-  void
-  removeObject (int id);
+  /** \brief Give up an object, with its points and poses, as if it had never been. Nothing happens if there is none of
+   * that number. */
+  void removeObject (int id);
 
   /** \brief Points of everything that is not an object, world frame; replaces earlier ones. */
-  void
-  setBackground (std::vector<OrientedPoint> points);
+  void setBackground (std::vector<OrientedPoint> points);
 
   /** \brief More of them. */
-  void
-  addBackground (const std::vector<OrientedPoint>& points);
+  void addBackground (const std::vector<OrientedPoint>& points);
 
   /** \throws InvalidArgument if the id is not positive or already there */
-  void
-  addObject (ObjectInput object);
+  void addObject (ObjectInput object);
 
-  /** \brief More points of an object, object frame. An object that is not there yet is added; if views named its pose, it has
-   * those, else the object frame is the world frame.
+  /** \brief More points of an object, object frame. An object that is not there yet is added; if views named its pose,
+   * it has those, else the object frame is the world frame.
    * \throws InvalidArgument if the id is not positive */
-  void
-  addPoints (int id, const std::vector<OrientedPoint>& points);
+  void addPoints (int id, const std::vector<OrientedPoint>& points);
 
   /** \brief A plane a x + b y + c z + d = 0 that no object crosses, world frame; coefficients (a, b, c, d) of
    * any scale and either sign: each object is on the side of most of its points.
    * \throws InvalidArgument if the normal is zero or a coefficient is not finite */
-  void
-  addSupportPlane (const Eigen::Vector4d& plane);
+  void addSupportPlane (const Eigen::Vector4d& plane);
 
   /** \brief Another body that objects cannot enter, at one or many poses relative to the world.
    * \param[in] T_body_world takes points of the world to the frame of the body: the inverse of the body's pose
    * \throws InvalidArgument if the field does not have one value per voxel, or a pose is not finite */
-  void
-  addIntersection (SignedDistanceField::ConstPtr body,
-                   const std::vector<Eigen::Isometry3d>& T_body_world = {Eigen::Isometry3d::Identity ()});
+  void addObstacle (SignedDistanceField::ConstPtr body,
+                    const std::vector<Eigen::Isometry3d>& T_body_world = {Eigen::Isometry3d::Identity ()});
 
-  /** \brief The same, given as a mesh: closed, or open as the boundary of what lies behind it (sampleSignedDistance ()).
+  /** \brief The same, given as a mesh: closed, or open as the boundary of what lies behind it (sampleSignedDistance
+   * ()).
    * \throws InvalidArgument if the mesh bounds nothing */
-  void
-  addIntersection (TriangleMesh body,
-                   const std::vector<Eigen::Isometry3d>& T_body_world = {Eigen::Isometry3d::Identity ()});
+  void addObstacle (TriangleMesh body,
+                    const std::vector<Eigen::Isometry3d>& T_body_world = {Eigen::Isometry3d::Identity ()});
 
-  /** \brief Run from the start; if there were updates, with voxels at the places that they have given them. One failing object (degenerate, too large for the memory allowed ...) does not lose the
-   * others: see ObjectResult::error; a background that fails is a warning.
+  /** \brief Run from the start; if there were updates, with voxels at the places that they have given them. One failing
+   * object (degenerate, too large for the memory allowed ...) does not lose the others: see ObjectResult::error; a
+   * background that fails is a warning.
    * \throws Cancelled */
-  SceneResult
-  reconstruct (const ProgressCallback& progress = {}) const;
+  SceneResult reconstruct (const ProgressCallback& progress = {}) const;
 
-  /** \brief Run on what was added since the last time: measurements are gathered once, and every shape starts from the last
-   * one. The minimum is that of reconstruct () within the solver's tolerance, of a whole background near data. Volumes grow (or
-   * shrink) with what is observed; their voxels keep their places unless points ask for a size that differs by over a fifth.
+  /** \brief Run on what was added since the last time: measurements are gathered once, and every shape starts from the
+   * last one. The minimum is that of reconstruct () within the solver's tolerance, of a whole background near data.
+   * Volumes grow (or shrink) with what is observed; their voxels keep their places unless points ask for a size that
+   * differs by over a fifth.
    * \throws Cancelled; the next call then goes on from what was gathered */
-  SceneResult
-  update (UpdateOutput output = UpdateOutput::Meshes, const ProgressCallback& progress = {});
+  SceneResult update (UpdateOutput output = UpdateOutput::Meshes, const ProgressCallback& progress = {});
 
   /** \brief As if there had been no update: what was added stays. Gives the memory back that updates need. */
-  void
-  forgetUpdates ();
+  void forgetUpdates ();
 
 private:
   friend class CoSectionRun;
@@ -196,5 +188,4 @@ private:
   std::unique_ptr<Impl> impl_;
 };
 
-} // namespace cosection
-} // namespace pcl
+} // namespace pcl::cosection

@@ -11,18 +11,18 @@
 #include <utility>
 #include <vector>
 
-namespace pcl
-{
-namespace cosection
+namespace pcl::cosection
 {
 
 /** \brief The depth image that an organised cloud is, or that an unorganised one gives (drawRangeImage ()).
  * \param[in] cloud in its sensor's frame (organised: x right, y down, z forward), metres; not finite, or z <= 0 of an
- * organised one: no reading. An organised one may be in any other frame, as its pixels tell the sensor's pose there (locateCamera ())
+ * organised one: no reading. An organised one may be in any other frame, as its pixels tell the sensor's pose there
+ * (locateCamera ())
  * \param[in] T_world_sensor pose of the sensor, or of the frame in which the points are
  * \return nothing if an organised cloud is not the image of a pinhole camera (fitPinholeCamera ()), or if more than a
  * tenth of the points of an unorganised one is hidden from the sensor */
-template <typename PointT> std::optional<DepthView>
+template <typename PointT>
+std::optional<DepthView>
 toDepthView (const pcl::PointCloud<PointT>& cloud,
              const Eigen::Isometry3d& T_world_sensor = Eigen::Isometry3d::Identity ())
 {
@@ -41,5 +41,4 @@ toDepthView (const pcl::PointCloud<PointT>& cloud,
   return std::move (image->view);
 }
 
-} // namespace cosection
-} // namespace pcl
+} // namespace pcl::cosection

@@ -11,9 +11,7 @@
 #include <cstring>
 #include <vector>
 
-namespace pcl
-{
-namespace cosection
+namespace pcl::cosection
 {
 
 /** \brief A one-sided quadratic penalty beta max (0, d - u)^2 at one voxel, in four bytes: the
@@ -27,14 +25,9 @@ public:
    * \param[in] weight beta >= 0 */
   LowerBound (float distance_vox, float weight);
 
-  float
-  distance () const
-  {
-    return static_cast<float> (bits_ & 0xffffu) * (1.0f / 256.0f);
-  }
+  float distance () const { return static_cast<float> (bits_ & 0xffffu) * (1.0f / 256.0f); }
 
-  float
-  weight () const
+  float weight () const
   {
     const std::uint32_t bits = bits_ & 0xffff0000u;
     float value;
@@ -45,11 +38,7 @@ public:
   /** \brief False where there is no bound. */
   explicit operator bool () const { return (bits_ & 0xffff0000u) != 0; }
 
-  bool
-  operator== (const LowerBound& other) const
-  {
-    return bits_ == other.bits_;
-  }
+  bool operator== (const LowerBound& other) const { return bits_ == other.bits_; }
 
 private:
   std::uint32_t bits_ = 0; // the upper half of the weight as a float, and the distance in its steps
@@ -73,25 +62,19 @@ struct PCL_COSECTION_EXPORT EnergyProblem
   std::vector<LowerBound> exterior;     ///< one per voxel, or empty
   std::vector<LowerBound> intersection; ///< one per voxel, or empty
 
-  std::size_t
-  size () const
-  {
-    return static_cast<std::size_t> (dims.x ()) * dims.y () * dims.z ();
-  }
+  std::size_t size () const { return static_cast<std::size_t> (dims.x ()) * dims.y () * dims.z (); }
 };
 
 /** \brief The same energy on a grid of half the resolution, with u still in fine voxels: W, C and the
  * weights of the bounds summed over the children, distances averaged by weight, alpha halved.
  * Without \a bounds they are left out. */
-PCL_COSECTION_EXPORT EnergyProblem
-coarsen (const EnergyProblem& problem, bool bounds, int threads = 0);
+PCL_COSECTION_EXPORT EnergyProblem coarsen (const EnergyProblem& problem, bool bounds, int threads = 0);
 
 /** \brief E (u) and, if asked for, minus half its gradient.
  * \param[in] u one value per voxel, voxels
  * \param[out] residual -dE/du / 2, or null */
-template <typename Real> PCL_COSECTION_EXPORT double
-evaluateEnergy (const EnergyProblem& problem, const std::vector<Real>& u, std::vector<Real>* residual = nullptr,
-                int threads = 0);
+template <typename Real>
+PCL_COSECTION_EXPORT double evaluateEnergy (const EnergyProblem& problem, const std::vector<Real>& u,
+                                            std::vector<Real>* residual = nullptr, int threads = 0);
 
-} // namespace cosection
-} // namespace pcl
+} // namespace pcl::cosection

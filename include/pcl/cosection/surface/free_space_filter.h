@@ -10,9 +10,7 @@
 
 #include <vector>
 
-namespace pcl
-{
-namespace cosection
+namespace pcl::cosection
 {
 
 /** \brief Removes points that depth views contradict: those in space that more views look through than see a surface
@@ -53,42 +51,29 @@ public:
    * \param[in] T_cloud_sensor pose of the sensor in the frame of the input cloud
    * \return false, with a message, if the cloud is not the image of a pinhole camera
    * \throws InvalidArgument if the pose is not finite */
-  template <typename PointViewT> bool
-  addView (const pcl::PointCloud<PointViewT>& cloud,
-           const Eigen::Isometry3d& T_cloud_sensor = Eigen::Isometry3d::Identity ());
+  template <typename PointViewT>
+  bool addView (const pcl::PointCloud<PointViewT>& cloud,
+                const Eigen::Isometry3d& T_cloud_sensor = Eigen::Isometry3d::Identity ());
 
   /** \brief The same as a depth image; its T_world_sensor is T_cloud_sensor. \throws InvalidArgument */
-  void
-  addView (const DepthView& view);
+  void addView (const DepthView& view);
 
-  void
-  clearViews ();
+  void clearViews ();
 
   /** \brief How much the depth along a ray must exceed that of a point for the point to be free, metres; 0 (default):
    * max (5 mm, 3 sigma_z) at the depth of the reading, pointMargin (). \throws InvalidArgument */
-  void
-  setMargin (float margin_m);
+  void setMargin (float margin_m);
 
-  float
-  getMargin () const
-  {
-    return margin_m_;
-  }
+  float getMargin () const { return margin_m_; }
 
   /** \brief Views that must look through a point to remove it, besides being more than see a surface there; default 1.
    * \throws InvalidArgument */
-  void
-  setMinimumViews (int views);
+  void setMinimumViews (int views);
 
-  int
-  getMinimumViews () const
-  {
-    return minimum_views_;
-  }
+  int getMinimumViews () const { return minimum_views_; }
 
   /** \brief 0 (default): all processors. */
-  void
-  setNumberOfThreads (unsigned int threads = 0);
+  void setNumberOfThreads (unsigned int threads = 0);
 
 protected:
   using Base::applyFilter;
@@ -101,8 +86,7 @@ protected:
   using Base::removed_indices_;
 
   /** \brief \param[out] indices of the points that pass, in the order of the input's */
-  void
-  applyFilter (Indices& indices) override;
+  void applyFilter (Indices& indices) override;
 
 private:
   std::vector<FreeSpaceView> views_;
@@ -111,8 +95,7 @@ private:
   unsigned int threads_ = 0;
 };
 
-} // namespace cosection
-} // namespace pcl
+} // namespace pcl::cosection
 
 #include <pcl/cosection/surface/impl/free_space_filter_view.hpp>
 
@@ -139,6 +122,5 @@ extern template class PCL_COSECTION_EXPORT FreeSpaceFilter<pcl::PointXYZRGBL>;
 extern template class PCL_COSECTION_EXPORT FreeSpaceFilter<pcl::PointNormal>;
 extern template class PCL_COSECTION_EXPORT FreeSpaceFilter<pcl::PointXYZRGBNormal>;
 extern template class PCL_COSECTION_EXPORT FreeSpaceFilter<pcl::PointXYZINormal>;
-} // namespace cosection
-} // namespace pcl
+} // namespace pcl::cosection
 #endif

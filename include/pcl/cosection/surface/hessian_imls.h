@@ -4,8 +4,8 @@
 
 #include <pcl/cosection/common/camera.h>
 #include <pcl/cosection/common/progress.h>
-#include <pcl/cosection/surface/options.h>
 #include <pcl/cosection/surface/co_section.h>
+#include <pcl/cosection/surface/options.h>
 #include <pcl/cosection/volume/signed_distance_field.h>
 
 #include <pcl/ModelCoefficients.h>
@@ -15,9 +15,7 @@
 #include <utility>
 #include <vector>
 
-namespace pcl
-{
-namespace cosection
+namespace pcl::cosection
 {
 
 /** \brief Closed surface of one object from oriented points, bounded by the free space that views saw, by
@@ -30,7 +28,7 @@ namespace cosection
  * imls.setInputCloud (points);                     // oriented, object frame, metres
  * imls.setVoxelSize (0.005f);                      // or setResolution (64), or neither
  * imls.addView (organized_cloud, T_object_sensor); // what lies in front of it is free space
- * imls.addIntersection (table, {T_table_object});  // another body, one or many relative poses
+ * imls.addObstacle (table, {T_table_object});  // another body, one or many relative poses
  * imls.setSupportPlane (coefficients);             // as pcl::SACSegmentation gives them
  * pcl::PolygonMesh mesh;
  * imls.reconstruct (mesh);                         // closed
@@ -60,115 +58,78 @@ public:
 
   /** \brief All parameters at once; setVoxelSize () and setResolution () change single ones.
    * \throws InvalidArgument */
-  void
-  setOptions (const CoSectionOptions& options);
+  void setOptions (const CoSectionOptions& options);
 
-  const CoSectionOptions&
-  getOptions () const
-  {
-    return options_;
-  }
+  const CoSectionOptions& getOptions () const { return options_; }
 
   /** \brief Edge of a voxel, metres; overrides the resolution. \throws InvalidArgument */
-  void
-  setVoxelSize (float voxel_size_m);
+  void setVoxelSize (float voxel_size_m);
 
   /** \brief Voxels along the longest observed side; overrides the voxel size. \throws InvalidArgument */
-  void
-  setResolution (int resolution);
+  void setResolution (int resolution);
 
   /** \brief Add a view of the scene: what lies in front of its readings is free.
    * \param[in] cloud in its sensor's frame: organised (x right, y down, z forward), as a pinhole sees it, not finite:
    * no reading; or unorganised, drawn as a range image
    * \return false, with a message, if the cloud is not the image of a pinhole camera, or much of an unorganised one is
    * hidden from the sensor */
-  template <typename PointT> bool
-  addView (const pcl::PointCloud<PointT>& cloud, const Eigen::Isometry3d& T_object_sensor = Eigen::Isometry3d::Identity ());
+  template <typename PointT>
+  bool addView (const pcl::PointCloud<PointT>& cloud,
+                const Eigen::Isometry3d& T_object_sensor = Eigen::Isometry3d::Identity ());
 
   /** \brief The same as a depth image; its T_world_sensor is T_object_sensor. \throws InvalidArgument */
-  void
-  addView (const DepthView& view);
+  void addView (const DepthView& view);
 
   /** \brief Add a body that the object cannot enter, at one or many poses relative to the object.
    * \param[in] T_body_object takes points of the object to the frame of the body
    * \throws InvalidArgument */
-  void
-  addIntersection (const SignedDistanceField::ConstPtr& body, const std::vector<Eigen::Isometry3d>& T_body_object = {
-                                                                  Eigen::Isometry3d::Identity ()});
+  void addObstacle (const SignedDistanceField::ConstPtr& body,
+                    const std::vector<Eigen::Isometry3d>& T_body_object = {Eigen::Isometry3d::Identity ()});
 
   /** \brief The same, given as a mesh: closed, or open as the boundary of what lies behind it.
    * \throws InvalidArgument if the mesh bounds nothing */
-  void
-  addIntersection (const TriangleMesh& body, const std::vector<Eigen::Isometry3d>& T_body_object = {
-                                                 Eigen::Isometry3d::Identity ()});
+  void addObstacle (const TriangleMesh& body,
+                    const std::vector<Eigen::Isometry3d>& T_body_object = {Eigen::Isometry3d::Identity ()});
 
   /** \brief The same for PCL's meshes, of triangles or larger polygons. \throws InvalidArgument */
-  void
-  addIntersection (const pcl::PolygonMesh& body, const std::vector<Eigen::Isometry3d>& T_body_object = {
-                                                     Eigen::Isometry3d::Identity ()});
+  void addObstacle (const pcl::PolygonMesh& body,
+                    const std::vector<Eigen::Isometry3d>& T_body_object = {Eigen::Isometry3d::Identity ()});
 
   /** \brief The plane that the object stands on or leans against: four coefficients a x + b y + c z + d = 0 of
    * either sign; the object is on the side of most of its points. Further calls add further planes.
    * \throws InvalidArgument */
-  void
-  setSupportPlane (const pcl::ModelCoefficients& coefficients);
+  void setSupportPlane (const pcl::ModelCoefficients& coefficients);
 
   /** \brief Forget views, bodies and planes. */
-  void
-  clearConstraints ();
+  void clearConstraints ();
 
-  void
-  setProgressCallback (const ProgressCallback& progress)
-  {
-    progress_ = progress;
-  }
+  void setProgressCallback (const ProgressCallback& progress) { progress_ = progress; }
 
-  void
-  reconstruct (pcl::PolygonMesh& output) override;
+  void reconstruct (pcl::PolygonMesh& output) override;
 
-  void
-  reconstruct (pcl::PointCloud<PointNT>& points, std::vector<pcl::Vertices>& polygons) override;
+  void reconstruct (pcl::PointCloud<PointNT>& points, std::vector<pcl::Vertices>& polygons) override;
 
   /** \brief Of the last reconstruct (), object frame; null if it failed. */
-  SignedDistanceField::ConstPtr
-  getSignedDistance () const
-  {
-    return result_.signed_distance;
-  }
+  SignedDistanceField::ConstPtr getSignedDistance () const { return result_.signed_distance; }
 
   /** \brief Of the last reconstruct (), with provenance and confidence; empty if it failed. */
-  const TriangleMesh&
-  getTriangleMesh () const
-  {
-    return result_.mesh;
-  }
+  const TriangleMesh& getTriangleMesh () const { return result_.mesh; }
 
   /** \brief Of the last reconstruct (). */
-  const SolverSummary&
-  getSolverSummary () const
-  {
-    return result_.solver;
-  }
+  const SolverSummary& getSolverSummary () const { return result_.solver; }
 
 protected:
-  std::string
-  getClassName () const override
-  {
-    return "cosection::HessianIMLS";
-  }
+  std::string getClassName () const override { return "cosection::HessianIMLS"; }
 
-  void
-  performReconstruction (pcl::PolygonMesh& output) override;
+  void performReconstruction (pcl::PolygonMesh& output) override;
 
-  void
-  performReconstruction (pcl::PointCloud<PointNT>& points, std::vector<pcl::Vertices>& polygons) override;
+  void performReconstruction (pcl::PointCloud<PointNT>& points, std::vector<pcl::Vertices>& polygons) override;
 
 private:
   using Poses = std::vector<Eigen::Isometry3d>;
 
   /** \brief Fill result_; false, with a message, if that fails. */
-  bool
-  compute ();
+  bool compute ();
 
   CoSectionOptions options_;
   std::vector<DepthView> views_;
@@ -179,8 +140,7 @@ private:
   ObjectResult result_;
 };
 
-} // namespace cosection
-} // namespace pcl
+} // namespace pcl::cosection
 
 #include <pcl/cosection/surface/impl/hessian_imls_view.hpp>
 
@@ -197,6 +157,5 @@ namespace cosection
 extern template class PCL_COSECTION_EXPORT HessianIMLS<pcl::PointNormal>;
 extern template class PCL_COSECTION_EXPORT HessianIMLS<pcl::PointXYZRGBNormal>;
 extern template class PCL_COSECTION_EXPORT HessianIMLS<pcl::PointXYZINormal>;
-} // namespace cosection
-} // namespace pcl
+} // namespace pcl::cosection
 #endif

@@ -11,21 +11,17 @@
 #include <cstdint>
 #include <vector>
 
-namespace pcl
-{
-namespace cosection
+namespace pcl::cosection
 {
 
 /** \brief How much the depth along a ray must exceed that of a point for the point to be free, metres:
  * max (3 voxels, 3 sigma_z). */
-PCL_COSECTION_EXPORT double
-freeSpaceMargin (double depth_m, double voxel_size_m);
+PCL_COSECTION_EXPORT double freeSpaceMargin (double depth_m, double voxel_size_m);
 
-/** \brief Minimum or \a maximum of an image over a square window of \a radius pixels around every pixel of a region; other
- * pixels of the result have no meaning. */
-PCL_COSECTION_EXPORT std::vector<float>
-filterDepth (const std::vector<float>& image, const PinholeCamera& camera, int radius, bool maximum,
-             const PixelRegion& region);
+/** \brief Minimum or \a maximum of an image over a square window of \a radius pixels around every pixel of a region;
+ * other pixels of the result have no meaning. */
+PCL_COSECTION_EXPORT std::vector<float> filterDepth (const std::vector<float>& image, const PinholeCamera& camera,
+                                                     int radius, bool maximum, const PixelRegion& region);
 
 /** \brief A depth view prepared for looking up free space. */
 class PCL_COSECTION_EXPORT FreeSpaceView
@@ -35,31 +31,18 @@ public:
 
   explicit FreeSpaceView (DepthView view);
 
-  const DepthView&
-  view () const
-  {
-    return view_;
-  }
+  const DepthView& view () const { return view_; }
 
   /** \brief True if the pixel lies at a depth discontinuity, where readings are not to be trusted. */
-  bool
-  atEdge (int u, int v) const
-  {
-    return edge_[static_cast<std::size_t> (v) * view_.camera.width + u] != 0;
-  }
+  bool atEdge (int u, int v) const { return edge_[static_cast<std::size_t> (v) * view_.camera.width + u] != 0; }
 
-  /** \brief The nearest reading within \a radius pixels (square window) of every pixel of a region; infinity if none. Other
-   * pixels of the result have no meaning. */
-  std::vector<float>
-  nearestDepth (int radius, const PixelRegion& region) const;
+  /** \brief The nearest reading within \a radius pixels (square window) of every pixel of a region; infinity if none.
+   * Other pixels of the result have no meaning. */
+  std::vector<float> nearestDepth (int radius, const PixelRegion& region) const;
 
   /** \brief The depth without patches of less than 3 x 3 pixels that are farther than what surrounds them
    * (morphological opening); 0 where there is no reading. */
-  const std::vector<float>&
-  openedDepth () const
-  {
-    return opened_;
-  }
+  const std::vector<float>& openedDepth () const { return opened_; }
 
 private:
   DepthView view_;
@@ -79,13 +62,11 @@ public:
   explicit HullConstraint (const VoxelGrid& grid, int threads = 0);
 
   /** \brief Add the votes of one view. \param[in] T_grid_sensor pose of the sensor in the grid's frame */
-  void
-  add (const FreeSpaceView& view, const Eigen::Isometry3d& T_grid_sensor);
+  void add (const FreeSpaceView& view, const Eigen::Isometry3d& T_grid_sensor);
 
   /** \brief 1 where free.
    * \param[in] revise free means more votes for than against; else one vote suffices for ever (paper) */
-  std::vector<std::uint8_t>
-  freeSpace (bool revise) const;
+  std::vector<std::uint8_t> freeSpace (bool revise) const;
 
 private:
   VoxelGrid grid_;
@@ -96,8 +77,7 @@ private:
 
 /** \brief d_hull of equation (3): exact Euclidean distance, in voxels, from free voxels to the hull (to
  * the nearest voxel that is not free; all voxels outside the volume are not); 0 elsewhere. */
-PCL_COSECTION_EXPORT std::vector<float>
-hullDistance (const Eigen::Vector3i& dims, const std::vector<std::uint8_t>& free_space, int threads = 0);
+PCL_COSECTION_EXPORT std::vector<float> hullDistance (const Eigen::Vector3i& dims,
+                                                      const std::vector<std::uint8_t>& free_space, int threads = 0);
 
-} // namespace cosection
-} // namespace pcl
+} // namespace pcl::cosection

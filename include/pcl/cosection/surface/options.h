@@ -7,9 +7,7 @@
 #include <cstddef>
 #include <string>
 
-namespace pcl
-{
-namespace cosection
+namespace pcl::cosection
 {
 
 /** \brief How the measurements at a voxel are combined. */
@@ -36,67 +34,69 @@ enum class SolverType
 struct PCL_COSECTION_EXPORT SolverOptions
 {
   SolverType type = SolverType::Multigrid;
-  int max_iterations = 60;      ///< per level: multigrid cycles (Fast Jacobi: cycles of \a cycle_length sweeps)
-  double tolerance_vox = 0.03;  ///< stop this close to the solution, root mean square near the zero set
+  int max_iterations = 60;         ///< per level: multigrid cycles (Fast Jacobi: cycles of \a cycle_length sweeps)
+  double tolerance_vox = 0.03;     ///< stop this close to the solution, root mean square near the zero set
   double peak_tolerance_vox = 0.0; ///< and this close at every voxel there, which takes longer; 0: no such limit
-  int cycle_length = 20;        ///< Fast Jacobi: sweeps in a cycle
-  int smoothing_degree = 4;     ///< multigrid: degree of the Chebyshev polynomial before and after each coarse correction
-  int threads = 0;              ///< 0: all
+  int cycle_length = 20;           ///< Fast Jacobi: sweeps in a cycle
+  int smoothing_degree = 4; ///< multigrid: degree of the Chebyshev polynomial before and after each coarse correction
+  int threads = 0;          ///< 0: all
 };
 
 /** \brief The parameters of Co-Section. Lengths are in metres unless the name says otherwise. */
 struct PCL_COSECTION_EXPORT CoSectionOptions
 {
   double voxel_size_m = 0.0; ///< h; 0: from \a resolution
-  int resolution = 0;        ///< voxels along the longest observed side; 0: 64, but fewer where the points' spacing does not support them; more where a vessel's wall needs it
+  int resolution = 0; ///< voxels along the longest observed side; 0: 64, but fewer where the points' spacing does not
+                      ///< support them; more where a vessel's wall needs it
   /** \brief Volume beyond the observed box on each side, as a fraction of its longest side; 0: as far as the
    * extent prior lets the shape reach, or 0.3 without views, hull constraint or that prior. */
   double padding = 0.0;
-  double background_voxel_size_m = 0.0; ///< 0: twice the smallest object voxel that is asked for, or that points' spacing supports; see also \a whole_background
+  double background_voxel_size_m = 0.0; ///< 0: twice the smallest object voxel that is asked for, or that points'
+                                        ///< spacing supports; see also \a whole_background
 
-  bool use_hull = true;         ///< E_hull, equation (3)
-  bool use_intersection = true; ///< E_inter, equation (5)
-  bool use_planes = true;       ///< find support planes in the background and continue them under the objects
-  bool use_extent_prior = true; ///< remedy for swelling: a weak pull outside where nothing suggests the object
-  bool use_symmetric_extent = true; ///< part of the extent prior: hidden parts reach as far as those seen do, see SymmetricExtent
-  bool use_contact_prior = true; ///< let objects that come down to a support plane rest on it where that is hidden
-  bool carve_free_space = true; ///< with the hull: cut the result along the silhouettes, finer than a voxel
-  bool revise_votes = true;     ///< free space can be revised by contradicting evidence
-  bool intersect_solved = true; ///< neighbours act through their optimised fields (false: through their data alone, the paper)
+  bool use_hull = true;             ///< E_hull, equation (3)
+  bool use_intersection = true;     ///< E_inter, equation (5)
+  bool use_planes = true;           ///< find support planes in the background and continue them under the objects
+  bool use_extent_prior = true;     ///< remedy for swelling: a weak pull outside where nothing suggests the object
+  bool use_symmetric_extent = true; ///< part of the extent prior: hidden parts reach as far as those seen do, see
+                                    ///< SymmetricExtent
+  bool use_contact_prior = true;    ///< let objects that come down to a support plane rest on it where that is hidden
+  bool carve_free_space = true;     ///< with the hull: cut the result along the silhouettes, finer than a voxel
+  bool revise_votes = true;         ///< free space can be revised by contradicting evidence
+  bool intersect_solved = true; ///< neighbours act through their optimised fields (false: through their data alone, the
+                                ///< paper)
 
-  double alpha = 0.005;     ///< weight of the Hessian, per voxel units: metric value times h^4
-  double beta_hull = 0.01;  ///< weight of the hull constraint
-  double beta_inter = 0.04; ///< weight of the intersection constraint
-  double beta_extent = 0.001; ///< weight of the pull that prevents swelling
+  double alpha = 0.005;        ///< weight of the Hessian, per voxel units: metric value times h^4
+  double beta_hull = 0.01;     ///< weight of the hull constraint
+  double beta_inter = 0.04;    ///< weight of the intersection constraint
+  double beta_extent = 0.001;  ///< weight of the pull that prevents swelling
   double beta_contact = 0.007; ///< weight of the contact with a support plane
-  double sigma_vox = 1.0;   ///< width of a point's Gaussian; cut off at three times it
-  double max_bound_vox = 5.0; ///< cap of the intersection distance, and reach of evidence behind data
+  double sigma_vox = 1.0;      ///< width of a point's Gaussian; cut off at three times it
+  double max_bound_vox = 5.0;  ///< cap of the intersection distance, and reach of evidence behind data
   Weighting weighting = Weighting::Mean;
   HullDistance hull_distance = HullDistance::Exact;
 
-  /** \brief Complete all of the background, not only what is near objects: with voxels of 2 cm unless given, smaller in small
-   * scenes and larger where there would be more than 256^3. */
+  /** \brief Complete all of the background, not only what is near objects: with voxels of 2 cm unless given, smaller in
+   * small scenes and larger where there would be more than 256^3. */
   bool whole_background = false;
-  /** \brief reconstruct () leaves out points of the background that are of objects, before these were known as such: those that views look
-   * through, more than a few by mistake would, and those on the surface of an object where it was, or began. */
+  /** \brief reconstruct () leaves out points of the background that are of objects, before these were known as such:
+   * those that views look through, more than a few by mistake would, and those on the surface of an object where it
+   * was, or began. */
   bool leave_out_moved = false;
   bool compute_hull = false;   ///< also give the hull of each object as a mesh
   bool compute_bounds = false; ///< also give an inner and an outer bound of each object as meshes
 
-  std::size_t min_points = 1;    ///< objects with fewer are not completed
-  int max_passes = 5;            ///< simultaneous passes over all objects, at half and at full resolution each
+  std::size_t min_points = 1;       ///< objects with fewer are not completed
+  int max_passes = 5;               ///< simultaneous passes over all objects, at half and at full resolution each
   std::size_t max_memory_bytes = 0; ///< 0: no limit
   SolverOptions solver;
-  int threads = 0;               ///< 0: all
+  int threads = 0; ///< 0: all
 
   /** \brief The parameters of the publication. */
-  static CoSectionOptions
-  paper ();
+  static CoSectionOptions paper ();
 
   /** \brief \throws InvalidArgument naming the first parameter outside its domain. */
-  void
-  validate () const;
+  void validate () const;
 };
 
-} // namespace cosection
-} // namespace pcl
+} // namespace pcl::cosection

@@ -9,9 +9,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace pcl
-{
-namespace cosection
+namespace pcl::cosection
 {
 
 /** \brief Parameters of computeOrganizedNormals (). */
@@ -25,8 +23,7 @@ struct PCL_COSECTION_EXPORT OrganizedNormalsOptions
   int threads = 0;                 ///< 0: all
 
   /** \brief \throws InvalidArgument naming the first parameter outside its domain. */
-  void
-  validate () const;
+  void validate () const;
 };
 
 /** \brief Normals of an organised cloud in its sensor frame.
@@ -51,5 +48,4 @@ PCL_COSECTION_EXPORT std::vector<Eigen::Vector3f>
 computeOrganizedNormals (const std::vector<Eigen::Vector3f>& points, int width, int height,
                          const std::vector<std::uint32_t>& labels = {}, const OrganizedNormalsOptions& options = {});
 
-} // namespace cosection
-} // namespace pcl
+} // namespace pcl::cosection

@@ -10,9 +10,7 @@
 #include <string>
 #include <vector>
 
-namespace pcl
-{
-namespace cosection
+namespace pcl::cosection
 {
 
 /** \brief Why a solver stopped. */
@@ -32,25 +30,20 @@ struct PCL_COSECTION_EXPORT SolverSummary
   double seconds = 0.0;
   std::vector<double> energies; ///< E at the start and after every iteration on the finest level; never rises
 
-  bool
-  converged () const
-  {
-    return termination == Termination::Converged;
-  }
+  bool converged () const { return termination == Termination::Converged; }
 };
 
 /** \brief Minimise \a problem.
  * \param[in,out] u the field in voxels; if its size is not that of the problem, the solver starts
  * coarse to fine, else from the values given, on the finest level only
  * \throws Cancelled if \a progress returns false */
-template <typename Real> PCL_COSECTION_EXPORT SolverSummary
-solve (const EnergyProblem& problem, const SolverOptions& options, std::vector<Real>& u,
-       const ProgressCallback& progress = {});
+template <typename Real>
+PCL_COSECTION_EXPORT SolverSummary solve (const EnergyProblem& problem, const SolverOptions& options,
+                                          std::vector<Real>& u, const ProgressCallback& progress = {});
 
-extern template SolverSummary
-solve<float> (const EnergyProblem&, const SolverOptions&, std::vector<float>&, const ProgressCallback&);
-extern template SolverSummary
-solve<double> (const EnergyProblem&, const SolverOptions&, std::vector<double>&, const ProgressCallback&);
+extern template SolverSummary solve<float> (const EnergyProblem&, const SolverOptions&, std::vector<float>&,
+                                            const ProgressCallback&);
+extern template SolverSummary solve<double> (const EnergyProblem&, const SolverOptions&, std::vector<double>&,
+                                             const ProgressCallback&);
 
-} // namespace cosection
-} // namespace pcl
+} // namespace pcl::cosection

@@ -12,32 +12,29 @@
 #include <memory>
 #include <vector>
 
-namespace pcl
-{
-namespace cosection
+namespace pcl::cosection
 {
 
 /** \brief How SdfAlignment looks for a pose. */
 struct PCL_COSECTION_EXPORT SdfAlignmentOptions
 {
-  /** \brief Distances beyond which a point counts linearly (Huber's function), metres; 0: a fifth of the truncation distance of a TSDF,
-   * two voxels of another field. */
+  /** \brief Distances beyond which a point counts linearly (Huber's function), metres; 0: a fifth of the truncation
+   * distance of a TSDF, two voxels of another field. */
   double huber_m = 0.0;
-  double max_distance_m = 0.0;   ///< points farther from the surface say nothing; 0: all speak
-  int max_iterations = 40;       ///< steps tried, of all levels together
-  int levels = 3;                ///< each uses four times as many points as the one before, the last one all of them
-  int min_level_points = 2000;   ///< a level of fewer points is left out, unless it is the last
-  int max_points = 0;            ///< a sample of so many is used, evenly drawn; 0: all
-  double tolerance_vox = 1e-3;   ///< a step that moves the points by less, in voxels, is the last
-  /** \brief Directions in the space of poses along which the sum of squares curves less than this fraction of the strongest stay
-   * as they are (see SdfAlignmentResult::observability). */
+  double max_distance_m = 0.0; ///< points farther from the surface say nothing; 0: all speak
+  int max_iterations = 40;     ///< steps tried, of all levels together
+  int levels = 3;              ///< each uses four times as many points as the one before, the last one all of them
+  int min_level_points = 2000; ///< a level of fewer points is left out, unless it is the last
+  int max_points = 0;          ///< a sample of so many is used, evenly drawn; 0: all
+  double tolerance_vox = 1e-3; ///< a step that moves the points by less, in voxels, is the last
+  /** \brief Directions in the space of poses along which the sum of squares curves less than this fraction of the
+   * strongest stay as they are (see SdfAlignmentResult::observability). */
   double min_observability = 1e-3;
-  int min_points = 20;           ///< with a distance; fewer determine no pose
-  int threads = 0;               ///< 0: all; no result depends on it
+  int min_points = 20; ///< with a distance; fewer determine no pose
+  int threads = 0;     ///< 0: all; no result depends on it
 
   /** \brief \throws InvalidArgument naming the first parameter outside its domain. */
-  void
-  validate () const;
+  void validate () const;
 };
 
 /** \brief Why SdfAlignment ended. */
@@ -50,8 +47,7 @@ enum class SdfAlignmentStop
 };
 
 /** \brief One line for a user, such as "too few points have a distance". */
-PCL_COSECTION_EXPORT const char*
-describe (SdfAlignmentStop stop);
+PCL_COSECTION_EXPORT const char* describe (SdfAlignmentStop stop);
 
 /** \brief What SdfAlignment found. */
 struct PCL_COSECTION_EXPORT SdfAlignmentResult
@@ -69,13 +65,15 @@ struct PCL_COSECTION_EXPORT SdfAlignmentResult
   double inlier_share = 0.0;            ///< share of the weight of points with a distance that is within Huber's bound
   double rms_m = 0.0;                   ///< root mean square of the distances, weighted, without Huber's weights
 
-  /** \brief Sum of w J^T J at the pose; w: Huber's weight times the point's times the voxel's (1 at the volume's largest). J is the
-   * derivative by (t, omega) of the distance at p + t + omega x p, with p = T_grid_sensor * point: translation first, metres and radians,
-   * about the origin of the grid's frame. Divided by the variance of a distance it is the inverse of the pose's covariance. */
+  /** \brief Sum of w J^T J at the pose; w: Huber's weight times the point's times the voxel's (1 at the volume's
+   * largest). J is the derivative by (t, omega) of the distance at p + t + omega x p, with p = T_grid_sensor * point:
+   * translation first, metres and radians, about the origin of the grid's frame. Divided by the variance of a distance
+   * it is the inverse of the pose's covariance. */
   Matrix6d information = Matrix6d::Zero ();
 
   /** \brief Eigenvalues of the same matrix about the centroid of the points, with rotations in units of their root mean
-   * square distance from it, divided by the largest; ascending. A bare plane has three that vanish, and so has a sphere. */
+   * square distance from it, divided by the largest; ascending. A bare plane has three that vanish, and so has a
+   * sphere. */
   Vector6d observability = Vector6d::Zero ();
   int observed_directions = 0; ///< of six, those that were not held
 };
@@ -87,34 +85,19 @@ public:
   /** \brief Voxels without weight say nothing, others in proportion to their weight. */
   SdfTarget (const TsdfVolume& volume); // NOLINT: conversion is its purpose
 
-  /** \brief Voxels that are not supported say nothing. \throws InvalidArgument if the field is empty or has not one value per voxel */
+  /** \brief Voxels that are not supported say nothing. \throws InvalidArgument if the field is empty or has not one
+   * value per voxel */
   SdfTarget (const SignedDistanceField& field); // NOLINT: conversion is its purpose
 
-  const SignedDistanceField&
-  field () const
-  {
-    return *field_;
-  }
+  const SignedDistanceField& field () const { return *field_; }
 
   /** \brief One per voxel; null: all are 1. */
-  const std::vector<float>*
-  weights () const
-  {
-    return weights_;
-  }
+  const std::vector<float>* weights () const { return weights_; }
 
-  double
-  maxWeight () const
-  {
-    return max_weight_;
-  }
+  double maxWeight () const { return max_weight_; }
 
   /** \brief Default of SdfAlignmentOptions::huber_m. */
-  double
-  huber () const
-  {
-    return huber_m_;
-  }
+  double huber () const { return huber_m_; }
 
 private:
   const SignedDistanceField* field_;
@@ -123,22 +106,23 @@ private:
   double huber_m_;
 };
 
-/** \brief Finds the pose at which points lie on the surface of a signed distance volume, from a pose nearby: it minimises
+/** \brief Finds the pose at which points lie on the surface of a signed distance volume, from a pose nearby: it
+ * minimises
  *
  *     E(T) = sum_i w_i rho (d (T p_i))
  *
- * by the Levenberg-Marquardt method on SE(3), where d is the trilinear distance, rho Huber's function, and w_i the weight of the point
- * times that of the voxel it is in. No correspondences are looked for, and no normals are needed. Points outside the volume, or
- * where it knows nothing, have no part; a step counts as an improvement if it is one for the points that had a distance before
- * and have one after it.
+ * by the Levenberg-Marquardt method on SE(3), where d is the trilinear distance, rho Huber's function, and w_i the
+ * weight of the point times that of the voxel it is in. No correspondences are looked for, and no normals are needed.
+ * Points outside the volume, or where it knows nothing, have no part; a step counts as an improvement if it is one for
+ * the points that had a distance before and have one after it.
  *
- * E. Bylow, J. Sturm, C. Kerl, F. Kahl, D. Cremers, "Real-Time Camera Tracking and 3D Reconstruction Using Signed Distance
- * Functions", RSS 2013; with robust and soft assignments as in M. Strecke, J. Stueckler, "EM-Fusion: Dynamic Object-Level SLAM with
- * Probabilistic Data Association", ICCV 2019. Directions that the geometry leaves open are held: J. Zhang, M. Kaess, S. Singh, "On
- * Degeneracy of Optimization-Based State Estimation Problems", ICRA 2016.
+ * E. Bylow, J. Sturm, C. Kerl, F. Kahl, D. Cremers, "Real-Time Camera Tracking and 3D Reconstruction Using Signed
+ * Distance Functions", RSS 2013; with robust and soft assignments as in M. Strecke, J. Stueckler, "EM-Fusion: Dynamic
+ * Object-Level SLAM with Probabilistic Data Association", ICCV 2019. Directions that the geometry leaves open are held:
+ * J. Zhang, M. Kaess, S. Singh, "On Degeneracy of Optimization-Based State Estimation Problems", ICRA 2016.
  *
- * O (points) per step, in parallel; a first part of the steps uses a sixteenth and a fourth of the points. The object keeps its
- * buffers: use one for all frames. Not for two threads at once.
+ * O (points) per step, in parallel; a first part of the steps uses a sixteenth and a fourth of the points. The object
+ * keeps its buffers: use one for all frames. Not for two threads at once.
  *
  * \code
  * SdfAlignment alignment;
@@ -156,25 +140,21 @@ public:
   explicit SdfAlignment (const SdfAlignmentOptions& options = {});
   ~SdfAlignment ();
   SdfAlignment (SdfAlignment&& other) noexcept;
-  SdfAlignment&
-  operator= (SdfAlignment&& other) noexcept;
+  SdfAlignment& operator= (SdfAlignment&& other) noexcept;
 
-  const SdfAlignmentOptions&
-  options () const;
+  const SdfAlignmentOptions& options () const;
 
   /** \param[in] points metres, sensor frame; those that are not finite are left out
    * \param[in] weights one per point, or none: 1; what is not positive and finite counts as 0
    * \param[in] guess T_grid_sensor to begin with, metres
-   * \throws InvalidArgument if there is not one weight per point, the guess is not a finite rigid motion, or the volume has more voxels
-   * than an int can count. Points that determine no pose are no error: see SdfAlignmentResult::stop. */
-  SdfAlignmentResult
-  align (const std::vector<Eigen::Vector3f>& points, const std::vector<float>& weights, const SdfTarget& target,
-         const Eigen::Isometry3d& guess = Eigen::Isometry3d::Identity ());
+   * \throws InvalidArgument if there is not one weight per point, the guess is not a finite rigid motion, or the volume
+   * has more voxels than an int can count. Points that determine no pose are no error: see SdfAlignmentResult::stop. */
+  SdfAlignmentResult align (const std::vector<Eigen::Vector3f>& points, const std::vector<float>& weights,
+                            const SdfTarget& target, const Eigen::Isometry3d& guess = Eigen::Isometry3d::Identity ());
 
 private:
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };
 
-} // namespace cosection
-} // namespace pcl
+} // namespace pcl::cosection

@@ -13,9 +13,7 @@
 #include <optional>
 #include <vector>
 
-namespace pcl
-{
-namespace cosection
+namespace pcl::cosection
 {
 
 /** \brief Where SdfTracker expects the object in the next frame. */
@@ -25,8 +23,8 @@ enum class MotionModel
   ConstantVelocity, ///< moved on as from the frame before to the last, and where it was if that leads nowhere
 };
 
-/** \brief Follows an object of known shape through depth images, as a pcl::tracking::Tracker: each frame's points are aligned with the
- * object's signed distance (SdfAlignment), from where the object is expected.
+/** \brief Follows an object of known shape through depth images, as a pcl::tracking::Tracker: each frame's points are
+ * aligned with the object's signed distance (SdfAlignment), from where the object is expected.
  *
  * \code
  * pcl::cosection::SdfTracker<pcl::PointXYZ> tracker;
@@ -41,16 +39,18 @@ enum class MotionModel
  * }
  * \endcode
  *
- * The state is T_sensor_object, as that of PCL's particle filters. Points of the rest of the scene pull at the object where the volume says
- * how far they are from it: give the object's own points (setIndices ()), or set max_distance_m in the options.
+ * The state is T_sensor_object, as that of PCL's particle filters. Points of the rest of the scene pull at the object
+ * where the volume says how far they are from it: give the object's own points (setIndices ()), or set max_distance_m
+ * in the options.
  *
- * The object is lost in a frame in which the alignment does not converge, or fewer than the least share of the points fit. The state
- * is then that of the last frame in which it was not, and so is the next expectation.
+ * The object is lost in a frame in which the alignment does not converge, or fewer than the least share of the points
+ * fit. The state is then that of the last frame in which it was not, and so is the next expectation.
  *
- * Without a cloud or a volume compute () says so through PCL's console, and the object is lost; setters throw InvalidArgument.
+ * Without a cloud or a volume compute () says so through PCL's console, and the object is lost; setters throw
+ * InvalidArgument.
  *
- * Instantiated for pcl::PointXYZ, PointXYZI, PointXYZRGB, PointXYZRGBA, PointNormal and PointXYZRGBNormal, with the state
- * pcl::tracking::ParticleXYZRPY; for others define PCL_NO_PRECOMPILE before the include. */
+ * Instantiated for pcl::PointXYZ, PointXYZI, PointXYZRGB, PointXYZRGBA, PointNormal and PointXYZRGBNormal, with the
+ * state pcl::tracking::ParticleXYZRPY; for others define PCL_NO_PRECOMPILE before the include. */
 template <typename PointInT, typename StateT = pcl::tracking::ParticleXYZRPY>
 class PCL_COSECTION_EXPORT SdfTracker : public pcl::tracking::Tracker<PointInT, StateT>
 {
@@ -64,69 +64,40 @@ public:
   ~SdfTracker () override = default;
 
   /** \brief The object. \throws InvalidArgument if it is null */
-  void
-  setSignedDistance (const TsdfVolume::ConstPtr& volume);
+  void setSignedDistance (const TsdfVolume::ConstPtr& volume);
 
   /** \brief The same for other fields. \throws InvalidArgument if it is null or not valid */
-  void
-  setSignedDistance (const SignedDistanceField::ConstPtr& field);
+  void setSignedDistance (const SignedDistanceField::ConstPtr& field);
 
-  /** \brief T_sensor_object of the next frame; forgets the velocity. \throws InvalidArgument if it is not a finite rigid motion */
-  void
-  setTrans (const Eigen::Affine3f& T_sensor_object);
+  /** \brief T_sensor_object of the next frame; forgets the velocity. \throws InvalidArgument if it is not a finite
+   * rigid motion */
+  void setTrans (const Eigen::Affine3f& T_sensor_object);
 
   /** \brief Default: constant velocity. */
-  void
-  setMotionModel (MotionModel model)
-  {
-    motion_model_ = model;
-  }
+  void setMotionModel (MotionModel model) { motion_model_ = model; }
 
   /** \brief Least SdfAlignmentResult::inlier_share of a frame in which the object is not lost; default 0.5.
    * \throws InvalidArgument if it is not in [0, 1] */
-  void
-  setMinimumInlierShare (float share);
+  void setMinimumInlierShare (float share);
 
   /** \throws InvalidArgument */
-  void
-  setOptions (const SdfAlignmentOptions& options);
+  void setOptions (const SdfAlignmentOptions& options);
 
-  const SdfAlignmentOptions&
-  getOptions () const
-  {
-    return alignment_.options ();
-  }
+  const SdfAlignmentOptions& getOptions () const { return alignment_.options (); }
 
   /** \brief T_sensor_object; its weight is the share of inliers, 0 where the object is lost. */
-  StateT
-  getResult () const override;
+  StateT getResult () const override;
 
   /** \brief The same in double precision. */
-  const Eigen::Isometry3d&
-  getPose () const
-  {
-    return T_sensor_object_;
-  }
+  const Eigen::Isometry3d& getPose () const { return T_sensor_object_; }
 
-  Eigen::Affine3f
-  toEigenMatrix (const StateT& state) const
-  {
-    return state.toEigenMatrix ();
-  }
+  Eigen::Affine3f toEigenMatrix (const StateT& state) const { return state.toEigenMatrix (); }
 
   /** \brief In the last compute (), or because there was none. */
-  bool
-  isLost () const
-  {
-    return lost_;
-  }
+  bool isLost () const { return lost_; }
 
   /** \brief Of the last compute (). */
-  const SdfAlignmentResult&
-  getAlignment () const
-  {
-    return result_;
-  }
+  const SdfAlignmentResult& getAlignment () const { return result_; }
 
 protected:
   using Base::getClassName;
@@ -134,16 +105,13 @@ protected:
   using Base::input_;
   using Base::tracker_name_;
 
-  bool
-  initCompute () override;
+  bool initCompute () override;
 
 private:
-  void
-  computeTracking () override;
+  void computeTracking () override;
 
   /** \brief Fill result_ from an expected T_sensor_object; whether the object was found. */
-  bool
-  alignFrom (const Eigen::Isometry3d& expected);
+  bool alignFrom (const Eigen::Isometry3d& expected);
 
   SdfAlignment alignment_;
   TsdfVolume::ConstPtr volume_;
@@ -161,8 +129,7 @@ public:
   PCL_MAKE_ALIGNED_OPERATOR_NEW
 };
 
-} // namespace cosection
-} // namespace pcl
+} // namespace pcl::cosection
 
 #ifdef PCL_NO_PRECOMPILE
 #include <pcl/cosection/tracking/impl/sdf_tracker.hpp>
@@ -183,6 +150,5 @@ extern template class PCL_COSECTION_EXPORT SdfTracker<pcl::PointXYZRGB>;
 extern template class PCL_COSECTION_EXPORT SdfTracker<pcl::PointXYZRGBA>;
 extern template class PCL_COSECTION_EXPORT SdfTracker<pcl::PointNormal>;
 extern template class PCL_COSECTION_EXPORT SdfTracker<pcl::PointXYZRGBNormal>;
-} // namespace cosection
-} // namespace pcl
+} // namespace pcl::cosection
 #endif

@@ -9,15 +9,12 @@
 
 #include <vector>
 
-namespace pcl
-{
-namespace cosection
+namespace pcl::cosection
 {
 
-/** \brief Points on the zero level set, the field's frame: where edges between neighbouring voxels cross it, by linear interpolation;
- * about a voxel apart. Edges to voxels that are not finite or not supported have none. In the order of the voxels. */
-PCL_COSECTION_EXPORT std::vector<Eigen::Vector3f>
-surfacePoints (const SignedDistanceField& field);
+/** \brief Points on the zero level set, the field's frame: where edges between neighbouring voxels cross it, by linear
+ * interpolation; about a voxel apart. Edges to voxels that are not finite or not supported have none. In the order of
+ * the voxels. */
+PCL_COSECTION_EXPORT std::vector<Eigen::Vector3f> surfacePoints (const SignedDistanceField& field);
 
-} // namespace cosection
-} // namespace pcl
+} // namespace pcl::cosection

@@ -11,9 +11,7 @@
 #include <string>
 #include <vector>
 
-namespace pcl
-{
-namespace cosection
+namespace pcl::cosection
 {
 
 /** \brief Readings of a frame in the world. */
@@ -32,19 +30,17 @@ public:
   explicit FramePointReader (const RunScene& scene, const std::string& dataset = "");
   ~FramePointReader ();
   FramePointReader (FramePointReader&&) noexcept;
-  FramePointReader&
-  operator= (FramePointReader&&) noexcept;
+  FramePointReader& operator= (FramePointReader&&) noexcept;
 
-  /** \brief The readings of the frame nearest to \a stamp, at the run's pose of the camera; none if there is no such frame or no pose.
+  /** \brief The readings of the frame nearest to \a stamp, at the run's pose of the camera; none if there is no such
+   * frame or no pose.
    * \param[in] every take every so many pixels along each axis
    * \throws IoError naming the image that cannot be read */
-  FramePoints
-  read (const RunScene& scene, double stamp, int every = 1) const;
+  FramePoints read (const RunScene& scene, double stamp, int every = 1) const;
 
 private:
   std::unique_ptr<RgbdSequence> images_;
   std::vector<double> stamps_;
 };
 
-} // namespace cosection
-} // namespace pcl
+} // namespace pcl::cosection

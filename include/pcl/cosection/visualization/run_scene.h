@@ -15,9 +15,7 @@
 #include <string>
 #include <vector>
 
-namespace pcl
-{
-namespace cosection
+namespace pcl::cosection
 {
 
 /** \brief Which surface of an object is shown. */
@@ -41,62 +39,59 @@ struct PCL_COSECTION_EXPORT RunScene
   static constexpr int background = PairPenetration::background;
 
   std::string folder;
-  SceneRecord run;                   ///< poses and completed meshes; intrinsics if the summary has them
-  std::map<int, TriangleMesh> tsdf;  ///< what was seen, by object; object frame
+  SceneRecord run;                    ///< poses and completed meshes; intrinsics if the summary has them
+  std::map<int, TriangleMesh> tsdf;   ///< what was seen, by object; object frame
   std::map<int, VertexErrors> errors; ///< by object; see measureErrors ()
-  double error_max_m = 0.01;         ///< at the red end of their colours
+  double error_max_m = 0.01;          ///< at the red end of their colours
   std::map<int, std::string> classes; ///< what objects are, by object, as far as the summary names them
-  std::string dataset;               ///< that the run has read, as its summary names it; may be empty
-  SequenceSource source;             ///< how it was read
+  std::string dataset;                ///< that the run has read, as its summary names it; may be empty
+  SequenceSource source;              ///< how it was read
 
   /** \brief The camera's stamps, ascending: the frames of the run. */
-  std::vector<double>
-  stamps () const;
+  std::vector<double> stamps () const;
 
   /** \brief T_world_camera of the frame nearest to \a stamp, at most half a frame away. */
-  std::optional<Eigen::Isometry3d>
-  cameraAt (double stamp) const;
+  std::optional<Eigen::Isometry3d> cameraAt (double stamp) const;
 
   /** \brief T_world_object likewise; nothing where the object is not known, which is not shown then.
    * \param[in] object of run.objects */
-  std::optional<Eigen::Isometry3d>
-  poseAt (const SceneRecord::Object& object, double stamp) const;
+  std::optional<Eigen::Isometry3d> poseAt (const SceneRecord::Object& object, double stamp) const;
 
   /** \brief The mesh of an object, or of the \a background; empty: there is none, or the mode is Points. */
-  const TriangleMesh&
-  surface (int id, SurfaceMode mode) const;
+  const TriangleMesh& surface (int id, SurfaceMode mode) const;
 
   /** \brief The errors of the vertices of surface (); empty: not known. */
-  const std::vector<double>&
-  surfaceErrors (int id, SurfaceMode mode) const;
+  const std::vector<double>& surfaceErrors (int id, SurfaceMode mode) const;
 
   /** \brief The camera of the images, or one of 640 x 480 pixels if it is not known. */
-  PinholeCamera
-  camera () const;
+  PinholeCamera camera () const;
 };
 
 /** \brief How much of a run to load. */
 struct PCL_COSECTION_EXPORT RunSceneOptions
 {
-  std::size_t triangles = 0; ///< decimate the background to so many, and each object to half as many, to draw them faster; 0: none
+  std::size_t triangles = 0; ///< decimate the background to so many, and each object to half as many, to draw them
+                             ///< faster; 0: none
 };
 
-/** \brief Read what a run wrote: as readRun (), and mesh/object_ID_tsdf.ply, and of summary.json the camera, the dataset and the objects' classes. Nothing is
- * written.
+/** \brief Read what a run wrote: as readRun (), and mesh/object_ID_tsdf.ply, and of summary.json the camera, the
+ * dataset and the objects' classes. Nothing is written.
  * \param[out] notes what is missing or cannot be read
- * \throws IoError naming the folder: it is not there, is a dataset or something else, or the run failed or did not come to its end */
-PCL_COSECTION_EXPORT RunScene
-loadRunScene (const std::string& folder, ReadingNotes& notes, const RunSceneOptions& options = {});
+ * \throws IoError naming the folder: it is not there, is a dataset or something else, or the run failed or did not come
+ * to its end */
+PCL_COSECTION_EXPORT RunScene loadRunScene (const std::string& folder, ReadingNotes& notes,
+                                            const RunSceneOptions& options = {});
 
-/** \brief Set the distance of every vertex to the truth: errors, and error_max_m, 95 % of them rounded up. What matches nothing true has no errors.
+/** \brief Set the distance of every vertex to the truth: errors, and error_max_m, 95 % of them rounded up. What matches
+ * nothing true has no errors.
  * \param[in] evaluation of scene.run with that truth, as evaluateRun () returns it
  * \param[in] threads 0: all */
-PCL_COSECTION_EXPORT void
-measureErrors (RunScene& scene, const SceneRecord& truth, const RunEvaluation& evaluation, int threads = 0);
+PCL_COSECTION_EXPORT void measureErrors (RunScene& scene, const SceneRecord& truth, const RunEvaluation& evaluation,
+                                         int threads = 0);
 
-/** \brief As above, with an evaluation that is as quick as can be. \return its warnings \throws DegenerateInput as evaluateRun () */
-PCL_COSECTION_EXPORT std::vector<std::string>
-measureErrors (RunScene& scene, const SceneRecord& truth, int threads = 0);
+/** \brief As above, with an evaluation that is as quick as can be. \return its warnings \throws DegenerateInput as
+ * evaluateRun () */
+PCL_COSECTION_EXPORT std::vector<std::string> measureErrors (RunScene& scene, const SceneRecord& truth,
+                                                             int threads = 0);
 
-} // namespace cosection
-} // namespace pcl
+} // namespace pcl::cosection

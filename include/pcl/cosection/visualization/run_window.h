@@ -13,16 +13,14 @@
 #include <optional>
 #include <string>
 
-namespace pcl
-{
-namespace cosection
+namespace pcl::cosection
 {
 
 /** \brief Connect to the display.
- * \return the connection, to be kept until there is a window: a server may begin anew when its last client goes, and refuse the next meanwhile
+ * \return the connection, to be kept until there is a window: a server may begin anew when its last client goes, and
+ * refuse the next meanwhile
  * \throws IoError that says why no window can be opened: there is no display, or it has no OpenGL */
-PCL_COSECTION_EXPORT std::shared_ptr<void>
-requireDisplay ();
+PCL_COSECTION_EXPORT std::shared_ptr<void> requireDisplay ();
 
 /** \brief A scene in the place of the one that a window shows. */
 struct PCL_COSECTION_EXPORT SceneUpdate
@@ -35,27 +33,29 @@ struct PCL_COSECTION_EXPORT SceneUpdate
 struct PCL_COSECTION_EXPORT RunWindowOptions
 {
   std::string title = "pcl_cosection";
-  SceneView view;                 ///< size, modes and parts; nothing as viewpoint: it follows the camera
+  SceneView view; ///< size, modes and parts; nothing as viewpoint: it follows the camera
   std::size_t first_frame = 0;
-  std::string dataset;            ///< of the input points; empty: the one that the run names
+  std::string dataset;                           ///< of the input points; empty: the one that the run names
   std::string viewpoint_file = "viewpoint.json"; ///< that the key v writes; empty: it refuses to
-  std::string picture_prefix = "window_";        ///< of the pictures that the key p writes, beside a number and .png; empty: likewise
-  double frames_per_second = 30.0;               ///< when playing
+  std::string
+      picture_prefix = "window_";  ///< of the pictures that the key p writes, beside a number and .png; empty: likewise
+  double frames_per_second = 30.0; ///< when playing
   /** \brief Called some five times a second: a scene that is new, or nothing. */
   std::function<std::optional<SceneUpdate> ()> newScene;
-  std::function<bool ()> stop;                          ///< called likewise: whether to close the window
-  std::function<void (const std::string& line)> said;   ///< told what changed, in a line: "frame 3 of 12", "wrote view.json"
-  int threads = 0;                                      ///< for signed distances; 0: all
+  std::function<bool ()> stop; ///< called likewise: whether to close the window
+  std::function<void (const std::string& line)>
+      said;        ///< told what changed, in a line: "frame 3 of 12", "wrote view.json"
+  int threads = 0; ///< for signed distances; 0: all
 
   /** \brief \throws InvalidArgument naming the first parameter outside its domain. */
-  void
-  validate () const;
+  void validate () const;
 };
 
-/** \brief A window in which a run is played: its background and objects along the trajectories. The key h shows what the others do.
+/** \brief A window in which a run is played: its background and objects along the trajectories. The key h shows what
+ * the others do.
  *
- * What SceneView describes is shown as drawScene () draws it; beyond that, cuts through the signed distance of a chosen object.
- * For one thread, the one that made it.
+ * What SceneView describes is shown as drawScene () draws it; beyond that, cuts through the signed distance of a chosen
+ * object. For one thread, the one that made it.
  * \code
  * ReadingNotes notes;
  * RunWindow window (loadRunScene ("out", notes));
@@ -64,33 +64,28 @@ struct PCL_COSECTION_EXPORT RunWindowOptions
 class PCL_COSECTION_EXPORT RunWindow
 {
 public:
-  /** \throws IoError as requireDisplay (), InvalidArgument for options outside their domain or a scene without frames */
+  /** \throws IoError as requireDisplay (), InvalidArgument for options outside their domain or a scene without frames
+   */
   explicit RunWindow (RunScene scene, const RunWindowOptions& options = {});
   ~RunWindow ();
   RunWindow (const RunWindow&) = delete;
-  RunWindow&
-  operator= (const RunWindow&) = delete;
+  RunWindow& operator= (const RunWindow&) = delete;
 
   /** \brief Show the window until it is closed. */
-  void
-  run ();
+  void run ();
 
   /** \brief Go to a frame, the last if there are fewer, and draw it. */
-  void
-  show (std::size_t frame);
+  void show (std::size_t frame);
 
   /** \brief What a key does, by its name in X: "space", "Right", "m". Unknown ones do nothing. */
-  void
-  press (const std::string& key);
+  void press (const std::string& key);
 
   /** \brief What the window shows. */
-  Picture
-  picture ();
+  Picture picture ();
 
 private:
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };
 
-} // namespace cosection
-} // namespace pcl
+} // namespace pcl::cosection

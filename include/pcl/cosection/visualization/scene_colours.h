@@ -8,9 +8,7 @@
 #include <string>
 #include <vector>
 
-namespace pcl
-{
-namespace cosection
+namespace pcl::cosection
 {
 
 /** \brief What the colour of a surface tells. */
@@ -24,12 +22,12 @@ enum class ColourMode
 };
 
 /** \brief The colour of an object, the same in every run; of RunScene::background, grey. */
-PCL_COSECTION_EXPORT TriangleMesh::Colour
-instanceColour (int id);
+PCL_COSECTION_EXPORT TriangleMesh::Colour instanceColour (int id);
 
-/** \brief Of each vertex of an object's surface, or the background's. Where it does not tell what is asked for, as the TSDF of provenance: grey. */
-PCL_COSECTION_EXPORT std::vector<TriangleMesh::Colour>
-surfaceColours (const RunScene& scene, int id, SurfaceMode surface, ColourMode colour);
+/** \brief Of each vertex of an object's surface, or the background's. Where it does not tell what is asked for, as the
+ * TSDF of provenance: grey. */
+PCL_COSECTION_EXPORT std::vector<TriangleMesh::Colour> surfaceColours (const RunScene& scene, int id,
+                                                                       SurfaceMode surface, ColourMode colour);
 
 /** \brief A colour and what it means. */
 struct PCL_COSECTION_EXPORT LegendEntry
@@ -47,16 +45,10 @@ struct PCL_COSECTION_EXPORT ColourLegend
   double most = 0.0;  ///< at share 1; as \a least: there is no scale
   bool more = false;  ///< the last colour stands for larger values, too
 
-  bool
-  hasScale () const
-  {
-    return most != least;
-  }
+  bool hasScale () const { return most != least; }
 };
 
 /** \brief What the colours mean; nothing to tell of real ones. */
-PCL_COSECTION_EXPORT ColourLegend
-legendOf (const RunScene& scene, ColourMode colour);
+PCL_COSECTION_EXPORT ColourLegend legendOf (const RunScene& scene, ColourMode colour);
 
-} // namespace cosection
-} // namespace pcl
+} // namespace pcl::cosection

@@ -11,35 +11,32 @@
 
 #include <optional>
 
-namespace pcl
-{
-namespace cosection
+namespace pcl::cosection
 {
 
 /** \brief How a scene is drawn. */
 struct PCL_COSECTION_EXPORT SceneView
 {
-  int width = 1280;  ///< pixels
-  int height = 720;  ///< pixels
+  int width = 1280;                   ///< pixels
+  int height = 720;                   ///< pixels
   std::optional<Viewpoint> viewpoint; ///< nothing: with the camera of the run, where it was
   SurfaceMode surface = SurfaceMode::Completed;
   ColourMode colour = ColourMode::Real;
   bool objects = true;
   bool background = true;
-  bool path = true;     ///< of the camera, so far
-  bool frustum = true;  ///< what the camera sees; not drawn from the camera itself
-  bool boxes = false;   ///< bounding volumes of the objects
+  bool path = true;    ///< of the camera, so far
+  bool frustum = true; ///< what the camera sees; not drawn from the camera itself
+  bool boxes = false;  ///< bounding volumes of the objects
   bool legend = true;
   bool caption = true;
   int oversampling = 2; ///< for smooth edges; 1: none
 
   /** \brief \throws InvalidArgument naming the first parameter outside its domain. */
-  void
-  validate () const;
+  void validate () const;
 };
 
-/** \brief Draw the scene of a run at a time, without a display: every object where it was, if that is known. Triangles of the background that face away are
- * left out: one looks through the walls of a room from outside.
+/** \brief Draw the scene of a run at a time, without a display: every object where it was, if that is known. Triangles
+ * of the background that face away are left out: one looks through the walls of a room from outside.
  * \param[in] points of the frame, for SurfaceMode::Points; null: none
  * \throws InvalidArgument as SceneView::validate ()
  * \code
@@ -49,8 +46,7 @@ struct PCL_COSECTION_EXPORT SceneView
  * view.viewpoint = overview (scene);
  * writePng (drawScene (scene, scene.stamps ().back (), view), "scene.png");
  * \endcode */
-PCL_COSECTION_EXPORT Picture
-drawScene (const RunScene& scene, double stamp, const SceneView& view = {}, const FramePoints* points = nullptr);
+PCL_COSECTION_EXPORT Picture drawScene (const RunScene& scene, double stamp, const SceneView& view = {},
+                                        const FramePoints* points = nullptr);
 
-} // namespace cosection
-} // namespace pcl
+} // namespace pcl::cosection

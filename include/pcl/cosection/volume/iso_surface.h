@@ -9,9 +9,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace pcl
-{
-namespace cosection
+namespace pcl::cosection
 {
 
 struct PCL_COSECTION_EXPORT IsoSurfaceOptions
@@ -31,15 +29,14 @@ struct PCL_COSECTION_EXPORT IsoSurfaceOptions
  *
  * With \a closed the result is a closed 2-manifold strictly inside the box of voxel centres. The
  * order of vertices and triangles does not depend on the number of threads. */
-PCL_COSECTION_EXPORT TriangleMesh
-extractIsoSurface (const SignedDistanceField& field, const IsoSurfaceOptions& options = {});
+PCL_COSECTION_EXPORT TriangleMesh extractIsoSurface (const SignedDistanceField& field,
+                                                     const IsoSurfaceOptions& options = {});
 
-/** \brief As extractIsoSurface (), but only in cells whose eight voxels are all marked in \a supported, and never closed: an
- * open mesh without loose vertices, of which every edge has one triangle or two.
+/** \brief As extractIsoSurface (), but only in cells whose eight voxels are all marked in \a supported, and never
+ * closed: an open mesh without loose vertices, of which every edge has one triangle or two.
  * \param[in] supported one per voxel, 0: no; that of \a field is not looked at
  * \throws InvalidArgument as extractIsoSurface (), and if there is not one mark per voxel */
-PCL_COSECTION_EXPORT TriangleMesh
-extractOpenIsoSurface (const SignedDistanceField& field, const std::vector<std::uint8_t>& supported, int threads = 0);
+PCL_COSECTION_EXPORT TriangleMesh extractOpenIsoSurface (const SignedDistanceField& field,
+                                                         const std::vector<std::uint8_t>& supported, int threads = 0);
 
-} // namespace cosection
-} // namespace pcl
+} // namespace pcl::cosection

@@ -6,9 +6,7 @@
 #include <pcl/cosection/common/triangle_mesh.h>
 #include <pcl/cosection/volume/signed_distance_field.h>
 
-namespace pcl
-{
-namespace cosection
+namespace pcl::cosection
 {
 
 /** \brief The signed distance of a mesh at every voxel of a grid: metres, positive outside, negative inside,
@@ -41,8 +39,7 @@ namespace cosection
  * \return \a supported is empty (everywhere) if all of the mesh is closed
  * \throws InvalidArgument if the mesh has no triangles or bounds nothing, is not consistent or not finite, or
  * the grid has no voxels, or a length is not positive */
-PCL_COSECTION_EXPORT SignedDistanceField
-sampleSignedDistance (const TriangleMesh& mesh, const VoxelGrid& grid, double band_m, int threads = 0);
+PCL_COSECTION_EXPORT SignedDistanceField sampleSignedDistance (const TriangleMesh& mesh, const VoxelGrid& grid,
+                                                               double band_m, int threads = 0);
 
-} // namespace cosection
-} // namespace pcl
+} // namespace pcl::cosection

@@ -8,9 +8,7 @@
 
 #include <Eigen/Geometry>
 
-namespace pcl
-{
-namespace cosection
+namespace pcl::cosection
 {
 
 /** \brief Pixels of columns [left, right) and rows [top, bottom). */
@@ -23,12 +21,10 @@ struct PixelRegion
 };
 
 /** \brief The whole image. */
-PCL_COSECTION_EXPORT PixelRegion
-wholeImage (const PinholeCamera& camera);
+PCL_COSECTION_EXPORT PixelRegion wholeImage (const PinholeCamera& camera);
 
 /** \brief The pixels onto which a camera projects a grid; the whole image if the grid reaches behind the camera. */
-PCL_COSECTION_EXPORT PixelRegion
-projectedRegion (const VoxelGrid& grid, const PinholeCamera& camera, const Eigen::Isometry3d& T_grid_sensor);
+PCL_COSECTION_EXPORT PixelRegion projectedRegion (const VoxelGrid& grid, const PinholeCamera& camera,
+                                                  const Eigen::Isometry3d& T_grid_sensor);
 
-} // namespace cosection
-} // namespace pcl
+} // namespace pcl::cosection

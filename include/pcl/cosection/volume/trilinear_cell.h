@@ -11,30 +11,26 @@
 #include <cstddef>
 #include <optional>
 
-namespace pcl
-{
-namespace cosection
+namespace pcl::cosection
 {
 
 /** \brief The eight voxels around a point, and the trilinear function between their centres.
  *
- * It needs a number at all eight, so that the gradient exists with the value; SignedDistanceField::sample () makes do with
- * fewer on a cell's faces. All inline: for loops over many points.
+ * It needs a number at all eight, so that the gradient exists with the value; SignedDistanceField::sample () makes do
+ * with fewer on a cell's faces. All inline: for loops over many points.
  *
  * \code
  * if (const auto cell = TrilinearCell<double>::around (field, p))
  *   minimise (cell->value (), cell->gradient ());
  * \endcode */
-template <typename Scalar>
-class TrilinearCell
+template <typename Scalar> class TrilinearCell
 {
 public:
   using Vector3 = Eigen::Matrix<Scalar, 3, 1>;
 
-  /** \brief The cell around \a p (metres, the grid's frame): nothing outside the box of voxel centres, for NaN, where the
-   * grid is a single voxel thin, or where one of the eight values is not finite. */
-  static std::optional<TrilinearCell>
-  around (const SignedDistanceField& field, const Vector3& p)
+  /** \brief The cell around \a p (metres, the grid's frame): nothing outside the box of voxel centres, for NaN, where
+   * the grid is a single voxel thin, or where one of the eight values is not finite. */
+  static std::optional<TrilinearCell> around (const SignedDistanceField& field, const Vector3& p)
   {
     const VoxelGrid& grid = field.grid;
     const Eigen::Vector3d v = grid.toVoxel (p.template cast<double> ());
@@ -65,20 +61,18 @@ public:
   }
 
   /** \brief In the field's unit (metres). */
-  Scalar
-  value () const
+  Scalar value () const
   {
     const auto edge = alongX ();
     return mix (mix (edge[0], edge[1], fraction_[1]), mix (edge[2], edge[3], fraction_[1]), fraction_[2]);
   }
 
   /** \brief Derivative of value () by the point: metres per metre, in the grid's frame. Not normalised. */
-  Vector3
-  gradient () const
+  Vector3 gradient () const
   {
     const auto edge = alongX ();
-    const Scalar dx =
-        mix (mix (step_x_[0], step_x_[1], fraction_[1]), mix (step_x_[2], step_x_[3], fraction_[1]), fraction_[2]);
+    const Scalar dx = mix (mix (step_x_[0], step_x_[1], fraction_[1]), mix (step_x_[2], step_x_[3], fraction_[1]),
+                           fraction_[2]);
     const Scalar dy = mix (edge[1] - edge[0], edge[3] - edge[2], fraction_[2]);
     const Scalar dz = mix (edge[2] - edge[0], edge[3] - edge[1], fraction_[1]);
     return Vector3 (dx, dy, dz) / voxel_size_m_;
@@ -86,8 +80,7 @@ public:
 
 private:
   /** \brief Values at the four edges along x. */
-  std::array<Scalar, 4>
-  alongX () const
+  std::array<Scalar, 4> alongX () const
   {
     std::array<Scalar, 4> edge;
     for (int n = 0; n < 4; ++n)
@@ -95,11 +88,7 @@ private:
     return edge;
   }
 
-  static Scalar
-  mix (Scalar a, Scalar b, Scalar t)
-  {
-    return a + t * (b - a);
-  }
+  static Scalar mix (Scalar a, Scalar b, Scalar t) { return a + t * (b - a); }
 
   std::array<Scalar, 3> fraction_;
   std::array<Scalar, 4> lower_x_; // where the edges along x begin: (y, z), (y + 1, z), (y, z + 1), (y + 1, z + 1)
@@ -107,5 +96,4 @@ private:
   Scalar voxel_size_m_ = 1;
 };
 
-} // namespace cosection
-} // namespace pcl
+} // namespace pcl::cosection

@@ -12,9 +12,7 @@
 
 #include <limits>
 
-namespace pcl
-{
-namespace cosection
+namespace pcl::cosection
 {
 
 template <typename PointT>
@@ -118,7 +116,6 @@ GeometricSegmentation<PointT>::segment (pcl::PointCloud<pcl::Label>& labels,
   }
 }
 
-} // namespace cosection
-} // namespace pcl
+} // namespace pcl::cosection
 
 #define PCL_INSTANTIATE_CosectionGeometricSegmentation(T) template class pcl::cosection::GeometricSegmentation<T>;

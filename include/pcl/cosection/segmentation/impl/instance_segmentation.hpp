@@ -13,9 +13,7 @@
 #include <algorithm>
 #include <array>
 
-namespace pcl
-{
-namespace cosection
+namespace pcl::cosection
 {
 
 template <typename PointT>
@@ -29,7 +27,8 @@ InstanceSegmentation<PointT>::setNetwork (const InstanceDetectorOptions& options
 
 template <typename PointT>
 void
-InstanceSegmentation<PointT>::segment (pcl::PointCloud<pcl::Label>& labels, std::vector<pcl::PointIndices>& label_indices)
+InstanceSegmentation<PointT>::segment (pcl::PointCloud<pcl::Label>& labels,
+                                       std::vector<pcl::PointIndices>& label_indices)
 {
   const char* const name = "cosection::InstanceSegmentation::segment";
   labels.clear ();
@@ -52,8 +51,11 @@ InstanceSegmentation<PointT>::segment (pcl::PointCloud<pcl::Label>& labels, std:
   }
   Picture picture (static_cast<int> (input_->width), static_cast<int> (input_->height));
   std::transform (input_->begin (), input_->end (), picture.pixels.begin (),
-                  [] (const PointT& p) -> std::array<std::uint8_t, 3> { return {p.r, p.g, p.b}; });
-  if (std::all_of (picture.pixels.begin (), picture.pixels.end (), [] (const auto& c) { return (c[0] == 0 && c[1] == 0 && c[2] == 0); }))
+                  [] (const PointT& p) -> std::array<std::uint8_t, 3> {
+                    return {p.r, p.g, p.b};
+                  });
+  if (std::all_of (picture.pixels.begin (), picture.pixels.end (),
+                   [] (const auto& c) { return (c[0] == 0 && c[1] == 0 && c[2] == 0); }))
   {
     PCL_ERROR ("[pcl::%s] The input cloud has no colours: all of it is black.\n", name);
     return;
@@ -94,7 +96,6 @@ InstanceSegmentation<PointT>::segment (pcl::PointCloud<pcl::Label>& labels, std:
   }
 }
 
-} // namespace cosection
-} // namespace pcl
+} // namespace pcl::cosection
 
 #define PCL_INSTANTIATE_CosectionInstanceSegmentation(T) template class pcl::cosection::InstanceSegmentation<T>;

@@ -12,9 +12,7 @@
 #include <limits>
 #include <string>
 
-namespace pcl
-{
-namespace cosection
+namespace pcl::cosection
 {
 
 template <typename PointT>
@@ -37,11 +35,13 @@ MotionSegmentation<PointT>::add ()
       frame.points[i] = (*input_)[i].getVector3fMap ();
   deinitCompute ();
   if (!input_->isOrganized ())
-    throw InvalidArgument ("motion segmentation: the input cloud is not organised: its height is " + std::to_string (input_->height));
+    throw InvalidArgument ("motion segmentation: the input cloud is not organised: its height is " +
+                           std::to_string (input_->height));
   const int width = static_cast<int> (input_->width), height = static_cast<int> (input_->height);
   const std::optional<PinholeCamera> camera = camera_ ? camera_ : fitPinholeCamera (frame.points, width, height);
   if (!camera)
-    throw InvalidArgument ("motion segmentation: the input cloud has hardly any readings, or is not the image of a pinhole camera");
+    throw InvalidArgument (
+        "motion segmentation: the input cloud has hardly any readings, or is not the image of a pinhole camera");
   frame.camera = *camera;
   if (T_world_sensor_)
     frame.T_world_sensor = *T_world_sensor_;
@@ -81,7 +81,6 @@ MotionSegmentation<PointT>::segment (pcl::PointCloud<pcl::Label>& labels, std::v
     indices.header = input_->header;
 }
 
-} // namespace cosection
-} // namespace pcl
+} // namespace pcl::cosection
 
 #define PCL_INSTANTIATE_CosectionMotionSegmentation(T) template class pcl::cosection::MotionSegmentation<T>;

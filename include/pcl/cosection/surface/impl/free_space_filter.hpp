@@ -13,9 +13,7 @@
 #include <cmath>
 #include <string>
 
-namespace pcl
-{
-namespace cosection
+namespace pcl::cosection
 {
 
 template <typename PointT>
@@ -26,20 +24,23 @@ FreeSpaceFilter<PointT>::FreeSpaceFilter (bool extract_removed_indices) : Base (
 
 template <typename PointT> FreeSpaceFilter<PointT>::~FreeSpaceFilter () = default;
 
-template <typename PointT> void
+template <typename PointT>
+void
 FreeSpaceFilter<PointT>::addView (const DepthView& view)
 {
   view.validate ();
   views_.emplace_back (view);
 }
 
-template <typename PointT> void
+template <typename PointT>
+void
 FreeSpaceFilter<PointT>::clearViews ()
 {
   views_.clear ();
 }
 
-template <typename PointT> void
+template <typename PointT>
+void
 FreeSpaceFilter<PointT>::setMargin (float margin_m)
 {
   if (!(margin_m >= 0.0f) || !std::isfinite (margin_m))
@@ -47,7 +48,8 @@ FreeSpaceFilter<PointT>::setMargin (float margin_m)
   margin_m_ = margin_m;
 }
 
-template <typename PointT> void
+template <typename PointT>
+void
 FreeSpaceFilter<PointT>::setMinimumViews (int views)
 {
   if (views < 1)
@@ -55,13 +57,15 @@ FreeSpaceFilter<PointT>::setMinimumViews (int views)
   minimum_views_ = views;
 }
 
-template <typename PointT> void
+template <typename PointT>
+void
 FreeSpaceFilter<PointT>::setNumberOfThreads (unsigned int threads)
 {
   threads_ = threads;
 }
 
-template <typename PointT> void
+template <typename PointT>
+void
 FreeSpaceFilter<PointT>::applyFilter (Indices& indices)
 {
   if (views_.empty ())
@@ -87,7 +91,6 @@ FreeSpaceFilter<PointT>::applyFilter (Indices& indices)
   *removed_indices_ = std::move (removed);
 }
 
-} // namespace cosection
-} // namespace pcl
+} // namespace pcl::cosection
 
 #define PCL_INSTANTIATE_CosectionFreeSpaceFilter(T) template class pcl::cosection::FreeSpaceFilter<T>;

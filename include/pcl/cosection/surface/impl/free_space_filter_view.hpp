@@ -10,9 +10,10 @@
 #include <pcl/console/print.h>
 
 template <typename PointT>
-template <typename PointViewT> bool
+template <typename PointViewT>
+bool
 pcl::cosection::FreeSpaceFilter<PointT>::addView (const pcl::PointCloud<PointViewT>& cloud,
-                                                   const Eigen::Isometry3d& T_cloud_sensor)
+                                                  const Eigen::Isometry3d& T_cloud_sensor)
 {
   const auto view = toDepthView (cloud, T_cloud_sensor);
   if (view)

@@ -12,21 +12,24 @@
 
 #include <cmath>
 
-namespace pcl
-{
-namespace cosection
+namespace pcl::cosection
 {
 
-template <typename PointNT> HessianIMLS<PointNT>::HessianIMLS () { this->check_tree_ = false; }
+template <typename PointNT> HessianIMLS<PointNT>::HessianIMLS ()
+{
+  this->check_tree_ = false;
+}
 
-template <typename PointNT> void
+template <typename PointNT>
+void
 HessianIMLS<PointNT>::setOptions (const CoSectionOptions& options)
 {
   options.validate ();
   options_ = options;
 }
 
-template <typename PointNT> void
+template <typename PointNT>
+void
 HessianIMLS<PointNT>::setVoxelSize (float voxel_size_m)
 {
   if (!(voxel_size_m > 0.0f))
@@ -36,7 +39,8 @@ HessianIMLS<PointNT>::setVoxelSize (float voxel_size_m)
   setOptions (options);
 }
 
-template <typename PointNT> void
+template <typename PointNT>
+void
 HessianIMLS<PointNT>::setResolution (int resolution)
 {
   CoSectionOptions options = options_;
@@ -45,35 +49,40 @@ HessianIMLS<PointNT>::setResolution (int resolution)
   setOptions (options);
 }
 
-template <typename PointNT> void
+template <typename PointNT>
+void
 HessianIMLS<PointNT>::addView (const DepthView& view)
 {
   CoSection ().addView (view); // validates
   views_.push_back (view);
 }
 
-template <typename PointNT> void
-HessianIMLS<PointNT>::addIntersection (const SignedDistanceField::ConstPtr& body,
-                                       const std::vector<Eigen::Isometry3d>& T_body_object)
+template <typename PointNT>
+void
+HessianIMLS<PointNT>::addObstacle (const SignedDistanceField::ConstPtr& body,
+                                   const std::vector<Eigen::Isometry3d>& T_body_object)
 {
-  CoSection ().addIntersection (body, T_body_object); // validates
+  CoSection ().addObstacle (body, T_body_object); // validates
   bodies_.emplace_back (body, T_body_object);
 }
 
-template <typename PointNT> void
-HessianIMLS<PointNT>::addIntersection (const TriangleMesh& body, const std::vector<Eigen::Isometry3d>& T_body_object)
+template <typename PointNT>
+void
+HessianIMLS<PointNT>::addObstacle (const TriangleMesh& body, const std::vector<Eigen::Isometry3d>& T_body_object)
 {
-  CoSection ().addIntersection (body, T_body_object); // validates
+  CoSection ().addObstacle (body, T_body_object); // validates
   meshes_.emplace_back (body, T_body_object);
 }
 
-template <typename PointNT> void
-HessianIMLS<PointNT>::addIntersection (const pcl::PolygonMesh& body, const std::vector<Eigen::Isometry3d>& T_body_object)
+template <typename PointNT>
+void
+HessianIMLS<PointNT>::addObstacle (const pcl::PolygonMesh& body, const std::vector<Eigen::Isometry3d>& T_body_object)
 {
-  addIntersection (fromPolygonMesh (body), T_body_object);
+  addObstacle (fromPolygonMesh (body), T_body_object);
 }
 
-template <typename PointNT> void
+template <typename PointNT>
+void
 HessianIMLS<PointNT>::setSupportPlane (const pcl::ModelCoefficients& coefficients)
 {
   const auto& c = coefficients.values;
@@ -84,7 +93,8 @@ HessianIMLS<PointNT>::setSupportPlane (const pcl::ModelCoefficients& coefficient
   planes_.push_back (plane);
 }
 
-template <typename PointNT> void
+template <typename PointNT>
+void
 HessianIMLS<PointNT>::clearConstraints ()
 {
   views_.clear ();
@@ -93,7 +103,8 @@ HessianIMLS<PointNT>::clearConstraints ()
   planes_.clear ();
 }
 
-template <typename PointNT> bool
+template <typename PointNT>
+bool
 HessianIMLS<PointNT>::compute ()
 {
   result_ = ObjectResult ();
@@ -121,9 +132,9 @@ HessianIMLS<PointNT>::compute ()
     for (const DepthView& view : views_)
       scene.addView (view);
     for (const auto& [body, poses] : bodies_)
-      scene.addIntersection (body, poses);
+      scene.addObstacle (body, poses);
     for (const auto& [body, poses] : meshes_)
-      scene.addIntersection (body, poses);
+      scene.addObstacle (body, poses);
     for (const Eigen::Vector4d& plane : planes_)
       scene.addSupportPlane (plane);
     scene.addObject (std::move (object));
@@ -140,7 +151,8 @@ HessianIMLS<PointNT>::compute ()
   return false;
 }
 
-template <typename PointNT> void
+template <typename PointNT>
+void
 HessianIMLS<PointNT>::reconstruct (pcl::PolygonMesh& output)
 {
   output.polygons.clear ();
@@ -155,7 +167,8 @@ HessianIMLS<PointNT>::reconstruct (pcl::PolygonMesh& output)
   this->deinitCompute ();
 }
 
-template <typename PointNT> void
+template <typename PointNT>
+void
 HessianIMLS<PointNT>::reconstruct (pcl::PointCloud<PointNT>& points, std::vector<pcl::Vertices>& polygons)
 {
   points.clear ();
@@ -170,7 +183,8 @@ HessianIMLS<PointNT>::reconstruct (pcl::PointCloud<PointNT>& points, std::vector
   this->deinitCompute ();
 }
 
-template <typename PointNT> void
+template <typename PointNT>
+void
 HessianIMLS<PointNT>::performReconstruction (pcl::PolygonMesh& output)
 {
   output.cloud = pcl::PCLPointCloud2 ();
@@ -181,7 +195,8 @@ HessianIMLS<PointNT>::performReconstruction (pcl::PolygonMesh& output)
   output.cloud.header = output.header;
 }
 
-template <typename PointNT> void
+template <typename PointNT>
+void
 HessianIMLS<PointNT>::performReconstruction (pcl::PointCloud<PointNT>& points, std::vector<pcl::Vertices>& polygons)
 {
   points.clear ();
@@ -210,7 +225,6 @@ HessianIMLS<PointNT>::performReconstruction (pcl::PointCloud<PointNT>& points, s
     polygons[t].vertices.assign (mesh.triangles[t].begin (), mesh.triangles[t].end ());
 }
 
-} // namespace cosection
-} // namespace pcl
+} // namespace pcl::cosection
 
 #define PCL_INSTANTIATE_CosectionHessianIMLS(T) template class pcl::cosection::HessianIMLS<T>;

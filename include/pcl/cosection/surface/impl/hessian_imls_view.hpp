@@ -10,9 +10,10 @@
 #include <pcl/console/print.h>
 
 template <typename PointNT>
-template <typename PointT> bool
+template <typename PointT>
+bool
 pcl::cosection::HessianIMLS<PointNT>::addView (const pcl::PointCloud<PointT>& cloud,
-                                                const Eigen::Isometry3d& T_object_sensor)
+                                               const Eigen::Isometry3d& T_object_sensor)
 {
   const auto view = toDepthView (cloud, T_object_sensor);
   if (view)

@@ -13,9 +13,7 @@
 #include <cmath>
 #include <limits>
 
-namespace pcl
-{
-namespace cosection
+namespace pcl::cosection
 {
 
 template <typename PointSource, typename PointTarget, typename Scalar>
@@ -28,7 +26,8 @@ SdfRegistration<PointSource, PointTarget, Scalar>::SdfRegistration ()
   target_cloud_updated_ = false;
 }
 
-template <typename PointSource, typename PointTarget, typename Scalar> void
+template <typename PointSource, typename PointTarget, typename Scalar>
+void
 SdfRegistration<PointSource, PointTarget, Scalar>::publishSurface (const SignedDistanceField& field)
 {
   const auto points = surfacePoints (field);
@@ -45,7 +44,8 @@ SdfRegistration<PointSource, PointTarget, Scalar>::publishSurface (const SignedD
   this->setInputTarget (target);
 }
 
-template <typename PointSource, typename PointTarget, typename Scalar> void
+template <typename PointSource, typename PointTarget, typename Scalar>
+void
 SdfRegistration<PointSource, PointTarget, Scalar>::setSignedDistance (const TsdfVolume::ConstPtr& volume)
 {
   if (!volume)
@@ -55,7 +55,8 @@ SdfRegistration<PointSource, PointTarget, Scalar>::setSignedDistance (const Tsdf
   field_.reset ();
 }
 
-template <typename PointSource, typename PointTarget, typename Scalar> void
+template <typename PointSource, typename PointTarget, typename Scalar>
+void
 SdfRegistration<PointSource, PointTarget, Scalar>::setSignedDistance (const SignedDistanceField::ConstPtr& field)
 {
   if (!field)
@@ -65,13 +66,15 @@ SdfRegistration<PointSource, PointTarget, Scalar>::setSignedDistance (const Sign
   volume_.reset ();
 }
 
-template <typename PointSource, typename PointTarget, typename Scalar> void
+template <typename PointSource, typename PointTarget, typename Scalar>
+void
 SdfRegistration<PointSource, PointTarget, Scalar>::setWeights (const std::vector<float>& weights)
 {
   weights_ = weights;
 }
 
-template <typename PointSource, typename PointTarget, typename Scalar> void
+template <typename PointSource, typename PointTarget, typename Scalar>
+void
 SdfRegistration<PointSource, PointTarget, Scalar>::setOptions (const SdfAlignmentOptions& options)
 {
   options.validate ();
@@ -79,7 +82,8 @@ SdfRegistration<PointSource, PointTarget, Scalar>::setOptions (const SdfAlignmen
   max_iterations_ = options.max_iterations;
 }
 
-template <typename PointSource, typename PointTarget, typename Scalar> SdfAlignmentOptions
+template <typename PointSource, typename PointTarget, typename Scalar>
+SdfAlignmentOptions
 SdfRegistration<PointSource, PointTarget, Scalar>::effectiveOptions (double voxel_size_m) const
 {
   SdfAlignmentOptions options = options_;
@@ -91,14 +95,15 @@ SdfRegistration<PointSource, PointTarget, Scalar>::effectiveOptions (double voxe
   return options;
 }
 
-template <typename PointSource, typename PointTarget, typename Scalar> void
+template <typename PointSource, typename PointTarget, typename Scalar>
+void
 SdfRegistration<PointSource, PointTarget, Scalar>::compute (const Matrix4& guess)
 {
   if (!volume_ && !field_)
     throw InvalidArgument ("there is no signed distance to align with; setSignedDistance () gives one");
   if (!weights_.empty () && weights_.size () != input_->size ())
-    throw InvalidArgument ("there are " + std::to_string (weights_.size ()) + " weights for " + std::to_string (input_->size ()) +
-                           " points");
+    throw InvalidArgument ("there are " + std::to_string (weights_.size ()) + " weights for " +
+                           std::to_string (input_->size ()) + " points");
   std::vector<Eigen::Vector3f> points;
   std::vector<float> weights;
   points.reserve (indices_->size ());
@@ -116,8 +121,10 @@ SdfRegistration<PointSource, PointTarget, Scalar>::compute (const Matrix4& guess
   result_ = alignment.align (points, weights, target, first);
 }
 
-template <typename PointSource, typename PointTarget, typename Scalar> void
-SdfRegistration<PointSource, PointTarget, Scalar>::computeTransformation (PointCloudSource& output, const Matrix4& guess)
+template <typename PointSource, typename PointTarget, typename Scalar>
+void
+SdfRegistration<PointSource, PointTarget, Scalar>::computeTransformation (PointCloudSource& output,
+                                                                          const Matrix4& guess)
 {
   result_ = SdfAlignmentResult ();
   try
@@ -137,7 +144,6 @@ SdfRegistration<PointSource, PointTarget, Scalar>::computeTransformation (PointC
   pcl::transformPointCloud (output, output, final_transformation_);
 }
 
-} // namespace cosection
-} // namespace pcl
+} // namespace pcl::cosection
 
 #define PCL_INSTANTIATE_CosectionSdfRegistration(T) template class pcl::cosection::SdfRegistration<T>;

@@ -8,9 +8,7 @@
 #include <pcl/console/print.h>
 #include <pcl/point_types.h>
 
-namespace pcl
-{
-namespace cosection
+namespace pcl::cosection
 {
 
 template <typename PointInT, typename StateT> SdfTracker<PointInT, StateT>::SdfTracker ()
@@ -18,7 +16,8 @@ template <typename PointInT, typename StateT> SdfTracker<PointInT, StateT>::SdfT
   tracker_name_ = "cosection::SdfTracker";
 }
 
-template <typename PointInT, typename StateT> void
+template <typename PointInT, typename StateT>
+void
 SdfTracker<PointInT, StateT>::setSignedDistance (const TsdfVolume::ConstPtr& volume)
 {
   if (!volume)
@@ -27,7 +26,8 @@ SdfTracker<PointInT, StateT>::setSignedDistance (const TsdfVolume::ConstPtr& vol
   field_.reset ();
 }
 
-template <typename PointInT, typename StateT> void
+template <typename PointInT, typename StateT>
+void
 SdfTracker<PointInT, StateT>::setSignedDistance (const SignedDistanceField::ConstPtr& field)
 {
   if (!field)
@@ -37,7 +37,8 @@ SdfTracker<PointInT, StateT>::setSignedDistance (const SignedDistanceField::Cons
   volume_.reset ();
 }
 
-template <typename PointInT, typename StateT> void
+template <typename PointInT, typename StateT>
+void
 SdfTracker<PointInT, StateT>::setTrans (const Eigen::Affine3f& T_sensor_object)
 {
   const Eigen::Matrix3d linear = T_sensor_object.linear ().cast<double> ();
@@ -50,7 +51,8 @@ SdfTracker<PointInT, StateT>::setTrans (const Eigen::Affine3f& T_sensor_object)
   found_before_ = false;
 }
 
-template <typename PointInT, typename StateT> void
+template <typename PointInT, typename StateT>
+void
 SdfTracker<PointInT, StateT>::setMinimumInlierShare (float share)
 {
   if (!(share >= 0.0f && share <= 1.0f))
@@ -58,13 +60,15 @@ SdfTracker<PointInT, StateT>::setMinimumInlierShare (float share)
   min_inlier_share_ = share;
 }
 
-template <typename PointInT, typename StateT> void
+template <typename PointInT, typename StateT>
+void
 SdfTracker<PointInT, StateT>::setOptions (const SdfAlignmentOptions& options)
 {
   alignment_ = SdfAlignment (options); // validates
 }
 
-template <typename PointInT, typename StateT> StateT
+template <typename PointInT, typename StateT>
+StateT
 SdfTracker<PointInT, StateT>::getResult () const
 {
   StateT state = StateT::toState (Eigen::Affine3f (T_sensor_object_.matrix ().cast<float> ()));
@@ -72,7 +76,8 @@ SdfTracker<PointInT, StateT>::getResult () const
   return state;
 }
 
-template <typename PointInT, typename StateT> bool
+template <typename PointInT, typename StateT>
+bool
 SdfTracker<PointInT, StateT>::initCompute ()
 {
   result_ = SdfAlignmentResult ();
@@ -80,7 +85,8 @@ SdfTracker<PointInT, StateT>::initCompute ()
   return Base::initCompute ();
 }
 
-template <typename PointInT, typename StateT> bool
+template <typename PointInT, typename StateT>
+bool
 SdfTracker<PointInT, StateT>::alignFrom (const Eigen::Isometry3d& expected)
 {
   const SdfTarget target = volume_ ? SdfTarget (*volume_) : SdfTarget (*field_);
@@ -88,7 +94,8 @@ SdfTracker<PointInT, StateT>::alignFrom (const Eigen::Isometry3d& expected)
   return result_.converged && result_.inlier_share >= min_inlier_share_;
 }
 
-template <typename PointInT, typename StateT> void
+template <typename PointInT, typename StateT>
+void
 SdfTracker<PointInT, StateT>::computeTracking ()
 {
   if (!volume_ && !field_)
@@ -115,7 +122,6 @@ SdfTracker<PointInT, StateT>::computeTracking ()
   found_before_ = found;
 }
 
-} // namespace cosection
-} // namespace pcl
+} // namespace pcl::cosection
 
 #define PCL_INSTANTIATE_CosectionSdfTracker(T) template class pcl::cosection::SdfTracker<T>;

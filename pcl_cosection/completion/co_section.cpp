@@ -1,0 +1,245 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_cosection authors
+#include <pcl/cosection/surface/co_section.h>
+
+#include "co_section_run.h"
+
+#include <pcl/cosection/common/error.h>
+#include <pcl/cosection/volume/mesh_distance.h>
+
+#include <algorithm>
+#include <limits>
+#include <string>
+
+namespace pcl::cosection
+{
+
+namespace
+{
+
+void
+checkPoses (const std::vector<Eigen::Isometry3d>& poses)
+{
+  if (!std::all_of (poses.begin (), poses.end (), [] (const Eigen::Isometry3d& T) { return T.matrix ().allFinite (); }))
+    throw InvalidArgument ("the pose of a body is not finite");
+}
+
+Eigen::Isometry3d
+unknownPose ()
+{
+  Eigen::Isometry3d pose;
+  pose.matrix ().setConstant (std::numeric_limits<double>::quiet_NaN ());
+  return pose;
+}
+
+} // namespace
+
+ObjectInput*
+CoSection::Impl::find (int id)
+{
+  const auto found = std::find_if (objects.begin (), objects.end (),
+                                   [id] (const ObjectInput& object) { return object.id == id; });
+  return found == objects.end () ? nullptr : &*found;
+}
+
+void
+CoSection::Impl::countBatch (int id, std::size_t points)
+{
+  batches[id].push_back ({static_cast<int> (views.size ()) - 1, points});
+}
+
+CoSection::CoSection (const CoSectionOptions& options) : impl_ (new Impl)
+{
+  options.validate ();
+  impl_->options = options;
+}
+
+CoSection::~CoSection () = default;
+CoSection::CoSection (CoSection&&) noexcept = default;
+CoSection& CoSection::operator= (CoSection&&) noexcept = default;
+
+int
+CoSection::addView (DepthView view)
+{
+  return addView (std::move (view), {});
+}
+
+int
+CoSection::addView (DepthView view, const std::map<int, Eigen::Isometry3d>& T_world_object, ViewUse use)
+{
+  view.validate ();
+  const std::size_t before = impl_->views.size ();
+  for (const auto& [id, T] : T_world_object)
+  {
+    const bool at_rest = impl_->find (id) != nullptr; // until now
+    impl_->poses[id].resize (before, at_rest ? Eigen::Isometry3d::Identity () : unknownPose ());
+  }
+  for (auto& [id, poses] : impl_->poses)
+  {
+    const auto named = T_world_object.find (id);
+    poses.push_back (named == T_world_object.end () ? unknownPose () : named->second);
+    if (ObjectInput* object = impl_->find (id))
+      object->T_world_object = poses;
+  }
+  impl_->views.push_back ({std::move (view), use});
+  return static_cast<int> (before);
+}
+
+void
+CoSection::removeViews (const std::vector<bool>& remove)
+{
+  if (remove.size () != impl_->views.size ())
+    throw InvalidArgument ("there are " + std::to_string (impl_->views.size ()) + " views, not " +
+                           std::to_string (remove.size ()));
+  std::vector<int> number (remove.size ()); // those that remain
+  for (std::size_t v = 0, next = 0; v < remove.size (); ++v)
+    number[v] = remove[v] ? -1 : static_cast<int> (next++);
+  const auto compact = [&] (auto& per_view) {
+    if (per_view.empty ())
+      return;
+    std::size_t next = 0;
+    for (std::size_t v = 0; v < per_view.size (); ++v)
+      if (v >= remove.size () || !remove[v])
+      {
+        if (next != v)
+          per_view[next] = std::move (per_view[v]);
+        ++next;
+      }
+    per_view.resize (next);
+  };
+  compact (impl_->views);
+  for (auto& [id, poses] : impl_->poses)
+    compact (poses);
+  for (ObjectInput& object : impl_->objects)
+    compact (object.T_world_object);
+  for (auto& [id, batches] : impl_->batches)
+  {
+    std::vector<OrientedPoint>& points = id == 0 ? impl_->background : impl_->find (id)->points;
+    std::vector<OrientedPoint> left;
+    std::vector<PointBatch> left_batches;
+    auto begin = points.begin ();
+    for (const PointBatch& batch : batches)
+    {
+      const auto end = begin + static_cast<std::ptrdiff_t> (batch.count);
+      if (batch.view < 0 || !remove[batch.view])
+      {
+        left.insert (left.end (), begin, end);
+        left_batches.push_back ({batch.view < 0 ? -1 : number[batch.view], batch.count});
+      }
+      begin = end;
+    }
+    points = std::move (left);
+    batches = std::move (left_batches);
+  }
+  for (auto& [id, body] : impl_->memory.objects)
+    body.readAgain ();
+  impl_->memory.background.readAgain ();
+}
+
+void
+CoSection::removeObject (int id)
+{
+  auto& objects = impl_->objects;
+  objects.erase (
+      std::remove_if (objects.begin (), objects.end (), [id] (const ObjectInput& object) { return object.id == id; }),
+      objects.end ());
+  impl_->poses.erase (id);
+  impl_->memory.objects.erase (id);
+  if (id != 0)
+    impl_->batches.erase (id);
+}
+
+void
+CoSection::setBackground (std::vector<OrientedPoint> points)
+{
+  impl_->background = std::move (points);
+  impl_->batches[0] = {{-1, impl_->background.size ()}};
+  impl_->memory.background = {};
+}
+
+void
+CoSection::addBackground (const std::vector<OrientedPoint>& points)
+{
+  impl_->background.insert (impl_->background.end (), points.begin (), points.end ());
+  impl_->countBatch (0, points.size ());
+}
+
+void
+CoSection::addObject (ObjectInput object)
+{
+  if (object.id <= 0)
+    throw InvalidArgument ("object id is " + std::to_string (object.id) + "; it must be positive");
+  if (impl_->find (object.id))
+    throw InvalidArgument ("object " + std::to_string (object.id) + " was added twice");
+  impl_->batches[object.id] = {{-1, object.points.size ()}};
+  impl_->objects.push_back (std::move (object));
+}
+
+void
+CoSection::addPoints (int id, const std::vector<OrientedPoint>& points)
+{
+  ObjectInput* object = impl_->find (id);
+  if (!object)
+  {
+    ObjectInput fresh;
+    fresh.id = id;
+    const auto poses = impl_->poses.find (id);
+    if (poses != impl_->poses.end ())
+      fresh.T_world_object = poses->second;
+    addObject (std::move (fresh));
+    object = impl_->find (id);
+  }
+  object->points.insert (object->points.end (), points.begin (), points.end ());
+  impl_->countBatch (id, points.size ());
+}
+
+void
+CoSection::addSupportPlane (const Eigen::Vector4d& plane)
+{
+  const double norm = plane.head<3> ().stableNorm ();
+  if (!(norm > 0.0) || !plane.allFinite ())
+    throw InvalidArgument ("the coefficients of a plane must be finite and its normal not zero");
+  impl_->planes.push_back (plane / norm);
+}
+
+void
+CoSection::addObstacle (SignedDistanceField::ConstPtr body, const std::vector<Eigen::Isometry3d>& T_body_world)
+{
+  if (!body || body->values.size () != body->grid.size () ||
+      (!body->supported.empty () && body->supported.size () != body->grid.size ()))
+    throw InvalidArgument ("a signed distance field must have one value per voxel");
+  checkPoses (T_body_world);
+  impl_->bodies.push_back ({std::move (body), T_body_world});
+}
+
+void
+CoSection::addObstacle (TriangleMesh body, const std::vector<Eigen::Isometry3d>& T_body_world)
+{
+  checkPoses (T_body_world);
+  VoxelGrid somewhere;
+  somewhere.dims.setConstant (2);
+  somewhere.voxel_size_m = 1.0;
+  sampleSignedDistance (body, somewhere, somewhere.voxel_size_m); // validates
+  impl_->meshes.push_back ({std::move (body), T_body_world});
+}
+
+SceneResult
+CoSection::reconstruct (const ProgressCallback& progress) const
+{
+  CoSectionMemory memory;
+  return CoSectionRun (*impl_, memory, progress).run ();
+}
+
+SceneResult
+CoSection::update (UpdateOutput output, const ProgressCallback& progress)
+{
+  return CoSectionRun (*impl_, impl_->memory, progress, CoSectionRun::Mode::Follow).run (output);
+}
+
+void
+CoSection::forgetUpdates ()
+{
+  impl_->memory = {};
+}
+
+} // namespace pcl::cosection

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_cosection authors
+#pragma once
+
+#include <pcl/cosection/common/oriented_point.h>
+#include <pcl/cosection/surface/options.h>
+
+#include <Eigen/Geometry>
+
+#include <vector>
+
+namespace pcl::cosection
+{
+
+/** \brief The smallest voxel size that the points' spacing supports, of those that give at most 64 voxels along the
+ * longest side: at least three points in each occupied voxel on average, or 1.5 if voxels were larger than a 16th of
+ * the longest side. */
+double supportedVoxelSize (const std::vector<OrientedPoint>& points, const Eigen::AlignedBox3d& observed);
+
+/** \brief How near together points are, and how much they scatter. */
+struct PointSpacing
+{
+  double supported_m = 0.0; // supportedVoxelSize ()
+  double noise_m = 0.0; // across the surface, as a standard deviation, in half of the places; 0 if they are too few to
+                        // tell
+};
+
+PointSpacing measureSpacing (const std::vector<OrientedPoint>& points, const Eigen::AlignedBox3d& observed);
+
+/** \brief Whether the options say how large an object's voxels are. */
+bool fixedVoxelSize (const CoSectionOptions& options);
+
+/** \brief The voxel size of the options. If neither it nor a resolution is given, 64 voxels along the longest side,
+ * but voxels no smaller than .65 times those that the points' spacing supports (supportedVoxelSize ()), nor, up to the
+ * size of those, than 1.6 times the points' noise.
+ * \throws InvalidArgument */
+double objectVoxelSize (const PointSpacing& spacing, const Eigen::AlignedBox3d& observed,
+                        const CoSectionOptions& options);
+
+/** \brief Voxels of a vessel (SymmetricExtent::wallThickness ()): half as large as its wall is thick, if that is
+ * smaller than \a supported_m, but no smaller than half of it and a 64th of the longest side. They may be finer than
+ * the points' spacing supports, as points are turned to all sides. */
+double vesselVoxelSize (double supported_m, double wall_m, const Eigen::AlignedBox3d& observed);
+
+} // namespace pcl::cosection

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_cosection authors
+#pragma once
+
+#include <pcl/cosection/common/export.h>
+#include <pcl/cosection/surface/hull_constraint.h>
+#include <pcl/cosection/volume/voxel_grid.h>
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace pcl::cosection
+{
+
+/** \brief Signed distance to the boundary of the space that views saw free, finer than a voxel, for cutting
+ * a shape along its silhouettes: the quadratic penalty of the hull constraint leaves a rim of about a
+ * voxel outside, and hidden walls run along the rays, where such a rim is wide.
+ *
+ * Per view the distance is measured in the image, from a voxel's projection to the nearest pixel that is
+ * free at the voxel's depth (or, from within free space, to the nearest that is not), up to a few pixels.
+ * Readings count as for HullConstraint, but free patches of less than 3 x 3 pixels are ignored. A voxel is
+ * cut only where more views see it free than see a surface there. Of several views, what one says alone is believed
+ * less than what they say together, as poses and silhouettes are not exact. */
+class PCL_COSECTION_EXPORT FreeSpaceCarving
+{
+public:
+  /** \param[in] revise false: one view that sees a voxel free suffices */
+  FreeSpaceCarving (const VoxelGrid& grid, bool revise, int threads = 0);
+
+  void add (const FreeSpaceView& view, const Eigen::Isometry3d& T_grid_sensor);
+
+  /** \brief Distances in voxels within [-3, 3], positive in free space: near the boundary, lower bounds of a
+   * field that keeps out of it.
+   * \param[in] doubt_any doubt the only view as one of several, so that no bound is less for one more view */
+  std::vector<float> lowerBounds (bool doubt_any = false) const;
+
+private:
+  static constexpr float nothing = -1e6f;
+  static constexpr int full_support = 4; // views
+
+  /** \brief What several views say together: the largest of many noisy values would be too large. Never less for one
+   * more of several views. */
+  struct Supported
+  {
+    std::array<float, full_support> largest{nothing, nothing, nothing, nothing};
+
+    void add (float value);
+
+    float value (float doubt_vox) const;
+  };
+
+  VoxelGrid grid_;
+  int views_ = 0;
+  bool revise_;
+  int threads_;
+  std::vector<Supported> bound_vox_; // distance to what a view sees free
+  std::vector<float> inside_vox_;    // largest (nearest to 0) distance of a view that sees the voxel not free
+  std::vector<std::uint8_t> votes_for_;
+  std::vector<std::uint8_t> votes_against_;
+};
+
+} // namespace pcl::cosection

@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_cosection authors
+#include "intersection_constraint.h"
+
+#include "pcl_cosection/volume/mesh_distance/inside_bricks.h"
+
+#include "pcl_cosection/common/parallel.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace pcl::cosection
+{
+
+IntersectionConstraint::IntersectionConstraint (const VoxelGrid& grid, double max_bound_vox, int threads)
+    : grid_ (grid)
+    , max_bound_vox_ (static_cast<float> (max_bound_vox))
+    , threads_ (threads)
+{}
+
+void
+IntersectionConstraint::raise (std::size_t n, float distance_vox, float beta)
+{
+  const float d = std::min (distance_vox, max_bound_vox_);
+  if (d > distance_vox_[n] || (d == distance_vox_[n] && beta > beta_[n]))
+  {
+    distance_vox_[n] = d;
+    beta_[n] = beta;
+  }
+}
+
+void
+IntersectionConstraint::addBody (const SignedDistanceField& body, const Eigen::Isometry3d& T_body_grid, double beta)
+{
+  addBody (body, std::vector<Eigen::Isometry3d>{T_body_grid}, beta);
+}
+
+void
+IntersectionConstraint::addBody (const SignedDistanceField& body, const std::vector<Eigen::Isometry3d>& T_body_grid,
+                                 double beta)
+{
+  const InsideBricks inside (body, threads_);
+  if (inside.any ())
+    for (const Eigen::Isometry3d& T : T_body_grid)
+      addBody (body, inside, T, beta);
+}
+
+void
+IntersectionConstraint::addBody (const SignedDistanceField& body, const InsideBricks& inside,
+                                 const Eigen::Isometry3d& T_body_grid, double beta)
+{
+  // Only the part of this grid that the body's volume covers.
+  const Eigen::Isometry3d T_grid_body = T_body_grid.inverse ();
+  Eigen::Vector3d low = Eigen::Vector3d::Constant (1e30);
+  Eigen::Vector3d high = Eigen::Vector3d::Constant (-1e30);
+  for (int corner = 0; corner < 8; ++corner)
+  {
+    const Eigen::Vector3i at ((corner & 1) ? body.grid.dims.x () - 1 : 0, (corner & 2) ? body.grid.dims.y () - 1 : 0,
+                              (corner & 4) ? body.grid.dims.z () - 1 : 0);
+    const Eigen::Vector3d p = grid_.toVoxel (T_grid_body * body.grid.center (at.x (), at.y (), at.z ()));
+    low = low.cwiseMin (p);
+    high = high.cwiseMax (p);
+  }
+  Eigen::Vector3i first, last;
+  for (int a = 0; a < 3; ++a)
+  {
+    first[a] = static_cast<int> (std::floor (std::clamp (low[a], 0.0, static_cast<double> (grid_.dims[a]))));
+    last[a] = static_cast<int> (std::ceil (std::clamp (high[a] + 1.0, 0.0, static_cast<double> (grid_.dims[a]))));
+  }
+  if ((first.array () >= last.array ()).any ())
+    return;
+  empty_ = false;
+  distance_vox_.resize (grid_.size (), 0.0f);
+  beta_.resize (grid_.size (), 0.0f);
+  const auto to_voxels = static_cast<float> (1.0 / grid_.voxel_size_m);
+  const Eigen::Vector3d step = T_body_grid.linear ().col (0) * (grid_.voxel_size_m / body.grid.voxel_size_m);
+  const double steps_per_voxel = 1.0 / step.cwiseAbs ().maxCoeff ();
+  parallelFor (first.z (), last.z (), threads_, [&] (int k) {
+    for (int j = first.y (); j < last.y (); ++j)
+    {
+      const Eigen::Vector3d start = body.grid.toVoxel (T_body_grid * grid_.center (0, j, k));
+      for (int i = first.x (); i < last.x (); ++i)
+      {
+        const Eigen::Vector3d v = start + i * step;
+        const int empty = inside.emptyVoxels (v);
+        if (empty > 0)
+          i += static_cast<int> (empty * steps_per_voxel - 0.01); // those are empty as well; less what rounding may do
+        if (empty >= 0)
+          continue;
+        const auto u = body.sampleInside (v);
+        if (u)
+          raise (grid_.index (i, j, k), -*u * to_voxels, static_cast<float> (beta));
+      }
+    }
+  });
+}
+
+void
+IntersectionConstraint::addHalfSpace (const Eigen::Vector4d& plane, const std::vector<std::uint8_t>& free_space,
+                                      double beta)
+{
+  empty_ = false;
+  distance_vox_.resize (grid_.size (), 0.0f);
+  beta_.resize (grid_.size (), 0.0f);
+  parallelFor (0, grid_.dims.z (), threads_, [&] (int k) {
+    for (int j = 0; j < grid_.dims.y (); ++j)
+    {
+      const double height_of_row = (plane.head<3> ().dot (grid_.center (0, j, k)) + plane[3]) / grid_.voxel_size_m;
+      for (int i = 0; i < grid_.dims.x (); ++i)
+      {
+        const std::size_t n = grid_.index (i, j, k);
+        const double depth = -(height_of_row + plane[0] * i);
+        if (depth > 0.0 && (free_space.empty () || !free_space[n]))
+          raise (n, static_cast<float> (depth), static_cast<float> (beta));
+      }
+    }
+  });
+}
+
+void
+IntersectionConstraint::scaleWeights (double factor)
+{
+  for (float& beta : beta_)
+    beta *= static_cast<float> (factor);
+}
+
+std::vector<LowerBound>
+IntersectionConstraint::bounds () const
+{
+  std::vector<LowerBound> bounds;
+  if (empty_)
+    return bounds;
+  bounds.resize (grid_.size ());
+  for (std::size_t n = 0; n < bounds.size (); ++n)
+    if (distance_vox_[n] > 0.0f)
+      bounds[n] = LowerBound (distance_vox_[n], beta_[n]);
+  return bounds;
+}
+
+} // namespace pcl::cosection

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_cosection authors
+#pragma once
+
+#include <pcl/cosection/common/export.h>
+#include <pcl/cosection/surface/energy_problem.h>
+#include <pcl/cosection/volume/signed_distance_field.h>
+
+#include <Eigen/Geometry>
+
+#include <cstdint>
+#include <vector>
+
+namespace pcl::cosection
+{
+
+class InsideBricks;
+
+/** \brief d_inter of equation (4) on an object's grid: how deep each voxel lies inside other bodies, the
+ * maximum over bodies and relative poses, in voxels of this grid. */
+class PCL_COSECTION_EXPORT IntersectionConstraint
+{
+public:
+  /** \param[in] max_bound_vox cap of the distance */
+  IntersectionConstraint (const VoxelGrid& grid, double max_bound_vox, int threads = 0);
+
+  /** \brief Another body. Where it says nothing (outside its volume, or not supported) nothing is added.
+   * \param[in] T_body_grid takes this grid's frame to the body's
+   * \param[in] beta weight of the constraint where this body's distance is the largest */
+  void addBody (const SignedDistanceField& body, const Eigen::Isometry3d& T_body_grid, double beta);
+
+  /** \brief The same at many poses, with less work for each. */
+  void addBody (const SignedDistanceField& body, const std::vector<Eigen::Isometry3d>& T_body_grid, double beta);
+
+  /** \brief The half space n.x + d < 0 of \a plane (unit normal, this grid's frame), save for voxels seen
+   * free. */
+  void addHalfSpace (const Eigen::Vector4d& plane, const std::vector<std::uint8_t>& free_space, double beta);
+
+  /** \brief Multiply the weights of all that was added so far. */
+  void scaleWeights (double factor);
+
+  /** \brief One bound per voxel; empty if no body reaches the volume. */
+  std::vector<LowerBound> bounds () const;
+
+private:
+  void addBody (const SignedDistanceField& body, const InsideBricks& inside, const Eigen::Isometry3d& T_body_grid,
+                double beta);
+
+  void raise (std::size_t n, float distance_vox, float beta);
+
+  VoxelGrid grid_;
+  float max_bound_vox_;
+  int threads_;
+  bool empty_ = true;
+  std::vector<float> distance_vox_;
+  std::vector<float> beta_;
+};
+
+} // namespace pcl::cosection

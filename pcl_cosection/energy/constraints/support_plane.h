@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_cosection authors
+#pragma once
+
+#include <pcl/cosection/common/export.h>
+#include <pcl/cosection/common/oriented_point.h>
+
+#include <Eigen/Core>
+
+#include <vector>
+
+namespace pcl::cosection
+{
+
+/** \brief Parameters of the search for support planes. */
+struct PCL_COSECTION_EXPORT SupportPlaneOptions
+{
+  double inlier_distance_m = 0.006;
+  double reach = 0.5; ///< background within this fraction of the object's longest side (at least 5 cm) of it counts
+  int min_inliers = 200;
+  double min_inlier_share = 0.1; ///< of the background points in reach
+  double max_below = 0.02;       ///< share of the object's points that may lie behind the plane
+  int max_planes = 3;
+};
+
+/** \brief Planes of the background that an object stands on or leans against: fitted by RANSAC (PCL) to
+ * the background points near the object, with all of the object on their free side, which the normals of
+ * the background points tell.
+ * \return (n, d) with unit n towards free space and n.x + d = 0 on the plane; best supported first. The
+ * result is the same every time. */
+PCL_COSECTION_EXPORT std::vector<Eigen::Vector4d> findSupportPlanes (const std::vector<OrientedPoint>& background,
+                                                                     const std::vector<OrientedPoint>& object,
+                                                                     const SupportPlaneOptions& options = {});
+
+} // namespace pcl::cosection

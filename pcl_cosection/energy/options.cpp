@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_cosection authors
+#include <pcl/cosection/common/error.h>
+#include <pcl/cosection/surface/options.h>
+
+#include <cmath>
+#include <sstream>
+
+namespace pcl::cosection
+{
+
+namespace
+{
+
+void
+require (bool ok, const char* name, double value, const char* domain)
+{
+  if (ok)
+    return;
+  std::ostringstream message;
+  message << name << " is " << value << "; it must be " << domain;
+  throw InvalidArgument (message.str ());
+}
+
+} // namespace
+
+CoSectionOptions
+CoSectionOptions::paper ()
+{
+  CoSectionOptions o;
+  o.resolution = 64;
+  o.background_voxel_size_m = 0.02;
+  o.use_planes = false;
+  o.use_extent_prior = false;
+  o.use_contact_prior = false;
+  o.carve_free_space = false;
+  o.revise_votes = false;
+  o.intersect_solved = false;
+  o.alpha = 0.005;
+  o.beta_hull = 0.001;
+  o.beta_inter = 0.001;
+  o.weighting = Weighting::Sum;
+  o.hull_distance = HullDistance::OneVoxel;
+  o.max_passes = 1;
+  o.solver.type = SolverType::FastJacobi;
+  o.solver.cycle_length = 20;
+  return o;
+}
+
+void
+CoSectionOptions::validate () const
+{
+  const auto finite = [] (double v) { return std::isfinite (v); };
+  require (finite (voxel_size_m) && voxel_size_m >= 0.0, "voxel size", voxel_size_m, "positive, in metres");
+  require (resolution == 0 || (resolution >= 4 && resolution <= 2048), "resolution", resolution,
+           "between 4 and 2048 voxels");
+  require (finite (padding) && padding >= 0.0 && padding <= 10.0, "padding", padding, "between 0 and 10");
+  require (finite (background_voxel_size_m) && background_voxel_size_m >= 0.0, "background voxel size",
+           background_voxel_size_m, "positive, in metres");
+  require (finite (alpha) && alpha > 0.0 && alpha <= 1e6, "alpha", alpha, "positive and at most 1e6");
+  require (finite (beta_hull) && beta_hull >= 0.0 && beta_hull <= 1e6, "beta-hull", beta_hull, "between 0 and 1e6");
+  require (finite (beta_inter) && beta_inter >= 0.0 && beta_inter <= 1e6, "beta-inter", beta_inter,
+           "between 0 and 1e6");
+  require (finite (beta_extent) && beta_extent >= 0.0 && beta_extent <= 1e6, "beta-extent", beta_extent,
+           "between 0 and 1e6");
+  require (finite (beta_contact) && beta_contact >= 0.0 && beta_contact <= 1e6, "beta-contact", beta_contact,
+           "between 0 and 1e6");
+  require (finite (sigma_vox) && sigma_vox > 0.0 && sigma_vox <= 10.0, "sigma", sigma_vox,
+           "positive and at most 10 voxels");
+  require (finite (max_bound_vox) && max_bound_vox > 0.0 && max_bound_vox <= 100.0, "largest intersection distance",
+           max_bound_vox, "positive and at most 100 voxels");
+  require (max_passes >= 1 && max_passes <= 100, "number of passes", max_passes, "between 1 and 100");
+  require (threads >= 0 && threads <= 1024, "number of threads", threads, "between 0 (all) and 1024");
+  require (solver.max_iterations >= 1, "number of iterations", solver.max_iterations, "at least 1");
+  require (finite (solver.tolerance_vox) && solver.tolerance_vox > 0.0, "tolerance", solver.tolerance_vox,
+           "positive, in voxels");
+  require (finite (solver.peak_tolerance_vox) && solver.peak_tolerance_vox >= 0.0, "peak tolerance",
+           solver.peak_tolerance_vox, "positive, in voxels, or 0");
+  require (solver.cycle_length >= 1 && solver.cycle_length <= 1000, "cycle length", solver.cycle_length,
+           "between 1 and 1000");
+  require (solver.smoothing_degree >= 1 && solver.smoothing_degree <= 20, "smoothing degree", solver.smoothing_degree,
+           "between 1 and 20");
+}
+
+} // namespace pcl::cosection

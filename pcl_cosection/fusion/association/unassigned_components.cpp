@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_cosection authors
+#include "unassigned_components.h"
+
+#include "frame_segmentation.h"
+#include "pcl_cosection/common/disjoint_sets.h"
+
+#include <algorithm>
+
+namespace pcl::cosection
+{
+
+namespace
+{
+
+constexpr double cut_share = 0.25;    // of the root of its pixels
+constexpr double widest_margin = 0.1; // without readings, of the image: sensors have one; what is wider is far away
+constexpr double border_share = 0.25; // of a side, with readings
+constexpr int
+    cut_margin_px = 12; // from the border of what is seen, where surfaces have no normals and belong to no instance
+
+/** \brief Call f (pixels from the border inwards) along the borders of what is seen: of the smallest rectangle with all
+ * readings, the sides that are those of the sensor's view, not of things before a background without readings. */
+template <typename Function>
+void
+forEnds (const FrameCloud& cloud, Function&& f)
+{
+  const int width = cloud.camera.width;
+  const int height = cloud.camera.height;
+  const auto isRead = [&] (int u, int v) { return std::isfinite (cloud.depth.at (u, v)); };
+  int left = width, right = -1, top = height, bottom = -1;
+  for (int v = 0; v < height; ++v)
+    for (int u = 0; u < width; ++u)
+      if (isRead (u, v))
+      {
+        left = std::min (left, u);
+        right = std::max (right, u);
+        top = std::min (top, v);
+        bottom = std::max (bottom, v);
+      }
+  if (right - left < 2 * cut_margin_px || bottom - top < 2 * cut_margin_px)
+    return;
+  const auto side = [&] (int from, int step, bool vertical) {
+    const int size = vertical ? width : height;
+    if ((step > 0 ? from : size - 1 - from) > widest_margin * size)
+      return;
+    const int first = vertical ? top : left, last = vertical ? bottom : right;
+    int read = 0;
+    for (int along = first; along <= last; ++along)
+      read += vertical ? isRead (from + step * cut_margin_px / 2, along)
+                       : isRead (along, from + step * cut_margin_px / 2);
+    if (static_cast<double> (read) < border_share * (last - first + 1))
+      return;
+    std::vector<std::size_t> end (cut_margin_px);
+    for (int along = first; along <= last; ++along)
+    {
+      for (int n = 0; n < cut_margin_px; ++n)
+      {
+        const int across = from + step * n;
+        end[n] = vertical ? static_cast<std::size_t> (along) * width + across
+                          : static_cast<std::size_t> (across) * width + along;
+      }
+      f (end);
+    }
+  };
+  side (left, 1, true);
+  side (right, -1, true);
+  side (top, 1, false);
+  side (bottom, -1, false);
+}
+
+bool
+isCut (std::size_t ends, std::size_t pixels)
+{
+  return static_cast<double> (ends) > cut_share * std::sqrt (static_cast<double> (pixels));
+}
+
+} // namespace
+
+UnassignedComponents
+findUnassignedComponents (const std::vector<bool>& unassigned, const FrameCloud& cloud)
+{
+  DisjointSets sets (unassigned.size ());
+  forNeighbours (cloud, [&] (std::size_t a, std::size_t b) {
+    if (unassigned[a] && unassigned[b])
+      sets.unite (a, b);
+  });
+  UnassignedComponents regions;
+  regions.of_pixel.assign (unassigned.size (), UnassignedComponents::none);
+  for (std::size_t n = 0; n < unassigned.size (); ++n)
+  {
+    if (!unassigned[n])
+      continue;
+    const std::size_t root = sets.find (n); // the first of its region
+    if (root == n)
+    {
+      regions.of_pixel[n] = static_cast<int> (regions.pixels.size ());
+      regions.pixels.push_back (0);
+    }
+    regions.of_pixel[n] = regions.of_pixel[root];
+    ++regions.pixels[regions.of_pixel[n]];
+  }
+  std::vector<std::size_t> ends (regions.pixels.size (), 0);
+  forEnds (cloud, [&] (const std::vector<std::size_t>& end) {
+    for (const std::size_t pixel : end)
+      if (regions.of_pixel[pixel] != UnassignedComponents::none)
+      {
+        ++ends[regions.of_pixel[pixel]];
+        return;
+      }
+  });
+  for (std::size_t region = 0; region < ends.size (); ++region)
+    regions.cut.push_back (isCut (ends[region], regions.pixels[region]));
+  return regions;
+}
+
+std::set<std::uint16_t>
+cutInstances (const Image<std::uint16_t>& mask, const FrameCloud& cloud)
+{
+  std::vector<std::size_t> pixels (FrameSegmentation::unassigned + 1, 0);
+  for (const std::uint16_t instance : mask.pixels)
+    ++pixels[instance];
+  std::vector<std::size_t> ends (pixels.size (), 0);
+  forEnds (cloud, [&] (const std::vector<std::size_t>& end) {
+    for (const std::size_t pixel : end)
+      if (const std::uint16_t instance = mask.pixels[pixel]; instance != 0 && instance != FrameSegmentation::unassigned)
+      {
+        ++ends[instance];
+        return;
+      }
+  });
+  std::set<std::uint16_t> cut;
+  for (std::size_t instance = 1; instance < FrameSegmentation::unassigned; ++instance)
+    if (isCut (ends[instance], pixels[instance]))
+      cut.insert (static_cast<std::uint16_t> (instance));
+  return cut;
+}
+
+} // namespace pcl::cosection

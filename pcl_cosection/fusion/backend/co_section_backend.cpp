@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_cosection authors
+#include <pcl/cosection/fusion/co_section_backend.h>
+
+#include <pcl/cosection/common/error.h>
+
+#include <algorithm>
+#include <limits>
+#include <string>
+
+namespace pcl::cosection
+{
+
+namespace
+{
+
+constexpr double turn_radius_m = 1.0; // a turn by 1 rad counts as so much of a way
+
+std::vector<OrientedPoint>
+transformed (const std::vector<OrientedPoint>& points, const Eigen::Isometry3d& T)
+{
+  std::vector<OrientedPoint> result (points);
+  for (OrientedPoint& point : result)
+  {
+    point.position = (T * point.position.cast<double> ()).cast<float> ();
+    point.normal = (T.linear () * point.normal.cast<double> ()).cast<float> ();
+  }
+  return result;
+}
+
+void
+requireFinite (const CoSectionBackend::Poses& poses)
+{
+  for (const auto& [id, T] : poses)
+    if (!T.matrix ().allFinite ())
+      throw InvalidArgument ("the pose of object " + std::to_string (id) + " is not finite");
+}
+
+} // namespace
+
+void
+BackendOptions::validate () const
+{
+  method.validate ();
+  if (max_views < 4)
+    throw InvalidArgument ("max_views must be at least 4");
+  if (max_keyframes < 2)
+    throw InvalidArgument ("max_keyframes must be at least 2");
+}
+
+CoSectionBackend::CoSectionBackend (const BackendOptions& options) : options_ (options), scene_ (options.method)
+{
+  options.validate ();
+}
+
+double
+CoSectionBackend::gap (const KeptView& a, const KeptView& b)
+{
+  double largest = 0.0;
+  for (const auto& [id, T_a] : a.T_body_sensor)
+  {
+    const auto other = b.T_body_sensor.find (id);
+    if (other == b.T_body_sensor.end ())
+      return std::numeric_limits<double>::infinity (); // of this object, only one of them tells
+    const Eigen::Isometry3d motion = T_a.inverse () * other->second;
+    largest = std::max (largest,
+                        motion.translation ().norm () + turn_radius_m * Eigen::AngleAxisd (motion.linear ()).angle ());
+  }
+  return largest;
+}
+
+void
+CoSectionBackend::thin (bool keyframes)
+{
+  const std::size_t views = kept_.size ();
+  std::vector<std::vector<double>> gaps (views, std::vector<double> (views, std::numeric_limits<double>::infinity ()));
+  std::size_t candidates = 0;
+  for (std::size_t a = 0; a < views; ++a)
+  {
+    candidates += kept_[a].keyframe == keyframes;
+    for (std::size_t b = 0; b < views; ++b)
+      if (a != b)
+        gaps[a][b] = gap (kept_[a], kept_[b]); // what a tells and b does not
+  }
+  // One by one the view that another makes least missed; of equals the latest.
+  std::vector<bool> remove (views, false);
+  for (std::size_t n = 0; n < (candidates + 1) / 2; ++n)
+  {
+    std::size_t worst = views;
+    double worst_gap = std::numeric_limits<double>::infinity ();
+    for (std::size_t a = 0; a < views; ++a)
+    {
+      if (remove[a] || kept_[a].keyframe != keyframes)
+        continue;
+      double nearest = std::numeric_limits<double>::infinity ();
+      for (std::size_t b = 0; b < views; ++b)
+        if (!remove[b] && (kept_[b].keyframe || !keyframes))
+          nearest = std::min (nearest, gaps[a][b]);
+      if (worst == views || nearest <= worst_gap)
+      {
+        worst = a;
+        worst_gap = nearest;
+      }
+    }
+    remove[worst] = true;
+    if (std::isfinite (worst_gap))
+      least_gap_m_ = std::max (least_gap_m_, worst_gap);
+  }
+  scene_.removeViews (remove);
+  std::vector<KeptView> remaining;
+  for (std::size_t v = 0; v < views; ++v)
+    if (!remove[v])
+      remaining.push_back (std::move (kept_[v]));
+  kept_ = std::move (remaining);
+}
+
+bool
+CoSectionBackend::reserve (KeptView view)
+{
+  if (least_gap_m_ >= 0.0)
+    for (const KeptView& kept : kept_)
+      if ((kept.keyframe || !view.keyframe) && gap (view, kept) <= least_gap_m_)
+        return false;
+  if (view.keyframe && keyframes () >= options_.max_keyframes)
+    thin (true);
+  if (kept_.size () >= options_.max_views)
+    thin (kept_.size () == keyframes ());
+  kept_.push_back (std::move (view));
+  return true;
+}
+
+std::size_t
+CoSectionBackend::keyframes () const
+{
+  return static_cast<std::size_t> (
+      std::count_if (kept_.begin (), kept_.end (), [] (const KeptView& view) { return view.keyframe; }));
+}
+
+bool
+CoSectionBackend::addFrame (DepthView view, const Poses& T_world_object)
+{
+  view.validate ();
+  requireFinite (T_world_object);
+  KeptView place{{{0, view.T_world_sensor}}, false};
+  for (const auto& [id, T] : T_world_object)
+    place.T_body_sensor[id] = T.inverse () * view.T_world_sensor;
+  if (!reserve (std::move (place)))
+    return false;
+  scene_.addView (std::move (view), T_world_object, ViewUse::FreeSpace);
+  return true;
+}
+
+bool
+CoSectionBackend::addKeyframe (const Keyframe& keyframe, const Poses& T_world_object)
+{
+  keyframe.view.validate ();
+  requireFinite (T_world_object);
+  if (!keyframe.points.empty () && keyframe.points.begin ()->first < 0)
+    throw InvalidArgument ("the id of an object is " + std::to_string (keyframe.points.begin ()->first) +
+                           "; it must be positive");
+  const Eigen::Isometry3d& T_world_sensor = keyframe.view.T_world_sensor;
+  KeptView place{{{0, T_world_sensor}}, true};
+  for (const auto& [id, T] : T_world_object)
+    place.T_body_sensor[id] = T.inverse () * T_world_sensor;
+  if (!reserve (std::move (place)))
+    return false;
+  scene_.addView (keyframe.view, T_world_object, ViewUse::Full);
+  for (const auto& [id, points] : keyframe.points)
+  {
+    const auto pose = T_world_object.find (id);
+    if (id == 0)
+      scene_.addBackground (transformed (points, T_world_sensor));
+    else if (pose != T_world_object.end ())
+      scene_.addPoints (id, transformed (points, pose->second.inverse () * T_world_sensor));
+  }
+  return true;
+}
+
+void
+CoSectionBackend::removeObject (int id)
+{
+  scene_.removeObject (id);
+  if (id != 0)
+    for (KeptView& view : kept_)
+      view.T_body_sensor.erase (id);
+}
+
+SceneResult
+CoSectionBackend::update (UpdateOutput output, const ProgressCallback& progress)
+{
+  return scene_.update (output, progress);
+}
+
+SceneResult
+CoSectionBackend::solve (const ProgressCallback& progress) const
+{
+  return scene_.reconstruct (progress);
+}
+
+} // namespace pcl::cosection

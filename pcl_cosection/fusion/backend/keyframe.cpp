@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_cosection authors
+#include <pcl/cosection/fusion/keyframe.h>
+
+#include <pcl/cosection/common/error.h>
+#include <pcl/cosection/surface/organized_normals.h>
+
+#include <cmath>
+#include <limits>
+#include <string>
+
+namespace pcl::cosection
+{
+
+namespace
+{
+
+void
+requireSize (int width, int height, const PinholeCamera& camera, const char* what)
+{
+  if (width != camera.width || height != camera.height)
+    throw InvalidArgument (std::string (what) + " has " + std::to_string (width) + " x " + std::to_string (height) +
+                           " pixels, the camera " + std::to_string (camera.width) + " x " +
+                           std::to_string (camera.height));
+}
+
+} // namespace
+
+void
+KeyframeOptions::validate () const
+{
+  if (!(max_depth_m > 0.0))
+    throw InvalidArgument ("max_depth_m must be positive");
+  if (background_step < 1)
+    throw InvalidArgument ("background_step must be at least 1");
+}
+
+DepthView
+makeDepthView (const Image<float>& depth, const PinholeCamera& camera, const Eigen::Isometry3d& T_world_camera,
+               const KeyframeOptions& options)
+{
+  options.validate ();
+  requireSize (depth.width, depth.height, camera, "the depth image");
+  DepthView view;
+  view.camera = camera;
+  view.T_world_sensor = T_world_camera;
+  view.depth = depth.pixels;
+  for (float& z : view.depth)
+    if (!(z > 0.0f) || static_cast<double> (z) > options.max_depth_m)
+      z = std::numeric_limits<float>::quiet_NaN ();
+  return view;
+}
+
+Keyframe
+makeKeyframe (const RgbdFrame& frame, const PinholeCamera& camera, const Image<std::uint16_t>& instances,
+              const Eigen::Isometry3d& T_world_camera, const KeyframeOptions& options)
+{
+  if (!instances.pixels.empty ())
+    requireSize (instances.width, instances.height, camera, "the mask");
+  Keyframe keyframe;
+  keyframe.stamp = frame.stamp;
+  keyframe.view = makeDepthView (frame.depth, camera, T_world_camera, options);
+
+  const std::vector<float>& depth = keyframe.view.depth;
+  std::vector<Eigen::Vector3f> points (depth.size ());
+  for (int v = 0; v < camera.height; ++v)
+    for (int u = 0; u < camera.width; ++u)
+    {
+      const std::size_t n = static_cast<std::size_t> (v) * camera.width + u;
+      points[n] = camera.unproject (u, v, depth[n]).cast<float> ();
+    }
+  const std::vector<std::uint32_t> labels (instances.pixels.begin (), instances.pixels.end ());
+  OrganizedNormalsOptions normal_options;
+  normal_options.threads = options.threads;
+  const std::vector<Eigen::Vector3f> normals = computeOrganizedNormals (points, camera.width, camera.height, labels,
+                                                                        normal_options);
+
+  const bool coloured = frame.colour.pixels.size () == points.size ();
+  for (int v = 0; v < camera.height; ++v)
+    for (int u = 0; u < camera.width; ++u)
+    {
+      const std::size_t n = static_cast<std::size_t> (v) * camera.width + u;
+      const int instance = labels.empty () ? 0 : static_cast<int> (labels[n]);
+      if (!normals[n].allFinite () ||
+          (instance == 0 && (u % options.background_step != 0 || v % options.background_step != 0)))
+        continue;
+      OrientedPoint point;
+      point.position = points[n];
+      point.normal = normals[n];
+      if (coloured)
+        point.colour = frame.colour.pixels[n];
+      keyframe.points[instance].push_back (point);
+    }
+  return keyframe;
+}
+
+} // namespace pcl::cosection

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_cosection authors
+#include "background_model.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace pcl::cosection
+{
+
+namespace
+{
+
+constexpr double largest_voxel_m = 0.02;
+constexpr double smallest_voxel_m = 0.002;
+constexpr double first_share = 0.8;    // of the volume's side, what the first frame shows
+constexpr double outlier_share = 0.02; // of the points, at either end of each axis
+constexpr int points_of_box = 5000;
+constexpr std::size_t min_points = 50;
+constexpr int shift_step = 16;           // voxels
+constexpr double tolerated_share = 0.05; // of the volume's side that may be out of it before it is shifted
+
+/** \brief Of what is seen, without a few points. */
+Eigen::AlignedBox3d
+seenBox (const FrameCloud& cloud, const Eigen::Isometry3d& T_world_camera)
+{
+  const double pixels = static_cast<double> (cloud.camera.width) * cloud.camera.height;
+  const std::vector<Eigen::Vector3f> points = cloud.sample (
+      std::max (1, static_cast<int> (std::sqrt (pixels / points_of_box))));
+  Eigen::AlignedBox3d box;
+  if (points.size () < min_points)
+    return box;
+  std::vector<double> values (points.size ());
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    std::transform (points.begin (), points.end (), values.begin (),
+                    [&] (const Eigen::Vector3f& p) { return (T_world_camera * p.cast<double> ())[axis]; });
+    const auto cut = static_cast<std::ptrdiff_t> (outlier_share * static_cast<double> (values.size ()));
+    const auto low = values.begin () + cut;
+    const auto high = values.end () - 1 - cut;
+    std::nth_element (values.begin (), low, values.end ());
+    box.min ()[axis] = *low;
+    std::nth_element (low, high, values.end ());
+    box.max ()[axis] = *high;
+  }
+  return box;
+}
+
+} // namespace
+
+void
+BackgroundModel::follow (const FrameCloud& cloud, const Eigen::Isometry3d& T_world_camera)
+{
+  const Eigen::AlignedBox3d seen = seenBox (cloud, T_world_camera);
+  if (seen.isEmpty ())
+    return;
+  if (!volume_)
+  {
+    VoxelGrid grid;
+    grid.dims.setConstant (options_.resolution);
+    const double fitting = seen.sizes ().maxCoeff () / (first_share * options_.resolution);
+    grid.voxel_size_m = options_.voxel_size_m > 0.0 ? options_.voxel_size_m
+                                                    : std::min (largest_voxel_m, std::max (smallest_voxel_m, fitting));
+    const double half = 0.5 * grid.voxel_size_m * (options_.resolution - 1);
+    Eigen::Vector3d centre = seen.center ();
+    // What is too large to be held is held from the camera on.
+    for (int axis = 0; axis < 3; ++axis)
+      if (seen.sizes ()[axis] > 2.0 * half)
+        centre[axis] = T_world_camera.translation ()[axis] < centre[axis] ? seen.min ()[axis] + half
+                                                                          : seen.max ()[axis] - half;
+    grid.origin_m = centre - Eigen::Vector3d::Constant (half);
+    volume_.emplace (grid, options_.tsdf);
+    return;
+  }
+  const VoxelGrid& grid = volume_->grid ();
+  Eigen::Vector3i offset = Eigen::Vector3i::Zero ();
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    const double last = grid.dims[axis] - 1.0;
+    const double below = grid.toVoxel (seen.min ())[axis];
+    const double above = grid.toVoxel (seen.max ())[axis] - last;
+    const double tolerated = tolerated_share * last;
+    // Where both ends are out, the volume stays: it cannot hold more.
+    double shift = 0.0;
+    if (below < -tolerated && above < 0.0)
+      shift = std::min (-below, -above);
+    else if (above > tolerated && below > 0.0)
+      shift = -std::min (above, below);
+    offset[axis] = shift_step * static_cast<int> (std::round (shift / shift_step));
+  }
+  if (offset.isZero ())
+    return;
+  volume_->reframe (offset, grid.dims);
+  ++shifts_;
+}
+
+} // namespace pcl::cosection

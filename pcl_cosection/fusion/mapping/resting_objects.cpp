@@ -1,0 +1,383 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_cosection authors
+#include "resting_objects.h"
+
+#include "pcl_cosection/fusion/tracking/frame_cloud.h"
+
+#include <pcl/cosection/common/camera.h>
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/QR>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace pcl::cosection
+{
+
+namespace
+{
+
+using Vector6d = MotionChart::Vector6d;
+using Matrix6d = Eigen::Matrix<double, 6, 6>;
+
+constexpr int rounds = 2; // of association
+constexpr int steps = 6;  // in each
+constexpr std::size_t min_points = 30;
+constexpr SampleOptions background_samples{5000, 0.0, true};
+constexpr SampleOptions object_samples{300, 1.5};
+constexpr double huber_share = 0.2;     // of the truncation distance
+constexpr double least_share = 0.01;    // of the samples' weight, from which on a direction is told
+constexpr double told_by_objects = 0.5; // of their weight: what the background tells by less, and badly, they are asked
+constexpr double bad_fit = 0.5;         // of a voxel of the background
+constexpr double least_error = 0.1;     // the same
+constexpr double short_step = 0.02;     // voxels
+
+using Directions = Eigen::Matrix<double, 6, Eigen::Dynamic, 0, 6, 6>;
+using VectorXd = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 6, 1>;
+using MatrixXd = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 6, 6>;
+
+/** \brief An object that is thought to rest, or the part of the background that tells a little, and what belongs to it.
+ */
+struct Piece
+{
+  const TsdfVolume* volume;
+  Eigen::Isometry3d T_world_object;
+  double tolerance_m = 0.0; // by which it may err
+  std::vector<Eigen::Vector3f> points = {};
+  std::vector<float> weights = {};
+  double votes = 0.0;
+};
+
+using Pieces = std::vector<const Piece*>;
+
+/** \brief In the world. */
+std::vector<SurfaceSample>
+samplesOf (const Pieces& pieces, const Eigen::Isometry3d& T_world_camera)
+{
+  std::vector<SurfaceSample> all;
+  for (const Piece* piece : pieces)
+  {
+    const double huber = huber_share * piece->volume->truncation ();
+    for (SurfaceSample sample : sampleSurface (piece->points, piece->weights, *piece->volume,
+                                               piece->T_world_object.inverse () * T_world_camera, object_samples))
+    {
+      sample.position = piece->T_world_object * sample.position;
+      sample.normal = piece->T_world_object.linear () * sample.normal;
+      sample.weight *= std::min (1.0, huber / std::max (1e-12, std::abs (sample.distance))) /
+                       (piece->tolerance_m * piece->tolerance_m);
+      all.push_back (sample);
+    }
+  }
+  return all;
+}
+
+/** \brief Standard deviation of distances, from the median of their sizes. */
+double
+spread (std::vector<double> distances)
+{
+  for (double& distance : distances)
+    distance = std::abs (distance);
+  const auto middle = distances.begin () + static_cast<std::ptrdiff_t> (distances.size () / 2);
+  std::nth_element (distances.begin (), middle, distances.end ());
+  return 1.4826 * *middle;
+}
+
+/** \brief Whether the readings that tell of a direction do not fit the background: borders are frayed, walls are not.
+ */
+bool
+isFrayed (const std::vector<SurfaceSample>& samples, const MotionChart& chart, const Vector6d& direction,
+          double largest_spread_m)
+{
+  std::vector<double> distances;
+  for (const SurfaceSample& sample : samples)
+    if (std::abs (chart.slope (sample).dot (direction)) >= sample.facing)
+      distances.push_back (sample.distance);
+  return !distances.empty () && spread (distances) > largest_spread_m;
+}
+
+/** \brief The motions of which the background does not tell, or tells by less than \a enough weight of what is frayed.
+ */
+Directions
+openDirections (const std::vector<SurfaceSample>& samples, const MotionChart& chart, double enough,
+                double largest_spread_m)
+{
+  Matrix6d curvature = Matrix6d::Zero ();
+  double total = 0.0;
+  for (const SurfaceSample& sample : samples)
+  {
+    const Vector6d slope = chart.slope (sample);
+    curvature += sample.weight * slope * slope.transpose ();
+    total += sample.weight;
+  }
+  const Eigen::SelfAdjointEigenSolver<Matrix6d> solver (curvature);
+  Directions open (6, 0);
+  for (int k = 0; k < 6; ++k)
+  {
+    const Vector6d direction = solver.eigenvectors ().col (k);
+    const Telling told = tellingOf (samples, chart, direction);
+    if (told.isEnough (total) && (told.all >= enough || !isFrayed (samples, chart, direction, largest_spread_m)))
+      continue;
+    open.conservativeResize (Eigen::NoChange, open.cols () + 1);
+    open.rightCols<1> () = direction;
+  }
+  return open;
+}
+
+/** \brief Motions along certain directions as certain samples are moved by them. */
+class OpenMotions
+{
+public:
+  /** \param[in] open directions in the chart of the background */
+  OpenMotions (const std::vector<SurfaceSample>& samples, const Directions& open, const MotionChart& background)
+      : chart_ (samples)
+  {
+    constexpr double small = 1e-4; // metres: such motions add up
+    Directions directions (6, open.cols ());
+    for (int k = 0; k < open.cols (); ++k)
+      directions.col (k) = chart_.coordinates (background.motion (small * open.col (k))) / small;
+    basis_ = Eigen::HouseholderQR<Directions> (directions).householderQ () * Directions::Identity (6, open.cols ());
+  }
+
+  VectorXd coordinates (const Eigen::Isometry3d& motion) const
+  {
+    return basis_.transpose () * chart_.coordinates (motion);
+  }
+
+  Eigen::Isometry3d motion (const VectorXd& x) const { return chart_.motion (basis_ * x); }
+
+  const MotionChart& chart () const { return chart_; }
+
+  const Directions& basis () const { return basis_; }
+
+private:
+  MotionChart chart_;
+  Directions basis_;
+};
+
+/** \brief A Gauss-Newton step. Directions of which hardly any sample tells are left out. */
+struct OpenStep
+{
+  OpenStep (const std::vector<SurfaceSample>& samples, const OpenMotions& open)
+  {
+    const auto k = open.basis ().cols ();
+    MatrixXd curvature = MatrixXd::Zero (k, k);
+    VectorXd gradient = VectorXd::Zero (k);
+    double total = 0.0;
+    for (const SurfaceSample& sample : samples)
+    {
+      const VectorXd slope = open.basis ().transpose () * open.chart ().slope (sample);
+      curvature += sample.weight * slope * slope.transpose ();
+      gradient += sample.weight * sample.distance * slope;
+      total += sample.weight;
+    }
+    const Eigen::SelfAdjointEigenSolver<MatrixXd> solver (curvature);
+    told = MatrixXd::Zero (k, k);
+    step = VectorXd::Zero (k);
+    for (int n = 0; n < k; ++n)
+    {
+      const VectorXd direction = solver.eigenvectors ().col (n);
+      if (!(tellingOf (samples, open.chart (), open.basis () * direction).all > least_share * total))
+        continue;
+      step -= direction.dot (gradient) / solver.eigenvalues ()[n] * direction;
+      told += direction * direction.transpose ();
+      ++directions;
+    }
+  }
+
+  VectorXd step;
+  MatrixXd told; // projection
+  int directions = 0;
+};
+
+/** \brief Finds poses along the directions that the background leaves open. */
+class PoseByPieces
+{
+public:
+  PoseByPieces (const MotionChart& chart, Directions open) : chart_ (chart), open_ (std::move (open)) {}
+
+  /** \brief What these pieces call for, from a pose nearby. \param[in] untold where the camera is along directions of
+   * which they do not tell */
+  HeldPose solve (const Pieces& pieces, const Eigen::Isometry3d& start, const Eigen::Isometry3d& untold) const
+  {
+    HeldPose result;
+    result.T_world_camera = start;
+    for (int n = 0; n < steps; ++n)
+    {
+      const std::vector<SurfaceSample> samples = samplesOf (pieces, result.T_world_camera);
+      const OpenMotions open (samples, open_, chart_);
+      const OpenStep next (samples, open);
+      const VectorXd x = open.coordinates (result.T_world_camera * untold.inverse ());
+      result.T_world_camera = open.motion (next.step) * open.motion (next.told * x) * untold;
+      result.directions = next.directions;
+      if (next.step.norm () < short_step * pieces[0]->volume->grid ().voxel_size_m)
+        break;
+    }
+    return result;
+  }
+
+  /** \brief Whether a piece would hardly move the camera. */
+  bool agrees (const Piece& piece, const Eigen::Isometry3d& T_world_camera) const
+  {
+    const std::vector<SurfaceSample> samples = samplesOf ({&piece}, T_world_camera);
+    double counted = 0.0;
+    for (const SurfaceSample& sample : samples)
+      counted += sample.points;
+    return 2.0 * counted >= static_cast<double> (piece.points.size ()) &&
+           OpenStep (samples, OpenMotions (samples, open_, chart_)).step.norm () < piece.tolerance_m;
+  }
+
+  /** \brief How far a motion moves these pieces. */
+  double length (const Pieces& pieces, const Eigen::Isometry3d& T_world_camera, const Eigen::Isometry3d& motion) const
+  {
+    return OpenMotions (samplesOf (pieces, T_world_camera), open_, chart_).coordinates (motion).norm ();
+  }
+
+private:
+  const MotionChart& chart_;
+  Directions open_;
+};
+
+/** \brief The pieces that agree with the pose that most agree with. \param[in] steady where the camera goes on as
+ * before */
+Pieces
+mostThatAgree (const std::vector<Piece>& pieces, const PoseByPieces& poses, const Eigen::Isometry3d& steady)
+{
+  Pieces all;
+  double largest = 0.0, tolerance_m = 0.0;
+  for (const Piece& piece : pieces)
+  {
+    all.push_back (&piece);
+    largest = std::max (largest, piece.votes);
+    tolerance_m = std::max (tolerance_m, piece.tolerance_m);
+  }
+  Pieces best;
+  double most = 0.0;
+  const auto consider = [&] (const Pieces& some) {
+    const Eigen::Isometry3d pose = poses.solve (some, steady, steady).T_world_camera;
+    Pieces agreeing;
+    double support = poses.length (all, pose, pose * steady.inverse ()) < tolerance_m ? largest : 0.0;
+    for (const Piece* piece : all)
+      if (poses.agrees (*piece, pose))
+      {
+        agreeing.push_back (piece);
+        support += piece->votes;
+      }
+    if (agreeing.empty () || support <= most)
+      return;
+    most = support;
+    best = std::move (agreeing);
+  };
+  consider (all);
+  if (best.size () < all.size ())
+    for (const Piece* piece : all)
+      consider ({piece});
+  return best;
+}
+
+/** \brief What belongs to the objects that rest, of those of a scene seen from \a T_world_camera. */
+std::vector<Piece>
+restingPieces (const ExpectedScene& scene, const DataAssociation& association, const Eigen::Isometry3d& T_world_camera)
+{
+  std::vector<AssociatedModel> models = scene.models;
+  for (std::size_t m = 0; m < models.size (); ++m)
+    models[m].T_model_sensor = m > 0 && scene.objects[m - 1]->rests ()
+                                   ? Eigen::Isometry3d (scene.objects[m - 1]->T_world_rest.inverse () * T_world_camera)
+                                   : Eigen::Isometry3d (models[m].T_model_sensor * scene.T_world_camera.inverse () *
+                                                        T_world_camera);
+  std::vector<Piece> pieces;
+  for (std::size_t m = 1; m < models.size (); ++m)
+  {
+    if (!scene.objects[m - 1]->rests ())
+      continue;
+    Piece piece{models[m].volume, scene.objects[m - 1]->T_world_rest};
+    const std::vector<float> probabilities = association.probabilities (scene.points, models, m);
+    double depths = 0.0;
+    for (std::size_t n = 0; n < scene.points.size (); ++n)
+      if (probabilities[n] > 0.0f)
+      {
+        const float z = scene.points[n].z ();
+        piece.points.push_back (scene.points[n]);
+        piece.weights.push_back (probabilities[n] * readingWeight (z, models[0].volume->grid ().voxel_size_m));
+        piece.votes += piece.weights.back ();
+        depths += z;
+      }
+    if (piece.points.size () < min_points)
+      continue;
+    piece.tolerance_m = std::hypot (piece.volume->grid ().voxel_size_m,
+                                    depthNoiseSigma (depths / static_cast<double> (piece.points.size ())));
+    pieces.push_back (std::move (piece));
+  }
+  return pieces;
+}
+
+/** \brief What of the background tells of open directions. It errs as its readings scatter; what scatters little
+ * certainly rests. */
+Piece
+tellingPart (const TsdfVolume& room, const std::vector<SurfaceSample>& samples, const MotionChart& chart,
+             const Directions& open, const Eigen::Isometry3d& T_world_camera)
+{
+  const double voxel_m = room.grid ().voxel_size_m;
+  Piece piece{&room, Eigen::Isometry3d::Identity (), voxel_m};
+  const Eigen::Isometry3d T_camera_world = T_world_camera.inverse ();
+  std::vector<double> distances;
+  for (const SurfaceSample& sample : samples)
+    if ((open.transpose () * chart.slope (sample)).norm () >= sample.facing)
+    {
+      piece.points.push_back ((T_camera_world * sample.position).cast<float> ());
+      piece.weights.push_back (static_cast<float> (sample.weight));
+      piece.votes += sample.weight;
+      distances.push_back (sample.distance);
+    }
+  if (!distances.empty ())
+    piece.tolerance_m = std::clamp (spread (distances), least_error * voxel_m, voxel_m);
+  piece.votes *= voxel_m / piece.tolerance_m;
+  return piece;
+}
+
+} // namespace
+
+HeldPose
+holdByRestingObjects (const ExpectedScene& scene, const DataAssociation& association,
+                      const Eigen::Isometry3d& background)
+{
+  HeldPose result;
+  result.T_world_camera = background;
+  if (std::none_of (scene.objects.begin (), scene.objects.end (),
+                    [] (const TrackedObject* object) { return object->rests (); }))
+    return result;
+  const TsdfVolume& room = *scene.models[0].volume;
+  const std::vector<SurfaceSample> samples = sampleSurface (scene.points, scene.of_background, room, background,
+                                                            background_samples);
+  const MotionChart chart (samples);
+  double weight = 0.0;
+  for (const Piece& piece : restingPieces (scene, association, background))
+    weight += piece.votes;
+  const Directions open = openDirections (samples, chart, told_by_objects * weight,
+                                          bad_fit * room.grid ().voxel_size_m);
+  if (!(weight > 0.0) || open.cols () == 0)
+    return result;
+  const PoseByPieces poses (chart, open);
+  const VectorXd expected = open.transpose () * chart.coordinates (scene.T_world_camera * background.inverse ());
+  const Eigen::Isometry3d steady = chart.motion (open * expected) * background;
+  const Piece part = tellingPart (room, samples, chart, open, background);
+  Eigen::Isometry3d pose = steady;
+  for (int round = 0; round < rounds; ++round)
+  {
+    std::vector<Piece> pieces = restingPieces (scene, association, pose);
+    if (pieces.empty ())
+      return result;
+    if (part.points.size () >= min_points)
+      pieces.push_back (part);
+    const Pieces agreeing = mostThatAgree (pieces, poses, steady);
+    if (agreeing.empty ())
+      return result;
+    result = poses.solve (agreeing, pose, background);
+    pose = result.T_world_camera;
+  }
+  result.directions += 6 - static_cast<int> (open.cols ());
+  return result;
+}
+
+} // namespace pcl::cosection

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_cosection authors
+#pragma once
+
+#include "pcl_cosection/fusion/event_log.h"
+
+#include <pcl/cosection/fusion/frame_segmenter.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <set>
+#include <string>
+
+namespace pcl::cosection
+{
+
+/** \brief A segmenter, and when it is asked for objects. */
+class ScheduledSegmenter
+{
+public:
+  /** \param[in] every frames */
+  explicit ScheduledSegmenter (int every) : every_ (static_cast<std::size_t> (every)) {}
+
+  /** \param[in] segmenter null: none */
+  void set (std::shared_ptr<FrameSegmenter> segmenter);
+
+  bool isSet () const { return segmenter_ != nullptr; }
+
+  bool findsAll () const { return segmenter_->findsAll (); }
+
+  bool isExact () const { return !segmenter_ || segmenter_->isExact (); }
+
+  /** \brief Show a frame to the segmenter. \return the instances in it; no mask: it is not the segmenter's turn, or it
+   * cannot tell
+   * \throws InvalidArgument if they are not of the camera's size, or the score of a class is not in [0, 1] */
+  FrameInstances see (const ObservedFrame& frame, EventLog& log);
+
+private:
+  std::size_t every_;
+  std::shared_ptr<FrameSegmenter> segmenter_;
+  std::size_t next_ = 0; // frame
+  std::set<std::string> told_;
+};
+
+} // namespace pcl::cosection

@@ -1,0 +1,289 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_cosection authors
+#include "brightness_tracking.h"
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+
+#include <algorithm>
+#include <cmath>
+
+namespace pcl::cosection
+{
+
+namespace
+{
+
+using Vector6d = Eigen::Matrix<double, 6, 1>;
+using Matrix6d = Eigen::Matrix<double, 6, 6>;
+
+constexpr int lights = 5; // that change all brightness: a factor, an offset, a slope along each axis
+using VectorXd = Eigen::Matrix<double, 6 + lights, 1>;
+using MatrixXd = Eigen::Matrix<double, 6 + lights, 6 + lights>;
+
+constexpr std::size_t most_points = 4000;
+constexpr std::size_t least_points = 60;
+constexpr float least_probability = 0.5f;
+constexpr int steps = 6; // of each level
+constexpr double short_step_m = 2e-5;
+constexpr double least_sigma = 2.0; // of 256
+constexpr double as_bright = 8.0;   // the same: what differs by more is something else, or in another light
+constexpr double huber_sigmas = 1.345;
+constexpr double
+    correlated = 48.0; // points that err together, as pixels are smoothed and brightness is not quite constant
+constexpr double factor_unit = 64.0;        // of 256, so that the factor changes brightness about as much as the offset
+constexpr double remembered_sigma_m = 3e-4; // of the pose of the frame that is remembered, and of depth against colour
+constexpr double shape_sigma_m = 1e-4;      // of the model's shape, by which many readings err together
+constexpr double hidden_sigmas = 4.0;       // of depth
+constexpr double hidden_share = 0.01;       // of depth: shapes and poses err, too
+constexpr double least_agreeing = 0.5;      // of the points, for brightness to be believed
+constexpr int least_directions = 3; // of which a pattern tells; shading that is not even may seem to tell of one or two
+constexpr double worn = 0.8;        // below which another frame is remembered
+constexpr double largest_turn_rad = 0.35; // from the frame that is remembered: light falls otherwise then
+constexpr double known_sigma_m = 2e-3;    // of what counts as told
+
+/** \brief The same place in an image of half the size, level by level. */
+Eigen::Vector2d
+atLevel (const Eigen::Vector2d& pixel, std::size_t level)
+{
+  const double scale = static_cast<double> (1 << level);
+  return (pixel.array () + 0.5) / scale - 0.5;
+}
+
+bool
+isWithin (const Image<float>& image, const Eigen::Vector2d& pixel)
+{
+  return pixel.x () >= 0.0 && pixel.y () >= 0.0 && pixel.x () <= image.width - 1.0 && pixel.y () <= image.height - 1.0;
+}
+
+double
+median (std::vector<double>& values)
+{
+  const auto middle = values.begin () + static_cast<std::ptrdiff_t> (values.size () / 2);
+  std::nth_element (values.begin (), middle, values.end ());
+  return *middle;
+}
+
+/** \brief Projection onto the directions that are told. */
+Matrix6d
+toldBy (const Matrix6d& precision)
+{
+  const Eigen::SelfAdjointEigenSolver<Matrix6d> solver (precision);
+  Matrix6d told = Matrix6d::Zero ();
+  for (int k = 0; k < 6; ++k)
+    if (solver.eigenvalues ()[k] * known_sigma_m * known_sigma_m > 1.0)
+      told += solver.eigenvectors ().col (k) * solver.eigenvectors ().col (k).transpose ();
+  return told;
+}
+
+int
+directionsOf (const Matrix6d& precision)
+{
+  return static_cast<int> (std::lround (toldBy (precision).trace ()));
+}
+
+/** \brief A shape's precision with the errors of the model itself: the fewer readings tell of a direction, relative to
+ * the best told, the more likely it is that they are a misplaced edge and wrong together. */
+Matrix6d
+withErrorsOfModel (const Matrix6d& precision)
+{
+  const Eigen::SelfAdjointEigenSolver<Matrix6d> solver (precision);
+  const Vector6d& of_readings = solver.eigenvalues ();
+  Vector6d result = Vector6d::Zero ();
+  for (int k = 0; k < 6; ++k)
+    if (of_readings[k] > 0.0)
+    {
+      const double sigma = shape_sigma_m * of_readings[5] / of_readings[k];
+      result[k] = 1.0 / (1.0 / of_readings[k] + sigma * sigma);
+    }
+  return solver.eigenvectors () * result.asDiagonal () * solver.eigenvectors ().transpose ();
+}
+
+/** \brief A point as it is seen: how bright it is and was, and how that changes with the model's motion. */
+struct Comparison
+{
+  Vector6d slope;
+  Eigen::Vector3d place; // in the chart
+  double now;
+  double then;
+};
+
+} // namespace
+
+int
+UncertainPose::directions () const
+{
+  return directionsOf (precision);
+}
+
+struct BrightnessTracking::Sums
+{
+  explicit Sums (const std::vector<Comparison>& seen);
+
+  /** \brief Of the pose, whatever the light is. */
+  void leaveOutLight ();
+
+  MatrixXd squares = MatrixXd::Zero (); // six of the pose, and the lights
+  VectorXd gradient = VectorXd::Zero ();
+  Matrix6d precision = Matrix6d::Zero (); // as the frame that is remembered is known only so well
+  Vector6d slope = Vector6d::Zero ();     // of half the square of what differs, in standard deviations
+  double cost = 0.0;                      // Huber's, mean, of 256
+  double sigma = 0.0;                     // of 256
+  std::size_t seen;
+  std::size_t agreeing = 0;
+};
+
+BrightnessTracking::Sums::Sums (const std::vector<Comparison>& points) : seen (points.size ())
+{
+  if (seen < least_points)
+    return;
+  std::vector<double> differences (seen);
+  std::transform (points.begin (), points.end (), differences.begin (),
+                  [] (const Comparison& point) { return point.now - point.then; });
+  const double offset = median (differences);
+  for (double& difference : differences)
+    difference = std::abs (difference - offset);
+  sigma = std::max (least_sigma, 1.4826 * median (differences));
+  double mean = 0.0;
+  for (const Comparison& point : points)
+    mean += point.then / static_cast<double> (seen);
+
+  const double huber = huber_sigmas * sigma;
+  for (const Comparison& point : points)
+  {
+    const double difference = point.now - point.then - offset, size = std::abs (difference);
+    const double weight = size <= huber ? 1.0 : huber / size;
+    VectorXd change;
+    change << point.slope, (point.then - mean) / factor_unit, 1.0, point.place;
+    squares += weight * change * change.transpose ();
+    gradient += weight * difference * change;
+    cost += size <= huber ? 0.5 * difference * difference : huber * (size - 0.5 * huber);
+    agreeing += size <= as_bright;
+  }
+  cost /= static_cast<double> (seen);
+  leaveOutLight ();
+}
+
+void
+BrightnessTracking::Sums::leaveOutLight ()
+{
+  constexpr double least_contrast = 1e-6;
+  const double scale = 1.0 / (sigma * sigma * correlated);
+  const Eigen::Matrix<double, lights, lights> of_light = squares.bottomRightCorner<lights, lights> () +
+                                                         least_contrast * static_cast<double> (seen) *
+                                                             Eigen::Matrix<double, lights, lights>::Identity ();
+  const Eigen::Matrix<double, 6, lights> mixed = squares.topRightCorner<6, lights> () * of_light.inverse ();
+  const Matrix6d of_pixels = scale * (squares.topLeftCorner<6, 6> () - mixed * squares.bottomLeftCorner<lights, 6> ());
+  const Matrix6d told = toldBy (of_pixels); // what is told of other directions is doubtful, too
+  const Matrix6d share = (Matrix6d::Identity () + remembered_sigma_m * remembered_sigma_m * of_pixels).inverse ();
+  precision = share * told * of_pixels;
+  slope = scale * share * told * (gradient.head<6> () - mixed * gradient.tail<lights> ());
+}
+
+BrightnessTracking::Sums
+BrightnessTracking::compare (const FrameCloud& cloud, std::size_t level, const MotionChart& chart,
+                             const Eigen::Isometry3d& T_model_camera) const
+{
+  const PinholeCamera& camera = cloud.camera;
+  const Image<float>& image = cloud.brightness[level];
+  const double per_pixel = 1.0 / static_cast<double> (1 << level);
+  const Eigen::Isometry3d T_camera_model = T_model_camera.inverse ();
+  std::vector<Comparison> seen;
+  seen.reserve (points_.size ());
+  for (const Point& point : points_)
+  {
+    const Eigen::Vector3d p = T_camera_model * point.position;
+    if (!(p.z () > 0.0))
+      continue;
+    const Eigen::Vector2d pixel = camera.project (p), place = atLevel (pixel, level);
+    if (!isWithin (cloud.depth, pixel) || !isWithin (image, place))
+      continue;
+    const int u = static_cast<int> (std::lround (pixel.x ())), v = static_cast<int> (std::lround (pixel.y ()));
+    const double z = cloud.depth.at (u, v);
+    if (!cloud.unmixed.at (u, v) ||
+        !(std::abs (z - p.z ()) < hidden_sigmas * depthNoiseSigma (p.z ()) + hidden_share * p.z ()))
+      continue;
+    const BrightnessReading reading = readBrightness (image, place.x (), place.y ());
+    const double du = per_pixel * camera.fx * reading.du / p.z (), dv = per_pixel * camera.fy * reading.dv / p.z ();
+    const Eigen::Vector3d by_point (du, dv, -(du * p.x () + dv * p.y ()) / p.z ());
+    // A motion of the camera in the model's frame moves points the other way before it.
+    seen.push_back ({chart.slope (point.position, -(T_model_camera.linear () * by_point)), chart.place (point.position),
+                     reading.value, point.brightness[level]});
+  }
+  return Sums (seen);
+}
+
+std::optional<UncertainPose>
+BrightnessTracking::track (const FrameCloud& cloud, const MotionChart& chart, const UncertainPose& shape,
+                           const Eigen::Isometry3d& guess)
+{
+  agreeing_ = 0.0;
+  if (points_.size () < least_points || cloud.brightness.size () < brightness_levels || shape.precision.isZero ())
+    return std::nullopt;
+  const Sums of_guess = compare (cloud, brightness_levels - 1, chart, guess),
+             of_shape = compare (cloud, brightness_levels - 1, chart, shape.T_model_camera);
+  const bool begin_there = of_guess.seen >= least_points &&
+                           (of_shape.seen < least_points || of_guess.cost < of_shape.cost);
+  const Matrix6d by_shape = withErrorsOfModel (shape.precision);
+  UncertainPose result;
+  result.T_model_camera = begin_there ? guess : shape.T_model_camera;
+  for (std::size_t level = brightness_levels; level-- > 0;)
+    for (int step = 0; step < steps; ++step)
+    {
+      const Sums sums = compare (cloud, level, chart, result.T_model_camera);
+      if (sums.seen < least_points)
+        return std::nullopt;
+      result.precision = sums.precision + by_shape;
+      const Vector6d from_shape = chart.coordinates (result.T_model_camera * shape.T_model_camera.inverse ());
+      const double ridge = 1e-9 * result.precision.diagonal ().maxCoeff (); // along what neither tells, it stays
+      const Vector6d
+          move = -(result.precision + ridge * Matrix6d::Identity ()).ldlt ().solve (sums.slope + by_shape * from_shape);
+      if (!move.allFinite ())
+        return std::nullopt;
+      result.T_model_camera = chart.motion (move) * result.T_model_camera;
+      if (move.norm () < short_step_m)
+        break;
+    }
+  // Coarse images may have moved it along directions of which nothing tells in the end.
+  const Vector6d moved = chart.coordinates (result.T_model_camera * shape.T_model_camera.inverse ());
+  result.T_model_camera = chart.motion (toldBy (result.precision) * moved) * shape.T_model_camera;
+  // Small errors of rotations would grow from frame to frame.
+  result.T_model_camera
+      .linear () = Eigen::Quaterniond (result.T_model_camera.linear ()).normalized ().toRotationMatrix ();
+  const Sums sums = compare (cloud, 0, chart, result.T_model_camera);
+  agreeing_ = static_cast<double> (sums.agreeing) / static_cast<double> (points_.size ());
+  if (directionsOf (sums.precision) < least_directions || agreeing_ < least_agreeing)
+    return std::nullopt;
+  return result;
+}
+
+void
+BrightnessTracking::keep (const FrameCloud& cloud, const std::vector<Eigen::Vector3f>& points,
+                          const std::vector<float>& probabilities, const Eigen::Isometry3d& T_model_camera)
+{
+  const double turn = Eigen::AngleAxisd (T_model_camera_.linear ().transpose () * T_model_camera.linear ()).angle ();
+  if (cloud.brightness.size () < brightness_levels || (agreeing_ >= worn && turn < largest_turn_rad))
+    return;
+  const std::size_t step = std::max<std::size_t> (1, points.size () / most_points);
+  points_.clear ();
+  for (std::size_t n = 0; n < points.size (); n += step)
+  {
+    const Eigen::Vector3d p = points[n].cast<double> ();
+    const Eigen::Vector2d pixel = cloud.camera.project (p);
+    if (!(probabilities[n] >= least_probability) ||
+        !isWithin (cloud.brightness[brightness_levels - 1], atLevel (pixel, brightness_levels - 1)) ||
+        !cloud.unmixed.at (static_cast<int> (std::lround (pixel.x ())), static_cast<int> (std::lround (pixel.y ()))))
+      continue;
+    Point point{T_model_camera * p, {}};
+    for (std::size_t level = 0; level < brightness_levels; ++level)
+    {
+      const Eigen::Vector2d place = atLevel (pixel, level);
+      point.brightness[level] = readBrightness (cloud.brightness[level], place.x (), place.y ()).value;
+    }
+    points_.push_back (point);
+  }
+  T_model_camera_ = T_model_camera;
+  agreeing_ = 1.0;
+}
+
+} // namespace pcl::cosection

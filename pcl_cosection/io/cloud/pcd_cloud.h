@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_cosection authors
+#pragma once
+
+#include <pcl/cosection/io/pcd_view.h>
+
+#include <Eigen/Geometry>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace pcl::cosection
+{
+
+/** \brief The points of a file, in the sensor frame. */
+struct SensorCloud
+{
+  int width = 0;
+  int height = 0;
+  std::vector<Eigen::Vector3f> positions; ///< NaN: no reading
+  std::vector<Eigen::Vector3f> normals;   ///< empty if the file has none
+  std::vector<std::uint32_t> labels;
+  std::vector<std::array<std::uint8_t, 3>> colours; ///< empty if the file has none
+  std::vector<float> intensities;                   ///< empty if the file has none
+  Eigen::Isometry3d T_world_sensor = Eigen::Isometry3d::Identity ();
+  bool has_viewpoint = false; ///< the file's is not the default one
+  bool has_labels = false;
+  std::size_t ignored = 0; ///< points of a negative label, or of ignored_label
+};
+
+/** \brief Read the points of a PCD file; see readPcdView () for the fields and the errors. \param[in] with_labels else
+ * they are not looked at */
+SensorCloud readSensorCloud (const std::string& path, const PcdViewOptions& options, bool with_labels = true);
+
+} // namespace pcl::cosection

@@ -1,0 +1,299 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_cosection authors
+#include "pcd_header.h"
+
+#include <pcl/cosection/common/error.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cmath>
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <set>
+#include <sstream>
+
+namespace pcl::cosection
+{
+
+namespace
+{
+
+constexpr std::size_t max_header_bytes = 1 << 16;
+constexpr std::size_t max_elements = 1 << 12; ///< in one field; descriptors have some hundreds
+constexpr std::uint64_t max_points = 0x7fffffff;
+constexpr double max_viewpoint = 1e15;       ///< in any unit; beyond it sums of squares overflow a float
+constexpr std::uint64_t max_lzf_ratio = 264; ///< longest match of LZF; bounds what a compressed block can hold
+
+using Tokens = std::vector<std::string>;
+
+[[noreturn]] void
+fail (const std::string& path, const std::string& reason)
+{
+  throw IoError (path + ": " + reason);
+}
+
+Tokens
+split (const std::string& line)
+{
+  std::istringstream stream (line);
+  Tokens tokens;
+  for (std::string token; stream >> token;)
+    tokens.push_back (token);
+  return (tokens);
+}
+
+std::uint64_t
+parseCount (const std::string& path, const std::string& key, const std::string& token, std::uint64_t limit)
+{
+  const bool digits = !token.empty () && token.size () < 19 &&
+                      std::all_of (token.begin (), token.end (), [] (char c) { return (c >= '0' && c <= '9'); });
+  const std::uint64_t value = digits ? std::strtoull (token.c_str (), nullptr, 10) : limit + 1;
+  if (value > limit)
+    fail (path, key + " is " + printable (token) + ", it must be a whole number from 0 to " + std::to_string (limit));
+  return (value);
+}
+
+bool
+isNumber (const char* first, const char* last)
+{
+  // strtod reads "nan", "inf" and everything that PCL writes; the token is bounded by white space.
+  char* end = nullptr;
+  std::strtod (first, &end);
+  return (end == last);
+}
+
+class HeaderParser
+{
+public:
+  explicit HeaderParser (const std::string& path) : path_ (path) {}
+
+  PcdHeader parse (const std::string& text)
+  {
+    std::size_t begin = 0;
+    while (begin < text.size ())
+    {
+      const std::size_t end = text.find ('\n', begin);
+      if (end == std::string::npos)
+        break;
+      const Tokens tokens = split (text.substr (begin, end - begin));
+      begin = end + 1;
+      if (tokens.empty () || tokens[0][0] == '#')
+        continue;
+      parseLine (tokens);
+      if (tokens[0] == "DATA")
+      {
+        header_.data_offset = begin;
+        check ();
+        return (header_);
+      }
+    }
+    fail (path_, known_lines_ == 0 ? "is not a PCD file" : "the PCD header has no DATA line");
+  }
+
+private:
+  void parseLine (const Tokens& tokens)
+  {
+    const std::string& key = tokens[0];
+    if (!seen_.insert (key == "COLUMNS" ? "FIELDS" : key).second)
+      fail (path_, "the PCD header has two lines " + printable (key));
+    if (key == "VERSION")
+      ;
+    else if (key == "FIELDS" || key == "COLUMNS")
+      for (std::size_t i = 1; i < tokens.size (); ++i)
+        header_.fields.push_back ({tokens[i], 0, 0, 1});
+    else if (key == "SIZE")
+      perField (tokens, [&] (PcdField& f, const std::string& t) { f.size = parseCount (path_, key, t, 8); });
+    else if (key == "TYPE")
+      perField (tokens, [] (PcdField& f, const std::string& t) { f.type = t[0]; });
+    else if (key == "COUNT")
+      perField (tokens,
+                [&] (PcdField& f, const std::string& t) { f.count = parseCount (path_, key, t, max_elements); });
+    else if (key == "WIDTH" || key == "HEIGHT" || key == "POINTS")
+    {
+      if (tokens.size () != 2)
+        fail (path_, key + " in the PCD header must have one value");
+      (key == "WIDTH"    ? header_.width
+       : key == "HEIGHT" ? header_.height
+                         : header_.points) = parseCount (path_, key, tokens[1], max_points);
+    }
+    else if (key == "VIEWPOINT")
+      parseViewpoint (tokens);
+    else if (key == "DATA")
+      parseEncoding (tokens);
+    else
+      fail (path_,
+            known_lines_ == 0 ? "is not a PCD file" : "the PCD header has an unknown line \"" + printable (key) + "\"");
+    ++known_lines_;
+  }
+
+  template <typename Assign> void perField (const Tokens& tokens, Assign&& assign)
+  {
+    if (header_.fields.empty () || tokens.size () != header_.fields.size () + 1)
+      fail (path_, tokens[0] + " in the PCD header must have one value for each of the " +
+                       std::to_string (header_.fields.size ()) + " FIELDS");
+    for (std::size_t i = 0; i < header_.fields.size (); ++i)
+      assign (header_.fields[i], tokens[i + 1]);
+  }
+
+  void parseViewpoint (const Tokens& tokens)
+  {
+    bool good = tokens.size () == 8;
+    for (std::size_t i = 0; good && i < 7; ++i)
+    {
+      good = isNumber (tokens[i + 1].c_str (), tokens[i + 1].c_str () + tokens[i + 1].size ());
+      header_.viewpoint[i] = std::strtod (tokens[i + 1].c_str (), nullptr);
+      good = good && std::abs (header_.viewpoint[i]) <= max_viewpoint;
+    }
+    const auto& v = header_.viewpoint;
+    if (!good || !(std::hypot (std::hypot (v[3], v[4]), std::hypot (v[5], v[6])) > 1e-6))
+      fail (path_, "VIEWPOINT must be tx ty tz qw qx qy qz of finite numbers, with a quaternion that is not zero");
+  }
+
+  void parseEncoding (const Tokens& tokens)
+  {
+    const std::string name = tokens.size () == 2 ? tokens[1] : "";
+    if (name == "ascii")
+      header_.encoding = PcdEncoding::Ascii;
+    else if (name == "binary")
+      header_.encoding = PcdEncoding::Binary;
+    else if (name == "binary_compressed")
+      header_.encoding = PcdEncoding::BinaryCompressed;
+    else
+      fail (path_, "DATA is \"" + printable (name) + "\", it must be ascii, binary or binary_compressed");
+  }
+
+  void check ()
+  {
+    if (header_.fields.empty ())
+      fail (path_, "the PCD header has no FIELDS");
+    for (const PcdField& field : header_.fields)
+    {
+      const bool integer = field.type == 'I' || field.type == 'U';
+      const bool good = (integer && (field.size == 1 || field.size == 2)) ||
+                        ((integer || field.type == 'F') && (field.size == 4 || field.size == 8));
+      if (!good || field.count == 0)
+        fail (path_, "field " + printable (field.name) + " has an invalid SIZE, TYPE or COUNT");
+    }
+    if (header_.points == 0)
+      throw DegenerateInput (path_ + ": holds no points");
+    if (header_.width == 0 && header_.height <= 1) // files older than version 0.6
+    {
+      header_.width = header_.points;
+      header_.height = 1;
+    }
+    if (header_.width * header_.height != header_.points)
+      fail (path_, "WIDTH " + std::to_string (header_.width) + " times HEIGHT " + std::to_string (header_.height) +
+                       " is not POINTS " + std::to_string (header_.points));
+  }
+
+  const std::string path_;
+  PcdHeader header_;
+  int known_lines_ = 0;
+  std::set<std::string> seen_;
+};
+
+[[noreturn]] void
+failTruncated (const std::string& path, std::uint64_t needed, std::uint64_t found)
+{
+  fail (path, "is truncated: its header announces " + std::to_string (needed) + " bytes of points, there are " +
+                  std::to_string (found));
+}
+
+void
+checkCompressed (const std::string& path, const PcdHeader& header, std::istream& file, std::uint64_t found)
+{
+  std::array<std::uint32_t, 2> sizes{}; // compressed, uncompressed
+  file.seekg (static_cast<std::streamoff> (header.data_offset));
+  if (found < sizeof (sizes) || !file.read (reinterpret_cast<char*> (sizes.data ()), sizeof (sizes)))
+    failTruncated (path, sizeof (sizes), found);
+  if (sizes[0] > found - sizeof (sizes))
+    failTruncated (path, sizes[0], found - sizeof (sizes));
+  if (sizes[1] != header.points * header.pointBytes (PcdPadding::Excluded) || sizes[1] > sizes[0] * max_lzf_ratio)
+    fail (path, "its compressed points do not have the size that its header announces");
+}
+
+void
+checkAscii (const std::string& path, const PcdHeader& header, std::uint64_t found)
+{
+  const std::uint64_t shortest = 2 * header.pointValues () * header.points - 1; // a digit and a separator each
+  if (found < shortest)
+    failTruncated (path, shortest, found);
+}
+
+} // namespace
+
+const PcdField*
+PcdHeader::find (const std::string& name) const
+{
+  const auto found = std::find_if (fields.begin (), fields.end (),
+                                   [&] (const PcdField& f) { return (f.name == name); });
+  return (found == fields.end () ? nullptr : &*found);
+}
+
+std::uint64_t
+PcdHeader::pointBytes (PcdPadding padding) const
+{
+  std::uint64_t bytes = 0;
+  for (const PcdField& field : fields)
+    if (padding == PcdPadding::Included || !field.isPadding ())
+      bytes += field.size * field.count;
+  return (bytes);
+}
+
+std::uint64_t
+PcdHeader::pointValues () const
+{
+  std::uint64_t values = 0;
+  for (const PcdField& field : fields)
+    values += field.count;
+  return (values);
+}
+
+std::string
+printable (const std::string& text)
+{
+  std::string result;
+  for (const char c : text.substr (0, 24))
+    result += (c >= ' ' && c <= '~') ? c : '?';
+  return (result);
+}
+
+PcdHeader
+readPcdHeader (const std::string& path)
+{
+  std::error_code failure;
+  const auto status = std::filesystem::status (path, failure);
+  if (status.type () == std::filesystem::file_type::not_found)
+    fail (path, "no such file");
+  if (std::filesystem::is_directory (status))
+    fail (path, "is a directory, not a PCD file");
+  if (failure || !std::filesystem::is_regular_file (status))
+    fail (path, "is not a regular file");
+  std::ifstream file (path, std::ios::binary);
+  if (!file)
+    fail (path, std::string ("cannot be read: ") + std::strerror (errno));
+  const std::uint64_t size = std::filesystem::file_size (path, failure);
+  if (failure)
+    fail (path, "cannot be read: " + failure.message ());
+  if (size == 0)
+    fail (path, "is empty, not a PCD file");
+
+  std::string text (std::min<std::uint64_t> (size, max_header_bytes), '\0');
+  if (!file.read (&text[0], static_cast<std::streamsize> (text.size ())))
+    fail (path, "cannot be read");
+  PcdHeader header = HeaderParser (path).parse (text);
+
+  const std::uint64_t found = size - header.data_offset;
+  file.clear ();
+  if (header.encoding == PcdEncoding::BinaryCompressed)
+    checkCompressed (path, header, file, found);
+  else if (header.encoding == PcdEncoding::Ascii)
+    checkAscii (path, header, found);
+  else if (found < header.points * header.pointBytes ())
+    failTruncated (path, header.points * header.pointBytes (), found);
+  return (header);
+}
+
+} // namespace pcl::cosection

@@ -1,0 +1,242 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_cosection authors
+#include "pcd_points.h"
+
+#include <pcl/cosection/common/error.h>
+
+#include <pcl/io/lzf.h>
+
+#include <array>
+#include <cmath>
+#include <cstdlib>
+#include <cstring>
+#include <fstream>
+#include <limits>
+
+namespace pcl::cosection
+{
+
+namespace
+{
+
+[[noreturn]] void
+failDamaged (const std::string& path)
+{
+  throw IoError (path + ": its points cannot be decoded; the file is damaged");
+}
+
+/** \brief A cloud with the fields of the header and zeros for the points. */
+PCLPointCloud2
+emptyCloud (const PcdHeader& header, PcdPadding padding)
+{
+  PCLPointCloud2 cloud;
+  std::uint32_t offset = 0;
+  for (const PcdField& field : header.fields)
+  {
+    if (padding == PcdPadding::Excluded && field.isPadding ())
+      continue;
+    PCLPointField described;
+    described.name = field.name;
+    described.offset = offset;
+    described.count = static_cast<std::uint32_t> (field.count);
+    cloud.fields.push_back (described);
+    offset += static_cast<std::uint32_t> (field.size * field.count);
+  }
+  cloud.point_step = offset;
+  cloud.data.resize (header.points * offset);
+  return (cloud);
+}
+
+void
+readBytes (const std::string& path, std::istream& file, void* bytes, std::size_t size)
+{
+  if (!file.read (static_cast<char*> (bytes), static_cast<std::streamsize> (size)))
+    throw IoError (path + ": ends before its points do");
+}
+
+/** \brief Field after field instead of point after point, compressed by LZF. */
+PCLPointCloud2
+readCompressed (const std::string& path, const PcdHeader& header, std::istream& file)
+{
+  PCLPointCloud2 cloud = emptyCloud (header, PcdPadding::Excluded);
+  std::array<std::uint32_t, 2> sizes{}; // compressed, uncompressed
+  readBytes (path, file, sizes.data (), sizeof (sizes));
+  std::vector<char> packed (sizes[0]), columns (cloud.data.size ());
+  readBytes (path, file, packed.data (), packed.size ());
+  if (packed.empty () || columns.size () != sizes[1] ||
+      lzfDecompress (packed.data (), sizes[0], columns.data (), sizes[1]) != sizes[1])
+    failDamaged (path);
+  const char* source = columns.data ();
+  std::size_t offset = 0;
+  for (const PcdField& field : header.fields)
+  {
+    if (field.isPadding ())
+      continue;
+    const std::size_t bytes = field.size * field.count;
+    for (std::size_t i = 0; i < header.points; ++i, source += bytes)
+      std::memcpy (&cloud.data[i * cloud.point_step + offset], source, bytes);
+    offset += bytes;
+  }
+  return (cloud);
+}
+
+template <typename T>
+bool
+store (double value, std::uint8_t* target)
+{
+  T typed = 0;
+  if constexpr (std::numeric_limits<T>::is_integer)
+  {
+    const double rounded = std::isnan (value) ? 0.0 : std::trunc (value);
+    const double end = std::ldexp (1.0, std::numeric_limits<T>::digits); // one more than the largest
+    if (!(rounded < end && rounded >= (std::numeric_limits<T>::is_signed ? -end : 0.0)))
+      return (false);
+    typed = static_cast<T> (rounded);
+  }
+  else if (std::abs (value) > std::numeric_limits<T>::max ())
+    typed = static_cast<T> (std::copysign (std::numeric_limits<T>::infinity (), value));
+  else
+    typed = static_cast<T> (value);
+  std::memcpy (target, &typed, sizeof (T));
+  return (true);
+}
+
+using Store = bool (*) (double, std::uint8_t*);
+
+/** \brief What writes a number as an element of \a field; it tells whether the number fits. */
+Store
+storeFor (const PcdField& field)
+{
+  const bool is_signed = field.type == 'I';
+  if (field.type == 'F')
+    return (field.size == 4 ? store<float> : store<double>);
+  switch (field.size)
+  {
+  case 1:
+    return (is_signed ? store<std::int8_t> : store<std::uint8_t>);
+  case 2:
+    return (is_signed ? store<std::int16_t> : store<std::uint16_t>);
+  case 4:
+    return (is_signed ? store<std::int32_t> : store<std::uint32_t>);
+  default:
+    return (is_signed ? store<std::int64_t> : store<std::uint64_t>);
+  }
+}
+
+/** \brief One number of a point: where it goes. */
+struct Element
+{
+  const PcdField* field;
+  Store store;
+  std::size_t offset;
+};
+
+std::vector<Element>
+elementsOf (const PcdHeader& header)
+{
+  std::vector<Element> elements;
+  std::size_t offset = 0;
+  for (const PcdField& field : header.fields)
+    for (std::size_t n = 0; n < field.count; ++n, offset += field.size)
+      elements.push_back ({&field, storeFor (field), offset});
+  return (elements);
+}
+
+/** \brief Reads the lines of an ASCII file, one point each. */
+class AsciiDecoder
+{
+public:
+  AsciiDecoder (const std::string& path, const PcdHeader& header)
+      : path_ (path)
+      , elements_ (elementsOf (header))
+      , cloud_ (emptyCloud (header, PcdPadding::Included))
+  {}
+
+  PCLPointCloud2 decode (std::istream& file, std::size_t points)
+  {
+    for (std::string line; row_ < points && std::getline (file, line);)
+      decodeLine (line);
+    if (row_ < points)
+      throw IoError (path_ + ": is truncated: its header announces " + std::to_string (points) + " points, there are " +
+                     std::to_string (row_));
+    return (std::move (cloud_));
+  }
+
+private:
+  /** \brief The next number of a line, which moves \a p behind it. */
+  double number (const char*& p, const char* end) const
+  {
+    const char* const token = p;
+    while (p != end && !isWhite (*p))
+      ++p;
+    char* last = nullptr; // strtod reads "nan", "inf" and everything that PCL writes
+    const double value = std::strtod (token, &last);
+    if (last != p)
+      fail (std::string (token, p), "which is not a number");
+    return (value);
+  }
+
+  void decodeLine (const std::string& line)
+  {
+    const char* p = line.c_str ();
+    const char* const end = p + line.size ();
+    std::uint8_t* const point = cloud_.data.data () + row_ * cloud_.point_step;
+    std::size_t count = 0;
+    for (; skipWhite (p, end); ++count)
+    {
+      const char* const token = p;
+      const double value = number (p, end);
+      if (count >= elements_.size ())
+        continue;
+      const Element& element = elements_[count];
+      if (!element.store (value, point + element.offset) && !element.field->isPadding ())
+        fail (std::string (token, p), "which field " + printable (element.field->name) + " cannot hold");
+    }
+    if (count == 0)
+      return;
+    if (count != elements_.size ())
+      throw IoError (path_ + ": point " + std::to_string (row_) + " has " + std::to_string (count) +
+                     " values, its header announces " + std::to_string (elements_.size ()));
+    ++row_;
+  }
+
+  static bool isWhite (char c) { return (c == ' ' || c == '\t' || c == '\r'); }
+
+  /** \return whether something else follows */
+  static bool skipWhite (const char*& p, const char* end)
+  {
+    while (p != end && isWhite (*p))
+      ++p;
+    return (p != end);
+  }
+
+  [[noreturn]] void fail (const std::string& token, const std::string& reason) const
+  {
+    throw IoError (path_ + ": point " + std::to_string (row_) + " holds \"" + printable (token) + "\", " + reason);
+  }
+
+  const std::string path_;
+  const std::vector<Element> elements_;
+  PCLPointCloud2 cloud_;
+  std::size_t row_ = 0;
+};
+
+} // namespace
+
+PCLPointCloud2
+readPcdPoints (const std::string& path, const PcdHeader& header)
+{
+  std::ifstream file (path, std::ios::binary);
+  file.seekg (static_cast<std::streamoff> (header.data_offset));
+  if (!file)
+    throw IoError (path + ": cannot be read");
+  if (header.encoding == PcdEncoding::Ascii)
+    return (AsciiDecoder (path, header).decode (file, header.points));
+  if (header.encoding == PcdEncoding::BinaryCompressed)
+    return (readCompressed (path, header, file));
+  PCLPointCloud2 cloud = emptyCloud (header, PcdPadding::Included);
+  readBytes (path, file, cloud.data.data (), cloud.data.size ());
+  return (cloud);
+}
+
+} // namespace pcl::cosection

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_cosection authors
+#pragma once
+
+#include <pcl/cosection/common/export.h>
+#include <pcl/cosection/common/image.h>
+
+#include <cstdint>
+#include <string>
+
+namespace pcl::cosection
+{
+
+/** \brief Read ids of instances from a PNG of one channel of 8 or 16 bits. \throws IoError */
+PCL_COSECTION_EXPORT Image<std::uint16_t> loadMaskImage (const std::string& path);
+
+} // namespace pcl::cosection

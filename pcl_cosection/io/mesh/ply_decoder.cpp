@@ -1,0 +1,249 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_cosection authors
+
+#include "mesh_decoders.h"
+#include "ply_header.h"
+#include "ply_mesh.h"
+
+#include <pcl/cosection/common/error.h>
+
+#include <algorithm>
+#include <array>
+#include <functional>
+
+namespace pcl::cosection
+{
+namespace
+{
+
+/** \brief Where values of one vertex property go. */
+using Setter = std::function<void (TriangleMesh&, std::size_t, double)>;
+
+std::uint8_t
+toByte (double value)
+{
+  return static_cast<std::uint8_t> (value >= 0.0 ? std::min (value, 255.0) : 0.0);
+}
+
+Setter
+vertexSetter (const std::string& name)
+{
+  static constexpr std::array<const char*, 3> positions = {"x", "y", "z"};
+  static constexpr std::array<const char*, 3> normals = {"nx", "ny", "nz"};
+  static constexpr std::array<const char*, 3> colours = {"red", "green", "blue"};
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    if (name == positions[axis])
+      return
+          [axis] (TriangleMesh& m, std::size_t v, double value) { m.vertices[v][axis] = static_cast<float> (value); };
+    if (name == normals[axis])
+      return [axis] (TriangleMesh& m, std::size_t v, double value) { m.normals[v][axis] = static_cast<float> (value); };
+    if (name == colours[axis])
+      return [axis] (TriangleMesh& m, std::size_t v, double value) { m.colours[v][axis] = toByte (value); };
+  }
+  if (name == "intensity")
+    return [] (TriangleMesh& m, std::size_t v, double value) { m.intensity[v] = static_cast<float> (value); };
+  if (name == "confidence")
+    return [] (TriangleMesh& m, std::size_t v, double value) { m.confidence[v] = static_cast<float> (value); };
+  if (name == "provenance")
+    return [] (TriangleMesh& m, std::size_t v, double value) { m.provenance[v] = toByte (value); };
+  return {};
+}
+
+/** \brief The vertices, with their properties, and the faces as they are. */
+struct PlyContents
+{
+  TriangleMesh mesh;
+  PolygonSoup faces;
+};
+
+/** \brief Reads the elements of a file one after the other. */
+class PlyReader
+{
+public:
+  PlyReader (TextScanner& scanner, Encoding encoding) : values_ (scanner, encoding, "PLY") {}
+
+  void readVertices (const PlyElement& element, TriangleMesh& mesh)
+  {
+    std::string names = " ";
+    std::vector<Setter> setters;
+    for (const PlyProperty& property : element.properties)
+    {
+      setters.push_back (property.count_type ? Setter () : vertexSetter (property.name));
+      names += (property.count_type ? "" : property.name) + " ";
+    }
+    const auto has = [&names] (const char* name) {
+      return names.find (std::string (" ") + name + " ") != std::string::npos;
+    };
+    if (!has ("x") || !has ("y") || !has ("z"))
+      throw IoError ("the vertices have no x, y and z");
+
+    require (element);
+    mesh.vertices.resize (element.count);
+    if (has ("nx") || has ("ny") || has ("nz"))
+      mesh.normals.resize (element.count, Eigen::Vector3f::Zero ());
+    if (has ("red") || has ("green") || has ("blue"))
+      mesh.colours.resize (element.count);
+    if (has ("intensity"))
+      mesh.intensity.resize (element.count);
+    if (has ("confidence"))
+      mesh.confidence.resize (element.count);
+    if (has ("provenance"))
+      mesh.provenance.resize (element.count);
+    for (std::size_t v = 0; v < element.count; ++v)
+      for (std::size_t p = 0; p < setters.size (); ++p)
+      {
+        if (element.properties[p].count_type)
+          skip (element.properties[p]);
+        else if (const double value = values_.next (element.properties[p].type); setters[p])
+          setters[p](mesh, v, value);
+      }
+  }
+
+  /** \brief Faces, or strips of triangles one behind the other with a negative number between them. */
+  void readFaces (const PlyElement& element, bool strips, PolygonSoup& faces)
+  {
+    const auto isCorners = [] (const PlyProperty& property) {
+      return property.count_type && (property.name == "vertex_indices" || property.name == "vertex_index");
+    };
+    if (std::none_of (element.properties.begin (), element.properties.end (), isCorners))
+      throw IoError ("the faces have no vertex_indices");
+    require (element);
+    std::vector<std::int64_t> corners;
+    for (std::uint64_t f = 0; f < element.count; ++f)
+      for (const PlyProperty& property : element.properties)
+      {
+        if (!isCorners (property))
+        {
+          skip (property);
+          continue;
+        }
+        corners.clear ();
+        for (std::uint64_t left = readCount (property); left > 0; --left)
+        {
+          corners.push_back (values_.nextIndex (property.type));
+          if (strips && corners.back () < 0)
+          {
+            corners.pop_back ();
+            faces.addStrip (corners);
+            corners.clear ();
+          }
+        }
+        if (strips)
+          faces.addStrip (corners);
+        else
+        {
+          faces.corners.insert (faces.corners.end (), corners.begin (), corners.end ());
+          faces.endPolygon ();
+        }
+      }
+  }
+
+  void skipElement (const PlyElement& element)
+  {
+    require (element);
+    for (std::uint64_t n = 0; n < element.count && !element.properties.empty (); ++n)
+      for (const PlyProperty& property : element.properties)
+        skip (property);
+  }
+
+private:
+  /** \brief Bounds what is allocated, and how long it takes, by the size of the file. */
+  void require (const PlyElement& element) const
+  {
+    std::size_t bytes = 0;
+    for (const PlyProperty& property : element.properties)
+      bytes += sizeOf (property.count_type.value_or (property.type));
+    values_.require (element.count, bytes, element.properties.size ());
+  }
+
+  std::uint64_t readCount (const PlyProperty& property)
+  {
+    const std::int64_t count = values_.nextIndex (*property.count_type);
+    if (count < 0)
+      throw IoError ("a face has an impossible number of corners");
+    values_.require (static_cast<std::uint64_t> (count), sizeOf (property.type), 1);
+    return static_cast<std::uint64_t> (count);
+  }
+
+  void skip (const PlyProperty& property)
+  {
+    for (std::uint64_t left = (property.count_type ? readCount (property) : 1); left > 0; --left)
+      values_.next (property.type);
+  }
+
+  ValueReader values_;
+};
+
+PlyContents
+decode (const std::string& bytes)
+{
+  TextScanner scanner (bytes);
+  const PlyHeader header = parsePlyHeader (scanner);
+  const auto isFaces = [] (const PlyElement& element) { return element.name == "face" || element.name == "tristrips"; };
+  const auto needed = std::count_if (header.elements.begin (), header.elements.end (), [&] (const PlyElement& element) {
+    return element.name == "vertex" || isFaces (element);
+  });
+  PlyReader reader (scanner, header.encoding);
+  PlyContents contents;
+  bool has_vertices = false;
+  bool has_faces = false;
+  auto left = needed;
+  for (const PlyElement& element : header.elements)
+  {
+    if (left == 0)
+      break; // whatever follows
+    const bool is_vertices = element.name == "vertex";
+    left -= is_vertices || isFaces (element);
+    if (is_vertices && !has_vertices)
+      reader.readVertices (element, contents.mesh);
+    else if (isFaces (element))
+      reader.readFaces (element, element.name == "tristrips", contents.faces);
+    else
+      reader.skipElement (element);
+    has_vertices = has_vertices || is_vertices;
+    has_faces = has_faces || isFaces (element);
+  }
+  if (!has_vertices)
+    throw IoError ("the PLY file has no vertices");
+  if (!has_faces)
+    throw IoError ("the PLY file has no faces");
+  return contents;
+}
+
+} // namespace
+
+TriangleMesh
+decodePly (const std::string& bytes)
+{
+  PlyContents contents = decode (bytes);
+  TriangleMesh& mesh = contents.mesh;
+  const auto count = static_cast<std::int64_t> (mesh.vertices.size ());
+  std::size_t begin = 0;
+  for (const std::size_t end : contents.faces.ends)
+  {
+    if (end - begin != 3)
+      throw IoError ("a face is not a triangle");
+    TriangleMesh::Triangle triangle;
+    for (int n = 0; n < 3; ++n)
+    {
+      const std::int64_t corner = contents.faces.corners[begin + n];
+      if (corner < 0 || corner >= count)
+        throw IoError ("a face refers to a vertex that does not exist");
+      triangle[n] = static_cast<std::uint32_t> (corner);
+    }
+    mesh.triangles.push_back (triangle);
+    begin = end;
+  }
+  return std::move (mesh);
+}
+
+PolygonSoup
+decodePlyPolygons (const std::string& bytes)
+{
+  PlyContents contents = decode (bytes);
+  contents.faces.points = std::move (contents.mesh.vertices);
+  return std::move (contents.faces);
+}
+
+} // namespace pcl::cosection

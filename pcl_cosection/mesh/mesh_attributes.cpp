@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_cosection authors
+#include "mesh_attributes.h"
+
+#include <algorithm>
+#include <cmath>
+#include <unordered_map>
+
+namespace pcl::cosection
+{
+
+namespace
+{
+
+constexpr TriangleMesh::Colour unknown_colour = {128, 128, 128};
+
+/** \brief Red, green, blue and intensity of some points. */
+struct AttributeSum
+{
+  Eigen::Vector4d sum = Eigen::Vector4d::Zero ();
+  double count = 0.0;
+};
+
+} // namespace
+
+void
+transferAttributes (const std::vector<OrientedPoint>& points, const VoxelGrid& grid, TriangleMesh& mesh)
+{
+  const bool coloured = std::any_of (points.begin (), points.end (), [] (const OrientedPoint& p) {
+    return p.colour != TriangleMesh::Colour{0, 0, 0};
+  });
+  const bool measured = std::any_of (points.begin (), points.end (), [] (const OrientedPoint& p) {
+    return std::isfinite (p.intensity) && p.intensity != 0.0f;
+  });
+  if (!coloured && !measured)
+    return;
+  std::unordered_map<std::size_t, AttributeSum> voxels;
+  for (const OrientedPoint& point : points)
+  {
+    const auto at = grid.nearest (point.position.cast<double> ());
+    if (!at || (measured && !std::isfinite (point.intensity)))
+      continue;
+    AttributeSum& voxel = voxels[grid.index (at->x (), at->y (), at->z ())];
+    voxel.sum += Eigen::Vector4d (point.colour[0], point.colour[1], point.colour[2], measured ? point.intensity : 0.0f);
+    voxel.count += 1.0;
+  }
+
+  if (coloured)
+    mesh.colours.assign (mesh.vertices.size (), unknown_colour);
+  if (measured)
+    mesh.intensity.assign (mesh.vertices.size (), 0.0f);
+  std::vector<bool> done (mesh.vertices.size (), false);
+  std::vector<std::uint32_t> front;
+  for (std::size_t v = 0; v < mesh.vertices.size (); ++v)
+  {
+    const auto nearest = grid.nearest (mesh.vertices[v].cast<double> ());
+    if (!nearest)
+      continue;
+    const Eigen::Vector3i at = *nearest;
+    AttributeSum total;
+    for (int dz = -1; dz <= 1; ++dz)
+      for (int dy = -1; dy <= 1; ++dy)
+        for (int dx = -1; dx <= 1; ++dx)
+        {
+          if (!grid.contains (at.x () + dx, at.y () + dy, at.z () + dz))
+            continue;
+          const auto voxel = voxels.find (grid.index (at.x () + dx, at.y () + dy, at.z () + dz));
+          if (voxel == voxels.end ())
+            continue;
+          total.sum += voxel->second.sum;
+          total.count += voxel->second.count;
+        }
+    if (total.count == 0.0)
+      continue;
+    for (int c = 0; coloured && c < 3; ++c)
+      mesh.colours[v][c] = static_cast<std::uint8_t> (std::lround (total.sum[c] / total.count));
+    if (measured)
+      mesh.intensity[v] = static_cast<float> (total.sum[3] / total.count);
+    done[v] = true;
+    front.push_back (static_cast<std::uint32_t> (v));
+  }
+
+  // Breadth first along the edges from all vertices near points at once.
+  std::vector<std::uint32_t> begin (mesh.vertices.size () + 1, 0);
+  for (const auto& triangle : mesh.triangles)
+    for (const std::uint32_t v : triangle)
+      begin[v + 1] += 2;
+  for (std::size_t v = 0; v < mesh.vertices.size (); ++v)
+    begin[v + 1] += begin[v];
+  std::vector<std::uint32_t> neighbours (begin.back ());
+  std::vector<std::uint32_t> next (begin.begin (), begin.end () - 1);
+  for (const auto& triangle : mesh.triangles)
+    for (int c = 0; c < 3; ++c)
+    {
+      neighbours[next[triangle[c]]++] = triangle[(c + 1) % 3];
+      neighbours[next[triangle[c]]++] = triangle[(c + 2) % 3];
+    }
+  for (std::size_t head = 0; head < front.size (); ++head)
+  {
+    const std::uint32_t v = front[head];
+    for (std::uint32_t e = begin[v]; e < begin[v + 1]; ++e)
+      if (!done[neighbours[e]])
+      {
+        done[neighbours[e]] = true;
+        if (coloured)
+          mesh.colours[neighbours[e]] = mesh.colours[v];
+        if (measured)
+          mesh.intensity[neighbours[e]] = mesh.intensity[v];
+        front.push_back (neighbours[e]);
+      }
+  }
+}
+
+} // namespace pcl::cosection

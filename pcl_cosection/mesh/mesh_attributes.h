@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_cosection authors
+#pragma once
+
+#include <pcl/cosection/common/oriented_point.h>
+#include <pcl/cosection/common/triangle_mesh.h>
+#include <pcl/cosection/volume/voxel_grid.h>
+
+#include <vector>
+
+namespace pcl::cosection
+{
+
+/** \brief Give a mesh the colours and intensities of points: vertices near points take the mean of those in the
+ * voxels around them, the others that of the nearest such vertex along the mesh. No colours if all points are
+ * black, no intensities if all are zero. */
+void transferAttributes (const std::vector<OrientedPoint>& points, const VoxelGrid& grid, TriangleMesh& mesh);
+
+} // namespace pcl::cosection

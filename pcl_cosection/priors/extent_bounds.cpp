@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_cosection authors
+#include "extent_bounds.h"
+
+#include "pcl_cosection/common/parallel.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace pcl::cosection
+{
+
+namespace
+{
+
+/** \brief How far the voxels of a tile lie beyond all plausible regions, voxels; at least as far inside as less than
+ * zero.
+ * \return whether any is beyond */
+bool
+beyondAll (const VoxelGrid& grid, const VoxelTile& tile, const std::vector<SymmetricExtent>& plausible,
+           float margin_vox, std::vector<float>& beyond_vox)
+{
+  const Eigen::Vector3i size = tile.end - tile.first;
+  const auto width = static_cast<std::size_t> (size.x ());
+  beyond_vox.assign (width * size.y () * size.z (),
+                     plausible.empty () ? 0.0f : std::numeric_limits<float>::infinity ());
+  std::vector<float> beyond_m (width);
+  const Eigen::AlignedBox3d box (grid.center (tile.first.x (), tile.first.y (), tile.first.z ()),
+                                 grid.center (tile.end.x () - 1, tile.end.y () - 1, tile.end.z () - 1));
+  for (const SymmetricExtent& everywhere : plausible)
+  {
+    const SymmetricExtent extent = everywhere.within (box);
+    float* row = beyond_vox.data ();
+    for (int k = tile.first.z (); k < tile.end.z (); ++k)
+      for (int j = tile.first.y (); j < tile.end.y (); ++j, row += width)
+      {
+        extent.beyond (grid.center (tile.first.x (), j, k), grid.voxel_size_m * Eigen::Vector3d::UnitX (), size.x (),
+                       beyond_m.data ());
+        for (std::size_t i = 0; i < width; ++i)
+          row[i] = std::min (row[i], static_cast<float> (beyond_m[i] / grid.voxel_size_m) - margin_vox);
+      }
+  }
+  return std::any_of (beyond_vox.begin (), beyond_vox.end (), [] (float beyond) { return beyond > 0.0f; });
+}
+
+} // namespace
+
+std::vector<float>
+extentBounds (const ExtentPrior& prior, const VoxelGrid& grid, const std::vector<float>& data_distance_vox,
+              const Eigen::Vector3d& extents_m, OcclusionMap& places, const std::vector<SymmetricExtent>& plausible,
+              const std::vector<std::uint8_t>& exempt, int threads)
+{
+  const Eigen::Vector3d extents_vox = extents_m / grid.voxel_size_m;
+  const auto margin_vox = static_cast<float> (
+      std::max (prior.symmetric_margin * extents_vox[1], prior.least_depth * extents_vox[1] - extents_vox[2]));
+  const auto allowed = [&] (Hidden hidden) {
+    return static_cast<float> (allowedFactor (prior, hidden) * extents_vox[1]);
+  };
+  const float unquestioned = std::min (
+      {allowed (Hidden::ByObject), allowed (Hidden::ByOther), allowed (Hidden::Nothing)});
+
+  std::vector<float> bounds (grid.size (), 0.0f);
+  const std::vector<VoxelTile> tiles = tilesOf (grid);
+  places.begin (grid);
+  parallelChunks (0, static_cast<int> (tiles.size ()), threads, [&] (int first_tile, int last_tile) {
+    std::vector<float> beyond_vox;
+    std::vector<std::uint8_t> wanted;
+    std::vector<Hidden> hidden;
+    for (int t = first_tile; t < last_tile; ++t)
+    {
+      const VoxelTile& tile = tiles[t];
+      const auto forEachVoxel = [&] (auto&& f) {
+        std::size_t position = 0;
+        for (int k = tile.first.z (); k < tile.end.z (); ++k)
+          for (int j = tile.first.y (); j < tile.end.y (); ++j)
+            for (int i = tile.first.x (); i < tile.end.x (); ++i, ++position)
+              f (grid.index (i, j, k), position);
+      };
+      const bool any_beyond = beyondAll (grid, tile, plausible, margin_vox, beyond_vox);
+      wanted.assign (beyond_vox.size (), 0);
+      forEachVoxel ([&] (std::size_t n, std::size_t position) {
+        wanted[position] = (data_distance_vox[n] > unquestioned || (any_beyond && beyond_vox[position] > 0.0f)) &&
+                           (exempt.empty () || !exempt[n]);
+      });
+      places.find (tile, wanted, hidden);
+      forEachVoxel ([&] (std::size_t n, std::size_t position) {
+        if (!wanted[position])
+          return;
+        bounds[n] = std::max (0.0f, data_distance_vox[n] - allowed (hidden[position]));
+        if (hidden[position] != Hidden::ByOther) // what hides a part hides how far it reaches
+          bounds[n] = std::max (bounds[n], beyond_vox[position]);
+      });
+    }
+  });
+  places.end ();
+  return bounds;
+}
+
+} // namespace pcl::cosection

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_cosection authors
+#pragma once
+
+#include "occlusion_map.h"
+
+#include "extent_prior.h"
+
+#include <Eigen/Core>
+
+#include <cstdint>
+#include <vector>
+
+namespace pcl::cosection
+{
+
+/** \brief How far a voxel may be from the nearest data, as a part of the prior's size. */
+inline double
+allowedFactor (const ExtentPrior& prior, Hidden hidden)
+{
+  return hidden == Hidden::ByObject  ? prior.depth_factor
+         : hidden == Hidden::ByOther ? prior.occluded_factor
+                                     : prior.side_factor;
+}
+
+/** \brief ExtentPrior::bounds () for an object of which \a places knows the points and the views.
+ * \param[in] extents_m observedExtents () of its points
+ * \param[in] exempt 1 for voxels that get no bound; or empty */
+std::vector<float> extentBounds (const ExtentPrior& prior, const VoxelGrid& grid,
+                                 const std::vector<float>& data_distance_vox, const Eigen::Vector3d& extents_m,
+                                 OcclusionMap& places, const std::vector<SymmetricExtent>& plausible,
+                                 const std::vector<std::uint8_t>& exempt, int threads);
+
+} // namespace pcl::cosection

@@ -1,0 +1,241 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_cosection authors
+#include "hidden_side_term.h"
+
+#include "pcl_cosection/common/parallel.h"
+#include "pcl_cosection/energy/data/imls_data_term.h"
+#include "pcl_cosection/volume/distance_transform.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <iterator>
+#include <limits>
+
+namespace pcl::cosection
+{
+
+namespace
+{
+
+constexpr float near_weight = 0.3f;      // sum of weights: a point within 1.1 sigma
+constexpr float far_weight = 0.01f;      // one within 2.1 sigma
+constexpr float gap_vox = 2.0f;          // nothing is expected where data is nearer
+constexpr double reach_vox = 0.7;        // inside the plausible region; what is deeper may be a cavity
+constexpr double profile_weight = 10.0;  // of what has a profile, which is surely like that seen; in weights of what is
+                                         // only alike from both sides
+constexpr double wall_weight = 5.0;      // of vertical walls
+constexpr double vessel_weight = 100.0;  // of a vessel's wall, which vanishes under less
+constexpr double empty_weight = 10.0;    // of its cavity, and of what is beyond all of it
+constexpr double below_top_vox = 1.5;    // lower than it, free space is beside a top, not over it
+constexpr double least_wall = 0.6;       // of its thickness: walls are nowhere thinner, noise would make holes
+constexpr double least_wall_vox = 1.25;  // nor thinner than this
+constexpr double empty_margin_vox = 1.0; // to that
+constexpr double empty_far_vox = 6.0;    // all that is farther is as far
+
+/** \brief The first of the points in each cube of half the width of their Gaussians: as many as a surface of weak
+ * targets needs, whatever the number of views. */
+std::vector<OrientedPoint>
+thinned (const VoxelGrid& grid, const std::vector<OrientedPoint>& points, double sigma_vox)
+{
+  VoxelGrid halves;
+  halves.dims = (2.0 / sigma_vox * grid.dims.cast<double> ()).array ().ceil ().cast<int> ();
+  halves.voxel_size_m = 0.5 * sigma_vox * grid.voxel_size_m;
+  halves.origin_m = grid.origin_m - Eigen::Vector3d::Constant (0.5 * (grid.voxel_size_m - halves.voxel_size_m));
+  std::vector<bool> taken (halves.size (), false);
+  std::vector<OrientedPoint> first;
+  for (const OrientedPoint& point : points)
+    if (const auto cell = halves.nearest (point.position.cast<double> ()))
+      if (std::vector<bool>::reference here = taken[halves.index (cell->x (), cell->y (), cell->z ())]; !here)
+      {
+        here = true;
+        first.push_back (point);
+      }
+  return first;
+}
+
+std::vector<OrientedPoint>
+pick (const std::vector<OrientedPoint>& points, const std::function<bool (const OrientedPoint&)>& picked)
+{
+  std::vector<OrientedPoint> some;
+  std::copy_if (points.begin (), points.end (), std::back_inserter (some), picked);
+  return some;
+}
+
+ImlsDataTerm
+termOf (const VoxelGrid& grid, const std::vector<OrientedPoint>& points, const CoSectionOptions& options)
+{
+  ImlsDataTerm term;
+  term.weight.assign (grid.size (), 0.0f);
+  term.weighted_target.assign (grid.size (), 0.0f);
+  term.count.assign (grid.size (), 0.0f);
+  term.add (grid, points, options.sigma_vox, options.threads);
+  return term;
+}
+
+/** \brief Signed distances from one part of a vessel's surface, where it was seen, or else where it is expected. */
+class PartOfWall
+{
+public:
+  PartOfWall (const VoxelGrid& grid, const std::vector<OrientedPoint>& seen, const std::vector<OrientedPoint>& expected,
+              const std::vector<std::uint8_t>& free, const CoSectionOptions& options)
+      : distance_ (grid.size (), -std::numeric_limits<float>::infinity ())
+      , expected_ (grid.size ())
+  {
+    std::vector<std::uint8_t> near (grid.size ());
+    {
+      const ImlsDataTerm term = termOf (grid, seen, options);
+      for (std::size_t n = 0; n < grid.size (); ++n)
+      {
+        near[n] = !free[n] && term.weight[n] >= near_weight;
+        if (term.weight[n] >= far_weight)
+          distance_[n] = term.weighted_target[n] / term.weight[n];
+      }
+    }
+    const std::vector<float> seen_distance = distanceTransform (grid.dims, near, options.threads);
+    const ImlsDataTerm term = termOf (grid, expected, options);
+    for (std::size_t n = 0; n < grid.size (); ++n)
+      if (seen_distance[n] >= gap_vox && term.weight[n] >= near_weight)
+      {
+        expected_[n] = 1;
+        distance_[n] = term.weighted_target[n] / term.weight[n];
+      }
+  }
+
+  bool isExpected (std::size_t n) const { return expected_[n] != 0; }
+
+  /** \brief Voxels outside; -infinity where the part is not known. */
+  float distance (std::size_t n) const { return distance_[n]; }
+
+private:
+  std::vector<float> distance_;
+  std::vector<std::uint8_t> expected_;
+};
+
+/** \brief A wall is what is inside of all parts of its surface: what is near it heeds the part of which it is farthest
+ * outside. */
+void
+addVessel (EnergyProblem& problem, const VoxelGrid& grid, const SymmetricExtent& plausible,
+           const std::vector<OrientedPoint>& measured, const std::vector<OrientedPoint>& expected,
+           const std::vector<std::uint8_t>& free, const CoSectionOptions& options)
+{
+  const auto isOfWall = [&] (const OrientedPoint& p) { return plausible.holds (p.position.cast<double> ()); };
+  const auto find = [&] (VesselPart part) {
+    const auto isOfPart = [&] (const OrientedPoint& p) { return plausible.partOf (p) == part; };
+    return PartOfWall (grid, pick (measured, [&] (const OrientedPoint& p) { return isOfPart (p) && isOfWall (p); }),
+                       pick (expected, isOfPart), free, options);
+  };
+  const PartOfWall outer = find (VesselPart::Outer), bottom = find (VesselPart::Bottom);
+  const PartOfWall inner = find (VesselPart::Inner);
+  const PartOfWall rim = find (VesselPart::Rim);
+  const ImlsDataTerm handles = termOf (grid, pick (measured, [&] (const OrientedPoint& p) { return !isOfWall (p); }),
+                                       options);
+  const double wall_vox = std::max (least_wall * plausible.wallThickness () / grid.voxel_size_m, least_wall_vox);
+
+  const auto set = [&] (std::size_t n, double weight, double target) {
+    problem.weight[n] = static_cast<float> (weight);
+    problem.weighted_target[n] = static_cast<float> (weight * target);
+  };
+  parallelFor (0, grid.dims.z (), threadsForVoxels (options.threads, grid.size ()), [&] (int k) {
+    std::vector<float> beyond_m (static_cast<std::size_t> (grid.dims.x ())); // of a row
+    for (int j = 0; j < grid.dims.y (); ++j)
+    {
+      plausible.beyond (grid.center (0, j, k), grid.voxel_size_m * Eigen::Vector3d::UnitX (), grid.dims.x (),
+                        beyond_m.data ());
+      for (int i = 0; i < grid.dims.x (); ++i)
+      {
+        const std::size_t n = grid.index (i, j, k);
+        if (free[n] || handles.weight[n] >= near_weight)
+          continue;
+        const PartOfWall& outside = outer.distance (n) > bottom.distance (n) ? outer : bottom;
+        const double from_outside = outside.distance (n);
+        const double from_inner = inner.distance (n);
+        const double from_rim = rim.distance (n);
+        const double lacking = std::max (0.0, wall_vox + from_outside +
+                                                  from_inner); // of the wall; none, unless both sides are known
+        const double from_sides = std::max (from_outside, from_inner) - 0.5 * lacking;
+        const double target = std::max (from_sides, from_rim);
+        const PartOfWall& nearer = from_rim > from_sides ? rim : from_outside > from_inner ? outside : inner;
+        if (nearer.isExpected (n))
+          set (n, vessel_weight * options.beta_extent, target);
+        else if (problem.weight[n] > 0.0f && std::isfinite (target))
+          set (n, problem.weight[n], target);
+        else if (problem.weight[n] <= 0.0f)
+        {
+          const Eigen::Vector3d place = grid.center (i, j, k);
+          const double clearance_m = std::max<double> (
+              {plausible.depthInCavity (place), plausible.depthUnder (place), beyond_m[static_cast<std::size_t> (i)]});
+          const double clearance_vox = clearance_m / grid.voxel_size_m;
+          if (clearance_vox > empty_margin_vox)
+            set (n, empty_weight * options.beta_extent, std::min (clearance_vox, empty_far_vox));
+        }
+      }
+    }
+  });
+}
+
+/** \brief What is below free space that is lower than the top is beside what has vertical walls. */
+void
+emptyBesideTop (EnergyProblem& problem, const VoxelGrid& grid, const Eigen::Vector3d& up, double top_m,
+                const SeenVoxels& seen, const CoSectionOptions& options)
+{
+  const double highest_m = top_m - below_top_vox * grid.voxel_size_m;
+  const int threads = threadsForVoxels (options.threads, grid.size ());
+  std::vector<std::uint8_t> inside (grid.size (), 1);
+  parallelFor (0, grid.dims.z (), threads, [&] (int k) {
+    for (int j = 0; j < grid.dims.y (); ++j)
+      for (int i = 0; i < grid.dims.x (); ++i)
+        for (Eigen::Vector3d p = grid.center (i, j, k); up.dot (p) < highest_m; p += grid.voxel_size_m * up)
+        {
+          const auto at = grid.nearest (p);
+          if (!at)
+            break;
+          const std::size_t above = grid.index (at->x (), at->y (), at->z ());
+          if (seen.data_distance[above] < gap_vox)
+            break;
+          if (!seen.free[above])
+            continue;
+          inside[grid.index (i, j, k)] = 0;
+          break;
+        }
+  });
+  const std::vector<float> distance = distanceTransform (grid.dims, inside, options.threads);
+  for (std::size_t n = 0; n < grid.size (); ++n)
+    if (!seen.free[n] && problem.weight[n] <= 0.0f && distance[n] > empty_margin_vox)
+    {
+      problem.weight[n] = static_cast<float> (empty_weight * options.beta_extent);
+      problem.weighted_target[n] = problem.weight[n] * std::min (distance[n], static_cast<float> (empty_far_vox));
+    }
+}
+
+} // namespace
+
+void
+addHiddenSide (EnergyProblem& problem, const VoxelGrid& grid, const SymmetricExtent& plausible,
+               const std::vector<OrientedPoint>& points, const SeenVoxels& seen, const CoSectionOptions& options)
+{
+  const std::vector<OrientedPoint> few = thinned (grid, points, std::max (1.0, options.sigma_vox));
+  const std::vector<OrientedPoint> expected = plausible.hiddenSide (few, reach_vox * grid.voxel_size_m);
+  if (expected.empty ())
+    return;
+  if (plausible.wallThickness () > 0.0)
+  {
+    addVessel (problem, grid, plausible, points, expected, seen.free, options);
+    return;
+  }
+  const ImlsDataTerm term = termOf (grid, expected, options);
+  const auto weight = static_cast<float> ((plausible.hasProfile () ? profile_weight
+                                           : plausible.isPrism ()  ? wall_weight
+                                                                   : 1.0) *
+                                          options.beta_extent);
+  for (std::size_t n = 0; n < grid.size (); ++n)
+    if (!seen.free[n] && seen.data_distance[n] >= gap_vox && term.weight[n] >= near_weight)
+    {
+      problem.weight[n] += weight;
+      problem.weighted_target[n] += weight * term.weighted_target[n] / term.weight[n];
+    }
+  if (plausible.top ())
+    emptyBesideTop (problem, grid, plausible.up (), *plausible.top (), seen, options);
+}
+
+} // namespace pcl::cosection

@@ -1,0 +1,362 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_cosection authors
+#include "symmetric_extent.h"
+
+#include "faces.h"
+#include "pcl_cosection/priors/vessels/open_box.h"
+#include "pcl_cosection/priors/vessels/prism_walls.h"
+#include "principal_axes.h"
+#include "surface_of_revolution.h"
+
+#include <Eigen/Cholesky>
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <limits>
+#include <utility>
+
+namespace pcl::cosection
+{
+
+namespace
+{
+
+constexpr int even_directions = 162;     // about
+constexpr std::size_t max_points = 4000; // an even subset of no more
+constexpr double outlier_share = 0.002;  // of the points, may lie beyond a half space
+constexpr double tie = 0.97;             // of the largest distance: pairs as far apart count as farthest too
+constexpr double rounding = 1e-6;        // relative: more than that of a row's values
+constexpr double least_flat = 0.5;       // length of a unit vector along the plane, else it is no direction there
+
+/** \brief The point that is farthest along a direction, but for outliers. */
+class Farthest
+{
+public:
+  explicit Farthest (const std::vector<OrientedPoint>& points)
+      : positions_ (static_cast<Eigen::Index> (points.size ()), 3)
+      , rank_ (static_cast<std::size_t> (outlier_share * static_cast<double> (points.size ())))
+  {
+    for (std::size_t n = 0; n < points.size (); ++n)
+      positions_.row (static_cast<Eigen::Index> (n)) = points[n].position.cast<double> ().transpose ();
+  }
+
+  Eigen::Vector3d along (const Eigen::Vector3d& direction)
+  {
+    along_ = direction.x () * positions_.col (0) +
+             (direction.y () * positions_.col (1) + direction.z () * positions_.col (2));
+    // The first of equals is the farther one.
+    const auto farther = [this] (Eigen::Index a, Eigen::Index b) {
+      return along_[a] > along_[b] || (along_[a] == along_[b] && a < b);
+    };
+    farthest_.clear (); // a heap, the nearest of them in front
+    for (Eigen::Index n = 0; n < along_.size (); ++n)
+    {
+      if (farthest_.size () == rank_ + 1)
+      {
+        if (along_[n] <= along_[farthest_.front ()])
+          continue;
+        std::pop_heap (farthest_.begin (), farthest_.end (), farther);
+        farthest_.pop_back ();
+      }
+      farthest_.push_back (n);
+      std::push_heap (farthest_.begin (), farthest_.end (), farther);
+    }
+    return positions_.row (farthest_.front ()).transpose ().matrix ();
+  }
+
+private:
+  Eigen::ArrayX3d positions_;
+  Eigen::ArrayXd along_;
+  std::size_t rank_;
+  std::vector<Eigen::Index> farthest_;
+};
+
+/** \brief The middle between the two that are farthest apart; of all such pairs, if there are several. */
+Eigen::Vector3d
+middleOfFarthest (const std::vector<Eigen::Vector3d>& ends)
+{
+  double farthest = 0.0;
+  for (const Eigen::Vector3d& a : ends)
+    for (const Eigen::Vector3d& b : ends)
+      farthest = std::max (farthest, (a - b).norm ());
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero ();
+  double weights = 0.0;
+  for (const Eigen::Vector3d& a : ends)
+    for (const Eigen::Vector3d& b : ends)
+    {
+      const double weight = std::max (0.0, (a - b).norm () - tie * farthest);
+      sum += 0.5 * weight * (a + b);
+      weights += weight;
+    }
+  return weights > 0.0 ? Eigen::Vector3d (sum / weights) : ends.front ();
+}
+
+std::shared_ptr<const ProfileSurface>
+profileSurfaceOf (const std::vector<OrientedPoint>& points, const std::vector<Eigen::Vector3d>& faces,
+                  const std::optional<Eigen::Vector4d>& plane, bool alone)
+{
+  std::optional<SurfaceOfRevolution> round = SurfaceOfRevolution::fit (points, plane, alone);
+  if (!round || !round->vessel ())
+    if (std::optional<OpenBox> box = OpenBox::fit (points, faces, plane))
+      return std::make_shared<const OpenBox> (std::move (*box));
+  return round ? std::make_shared<const SurfaceOfRevolution> (std::move (*round)) : nullptr;
+}
+
+} // namespace
+
+SymmetricExtent::SymmetricExtent (const std::vector<OrientedPoint>& points, bool alone)
+{
+  build (points, std::nullopt, alone);
+}
+
+SymmetricExtent::SymmetricExtent (const std::vector<OrientedPoint>& points, const Eigen::Vector4d& plane)
+{
+  build (points, plane, false);
+}
+
+void
+SymmetricExtent::build (const std::vector<OrientedPoint>& all, const std::optional<Eigen::Vector4d>& plane, bool alone)
+{
+  if (all.empty ())
+    return;
+  std::optional<Eigen::Vector3d> up;
+  if (plane)
+    up = up_ = plane->head<3> ();
+  const Eigen::Matrix3d along = up ? Eigen::Matrix3d (*up * up->transpose ())
+                                   : Eigen::Matrix3d (Eigen::Matrix3d::Zero ());
+  turn_ = 2.0 * along - Eigen::Matrix3d::Identity ();
+  const Eigen::Matrix3d flatten = Eigen::Matrix3d::Identity () - along;
+  std::vector<OrientedPoint> points;
+  for (std::size_t p = 0; p < all.size (); p += all.size () / max_points + 1)
+    if (all[p].position.allFinite () && all[p].normal.allFinite ())
+      points.push_back (all[p]);
+  if (points.empty ())
+    return;
+  const Eigen::Matrix3d axes = principalAxes (points, up);
+  const std::vector<Eigen::Vector3d> even = evenDirections (even_directions, axes);
+  Farthest farthest (points);
+
+  const std::vector<Eigen::Vector3d> faces = faceNormals (points, even);
+  profile_ = profileSurfaceOf (points, faces, plane, alone);
+  if (profile_)
+  {
+    center_ = profile_->center ();
+    turn_ = 2.0 * profile_->direction () * profile_->direction ().transpose () - Eigen::Matrix3d::Identity ();
+  }
+  else
+  {
+    std::vector<Eigen::Vector3d> ends; // points that are farthest apart are farthest along some direction
+    for (const Eigen::Vector3d& direction : even)
+      if ((flatten * direction).norm () > least_flat)
+        ends.push_back (flatten * farthest.along ((flatten * direction).normalized ()));
+    center_ = middleOfFarthest (ends);
+  }
+  std::optional<Eigen::Vector3d> foot;
+  if (up && (!profile_ || std::abs (up->dot (profile_->direction ())) > vertical) &&
+      up->dot (farthest.along (-*up)) > -(*plane)[3])
+    foot = center_ - (up->dot (center_) + (*plane)[3]) * *up;
+
+  std::vector<Eigen::Vector3d> directions = even;
+  for (const Eigen::Vector3d& normal : faces)
+  {
+    directions.push_back (normal);
+    directions.push_back (turn_ * normal);
+  }
+  for (const Eigen::Vector3d& n : directions)
+  {
+    // The copy of p is turn (p - center) + center, and turn its own inverse.
+    const Eigen::Vector3d turned = turn_ * n;
+    const double copied = profile_ ? profile_->extent (n) : turned.dot (farthest.along (turned) - center_);
+    double extent = std::max (n.dot (farthest.along (n)), copied + n.dot (center_));
+    if (foot)
+      extent = std::max (extent, n.dot (*foot));
+    half_spaces_.emplace_back (n, extent);
+  }
+  faceted_ = prevail (points, faces);
+  standing_ = up.has_value ();
+  copies_alike_ = up || profile_ || isCuboid (points, faces);
+  if (up && faceted_ && !profile_)
+  {
+    std::vector<OrientedPoint> copies;
+    std::transform (points.begin (), points.end (), std::back_inserter (copies),
+                    [this] (const OrientedPoint& p) { return turned (p); });
+    walls_ = std::make_shared<const PrismWalls> (points, std::vector<OrientedPoint> (), faces, *plane);
+    if (!walls_->showsTop ())
+      walls_.reset ();
+    walls_with_copies_ = std::make_shared<const PrismWalls> (points, copies, faces, *plane);
+  }
+}
+
+std::vector<OrientedPoint>
+SymmetricExtent::hiddenSide (const std::vector<OrientedPoint>& points, double reach) const
+{
+  if (profile_)
+  {
+    std::vector<OrientedPoint> all = profile_->copies (points);
+    all.insert (all.end (), continuation_.begin (), continuation_.end ());
+    std::vector<OrientedPoint> ends;
+    if (profile_->vessel ())
+      ends = profile_->depths (reach);
+    else if (!standing_)
+      ends = profile_->flatEnds ();
+    all.insert (all.end (), ends.begin (), ends.end ());
+    return all;
+  }
+  std::vector<OrientedPoint> copies = continuation_;
+  for (const OrientedPoint& p : has_copies_ ? points : std::vector<OrientedPoint> ())
+    if (const OrientedPoint copy = turned (p); beyond (copy.position.cast<double> ()) >= -reach)
+      copies.push_back (copy);
+  return copies;
+}
+
+OrientedPoint
+SymmetricExtent::turned (OrientedPoint point) const
+{
+  point.position = (center_ + turn_ * (point.position.cast<double> () - center_)).cast<float> ();
+  point.normal = (turn_ * point.normal.cast<double> ()).cast<float> ();
+  return point;
+}
+
+std::vector<WallColumn>
+SymmetricExtent::verticalWalls (double step_m, bool of_copies) const
+{
+  const std::shared_ptr<const PrismWalls>& walls = of_copies ? walls_with_copies_ : walls_;
+  return walls ? walls->columns (step_m) : std::vector<WallColumn> ();
+}
+
+std::vector<WallColumn>
+SymmetricExtent::wallsBelowEdges (double step_m) const
+{
+  return walls_ ? walls_->belowEdges (step_m) : std::vector<WallColumn> ();
+}
+
+void
+SymmetricExtent::expect (const std::vector<OrientedPoint>& points)
+{
+  continuation_.insert (continuation_.end (), points.begin (), points.end ());
+  for (auto& [n, s] : half_spaces_)
+    for (const OrientedPoint& p : points)
+      s = std::max (s, n.dot (p.position.cast<double> ()));
+}
+
+SymmetricExtent
+SymmetricExtent::continuedBy (const std::vector<OrientedPoint>& points) const
+{
+  std::vector<OrientedPoint> copies;
+  if (profile_)
+    copies = profile_->onOtherSides (points);
+  else
+    std::transform (points.begin (), points.end (), std::back_inserter (copies),
+                    [this] (const OrientedPoint& p) { return turned (p); });
+  SymmetricExtent more = *this;
+  more.expect (points);
+  more.expect (copies);
+  return more;
+}
+
+SymmetricExtent
+SymmetricExtent::boundedBy (const std::vector<OrientedPoint>& walls, bool below_top) const
+{
+  SymmetricExtent prism = *this;
+  prism.expect (walls);
+  prism.has_copies_ = false;
+  if (below_top && walls_)
+    prism.top_ = walls_->levelTop ();
+  return prism;
+}
+
+std::optional<Eigen::Vector3d>
+SymmetricExtent::axisDirection () const
+{
+  return profile_ && !profile_->isBall () ? std::optional<Eigen::Vector3d> (profile_->direction ()) : std::nullopt;
+}
+
+double
+SymmetricExtent::wallThickness () const
+{
+  return profile_ && profile_->vessel () ? profile_->vessel ()->wallThickness () : 0.0;
+}
+
+SymmetricExtent
+SymmetricExtent::withoutFloor () const
+{
+  SymmetricExtent open = *this;
+  if (profile_)
+    open.profile_ = profile_->withoutFloor ();
+  return open;
+}
+
+bool
+SymmetricExtent::holds (const Eigen::Vector3d& position) const
+{
+  return profile_ && profile_->holds (position);
+}
+
+double
+SymmetricExtent::depthInCavity (const Eigen::Vector3d& position) const
+{
+  return profile_ ? profile_->depthInCavity (position) : 0.0;
+}
+
+double
+SymmetricExtent::depthUnder (const Eigen::Vector3d& position) const
+{
+  return profile_ ? profile_->depthUnder (position) : 0.0;
+}
+
+VesselPart
+SymmetricExtent::partOf (const OrientedPoint& point) const
+{
+  return profile_ ? profile_->partOf (point) : VesselPart::Outer;
+}
+
+double
+SymmetricExtent::beyond (const Eigen::Vector3d& x) const
+{
+  float value = 0.0f;
+  beyond (x, Eigen::Vector3d::Zero (), 1, &value);
+  return value;
+}
+
+void
+SymmetricExtent::beyond (const Eigen::Vector3d& first, const Eigen::Vector3d& step, int count, float* values) const
+{
+  std::fill (values, values + count, half_spaces_.empty () ? 0.0f : -std::numeric_limits<float>::infinity ());
+  for (const auto& [n, s] : half_spaces_)
+  {
+    const auto at_first = static_cast<float> (n.dot (first) - s);
+    const auto per_step = static_cast<float> (n.dot (step));
+    for (int i = 0; i < count; ++i)
+    {
+      const float value = at_first + static_cast<float> (i) * per_step;
+      values[i] = values[i] < value ? value : values[i];
+    }
+  }
+}
+
+SymmetricExtent
+SymmetricExtent::within (const Eigen::AlignedBox3d& box) const
+{
+  const Eigen::Vector3d middle = box.center ();
+  const Eigen::Vector3d half_sizes = 0.5 * box.sizes ();
+  double least = -std::numeric_limits<double>::infinity (); // of the largest, anywhere in the box
+  for (const auto& [n, s] : half_spaces_)
+    least = std::max (least, n.dot (middle) - s - n.cwiseAbs ().dot (half_sizes));
+  const double tolerance = rounding * (middle.norm () + half_sizes.norm ());
+  SymmetricExtent needed;
+  needed.center_ = center_;
+  needed.profile_ = profile_;
+  needed.copies_alike_ = copies_alike_;
+  needed.standing_ = standing_;
+  needed.faceted_ = faceted_;
+  needed.turn_ = turn_;
+  needed.has_copies_ = has_copies_;
+  for (const auto& [n, s] : half_spaces_)
+    if (n.dot (middle) - s + n.cwiseAbs ().dot (half_sizes) >= least - tolerance)
+      needed.half_spaces_.emplace_back (n, s);
+  return needed;
+}
+
+} // namespace pcl::cosection

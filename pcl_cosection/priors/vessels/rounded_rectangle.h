@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_cosection authors
+#pragma once
+
+#include <Eigen/Core>
+
+#include <vector>
+
+namespace pcl::cosection
+{
+
+/** \brief A rectangle about the origin, along the axes, with rounded corners; and the outlines parallel to it, inside
+ * and outside. */
+class RoundedRectangle
+{
+public:
+  RoundedRectangle () = default;
+
+  /** \param[in] half_sizes positive \param[in] corner radius of the corners, at most the smaller of them */
+  RoundedRectangle (const Eigen::Array2d& half_sizes, double corner) : half_sizes_ (half_sizes), corner_ (corner) {}
+
+  /** \brief Its smaller half size: the distance () of its outline. */
+  double halfWidth () const { return half_sizes_.minCoeff (); }
+
+  /** \brief From its middle line: of parallel outlines the same, and on the middle line 0. */
+  double distance (const Eigen::Vector2d& q) const;
+
+  /** \brief The gradient of that, unit. */
+  Eigen::Vector2d away (const Eigen::Vector2d& q) const;
+
+  /** \brief Farthest along \a n of the outline that is so distant. */
+  double reach (const Eigen::Vector2d& n, double distance) const;
+
+  /** \brief Points of the outline that is so distant. */
+  std::vector<Eigen::Vector2d> outline (double distance, double step) const;
+
+private:
+  Eigen::Array2d half_sizes_ = Eigen::Array2d::Zero ();
+  double corner_ = 0.0;
+};
+
+} // namespace pcl::cosection

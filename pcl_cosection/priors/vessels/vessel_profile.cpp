@@ -1,0 +1,332 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_cosection authors
+#include "vessel_profile.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <iterator>
+#include <map>
+
+namespace pcl::cosection
+{
+
+namespace
+{
+
+constexpr double sideways = 0.4;        // component of a wall's normal across the axis
+constexpr double level = 0.8;           // component of a floor's normal along the axis
+constexpr double leaning = 0.5;         // a normal that leans so towards the opening is of a floor or rim
+constexpr std::size_t least_points = 3; // of a side in a band
+constexpr std::size_t least_bands = 2;  // in which both sides are seen
+constexpr std::size_t least_floor = 10; // points of a floor
+constexpr double thickest = 0.35;       // of the outer radius: a wall
+constexpr double even = 0.5;            // of the thickness: how much that of a band may differ
+constexpr double noise_cells = 0.4;     // or so much
+constexpr double even_share = 0.7;      // of the bands
+constexpr double end_cells = 2.0;       // a side that ends nearer to the end of the other ends with it
+constexpr double open_wall = 0.5;       // of the thickness: an inner side that comes nearer to the bottom than that ...
+constexpr double open_cells = 0.25;     // ... and that is of a tube, as long as no floor is seen
+constexpr double
+    narrow = 0.9; // of the opening's radius: a bottom so narrow is that of a bowl, as there are few funnels
+constexpr double outer_outliers = 0.002; // of the points of a side, may lie lower
+constexpr double inner_outliers = 0.01;
+constexpr double least_floor_steps = 3.0; // of thickness: less would vanish
+constexpr double least_side = 0.1;        // of the points of a band, on a side
+constexpr double hardly_sideways = 0.2;   // as sideways, once it is known how thick the wall is
+constexpr double narrowest = 0.5;         // of the lowest radius that is known: the bottom
+
+/** \brief What was seen in a band of heights. */
+struct Sides
+{
+  std::vector<double> outer, inner; // radii
+  std::vector<double> through;      // of the inner side, and through the wall
+  std::size_t points = 0;           // of both sides and of neither
+  double across = 0.0;              // sum of the normals' components
+
+  double meanAcross () const
+  {
+    return across > 0.0 ? across / static_cast<double> (outer.size () + inner.size ()) : 1.0;
+  }
+};
+
+/** \brief But for some share of them. */
+double
+lowest (std::vector<double>& heights, double outliers)
+{
+  const auto rank = heights.begin () + static_cast<std::ptrdiff_t> (outliers * static_cast<double> (heights.size ()));
+  std::nth_element (heights.begin (), rank, heights.end ());
+  return *rank;
+}
+
+/** \brief Radius at the middle of the band of heights in which a point is, along the surface. */
+double
+radiusInBand (const ProfilePoint& p, double band_m)
+{
+  const double up = (std::floor (p.position.x () / band_m) + 0.5) * band_m - p.position.x ();
+  return p.position.y () - p.normal.x () / p.normal.y () * up;
+}
+
+double
+middle (std::vector<double>& values)
+{
+  const auto half = values.begin () + static_cast<std::ptrdiff_t> (values.size () / 2);
+  std::nth_element (values.begin (), half, values.end ());
+  return *half;
+}
+
+} // namespace
+
+std::shared_ptr<const VesselProfile>
+VesselProfile::find (const std::vector<ProfilePoint>& points, double cell_m, const std::optional<StandingPlane>& plane)
+{
+  auto vessel = std::make_shared<VesselProfile> ();
+  return vessel->findWall (points, cell_m) && vessel->findBottom (points, cell_m, plane) ? vessel : nullptr;
+}
+
+std::shared_ptr<const WallProfile>
+VesselProfile::withoutFloor () const
+{
+  auto tube = std::make_shared<VesselProfile> (*this);
+  tube->has_floor_ = false;
+  tube->floor_m_ = bottom_m_;
+  return tube;
+}
+
+VesselPart
+VesselProfile::partOf (const ProfilePoint& point) const
+{
+  const double along = opening_ * point.normal.x ();
+  if (along > level && opening_ * (rim_m_ - point.position.x ()) < rim_band_m_)
+    return VesselPart::Rim;
+  if (along < -level && opening_ * (point.position.x () - bottom_m_) < rim_band_m_)
+    return VesselPart::Bottom;
+  return point.normal.y () < leaning * along ? VesselPart::Inner : VesselPart::Outer;
+}
+
+bool
+VesselProfile::findWall (const std::vector<ProfilePoint>& points, double cell_m)
+{
+  std::map<int, Sides> sides; // by band
+  for (const ProfilePoint& p : points)
+  {
+    Sides& band = sides[static_cast<int> (std::floor (p.position.x () / cell_m))];
+    if (std::abs (p.normal.y ()) <= sideways)
+      continue;
+    (p.normal.y () > 0.0 ? band.outer : band.inner).push_back (radiusInBand (p, cell_m));
+    band.across += std::abs (p.normal.y ());
+  }
+  std::vector<double> thickness, radii;
+  for (auto& [number, band] : sides)
+    if (band.outer.size () >= least_points && band.inner.size () >= least_points)
+    {
+      radii.push_back (middle (band.outer));
+      thickness.push_back ((radii.back () - middle (band.inner)) * band.meanAcross ());
+    }
+  if (thickness.size () < least_bands)
+    return false;
+  std::vector<double> sorted = thickness;
+  wall_m_ = middle (sorted);
+  noise_m_ = rim_band_m_ = std::max (even * wall_m_, noise_cells * cell_m);
+  const std::ptrdiff_t similar = std::count_if (thickness.begin (), thickness.end (),
+                                                [&] (double t) { return std::abs (t - wall_m_) <= noise_m_; });
+  if (!(wall_m_ > 0.0) || wall_m_ > thickest * middle (radii) ||
+      static_cast<double> (similar) < even_share * static_cast<double> (thickness.size ()))
+    return false;
+  findBands (points, cell_m);
+  return bands_.size () >= least_bands;
+}
+
+void
+VesselProfile::findBands (const std::vector<ProfilePoint>& points, double band_m)
+{
+  std::map<int, Sides> sides;
+  const auto bandAt = [&] (const Eigen::Vector2d& position) -> Sides& {
+    return sides[static_cast<int> (std::floor (position.x () / band_m))];
+  };
+  for (const ProfilePoint& p : points)
+  {
+    Sides& band = bandAt (p.position);
+    ++band.points;
+    if (std::abs (p.normal.y ()) <= hardly_sideways)
+      continue;
+    (p.normal.y () > 0.0 ? band.outer : band.inner).push_back (radiusInBand (p, band_m));
+    band.across += std::abs (p.normal.y ());
+    if (p.normal.y () > 0.0)
+      continue;
+    const ProfilePoint through{p.position - wall_m_ * p.normal, p.normal};
+    bandAt (through.position).through.push_back (radiusInBand (through, band_m));
+  }
+  for (auto& [number, band] : sides)
+  {
+    const double height = (number + 0.5) * band_m;
+    const double wall_m = wall_m_ / band.meanAcross ();
+    const std::size_t least = std::max (
+        least_points,
+        static_cast<std::size_t> (least_side * static_cast<double> (band.points))); // others are noise of a floor
+    const bool has_inner = band.inner.size () >= least;
+    const auto add = [&] (double outer, double wall) { bands_.push_back ({height, std::max (0.0, outer), wall}); };
+    if (band.outer.size () >= least)
+      add (middle (band.outer), wall_m);
+    else if (band.through.size () >= least)
+    {
+      const double outer = middle (band.through);
+      add (outer, has_inner ? outer - middle (band.inner) : wall_m);
+    }
+    else if (has_inner)
+      add (middle (band.inner) + wall_m, wall_m);
+  }
+}
+
+bool
+VesselProfile::findBottom (const std::vector<ProfilePoint>& points, double cell_m,
+                           const std::optional<StandingPlane>& plane)
+{
+  // The same for both senses of the axis, until it is known where the opening is.
+  struct End
+  {
+    std::vector<double> outer, inner, floor; // heights, upwards from this end
+    double lowest_outer, lowest_inner;
+  };
+  const auto endBelow = [&] (double up) {
+    End end;
+    for (const ProfilePoint& p : points)
+      if (p.normal.y () > sideways)
+        end.outer.push_back (up * p.position.x ());
+      else if (p.normal.y () < -sideways)
+        end.inner.push_back (up * p.position.x ());
+    end.lowest_outer = lowest (end.outer, outer_outliers);
+    end.lowest_inner = lowest (end.inner, inner_outliers);
+    const double within = up > 0.0 ? bands_.front ().outer - bands_.front ().wall
+                                   : bands_.back ().outer - bands_.back ().wall;
+    for (const ProfilePoint& p : points)
+      if (up * p.normal.x () > level && p.position.y () < within && up * p.position.x () < end.lowest_inner + cell_m)
+        end.floor.push_back (up * p.position.x ());
+    return end;
+  };
+  const End first = endBelow (1.0);
+  const End second = endBelow (-1.0);
+  const double below = first.lowest_inner - first.lowest_outer;
+  const double above = second.lowest_inner - second.lowest_outer;
+  if (std::max (first.floor.size (), second.floor.size ()) >= least_floor)
+    opening_ = first.floor.size () >= second.floor.size () ? 1.0 : -1.0;
+  else if (std::max (above, below) > end_cells * cell_m)
+    opening_ = above < below ? 1.0 : -1.0;
+  else if (plane)
+    opening_ = plane->up;
+  else
+    opening_ = bands_.front ().outer < bands_.back ().outer ? 1.0 : -1.0;
+  if ((opening_ > 0.0 ? above : below) > end_cells * cell_m)
+    return false;
+  if (opening_ < 0.0)
+    std::reverse (bands_.begin (), bands_.end ());
+
+  End end = opening_ > 0.0 ? first : second;
+  const bool is_standing = plane && plane->up == opening_; // and not upside down
+  double bottom = is_standing ? plane->up * plane->height : end.lowest_outer;
+  const bool has_floor = end.floor.size () >= least_floor;
+  const double lower_end = end.lowest_outer - bottom < end_cells * cell_m ? std::max (bottom, end.lowest_outer)
+                                                                          : bottom;
+  if (!has_floor && end.lowest_inner - lower_end < std::max (open_wall * wall_m_, open_cells * cell_m) &&
+      bands_.front ().outer > narrow * bands_.back ().outer)
+    return false;
+  const double floor = has_floor ? middle (end.floor) : end.lowest_inner;
+  if (!is_standing)
+    bottom = std::min (bottom, floor - wall_m_);
+  bottom_m_ = opening_ * bottom;
+  lowest_outer_m_ = opening_ * std::max (bottom, end.lowest_outer);
+  lowest_inner_m_ = opening_ * end.lowest_inner;
+  rim_m_ = -opening_ * (opening_ > 0.0 ? second : first).lowest_outer;
+  floor_m_ = opening_ * (has_floor ? floor : std::min (bottom + wall_m_, end.lowest_inner));
+  return true;
+}
+
+VesselProfile::Band
+VesselProfile::bandAt (double height) const
+{
+  const auto above = std::find_if (bands_.begin (), bands_.end (),
+                                   [&] (const Band& band) { return opening_ * (band.height - height) >= 0.0; });
+  if (above == bands_.end ())
+    return {height, bands_.back ().outer, bands_.back ().wall};
+  if (above != bands_.begin ())
+  {
+    const Band& low = *std::prev (above);
+    const double t = (height - low.height) / (above->height - low.height);
+    return {height, (1.0 - t) * low.outer + t * above->outer, (1.0 - t) * low.wall + t * above->wall};
+  }
+  const Band& lowest = bands_.front ();
+  const Band& other = bands_[std::max<std::size_t> (1, bands_.size () / 3)];
+  const double straight = lowest.outer +
+                          (other.outer - lowest.outer) / (other.height - lowest.height) * (height - lowest.height);
+  return {height, std::clamp (straight, narrowest * lowest.outer, lowest.outer), lowest.wall};
+}
+
+double
+VesselProfile::outerAt (double height) const
+{
+  return bandAt (height).outer;
+}
+
+double
+VesselProfile::innerAt (double height) const
+{
+  const Band band = bandAt (height);
+  return band.outer - band.wall;
+}
+
+std::vector<ProfilePoint>
+VesselProfile::depths (double step_m) const
+{
+  std::vector<ProfilePoint> points;
+  const auto goDown = [&] (double from, double to, double side) {
+    const auto radiusAt = [&] (double height) { return side > 0.0 ? outerAt (height) : innerAt (height); };
+    const double depth = opening_ * (from - to);
+    double slope = 0.0;
+    for (double up = 0.0; up < depth; up += step_m / std::hypot (1.0, slope))
+    {
+      const double height = to + opening_ * up;
+      const double radius = radiusAt (height);
+      slope = (radiusAt (height + step_m) - radiusAt (height - step_m)) / (2.0 * step_m);
+      if (radius > 0.0)
+        points.push_back ({{height, radius}, side * Eigen::Vector2d (-slope, 1.0).normalized ()});
+    }
+  };
+  const double floor = opening_ * std::max (opening_ * floor_m_, opening_ * bottom_m_ + least_floor_steps * step_m);
+  goDown (lowest_outer_m_, bottom_m_, 1.0);
+  goDown (lowest_inner_m_, has_floor_ ? floor : bottom_m_, -1.0);
+  if (!has_floor_)
+    return points;
+  const double floor_radius = innerAt (floor);
+  const double bottom_radius = outerAt (bottom_m_);
+  for (double radius = 0.0; radius < bottom_radius; radius += step_m)
+  {
+    if (radius < floor_radius)
+      points.push_back ({{floor, radius}, {opening_, 0.0}});
+    points.push_back ({{bottom_m_, radius}, {-opening_, 0.0}});
+  }
+  return points;
+}
+
+bool
+VesselProfile::holds (const ProfilePoint& point) const
+{
+  const double beyond = point.position.y () - outerAt (point.position.x ());
+  if (std::abs (point.normal.y ()) <= sideways && point.normal.x () * opening_ > 0.0)
+    return opening_ * (rim_m_ - point.position.x ()) < rim_band_m_ || beyond < -0.5 * wall_m_;
+  if (std::abs (point.normal.y ()) <= sideways)
+    return opening_ * (point.position.x () - bottom_m_) < noise_m_;
+  return std::abs (point.position.y () - (point.normal.y () < 0.0 ? innerAt (point.position.x ())
+                                                                  : outerAt (point.position.x ()))) <= noise_m_;
+}
+
+double
+VesselProfile::depthInCavity (const Eigen::Vector2d& position) const
+{
+  if (opening_ * (position.x () - rim_m_) > 0.0)
+    return 0.0;
+  const double over_floor = opening_ * (position.x () - floor_m_);
+  const double from_wall = innerAt (position.x ()) - position.y ();
+  return over_floor > 0.0 ? std::max (0.0, has_floor_ ? std::min (over_floor, from_wall) : from_wall) : 0.0;
+}
+
+} // namespace pcl::cosection

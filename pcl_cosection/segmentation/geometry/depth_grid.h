@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_cosection authors
+#pragma once
+
+#include <pcl/cosection/common/camera.h>
+
+#include <Eigen/Core>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace pcl::cosection
+{
+
+/** \brief An organised cloud with its normals, and what its sensor's noise lets one conclude from it. */
+struct DepthGrid
+{
+  const std::vector<Eigen::Vector3f>& points;  ///< row by row, sensor at the origin; not finite: no reading
+  const std::vector<Eigen::Vector3f>& normals; ///< unit, towards the sensor; NaN: none
+  int width;
+  int height;
+  float pitch; ///< tangent of the angle between two columns
+
+  bool valid (int i) const { return (std::isfinite (points[i].sum ()) && points[i].z () > 0.0f); }
+
+  bool hasNormal (int i) const { return (std::isfinite (normals[i].x ())); }
+
+  /** \brief Standard deviation of the depth at a pixel, metres. */
+  float sigma (int i) const { return (static_cast<float> (depthNoiseSigma (points[i].z ()))); }
+
+  /** \brief Whether noise and a surface tilted by 75 degrees explain the depths of two pixels that are \a steps apart.
+   */
+  bool continuous (int i, int j, int steps = 1) const
+  {
+    const float z = std::min (points[i].z (), points[j].z ());
+    const float noise = 4.0f * static_cast<float> (depthNoiseSigma (z));
+    return (std::abs (points[i].z () - points[j].z ()) <= noise + 3.7f * pitch * z * static_cast<float> (steps));
+  }
+};
+
+} // namespace pcl::cosection

@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_cosection authors
+#include "support_surfaces.h"
+
+#include "pcl_cosection/common/parallel.h"
+
+#include <Eigen/LU>
+
+namespace pcl::cosection
+{
+
+namespace
+{
+
+constexpr float unseen_reach_m = 0.25f; ///< how far a plane goes on beyond the border of the image
+
+float
+cross (const Eigen::Vector2f& a, const Eigen::Vector2f& b)
+{
+  return (a.x () * b.y () - a.y () * b.x ());
+}
+
+Eigen::Matrix<float, 6, 1>
+quadricTerms (const DepthGrid& grid, float column, float row)
+{
+  const float u = 2.0f * column / static_cast<float> (grid.width) - 1.0f;
+  const float v = 2.0f * row / static_cast<float> (grid.height) - 1.0f;
+  Eigen::Matrix<float, 6, 1> terms;
+  terms << 1.0f, u, v, u * u, u * v, v * v;
+  return (terms);
+}
+
+/** \brief Height of the blocks' centres as a quadric in the image. */
+Eigen::Matrix<float, 6, 1>
+fitDistortion (const DepthGrid& grid, const BlockImage& image, const PlaneProposal& plane)
+{
+  using Matrix6 = Eigen::Matrix<double, 6, 6>;
+  Matrix6 lhs = 1e-3 * static_cast<double> (plane.blocks.size ()) *
+                Matrix6::Identity (); // damped where the plane is not seen
+  Eigen::Matrix<double, 6, 1> rhs = Eigen::Matrix<double, 6, 1>::Zero ();
+  for (const int i : plane.blocks)
+  {
+    const float half = 0.5f * (block_px - 1);
+    const Eigen::Matrix<double, 6, 1> terms = quadricTerms (grid,
+                                                            static_cast<float> (i % image.width * block_px) + half,
+                                                            static_cast<float> (i / image.width * block_px) + half)
+                                                  .cast<double> ();
+    lhs += terms * terms.transpose ();
+    rhs += terms * static_cast<double> (plane.normal.dot (image.blocks[i].centre) + plane.offset);
+  }
+  return (lhs.ldlt ().solve (rhs).cast<float> ());
+}
+
+} // namespace
+
+std::vector<Eigen::Vector2f>
+convexHull (std::vector<Eigen::Vector2f> points)
+{
+  std::sort (points.begin (), points.end (), [] (const Eigen::Vector2f& a, const Eigen::Vector2f& b) {
+    return (a.x () < b.x () || (a.x () == b.x () && a.y () < b.y ()));
+  });
+  std::vector<Eigen::Vector2f> hull;
+  for (int pass = 0; pass < 2; ++pass)
+  {
+    const std::size_t first = hull.size ();
+    for (const Eigen::Vector2f& p : points)
+    {
+      while (hull.size () >= first + 2 && cross (hull.back () - hull[hull.size () - 2], p - hull.back ()) <= 0.0f)
+        hull.pop_back ();
+      hull.push_back (p);
+    }
+    hull.pop_back ();
+    std::reverse (points.begin (), points.end ());
+  }
+  return (hull);
+}
+
+float
+SupportSurface::height (const DepthGrid& grid, int u, int v) const
+{
+  const Eigen::Vector3f& p = grid.points[static_cast<std::size_t> (v) * grid.width + u];
+  const float limit = 3.0f * static_cast<float> (depthNoiseSigma (p.z ()));
+  return (height (p) - std::clamp (distortion.dot (quadricTerms (grid, static_cast<float> (u), static_cast<float> (v))),
+                                   -limit, limit));
+}
+
+float
+SupportSurface::distance (const DepthGrid& grid, int u, int v) const
+{
+  // A steep face keeps its lowest readings; along the plane there may be more of the sensor's distortion.
+  const int i = v * grid.width + u;
+  const float cosine = grid.hasNormal (i) ? grid.normals[i].dot (normal) : 0.8f;
+  const float sigmas = cosine > 0.9f ? 4.0f : cosine > 0.7f ? 3.0f : 1.5f;
+  return (std::abs (height (grid, u, v)) / (sigmas * grid.sigma (i)));
+}
+
+bool
+SupportSurface::carries (const DepthGrid& grid, int pixel, float margin_m) const
+{
+  const Eigen::Vector3f& p = grid.points[pixel];
+  const Eigen::Vector2f at = place (p);
+  float outside_m = outline.empty () ? unseen_reach_m : 0.0f;
+  for (std::size_t k = 0; k < outline.size (); ++k)
+  {
+    const Eigen::Vector2f edge = outline[(k + 1) % outline.size ()] - outline[k];
+    outside_m = std::max (outside_m, -cross (edge, at - outline[k]) / std::max (1e-6f, edge.norm ()));
+  }
+  if (outside_m <= margin_m || outside_m >= unseen_reach_m)
+    return (outside_m <= margin_m);
+  const Eigen::Vector3f foot = p - height (p) * normal;
+  if (foot.z () <= 0.0f)
+    return (true);
+  const float u = static_cast<float> (pixel % grid.width) + (foot.x () / foot.z () - p.x () / p.z ()) / grid.pitch;
+  const float v = static_cast<float> (pixel / grid.width) + (foot.y () / foot.z () - p.y () / p.z ()) / grid.pitch;
+  return (u < 0.0f || v < 0.0f || u >= static_cast<float> (grid.width) || v >= static_cast<float> (grid.height));
+}
+
+SupportSurface
+makeSurface (const DepthGrid& grid, const BlockImage& image, const PlaneProposal& plane)
+{
+  SupportSurface surface;
+  surface.normal = plane.normal;
+  surface.offset = plane.offset;
+  surface.area_m2 = plane.area_m2;
+  surface.axis_u = plane.normal.unitOrthogonal ();
+  surface.axis_v = plane.normal.cross (surface.axis_u);
+  surface.distortion = fitDistortion (grid, image, plane);
+  std::vector<Eigen::Vector2f> feet;
+  for (const int i : plane.blocks)
+    feet.push_back (surface.place (image.blocks[i].centre));
+  surface.outline = convexHull (feet);
+  return (surface);
+}
+
+std::vector<SupportSurface>
+findSupportSurfaces (const DepthGrid& grid, float max_object_size_m, float min_area_m2)
+{
+  const BlockImage image = findPlanarBlocks (grid, false);
+  std::vector<SupportSurface> surfaces;
+  for (const PlaneProposal& plane : proposePlanes (image, max_object_size_m, min_area_m2))
+    if (plane.large || (surfaces.empty () && plane.area_m2 >= min_area_m2))
+      surfaces.push_back (makeSurface (grid, image, plane));
+  return (surfaces);
+}
+
+std::vector<char>
+pixelsOnSurfaces (const DepthGrid& grid, const std::vector<SupportSurface>& surfaces, int threads)
+{
+  std::vector<char> on (grid.points.size (), 0);
+  parallelFor (0, grid.height, threads, [&] (int v) {
+    for (int u = 0; u < grid.width; ++u)
+    {
+      const int i = v * grid.width + u;
+      if (!grid.valid (i))
+        continue;
+      for (const SupportSurface& surface : surfaces)
+        if (surface.distance (grid, u, v) < 1.0f)
+          on[i] = 1;
+    }
+  });
+  return (on);
+}
+
+} // namespace pcl::cosection

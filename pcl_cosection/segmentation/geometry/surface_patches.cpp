@@ -1,0 +1,218 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_cosection authors
+#include "surface_patches.h"
+
+#include "pcl_cosection/common/disjoint_sets.h"
+
+#include "pcl_cosection/common/parallel.h"
+
+#include <limits>
+
+namespace pcl::cosection
+{
+
+namespace
+{
+
+constexpr int cells_across = 64;      ///< of the grid over the image: 10 pixels of a VGA camera
+constexpr int rounds = 5;             ///< of k-means
+constexpr float normal_weight = 7.5f; ///< 30 degrees count as much as the size of a cell
+constexpr float image_weight = 0.25f; ///< keeps patches compact where there are no normals
+
+struct Cluster
+{
+  Eigen::Vector3f centre = Eigen::Vector3f::Zero (), normal = Eigen::Vector3f::Zero ();
+  Eigen::Vector2f pixel = Eigen::Vector2f::Zero ();
+  float inverse_size2 = 0.0f; ///< of a cell at its depth, 1/m^2; 0: empty
+};
+
+class Clustering
+{
+public:
+  Clustering (const DepthGrid& grid, const std::vector<char>& used, int threads)
+      : grid_ (grid)
+      , used_ (used)
+      , threads_ (threads)
+      , cell_ (std::max (4, (grid.width + cells_across / 2) / cells_across))
+      , columns_ ((grid.width + cell_ - 1) / cell_)
+      , rows_ ((grid.height + cell_ - 1) / cell_)
+      , clusters_ (static_cast<std::size_t> (columns_) * rows_)
+      , nearest_ (grid.points.size (), -1)
+  {
+    for (int row = 0; row < rows_; ++row)
+      for (int column = 0; column < columns_; ++column)
+        seed (row, column);
+  }
+
+  std::vector<int> run ()
+  {
+    for (int round = 0; round < rounds; ++round)
+    {
+      assign ();
+      if (round + 1 < rounds)
+        update ();
+    }
+    return (std::move (nearest_));
+  }
+
+private:
+  /** \brief The used pixel nearest to the middle of a cell, those with a normal first. */
+  void seed (int row, int column)
+  {
+    int best = -1, best_distance = std::numeric_limits<int>::max ();
+    for (int v = row * cell_; v < std::min (grid_.height, (row + 1) * cell_); ++v)
+      for (int u = column * cell_; u < std::min (grid_.width, (column + 1) * cell_); ++u)
+      {
+        const int i = v * grid_.width + u;
+        if (!used_[i])
+          continue;
+        const int du = u - column * cell_ - cell_ / 2, dv = v - row * cell_ - cell_ / 2;
+        const int distance = du * du + dv * dv + (grid_.hasNormal (i) ? 0 : 4 * cell_ * cell_);
+        if (distance < best_distance)
+        {
+          best_distance = distance;
+          best = i;
+        }
+      }
+    if (best < 0)
+      return;
+    Cluster& cluster = clusters_[row * columns_ + column];
+    cluster.centre = grid_.points[best];
+    if (grid_.hasNormal (best))
+      cluster.normal = grid_.normals[best];
+    finish (cluster, best % grid_.width, best / grid_.width);
+  }
+
+  void finish (Cluster& cluster, float u, float v) const
+  {
+    const float size = static_cast<float> (cell_) * grid_.pitch * cluster.centre.z ();
+    cluster.inverse_size2 = 1.0f / (size * size);
+    cluster.pixel = Eigen::Vector2f (u, v);
+  }
+
+  float distance (int i, float u, float v, const Cluster& cluster) const
+  {
+    float d = (grid_.points[i] - cluster.centre).squaredNorm () * cluster.inverse_size2;
+    d += image_weight * (Eigen::Vector2f (u, v) - cluster.pixel).squaredNorm () / static_cast<float> (cell_ * cell_);
+    if (grid_.hasNormal (i))
+      d += normal_weight * (1.0f - grid_.normals[i].dot (cluster.normal));
+    return (d);
+  }
+
+  void assign ()
+  {
+    parallelFor (0, grid_.height, threads_, [this] (int v) {
+      const int row = v / cell_;
+      for (int u = 0; u < grid_.width; ++u)
+      {
+        const int i = v * grid_.width + u;
+        if (!used_[i])
+          continue;
+        const int column = u / cell_;
+        float best = std::numeric_limits<float>::max ();
+        for (int r = std::max (0, row - 1); r <= std::min (rows_ - 1, row + 1); ++r)
+          for (int c = std::max (0, column - 1); c <= std::min (columns_ - 1, column + 1); ++c)
+          {
+            const Cluster& cluster = clusters_[r * columns_ + c];
+            if (cluster.inverse_size2 <= 0.0f)
+              continue;
+            const float d = distance (i, static_cast<float> (u), static_cast<float> (v), cluster);
+            if (d < best)
+            {
+              best = d;
+              nearest_[i] = r * columns_ + c;
+            }
+          }
+      }
+    });
+  }
+
+  void update ()
+  {
+    std::vector<Cluster> sums (clusters_.size ());
+    std::vector<int> count (clusters_.size (), 0);
+    for (int i = 0; i < static_cast<int> (nearest_.size ()); ++i)
+      if (nearest_[i] >= 0)
+      {
+        Cluster& sum = sums[nearest_[i]];
+        sum.centre += grid_.points[i];
+        sum.pixel += Eigen::Vector2f (static_cast<float> (i % grid_.width), static_cast<float> (i / grid_.width));
+        if (grid_.hasNormal (i))
+          sum.normal += grid_.normals[i];
+        ++count[nearest_[i]];
+      }
+    for (std::size_t k = 0; k < sums.size (); ++k)
+    {
+      if (count[k] == 0)
+        continue;
+      const float share = 1.0f / static_cast<float> (count[k]);
+      sums[k].centre *= share;
+      if (sums[k].normal.squaredNorm () > 0.0f)
+        sums[k].normal.normalize ();
+      const Eigen::Vector2f pixel = sums[k].pixel * share;
+      finish (sums[k], pixel.x (), pixel.y ());
+      clusters_[k] = sums[k];
+    }
+  }
+
+  const DepthGrid& grid_;
+  const std::vector<char>& used_;
+  const int threads_, cell_, columns_, rows_;
+  std::vector<Cluster> clusters_;
+  std::vector<int> nearest_;
+};
+
+} // namespace
+
+PatchImage
+computeSurfacePatches (const DepthGrid& grid, const std::vector<char>& used, int threads)
+{
+  const std::vector<int> nearest = Clustering (grid, used, threads).run ();
+  DisjointSets sets (nearest.size ());
+  for (int v = 0; v < grid.height; ++v)
+    for (int u = 0; u < grid.width; ++u)
+    {
+      const int i = v * grid.width + u;
+      if (nearest[i] < 0)
+        continue;
+      if (u > 0 && nearest[i - 1] == nearest[i] && grid.continuous (i, i - 1))
+        sets.unite (i - 1, i);
+      if (v > 0 && nearest[i - grid.width] == nearest[i] && grid.continuous (i, i - grid.width))
+        sets.unite (i - grid.width, i);
+    }
+  PatchImage image{std::vector<int> (nearest.size (), -1), {}};
+  for (int i = 0; i < static_cast<int> (nearest.size ()); ++i)
+  {
+    if (nearest[i] < 0)
+      continue;
+    const int root = static_cast<int> (sets.find (i)); // the first pixel of its set
+    if (root == i)
+    {
+      image.patch_of[i] = static_cast<int> (image.patches.size ());
+      image.patches.emplace_back ();
+    }
+    image.patch_of[i] = image.patch_of[root];
+    SurfacePatch& patch = image.patches[image.patch_of[i]];
+    patch.centre += grid.points[i];
+    if (grid.hasNormal (i))
+      patch.normal += grid.normals[i];
+    ++patch.pixels;
+  }
+  for (SurfacePatch& patch : image.patches)
+  {
+    patch.centre /= static_cast<float> (patch.pixels);
+    if (patch.normal.squaredNorm () > 0.0f)
+      patch.normal.normalize ();
+  }
+  for (int i = 0; i < static_cast<int> (nearest.size ()); ++i)
+    if (nearest[i] >= 0 && grid.hasNormal (i))
+    {
+      SurfacePatch& patch = image.patches[image.patch_of[i]];
+      const Eigen::Vector3f from_centre = grid.points[i] - patch.centre;
+      patch.spread += from_centre * from_centre.transpose ();
+      patch.bend += from_centre * (grid.normals[i] - patch.normal).transpose ();
+    }
+  return (image);
+}
+
+} // namespace pcl::cosection

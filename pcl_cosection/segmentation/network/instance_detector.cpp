@@ -1,0 +1,252 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_cosection authors
+#include <pcl/cosection/segmentation/instance_detector.h>
+
+#include "onnx_input.h"
+
+#include "pcl_cosection/common/file_bytes.h"
+
+#include <pcl/cosection/common/error.h>
+
+#include <opencv2/core/utils/logger.hpp>
+#include <opencv2/dnn.hpp>
+#include <opencv2/imgproc.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace pcl::cosection
+{
+
+namespace
+{
+
+constexpr int one_stage_input = 640; ///< edge, pixels
+constexpr std::uint8_t margin = 114; ///< grey, as YOLO's are trained with
+constexpr std::size_t longest_reason = 200;
+const char* const tensorflow_detections = "detection_out_final";
+const char* const tensorflow_masks = "detection_masks";
+
+/** \brief While it lives, OpenCV says nothing on the console and has so many threads. Both are settings of the process.
+ */
+class OpenCvSettings
+{
+public:
+  explicit OpenCvSettings (int threads)
+      : level_ (cv::utils::logging::setLogLevel (cv::utils::logging::LOG_LEVEL_SILENT))
+      , threads_ (cv::getNumThreads ())
+  {
+    cv::setNumThreads (threads);
+  }
+  OpenCvSettings (const OpenCvSettings&) = delete;
+  OpenCvSettings& operator= (const OpenCvSettings&) = delete;
+  ~OpenCvSettings ()
+  {
+    cv::setNumThreads (threads_);
+    cv::utils::logging::setLogLevel (level_);
+  }
+
+private:
+  cv::utils::logging::LogLevel level_;
+  int threads_;
+};
+
+/** \brief What went wrong, in one line. */
+std::string
+reason (const cv::Exception& error)
+{
+  std::string line;
+  for (const char c : error.err)
+    if (c > ' ')
+      line += c;
+    else if (!line.empty () && line.back () != ' ')
+      line += ' ';
+  return (line.size () > longest_reason ? line.substr (0, longest_reason) + " ..." : line);
+}
+
+bool
+endsIn (const std::string& path, const std::string& ending)
+{
+  return (path.size () > ending.size () && path.compare (path.size () - ending.size (), ending.size (), ending) == 0);
+}
+
+cv::dnn::Net
+readNetwork (const std::string& model, const InstanceDetectorOptions& options)
+{
+  const std::string config = options.config.empty () ? "" : readBytes (options.config);
+  const OpenCvSettings settings (options.threads);
+  cv::dnn::Net net;
+  try
+  {
+    net = endsIn (options.model, ".onnx")
+              ? cv::dnn::readNetFromONNX (model.data (), model.size ())
+              : cv::dnn::readNetFromTensorflow (model.data (), model.size (), config.data (), config.size ());
+    net.setPreferableBackend (cv::dnn::DNN_BACKEND_OPENCV);
+    net.setPreferableTarget (cv::dnn::DNN_TARGET_CPU);
+  }
+  catch (const cv::Exception& error)
+  {
+    throw IoError (options.model + ": OpenCV cannot read it as a network: " + reason (error));
+  }
+  if (net.empty ())
+    throw IoError (options.model + ": holds no network");
+  return (net);
+}
+
+/** \brief Those that matter; in OpenCV, a layer that another one uses is not an output by itself. */
+std::vector<std::string>
+outputNames (const cv::dnn::Net& net)
+{
+  if (net.getLayerId (tensorflow_detections) >= 0 && net.getLayerId (tensorflow_masks) >= 0)
+    return {tensorflow_detections, tensorflow_masks};
+  return (net.getUnconnectedOutLayersNames ());
+}
+
+/** \brief What its outputs will be, as their names and their number tell. */
+NetworkOutputForm
+expectedForm (const std::vector<std::string>& output_names)
+{
+  return (output_names.front () == tensorflow_detections ? NetworkOutputForm::DetectionOut
+          : output_names.size () == 4                    ? NetworkOutputForm::BoxList
+                                                         : NetworkOutputForm::Prototypes);
+}
+
+/** \brief The input of the network: 1 x 3 x height x width. */
+cv::Mat
+makeInput (const Picture& picture, const ImagePlacement& placement, const InstanceDetectorOptions& options,
+           double scale)
+{
+  const cv::Mat image (picture.height, picture.width, CV_8UC3,
+                       const_cast<std::uint8_t*> (picture.pixels.front ().data ()));
+  cv::Mat placed (placement.input_height, placement.input_width, CV_8UC3, cv::Scalar::all (margin));
+  cv::Mat inside = placed (cv::Rect (placement.left, placement.top, placement.width, placement.height));
+  cv::resize (image, inside, inside.size (), 0.0, 0.0, cv::INTER_LINEAR);
+  cv::Mat input ({1, 3, placed.rows, placed.cols}, CV_32F);
+  for (int channel = 0; channel < 3; ++channel)
+  {
+    const int colour = options.blue_first ? 2 - channel : channel;
+    for (int v = 0; v < placed.rows; ++v)
+    {
+      const auto* const from = placed.ptr<cv::Vec3b> (v);
+      std::transform (from, from + placed.cols, input.ptr<float> (0, channel, v), [&] (const cv::Vec3b& c) {
+        return (static_cast<float> (scale * (c[colour] - options.mean[static_cast<std::size_t> (colour)])));
+      });
+    }
+  }
+  return (input);
+}
+
+NetworkOutput
+toOutput (const std::string& name, const cv::Mat& mat)
+{
+  cv::Mat values;
+  mat.convertTo (values, CV_32F);
+  NetworkOutput output;
+  output.name = name;
+  output.shape.assign (mat.size.p, mat.size.p + mat.dims);
+  output.values.assign (values.ptr<float> (), values.ptr<float> () + values.total ());
+  return (output);
+}
+
+} // namespace
+
+struct InstanceDetector::Network
+{
+  InstanceDetectorOptions options;
+  cv::dnn::Net net;
+  std::vector<std::string> output_names;
+  std::optional<InputSize> input_size; ///< of the options, else of the file
+};
+
+void
+InstanceDetectorOptions::validate () const
+{
+  if (!endsIn (model, ".onnx") && !endsIn (model, ".pb"))
+    throw InvalidArgument ("the model is \"" + model +
+                           "\"; it must be an ONNX file (.onnx) or a frozen graph of TensorFlow (.pb)");
+  if (!config.empty () && !endsIn (model, ".pb"))
+    throw InvalidArgument (config + ": a text graph goes with a graph of TensorFlow (.pb) only");
+  constexpr int largest = 8192;
+  if (input_width < 0 || input_height < 0 || input_width > largest || input_height > largest ||
+      (input_width == 0) != (input_height == 0))
+    throw InvalidArgument ("the input of a network must have 1 to " + std::to_string (largest) +
+                           " pixels in both directions");
+  if (scale && !(std::isfinite (*scale) && *scale > 0.0))
+    throw InvalidArgument ("scale must be positive");
+  if (!std::all_of (mean.begin (), mean.end (), [] (double m) { return (std::isfinite (m)); }))
+    throw InvalidArgument ("mean must be finite");
+  if (threads < 1)
+    throw InvalidArgument ("threads must be positive");
+  detection.validate ();
+}
+
+InstanceDetector::InstanceDetector (const InstanceDetectorOptions& options)
+{
+  options.validate ();
+  network_ = std::make_unique<Network> ();
+  network_->options = options;
+  const std::string model = readBytes (options.model);
+  network_->net = readNetwork (model, options);
+  if (options.input_width > 0)
+    network_->input_size = InputSize{options.input_width, options.input_height};
+  else if (endsIn (options.model, ".onnx"))
+    network_->input_size = onnxInputSize (model);
+  network_->output_names = outputNames (network_->net);
+  if (network_->output_names.empty ())
+    throw IoError (options.model + ": the network has no outputs");
+}
+
+InstanceDetector::InstanceDetector (InstanceDetector&&) noexcept = default;
+
+InstanceDetector& InstanceDetector::operator= (InstanceDetector&&) noexcept = default;
+
+InstanceDetector::~InstanceDetector () = default;
+
+const InstanceDetectorOptions&
+InstanceDetector::options () const
+{
+  return (network_->options);
+}
+
+std::vector<DetectedInstance>
+InstanceDetector::detect (const Picture& picture)
+{
+  if (picture.pixels.empty ())
+    throw InvalidArgument ("a picture without pixels shows nothing");
+  const InstanceDetectorOptions& options = network_->options;
+  const NetworkOutputForm form = expectedForm (network_->output_names);
+  const bool one_stage = form == NetworkOutputForm::Prototypes;
+  const InputSize usual = one_stage ? InputSize{one_stage_input, one_stage_input}
+                                    : InputSize{picture.width, picture.height};
+  const InputSize size = network_->input_size.value_or (usual);
+  const ImagePlacement placement (picture.width, picture.height, size.width, size.height,
+                                  options.letterbox.value_or (one_stage));
+  const double scale = options.scale.value_or (form == NetworkOutputForm::DetectionOut ? 1.0 : 1.0 / 255.0);
+
+  const OpenCvSettings settings (options.threads);
+  std::vector<NetworkOutput> outputs;
+  try
+  {
+    network_->net.setInput (makeInput (picture, placement, options, scale));
+    std::vector<cv::Mat> mats;
+    network_->net.forward (mats, network_->output_names);
+    for (std::size_t n = 0; n < mats.size (); ++n)
+      outputs.push_back (toOutput (network_->output_names[n], mats[n]));
+  }
+  catch (const cv::Exception& error)
+  {
+    throw IoError (options.model + ": the network cannot be run on an input of " +
+                   std::to_string (placement.input_width) + " x " + std::to_string (placement.input_height) +
+                   " pixels: " + reason (error));
+  }
+  try
+  {
+    return (decodeInstances (outputs, placement, options.detection));
+  }
+  catch (const InvalidArgument& error)
+  {
+    throw IoError (options.model + ": " + error.what ());
+  }
+}
+
+} // namespace pcl::cosection

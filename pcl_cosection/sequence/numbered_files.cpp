@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_cosection authors
+#include "numbered_files.h"
+
+#include "pcl_cosection/io/text_scanner.h"
+
+#include <pcl/cosection/common/error.h>
+
+#include <algorithm>
+#include <cctype>
+#include <filesystem>
+#include <optional>
+#include <system_error>
+
+namespace fs = std::filesystem;
+
+namespace pcl::cosection
+{
+
+namespace
+{
+
+constexpr double largest_number = 1e15; // whole numbers below are exact
+
+bool
+isDigit (char c)
+{
+  return c >= '0' && c <= '9';
+}
+
+std::string
+lowerCase (std::string text)
+{
+  std::transform (text.begin (), text.end (), text.begin (),
+                  [] (unsigned char c) { return static_cast<char> (std::tolower (c)); });
+  return text;
+}
+
+/** \brief The name without the longest ending that it has; nothing if it has none. */
+std::optional<std::string>
+withoutEnding (const std::string& name, const std::vector<std::string>& endings)
+{
+  std::size_t longest = 0;
+  for (const std::string& ending : endings)
+    if (name.size () >= ending.size () && name.compare (name.size () - ending.size (), ending.size (), ending) == 0)
+      longest = std::max (longest, ending.size ());
+  if (longest == 0)
+    return std::nullopt;
+  return name.substr (0, name.size () - longest);
+}
+
+/** \brief Where the number at the end of a text begins: digits, or digits, a point and digits. */
+std::size_t
+numberBegin (const std::string& text)
+{
+  const auto digitsBegin = [&text] (std::size_t end) {
+    while (end > 0 && isDigit (text[end - 1]))
+      --end;
+    return end;
+  };
+  const std::size_t begin = digitsBegin (text.size ());
+  if (begin < 2 || begin == text.size () || text[begin - 1] != '.' || !isDigit (text[begin - 2]))
+    return begin;
+  return digitsBegin (begin - 1);
+}
+
+} // namespace
+
+std::vector<std::string>
+fileNames (const std::string& folder)
+{
+  std::error_code failure;
+  const fs::file_status status = fs::status (folder, failure);
+  if (status.type () == fs::file_type::not_found)
+    throw IoError (folder + ": there is no such folder");
+  if (fs::exists (status) && !fs::is_directory (status))
+    throw IoError (folder + ": is a file; it should be a folder");
+  std::vector<std::string> names;
+  fs::directory_iterator entry (folder, failure);
+  for (; !failure && entry != fs::directory_iterator (); entry.increment (failure))
+  {
+    std::error_code ignored;
+    const std::string name = entry->path ().filename ().string ();
+    if (name[0] != '.' && entry->is_regular_file (ignored))
+      names.push_back (name);
+  }
+  if (failure)
+    throw IoError (folder + ": cannot be listed: " + failure.message ());
+  std::sort (names.begin (), names.end ());
+  return names;
+}
+
+std::vector<NumberedFile>
+numberedFiles (const std::string& folder, const std::vector<std::string>& names, const NumberedNames& series,
+               std::vector<std::string>& warnings)
+{
+  std::vector<NumberedFile> files;
+  std::vector<std::string> too_large, without_number;
+  for (const std::string& name : names)
+  {
+    const std::optional<std::string> stem = withoutEnding (lowerCase (name), series.endings);
+    if (!stem)
+      continue;
+    const std::size_t begin = numberBegin (*stem);
+    const bool is_any = series.beginnings.empty ();
+    if (!is_any && std::find (series.beginnings.begin (), series.beginnings.end (), stem->substr (0, begin)) ==
+                       series.beginnings.end ())
+      continue;
+    const std::string path = (fs::path (folder) / name).string ();
+    if (begin == stem->size ())
+      without_number.push_back (path);
+    else if (const double number = toReal (std::string_view (*stem).substr (begin)); number < largest_number)
+      files.push_back ({number, path});
+    else
+      too_large.push_back (path);
+  }
+  std::stable_sort (files.begin (), files.end (),
+                    [] (const NumberedFile& a, const NumberedFile& b) { return a.number < b.number; });
+  std::vector<std::string> again;
+  std::vector<NumberedFile> unique;
+  for (NumberedFile& file : files)
+    if (!unique.empty () && unique.back ().number == file.number)
+      again.push_back (file.path);
+    else
+      unique.push_back (std::move (file));
+  if (!without_number.empty ())
+    warnings.push_back (firstAndMore (without_number) + ": left out; a name must end in a number");
+  if (!too_large.empty ())
+    warnings.push_back (firstAndMore (too_large) + ": left out; the number in the name has more than 15 digits");
+  if (!again.empty ())
+    warnings.push_back (firstAndMore (again) + ": left out; another file has the same number");
+  return unique;
+}
+
+std::string
+firstAndMore (const std::vector<std::string>& things)
+{
+  return things.size () == 1 ? things[0] : things[0] + " and " + std::to_string (things.size () - 1) + " more";
+}
+
+} // namespace pcl::cosection

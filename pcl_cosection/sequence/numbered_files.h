@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_cosection authors
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace pcl::cosection
+{
+
+/** \brief Which files of a folder belong to a series. Letters may be large or small. */
+struct NumberedNames
+{
+  std::vector<std::string> beginnings; ///< what may be before the number; empty: anything
+  std::vector<std::string> endings;    ///< what may be behind it, such as ".png"
+};
+
+/** \brief A file with a number in its name. */
+struct NumberedFile
+{
+  double number = 0.0;
+  std::string path;
+};
+
+/** \brief The names of the files in a folder, sorted; no hidden ones, no folders. \throws IoError if it cannot be
+ * listed */
+std::vector<std::string> fileNames (const std::string& folder);
+
+/** \brief The files of a series, by ascending numbers, which may have a fraction (0.033333.png). Those without a
+ * number, with one of more than 15 digits before the point, or one that another file has too, are left out and told in
+ * \a warnings.
+ * \param[in] names of the files in \a folder, sorted */
+std::vector<NumberedFile> numberedFiles (const std::string& folder, const std::vector<std::string>& names,
+                                         const NumberedNames& series, std::vector<std::string>& warnings);
+
+/** \brief "a" for one, "a and 3 more" for four. */
+std::string firstAndMore (const std::vector<std::string>& things);
+
+} // namespace pcl::cosection

@@ -1,0 +1,274 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_cosection authors
+#include <pcl/cosection/io/rgbd_sequence.h>
+
+#include "calibration.h"
+#include "pcl_cosection/io/file_extension.h"
+#include "pose_matrix.h"
+#include "sequence_layouts.h"
+
+#include "pcl_cosection/io/image_io.h"
+#include "stamp_matching.h"
+#include <pcl/cosection/common/error.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <limits>
+#include <sstream>
+
+namespace fs = std::filesystem;
+
+namespace pcl::cosection
+{
+
+namespace
+{
+
+constexpr double tum_depth_scale = 5000.0;
+constexpr double millimetres = 1000.0;
+constexpr double nearest_median_m = 0.05;
+constexpr double farthest_median_m = 100.0;
+const float none = std::numeric_limits<float>::quiet_NaN ();
+
+std::string
+sizeText (int width, int height)
+{
+  return std::to_string (width) + " x " + std::to_string (height) + " pixels";
+}
+
+/** \brief Pipes wait for who writes them, so nothing but files is read. */
+void
+requireFile (const std::string& path)
+{
+  std::error_code failure;
+  const fs::file_status status = fs::status (path, failure);
+  if (status.type () == fs::file_type::not_found)
+    throw IoError (path + ": there is no such file");
+  if (fs::exists (status) && !fs::is_regular_file (status))
+    throw IoError (path + ": is not a file");
+}
+
+/** \brief What is odd about the depths of an image; empty if nothing is. */
+std::string
+depthOddity (const Image<float>& depth, const std::string& path)
+{
+  std::vector<float> readings;
+  std::copy_if (depth.pixels.begin (), depth.pixels.end (), std::back_inserter (readings),
+                [] (float z) { return std::isfinite (z); });
+  if (readings.empty ())
+    return path + ": has no depth in any pixel";
+  const auto middle = readings.begin () + static_cast<std::ptrdiff_t> (readings.size () / 2);
+  std::nth_element (readings.begin (), middle, readings.end ());
+  if (*middle >= nearest_median_m && *middle <= farthest_median_m)
+    return {};
+  std::ostringstream text;
+  text << path << ": half of the depths are " << (*middle < nearest_median_m ? "less" : "more") << " than " << *middle
+       << " m; ";
+  text << (lowerCaseExtension (path) == ".exr" ? "an .exr must be in metres"
+                                               : "give --depth-scale if their unit is another");
+  return text.str ();
+}
+
+/** \brief The colours at the pixels of a smaller or larger image of the same view. */
+Picture
+resized (const Picture& picture, int width, int height)
+{
+  Picture result (width, height);
+  for (int v = 0; v < height; ++v)
+    for (int u = 0; u < width; ++u)
+      result.at (u, v) = picture.at (static_cast<int> ((2LL * u + 1) * picture.width / (2LL * width)),
+                                     static_cast<int> ((2LL * v + 1) * picture.height / (2LL * height)));
+  return result;
+}
+
+/** \throws IoError */
+Picture
+readColour (const std::string& path, int width, int height)
+{
+  requireFile (path);
+  Picture colour = loadColourImage (path);
+  if (colour.width == width && colour.height == height)
+    return colour;
+  if (static_cast<long long> (colour.width) * height != static_cast<long long> (colour.height) * width)
+    throw IoError (path + ": has " + sizeText (colour.width, colour.height) + ", but the depth has " +
+                   sizeText (width, height));
+  return resized (colour, width, height);
+}
+
+Image<float>
+readDepth (const std::string& path, double scale, SequenceFormat format)
+{
+  requireFile (path);
+  Image<float> depth = loadDepthImage (path, scale);
+  if (format == SequenceFormat::SevenScenes && lowerCaseExtension (path) == ".png")
+    std::replace (depth.pixels.begin (), depth.pixels.end (), static_cast<float> (65535 / scale), none);
+  return depth;
+}
+
+/** \brief The calibration of a folder, or of the one around it for a sequence of 7-Scenes; empty if there is none. */
+std::string
+calibrationFile (const std::string& folder, SequenceFormat format)
+{
+  std::vector<fs::path> places = {fs::path (folder)};
+  if (format == SequenceFormat::SevenScenes)
+    places.push_back (fs::path (folder) / "..");
+  std::error_code ignored;
+  for (const fs::path& place : places)
+    if (fs::exists (place / "calibration.txt", ignored))
+      return (place / "calibration.txt").string ();
+  return {};
+}
+
+} // namespace
+
+void
+SequenceSource::validate () const
+{
+  if (!(depth_scale >= 0.0) || !std::isfinite (depth_scale))
+    throw InvalidArgument ("depth_scale must be positive, or 0 for that of the layout, but is " +
+                           std::to_string (depth_scale));
+  if (!intrinsics)
+    return;
+  const auto& [fx, fy, cx, cy] = *intrinsics;
+  const std::string fault = implausibleIntrinsics ({0, 0, fx, fy, cx, cy});
+  if (!fault.empty ())
+    throw InvalidArgument ("intrinsics fx, fy, cx, cy: the camera " + fault);
+}
+
+RgbdSequence::RgbdSequence (const std::string& folder, const SequenceSource& source)
+{
+  source.validate ();
+  SequenceListing listing = listSequence (folder, source);
+  format_ = listing.format;
+  files_ = std::move (listing.files);
+  warnings_ = std::move (listing.warnings);
+  period_ = stampPeriod (stamps ());
+  depth_scale_ = source.depth_scale > 0.0         ? source.depth_scale
+                 : format_ == SequenceFormat::Tum ? tum_depth_scale
+                                                  : millimetres;
+  setCamera (listing.folder, source);
+}
+
+void
+RgbdSequence::setCamera (const std::string& folder, const SequenceSource& source)
+{
+  const std::string calibration = calibrationFile (folder, format_);
+  if (source.intrinsics)
+  {
+    const auto& [fx, fy, cx, cy] = *source.intrinsics;
+    camera_ = {0, 0, fx, fy, cx, cy};
+  }
+  else if (!calibration.empty ())
+  {
+    requireFile (calibration);
+    camera_ = readCalibration (calibration);
+    size_source_ = calibration;
+  }
+  else if (format_ == SequenceFormat::SevenScenes)
+  {
+    camera_ = {640, 480, 585.0, 585.0, 320.0, 240.0};
+    size_source_ = "the camera of 7-Scenes";
+  }
+  else
+    throw IoError (folder +
+                   ": has no calibration.txt with 'fx fy cx cy [width height]'; write one, or give --intrinsics");
+  if (camera_.width == 0)
+    takeSizeOfFirstDepth (folder);
+  const std::string fault = implausibleIntrinsics (camera_);
+  if (!fault.empty () && source.intrinsics)
+    throw InvalidArgument ("intrinsics fx, fy, cx, cy: the camera " + fault);
+  if (!fault.empty ())
+    throw IoError (calibration + ": " + fault);
+}
+
+void
+RgbdSequence::takeSizeOfFirstDepth (const std::string& folder)
+{
+  std::string first_failure;
+  for (const FrameFiles& files : files_)
+    try
+    {
+      const Image<float> depth = readDepth (files.depth, depth_scale_, format_);
+      camera_.width = depth.width;
+      camera_.height = depth.height;
+      size_source_ = files.depth;
+      return;
+    }
+    catch (const IoError& error)
+    {
+      if (first_failure.empty ())
+        first_failure = error.what ();
+    }
+  throw IoError (folder + ": no depth image can be read; the first: " + first_failure);
+}
+
+std::vector<double>
+RgbdSequence::stamps () const
+{
+  std::vector<double> stamps;
+  for (const FrameFiles& files : files_)
+    stamps.push_back (files.stamp);
+  return stamps;
+}
+
+RgbdFrame
+RgbdSequence::read (std::size_t index, std::vector<std::string>& warnings) const
+{
+  if (index >= files_.size ())
+    throw InvalidArgument ("there is no frame " + std::to_string (index) + "; there are " +
+                           std::to_string (files_.size ()));
+  const FrameFiles& files = files_[index];
+  RgbdFrame frame;
+  frame.index = index;
+  frame.stamp = files.stamp;
+  frame.depth = readDepth (files.depth, depth_scale_, format_);
+  if (frame.depth.width != camera_.width || frame.depth.height != camera_.height)
+    throw IoError (files.depth + ": has " + sizeText (frame.depth.width, frame.depth.height) + ", but " + size_source_ +
+                   " has " + sizeText (camera_.width, camera_.height));
+  const std::string oddity = depthOddity (frame.depth, files.depth);
+  if (!oddity.empty ())
+    warnings.push_back (oddity);
+  if (files.colour.empty ())
+    return frame;
+  try
+  {
+    frame.colour = readColour (files.colour, camera_.width, camera_.height);
+  }
+  catch (const IoError& error)
+  {
+    warnings.push_back (std::string (error.what ()) + "; the frame is without colour");
+  }
+  return frame;
+}
+
+std::optional<Eigen::Isometry3d>
+RgbdSequence::givenPose (std::size_t index, std::vector<std::string>& warnings) const
+{
+  if (index >= files_.size ())
+    throw InvalidArgument ("there is no frame " + std::to_string (index) + "; there are " +
+                           std::to_string (files_.size ()));
+  if (files_[index].pose.empty ())
+    return std::nullopt;
+  try
+  {
+    return readPoseMatrix (files_[index].pose);
+  }
+  catch (const IoError& error)
+  {
+    warnings.push_back (std::string (error.what ()) + "; the frame is without pose");
+    return std::nullopt;
+  }
+}
+
+std::vector<StampedPose>
+RgbdSequence::givenTrajectory (std::vector<std::string>& warnings) const
+{
+  std::vector<StampedPose> poses;
+  for (std::size_t index = 0; index < files_.size (); ++index)
+    if (const auto pose = givenPose (index, warnings))
+      poses.push_back ({files_[index].stamp, *pose});
+  return poses;
+}
+
+} // namespace pcl::cosection

@@ -1,0 +1,245 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_cosection authors
+#include "sequence_layouts.h"
+
+#include "numbered_files.h"
+#include "tum_lists.h"
+
+#include "stamp_matching.h"
+#include <pcl/cosection/common/error.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <map>
+#include <set>
+#include <sstream>
+
+namespace fs = std::filesystem;
+
+namespace pcl::cosection
+{
+
+namespace
+{
+
+const NumberedNames co_fusion_depth = {{"depth", ""}, {".exr", ".png"}};
+const NumberedNames co_fusion_colour = {{"color", "colour", ""},
+                                        {".png", ".jpg", ".jpeg", ".bmp", ".ppm", ".tif", ".tiff"}};
+const NumberedNames seven_scenes_depth = {{"frame-"}, {".depth.png", ".depth.exr"}};
+const NumberedNames seven_scenes_colour = {{"frame-"}, {".color.png", ".color.jpg", ".color.jpeg"}};
+const NumberedNames seven_scenes_pose = {{"frame-"}, {".pose.txt"}};
+
+constexpr double gap_periods = 1.5;
+
+std::string
+inFolder (const std::string& folder, const std::string& name)
+{
+  return (fs::path (folder) / name).string ();
+}
+
+bool
+isFolder (const std::string& path)
+{
+  std::error_code ignored;
+  return fs::is_directory (path, ignored);
+}
+
+bool
+isThere (const std::string& path)
+{
+  std::error_code ignored;
+  return fs::exists (path, ignored);
+}
+
+std::map<double, std::string>
+byNumber (const std::vector<NumberedFile>& files)
+{
+  std::map<double, std::string> paths;
+  for (const NumberedFile& file : files)
+    paths[file.number] = file.path;
+  return paths;
+}
+
+std::string
+valueOr (const std::map<double, std::string>& paths, double number)
+{
+  const auto found = paths.find (number);
+  return found == paths.end () ? "" : found->second;
+}
+
+/** \brief The frames whose colour and pose have the number of a depth image. */
+std::vector<FrameFiles>
+joinByNumber (const std::vector<NumberedFile>& depth, const std::vector<NumberedFile>& colour,
+              const std::vector<NumberedFile>& pose)
+{
+  const auto colour_paths = byNumber (colour), pose_paths = byNumber (pose);
+  std::vector<FrameFiles> files;
+  for (const NumberedFile& file : depth)
+    files.push_back ({file.number, file.path, valueOr (colour_paths, file.number), valueOr (pose_paths, file.number)});
+  return files;
+}
+
+/** \brief The depth images of the folder asked for, else of depth_noise, else of depth. */
+std::vector<NumberedFile>
+coFusionDepth (const std::string& folder, const std::string& asked, std::vector<std::string>& warnings)
+{
+  const std::vector<std::string> choices = asked.empty () ? std::vector<std::string>{"depth_noise", "depth"}
+                                                          : std::vector{asked};
+  for (const std::string& choice : choices)
+  {
+    const std::string path = inFolder (folder, choice);
+    if (asked.empty () && !isThere (path))
+      continue;
+    std::vector<NumberedFile> depth = numberedFiles (path, fileNames (path), co_fusion_depth, warnings);
+    if (!depth.empty ())
+      return depth;
+    if (!asked.empty () || choice == "depth" || !isThere (inFolder (folder, "depth")))
+      throw IoError (path + ": has no depth images; their names should be DepthNNNN.exr or DepthNNNN.png");
+  }
+  throw IoError (folder + ": has no folder depth_noise or depth; another one can be given with --depth-dir");
+}
+
+void
+listCoFusion (const SequenceSource& source, SequenceListing& listing)
+{
+  const std::vector<NumberedFile> depth = coFusionDepth (listing.folder, source.depth_folder, listing.warnings);
+  std::vector<NumberedFile> colour;
+  for (const char* name : {"colour", "color"})
+    if (const std::string path = inFolder (listing.folder, name); colour.empty () && isFolder (path))
+      colour = numberedFiles (path, fileNames (path), co_fusion_colour, listing.warnings);
+  listing.files = joinByNumber (depth, colour, {});
+}
+
+void
+listSevenScenes (SequenceListing& listing)
+{
+  const std::string& folder = listing.folder;
+  const std::vector<std::string> names = fileNames (folder);
+  const std::vector<NumberedFile> depth = numberedFiles (folder, names, seven_scenes_depth, listing.warnings);
+  if (depth.empty ())
+    throw IoError (folder + ": has no depth images; their names should be frame-NNNNNN.depth.png");
+  listing.files = joinByNumber (depth, numberedFiles (folder, names, seven_scenes_colour, listing.warnings),
+                                numberedFiles (folder, names, seven_scenes_pose, listing.warnings));
+}
+
+bool
+hasSevenScenesFrames (const std::string& folder)
+{
+  std::vector<std::string> ignored;
+  return !numberedFiles (folder, fileNames (folder), seven_scenes_depth, ignored).empty ();
+}
+
+/** \brief The folder seq-NN of a scene of 7-Scenes that has only one; the folder itself if it has none.
+ * \throws IoError if there are several */
+std::string
+sevenScenesFolder (const std::string& folder)
+{
+  if (hasSevenScenesFrames (folder))
+    return folder;
+  std::set<std::string> sequences;
+  std::error_code failure;
+  for (fs::directory_iterator entry (folder, failure); !failure && entry != fs::directory_iterator ();
+       entry.increment (failure))
+    if (entry->path ().filename ().string ().rfind ("seq-", 0) == 0 && isFolder (entry->path ().string ()))
+      sequences.insert (entry->path ().string ());
+  if (sequences.size () > 1)
+    throw IoError (folder + ": has " + std::to_string (sequences.size ()) + " sequences; give one of them, such as " +
+                   *sequences.begin ());
+  return sequences.empty () ? folder : *sequences.begin ();
+}
+
+SequenceFormat
+detectFormat (const std::string& folder, const SequenceSource& source)
+{
+  if (hasSevenScenesFrames (folder))
+    return SequenceFormat::SevenScenes;
+  for (const char* list : {"associations.txt", "depth.txt", "rgb.txt"})
+    if (isThere (inFolder (folder, list)))
+      return SequenceFormat::Tum;
+  if (!source.depth_folder.empty () || isFolder (inFolder (folder, "depth_noise")) ||
+      isFolder (inFolder (folder, "depth")))
+    return SequenceFormat::CoFusion;
+  if (sevenScenesFolder (folder) != folder)
+    return SequenceFormat::SevenScenes;
+  std::error_code ignored;
+  if (fs::is_empty (folder, ignored))
+    throw IoError (folder + ": is an empty folder");
+  throw IoError (folder +
+                 ": holds no sequence that is known; there should be depth_noise/ or depth/ with DepthNNNN.png or "
+                 ".exr (Co-Fusion), associations.txt or depth.txt (TUM), or frame-NNNNNN.depth.png (7-Scenes)");
+}
+
+/** \brief Sort by stamps and leave out what comes twice. */
+void
+sortFiles (SequenceListing& listing)
+{
+  const auto earlier = [] (const FrameFiles& a, const FrameFiles& b) { return a.stamp < b.stamp; };
+  if (!std::is_sorted (listing.files.begin (), listing.files.end (), earlier))
+  {
+    listing.warnings.push_back (listing.folder + ": the stamps do not ascend; the frames are sorted");
+    std::stable_sort (listing.files.begin (), listing.files.end (), earlier);
+  }
+  std::vector<FrameFiles> unique;
+  std::vector<std::string> again;
+  for (FrameFiles& files : listing.files)
+    if (!unique.empty () && unique.back ().stamp == files.stamp)
+      again.push_back (files.depth);
+    else
+      unique.push_back (std::move (files));
+  if (!again.empty ())
+    listing.warnings.push_back (firstAndMore (again) + ": left out; another frame has the same stamp");
+  listing.files = std::move (unique);
+}
+
+void
+tellMissingColour (SequenceListing& listing)
+{
+  std::vector<std::string> without;
+  for (const FrameFiles& files : listing.files)
+    if (files.colour.empty ())
+      without.push_back (files.depth);
+  if (!without.empty ())
+    listing.warnings.push_back (firstAndMore (without) + (without.size () == 1 ? " has" : " have") +
+                                " no colour image");
+}
+
+void
+tellGaps (SequenceListing& listing)
+{
+  std::vector<double> stamps;
+  for (const FrameFiles& files : listing.files)
+    stamps.push_back (files.stamp);
+  const double period = stampPeriod (stamps);
+  std::vector<std::string> gaps;
+  for (std::size_t n = 1; n < stamps.size (); ++n)
+    if (stamps[n] - stamps[n - 1] > gap_periods * period)
+      gaps.push_back (listing.files[n - 1].depth);
+  if (!gaps.empty ())
+    listing.warnings.push_back (listing.folder + ": frames are missing after " + firstAndMore (gaps));
+}
+
+} // namespace
+
+SequenceListing
+listSequence (const std::string& folder, const SequenceSource& source)
+{
+  fileNames (folder); // throws if it is none
+  SequenceListing listing;
+  listing.folder = folder;
+  listing.format = source.format == SequenceFormat::Detect ? detectFormat (folder, source) : source.format;
+  if (listing.format == SequenceFormat::SevenScenes)
+  {
+    listing.folder = sevenScenesFolder (folder);
+    listSevenScenes (listing);
+  }
+  else if (listing.format == SequenceFormat::Tum)
+    listing.files = readTumLists (folder, listing.warnings);
+  else
+    listCoFusion (source, listing);
+  sortFiles (listing);
+  tellMissingColour (listing);
+  tellGaps (listing);
+  return listing;
+}
+
+} // namespace pcl::cosection

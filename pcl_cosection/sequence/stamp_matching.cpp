@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_cosection authors
+#include "stamp_matching.h"
+
+#include <pcl/cosection/common/error.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace pcl::cosection
+{
+
+double
+stampPeriod (const std::vector<double>& stamps)
+{
+  if (stamps.size () < 2)
+    return 1.0;
+  std::vector<double> differences (stamps.size () - 1);
+  for (std::size_t n = 0; n < differences.size (); ++n)
+    differences[n] = stamps[n + 1] - stamps[n];
+  const auto middle = differences.begin () + static_cast<std::ptrdiff_t> (differences.size () / 2);
+  std::nth_element (differences.begin (), middle, differences.end ());
+  return *middle;
+}
+
+std::optional<std::size_t>
+nearestStamp (const std::vector<double>& stamps, double stamp, double limit)
+{
+  auto nearest = std::lower_bound (stamps.begin (), stamps.end (), stamp);
+  if (nearest == stamps.end () || (nearest != stamps.begin () && stamp - *(nearest - 1) <= *nearest - stamp))
+  {
+    if (nearest == stamps.begin ())
+      return std::nullopt;
+    --nearest;
+  }
+  if (!(std::abs (*nearest - stamp) < limit))
+    return std::nullopt;
+  return static_cast<std::size_t> (nearest - stamps.begin ());
+}
+
+std::vector<std::optional<Eigen::Isometry3d>>
+posesAtStamps (const std::vector<StampedPose>& trajectory, const std::vector<double>& stamps, double period)
+{
+  if (!(period > 0.0) || !std::isfinite (period))
+    throw InvalidArgument ("the period of the frames must be positive, but is " + std::to_string (period));
+  std::vector<double> known;
+  for (const StampedPose& stamped : trajectory)
+    known.push_back (stamped.stamp);
+  std::vector<std::optional<Eigen::Isometry3d>> poses (stamps.size ());
+  for (std::size_t n = 0; n < stamps.size (); ++n)
+    if (const auto nearest = nearestStamp (known, stamps[n], 0.5 * period))
+      poses[n] = trajectory[*nearest].pose;
+  return poses;
+}
+
+} // namespace pcl::cosection

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_cosection authors
+#pragma once
+
+#include <sstream>
+#include <string>
+
+namespace pcl::cosection
+{
+
+/** \brief "0 to 59", of stamps, for messages. */
+inline std::string
+stampSpan (double first, double last)
+{
+  std::ostringstream text;
+  text.precision (15);
+  text << first << " to " << last;
+  return text.str ();
+}
+
+} // namespace pcl::cosection

@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_cosection authors
+#include "polygon.h"
+
+#include <pcl/cosection/common/error.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <string>
+
+namespace pcl::cosection
+{
+
+namespace
+{
+
+constexpr double min_area_m2 = 1e-12;
+
+double
+cross (const Eigen::Vector2d& a, const Eigen::Vector2d& b)
+{
+  return a.x () * b.y () - a.y () * b.x ();
+}
+
+double
+turn (const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Vector2d& c)
+{
+  return cross (b - a, c - b);
+}
+
+/** \brief Whether two segments share a point. */
+bool
+touch (const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Vector2d& c, const Eigen::Vector2d& d)
+{
+  const auto side = [] (double value) { return (value > 0.0) - (value < 0.0); };
+  const auto onSegment = [] (const Eigen::Vector2d& p, const Eigen::Vector2d& q, const Eigen::Vector2d& r) {
+    return (r.array () >= p.cwiseMin (q).array ()).all () && (r.array () <= p.cwiseMax (q).array ()).all ();
+  };
+  const int abc = side (cross (b - a, c - a)), abd = side (cross (b - a, d - a));
+  const int cda = side (cross (d - c, a - c)), cdb = side (cross (d - c, b - c));
+  if (abc != abd && cda != cdb)
+    return true;
+  return (abc == 0 && onSegment (a, b, c)) || (abd == 0 && onSegment (a, b, d)) || (cda == 0 && onSegment (c, d, a)) ||
+         (cdb == 0 && onSegment (c, d, b));
+}
+
+bool
+inTriangle (const Eigen::Vector2d& p, const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Vector2d& c)
+{
+  return cross (b - a, p - a) >= 0.0 && cross (c - b, p - b) >= 0.0 && cross (a - c, p - c) >= 0.0;
+}
+
+} // namespace
+
+double
+signedArea (const Polygon2d& polygon)
+{
+  double sum = 0.0;
+  for (std::size_t n = 0; n < polygon.size (); ++n)
+    sum += cross (polygon[n], polygon[(n + 1) % polygon.size ()]);
+  return 0.5 * sum;
+}
+
+Polygon2d
+simplePolygon (Polygon2d polygon, const char* what)
+{
+  const auto refuse = [what] (const std::string& why) { throw InvalidArgument (std::string (what) + " " + why); };
+  const std::size_t size = polygon.size ();
+  if (size < 3)
+    refuse ("must have at least three points");
+  for (const Eigen::Vector2d& p : polygon)
+    if (!p.allFinite ())
+      refuse ("must have finite points");
+  for (std::size_t n = 0; n < size; ++n)
+    if (polygon[n] == polygon[(n + 1) % size])
+      refuse ("has point " + std::to_string (n) + " twice in a row");
+  for (std::size_t n = 0; n < size; ++n)
+  {
+    for (std::size_t m = n + 2; m < size; ++m)
+      if ((m + 1) % size != n && touch (polygon[n], polygon[n + 1], polygon[m], polygon[(m + 1) % size]))
+        refuse ("crosses or touches itself: its edges " + std::to_string (n) + " and " + std::to_string (m));
+    const Eigen::Vector2d back = polygon[n] - polygon[(n + 1) % size];
+    const Eigen::Vector2d on = polygon[(n + 2) % size] - polygon[(n + 1) % size];
+    if (cross (back, on) == 0.0 && back.dot (on) > 0.0)
+      refuse ("turns back on itself at point " + std::to_string ((n + 1) % size));
+  }
+  const double area = signedArea (polygon);
+  if (!(std::abs (area) > min_area_m2))
+    refuse ("has no area");
+  if (area < 0.0)
+    std::reverse (polygon.begin (), polygon.end ());
+  return polygon;
+}
+
+double
+polygonDistance (const Polygon2d& polygon, const Eigen::Vector2d& p, bool open_at_axis)
+{
+  double squared = std::numeric_limits<double>::infinity ();
+  bool inside = false;
+  for (std::size_t n = 0; n < polygon.size (); ++n)
+  {
+    const Eigen::Vector2d& a = polygon[n];
+    const Eigen::Vector2d& b = polygon[(n + 1) % polygon.size ()];
+    if ((a.y () > p.y ()) != (b.y () > p.y ()) &&
+        p.x () < a.x () + (b.x () - a.x ()) * (p.y () - a.y ()) / (b.y () - a.y ()))
+      inside = !inside;
+    if (open_at_axis && a.x () == 0.0 && b.x () == 0.0)
+      continue;
+    const Eigen::Vector2d along = b - a;
+    const double t = std::clamp ((p - a).dot (along) / along.squaredNorm (), 0.0, 1.0);
+    squared = std::min (squared, (a + t * along - p).squaredNorm ());
+  }
+  return (inside ? -1.0 : 1.0) * std::sqrt (squared);
+}
+
+std::vector<std::array<std::uint32_t, 3>>
+triangulate (const Polygon2d& polygon)
+{
+  std::vector<std::uint32_t> left (polygon.size ());
+  std::iota (left.begin (), left.end (), 0u);
+  std::vector<std::array<std::uint32_t, 3>> triangles;
+  const auto isEar = [&] (std::size_t n, bool strict) {
+    const std::uint32_t a = left[(n + left.size () - 1) % left.size ()], b = left[n], c = left[(n + 1) % left.size ()];
+    const double area = turn (polygon[a], polygon[b], polygon[c]);
+    if (strict ? !(area > 0.0) : area < 0.0)
+      return false;
+    return std::none_of (left.begin (), left.end (), [&] (std::uint32_t m) {
+      return m != a && m != b && m != c && inTriangle (polygon[m], polygon[a], polygon[b], polygon[c]);
+    });
+  };
+  while (left.size () > 3)
+  {
+    std::size_t ear = 0;
+    while (ear < left.size () && !isEar (ear, true))
+      ++ear;
+    if (ear == left.size ()) // only collinear corners are left beside others
+      for (ear = 0; ear + 1 < left.size () && !isEar (ear, false);)
+        ++ear;
+    triangles.push_back ({left[(ear + left.size () - 1) % left.size ()], left[ear], left[(ear + 1) % left.size ()]});
+    left.erase (left.begin () + static_cast<std::ptrdiff_t> (ear));
+  }
+  triangles.push_back ({left[0], left[1], left[2]});
+  return triangles;
+}
+
+} // namespace pcl::cosection

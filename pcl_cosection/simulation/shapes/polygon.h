@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_cosection authors
+#pragma once
+
+#include <pcl/cosection/simulation/shape.h>
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace pcl::cosection
+{
+
+/** \brief Counter-clockwise, checked. \throws InvalidArgument naming \a what if it is no simple polygon with an area.
+ */
+Polygon2d simplePolygon (Polygon2d polygon, const char* what);
+
+/** \brief Signed area, positive if counter-clockwise. */
+double signedArea (const Polygon2d& polygon);
+
+/** \brief Signed distance of \a p, negative inside.
+ * \param[in] open_at_axis edges with x = 0 at both ends are no boundary (the axis of a profile) */
+double polygonDistance (const Polygon2d& polygon, const Eigen::Vector2d& p, bool open_at_axis = false);
+
+/** \brief Triangles of a counter-clockwise simple polygon, counter-clockwise, by ear clipping; indices of its points.
+ */
+std::vector<std::array<std::uint32_t, 3>> triangulate (const Polygon2d& polygon);
+
+} // namespace pcl::cosection

@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_cosection authors
+#include <pcl/cosection/io/organized_cloud.h>
+
+#include "pcl_cosection/io/cloud/pcd_cloud.h"
+#include "pcl_cosection/io/cloud/pcd_header.h"
+#include "pcl_cosection/io/cloud/pcd_points.h"
+#include "pcl_cosection/io/quiet_console.h"
+
+#include "pcl_cosection/common/atomic_file.h"
+#include <pcl/cosection/common/camera_resection.h>
+#include <pcl/cosection/common/error.h>
+
+#include <pcl/common/io.h>
+#include <pcl/io/pcd_io.h>
+
+#include <algorithm>
+#include <cstring>
+
+namespace pcl::cosection
+{
+
+namespace
+{
+
+constexpr std::size_t label_bytes = sizeof (std::uint32_t);
+
+/** \brief The cloud without padding, and with these labels. */
+PCLPointCloud2
+withLabels (const PCLPointCloud2& cloud, const PcdHeader& header, const std::vector<std::uint32_t>& labels)
+{
+  struct Copy
+  {
+    std::size_t from, to, bytes;
+  };
+  std::vector<Copy> copies;
+  PCLPointCloud2 result;
+  result.height = static_cast<std::uint32_t> (header.height);
+  result.width = static_cast<std::uint32_t> (header.width);
+  std::size_t step = 0, label_offset = 0;
+  bool has_label = false;
+  const auto addLabel = [&] {
+    PCLPointField field;
+    field.name = "label";
+    field.offset = static_cast<std::uint32_t> (step);
+    field.datatype = PCLPointField::UINT32;
+    field.count = 1;
+    result.fields.push_back (field);
+    label_offset = step;
+    step += label_bytes;
+    has_label = true;
+  };
+  for (const PCLPointField& field : cloud.fields)
+  {
+    const PcdField* const described = header.find (field.name);
+    if (described == nullptr || described->isPadding ())
+      continue;
+    if (field.name == "label")
+    {
+      if (!has_label)
+        addLabel ();
+      continue;
+    }
+    const std::size_t bytes = described->size * described->count;
+    copies.push_back ({field.offset, step, bytes});
+    result.fields.push_back (field);
+    result.fields.back ().offset = static_cast<std::uint32_t> (step);
+    result.fields.back ().datatype = static_cast<std::uint8_t> (
+        pcl::getFieldType (static_cast<int> (described->size), described->type));
+    step += bytes;
+  }
+  if (!has_label)
+    addLabel ();
+  result.point_step = static_cast<std::uint32_t> (step);
+  result.row_step = result.point_step * result.width;
+  result.is_dense = false;
+  result.data.resize (labels.size () * step);
+  for (std::size_t i = 0; i < labels.size (); ++i)
+  {
+    for (const Copy& copy : copies)
+      std::memcpy (result.data.data () + i * step + copy.to, cloud.data.data () + i * cloud.point_step + copy.from,
+                   copy.bytes);
+    std::memcpy (result.data.data () + i * step + label_offset, &labels[i], label_bytes);
+  }
+  return (result);
+}
+
+} // namespace
+
+OrganizedCloud
+readOrganizedCloud (const std::string& path, const PcdViewOptions& options)
+{
+  options.validate ();
+  const PcdHeader header = readPcdHeader (path);
+  if (header.height < 2 || header.width < 2)
+    throw IoError (path + ": is not organised (WIDTH " + std::to_string (header.width) + ", HEIGHT " +
+                   std::to_string (header.height) + "); an image of points is needed, as the sensor's driver gives it");
+  SensorCloud cloud = readSensorCloud (path, options, false);
+  if (std::none_of (cloud.positions.begin (), cloud.positions.end (),
+                    [] (const Eigen::Vector3f& p) { return (p.allFinite ()); }))
+    throw DegenerateInput (path + ": holds no finite point");
+  OrganizedCloud result;
+  result.width = cloud.width;
+  result.height = cloud.height;
+  result.points = std::move (cloud.positions);
+  if (!fitPinholeCamera (result.points, result.width, result.height))
+    if (const auto located = locateCamera (result.points, result.width, result.height))
+    {
+      result.points = takeToSensor (located->T_points_sensor.inverse (), result.points);
+      result.moved = true;
+    }
+  if (!cloud.colours.empty ())
+  {
+    result.picture = Picture (cloud.width, cloud.height);
+    result.picture.pixels = std::move (cloud.colours);
+  }
+  return (result);
+}
+
+void
+copyWithLabels (const std::string& input, const std::vector<std::uint32_t>& labels, const std::string& output)
+{
+  const PcdHeader header = readPcdHeader (input);
+  if (labels.size () != header.points)
+    throw InvalidArgument (input + ": there must be one label per point");
+  const PCLPointCloud2 cloud = withLabels (readPcdPoints (input, header), header, labels);
+  const auto& v = header.viewpoint;
+  const Eigen::Vector4f origin (static_cast<float> (v[0]), static_cast<float> (v[1]), static_cast<float> (v[2]), 0.0f);
+  const Eigen::Quaternionf orientation (static_cast<float> (v[3]), static_cast<float> (v[4]), static_cast<float> (v[5]),
+                                        static_cast<float> (v[6]));
+  writeAtomically (output, [&] (const std::string& temporary) {
+    const QuietConsole quiet;
+    bool written = false;
+    try
+    {
+      written = pcl::PCDWriter ().writeBinaryCompressed (temporary, cloud, origin, orientation) == 0;
+    }
+    catch (const std::exception&)
+    {
+      // told below
+    }
+    if (!written)
+      throw IoError (output + ": cannot be written");
+  });
+}
+
+} // namespace pcl::cosection

@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_cosection authors
+#include <pcl/cosection/surface/range_image.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+
+namespace pcl::cosection
+{
+
+namespace
+{
+
+constexpr double max_slope = 1.7321; // tangent of half of 120 degrees
+constexpr int finest_px = 1024;      // pixels along the longer side ...
+constexpr int coarsest_px = 8;       // ... that are tried
+constexpr double coarsening = 1.2;
+constexpr double points_per_pixel = 2.5;
+constexpr double hidden_sigmas = 6.0; // a point that lies so far behind another one of its pixel is hidden ...
+constexpr double hidden_pixels = 3.0; // ... unless a steep surface explains it: in widths of a pixel there
+constexpr float nothing = std::numeric_limits<float>::infinity ();
+
+/** \brief Looking from \a eye along \a axis; the roll does not matter. */
+Eigen::Isometry3d
+lookingAlong (const Eigen::Vector3d& eye, const Eigen::Vector3d& axis)
+{
+  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity ();
+  pose.linear () = Eigen::Quaterniond::FromTwoVectors (Eigen::Vector3d::UnitZ (), axis).toRotationMatrix ();
+  pose.translation () = eye;
+  return pose;
+}
+
+/** \brief Points before a camera: slopes x/z, y/z and depth z. */
+struct Projection
+{
+  std::vector<Eigen::Vector3f> points;
+  Eigen::AlignedBox2f slopes;
+};
+
+/** \brief Nothing if some points are not before the sensor. */
+std::optional<Projection>
+project (const std::vector<Eigen::Vector3f>& points, const Eigen::Isometry3d& T_sensor_points)
+{
+  Projection projection;
+  for (const Eigen::Vector3f& point : points)
+  {
+    if (!point.allFinite ())
+      continue;
+    const Eigen::Vector3d p = T_sensor_points * point.cast<double> ();
+    const Eigen::Vector2d slope = p.head<2> () / p.z ();
+    if (!(p.z () > 0.0) || !(slope.norm () < max_slope))
+      return std::nullopt;
+    projection.slopes.extend (slope.cast<float> ());
+    projection.points.emplace_back (static_cast<float> (slope.x ()), static_cast<float> (slope.y ()),
+                                    static_cast<float> (p.z ()));
+  }
+  return projection;
+}
+
+std::size_t
+pixelOf (const PinholeCamera& camera, const Eigen::Vector3f& p)
+{
+  const auto u = static_cast<int> (std::lround (camera.fx * p.x () + camera.cx));
+  const auto v = static_cast<int> (std::lround (camera.fy * p.y () + camera.cy));
+  return static_cast<std::size_t> (std::clamp (v, 0, camera.height - 1)) * camera.width +
+         std::clamp (u, 0, camera.width - 1);
+}
+
+/** \brief A camera for the given slopes with \a longest pixels along the longer side. */
+PinholeCamera
+cameraFor (const Eigen::AlignedBox2f& slopes, int longest)
+{
+  const Eigen::Vector2d size = slopes.sizes ().cast<double> ();
+  PinholeCamera camera;
+  camera.fx = camera.fy = (longest - 1) / std::max (size.maxCoeff (), 1e-9);
+  camera.width = static_cast<int> (std::lround (size.x () * camera.fx)) + 1;
+  camera.height = static_cast<int> (std::lround (size.y () * camera.fy)) + 1;
+  camera.cx = -slopes.min ().x () * camera.fx;
+  camera.cy = -slopes.min ().y () * camera.fy;
+  return camera;
+}
+
+std::size_t
+occupiedPixels (const PinholeCamera& camera, const std::vector<Eigen::Vector3f>& points)
+{
+  std::vector<std::uint8_t> occupied (static_cast<std::size_t> (camera.width) * camera.height, 0);
+  for (const Eigen::Vector3f& p : points)
+    occupied[pixelOf (camera, p)] = 1;
+  return static_cast<std::size_t> (std::count (occupied.begin (), occupied.end (), 1));
+}
+
+PinholeCamera
+supportedCamera (const Projection& projection)
+{
+  int longest = finest_px;
+  while (longest > coarsest_px &&
+         static_cast<double> (projection.points.size ()) <
+             points_per_pixel *
+                 static_cast<double> (occupiedPixels (cameraFor (projection.slopes, longest), projection.points)))
+    longest = static_cast<int> (longest / coarsening);
+  return cameraFor (projection.slopes, std::max (longest, coarsest_px));
+}
+
+/** \param[in] p slopes and depth */
+bool
+isHidden (const DepthView& view, const Eigen::Vector3f& p)
+{
+  const float nearest = view.depth[pixelOf (view.camera, p)];
+  return p.z () > nearest + hidden_sigmas * depthNoiseSigma (nearest) + hidden_pixels * nearest / view.camera.fx;
+}
+
+double
+hiddenShare (const DepthView& view, const std::vector<Eigen::Vector3f>& points)
+{
+  const auto hidden = std::count_if (points.begin (), points.end (),
+                                     [&] (const Eigen::Vector3f& p) { return isHidden (view, p); });
+  return static_cast<double> (hidden) / static_cast<double> (points.size ());
+}
+
+} // namespace
+
+bool
+RangeImage::hides (const Eigen::Vector3f& point) const
+{
+  const Eigen::Vector3f p = (view.T_world_sensor.inverse () * point.cast<double> ()).cast<float> ();
+  return p.z () > 0.0f && isHidden (view, {p.x () / p.z (), p.y () / p.z (), p.z ()});
+}
+
+std::optional<RangeImage>
+drawRangeImage (const std::vector<Eigen::Vector3f>& points, const Eigen::Vector3d& sensor)
+{
+  Eigen::AlignedBox3d box;
+  Eigen::Vector3d direction = Eigen::Vector3d::Zero ();
+  for (const Eigen::Vector3f& p : points)
+    if (p.allFinite ())
+    {
+      box.extend (p.cast<double> ());
+      direction += (p.cast<double> () - sensor).normalized ();
+    }
+  if (box.isEmpty () || !sensor.allFinite ())
+    return std::nullopt;
+  Eigen::Isometry3d T_points_sensor = Eigen::Isometry3d::Identity ();
+  std::optional<Projection> projected;
+  for (const Eigen::Vector3d& axis :
+       {Eigen::Vector3d (box.center () - sensor), direction}) // a sensor in a room may be in their box
+    if (!projected && !axis.isZero (0.0))
+    {
+      T_points_sensor = lookingAlong (sensor, axis);
+      projected = project (points, T_points_sensor.inverse ());
+    }
+  if (!projected)
+    return std::nullopt;
+  const Projection& projection = *projected;
+  if (projection.points.size () < RangeImage::min_points)
+    return std::nullopt;
+
+  RangeImage image;
+  image.view.T_world_sensor = T_points_sensor;
+  image.view.camera = supportedCamera (projection);
+  image.view.depth.assign (static_cast<std::size_t> (image.view.camera.width) * image.view.camera.height, nothing);
+  for (const Eigen::Vector3f& p : projection.points)
+  {
+    float& depth = image.view.depth[pixelOf (image.view.camera, p)];
+    depth = std::min (depth, p.z ());
+  }
+  image.hidden_share = hiddenShare (image.view, projection.points);
+  for (float& depth : image.view.depth)
+    if (depth == nothing)
+      depth = std::numeric_limits<float>::quiet_NaN ();
+  return image;
+}
+
+} // namespace pcl::cosection

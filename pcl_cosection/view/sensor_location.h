@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_cosection authors
+#pragma once
+
+#include <pcl/cosection/common/export.h>
+
+#include <Eigen/Core>
+
+#include <vector>
+
+namespace pcl::cosection
+{
+
+/** \brief Where the sensor may have stood that measured an unorganised cloud, from the order of its points.
+ *
+ * Such clouds often are images of which only the missing readings were removed. Where one of two neighbours of a row
+ * lies far behind the other, both are nearly on one ray, so the line through them passes by the sensor. Most such lines
+ * do not, as they begin and end in different rows or beside missing readings, which may happen to meet, too: places
+ * that many of them pass by are sought by random samples (M. Fischler, R. Bolles, "Random Sample Consensus", 1981), one
+ * after the other, and adjusted by least squares. The order may have gaps, as filters leave them, but not be another,
+ * as of pcl::VoxelGrid.
+ * \param[in] points row by row, in any frame, metres; not finite: no reading
+ * \return places by which most lines pass, at most three; none if too few meet, or if they are too nearly parallel to
+ * tell how far away. Whether all points are visible from there, drawRangeImage () tells. The error is a few pixels'
+ * width at the distance of the points
+ *
+ * O (points); deterministic. */
+PCL_COSECTION_EXPORT std::vector<Eigen::Vector3d> locateSensor (const std::vector<Eigen::Vector3f>& points);
+
+} // namespace pcl::cosection

@@ -1,0 +1,207 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_cosection authors
+#include "sensor_view.h"
+
+#include "pcl_cosection/io/place_text.h"
+#include "pcl_cosection/view/normals/estimated_normals.h"
+
+#include "sensor_location.h"
+#include <pcl/cosection/surface/range_image.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace pcl::cosection
+{
+
+namespace
+{
+
+constexpr double max_default_slope = 1.7321; // of points before a camera whose pose was left at the default: 60 degrees
+constexpr double
+    max_hidden_from_guess = 0.02; // of all points, from where the header does not say that they were seen ...
+constexpr double max_hidden_of_label_from_guess = 0.1; // ... and of those of a label
+constexpr double same_place = 0.1;                     // of the distance to the points
+constexpr int lonely_neighbours = 6;                   // of which the farthest ...
+constexpr float lonely_factor = 2.0f;                  // ... is so much farther than usual
+constexpr std::size_t most_to_judge = 500000;          // points: of more, trails are no share worth mentioning
+
+/** \brief What tells that a sensor at some place saw the points, or did not. */
+struct Sight
+{
+  std::optional<RangeImage> image; ///< none if they do not fit into one
+  double hidden_share = 0.0;       ///< of all points, or of the label of which most are hidden if that is too much
+
+  /** \param[in] most that may be hidden */
+  bool isTheirs (double most = RangeImage::max_hidden_share) const { return image && hidden_share <= most; }
+};
+
+/** \brief Look at the points from \a sensor, in their frame. From below a table few of its points are hidden, but all
+ * of what is on it. */
+Sight
+lookFrom (const Eigen::Vector3d& sensor, const Members& members, const SensorCloud& cloud,
+          double max_hidden_of_label = 0.5)
+{
+  Sight sight;
+  sight.image = drawRangeImage (cloud.positions, sensor);
+  if (!sight.image)
+    return sight;
+  sight.hidden_share = sight.image->hidden_share;
+  for (const auto& [label, indices] : members)
+  {
+    if (indices.size () < RangeImage::min_points)
+      continue;
+    const auto hidden = std::count_if (indices.begin (), indices.end (),
+                                       [&] (std::size_t i) { return sight.image->hides (cloud.positions[i]); });
+    const double share = static_cast<double> (hidden) / static_cast<double> (indices.size ());
+    if (share > max_hidden_of_label)
+      sight.hidden_share = std::max (sight.hidden_share, share);
+  }
+  return sight;
+}
+
+/** \brief Without points that are so much farther from others than is usual of their label that they may be nowhere, as
+ * trails behind edges. */
+SensorCloud
+withoutLonely (const PcdViewOptions& options, const Members& members, const SensorCloud& cloud)
+{
+  SensorCloud core;
+  core.positions.assign (cloud.positions.size (), Eigen::Vector3f::Constant (std::numeric_limits<float>::quiet_NaN ()));
+  for (const auto& [label, indices] : members)
+  {
+    const std::vector<float> reach = neighbourDistances (pick (cloud.positions, indices), lonely_neighbours,
+                                                         options.threads);
+    std::vector<float> sorted = reach;
+    const auto middle = sorted.begin () + static_cast<std::ptrdiff_t> (sorted.size () / 2);
+    std::nth_element (sorted.begin (), middle, sorted.end ());
+    for (std::size_t k = 0; k < indices.size (); ++k)
+      if (reach[k] <= lonely_factor * *middle)
+        core.positions[indices[k]] = cloud.positions[indices[k]];
+  }
+  return core;
+}
+
+double
+meanDistance (const Eigen::Vector3d& place, const SensorCloud& cloud)
+{
+  double mean = 0.0, count = 0.0;
+  for (const Eigen::Vector3f& p : cloud.positions)
+    if (p.allFinite ())
+      mean += ((p.cast<double> () - place).norm () - mean) / ++count;
+  return mean;
+}
+
+struct FoundSensor
+{
+  Eigen::Vector3d place;
+  Sight sight;
+};
+
+/** \brief The one place from which all points were seen as their order tells; nothing if there are several, as of
+ * merged views. */
+std::optional<FoundSensor>
+findSensor (const Members& members, const SensorCloud& cloud)
+{
+  std::optional<FoundSensor> found;
+  for (const Eigen::Vector3d& place : locateSensor (cloud.positions)) // the likeliest first
+  {
+    Sight sight = lookFrom (place, members, cloud, max_hidden_of_label_from_guess);
+    if (!sight.isTheirs (max_hidden_from_guess))
+      continue;
+    if (found && (found->place - place).norm () > same_place * meanDistance (place, cloud))
+      return std::nullopt;
+    if (!found)
+      found = FoundSensor{place, std::move (sight)};
+  }
+  return found;
+}
+
+/** \brief Whether the points lie as in the frame of a camera, whose pose then is the default one. */
+bool
+asBeforeACamera (const SensorCloud& cloud)
+{
+  return std::all_of (cloud.positions.begin (), cloud.positions.end (), [] (const Eigen::Vector3f& p) {
+    return !p.allFinite () || (p.z () > 0.0f && p.head<2> ().norm () < max_default_slope * p.z ());
+  });
+}
+
+/** \brief Take points to a sensor that was found in their frame. */
+void
+moveToSensor (const Eigen::Isometry3d& T_world_points, const Eigen::Isometry3d& T_points_sensor, SensorCloud& cloud)
+{
+  const Eigen::Isometry3f T_sensor_points = T_points_sensor.inverse ().cast<float> ();
+  for (Eigen::Vector3f& position : cloud.positions)
+    position = T_sensor_points * position;
+  for (Eigen::Vector3f& normal : cloud.normals)
+    normal = T_sensor_points.linear () * normal;
+  cloud.T_world_sensor = T_world_points * T_points_sensor;
+}
+
+} // namespace
+
+Members
+membersOf (const SensorCloud& cloud)
+{
+  Members members;
+  for (std::size_t i = 0; i < cloud.positions.size (); ++i)
+    if (cloud.positions[i].allFinite ())
+      members[cloud.labels[i]].push_back (i);
+  return members;
+}
+
+std::string
+percentText (double share)
+{
+  return std::to_string (std::lround (100.0 * share)) + " %";
+}
+
+std::optional<DepthView>
+viewFromSensor (const std::string& path, const PcdViewOptions& options, const Members& members, SensorCloud& cloud,
+                LabelledView& result)
+{
+  const auto viewOf = [&] (Sight& sight, const Eigen::Isometry3d& T_world_points) {
+    sight.image->view.T_world_sensor = T_world_points * sight.image->view.T_world_sensor;
+    return std::move (sight.image->view);
+  };
+  const bool header_tells = cloud.has_viewpoint || (!options.world_points && asBeforeACamera (cloud));
+  Sight sight;
+  if (header_tells)
+  {
+    sight = lookFrom (Eigen::Vector3d::Zero (), members, cloud);
+    if (sight.isTheirs ())
+      return viewOf (sight, cloud.T_world_sensor);
+    if (cloud.positions.size () <= most_to_judge)
+      if (Sight of_core = lookFrom (Eigen::Vector3d::Zero (), members, withoutLonely (options, members, cloud));
+          of_core.isTheirs ())
+        return viewOf (of_core, cloud.T_world_sensor);
+  }
+  if (cloud.has_viewpoint && !options.world_points && !options.viewpoint)
+    if (Sight other = lookFrom (cloud.T_world_sensor.translation (), members, cloud, max_hidden_of_label_from_guess);
+        other.isTheirs (max_hidden_from_guess))
+    {
+      result.warnings.push_back (
+          path + ": its points were seen from its VIEWPOINT if they are in the world frame, and not if they are in the "
+                 "sensor's: taken as with --world-points");
+      moveToSensor (Eigen::Isometry3d::Identity (), cloud.T_world_sensor, cloud);
+      return viewOf (other, Eigen::Isometry3d::Identity ());
+    }
+  if (auto found = findSensor (members, cloud))
+  {
+    const Eigen::Isometry3d T_world_points = cloud.T_world_sensor;
+    moveToSensor (T_world_points, Eigen::Isometry3d (Eigen::Translation3d (found->place)), cloud);
+    result.warnings.push_back (path + ": the order of its points tells that they were seen from " +
+                               placeText (cloud.T_world_sensor.translation ()) + ", which is used instead of " +
+                               sourceOfViewpoint (options));
+    return viewOf (found->sight, T_world_points);
+  }
+  if (cloud.has_viewpoint && cloud.positions.size () >= RangeImage::min_points)
+    result.warnings.push_back (path + ": its points were not seen from " + sourceOfViewpoint (options) + " alone (" +
+                               (sight.image ? percentText (sight.hidden_share) + " of them are hidden from there"
+                                            : std::string ("they span more than 120 degrees")) +
+                               "): no free space is taken from it");
+  return std::nullopt;
+}
+
+} // namespace pcl::cosection

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_cosection authors
+#include "benchmark_dataset.h"
+
+#include <pcl/cosection/simulation/scene_spec.h>
+#include <pcl/cosection/simulation/sequence_writer.h>
+
+#include <algorithm>
+
+using namespace pcl::cosection;
+namespace fs = std::filesystem;
+
+namespace
+{
+
+SimulatedScene
+sceneOf (const std::string& name)
+{
+  for (const ScenePreset& preset : scenePresets ())
+    if (preset.name == name)
+      return parseSceneSpec (preset.spec, name);
+  return loadSceneSpec (name);
+}
+
+} // namespace
+
+BenchmarkDataset::BenchmarkDataset (const std::string& folder)
+    : truth (readTruth (folder, notes))
+    , images (folder)
+    , masks (folder + "/mask", images)
+{
+  truth.objects.erase (std::remove_if (truth.objects.begin (), truth.objects.end (),
+                                       [] (const SceneRecord::Object& object) { return object.mesh.empty (); }),
+                       truth.objects.end ());
+  known.images = &images;
+  known.masks = &masks;
+  known.camera = truth.camera;
+  for (const SceneRecord::Object& object : truth.objects)
+    known.objects[object.id] = object.poses;
+}
+
+std::string
+sceneName (const std::string& name)
+{
+  const fs::path path = fs::path (name).has_filename () ? fs::path (name) : fs::path (name).parent_path ();
+  return path.stem ().string ();
+}
+
+std::vector<std::string>
+scenesOrPresets (int argc, const char* const* argv)
+{
+  std::vector<std::string> names (argv, argv + argc);
+  if (names.empty ())
+    for (const ScenePreset& preset : scenePresets ())
+      names.push_back (preset.name);
+  return names;
+}
+
+std::string
+prepareDataset (const std::string& name, const fs::path& folder)
+{
+  if (fs::is_directory (name))
+    return name;
+  const SimulatedScene scene = sceneOf (name);
+  fs::remove_all (folder / "data");
+  writeSequence (scene, (folder / "data").string ());
+  return (folder / "data").string ();
+}

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_cosection authors
+#pragma once
+
+#include <pcl/cosection/evaluation/scene_folders.h>
+#include <pcl/cosection/fusion/sequence_fusion.h>
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+/** \brief A sequence with its truth; it refers to itself. */
+struct BenchmarkDataset
+{
+  explicit BenchmarkDataset (const std::string& folder);
+  BenchmarkDataset (const BenchmarkDataset&) = delete;
+  BenchmarkDataset& operator= (const BenchmarkDataset&) = delete;
+
+  pcl::cosection::ReadingNotes notes;
+  pcl::cosection::SceneRecord truth; ///< of the objects, those that have a mesh
+  pcl::cosection::RgbdSequence images;
+  pcl::cosection::MaskSequence masks;
+  pcl::cosection::KnownSequence known; ///< all of that
+};
+
+/** \brief The folder of a dataset, the preset or the specification \a name, for tables. */
+std::string sceneName (const std::string& name);
+
+/** \brief The names of the command line, or those of all presets. */
+std::vector<std::string> scenesOrPresets (int argc, const char* const* argv);
+
+/** \brief A sequence's folder as it is; else the scene, a preset or a specification, simulated into \a folder / data.
+ */
+std::string prepareDataset (const std::string& name, const std::filesystem::path& folder);

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_cosection authors
+
+// What several views of one scene say together.
+
+#include "surrounding_views.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdio>
+#include <limits>
+
+using namespace pcl::cosection;
+using namespace pcl::cosection::test;
+
+namespace
+{
+
+constexpr int most_views = 5;
+
+double
+volume (const TriangleMesh& mesh)
+{
+  return computeMassProperties (mesh).volume_m3;
+}
+
+class SeveralViews : public testing::TestWithParam<Shape>
+{
+protected:
+  const AnalyticScene scene_ = tableScene (GetParam ());
+};
+
+} // namespace
+
+TEST_P (SeveralViews, AreTogetherAtLeastAsAccurateAsEachAlone)
+{
+  double best_alone = std::numeric_limits<double>::infinity ();
+  std::vector<int> sensors;
+  for (int n = 0; n < most_views; ++n)
+  {
+    const ObjectResult alone = completeFrom (scene_, {n}, optionsFor (voxel_m));
+    ASSERT_EQ (alone.error, "");
+    const double alone_m = meanError (alone.mesh, scene_.shape (1));
+    best_alone = std::min (best_alone, alone_m);
+    sensors.push_back (n);
+    const ObjectResult together = completeFrom (scene_, sensors, optionsFor (voxel_m));
+    ASSERT_EQ (together.error, "");
+    EXPECT_TRUE (computeTopology (together.mesh).closed_manifold);
+    const double together_m = meanError (together.mesh, scene_.shape (1));
+    std::printf ("%s: mean error of view %d alone %.2f mm, of views 1 to %d %.2f mm\n", nameOf (GetParam ()).c_str (),
+                 n + 1, 1e3 * alone_m, n + 1, 1e3 * together_m);
+    EXPECT_TRUE (n == 0 || together_m <= best_alone) << n + 1 << " views";
+  }
+}
+
+/** \brief The same points, ever more views of the space around them. */
+TEST_P (SeveralViews, ShrinkTheHull)
+{
+  CoSectionOptions options = optionsFor (voxel_m);
+  options.use_intersection = false;
+  options.use_extent_prior = false; // it trusts in more when more is seen, so that shapes may grow to their true size
+  options.compute_hull = true;
+  options.padding = 0.5; // the same volume for all
+  const RenderedView first = scene_.render (tableCamera (), around (0));
+  CoSection task (options);
+  task.addObject ({1, first.points.at (1), {}});
+  double estimate_before = std::numeric_limits<double>::infinity ();
+  double hull_before = std::numeric_limits<double>::infinity ();
+  for (int n = 0; n < most_views; ++n)
+  {
+    task.addView (scene_.render (tableCamera (), around (n)).view);
+    const ObjectResult object = task.reconstruct ().objects.at (0);
+    ASSERT_EQ (object.error, "");
+    EXPECT_TRUE (computeTopology (object.hull).closed_manifold);
+    const double estimate = volume (object.mesh), hull = volume (object.hull);
+    std::printf ("%s, %d views: estimate %.3f litres, hull %.3f litres\n", nameOf (GetParam ()).c_str (), n + 1,
+                 1e3 * estimate, 1e3 * hull);
+    EXPECT_GT (hull, estimate);
+    EXPECT_LE (estimate, 1.002 * estimate_before) << n + 1 << " views";
+    EXPECT_LT (hull, hull_before) << n + 1 << " views";
+    estimate_before = estimate;
+    hull_before = hull;
+  }
+  double truth = volume (extractIsoSurface (sampleField (scene_.shape (1), 0.15, 0.003)));
+  EXPECT_GT (hull_before, 0.95 * truth); // nothing of the body was cut off
+}
+
+INSTANTIATE_TEST_SUITE_P (Shapes, SeveralViews, testing::Values (Shape::Sphere, Shape::Box, Shape::Torus, Shape::Cup),
+                          [] (const auto& info) { return nameOf (info.param); });

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_cosection authors
+#pragma once
+
+#include <pcl/cosection/surface/energy_problem.h>
+
+#include <string>
+
+namespace pcl::cosection::test
+{
+
+/** \brief Problems as reconstruction poses them, and one that it does not. */
+enum class ProblemKind
+{
+  HalfSphere, ///< data on one side of a sphere, nothing else
+  Hull,       ///< the same with free space on that side
+  All,        ///< the same with free space and a half space that the sphere touches
+  Random,     ///< data, targets and bounds at random
+};
+
+/** \brief A problem on a grid of any size; lengths follow its longest side. */
+EnergyProblem makeProblem (ProblemKind kind, const Eigen::Vector3i& dims);
+
+std::string nameOf (ProblemKind kind);
+
+} // namespace pcl::cosection::test

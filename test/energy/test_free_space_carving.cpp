@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_cosection authors
+#include "completion/analytic_scene.h"
+
+#include "pcl_cosection/energy/constraints/free_space_carving.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+#include <vector>
+
+using namespace pcl::cosection;
+using namespace pcl::cosection::test;
+
+namespace
+{
+
+constexpr double radius_m = 0.08;
+constexpr double distance_m = 0.7;
+constexpr double voxel_size_m = 0.004;
+const PinholeCamera camera{160, 120, 140.0, 140.0, 79.5, 59.5};
+
+/** \brief A ball in the middle of a large one that is seen from within. */
+AnalyticScene
+ballInRoom ()
+{
+  AnalyticScene scene;
+  const Distance room = sphere (2.0);
+  scene.add (0, [=] (const Eigen::Vector3d& p) { return -room (p); });
+  scene.add (1, sphere (radius_m));
+  return scene;
+}
+
+VoxelGrid
+gridAboutBall ()
+{
+  constexpr int size = 56;
+  VoxelGrid grid;
+  grid.dims.setConstant (size);
+  grid.voxel_size_m = voxel_size_m;
+  grid.origin_m.setConstant (-0.5 * (size - 1) * voxel_size_m);
+  return grid;
+}
+
+/** \brief Bounds from views all around the ball, of poses that are wrong by so many pixels. */
+std::vector<float>
+boundsOf (int views, double pose_error_px)
+{
+  const AnalyticScene scene = ballInRoom ();
+  const VoxelGrid grid = gridAboutBall ();
+  FreeSpaceCarving carving (grid, true);
+  std::mt19937 random (3);
+  std::normal_distribution<double> error (0.0, pose_error_px / camera.fx);
+  for (int n = 0; n < views; ++n)
+  {
+    const double angle = 2.0 * M_PI * n / views;
+    const Eigen::Vector3d eye = distance_m * Eigen::Vector3d (std::cos (angle), std::sin (angle), 0.0);
+    const DepthView seen = scene.render (camera, lookAt (eye, Eigen::Vector3d::Zero ()), 8.0).view;
+    Eigen::Isometry3d believed = seen.T_world_sensor;
+    believed.rotate (Eigen::AngleAxisd (error (random), Eigen::Vector3d::UnitX ()));
+    believed.rotate (Eigen::AngleAxisd (error (random), Eigen::Vector3d::UnitY ()));
+    carving.add (FreeSpaceView (seen), believed);
+  }
+  return carving.lowerBounds ();
+}
+
+/** \brief Mean of bound minus distance where the equator's voxels are near the ball, voxels: positive cuts too much. */
+double
+meanExcess (const std::vector<float>& bounds)
+{
+  const VoxelGrid grid = gridAboutBall ();
+  double sum = 0.0;
+  int count = 0;
+  for (int k = grid.dims.z () / 2 - 3; k < grid.dims.z () / 2 + 3; ++k)
+    for (int j = 0; j < grid.dims.y (); ++j)
+      for (int i = 0; i < grid.dims.x (); ++i)
+      {
+        const double distance_vox = (grid.center (i, j, k).norm () - radius_m) / voxel_size_m;
+        if (std::abs (distance_vox) > 0.5)
+          continue;
+        sum += bounds[grid.index (i, j, k)] - distance_vox;
+        ++count;
+      }
+  return sum / count;
+}
+
+} // namespace
+
+TEST (FreeSpaceCarving, TwoViewsCutAlongTheirSilhouettes)
+{
+  const VoxelGrid grid = gridAboutBall ();
+  const std::vector<float> bounds = boundsOf (2, 0.0); // along x
+  const int middle = grid.dims.x () / 2;
+  double farthest_kept_vox = 0.0;
+  for (int j = 0; j < grid.dims.y (); ++j)
+    if (bounds[grid.index (middle, j, middle)] < 0.0f)
+      farthest_kept_vox = std::max (farthest_kept_vox, std::abs (grid.center (middle, j, middle).y ()) / voxel_size_m);
+  // The rays that touch the ball pass its middle plane a little outside.
+  const double touching_vox = radius_m / std::sqrt (1.0 - std::pow (radius_m / distance_m, 2)) / voxel_size_m;
+  const double pixel_vox = distance_m / camera.fx / voxel_size_m;
+  EXPECT_NEAR (farthest_kept_vox, touching_vox - pixel_vox, 1.0);
+}
+
+TEST (FreeSpaceCarving, ManyNoisyViewsCutAsExactOnes)
+{
+  const double exact = meanExcess (boundsOf (40, 0.0));
+  const double noisy = meanExcess (boundsOf (40, 0.5));
+  EXPECT_NEAR (noisy, exact, 0.2);
+  EXPECT_NEAR (exact, 0.0, 0.4);
+}

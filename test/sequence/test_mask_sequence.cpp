@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_cosection authors
+#include "io/sequence_folder.h"
+
+#include <pcl/cosection/common/error.h>
+#include <pcl/cosection/io/mask_sequence.h>
+
+#include <gtest/gtest.h>
+
+namespace fs = std::filesystem;
+using namespace pcl::cosection;
+using namespace pcl::cosection::test;
+
+namespace
+{
+
+void
+writeMask (const SequenceFolder& folder, const std::string& name, std::uint16_t id, bool wide = false, int width = 8)
+{
+  saveMaskImage (Image<std::uint16_t> (width, 6, id), folder.newPath (name), wide);
+}
+
+} // namespace
+
+TEST (MaskSequence, AFileForEachFrameThatHasOne)
+{
+  SequenceFolder folder;
+  folder.coFusion ({5, 6, 7, 9});
+  writeMask (folder, "mask/Mask0005.png", 200);
+  writeMask (folder, "mask/Mask0007.png", 60000, true);
+  writeMask (folder, "mask/Mask0008.png", 8); // the frame of this number is missing
+  const RgbdSequence sequence (folder.path ());
+  const MaskSequence masks (folder.path ("mask"), sequence);
+  EXPECT_EQ (masks.size (), 3u);
+  ASSERT_TRUE (masks.read (5));
+  EXPECT_EQ (masks.read (5)->at (3, 2), 200);
+  EXPECT_EQ (masks.read (7)->at (3, 2), 60000);
+  EXPECT_FALSE (masks.read (6)) << "the mask of a neighbour is none";
+  EXPECT_FALSE (masks.read (9));
+  EXPECT_EQ (masks.file (5), folder.path ("mask/Mask0005.png"));
+  ASSERT_EQ (masks.warnings ().size (), 1u);
+  EXPECT_EQ (masks.warnings ()[0], folder.path ("mask/Mask0008.png") + " matches no frame");
+}
+
+TEST (MaskSequence, NearestStampWithinHalfAPeriod)
+{
+  SequenceFolder folder;
+  folder.text ("calibration.txt", "10 10 3.5 2.5 8 6");
+  folder.text ("depth.txt", "10.00 d.png\n10.04 d.png\n10.08 d.png\n10.12 d.png\n");
+  folder.depth ("d.png", 0, 5000.0);
+  writeMask (folder, "mask/10.015.png", 1);
+  writeMask (folder, "mask/10.061.png", 2); // nearer to 10.08
+  writeMask (folder, "mask/10.145.png", 3); // too late for 10.12
+  const MaskSequence masks (folder.path ("mask"), RgbdSequence (folder.path ()));
+  EXPECT_EQ (masks.read (10.00)->at (0, 0), 1);
+  EXPECT_FALSE (masks.read (10.04));
+  EXPECT_EQ (masks.read (10.08)->at (0, 0), 2);
+  EXPECT_FALSE (masks.read (10.12));
+  EXPECT_TRUE (mentions (masks.warnings (), "10.145.png matches no frame"));
+}
+
+TEST (MaskSequence, BadMasksAreNamed)
+{
+  SequenceFolder folder;
+  folder.coFusion ({0, 1, 2, 3});
+  const RgbdSequence sequence (folder.path ());
+  const auto failure = [&] (const std::string& name) {
+    return messageOf<IoError> ([&] { MaskSequence (folder.path (name), sequence); });
+  };
+  EXPECT_NE (failure ("nowhere").find ("no such folder"), std::string::npos);
+  EXPECT_NE (failure ("calibration.txt").find ("is a file"), std::string::npos);
+  fs::create_directory (folder.path ("mask"));
+  EXPECT_NE (failure ("mask").find ("has no masks"), std::string::npos);
+  writeMask (folder, "mask/Mask0100.png", 1);
+  EXPECT_NE (failure ("mask").find ("no mask matches a frame; the masks have the stamps 100 to 100, the frames 0 to 3"),
+             std::string::npos);
+
+  writeMask (folder, "mask/Mask0000.png", 1, false, 9);
+  folder.text ("mask/Mask0001.png", readFile (folder.path ("mask/Mask0000.png")).substr (0, 60));
+  folder.colour ("mask/Mask0002.png", 0);
+  folder.text ("mask/readme.png", "");
+  const MaskSequence masks (folder.path ("mask"), sequence);
+  EXPECT_TRUE (mentions (masks.warnings (), "readme.png: left out; a name must end in a number"));
+  const auto readFailure = [&masks] (double stamp) { return messageOf<IoError> ([&] { masks.read (stamp); }); };
+  EXPECT_NE (readFailure (0).find ("Mask0000.png: has 9 x 6 pixels, but the depth images have 8 x 6"),
+             std::string::npos);
+  EXPECT_NE (readFailure (1).find ("Mask0001.png: is damaged"), std::string::npos);
+  EXPECT_NE (readFailure (2).find ("Mask0002.png: is not a mask"), std::string::npos);
+  EXPECT_FALSE (masks.read (3));
+}
