@@ -16,7 +16,9 @@ namespace pcl
 {
 struct Label;
 
-namespace cosection
+} // namespace pcl
+
+namespace pcl::cosection
 {
 
 /** \brief Finds the objects in an organised cloud by their geometry alone: without masks, colour or learned weights.
@@ -102,7 +104,9 @@ struct PointXYZRGBL;
 struct PointNormal;
 struct PointXYZRGBNormal;
 struct PointXYZINormal;
-namespace cosection
+} // namespace pcl
+
+namespace pcl::cosection
 {
 extern template class PCL_COSECTION_EXPORT GeometricSegmentation<pcl::PointXYZ>;
 extern template class PCL_COSECTION_EXPORT GeometricSegmentation<pcl::PointXYZI>;

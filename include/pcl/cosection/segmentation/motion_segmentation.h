@@ -20,7 +20,9 @@ namespace pcl
 {
 struct Label;
 
-namespace cosection
+} // namespace pcl
+
+namespace pcl::cosection
 {
 
 /** \brief Finds rigid bodies in a stream of organised clouds by their motion, while the sensor may move, too.
@@ -116,7 +118,9 @@ struct PointXYZRGBL;
 struct PointNormal;
 struct PointXYZRGBNormal;
 struct PointXYZINormal;
-namespace cosection
+} // namespace pcl
+
+namespace pcl::cosection
 {
 extern template class PCL_COSECTION_EXPORT MotionSegmentation<pcl::PointXYZ>;
 extern template class PCL_COSECTION_EXPORT MotionSegmentation<pcl::PointXYZI>;
