@@ -34,6 +34,10 @@ public:
 
   bool carves () const { return carving_.has_value (); }
 
+  const VoxelGrid& grid () const { return grid_; }
+
+  const CoSectionOptions& options () const { return options_; }
+
   /** \brief Sums over the points, not yet averaged; empty if there are no points. */
   const ImlsDataTerm& data () const { return data_; }
 

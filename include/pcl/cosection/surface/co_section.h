@@ -166,9 +166,8 @@ public:
   void addObstacle (TriangleMesh body,
                     const std::vector<Eigen::Isometry3d>& T_body_world = {Eigen::Isometry3d::Identity ()});
 
-  /** \brief Run from the start; if there were updates, with voxels at the places that they have given them. One failing
-   * object (degenerate, too large for the memory allowed ...) does not lose the others: see ObjectResult::error; a
-   * background that fails is a warning.
+  /** \brief Complete everything from the start, whatever update () has left. One failing object (degenerate, too large
+   * for the memory allowed ...) does not lose the others: see ObjectResult::error; a background that fails is a warning.
    * \throws Cancelled */
   SceneResult reconstruct (const ProgressCallback& progress = {}) const;
 
@@ -183,7 +182,6 @@ public:
   void forgetUpdates ();
 
 private:
-  friend class CoSectionRun;
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };

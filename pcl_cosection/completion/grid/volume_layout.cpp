@@ -6,7 +6,7 @@
 #include "pcl_cosection/common/ranked_values.h"
 #include "pcl_cosection/priors/extent_bounds.h"
 #include "pcl_cosection/view/pixel_of.h"
-#include "shape_volume.h"
+#include "pcl_cosection/energy/body_energy.h"
 
 #include "pcl_cosection/common/parallel.h"
 #include "pcl_cosection/priors/extent_prior.h"
@@ -97,7 +97,7 @@ layoutBox (const Eigen::AlignedBox3d& box, double voxel_size_m)
 void
 checkMemory (const VoxelGrid& grid, std::size_t limit_bytes, std::size_t used_bytes)
 {
-  const std::size_t bytes = ShapeVolume::estimateBytes (grid);
+  const std::size_t bytes = estimateBytes (grid);
   if (limit_bytes == 0 || (used_bytes < limit_bytes && bytes <= limit_bytes - used_bytes))
     return;
   std::ostringstream message;

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_cosection authors
+#pragma once
+
+#include "pcl_cosection/completion/scene/scene.h"
+#include "pcl_cosection/completion/scene/scene_state.h"
+
+namespace pcl::cosection
+{
+
+/** \brief The method: complete all objects of a scene and the background they stand on.
+ * \param[in,out] state what the last update left, empty at first; what the next one begins with. If this is cancelled,
+ * the state still goes with the scene
+ * \throws Cancelled */
+SceneResult completeScene (const Scene& scene, CompletionMode mode, UpdateOutput output,
+                           const ProgressCallback& progress, SceneState& state);
+
+} // namespace pcl::cosection

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_cosection authors
+#pragma once
+
+#include "surroundings.h"
+
+#include <vector>
+
+namespace pcl::cosection
+{
+
+/** \brief Let all bodies read the points and views that are new in the scene: equation (2), and the votes on free space
+ * of equation (3). Warns of views that contradict an object's points.
+ * \param[in] background the bodies of the background
+ * \return of each object of the scene, ObjectResult::contradicted_share */
+std::vector<double> gatherEvidence (const Scene& scene, CompletionMode mode, const std::vector<SceneObject>& objects,
+                                    const std::vector<BodyState*>& background, CompletionLog& log);
+
+} // namespace pcl::cosection

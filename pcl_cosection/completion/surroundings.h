@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_cosection authors
+#pragma once
+
+#include "pcl_cosection/completion/scene/completion_log.h"
+#include "pcl_cosection/completion/scene/scene.h"
+#include "pcl_cosection/completion/scene/scene_state.h"
+#include "pcl_cosection/energy/constraints/intersection_constraint.h"
+#include "pcl_cosection/priors/observation.h"
+
+#include <vector>
+
+namespace pcl::cosection
+{
+
+/** \brief The planes that bound an object, given or found in the background: n.x + d = 0, unit n towards the object,
+ * world frame. */
+struct SupportPlanes
+{
+  std::vector<Eigen::Vector4d> planes;
+  bool inferred = false; // the only plane is inferSupportPlane ()'s: it bounds the estimate, not what may be
+};
+
+/** \brief One object of the scene once it has a grid. */
+struct SceneObject
+{
+  std::size_t index = 0; // in the scene
+  const ObjectInput* input = nullptr;
+  const Observation* observation = nullptr;
+  const SupportPlanes* support = nullptr;
+  BodyState* body = nullptr;
+  std::vector<Eigen::Isometry3d> T_world_object; // relativePoses () to the world
+
+  const std::vector<OrientedPoint>& points () const { return observation->points (); }
+
+  const VoxelGrid& grid () const { return *body->grid; }
+
+  /** \brief The planes in the object's frame, at all of its poses. */
+  std::vector<Eigen::Vector4d> planes () const;
+};
+
+/** \brief What priors may know of an object's surroundings. */
+ObjectSetting settingOf (const Scene& scene, const ObjectInput& object, const BodyState& body);
+
+/** \brief The given planes, turned towards the object, and those that support it in the background. */
+std::vector<Eigen::Vector4d> boundingPlanes (const Scene& scene, const ObjectInput& object,
+                                             const Observation& observation);
+
+/** \brief boundingPlanes () of each object; where nothing is known around an object, the plane that its shape suggests.
+ * Warns if given planes cut off many points. */
+std::vector<SupportPlanes> findObjectPlanes (const Scene& scene, const std::vector<Observation>& observations,
+                                             SceneState& state, CompletionLog& log);
+
+/** \brief All different planes of all objects. */
+std::vector<Eigen::Vector4d> differentPlanes (const Scene& scene, const std::vector<Observation>& observations,
+                                              const std::vector<SupportPlanes>& support);
+
+/** \brief The given bodies as fields, those given as meshes sampled where the objects may be. Warns if they contain
+ * many points of an object, and of meshes that have to be left out.
+ * \param[in] used_bytes of the memory that is allowed, without obstacles */
+std::vector<Obstacle> sampleObstacles (const Scene& scene, const std::vector<SceneObject>& objects,
+                                       std::size_t used_bytes, CompletionLog& log);
+
+/** \brief Equation (5) for everything that is not an object: planes, the background, given bodies. */
+IntersectionConstraint surroundingsConstraint (const SceneObject& object, const BodyEnergy& energy,
+                                               const std::vector<SignedDistanceField::ConstPtr>& background,
+                                               const std::vector<Obstacle>& obstacles, const CoSectionOptions& options);
+
+} // namespace pcl::cosection

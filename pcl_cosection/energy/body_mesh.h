@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_cosection authors
+#pragma once
+
+#include "body_solution.h"
+#include <pcl/cosection/common/oriented_point.h>
+#include <pcl/cosection/common/triangle_mesh.h>
+
+#include <vector>
+
+namespace pcl::cosection
+{
+
+/** \brief Closed mesh of the minimiser with provenance and confidence, without components that have no data. */
+TriangleMesh closedMesh (const BodyEnergy& energy, const BodySolution& solution);
+
+/** \brief Closed mesh of the part of the minimiser's body that lies just behind points. */
+TriangleMesh innerMesh (const BodyEnergy& energy, const BodySolution& solution,
+                        const std::vector<OrientedPoint>& points);
+
+/** \brief Open mesh of the minimiser where it is supported, no farther from \a points and continued planes than
+ * evidence reaches. */
+TriangleMesh trimmedMesh (const BodyEnergy& energy, const BodySolution& solution,
+                          const std::vector<OrientedPoint>& points);
+
+} // namespace pcl::cosection
