@@ -28,7 +28,8 @@ try
     if (object.error.empty ())
     {
       saveMesh (object.mesh, "object_" + std::to_string (object.id) + ".ply");
-      std::cout << "object " << object.id << ": " << 1000.0 * computeMassProperties (object.mesh).volume_m3 << " litres\n";
+      std::cout << "object " << object.id << ": " << 1000.0 * computeMassProperties (object.mesh).volume_m3
+                << " litres\n";
     }
     else
       std::cerr << "object " << object.id << ": " << object.error << '\n';

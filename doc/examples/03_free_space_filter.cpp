@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_cosection authors
 
-// Two views of a wall; a point floats in front of it in one of them. The other view looks through that point, so it is removed.
+// Two views of a wall; a point floats in front of it in one of them. The other view looks through that point, so it is
+// removed.
 #include <pcl/cosection/surface/free_space_filter.h>
 
 #include <pcl/point_types.h>

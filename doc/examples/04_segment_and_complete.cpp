@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_cosection authors
 
-// Find the objects of an organised view by their geometry, then complete them together. 04_segment_and_complete [VIEW.pcd]
+// Find the objects of an organised view by their geometry, then complete them together. 04_segment_and_complete
+// [VIEW.pcd]
 #include <pcl/cosection/segmentation/object_segmentation.h>
 #include <pcl/cosection/surface/co_section.h>
 #include <pcl/cosection/surface/depth_view.h>
@@ -36,5 +37,6 @@ main (int argc, char** argv)
   for (auto object = std::next (points.begin ()); object != points.end (); ++object)
     scene.addObject ({object->first, object->second, {}});
   for (const ObjectResult& object : scene.reconstruct ().objects)
-    std::cout << "object " << object.id << ": " << object.mesh.triangles.size () << " triangles " << object.error << '\n';
+    std::cout << "object " << object.id << ": " << object.mesh.triangles.size () << " triangles " << object.error
+              << '\n';
 }

@@ -5,6 +5,7 @@
 #include "pcl_cosection/completion/grid/volume_layout.h"
 #include "pcl_cosection/completion/grid/voxel_size.h"
 #include "pcl_cosection/priors/extent_prior.h"
+#include "pcl_cosection/priors/shape_fits.h"
 #include "pcl_cosection/view/outliers/outlier_points.h"
 #include "pcl_cosection/view/outliers/point_groups.h"
 #include "pcl_cosection/view/virtual_viewpoint.h"
@@ -121,6 +122,7 @@ observeObjects (const Scene& scene, CompletionMode mode, SceneState& state, Comp
     checkInput (scene, input);
     Observation object;
     object.all_points = &input.points;
+    object.fits = std::make_shared<ShapeFits> ();
     measure (options, object);
 
     std::vector<bool> outliers = findOutliers (object);

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "body_energy.h"
-#include "pcl_cosection/energy/solver/quarter_resolution.h"
+#include "pcl_cosection/energy/solver/local_solver.h"
 #include <pcl/cosection/common/progress.h>
 #include <pcl/cosection/surface/solver.h>
 #include <pcl/cosection/volume/signed_distance_field.h>

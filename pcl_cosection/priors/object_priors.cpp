@@ -12,6 +12,7 @@
 #include "pcl_cosection/priors/shape/symmetric_extent.h"
 #include "pcl_cosection/volume/distance_transform.h"
 #include "rays_without_return.h"
+#include "shape_fits.h"
 
 #include <algorithm>
 #include <cmath>
@@ -66,7 +67,7 @@ mayRestOn (const Observation& object, const Eigen::Vector4d& plane)
 /** \brief The symmetric extent of the points; that of a tube if the background is seen where a vessel would have its
  * floor. */
 SymmetricExtent
-extentOf (const Observation& object, const ObjectSetting& setting, const std::optional<Eigen::Vector4d>& plane)
+fitExtent (const Observation& object, const ObjectSetting& setting, const std::optional<Eigen::Vector4d>& plane)
 {
   if (!plane)
     return SymmetricExtent (object.points (), setting.is_alone);
@@ -89,6 +90,12 @@ extentOf (const Observation& object, const ObjectSetting& setting, const std::op
   return ground >= least_ground && ground > floor ? extent.withoutFloor () : extent;
 }
 
+const SymmetricExtent&
+extentOf (const Observation& object, const ObjectSetting& setting, const std::optional<Eigen::Vector4d>& plane)
+{
+  return object.fits->of (plane, [&] { return fitExtent (object, setting, plane); });
+}
+
 UnseenPlaces
 unseenPlaces (const ObjectSetting& setting, const BodyEnergy& energy)
 {
@@ -103,13 +110,14 @@ unseenPlaces (const ObjectSetting& setting, const BodyEnergy& energy)
 /** \brief Whether nothing is known between the foot of the axis on a plane and what was seen of the object: neither
  * free space nor another body. */
 bool
-footIsHidden (const Observation& object, const UnseenPlaces& places, const Eigen::Vector4d& plane, double step_m)
+footIsHidden (const Observation& object, const ObjectSetting& setting, const UnseenPlaces& places,
+              const Eigen::Vector4d& plane, double step_m)
 {
   const Eigen::Vector3d up = plane.head<3> ();
   double lowest_m = std::numeric_limits<double>::infinity ();
   for (const OrientedPoint& p : object.points ())
     lowest_m = std::min (lowest_m, up.dot (p.position.cast<double> ()) + plane[3]);
-  Eigen::Vector3d foot = SymmetricExtent (object.points (), plane).center ();
+  Eigen::Vector3d foot = extentOf (object, setting, plane).center ();
   foot -= (up.dot (foot) + plane[3]) * up;
   for (double height_m = 0.0; height_m < lowest_m; height_m += step_m)
     if (places.isTaken (foot + height_m * up))
@@ -119,9 +127,13 @@ footIsHidden (const Observation& object, const UnseenPlaces& places, const Eigen
 
 /** \brief The planes on which the object comes to rest in some view. \param[in] step_m between points of walls */
 std::vector<Eigen::Vector4d>
-restingPlanes (const Observation& object, const UnseenPlaces& places, const std::vector<Eigen::Vector4d>& planes,
-               double voxel_size_m, double step_m)
+restingPlanes (const Observation& object, const ObjectSetting& setting, const UnseenPlaces& places,
+               const std::vector<Eigen::Vector4d>& planes, const BodyEnergy& energy, double step_m)
 {
+  const auto foot_is_hidden = [&] (const Eigen::Vector4d& plane) {
+    return energy.options.use_symmetric_extent &&
+           footIsHidden (object, setting, places, plane, 0.5 * energy.grid.voxel_size_m);
+  };
   std::vector<Eigen::Vector4d> resting;
   for (const Eigen::Vector4d& plane : planes)
   {
@@ -130,15 +142,13 @@ restingPlanes (const Observation& object, const UnseenPlaces& places, const std:
     });
     if (known)
       continue;
-    if (hasFootNear (object, plane, resting_reach) ||
-        (mayRestOn (object, plane) && footIsHidden (object, places, plane, 0.5 * voxel_size_m)))
+    if (hasFootNear (object, plane, resting_reach) || (mayRestOn (object, plane) && foot_is_hidden (plane)))
       resting.push_back (plane);
   }
   if (!resting.empty ())
     return resting;
   const auto goes_down_behind_others = [&] (const Eigen::Vector4d& plane) {
-    return hasFootNear (object, plane, lowest_plane_reach) &&
-           footIsHidden (object, places, plane, 0.5 * voxel_size_m) &&
+    return hasFootNear (object, plane, lowest_plane_reach) && foot_is_hidden (plane) &&
            !wallsBehindOthers (object.points (), plane, step_m, places).empty ();
   };
   const auto plane = std::find_if (planes.begin (), planes.end (), goes_down_behind_others);
@@ -319,7 +329,7 @@ wallThickness (const Observation& object, const ObjectSetting& setting, const st
 std::optional<Eigen::Vector4d>
 inferSupportPlane (const Observation& object, const ObjectSetting& setting)
 {
-  const SymmetricExtent extent = extentOf (object, setting, std::nullopt);
+  const SymmetricExtent& extent = extentOf (object, setting, std::nullopt);
   if (extent.wallThickness () > 0.0)
     return std::nullopt;
   const std::vector<OrientedPoint>& all = object.points ();
@@ -358,26 +368,29 @@ addPriors (const Observation& object, const ObjectSetting& setting, const std::v
            bool plane_is_inferred, OcclusionMap& hidden, BodyEnergy& energy)
 {
   const CoSectionOptions& options = energy.options;
+  if (!options.use_extent_prior && !options.use_contact_prior)
+    return;
   const bool is_cut_out = setting.background.empty ();
   const UnseenPlaces places = unseenPlaces (setting, energy);
   const double step_m = std::max (energy.grid.voxel_size_m, object.spacing_m); // no nearer than points that were seen
-  std::vector<SymmetricExtent> standing;
-  const std::vector<Eigen::Vector4d> resting = restingPlanes (object, places, planes, energy.grid.voxel_size_m, step_m);
-  for (const Eigen::Vector4d& plane : resting)
-    standing.push_back (withHiddenWalls (object, extentOf (object, setting, plane), places, plane, step_m));
-  if (standing.empty ())
-    standing.push_back (extentOf (object, setting, std::nullopt));
+  const std::vector<Eigen::Vector4d> resting = restingPlanes (object, setting, places, planes, energy, step_m);
+  std::vector<SymmetricExtent> standing; // on each of the planes; or, if there is no plane, anywhere
+  if (options.use_symmetric_extent)
+  {
+    for (const Eigen::Vector4d& plane : resting)
+      standing.push_back (withHiddenWalls (object, extentOf (object, setting, plane), places, plane, step_m));
+    if (standing.empty ())
+      standing.push_back (extentOf (object, setting, std::nullopt));
+  }
   const bool has_profile = std::any_of (standing.begin (), standing.end (),
                                         [] (const SymmetricExtent& extent) { return extent.hasProfile (); });
   if (options.use_extent_prior && is_cut_out && !has_profile) // a profile is worth more
     addRaysWithoutReturn (object, energy);
   if (options.use_contact_prior && !plane_is_inferred) // an inferred plane is where the object was seen to end
     for (std::size_t n = 0; n < resting.size (); ++n)
-      addContactPrior (object, resting[n], standing[n].center (), energy);
+      addContactPrior (object, resting[n], standing.empty () ? object.box.center () : standing[n].center (), energy);
   if (!options.use_extent_prior)
     return;
-  if (!options.use_symmetric_extent)
-    standing.clear ();
   for (const SymmetricExtent& extent : standing)
     if (extent.copiesAreAlike ())
       addHiddenSide (extent, object, energy);

@@ -15,6 +15,8 @@
 namespace pcl::cosection
 {
 
+class ShapeFits;
+
 /** \brief What was measured of one object, in its frame, metres. */
 struct Observation
 {
@@ -25,7 +27,8 @@ struct Observation
   double voxel_size_m = 0.0;                              // of the object's grid; vessels may have a finer one
   Eigen::Vector3d extents_m = Eigen::Vector3d::Zero ();   // observedExtents () of the points
   std::shared_ptr<const DepthView> virtual_view;          // of the points, if no view saw the object; else null
-  OcclusionMap::Views views; // which saw where the object is or may be; or the virtual view
+  OcclusionMap::Views views;       // which saw where the object is or may be; or the virtual view
+  std::shared_ptr<ShapeFits> fits; // shapes that were fitted to the points so far
 
   const std::vector<OrientedPoint>& points () const { return inliers.empty () ? *all_points : inliers; }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_cosection authors
 #include "grid_transfer.h"
-#include "quarter_resolution.h"
+#include "local_solver.h"
 #include "solver_detail.h"
 
 #include <chrono>

@@ -2,9 +2,9 @@
 // Copyright (c) 2026, the pcl_cosection authors
 #include <pcl/cosection/io/pcd_view.h>
 
-#include "pcd_cloud.h"
-#include "pcl_cosection/view/organized_view.h"
-#include "pcl_cosection/view/unorganized_view.h"
+#include "pcl_cosection/io/cloud/pcd_cloud.h"
+#include "organized_view.h"
+#include "unorganized_view.h"
 
 #include <pcl/cosection/common/error.h>
 
