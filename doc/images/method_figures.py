@@ -744,8 +744,9 @@ def architecture ():
         (304, [("priors", ["what hidden surface is expected"], 90, 250), ("energy", ["data · constraints · solver (eq. 1–5)"], 355, 265),
                ("segmentation", ["geometry · motion · network"], 635, 190), ("tracking", ["pose"], 840, 100)]),
         (392, [("view", ["camera, normals, mixed pixels, range image, sensor pose, visibility"], 90, 850)]),
-        (474, [("volume", ["grids, TSDF, iso surface"], 90, 270), ("mesh", ["triangle meshes, decimation"], 380, 270), ("rendering", ["rasteriser"], 670, 270)]),
-        (556, [("io", ["files, and nothing but files"], 90, 415), ("common", ["cameras, errors, parallel loops, robust statistics"], 525, 415)]),
+        (474, [("io", ["files, and nothing but files"], 90, 560), ("rendering", ["rasteriser"], 670, 270)]),
+        (566, [("volume", ["grids, TSDF, iso surface"], 90, 270), ("mesh", ["triangle meshes, decimation"], 380, 270),
+               ("common", ["errors, parallel loops, robust statistics"], 670, 270)]),
     ]
     for y, boxes in rows:
         for name, below, x, w in boxes:
@@ -754,15 +755,16 @@ def architecture ():
             f.text (x + w / 2, y + 43, below[0], 11.5, PALE, "middle")
     f.add (f'<text transform="rotate(-90 28 330)" x="28" y="330" font-size="13" fill="{PALE}" text-anchor="middle">dependencies go downwards only</text>')
     f.arrow (42, 180, 42, 480, PALE, 1.4)
-    f.arrow (150, 556, 150, 450, scene, 3.5)
-    f.arrow (150, 392, 150, 270, scene, 3.5)
-    f.path ([(90, 240), (68, 240), (68, 584), (84, 584)], scene, 3.5)
-    f.arrow (70, 584, 89, 584, scene, 3.5)
+    f.arrow (340, 332, 354, 332, PALE, 1.4)
+    f.arrow (106, 474, 106, 450, scene, 3.5)
+    f.arrow (106, 392, 106, 270, scene, 3.5)
+    f.path ([(90, 240), (68, 240), (68, 502), (84, 502)], scene, 3.5)
+    f.arrow (70, 502, 89, 502, scene, 3.5)
     f.arrow (585, 140, 562, 140, stream, 3.5)
     f.arrow (420, 168, 420, 210, stream, 3.5)
     f.arrow (460, 212, 460, 170, stream, 3.5)
-    f.path ([(275, 150), (263, 150), (263, 198), (972, 198), (972, 630), (297, 630)], stream, 3.5)
-    f.arrow (297, 630, 297, 614, stream, 3.5)
+    f.path ([(275, 150), (263, 150), (263, 198), (972, 198), (972, 548), (297, 548)], stream, 3.5)
+    f.arrow (297, 548, 297, 532, stream, 3.5)
     f.line (90, 668, 130, 668, scene, 4)
     f.text (140, 673, "a scene of PCD views: io reads, view prepares, completion solves, io writes meshes", 13)
     f.line (90, 694, 130, 694, stream, 4)

@@ -142,7 +142,8 @@ TEST (MotionSegmentation, TheCameraMovesToo)
 TEST (MotionSegmentation, Turns)
 {
   const MovingTable table (resting + movingBox (2, carton, R"({"time": 0.3, "position": [-0.2, 0, 0.051]},
-                                                              {"time": 1.3, "position": [-0.2, 0, 0.051], "rpy_deg": [0, 0, 60]})"));
+                                                              {"time": 1.3, "position": [-0.2, 0, 0.051],
+                                                                "rpy_deg": [0, 0, 60]})"));
   const Found moved = segmented (table, upTo (24));
   EXPECT_GE (moved.comparison.best_iou.at (2), 0.8);
   EXPECT_EQ (moved.bodies ().size (), 1u);
@@ -151,7 +152,8 @@ TEST (MotionSegmentation, Turns)
 TEST (MotionSegmentation, TwoMotionsAreTwoBodies)
 {
   const MovingTable table (movingBox (1, carton, R"({"time": 0.3, "position": [0.2, 0.1, 0.051]},
-                                                    {"time": 1.3, "position": [0.3, 0.1, 0.051], "rpy_deg": [0, 0, 30]})") +
+                                                    {"time": 1.3, "position": [0.3, 0.1, 0.051], "rpy_deg": [0, 0,
+                                                      30]})") +
                            movingBox (2, carton, R"({"time": 0.3, "position": [-0.2, 0, 0.051]},
                                                     {"time": 1.3, "position": [0, -0.1, 0.051]})"));
   const Found moved = segmented (table, upTo (28));
@@ -163,8 +165,10 @@ TEST (MotionSegmentation, TwoMotionsAreTwoBodies)
 TEST (MotionSegmentation, WhatComesInSightBehindIsAtRest)
 {
   // Something as wide as a person passes: the table and the box behind it appear again.
-  const MovingTable table (resting + movingBox (2, {0.3, 0.1, 0.5}, R"({"time": 0.2, "position": [-0.1, -0.25, 0.251]},
-                                                                       {"time": 1.2, "position": [0.5, -0.25, 0.251]})"));
+  const MovingTable table (resting + movingBox (2, {0.3, 0.1, 0.5}, R"({"time": 0.2, "position": [-0.1, -0.25,
+    0.251]},
+                                                                       {"time": 1.2, "position": [0.5, -0.25,
+                                                                         0.251]})"));
   for (const int last : {18, 24, 30})
   {
     const Found found = segmented (table, upTo (last));
@@ -179,7 +183,8 @@ TEST (MotionSegmentation, WhatComesInSightBehindIsAtRest)
 TEST (MotionSegmentation, ABodyKeepsItsNumber)
 {
   const MovingTable table (movingBox (1, carton, R"({"time": 0.3, "position": [0.2, 0.1, 0.051]},
-                                                    {"time": 1.3, "position": [0.3, 0.1, 0.051], "rpy_deg": [0, 0, 30]})") +
+                                                    {"time": 1.3, "position": [0.3, 0.1, 0.051], "rpy_deg": [0, 0,
+                                                      30]})") +
                            movingBox (2, carton, R"({"time": 0.3, "position": [-0.2, 0, 0.051]},
                                                     {"time": 1.3, "position": [0, -0.1, 0.051]})"));
   MovingBodyFinder finder;
@@ -251,7 +256,8 @@ TEST (MotionSegmentation, WhatMovesAsAKnownBodyIsAPartOfIt)
   EXPECT_GE (comparison.best_iou.at (2), 0.8);
   EXPECT_GT (std::count (labels.begin (), labels.end (), 7u), 0);
   EXPECT_EQ (
-      std::count_if (labels.begin (), labels.end (), [] (std::uint32_t label) { return label != 0 && label != 7; }), 0);
+      std::count_if (labels.begin (), labels.end (),
+        [] (std::uint32_t label) { return label != 0 && label != 7; }), 0);
 }
 
 TEST (MotionSegmentation, AnyNumberOfThreads)

@@ -31,12 +31,15 @@ smallScene ()
   return parseSceneSpec (R"({
     "frames": 7, "rate": 5,
     "camera": {"width": 96, "height": 72,
-               "keys": [{"position": [0, -1, 0.5], "look_at": [0, 0, 0]}, {"time": 1, "position": [0.2, -1, 0.5], "look_at": [0, 0, 0]}]},
+               "keys": [{"position": [0, -1, 0.5], "look_at": [0, 0, 0]}, {"time": 1, "position": [0.2, -1, 0.5],
+                 "look_at": [0, 0, 0]}]},
     "views": {"every": 3},
     "background": {"parts": [{"type": "plane"}]},
     "objects": [
-      {"name": "ball", "shape": {"type": "sphere", "radius": 0.1}, "keys": [{"position": [0, 0, 0.1]}, {"time": 1, "position": [0.1, 0, 0.1]}]},
-      {"name": "box", "id": 9, "shape": {"type": "box", "size": [0.1, 0.1, 0.1]}, "keys": [{"position": [-0.2, 0.1, 0.05]}]}
+      {"name": "ball", "shape": {"type": "sphere", "radius": 0.1}, "keys": [{"position": [0, 0, 0.1]}, {"time": 1,
+        "position": [0.1, 0, 0.1]}]},
+      {"name": "box", "id": 9, "shape": {"type": "box", "size": [0.1, 0.1, 0.1]}, "keys": [{"position": [-0.2, 0.1,
+        0.05]}]}
     ]
   })",
                          "small");

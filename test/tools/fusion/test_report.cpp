@@ -218,9 +218,9 @@ TEST_F (Report, FailedRuns)
 {
   fs::remove_all (file ("out/mesh"));
   fs::remove_all (file ("out/trajectory"));
-  writeFile (
-      file ("out/summary.json"),
-      R"({"error": "no frame can be read", "objects": [], "failed": [], "warnings": [], "parameters": {"dataset": "a/b"}})");
+  writeFile (file ("out/summary.json"),
+             R"({"error": "no frame can be read", "objects": [], "failed": [], "warnings": [],
+        "parameters": {"dataset": "a/b"}})");
   const std::string html = page ({"out"});
   EXPECT_NE (errors_.find ("warning: the run failed: no frame can be read"), std::string::npos) << errors_;
   EXPECT_NE (html.find ("<strong>The run failed: </strong>\nno frame can be read"), std::string::npos);
@@ -251,10 +251,11 @@ TEST_F (Report, DamagedAndOddSummaries)
     page ({"out"});
     EXPECT_NE (errors_.find ("is not JSON as pcl_cosection_fusion writes it"), std::string::npos) << text;
   }
-  writeFile (
-      file ("out/summary.json"),
-      R"({"error": 5, "timings_s": {"total": "long", "read": []}, "frames": -3, "parameters": [1], "camera": {"fx": "wide"},
-    "objects": [{"id": 1, "volume_m3": "much", "closed": 7, "provenance": [], "solver": 3}, {"id": "x"}, {"id": 1e300}, 5, null],
+  writeFile (file ("out/summary.json"),
+             R"({"error": 5, "timings_s": {"total": "long", "read": []}, "frames": -3, "parameters": [1],
+        "camera": {"fx": "wide"},
+    "objects": [{"id": 1, "volume_m3": "much", "closed": 7, "provenance": [], "solver": 3}, {"id": "x"},
+      {"id": 1e300}, 5, null],
     "failed": [{"id": 9, "error": "too small"}, 7], "warnings": {"a": 1}, "events": [1, "begun"]})");
   const std::string html = page ({"out"});
   EXPECT_EQ (cell (html, "objects", "object 9", "Size (mm)"), "failed: too small");

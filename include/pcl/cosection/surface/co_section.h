@@ -166,8 +166,9 @@ public:
   void addObstacle (TriangleMesh body,
                     const std::vector<Eigen::Isometry3d>& T_body_world = {Eigen::Isometry3d::Identity ()});
 
-  /** \brief Complete everything from the start, whatever update () has left. One failing object (degenerate, too large
-   * for the memory allowed ...) does not lose the others: see ObjectResult::error; a background that fails is a warning.
+  /** \brief Complete everything from the start, whatever update () has left. An object that fails (degenerate, too
+   * large for the memory allowed ...) does not lose the others: see ObjectResult::error. A background that fails is a
+   * warning.
    * \throws Cancelled */
   SceneResult reconstruct (const ProgressCallback& progress = {}) const;
 
