@@ -80,6 +80,9 @@ def tracked(*patterns):
 
 
 def check_columns(path, lines):
+    for number, line in enumerate(lines, 1):
+        if len(line) > MAX_COLUMNS:
+            yield f"{path}:{number}: {len(line)} columns"
 
 
 def check_functions(path, lines):
