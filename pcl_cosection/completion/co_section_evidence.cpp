@@ -8,9 +8,9 @@
 #include "volume_layout.h"
 #include "voxel_size.h"
 
+#include "pcl_cosection/energy/constraints/free_space_votes.h"
 #include "pcl_cosection/priors/shape/symmetric_extent.h"
 #include <pcl/cosection/common/error.h>
-#include <pcl/cosection/surface/free_space_votes.h>
 
 #include <algorithm>
 #include <array>

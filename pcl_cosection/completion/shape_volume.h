@@ -8,10 +8,9 @@
 #include "quarter_resolution.h"
 
 #include "pcl_cosection/priors/extent_prior.h"
+#include <pcl/cosection/common/error.h>
 #include <pcl/cosection/common/oriented_point.h>
-#include <pcl/cosection/common/progress.h>
 #include <pcl/cosection/common/triangle_mesh.h>
-#include <pcl/cosection/surface/energy_problem.h>
 #include <pcl/cosection/surface/options.h>
 #include <pcl/cosection/surface/solver.h>
 #include <pcl/cosection/volume/signed_distance_field.h>

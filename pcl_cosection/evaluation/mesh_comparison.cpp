@@ -2,9 +2,9 @@
 // Copyright (c) 2026, the pcl_cosection authors
 #include <pcl/cosection/evaluation/mesh_comparison.h>
 
+#include "pcl_cosection/evaluation/surface_distance.h"
 #include "surface_samples.h"
 #include <pcl/cosection/common/error.h>
-#include <pcl/cosection/evaluation/surface_distance.h>
 
 #include <algorithm>
 #include <cmath>

@@ -4,8 +4,8 @@
 
 #include "pcl_cosection/sequence/stamp_span.h"
 
+#include "pcl_cosection/evaluation/rigid_alignment.h"
 #include <pcl/cosection/common/error.h>
-#include <pcl/cosection/evaluation/rigid_alignment.h>
 
 #include <algorithm>
 #include <cmath>

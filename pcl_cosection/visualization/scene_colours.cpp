@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_cosection authors
-#include <pcl/cosection/visualization/scene_colours.h>
+#include "scene_colours.h"
 
 #include "pcl_cosection/evaluation/pictures/error_picture.h"
 #include "pcl_cosection/rendering/picture.h"

@@ -2,8 +2,8 @@
 // Copyright (c) 2026, the pcl_cosection authors
 
 #include "pcl_cosection/evaluation/pictures/error_picture.h"
+#include "pcl_cosection/evaluation/surface_distance.h"
 #include <pcl/cosection/evaluation/mesh_comparison.h>
-#include <pcl/cosection/evaluation/surface_distance.h>
 #include <pcl/cosection/visualization/run_scene.h>
 
 #include <algorithm>

@@ -11,7 +11,7 @@
 #include <pcl/cosection/io/mesh_io.h>
 #include <pcl/cosection/segmentation/geometric_segmentation.h>
 #include <pcl/cosection/surface/hessian_imls.h>
-#include <pcl/cosection/surface/organized_normals.h>
+#include <pcl/cosection/surface/normals.h>
 
 #include <pcl/filters/extract_indices.h>
 #include <pcl/filters/filter.h>

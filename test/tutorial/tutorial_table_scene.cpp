@@ -11,7 +11,7 @@
 #include <pcl/cosection/io/mesh_io.h>
 #include <pcl/cosection/surface/free_space_filter.h>
 #include <pcl/cosection/surface/hessian_imls.h>
-#include <pcl/cosection/surface/organized_normals.h>
+#include <pcl/cosection/surface/normals.h>
 
 #include <pcl/common/transforms.h>
 #include <pcl/filters/extract_indices.h>

@@ -4,7 +4,7 @@
 #include "run_folder.h"
 
 #include <pcl/cosection/common/error.h>
-#include <pcl/cosection/visualization/viewpoint.h>
+#include <pcl/cosection/visualization/scene_picture.h>
 
 #include <gtest/gtest.h>
 

@@ -12,12 +12,12 @@
 #include "text_table.h"
 
 #include "pcl_cosection/evaluation/pictures/error_picture.h"
+#include "pcl_cosection/evaluation/rigid_alignment.h"
+#include "pcl_cosection/evaluation/surface_distance.h"
 #include "pcl_cosection/evaluation/surface_samples.h"
 #include "pcl_cosection/rendering/picture.h"
 #include <pcl/cosection/common/error.h>
 #include <pcl/cosection/evaluation/mesh_comparison.h>
-#include <pcl/cosection/evaluation/rigid_alignment.h>
-#include <pcl/cosection/evaluation/surface_distance.h>
 #include <pcl/cosection/io/mesh_io.h>
 
 #include <algorithm>

@@ -5,10 +5,10 @@
 #include "creased_normals.h"
 #include "picture_canvas.h"
 
+#include "pcl_cosection/evaluation/surface_distance.h"
 #include "pcl_cosection/view/look_at.h"
 #include <pcl/cosection/common/error.h>
 #include <pcl/cosection/evaluation/mesh_comparison.h>
-#include <pcl/cosection/evaluation/surface_distance.h>
 #include <pcl/cosection/rendering/rasterizer.h>
 
 #include <opencv2/core.hpp>

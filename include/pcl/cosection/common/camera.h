@@ -6,9 +6,15 @@
 
 #include <Eigen/Geometry>
 
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <vector>
+
+namespace pcl
+{
+template <typename PointT> class PointCloud;
+}
 
 namespace pcl::cosection
 {
@@ -68,5 +74,39 @@ depthNoiseSigma (double z)
  * half a pixel (the cloud is not a pinhole's image) */
 PCL_COSECTION_EXPORT std::optional<PinholeCamera> fitPinholeCamera (const std::vector<Eigen::Vector3f>& points,
                                                                     int width, int height);
+
+/** \brief The depth image that a cloud is: of an organised one its pixels, of an unorganised one the nearest point in
+ * each direction from its sensor.
+ *
+ * An organised cloud may be in any frame: its pixels determine the camera's intrinsics and pose. An unorganised one is
+ * in its sensor's frame.
+ * \param[in] points width * height points, row by row, metres (organised in the sensor's frame: x right, y down, z
+ * forward); not finite, or z <= 0 of an organised one: no reading
+ * \param[in] width, height of an organised cloud; height 1: not organised
+ * \param[in] T_world_points pose of the frame in which the points are
+ * \return nothing if there are no points, if an organised cloud is not the image of a pinhole camera (fitPinholeCamera
+ * ()), or if more than a tenth of the points of an unorganised one is hidden from the sensor
+ * \throws InvalidArgument if there are not width * height points */
+PCL_COSECTION_EXPORT std::optional<DepthView>
+toDepthView (const std::vector<Eigen::Vector3f>& points, int width, int height,
+             const Eigen::Isometry3d& T_world_points = Eigen::Isometry3d::Identity ());
+
+/** \brief The depth image that a cloud of PCL's is: see toDepthView () of points. A cloud whose size is not its width
+ * times its height is none. */
+template <typename PointT>
+std::optional<DepthView>
+toDepthView (const pcl::PointCloud<PointT>& cloud,
+             const Eigen::Isometry3d& T_world_cloud = Eigen::Isometry3d::Identity ())
+{
+  if (cloud.height > 1 && cloud.size () != static_cast<std::size_t> (cloud.width) * cloud.height)
+    return std::nullopt;
+  std::vector<Eigen::Vector3f> points;
+  points.reserve (cloud.size ());
+  for (const PointT& p : cloud)
+    points.emplace_back (p.x, p.y, p.z);
+  const bool organized = cloud.height > 1;
+  return toDepthView (points, organized ? static_cast<int> (cloud.width) : static_cast<int> (points.size ()),
+                      organized ? static_cast<int> (cloud.height) : 1, T_world_cloud);
+}
 
 } // namespace pcl::cosection

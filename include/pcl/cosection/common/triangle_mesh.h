@@ -4,6 +4,8 @@
 
 #include <pcl/cosection/common/export.h>
 
+#include <pcl/PolygonMesh.h>
+
 #include <Eigen/Core>
 
 #include <array>
@@ -75,5 +77,15 @@ PCL_COSECTION_EXPORT TriangleMesh extractTriangles (const TriangleMesh& mesh, co
 
 /** \brief Append \a other to \a mesh; a per-vertex array missing in one of them is dropped. */
 PCL_COSECTION_EXPORT void appendMesh (TriangleMesh& mesh, const TriangleMesh& other);
+
+/** \brief As PCL's mesh: fields x y z, normal_x normal_y normal_z, rgb, intensity, confidence (float) and provenance
+ * (unsigned char), as far as \a mesh has them. The header is left alone.
+ * \throws InvalidArgument if the vertices need more than 4 GiB, PCL's limit */
+PCL_COSECTION_EXPORT void toPolygonMesh (const TriangleMesh& mesh, pcl::PolygonMesh& output);
+
+/** \brief Vertices and faces of PCL's mesh; polygons are split into triangles around their first vertex.
+ * \throws InvalidArgument if it has no fields x, y and z of floats, or a polygon of fewer than three vertices or of
+ * vertices that do not exist */
+PCL_COSECTION_EXPORT TriangleMesh fromPolygonMesh (const pcl::PolygonMesh& mesh);
 
 } // namespace pcl::cosection

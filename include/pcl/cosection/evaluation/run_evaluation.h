@@ -7,7 +7,6 @@
 #include <pcl/cosection/common/triangle_mesh.h>
 #include <pcl/cosection/evaluation/mesh_comparison.h>
 #include <pcl/cosection/evaluation/penetration.h>
-#include <pcl/cosection/evaluation/rigid_alignment.h>
 #include <pcl/cosection/evaluation/trajectory_error.h>
 #include <pcl/cosection/io/trajectory.h>
 
@@ -33,6 +32,30 @@ struct PCL_COSECTION_EXPORT SceneRecord
   std::optional<PinholeCamera> intrinsics;
   std::vector<Object> objects;
   TriangleMesh background; ///< world frame; empty: none
+};
+
+/** \brief How far and how to refine. */
+struct PCL_COSECTION_EXPORT RefinementOptions
+{
+  double max_distance_m = 0.02;    ///< farther points do not count
+  double max_translation_m = 0.02; ///< of the centre of the points
+  double max_rotation_rad = 0.1;
+  int max_iterations = 50;
+  int threads = 0; ///< 0: all
+
+  /** \brief \throws InvalidArgument naming the first parameter outside its domain. */
+  void validate () const;
+};
+
+/** \brief What a refinement did. */
+struct PCL_COSECTION_EXPORT Refinement
+{
+  Eigen::Isometry3d correction = Eigen::Isometry3d::Identity (); ///< to be applied after the initial pose
+  double translation_m = 0.0;                                    ///< of the centre of the points
+  double rotation_rad = 0.0;
+  double rmse_before_m = 0.0; ///< of the points that are near enough, to the surface
+  double rmse_after_m = 0.0;
+  bool limited = false; ///< a limit was reached; the last motion within it is the result
 };
 
 /** \brief How to evaluate a run. */
@@ -118,5 +141,24 @@ struct PCL_COSECTION_EXPORT RunEvaluation
  * \throws DegenerateInput if the cameras' trajectories do not match */
 PCL_COSECTION_EXPORT RunEvaluation evaluateRun (const SceneRecord& truth, const SceneRecord& estimate,
                                                 const RunOptions& options = {});
+
+/** \brief What was odd about the files. */
+struct PCL_COSECTION_EXPORT ReadingNotes
+{
+  std::vector<std::string> warnings;
+  bool whole = true; ///< every file that is there could be read
+};
+
+/** \brief Read what a run wrote: trajectory/camera.txt, trajectory/object_ID.txt, mesh/object_ID.ply,
+ * mesh/background.ply.
+ * \param[out] notes what is missing or cannot be read, beside the camera
+ * \throws IoError if there is no such folder, or the camera cannot be read */
+PCL_COSECTION_EXPORT SceneRecord readRun (const std::string& folder, ReadingNotes& notes);
+
+/** \brief Read the truth of a dataset: gt-cam-0.txt, gt-NAME-ID.txt, gt-mesh/NAME.ply, gt-mesh/room.ply or
+ * background.ply, calibration.txt.
+ * \param[out] notes what is missing or cannot be read, beside the camera
+ * \throws IoError if there is no such folder, or the camera cannot be read */
+PCL_COSECTION_EXPORT SceneRecord readTruth (const std::string& folder, ReadingNotes& notes);
 
 } // namespace pcl::cosection

@@ -2,12 +2,10 @@
 // Copyright (c) 2026, the pcl_cosection authors
 #pragma once
 
+#include <pcl/cosection/common/camera.h>
 #include <pcl/cosection/common/export.h>
 #include <pcl/cosection/common/image.h>
 #include <pcl/cosection/common/triangle_mesh.h>
-#include <pcl/cosection/fusion/class_evidence.h>
-#include <pcl/cosection/fusion/data_association.h>
-#include <pcl/cosection/fusion/frame_segmenter.h>
 #include <pcl/cosection/io/rgbd_sequence.h>
 
 #include <Eigen/Geometry>
@@ -24,6 +22,29 @@
 
 namespace pcl::cosection
 {
+
+class FrameSegmenter;
+
+/** \brief A class of things, and how certain it is that something belongs to it. */
+struct PCL_COSECTION_EXPORT ClassScore
+{
+  int class_id = 0;       ///< as the network counts
+  std::string class_name; ///< its number where there are no names
+  double score = 0.0;     ///< in [0, 1]
+};
+
+/** \brief How points are shared out among models. */
+struct PCL_COSECTION_EXPORT AssociationOptions
+{
+  double sigma_m = 0.02; ///< scale of the Laplace distribution of distances; at least the noise of the reading's depth
+  double inlier_share = 0.8;    ///< alpha: of readings that show a model at all
+  double uniform = 1.0;         ///< density of the others, 1 / m
+  double free_truncation = 0.9; ///< distances above this fraction of the truncation distance are seen free
+  int threads = 0;              ///< 0: all; no result depends on it
+
+  /** \brief \throws InvalidArgument naming the first parameter outside its domain. */
+  void validate () const;
+};
 
 /** \brief How DynamicFusion follows a scene. */
 struct PCL_COSECTION_EXPORT DynamicFusionOptions

@@ -5,13 +5,17 @@
 #include <pcl/cosection/common/camera.h>
 #include <pcl/cosection/common/export.h>
 #include <pcl/cosection/common/image.h>
-#include <pcl/cosection/fusion/class_evidence.h>
+#include <pcl/cosection/fusion/dynamic_fusion.h>
 #include <pcl/cosection/io/rgbd_sequence.h>
+#include <pcl/cosection/segmentation/geometric_segmentation.h>
+#include <pcl/cosection/segmentation/instance_detector.h>
+#include <pcl/cosection/segmentation/motion_segmentation.h>
 
 #include <Eigen/Geometry>
 
 #include <cstdint>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -75,6 +79,84 @@ public:
    * frames have shown of an object goes before a mask; an object begins when two masks show it, and not from an
    * instance that the image's border cuts; objects that move as one, or that masks show as one, are united. */
   virtual bool isExact () const { return true; }
+};
+
+/** \brief Finds objects in frames by their geometry alone: segmentObjects (). What it misses in one, as things at the
+ * image's border or flat ones, it may find in the next; what most frames have shown to be too long for an object is
+ * none where another one shows but a part of it.
+ *
+ * \code
+ * fusion.setSegmenter (std::make_shared<GeometricSegmenter> ());
+ * \endcode */
+class PCL_COSECTION_EXPORT GeometricSegmenter : public FrameSegmenter
+{
+public:
+  /** \throws InvalidArgument as ObjectSegmentationOptions::validate () */
+  explicit GeometricSegmenter (const ObjectSegmentationOptions& options = {});
+
+  ~GeometricSegmenter () override;
+
+  void begin () override;
+
+  /** \brief Without a plane that objects could stand on, the frame tells nothing. */
+  FrameInstances segment (const ObservedFrame& frame) override;
+
+  bool findsAll () const override { return false; }
+
+  bool isExact () const override { return false; }
+
+private:
+  ObjectSegmentationOptions options_;
+  std::unique_ptr<class ObjectSizeFilter> too_long_;
+};
+
+/** \brief Finds objects in frames when they begin to move: MovingBodyFinder. What the front end tracks already is known
+ * to it; what moves with an object is a part of it. Things that move otherwise than as a whole are ignored.
+ *
+ * \code
+ * fusion.setSegmenter (std::make_shared<MotionSegmenter> ());
+ * \endcode */
+class PCL_COSECTION_EXPORT MotionSegmenter : public FrameSegmenter
+{
+public:
+  /** \throws InvalidArgument as MotionSegmentationOptions::validate () */
+  explicit MotionSegmenter (const MotionSegmentationOptions& options = {});
+
+  void begin () override;
+
+  void look (const ObservedFrame& frame) override;
+
+  FrameInstances segment (const ObservedFrame& frame) override;
+
+  /** \brief What rests is not found. */
+  bool findsAll () const override { return false; }
+
+private:
+  MovingBodyFinder finder_;
+};
+
+/** \brief Finds objects in the colours of frames with an instance segmentation network: InstanceDetector.
+ *
+ * \code
+ * InstanceDetectorOptions network;
+ * network.model = "yolov5s-seg.onnx";
+ * network.detection.class_names = loadClassNames ("coco.names");
+ * fusion.setSegmenter (std::make_shared<NetworkSegmenter> (network, ClassRoles{{}, {"dining table", "tv"},
+ * {"person"}}));
+ * \endcode */
+class PCL_COSECTION_EXPORT NetworkSegmenter : public FrameSegmenter
+{
+public:
+  /** \throws InvalidArgument, IoError as InstanceDetector and ClassRoles::validate () */
+  explicit NetworkSegmenter (const InstanceDetectorOptions& options, const ClassRoles& roles = {});
+
+  /** \brief Instances with their classes. A frame without colour tells nothing. \throws IoError if the network cannot
+   * be run */
+  FrameInstances segment (const ObservedFrame& frame) override;
+
+private:
+  InstanceDetector detector_;
+  ClassRoles roles_;
 };
 
 } // namespace pcl::cosection

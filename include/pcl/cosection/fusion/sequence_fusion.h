@@ -3,16 +3,14 @@
 #pragma once
 
 #include <pcl/cosection/common/camera.h>
+#include <pcl/cosection/common/error.h>
 #include <pcl/cosection/common/export.h>
-#include <pcl/cosection/common/progress.h>
 #include <pcl/cosection/fusion/co_section_backend.h>
 #include <pcl/cosection/fusion/dynamic_fusion.h>
 #include <pcl/cosection/fusion/keyframe.h>
-#include <pcl/cosection/fusion/object_tsdf.h>
-#include <pcl/cosection/io/frame_reader.h>
-#include <pcl/cosection/io/mask_sequence.h>
 #include <pcl/cosection/io/rgbd_sequence.h>
 #include <pcl/cosection/io/trajectory.h>
+#include <pcl/cosection/volume/tsdf_volume.h>
 
 #include <cstddef>
 #include <functional>
@@ -57,6 +55,18 @@ enum class KeyframeUpdates
   None,
   InStep, ///< each keyframe waits for its update: the same updates in every run
   Beside, ///< in a thread beside the front end; keyframes that come during an update are completed together in the next
+};
+
+/** \brief Where an object's TSDF volume lies. */
+struct PCL_COSECTION_EXPORT ObjectTsdfOptions
+{
+  int resolution = 64;      ///< voxels along the longest side of what is seen first
+  double margin = 0.25;     ///< of the volume beyond what was seen, as a fraction of its longest side
+  int max_resolution = 256; ///< voxels along a side; what lies beyond is left out
+  TsdfOptions tsdf;
+
+  /** \brief \throws InvalidArgument naming the first parameter outside its domain. */
+  void validate () const;
 };
 
 /** \brief How SequenceFusion goes through a sequence. */

@@ -10,9 +10,16 @@
 #include <Eigen/Geometry>
 
 #include <array>
+#include <condition_variable>
 #include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <exception>
+#include <limits>
+#include <mutex>
 #include <optional>
 #include <string>
+#include <thread>
 #include <vector>
 
 namespace pcl::cosection
@@ -133,6 +140,111 @@ private:
   PinholeCamera camera_;
   std::string size_source_; // for messages
   std::vector<FrameFiles> files_;
+  std::vector<std::string> warnings_;
+};
+
+/** \brief Which frames FrameReader reads. */
+struct PCL_COSECTION_EXPORT FrameRange
+{
+  std::size_t first = 0;                                       ///< index
+  std::size_t last = std::numeric_limits<std::size_t>::max (); ///< index of the frame behind the last; larger: the
+                                                               ///< sequence's end
+};
+
+/** \brief Reads the frames of a sequence ahead, in a thread of its own.
+ *
+ * Frames come in their order. One that cannot be read is skipped and told in warnings (). The same files give the same
+ * frames and warnings, however the threads run.
+ *
+ * \code
+ * FrameReader reader (sequence);
+ * while (const std::optional<RgbdFrame> frame = reader.next ())
+ *   use (*frame);
+ * \endcode */
+class PCL_COSECTION_EXPORT FrameReader
+{
+public:
+  /** \brief Start to read. The reader has a copy of the sequence, which is names only.
+   * \param[in] ahead frames that are held at most until they are asked for
+   * \throws InvalidArgument if the range has no frame of the sequence, or \a ahead is 0 */
+  explicit FrameReader (const RgbdSequence& sequence, const FrameRange& range = {}, std::size_t ahead = 4);
+
+  /** \brief Stops as soon as the frame that is being read is done. */
+  ~FrameReader ();
+
+  FrameReader (const FrameReader&) = delete;
+  FrameReader& operator= (const FrameReader&) = delete;
+
+  /** \brief The next frame that can be read; waits for it. Nothing at the end, again and again.
+   * \throws std::bad_alloc if memory ran out even for a message about a frame */
+  std::optional<RgbdFrame> next ();
+
+  /** \brief Lines about the frames up to the last that next () returned, in their order: the first twenty, then how
+   * many more. From any thread. */
+  std::vector<std::string> warnings () const;
+
+  /** \brief How many frames were skipped up to the last that next () returned. From any thread. */
+  std::size_t skipped () const;
+
+private:
+  struct Result
+  {
+    std::optional<RgbdFrame> frame; // nothing: skipped
+    std::vector<std::string> warnings;
+  };
+
+  void run (std::size_t first, std::size_t last) noexcept;
+
+  void readFrames (std::size_t first, std::size_t last);
+
+  Result readFrame (std::size_t index) const;
+
+  const RgbdSequence sequence_;
+  const std::size_t ahead_;
+
+  mutable std::mutex mutex_; // of what follows
+  std::condition_variable changed_;
+  std::deque<Result> results_;
+  bool done_ = false;
+  bool stop_ = false;
+  std::exception_ptr failure_;
+  std::vector<std::string> kept_warnings_;
+  std::size_t more_warnings_ = 0;
+  std::size_t skipped_ = 0;
+
+  std::thread thread_; // last: it uses the rest
+};
+
+/** \brief Masks of instances for the frames of a sequence: a folder of PNGs of one channel of 8 or 16 bits, a file per
+ * frame that has one. A pixel is the number of an instance, 0 none. A name ends in the frame's number or stamp:
+ * Mask0003.png, 0.033333.png. Several threads may read. */
+class PCL_COSECTION_EXPORT MaskSequence
+{
+public:
+  /** \brief List the masks for a sequence.
+   * \throws IoError if there is no such folder, it has no masks, or none of them matches a frame */
+  MaskSequence (const std::string& folder, const RgbdSequence& sequence);
+
+  /** \brief How many files there are. */
+  std::size_t size () const { return paths_.size (); }
+
+  /** \brief The file for a frame: that of the nearest stamp if it is less than half a frame period away; else nothing.
+   */
+  std::optional<std::string> file (double stamp) const;
+
+  /** \brief Read the mask for a frame; nothing if there is none.
+   * \throws IoError naming the file, if it is damaged, is no mask, or has another size than the depth */
+  std::optional<Image<std::uint16_t>> read (double stamp) const;
+
+  /** \brief Lines about what is odd: files that match no frame, or whose names have no number; two of one number. */
+  const std::vector<std::string>& warnings () const { return warnings_; }
+
+private:
+  double half_period_;
+  int width_;
+  int height_;
+  std::vector<double> stamps_; // ascending
+  std::vector<std::string> paths_;
   std::vector<std::string> warnings_;
 };
 

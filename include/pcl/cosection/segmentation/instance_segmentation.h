@@ -4,7 +4,6 @@
 
 #include <pcl/cosection/common/export.h>
 #include <pcl/cosection/segmentation/instance_detector.h>
-#include <pcl/cosection/segmentation/instance_labels.h>
 
 #include <pcl/PointIndices.h>
 #include <pcl/pcl_base.h>

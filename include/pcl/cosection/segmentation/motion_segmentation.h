@@ -2,8 +2,8 @@
 // Copyright (c) 2026, the pcl_cosection authors
 #pragma once
 
+#include <pcl/cosection/common/camera.h>
 #include <pcl/cosection/common/export.h>
-#include <pcl/cosection/segmentation/moving_body_finder.h>
 
 #include <pcl/PointIndices.h>
 #include <pcl/pcl_base.h>
@@ -13,6 +13,7 @@
 
 #include <cstdint>
 #include <map>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -22,6 +23,104 @@ struct Label;
 
 namespace cosection
 {
+
+/** \brief Parameters of MovingBodyFinder. */
+struct PCL_COSECTION_EXPORT MotionSegmentationOptions
+{
+  int window = 30;           ///< frames that a frame is compared with, at most: what moves less in them is at rest
+  int min_pixels = 400;      ///< of an image of 640 x 480 that must show motion plainly; in proportion in others
+  double significance = 3.0; ///< standard deviations of the depth's noise, from which on a reading is plainly elsewhere
+  double max_object_size_m = 1.0;  ///< planes that are longer are the room's
+  double concave_angle_rad = 0.45; ///< a crease that is concave by more than this joins nothing
+  int threads = 0;                 ///< 0: all; no result depends on it
+
+  /** \brief \throws InvalidArgument naming the first parameter outside its domain. */
+  void validate () const;
+};
+
+/** \brief A frame of an organised depth sensor, and what is known of it. */
+struct PCL_COSECTION_EXPORT MotionFrame
+{
+  PinholeCamera camera;
+  std::vector<Eigen::Vector3f> points; ///< one per pixel, row by row, sensor frame, metres; not finite: no reading
+  Eigen::Isometry3d T_world_sensor = Eigen::Isometry3d::Identity ();
+
+  /** \brief One per pixel: the moving body whose model explains the reading, 0: none does, or the room's; empty: none
+   * is known. */
+  std::vector<std::uint32_t> bodies;
+  std::map<std::uint32_t, Eigen::Isometry3d> T_world_body; ///< of those bodies that were tracked
+
+  /** \brief One per pixel, metres: what a model of the room predicts, NaN: nothing; empty: there is no model. Motion
+   * that is too slow for the window shows against it, as long as the model does not follow. */
+  std::vector<float> expected_depth;
+
+  /** \brief \throws InvalidArgument naming what does not fit: sizes, a pose that is not a finite rigid motion, no
+   * reading at all */
+  void validate () const;
+};
+
+/** \brief What MovingBodyFinder finds in a frame. */
+struct PCL_COSECTION_EXPORT MotionSegments
+{
+  /** \brief Neither at rest, nor moved as a whole by any motion that was found. */
+  static constexpr std::uint32_t unexplained = 0xffffffffu;
+
+  std::vector<std::uint32_t>
+      labels; ///< one per pixel: 0 at rest, known bodies their number, others numbers that are free, or the above
+};
+
+/** \brief Finds rigid bodies in a stream of depth images by their motion: what begins to move, and what moves away from
+ * what it touched.
+ *
+ * A frame is compared with some of the last ones, which need not show it from the same place. Readings where an earlier
+ * frame has seen through, by more than the noise allows, have moved there. They begin hypotheses: the surface around
+ * them, of patches that meet smoothly or at convex edges (see segmentObjects ()), is aligned with each of the earlier
+ * frames, by its surface and by its outline, so that what slides in itself is found, too. Then each patch votes between
+ * rest and this motion, by what either says its readings should have been; patches that both explain, such as the top
+ * of a box on the floor, follow those they are smoothly or convexly joined to: the minimum of
+ *
+ *     sum_i a_i (x_i - y_i)^2 + lambda sum_ij w_ij (x_i - x_j)^2,   x_i > 1/2: moves
+ *
+ * with the votes y_i in {0, 1}, their strength a_i, and the length of common borders w_ij (after L. Grady, "Multilabel
+ * Random Walker Image Segmentation Using Prior Models", CVPR 2005). What is left over begins the next hypothesis.
+ * Surface that comes in sight behind something that moves away is not moving: nothing was seen free where it is.
+ *
+ * Known bodies come first: what moves as one of them and touches it, is a part of it.
+ *
+ * A body counts as moving as long as it was elsewhere in some frame of the window. O (pixels) per frame; frames are
+ * reduced to about 320 pixels a row, and those of the window are kept: some 80 MB.
+ *
+ * \code
+ * MovingBodyFinder finder;
+ * for (const MotionFrame& frame : frames)
+ * {
+ *   finder.add (frame);
+ *   const MotionSegments segments = finder.segment (); // if wanted
+ * }
+ * \endcode */
+class PCL_COSECTION_EXPORT MovingBodyFinder
+{
+public:
+  /** \throws InvalidArgument as MotionSegmentationOptions::validate () */
+  explicit MovingBodyFinder (const MotionSegmentationOptions& options = {});
+  ~MovingBodyFinder ();
+  MovingBodyFinder (MovingBodyFinder&& other) noexcept;
+  MovingBodyFinder& operator= (MovingBodyFinder&& other) noexcept;
+
+  /** \brief Look at the next frame. \throws InvalidArgument as MotionFrame::validate (); the frame is left out then */
+  void add (const MotionFrame& frame);
+
+  /** \brief The moving bodies in the last frame; nothing but known ones if there is only one frame, or none. A body
+   * that was found in the last call keeps its number. */
+  MotionSegments segment ();
+
+  /** \brief Forget all frames. */
+  void reset ();
+
+private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
 
 /** \brief Finds rigid bodies in a stream of organised clouds by their motion, while the sensor may move, too.
  * MovingBodyFinder says how.

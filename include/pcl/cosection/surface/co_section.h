@@ -3,9 +3,9 @@
 #pragma once
 
 #include <pcl/cosection/common/camera.h>
+#include <pcl/cosection/common/error.h>
 #include <pcl/cosection/common/export.h>
 #include <pcl/cosection/common/oriented_point.h>
-#include <pcl/cosection/common/progress.h>
 #include <pcl/cosection/common/triangle_mesh.h>
 #include <pcl/cosection/surface/options.h>
 #include <pcl/cosection/surface/solver.h>

@@ -2,9 +2,9 @@
 // Copyright (c) 2026, the pcl_cosection authors
 #pragma once
 
+#include "pcl_cosection/energy/constraints/free_space_votes.h"
 #include <pcl/cosection/common/camera.h>
 #include <pcl/cosection/common/export.h>
-#include <pcl/cosection/surface/free_space_votes.h>
 
 #include <pcl/filters/filter_indices.h>
 

@@ -3,7 +3,7 @@
 #pragma once
 
 #include <pcl/cosection/common/camera.h>
-#include <pcl/cosection/common/progress.h>
+#include <pcl/cosection/common/error.h>
 #include <pcl/cosection/surface/co_section.h>
 #include <pcl/cosection/surface/options.h>
 #include <pcl/cosection/volume/signed_distance_field.h>

@@ -6,7 +6,6 @@
 #include <pcl/cosection/common/export.h>
 #include <pcl/cosection/common/triangle_mesh.h>
 #include <pcl/cosection/evaluation/run_evaluation.h>
-#include <pcl/cosection/evaluation/scene_folders.h>
 #include <pcl/cosection/io/rgbd_sequence.h>
 
 #include <cstddef>

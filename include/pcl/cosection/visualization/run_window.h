@@ -5,7 +5,6 @@
 #include <pcl/cosection/common/export.h>
 #include <pcl/cosection/visualization/run_scene.h>
 #include <pcl/cosection/visualization/scene_picture.h>
-#include <pcl/cosection/visualization/viewpoint.h>
 
 #include <cstddef>
 #include <functional>

@@ -7,7 +7,6 @@
 #include <pcl/cosection/common/image.h>
 #include <pcl/cosection/common/triangle_mesh.h>
 #include <pcl/cosection/volume/signed_distance_field.h>
-#include <pcl/cosection/volume/trilinear_cell.h>
 
 #include <Eigen/Geometry>
 

@@ -4,7 +4,7 @@
 
 // A member template: every program instantiates it for its own point types.
 
-#include <pcl/cosection/surface/depth_view.h>
+#include <pcl/cosection/common/camera.h>
 #include <pcl/cosection/surface/free_space_filter.h>
 
 #include <pcl/console/print.h>

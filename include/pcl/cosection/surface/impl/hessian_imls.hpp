@@ -3,8 +3,8 @@
 #pragma once
 
 #include <pcl/cosection/common/error.h>
+#include <pcl/cosection/common/triangle_mesh.h>
 #include <pcl/cosection/surface/hessian_imls.h>
-#include <pcl/cosection/surface/polygon_mesh.h>
 
 #include <pcl/common/point_tests.h>
 #include <pcl/console/print.h>

@@ -2,9 +2,9 @@
 // Copyright (c) 2026, the pcl_cosection authors
 #pragma once
 
+#include "pcl_cosection/tracking/surface_points.h"
 #include <pcl/cosection/common/error.h>
 #include <pcl/cosection/tracking/sdf_registration.h>
-#include <pcl/cosection/tracking/surface_points.h>
 
 #include <pcl/common/transforms.h>
 #include <pcl/console/print.h>

@@ -2,8 +2,7 @@
 // Copyright (c) 2026, the pcl_cosection authors
 #pragma once
 
-#include <pcl/cosection/common/export.h>
-#include <pcl/cosection/common/progress.h>
+#include <pcl/cosection/common/error.h>
 #include <pcl/cosection/simulation/simulated_scene.h>
 
 #include <string>
@@ -12,7 +11,7 @@ namespace pcl::cosection
 {
 
 /** \brief Which frames to write, and how. */
-struct PCL_COSECTION_EXPORT SequenceOptions
+struct SequenceOptions
 {
   int first = 0;
   int last = -1;   ///< not written itself; -1: all from first on
@@ -35,7 +34,7 @@ struct PCL_COSECTION_EXPORT SequenceOptions
  * Frames of the same number have the same bytes whatever part of the sequence is written. Nothing is left if it fails.
  * \throws IoError if the folder exists, or something cannot be written; Cancelled; InvalidArgument if there are no such
  * frames */
-PCL_COSECTION_EXPORT void writeSequence (const SimulatedScene& scene, const std::string& folder,
-                                         const SequenceOptions& options = {}, const ProgressCallback& progress = {});
+void writeSequence (const SimulatedScene& scene, const std::string& folder, const SequenceOptions& options = {},
+                    const ProgressCallback& progress = {});
 
 } // namespace pcl::cosection

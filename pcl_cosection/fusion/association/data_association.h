@@ -2,7 +2,7 @@
 // Copyright (c) 2026, the pcl_cosection authors
 #pragma once
 
-#include <pcl/cosection/common/export.h>
+#include <pcl/cosection/fusion/dynamic_fusion.h>
 #include <pcl/cosection/volume/tsdf_volume.h>
 
 #include <Eigen/Geometry>
@@ -14,21 +14,8 @@
 namespace pcl::cosection
 {
 
-/** \brief How points are shared out among models. */
-struct PCL_COSECTION_EXPORT AssociationOptions
-{
-  double sigma_m = 0.02; ///< scale of the Laplace distribution of distances; at least the noise of the reading's depth
-  double inlier_share = 0.8;    ///< alpha: of readings that show a model at all
-  double uniform = 1.0;         ///< density of the others, 1 / m
-  double free_truncation = 0.9; ///< distances above this fraction of the truncation distance are seen free
-  int threads = 0;              ///< 0: all; no result depends on it
-
-  /** \brief \throws InvalidArgument naming the first parameter outside its domain. */
-  void validate () const;
-};
-
 /** \brief A model that may explain points; it refers to the volume, which must live as long. */
-struct PCL_COSECTION_EXPORT AssociatedModel
+struct AssociatedModel
 {
   const TsdfVolume* volume = nullptr;
   Eigen::Isometry3d T_model_sensor = Eigen::Isometry3d::Identity ();
@@ -36,7 +23,7 @@ struct PCL_COSECTION_EXPORT AssociatedModel
 };
 
 /** \brief What one model says of a point. */
-struct PCL_COSECTION_EXPORT ModelEvidence
+struct ModelEvidence
 {
   float likelihood = 0.0f; ///< alpha L (d) p_foreground, 1 / m; 0 unless it is known and not free
   float distance_m = 0.0f; ///< signed; 0 if not known
@@ -45,7 +32,7 @@ struct PCL_COSECTION_EXPORT ModelEvidence
 };
 
 /** \brief To which model each point belongs. */
-struct PCL_COSECTION_EXPORT PointAssignment
+struct PointAssignment
 {
   static constexpr std::uint8_t no_point = 255; ///< there is no reading
   static constexpr std::uint8_t none = 254;     ///< no model explains the point
@@ -65,7 +52,7 @@ struct PCL_COSECTION_EXPORT PointAssignment
  *
  * M. Strecke, J. Stueckler, "EM-Fusion: Dynamic Object-Level SLAM with Probabilistic Data Association", ICCV 2019,
  * Section 3.2. */
-class PCL_COSECTION_EXPORT DataAssociation
+class DataAssociation
 {
 public:
   /** \throws InvalidArgument as AssociationOptions::validate () */

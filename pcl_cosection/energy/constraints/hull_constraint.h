@@ -2,10 +2,9 @@
 // Copyright (c) 2026, the pcl_cosection authors
 #pragma once
 
+#include "pcl_cosection/volume/pixel_region.h"
 #include <pcl/cosection/common/camera.h>
-#include <pcl/cosection/common/export.h>
-#include <pcl/cosection/volume/pixel_region.h>
-#include <pcl/cosection/volume/voxel_grid.h>
+#include <pcl/cosection/volume/signed_distance_field.h>
 
 #include <cstddef>
 #include <cstdint>
@@ -16,15 +15,15 @@ namespace pcl::cosection
 
 /** \brief How much the depth along a ray must exceed that of a point for the point to be free, metres:
  * max (3 voxels, 3 sigma_z). */
-PCL_COSECTION_EXPORT double freeSpaceMargin (double depth_m, double voxel_size_m);
+double freeSpaceMargin (double depth_m, double voxel_size_m);
 
 /** \brief Minimum or \a maximum of an image over a square window of \a radius pixels around every pixel of a region;
  * other pixels of the result have no meaning. */
-PCL_COSECTION_EXPORT std::vector<float> filterDepth (const std::vector<float>& image, const PinholeCamera& camera,
-                                                     int radius, bool maximum, const PixelRegion& region);
+std::vector<float> filterDepth (const std::vector<float>& image, const PinholeCamera& camera, int radius, bool maximum,
+                                const PixelRegion& region);
 
 /** \brief A depth view prepared for looking up free space. */
-class PCL_COSECTION_EXPORT FreeSpaceView
+class FreeSpaceView
 {
 public:
   static constexpr std::size_t bytes_per_pixel = 2 * sizeof (float) + sizeof (std::uint8_t);
@@ -56,7 +55,7 @@ private:
  * max (3 voxels, 3 sigma_z), for every reading in its footprint. Missing readings and pixels at depth
  * edges say nothing, and what lies outside the volume counts as hull. A voxel at a seen surface (within
  * the margin) is a vote against; so a few wrong pixels or a slightly wrong pose can be outvoted. */
-class PCL_COSECTION_EXPORT HullConstraint
+class HullConstraint
 {
 public:
   explicit HullConstraint (const VoxelGrid& grid, int threads = 0);
@@ -77,7 +76,7 @@ private:
 
 /** \brief d_hull of equation (3): exact Euclidean distance, in voxels, from free voxels to the hull (to
  * the nearest voxel that is not free; all voxels outside the volume are not); 0 elsewhere. */
-PCL_COSECTION_EXPORT std::vector<float> hullDistance (const Eigen::Vector3i& dims,
-                                                      const std::vector<std::uint8_t>& free_space, int threads = 0);
+std::vector<float> hullDistance (const Eigen::Vector3i& dims, const std::vector<std::uint8_t>& free_space,
+                                 int threads = 0);
 
 } // namespace pcl::cosection

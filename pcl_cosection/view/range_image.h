@@ -3,7 +3,6 @@
 #pragma once
 
 #include <pcl/cosection/common/camera.h>
-#include <pcl/cosection/common/export.h>
 
 #include <Eigen/Core>
 
@@ -15,7 +14,7 @@ namespace pcl::cosection
 {
 
 /** \brief An unorganised cloud as it looks from where its sensor stood. */
-struct PCL_COSECTION_EXPORT RangeImage
+struct RangeImage
 {
   /** \brief Of the points that a sensor saw; more says that it stood elsewhere. */
   static constexpr double max_hidden_share = 0.1;
@@ -37,7 +36,6 @@ struct PCL_COSECTION_EXPORT RangeImage
  * \param[in] sensor where the sensor stood, in the points' frame, which is also the frame of the view's pose
  * \return nothing for fewer than 50 points, or if some are more than 60 degrees from both the middle of their box and
  * their mean direction as seen from the sensor */
-PCL_COSECTION_EXPORT std::optional<RangeImage> drawRangeImage (const std::vector<Eigen::Vector3f>& points,
-                                                               const Eigen::Vector3d& sensor);
+std::optional<RangeImage> drawRangeImage (const std::vector<Eigen::Vector3f>& points, const Eigen::Vector3d& sensor);
 
 } // namespace pcl::cosection

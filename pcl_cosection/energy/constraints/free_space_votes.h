@@ -2,8 +2,7 @@
 // Copyright (c) 2026, the pcl_cosection authors
 #pragma once
 
-#include <pcl/cosection/common/export.h>
-#include <pcl/cosection/surface/hull_constraint.h>
+#include "pcl_cosection/energy/constraints/hull_constraint.h"
 
 #include <Eigen/Geometry>
 
@@ -14,7 +13,7 @@ namespace pcl::cosection
 
 /** \brief How much the depth along a ray must exceed that of a point for the point to be free where there are no
  * voxels, metres: max (5 mm, 3 sigma_z) of depthNoiseSigma (). */
-PCL_COSECTION_EXPORT double pointMargin (double depth_m);
+double pointMargin (double depth_m);
 
 /** \brief What depth views say about one point. */
 struct FreeSpaceVotes
@@ -35,17 +34,17 @@ struct FreeSpaceVotes
  * \param[in] margin_m 0: pointMargin ()
  * \param[in] threads 0: all; the result does not depend on it
  * \return one per point. O (points * views), times the pixels that the margin covers where a point is in front */
-PCL_COSECTION_EXPORT std::vector<FreeSpaceVotes> voteOnPoints (const std::vector<Eigen::Vector3f>& points,
-                                                               const std::vector<FreeSpaceView>& views,
-                                                               double margin_m = 0.0, int threads = 0);
+std::vector<FreeSpaceVotes> voteOnPoints (const std::vector<Eigen::Vector3f>& points,
+                                          const std::vector<FreeSpaceView>& views, double margin_m = 0.0,
+                                          int threads = 0);
 
 /** \brief The same of one more view.
  * \param[in] points any frame
  * \param[in] T_points_sensor pose of the sensor in that frame, whatever that of the view
  * \param[in,out] votes one per point, to which those of the view are added
  * \throws InvalidArgument if there are not as many votes as points */
-PCL_COSECTION_EXPORT void addVotes (const std::vector<Eigen::Vector3f>& points, const FreeSpaceView& view,
-                                    const Eigen::Isometry3d& T_points_sensor, std::vector<FreeSpaceVotes>& votes,
-                                    double margin_m = 0.0, int threads = 0);
+void addVotes (const std::vector<Eigen::Vector3f>& points, const FreeSpaceView& view,
+               const Eigen::Isometry3d& T_points_sensor, std::vector<FreeSpaceVotes>& votes, double margin_m = 0.0,
+               int threads = 0);
 
 } // namespace pcl::cosection

@@ -2,8 +2,8 @@
 // Copyright (c) 2026, the pcl_cosection authors
 #pragma once
 
-#include <pcl/cosection/common/export.h>
 #include <pcl/cosection/common/oriented_point.h>
+#include <pcl/cosection/fusion/sequence_fusion.h>
 #include <pcl/cosection/volume/tsdf_volume.h>
 
 #include <Eigen/Geometry>
@@ -14,20 +14,8 @@
 namespace pcl::cosection
 {
 
-/** \brief Where an object's TSDF volume lies. */
-struct PCL_COSECTION_EXPORT ObjectTsdfOptions
-{
-  int resolution = 64;      ///< voxels along the longest side of what is seen first
-  double margin = 0.25;     ///< of the volume beyond what was seen, as a fraction of its longest side
-  int max_resolution = 256; ///< voxels along a side; what lies beyond is left out
-  TsdfOptions tsdf;
-
-  /** \brief \throws InvalidArgument naming the first parameter outside its domain. */
-  void validate () const;
-};
-
 /** \brief The TSDF volume of an object, which is placed by the first points that are seen of it and grows with more. */
-class PCL_COSECTION_EXPORT ObjectTsdf
+class ObjectTsdf
 {
 public:
   explicit ObjectTsdf (const ObjectTsdfOptions& options = {});

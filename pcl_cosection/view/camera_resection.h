@@ -3,7 +3,6 @@
 #pragma once
 
 #include <pcl/cosection/common/camera.h>
-#include <pcl/cosection/common/export.h>
 
 #include <Eigen/Geometry>
 
@@ -14,7 +13,7 @@ namespace pcl::cosection
 {
 
 /** \brief A camera and where it stood. */
-struct PCL_COSECTION_EXPORT LocatedCamera
+struct LocatedCamera
 {
   PinholeCamera camera;
   Eigen::Isometry3d T_points_sensor = Eigen::Isometry3d::Identity ();
@@ -22,8 +21,8 @@ struct PCL_COSECTION_EXPORT LocatedCamera
 
 /** \brief Points in the sensor's frame; NaN if not finite, or at the sensor itself, as missing readings of (0, 0, 0)
  * are that were transformed with the others. */
-PCL_COSECTION_EXPORT std::vector<Eigen::Vector3f> takeToSensor (const Eigen::Isometry3d& T_sensor_points,
-                                                                const std::vector<Eigen::Vector3f>& points);
+std::vector<Eigen::Vector3f> takeToSensor (const Eigen::Isometry3d& T_sensor_points,
+                                           const std::vector<Eigen::Vector3f>& points);
 
 /** \brief Camera and pose from an organised cloud in any frame, as of a robot's base: each point is on the ray of its
  * pixel, which determines both.
@@ -38,8 +37,7 @@ PCL_COSECTION_EXPORT std::vector<Eigen::Vector3f> takeToSensor (const Eigen::Iso
  * \throws InvalidArgument if there are not width * height points
  *
  * O (width * height); does not depend on the number of threads. */
-PCL_COSECTION_EXPORT std::optional<LocatedCamera> locateCamera (const std::vector<Eigen::Vector3f>& points, int width,
-                                                                int height);
+std::optional<LocatedCamera> locateCamera (const std::vector<Eigen::Vector3f>& points, int width, int height);
 
 /** \brief The depth image that an organised cloud is.
  * \param[in] points width * height points, row by row, in the sensor's frame (fitPinholeCamera ()) or any other
@@ -47,8 +45,7 @@ PCL_COSECTION_EXPORT std::optional<LocatedCamera> locateCamera (const std::vecto
  * \param[in] T_world_points pose of that frame
  * \return nothing if it is not the image of a pinhole camera
  * \throws InvalidArgument if there are not width * height points */
-PCL_COSECTION_EXPORT std::optional<DepthView>
-organizedDepthView (const std::vector<Eigen::Vector3f>& points, int width, int height,
-                    const Eigen::Isometry3d& T_world_points = Eigen::Isometry3d::Identity ());
+std::optional<DepthView> organizedDepthView (const std::vector<Eigen::Vector3f>& points, int width, int height,
+                                             const Eigen::Isometry3d& T_world_points = Eigen::Isometry3d::Identity ());
 
 } // namespace pcl::cosection

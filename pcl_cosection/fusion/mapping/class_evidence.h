@@ -2,7 +2,7 @@
 // Copyright (c) 2026, the pcl_cosection authors
 #pragma once
 
-#include <pcl/cosection/common/export.h>
+#include <pcl/cosection/fusion/dynamic_fusion.h>
 
 #include <cstddef>
 #include <map>
@@ -12,14 +12,6 @@
 namespace pcl::cosection
 {
 
-/** \brief A class of things, and how certain it is that something belongs to it. */
-struct PCL_COSECTION_EXPORT ClassScore
-{
-  int class_id = 0;       ///< as the network counts
-  std::string class_name; ///< its number where there are no names
-  double score = 0.0;     ///< in [0, 1]
-};
-
 /** \brief What an object is, by all detections of it.
  *
  * A detection tells the score of one class; those of all others are taken for 0. The score of a class is the mean over
@@ -27,7 +19,7 @@ struct PCL_COSECTION_EXPORT ClassScore
  * detections from similar views are not independent, and their product soon is certain of what is wrong. J. McCormac et
  * al., "Fusion++: Volumetric Object-Level SLAM", 3DV 2018; J. McCormac et al., "SemanticFusion: Dense 3D Semantic
  * Mapping with Convolutional Neural Networks", ICRA 2017. */
-class PCL_COSECTION_EXPORT ClassEvidence
+class ClassEvidence
 {
 public:
   /** \brief Count a detection. \throws InvalidArgument if its score is not in [0, 1] */

@@ -3,8 +3,7 @@
 #pragma once
 
 #include <pcl/cosection/common/camera.h>
-#include <pcl/cosection/common/export.h>
-#include <pcl/cosection/volume/voxel_grid.h>
+#include <pcl/cosection/volume/signed_distance_field.h>
 
 #include <Eigen/Geometry>
 
@@ -21,10 +20,10 @@ struct PixelRegion
 };
 
 /** \brief The whole image. */
-PCL_COSECTION_EXPORT PixelRegion wholeImage (const PinholeCamera& camera);
+PixelRegion wholeImage (const PinholeCamera& camera);
 
 /** \brief The pixels onto which a camera projects a grid; the whole image if the grid reaches behind the camera. */
-PCL_COSECTION_EXPORT PixelRegion projectedRegion (const VoxelGrid& grid, const PinholeCamera& camera,
-                                                  const Eigen::Isometry3d& T_grid_sensor);
+PixelRegion projectedRegion (const VoxelGrid& grid, const PinholeCamera& camera,
+                             const Eigen::Isometry3d& T_grid_sensor);
 
 } // namespace pcl::cosection

@@ -2,7 +2,6 @@
 // Copyright (c) 2026, the pcl_cosection authors
 #pragma once
 
-#include <pcl/cosection/common/export.h>
 #include <pcl/cosection/common/image.h>
 #include <pcl/cosection/io/pcd_view.h>
 
@@ -16,7 +15,7 @@ namespace pcl::cosection
 {
 
 /** \brief The points of an organised PCD file. */
-struct PCL_COSECTION_EXPORT OrganizedCloud
+struct OrganizedCloud
 {
   int width = 0;
   int height = 0;
@@ -29,14 +28,13 @@ struct PCL_COSECTION_EXPORT OrganizedCloud
  * \throws IoError if the file is not a well formed PCD file with x, y and z, or not organised (HEIGHT 1)
  * \throws DegenerateInput if it holds no finite point
  * \throws MemoryLimitExceeded, InvalidArgument as readPcdView () */
-PCL_COSECTION_EXPORT OrganizedCloud readOrganizedCloud (const std::string& path, const PcdViewOptions& options = {});
+OrganizedCloud readOrganizedCloud (const std::string& path, const PcdViewOptions& options = {});
 
 /** \brief Write a copy of a PCD file with other labels: width, height, order, viewpoint and the other fields stay; the
  * field label is replaced, or added as the last one. The copy is binary_compressed.
  * \param[in] labels one per point
  * \throws IoError naming the file that cannot be read or written \throws InvalidArgument if the number of labels is
  * wrong */
-PCL_COSECTION_EXPORT void copyWithLabels (const std::string& input, const std::vector<std::uint32_t>& labels,
-                                          const std::string& output);
+void copyWithLabels (const std::string& input, const std::vector<std::uint32_t>& labels, const std::string& output);
 
 } // namespace pcl::cosection

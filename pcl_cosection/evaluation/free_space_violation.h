@@ -3,7 +3,6 @@
 #pragma once
 
 #include <pcl/cosection/common/camera.h>
-#include <pcl/cosection/common/export.h>
 
 #include <Eigen/Core>
 
@@ -14,7 +13,7 @@ namespace pcl::cosection
 {
 
 /** \brief How much of a surface lies where a camera saw free space. */
-struct PCL_COSECTION_EXPORT FreeSpaceViolation
+struct FreeSpaceViolation
 {
   double share = 0.0;       ///< of the points that lie in front of what some view measured
   double max_depth_m = 0.0; ///< the farthest that a point lies in front, along the optical axis
@@ -29,8 +28,7 @@ struct PCL_COSECTION_EXPORT FreeSpaceViolation
  * wall is far.
  * \param[in] points metres, world frame
  * \throws InvalidArgument if a view is not valid, or the tolerance is not a number of metres, 0 or more */
-PCL_COSECTION_EXPORT FreeSpaceViolation measureFreeSpaceViolation (const std::vector<Eigen::Vector3d>& points,
-                                                                   const std::vector<DepthView>& views,
-                                                                   double tolerance_m = 0.01);
+FreeSpaceViolation measureFreeSpaceViolation (const std::vector<Eigen::Vector3d>& points,
+                                              const std::vector<DepthView>& views, double tolerance_m = 0.01);
 
 } // namespace pcl::cosection

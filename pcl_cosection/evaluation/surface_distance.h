@@ -2,7 +2,6 @@
 // Copyright (c) 2026, the pcl_cosection authors
 #pragma once
 
-#include <pcl/cosection/common/export.h>
 #include <pcl/cosection/common/triangle_mesh.h>
 
 #include <Eigen/Core>
@@ -23,7 +22,7 @@ class TriangleTree;
  * const SurfaceDistance distance (mesh);
  * const std::vector<double> metres = distance.of (points);
  * \endcode */
-class PCL_COSECTION_EXPORT SurfaceDistance
+class SurfaceDistance
 {
 public:
   /** \throws InvalidArgument, DegenerateInput as requireSurface () */
@@ -49,7 +48,6 @@ private:
 };
 
 /** \brief The distance of every vertex of \a mesh to \a surface, metres; of vertices without a triangle as well. */
-PCL_COSECTION_EXPORT std::vector<double> vertexDistances (const TriangleMesh& mesh, const SurfaceDistance& surface,
-                                                          int threads = 0);
+std::vector<double> vertexDistances (const TriangleMesh& mesh, const SurfaceDistance& surface, int threads = 0);
 
 } // namespace pcl::cosection
