@@ -18,7 +18,9 @@ namespace pcl
 {
 struct Label;
 
-namespace cosection
+} // namespace pcl
+
+namespace pcl::cosection
 {
 
 /** \brief Parameters of segmentObjects (). */
@@ -149,7 +151,9 @@ struct PointXYZRGBL;
 struct PointNormal;
 struct PointXYZRGBNormal;
 struct PointXYZINormal;
-namespace cosection
+} // namespace pcl
+
+namespace pcl::cosection
 {
 extern template class PCL_COSECTION_EXPORT GeometricSegmentation<pcl::PointXYZ>;
 extern template class PCL_COSECTION_EXPORT GeometricSegmentation<pcl::PointXYZI>;

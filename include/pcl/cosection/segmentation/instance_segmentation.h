@@ -16,7 +16,9 @@ namespace pcl
 {
 struct Label;
 
-namespace cosection
+} // namespace pcl
+
+namespace pcl::cosection
 {
 
 /** \brief Finds the objects in an organised, coloured cloud with an instance segmentation network; InstanceDetector
@@ -86,7 +88,9 @@ struct PointXYZRGB;
 struct PointXYZRGBA;
 struct PointXYZRGBL;
 struct PointXYZRGBNormal;
-namespace cosection
+} // namespace pcl
+
+namespace pcl::cosection
 {
 extern template class PCL_COSECTION_EXPORT InstanceSegmentation<pcl::PointXYZRGB>;
 extern template class PCL_COSECTION_EXPORT InstanceSegmentation<pcl::PointXYZRGBA>;

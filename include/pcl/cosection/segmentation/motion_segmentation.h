@@ -21,7 +21,9 @@ namespace pcl
 {
 struct Label;
 
-namespace cosection
+} // namespace pcl
+
+namespace pcl::cosection
 {
 
 /** \brief Parameters of MovingBodyFinder. */
@@ -215,7 +217,9 @@ struct PointXYZRGBL;
 struct PointNormal;
 struct PointXYZRGBNormal;
 struct PointXYZINormal;
-namespace cosection
+} // namespace pcl
+
+namespace pcl::cosection
 {
 extern template class PCL_COSECTION_EXPORT MotionSegmentation<pcl::PointXYZ>;
 extern template class PCL_COSECTION_EXPORT MotionSegmentation<pcl::PointXYZI>;

@@ -112,7 +112,9 @@ struct PointXYZRGBL;
 struct PointNormal;
 struct PointXYZRGBNormal;
 struct PointXYZINormal;
-namespace cosection
+} // namespace pcl
+
+namespace pcl::cosection
 {
 extern template class PCL_COSECTION_EXPORT FreeSpaceFilter<pcl::PointXYZ>;
 extern template class PCL_COSECTION_EXPORT FreeSpaceFilter<pcl::PointXYZI>;

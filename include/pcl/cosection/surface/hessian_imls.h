@@ -152,7 +152,9 @@ namespace pcl
 struct PointNormal;
 struct PointXYZRGBNormal;
 struct PointXYZINormal;
-namespace cosection
+} // namespace pcl
+
+namespace pcl::cosection
 {
 extern template class PCL_COSECTION_EXPORT HessianIMLS<pcl::PointNormal>;
 extern template class PCL_COSECTION_EXPORT HessianIMLS<pcl::PointXYZRGBNormal>;

@@ -130,7 +130,9 @@ struct PointXYZRGBA;
 struct PointNormal;
 struct PointXYZRGBNormal;
 struct PointXYZINormal;
-namespace cosection
+} // namespace pcl
+
+namespace pcl::cosection
 {
 extern template class PCL_COSECTION_EXPORT SdfRegistration<pcl::PointXYZ>;
 extern template class PCL_COSECTION_EXPORT SdfRegistration<pcl::PointXYZI>;

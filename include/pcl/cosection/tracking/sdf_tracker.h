@@ -142,7 +142,9 @@ struct PointXYZRGB;
 struct PointXYZRGBA;
 struct PointNormal;
 struct PointXYZRGBNormal;
-namespace cosection
+} // namespace pcl
+
+namespace pcl::cosection
 {
 extern template class PCL_COSECTION_EXPORT SdfTracker<pcl::PointXYZ>;
 extern template class PCL_COSECTION_EXPORT SdfTracker<pcl::PointXYZI>;
