@@ -12,13 +12,13 @@
 #include <Eigen/Core>
 
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 namespace pcl
 {
 struct Label;
-
-} // namespace pcl
+}
 
 namespace pcl::cosection
 {
@@ -68,6 +68,56 @@ struct PCL_COSECTION_EXPORT ObjectSegmentation
 PCL_COSECTION_EXPORT ObjectSegmentation segmentObjects (const std::vector<Eigen::Vector3f>& points, int width,
                                                         int height, const ObjectSegmentationOptions& options = {});
 
+/** \brief The parameters and last result of GeometricSegmentation, which do not depend on the type of its points.
+ *
+ * A setter that cannot use what it gets says why through PCL's console, changes nothing and returns false. */
+class PCL_COSECTION_EXPORT GeometricSegmentationBase
+{
+public:
+  /** \brief Set the length from which on something is furniture or room, metres; default 0.5. */
+  bool setMaximumObjectSize (double size_m);
+
+  /** \brief The length from which on something is furniture or room, metres. */
+  double getMaximumObjectSize () const { return options_.max_object_size_m; }
+
+  /** \brief Set the length below which something is no object, metres; default 0.02. */
+  bool setMinimumObjectSize (double size_m);
+
+  /** \brief The length below which something is no object, metres. */
+  double getMinimumObjectSize () const { return options_.min_object_size_m; }
+
+  /** \brief Set by how much a crease must be concave to separate two objects, radians; default 0.45. */
+  bool setConcaveAngle (double angle_rad);
+
+  /** \brief By how much a crease must be concave to separate two objects, radians. */
+  double getConcaveAngle () const { return options_.concave_angle_rad; }
+
+  /** \brief Set all parameters at once. */
+  bool setOptions (const ObjectSegmentationOptions& options);
+
+  /** \brief Set the number of threads; 0 (default): all processors. The result does not depend on it. */
+  void setNumberOfThreads (unsigned int threads = 0);
+
+  /** \brief The planes that the last segment () took for the room, as pcl::SACSegmentation gives them: a, b, c, d of
+   * a x + b y + c z + d = 0, the unit normal towards the sensor; the one that is seen best is the first. */
+  const std::vector<pcl::ModelCoefficients>& getSupportPlanes () const { return support_planes_; }
+
+protected:
+  GeometricSegmentationBase () = default;
+  ~GeometricSegmentationBase () = default;
+
+  /** \brief Whether there is an organised cloud of this size; says so if not. Forgets the last result. */
+  bool begin (bool input, unsigned int width, unsigned int height);
+
+  /** \brief segmentObjects () in PCL's types. */
+  void segmentPoints (const std::vector<Eigen::Vector3f>& points, int width, int height, const pcl::PCLHeader& header,
+                      pcl::PointCloud<pcl::Label>& labels, std::vector<pcl::PointIndices>& label_indices);
+
+private:
+  ObjectSegmentationOptions options_;
+  std::vector<pcl::ModelCoefficients> support_planes_;
+};
+
 /** \brief Finds the objects in an organised cloud by their geometry alone: without masks, colour or learned weights.
  * segmentObjects () says how.
  *
@@ -81,9 +131,10 @@ PCL_COSECTION_EXPORT ObjectSegmentation segmentObjects (const std::vector<Eigen:
  *
  * setIndices () works: other points count as no reading. What is left out may hide what objects stand on.
  *
- * Instantiated for pcl::PointXYZ, PointXYZI, PointXYZRGB, PointXYZRGBA, PointXYZRGBL, PointNormal, PointXYZRGBNormal
- * and PointXYZINormal; for other types define PCL_NO_PRECOMPILE before the include. */
-template <typename PointT> class PCL_COSECTION_EXPORT GeometricSegmentation : public PCLBase<PointT>
+ * Compiled for pcl::PointXYZ, PointXYZI, PointXYZRGB, PointXYZRGBA, PointXYZRGBL, PointNormal, PointXYZRGBNormal
+ * and PointXYZINormal; works for others where pcl::PCLBase does (define PCL_NO_PRECOMPILE before the include). */
+template <typename PointT>
+class PCL_COSECTION_EXPORT GeometricSegmentation : public PCLBase<PointT>, public GeometricSegmentationBase
 {
   using Base = PCLBase<PointT>;
 
@@ -92,55 +143,42 @@ public:
   using ConstPtr = shared_ptr<const GeometricSegmentation<PointT>>;
   using PointCloud = pcl::PointCloud<PointT>;
 
-  /** \brief What is longer is furniture or room, metres; default 0.5. \throws InvalidArgument */
-  void setMaximumObjectSize (double size_m);
-
-  double getMaximumObjectSize () const { return options_.max_object_size_m; }
-
-  /** \brief What is shorter is no object, metres; default 0.02. \throws InvalidArgument */
-  void setMinimumObjectSize (double size_m);
-
-  double getMinimumObjectSize () const { return options_.min_object_size_m; }
-
-  /** \brief A crease that is concave by more than this angle separates two objects, radians; default 0.45.
-   * \throws InvalidArgument */
-  void setConcaveAngle (double angle_rad);
-
-  double getConcaveAngle () const { return options_.concave_angle_rad; }
-
-  /** \brief All parameters in one. \throws InvalidArgument */
-  void setOptions (const ObjectSegmentationOptions& options);
-
-  /** \brief 0 (default): all processors. */
-  void setNumberOfThreads (unsigned int threads = 0);
-
   /** \brief Find the objects.
-   * \param[out] labels one per point of the input cloud, of its width and height: 0 background, 1 ... objects
-   * \param[out] label_indices points of each object, in their order; those of label n are label_indices[n - 1]
    *
    * Without an organised input cloud, and where there is no plane that objects could stand on, this says so on PCL's
-   * console, and both are empty. */
+   * console, and both outputs are empty.
+   * \param[out] labels one per point of the input cloud, of its width and height: 0 background, 1 ... objects
+   * \param[out] label_indices points of each object, in their order; those of label n are label_indices[n - 1] */
   void segment (pcl::PointCloud<pcl::Label>& labels, std::vector<pcl::PointIndices>& label_indices);
-
-  /** \brief The planes that the last segment () took for the room, as pcl::SACSegmentation gives them. */
-  const std::vector<pcl::ModelCoefficients>& getSupportPlanes () const { return support_planes_; }
 
 protected:
   using Base::deinitCompute;
   using Base::indices_;
   using Base::initCompute;
   using Base::input_;
-
-private:
-  ObjectSegmentationOptions options_;
-  std::vector<pcl::ModelCoefficients> support_planes_;
 };
+
+template <typename PointT>
+void
+GeometricSegmentation<PointT>::segment (pcl::PointCloud<pcl::Label>& labels,
+                                        std::vector<pcl::PointIndices>& label_indices)
+{
+  labels.clear ();
+  label_indices.clear ();
+  if (!begin (input_ != nullptr, input_ ? input_->width : 0, input_ ? input_->height : 0) || !initCompute ())
+    return;
+  std::vector<Eigen::Vector3f> points (input_->size (),
+                                       Eigen::Vector3f::Constant (std::numeric_limits<float>::quiet_NaN ()));
+  for (const auto i : *indices_)
+    if ((*input_)[i].getVector3fMap ().allFinite ())
+      points[i] = (*input_)[i].getVector3fMap ();
+  deinitCompute ();
+  segmentPoints (points, static_cast<int> (input_->width), static_cast<int> (input_->height), input_->header, labels,
+                 label_indices);
+}
 
 } // namespace pcl::cosection
 
-#ifdef PCL_NO_PRECOMPILE
-#include <pcl/cosection/segmentation/impl/geometric_segmentation.hpp>
-#else
 namespace pcl
 {
 struct PointXYZ;
@@ -164,4 +202,3 @@ extern template class PCL_COSECTION_EXPORT GeometricSegmentation<pcl::PointNorma
 extern template class PCL_COSECTION_EXPORT GeometricSegmentation<pcl::PointXYZRGBNormal>;
 extern template class PCL_COSECTION_EXPORT GeometricSegmentation<pcl::PointXYZINormal>;
 } // namespace pcl::cosection
-#endif

@@ -12,6 +12,7 @@
 #include <Eigen/Geometry>
 
 #include <cstdint>
+#include <limits>
 #include <map>
 #include <memory>
 #include <optional>
@@ -20,8 +21,7 @@
 namespace pcl
 {
 struct Label;
-
-} // namespace pcl
+}
 
 namespace pcl::cosection
 {
@@ -124,6 +124,68 @@ private:
   std::unique_ptr<Impl> impl_;
 };
 
+/** \brief The parameters and frames of MotionSegmentation, which do not depend on the type of its points.
+ *
+ * A setter that cannot use what it gets says why through PCL's console, changes nothing and returns false. */
+class PCL_COSECTION_EXPORT MotionSegmentationBase
+{
+public:
+  /** \brief Set all parameters at once; what was seen is forgotten. */
+  bool setOptions (const MotionSegmentationOptions& options);
+
+  /** \brief The parameters, as setOptions () and setNumberOfThreads () left them. */
+  const MotionSegmentationOptions& getOptions () const { return options_; }
+
+  /** \brief Set the number of threads; 0 (default): all processors. The result does not depend on it. What was seen is
+   * forgotten. */
+  bool setNumberOfThreads (unsigned int threads = 0);
+
+  /** \brief Set where the sensor of the next cloud is, metres; default: what the cloud says itself. */
+  void setSensorPose (const Eigen::Isometry3d& T_world_sensor) { T_world_sensor_ = T_world_sensor; }
+
+  /** \brief Set the sensor; default: the one that fits the cloud best. It saves the fit. */
+  void setCamera (const PinholeCamera& camera) { camera_ = camera; }
+
+  /** \brief Set what is known of the next cloud.
+   * \param[in] bodies one per point: the body whose model explains it, 0: none does
+   * \param[in] T_world_body where these bodies are, metres, by their numbers */
+  void setKnownBodies (const std::vector<std::uint32_t>& bodies,
+                       const std::map<std::uint32_t, Eigen::Isometry3d>& T_world_body)
+  {
+    bodies_ = bodies;
+    T_world_body_ = T_world_body;
+  }
+
+  /** \brief Set the depth of each point of the next cloud by a model of the room, metres; NaN: nothing. */
+  void setExpectedDepth (const std::vector<float>& depth) { expected_depth_ = depth; }
+
+protected:
+  MotionSegmentationBase () = default;
+  ~MotionSegmentationBase () = default;
+
+  /** \brief MovingBodyFinder::add (). \return false, with a message, if there is no frame, or it is not valid
+   * \param[in] T_world_sensor where the cloud itself says that its sensor was */
+  bool addPoints (std::vector<Eigen::Vector3f> points, unsigned int width, unsigned int height,
+                  const Eigen::Isometry3d& T_world_sensor);
+
+  /** \brief Say that there is no cloud. */
+  void reportMissingInput () const;
+
+  /** \brief MovingBodyFinder::segment () in PCL's types. */
+  void segmentLast (const pcl::PCLHeader& header, unsigned int width, unsigned int height,
+                    pcl::PointCloud<pcl::Label>& labels, std::vector<pcl::PointIndices>& label_indices);
+
+private:
+  MotionSegmentationOptions options_;
+  MovingBodyFinder finder_;
+
+  std::optional<Eigen::Isometry3d> T_world_sensor_; // these are of the next cloud
+  std::optional<PinholeCamera> camera_;
+  std::vector<std::uint32_t> bodies_;
+  std::map<std::uint32_t, Eigen::Isometry3d> T_world_body_;
+  std::vector<float> expected_depth_;
+};
+
 /** \brief Finds rigid bodies in a stream of organised clouds by their motion, while the sensor may move, too.
  * MovingBodyFinder says how.
  *
@@ -139,10 +201,14 @@ private:
  * }
  * \endcode
  *
- * setIndices () works: other points count as no reading. Instantiated for pcl::PointXYZ, PointXYZI, PointXYZRGB,
- * PointXYZRGBA, PointXYZRGBL, PointNormal, PointXYZRGBNormal and PointXYZINormal; for other types define
- * PCL_NO_PRECOMPILE before the include. */
-template <typename PointT> class PCL_COSECTION_EXPORT MotionSegmentation : public PCLBase<PointT>
+ * setIndices () works: other points count as no reading. A cloud that cannot be used is left out, and PCL's console
+ * says why: it is missing or not organised, it has no readings or is no pinhole camera's image, sizes do not agree, or
+ * a pose is not a finite rigid motion.
+ *
+ * Compiled for pcl::PointXYZ, PointXYZI, PointXYZRGB, PointXYZRGBA, PointXYZRGBL, PointNormal, PointXYZRGBNormal and
+ * PointXYZINormal; works for others where pcl::PCLBase does (define PCL_NO_PRECOMPILE before the include). */
+template <typename PointT>
+class PCL_COSECTION_EXPORT MotionSegmentation : public PCLBase<PointT>, public MotionSegmentationBase
 {
   using Base = PCLBase<PointT>;
 
@@ -151,37 +217,16 @@ public:
   using ConstPtr = shared_ptr<const MotionSegmentation<PointT>>;
   using PointCloud = pcl::PointCloud<PointT>;
 
-  /** \brief All parameters in one; what was seen is forgotten. \throws InvalidArgument */
-  void setOptions (const MotionSegmentationOptions& options);
-
-  /** \brief Where the sensor of the next cloud is; default: what the cloud says itself. */
-  void setSensorPose (const Eigen::Isometry3d& T_world_sensor) { T_world_sensor_ = T_world_sensor; }
-
-  /** \brief The sensor; default: that which fits the cloud best. It saves the fit. */
-  void setCamera (const PinholeCamera& camera) { camera_ = camera; }
-
-  /** \brief What is known of the next cloud: the body whose model explains a point, 0: none does; and where those
-   * bodies are. */
-  void setKnownBodies (const std::vector<std::uint32_t>& bodies,
-                       const std::map<std::uint32_t, Eigen::Isometry3d>& T_world_body)
-  {
-    bodies_ = bodies;
-    T_world_body_ = T_world_body;
-  }
-
-  /** \brief Depth of each point of the next cloud by a model of the room, metres; NaN: nothing. */
-  void setExpectedDepth (const std::vector<float>& depth) { expected_depth_ = depth; }
-
   /** \brief Look at the cloud without looking for bodies in it: where that is wanted now and then only.
-   * \throws InvalidArgument if there is no organised cloud, it has no readings or is no pinhole camera's image, sizes
-   * do not agree, or a pose is not a finite rigid motion; the cloud is left out then */
-  void add ();
+   * \return false if the cloud is left out */
+  bool add ();
 
   /** \brief Look at the cloud, and find the moving bodies in it.
    * \param[out] labels one per point of the input cloud, of its width and height: 0 at rest, 1 ... bodies,
-   * MotionSegments::unexplained: what moves otherwise. A body keeps its label from call to call
+   * MotionSegments::unexplained: what moves otherwise. A body keeps its label from call to call. Empty if the cloud is
+   * left out
    * \param[out] label_indices points of each body; those of label n are label_indices[n - 1]. Empty while nothing moves
-   * \throws InvalidArgument as add () */
+   */
   void segment (pcl::PointCloud<pcl::Label>& labels, std::vector<pcl::PointIndices>& label_indices);
 
 protected:
@@ -190,23 +235,43 @@ protected:
   using Base::initCompute;
   using Base::input_;
 
-private:
-  MovingBodyFinder finder_;
-  std::optional<Eigen::Isometry3d> T_world_sensor_; // these are of the next cloud
-  std::optional<PinholeCamera> camera_;
-  std::vector<std::uint32_t> bodies_;
-  std::map<std::uint32_t, Eigen::Isometry3d> T_world_body_;
-  std::vector<float> expected_depth_;
-
 public:
   PCL_MAKE_ALIGNED_OPERATOR_NEW
 };
 
+template <typename PointT>
+bool
+MotionSegmentation<PointT>::add ()
+{
+  if (!input_ || !initCompute ())
+  {
+    reportMissingInput ();
+    return false;
+  }
+  std::vector<Eigen::Vector3f> points (input_->size (),
+                                       Eigen::Vector3f::Constant (std::numeric_limits<float>::quiet_NaN ()));
+  for (const auto i : *indices_)
+    if ((*input_)[i].getVector3fMap ().allFinite ())
+      points[i] = (*input_)[i].getVector3fMap ();
+  deinitCompute ();
+  Eigen::Isometry3d T_world_sensor = Eigen::Isometry3d::Identity ();
+  T_world_sensor.linear () = input_->sensor_orientation_.template cast<double> ().toRotationMatrix ();
+  T_world_sensor.translation () = input_->sensor_origin_.template head<3> ().template cast<double> ();
+  return addPoints (std::move (points), input_->width, input_->height, T_world_sensor);
+}
+
+template <typename PointT>
+void
+MotionSegmentation<PointT>::segment (pcl::PointCloud<pcl::Label>& labels, std::vector<pcl::PointIndices>& label_indices)
+{
+  labels.clear ();
+  label_indices.clear ();
+  if (add ())
+    segmentLast (input_->header, input_->width, input_->height, labels, label_indices);
+}
+
 } // namespace pcl::cosection
 
-#ifdef PCL_NO_PRECOMPILE
-#include <pcl/cosection/segmentation/impl/motion_segmentation.hpp>
-#else
 namespace pcl
 {
 struct PointXYZ;
@@ -230,4 +295,3 @@ extern template class PCL_COSECTION_EXPORT MotionSegmentation<pcl::PointNormal>;
 extern template class PCL_COSECTION_EXPORT MotionSegmentation<pcl::PointXYZRGBNormal>;
 extern template class PCL_COSECTION_EXPORT MotionSegmentation<pcl::PointXYZINormal>;
 } // namespace pcl::cosection
-#endif

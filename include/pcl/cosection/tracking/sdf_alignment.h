@@ -10,6 +10,7 @@
 
 #include <cstddef>
 #include <memory>
+#include <string>
 #include <vector>
 
 namespace pcl::cosection
@@ -155,6 +156,62 @@ public:
 private:
   struct Impl;
   std::unique_ptr<Impl> impl_;
+};
+
+/** \brief The volume, options and last result of SdfRegistration and SdfTracker, which do not depend on the type of
+ * their points.
+ *
+ * A setter that cannot use what it gets says why through PCL's console, changes nothing and returns false. */
+class PCL_COSECTION_EXPORT SdfAlignmentBase
+{
+public:
+  /** \brief Set all parameters at once. */
+  bool setOptions (const SdfAlignmentOptions& options);
+
+  /** \brief The parameters, as setOptions () and setNumberOfThreads () left them. */
+  const SdfAlignmentOptions& getOptions () const { return options_; }
+
+  /** \brief Set the number of threads; 0 (default): all processors. The result does not depend on it. */
+  void setNumberOfThreads (unsigned int threads = 0);
+
+  /** \brief Why the last alignment ended, how well points fit, and which directions they determine. */
+  const SdfAlignmentResult& getAlignment () const { return result_; }
+
+protected:
+  /** \param[in] name of the class, for messages: "cosection::SdfTracker" */
+  explicit SdfAlignmentBase (const char* name) : name_ (name) {}
+
+  ~SdfAlignmentBase () = default;
+
+  /** \brief Set a volume as the target. \return false, with a message, if it is null, or has no surface although it
+   * must
+   * \param[out] surface points on the surface, which there must be; null: they are not asked for */
+  bool setTarget (const TsdfVolume::ConstPtr& volume, std::vector<Eigen::Vector3f>* surface = nullptr);
+
+  /** \brief Set another field as the target. \return false, with a message, as for a volume, or if it is not valid
+   * \param[out] surface points on the surface, which there must be; null: they are not asked for */
+  bool setTarget (const SignedDistanceField::ConstPtr& field, std::vector<Eigen::Vector3f>* surface = nullptr);
+
+  bool hasTarget () const { return volume_ || field_; }
+
+  /** \brief What was set as the target. */
+  SdfTarget target () const { return volume_ ? SdfTarget (*volume_) : SdfTarget (*field_); }
+
+  /** \brief Fill the result by SdfAlignment::align (). \return false, with a message, if there is no target, or the
+   * input or an option is not valid; the result is empty then */
+  bool alignPoints (const SdfAlignmentOptions& options, const std::vector<Eigen::Vector3f>& points,
+                    const std::vector<float>& weights, const Eigen::Isometry3d& guess);
+
+  /** \brief Say what is wrong, through PCL's console. */
+  void report (const char* function, const std::string& error) const;
+
+  SdfAlignmentResult result_;
+
+private:
+  const char* name_;
+  SdfAlignmentOptions options_;
+  TsdfVolume::ConstPtr volume_;
+  SignedDistanceField::ConstPtr field_;
 };
 
 } // namespace pcl::cosection
