@@ -90,7 +90,7 @@ complete (const Cloud::Ptr& points, const View& view, const pcl::ModelCoefficien
   pcl::cosection::HessianIMLS<pcl::PointXYZRGBNormal> imls;
   imls.setInputCloud (points);
   imls.addView (view, Eigen::Isometry3d::Identity ()); // what lies before its surfaces is free
-  imls.setSupportPlane (table);
+  imls.addSupportPlane (table);
   pcl::PolygonMesh mesh;
   imls.reconstruct (mesh);
   if (mesh.polygons.empty ())

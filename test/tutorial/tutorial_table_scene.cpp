@@ -202,7 +202,7 @@ complete (const Cloud::Ptr& objects, const pcl::PointIndices& cluster, const std
   imls.setIndices (pcl::make_shared<pcl::PointIndices> (cluster));
   for (const auto& view : views)
     imls.addView (*view, pose (*view));
-  imls.setSupportPlane (table);
+  imls.addSupportPlane (table);
   pcl::PolygonMesh mesh;
   imls.reconstruct (mesh);
   if (mesh.polygons.empty ())

@@ -46,11 +46,12 @@ struct PCL_COSECTION_EXPORT PinholeCamera
 /** \brief One depth image and where it was taken from. */
 struct PCL_COSECTION_EXPORT DepthView
 {
-  PinholeCamera camera;
+  PinholeCamera camera;     ///< of the image
   std::vector<float> depth; ///< width * height, row by row, metres along the optical axis; NaN: no reading
-  Eigen::Isometry3d T_world_sensor = Eigen::Isometry3d::Identity ();
-  std::string name = {}; ///< in warnings; empty: its number is told
+  Eigen::Isometry3d T_world_sensor = Eigen::Isometry3d::Identity (); ///< pose of the sensor, metres
+  std::string name = {};                                             ///< used in warnings; empty: they give its number
 
+  /** \brief Depth at column \a u and row \a v, metres; NaN: no reading. */
   float at (int u, int v) const { return depth[static_cast<std::size_t> (v) * camera.width + u]; }
 
   /** \brief \throws InvalidArgument if the camera is not valid, there is not one depth per pixel, or the pose is not
@@ -69,7 +70,8 @@ depthNoiseSigma (double z)
 
 /** \brief Least-squares pinhole of an organised cloud in its sensor frame: x/z and y/z as affine
  * functions of the column and the row.
- * \param[in] points width * height points, row by row; not finite: no reading
+ * \param[in] points width * height points, row by row, sensor frame, metres; not finite: no reading
+ * \param[in] width, height pixels
  * \return nothing if fewer than 50 points are usable, or the residual's root mean square exceeds
  * half a pixel (the cloud is not a pinhole's image) */
 PCL_COSECTION_EXPORT std::optional<PinholeCamera> fitPinholeCamera (const std::vector<Eigen::Vector3f>& points,

@@ -29,17 +29,20 @@ enum class Provenance : std::uint8_t
  * The per-vertex arrays are empty or as long as \a vertices. */
 struct PCL_COSECTION_EXPORT TriangleMesh
 {
+  /** \brief Indices of three vertices. */
   using Triangle = std::array<std::uint32_t, 3>;
+  /** \brief Red, green, blue. */
   using Colour = std::array<std::uint8_t, 3>;
 
-  std::vector<Eigen::Vector3f> vertices;
-  std::vector<Triangle> triangles;
-  std::vector<Eigen::Vector3f> normals; ///< unit, outward
-  std::vector<Colour> colours;          ///< red, green, blue
-  std::vector<float> intensity;         ///< as the points'
-  std::vector<float> confidence;        ///< exp (-d / 5), d: voxels to the nearest data
-  std::vector<std::uint8_t> provenance; ///< Provenance
+  std::vector<Eigen::Vector3f> vertices; ///< metres
+  std::vector<Triangle> triangles;       ///< counter-clockwise from outside
+  std::vector<Eigen::Vector3f> normals;  ///< unit, outward
+  std::vector<Colour> colours;           ///< red, green, blue
+  std::vector<float> intensity;          ///< as the points'
+  std::vector<float> confidence;         ///< exp (-d / 5), d: voxels to the nearest data
+  std::vector<std::uint8_t> provenance;  ///< Provenance
 
+  /** \brief Whether there is no triangle. */
   bool empty () const { return triangles.empty (); }
 };
 
@@ -57,9 +60,9 @@ struct PCL_COSECTION_EXPORT MeshTopology
 /** \brief Volume integrals of a closed mesh of unit density. */
 struct PCL_COSECTION_EXPORT MassProperties
 {
-  double volume_m3 = 0.0;
-  Eigen::Vector3d centroid_m = Eigen::Vector3d::Zero ();
-  Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero (); ///< about the centroid, density 1 kg/m^3: kg m^2
+  double volume_m3 = 0.0;                                ///< negative if the mesh is turned inside out
+  Eigen::Vector3d centroid_m = Eigen::Vector3d::Zero (); ///< centre of mass
+  Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero ();    ///< about the centroid, density 1 kg/m^3: kg m^2
 };
 
 /** \brief Analyse the connectivity; O (triangles log triangles). */

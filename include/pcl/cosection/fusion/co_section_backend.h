@@ -25,7 +25,7 @@ namespace pcl::cosection
 /** \brief How much of a sequence CoSectionBackend keeps. */
 struct PCL_COSECTION_EXPORT BackendOptions
 {
-  CoSectionOptions method;
+  CoSectionOptions method;        ///< of CoSection
   std::size_t max_views = 100;    ///< depth images that are kept, keyframes among them; at least 4
   std::size_t max_keyframes = 40; ///< at least 2
 
@@ -81,6 +81,7 @@ public:
   /** \brief Views that are kept, keyframes among them. */
   std::size_t views () const { return kept_.size (); }
 
+  /** \brief Keyframes that are kept. */
   std::size_t keyframes () const;
 
 private:
@@ -106,9 +107,9 @@ private:
 /** \brief Everything completed with the views up to a keyframe. */
 struct PCL_COSECTION_EXPORT BackendUpdate
 {
-  double stamp = 0.0; ///< of the keyframe
-  SceneResult scene;
-  double seconds = 0.0;
+  double stamp = 0.0;   ///< of the keyframe
+  SceneResult scene;    ///< everything that is completed
+  double seconds = 0.0; ///< that the update took
 };
 
 /** \brief Updates a CoSectionBackend in a thread of its own, while the front end goes on.

@@ -49,9 +49,9 @@ struct PCL_COSECTION_EXPORT AssociationOptions
 /** \brief How DynamicFusion follows a scene. */
 struct PCL_COSECTION_EXPORT DynamicFusionOptions
 {
-  int background_resolution = 256;      ///< voxels along each axis
-  double background_voxel_size_m = 0.0; ///< 0: so that the volume holds the first frame, up to 0.02
-  double background_truncation_vox = 5.0;
+  int background_resolution = 256;        ///< voxels along each axis
+  double background_voxel_size_m = 0.0;   ///< 0: so that the volume holds the first frame, up to 0.02
+  double background_truncation_vox = 5.0; ///< distances are cut off at this many voxels
   bool objects = true;    ///< there will be masks or a segmenter; without, the background takes less time and memory
   int segment_every = 10; ///< frames, from one in which the segmenter is asked for objects to the next
   int object_resolution = 64;         ///< voxels along each axis, at first
@@ -69,7 +69,7 @@ struct PCL_COSECTION_EXPORT DynamicFusionOptions
   double min_existence = 0.1;         ///< below, an object is given up
   double min_association = 0.1;       ///< mean over its pixels; below, an object is given up
   int max_objects = 64;               ///< at a time
-  AssociationOptions association;
+  AssociationOptions association;     ///< of points to models
   Eigen::Isometry3d first_pose = Eigen::Isometry3d::Identity (); ///< T_world_camera of the first frame
   int threads = 0;                                               ///< 0: all; no result depends on it
 
@@ -114,14 +114,18 @@ public:
   /** \throws InvalidArgument as DynamicFusionOptions::validate () and PinholeCamera::validate () */
   explicit DynamicFusion (const PinholeCamera& camera, const DynamicFusionOptions& options = {});
   ~DynamicFusion ();
+  /** \brief Takes over what the other one has. */
   DynamicFusion (DynamicFusion&& other) noexcept;
+  /** \brief Takes over what the other one has. */
   DynamicFusion& operator= (DynamicFusion&& other) noexcept;
 
   /** \brief Find objects in frames that come without a mask. What it notes is among the events. \param[in] segmenter
    * null: none */
   void setSegmenter (std::shared_ptr<FrameSegmenter> segmenter);
 
-  /** \brief \param[in] mask instances of the frame, 0: none, FrameSegmenter::ignored: neither objects nor background;
+  /** \brief Track and map the next frame.
+   * \param[in] frame in the order of time
+   * \param[in] mask instances of the frame, 0: none, FrameSegmenter::ignored: neither objects nor background;
    * null: there is no mask
    * \return valid until the next call
    * \throws InvalidArgument if the depth or a mask is not of the camera's size; what the segmenter throws */

@@ -27,10 +27,10 @@ namespace pcl::cosection
  * the call. */
 struct PCL_COSECTION_EXPORT ObservedFrame
 {
-  const RgbdFrame& images; ///< as they were read; colour may be empty
-  const PinholeCamera& camera;
-  const std::vector<Eigen::Vector3f>& points; ///< row by row, sensor frame, metres, smoothed; NaN: no reading
-  const Eigen::Isometry3d& T_world_camera;
+  const RgbdFrame& images;                         ///< as they were read; colour may be empty
+  const PinholeCamera& camera;                     ///< of the images
+  const std::vector<Eigen::Vector3f>& points;      ///< row by row, sensor frame, metres, smoothed; NaN: no reading
+  const Eigen::Isometry3d& T_world_camera;         ///< metres
   std::map<int, Eigen::Isometry3d> T_world_object; ///< of the objects that are tracked
   /** \brief What known models explain: id of the object, 0: background or no reading, TrackedFrame::unassigned: none of
    * them. */
@@ -43,9 +43,9 @@ struct PCL_COSECTION_EXPORT ObservedFrame
 struct PCL_COSECTION_EXPORT FrameInstances
 {
   /** \brief Number of an instance, another one in each frame; 0: none, FrameSegmenter::ignored. Of the camera's size;
-   * nothing: the frame tells nothing. */
+   * nothing: the frame says nothing of objects. */
   std::optional<Image<std::uint16_t>> mask;
-  std::string note; ///< what the user should know; the same one is told once
+  std::string note; ///< what the user should know; repeated ones are shown once
   /** \brief What an instance is, by its number, where that is known. */
   std::map<std::uint16_t, ClassScore> classes = {};
 };
@@ -98,7 +98,7 @@ public:
 
   void begin () override;
 
-  /** \brief Without a plane that objects could stand on, the frame tells nothing. */
+  /** \brief The objects of one frame; no mask where no plane is in view that objects could stand on. */
   FrameInstances segment (const ObservedFrame& frame) override;
 
   bool findsAll () const override { return false; }
@@ -150,7 +150,7 @@ public:
   /** \throws InvalidArgument, IoError as InstanceDetector and ClassRoles::validate () */
   explicit NetworkSegmenter (const InstanceDetectorOptions& options, const ClassRoles& roles = {});
 
-  /** \brief Instances with their classes. A frame without colour tells nothing. \throws IoError if the network cannot
+  /** \brief Instances with their classes; no mask for a frame without colour. \throws IoError if the network cannot
    * be run */
   FrameInstances segment (const ObservedFrame& frame) override;
 

@@ -58,6 +58,8 @@ struct PCL_COSECTION_EXPORT ObjectSegmentation
  *
  * \param[in] points width * height points, row by row, in the sensor's frame (sensor at the origin), metres; not
  * finite: no reading
+ * \param[in] width, height pixels
+ * \param[in] options lengths and angles
  * \throws InvalidArgument if the sizes do not agree or an option is outside its domain
  * \throws DegenerateInput if there are no readings, or no plane in view that objects could stand on
  *
@@ -139,8 +141,11 @@ class PCL_COSECTION_EXPORT GeometricSegmentation : public PCLBase<PointT>, publi
   using Base = PCLBase<PointT>;
 
 public:
+  /** \brief Shared pointer. */
   using Ptr = shared_ptr<GeometricSegmentation<PointT>>;
+  /** \brief Shared pointer to what is constant. */
   using ConstPtr = shared_ptr<const GeometricSegmentation<PointT>>;
+  /** \brief Cloud of the points. */
   using PointCloud = pcl::PointCloud<PointT>;
 
   /** \brief Find the objects.

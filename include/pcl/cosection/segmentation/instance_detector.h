@@ -30,23 +30,23 @@ struct PCL_COSECTION_EXPORT DetectedInstance
 /** \brief An array that a network gives, the last dimension running fastest. */
 struct PCL_COSECTION_EXPORT NetworkOutput
 {
-  std::string name;
-  std::vector<int> shape;
-  std::vector<float> values;
+  std::string name;          ///< as the network calls it
+  std::vector<int> shape;    ///< number of values along each dimension
+  std::vector<float> values; ///< as many as the product of the shape
 };
 
 /** \brief Where an image lies in a network's input: stretched over all of it, or in its middle with margins
  * (letterbox). */
 struct PCL_COSECTION_EXPORT ImagePlacement
 {
-  int image_width = 0;
-  int image_height = 0;
-  int input_width = 0;
-  int input_height = 0;
-  int left = 0;   ///< first column of the input that shows the image
-  int top = 0;    ///< first row of it
-  int width = 0;  ///< columns of the input that show the image
-  int height = 0; ///< rows of it
+  int image_width = 0;  ///< pixels of the image
+  int image_height = 0; ///< pixels of the image
+  int input_width = 0;  ///< pixels of the input
+  int input_height = 0; ///< pixels of the input
+  int left = 0;         ///< first column of the input that shows the image
+  int top = 0;          ///< first row of it
+  int width = 0;        ///< columns of the input that show the image
+  int height = 0;       ///< rows of it
 
   /** \throws InvalidArgument if a size is not positive */
   ImagePlacement (int image_width, int image_height, int input_width, int input_height, bool letterbox);
@@ -74,7 +74,7 @@ enum class NetworkOutputForm
    * detection_out_final, detection_masks. */
   DetectionOut,
   /** Boxes [N, 4]: left, top, right, bottom in pixels of the input; labels [N]; scores [N]; masks [N, 1, h, w], of the
-   * boxes, or of the input if they have its size. Mask R-CNN of torchvision. Outputs whose names do not tell come in
+   * boxes, or of the input if they have its size. Mask R-CNN of torchvision. Outputs without such names come in
    * this order. */
   BoxList,
   /** [1, 4 + C + K, A]: centre x, y, width and height in pixels of the input, C scores, K coefficients, for each of A
@@ -87,7 +87,7 @@ enum class NetworkOutputForm
 /** \brief Which form outputs have. \throws InvalidArgument saying what they are and what they should be, if none */
 PCL_COSECTION_EXPORT NetworkOutputForm outputForm (const std::vector<NetworkOutput>& outputs);
 
-/** \brief The instances that the outputs of a network tell, in the image, highest score first. Also for networks that
+/** \brief The instances in the outputs of a network, placed in the image, highest score first. Also for networks that
  * are run by other means than InstanceDetector.
  *
  * What is not finite or not in the image is left out, whatever the numbers are.
@@ -123,6 +123,9 @@ struct PCL_COSECTION_EXPORT InstanceLabels
 
 /** \brief Share the pixels of an image out among instances: where several overlap, the one of the highest score has it.
  * Classes that are no objects leave it to the others; ignored ones take part.
+ * \param[in] instances in the image
+ * \param[in] width, height of the image, pixels
+ * \param[in] roles what becomes of their classes
  * \param[in] readings 0 where a pixel belongs to nothing, as there is no reading; empty: all pixels may
  * \throws InvalidArgument if \a readings have another size */
 PCL_COSECTION_EXPORT InstanceLabels labelInstances (const std::vector<DetectedInstance>& instances, int width,
@@ -140,16 +143,16 @@ PCL_COSECTION_EXPORT InstanceLabels labelInstances (const std::vector<DetectedIn
  * size of its input has that one. */
 struct PCL_COSECTION_EXPORT InstanceDetectorOptions
 {
-  std::string model;             ///< file: .onnx, or a frozen graph of TensorFlow, .pb
-  std::string config;            ///< file: the text graph (.pbtxt) that goes with a graph of TensorFlow
-  int input_width = 0;           ///< pixels; 0: as above
-  int input_height = 0;          ///< pixels; 0: as above
-  std::optional<bool> letterbox; ///< keep the image's proportions, with grey margins, instead of stretching it
-  std::optional<double> scale;   ///< multiplies values from 0 to 255, once the mean is subtracted
-  std::array<double, 3> mean{};  ///< subtracted from red, green and blue
-  bool blue_first = false;       ///< the network takes blue, green, red
-  int threads = 1;               ///< of the network; with more, its last digits depend on how many
-  InstanceDecodingOptions detection;
+  std::string model;                 ///< file: .onnx, or a frozen graph of TensorFlow, .pb
+  std::string config;                ///< file: the text graph (.pbtxt) that goes with a graph of TensorFlow
+  int input_width = 0;               ///< pixels; 0: as above
+  int input_height = 0;              ///< pixels; 0: as above
+  std::optional<bool> letterbox;     ///< keep the image's proportions, with grey margins, instead of stretching it
+  std::optional<double> scale;       ///< multiplies values from 0 to 255, once the mean is subtracted
+  std::array<double, 3> mean{};      ///< subtracted from red, green and blue
+  bool blue_first = false;           ///< the network takes blue, green, red
+  int threads = 1;                   ///< of the network; with more, its last digits depend on how many
+  InstanceDecodingOptions detection; ///< how outputs become instances
 
   /** \brief \throws InvalidArgument naming the first parameter outside its domain. */
   void validate () const;
@@ -174,7 +177,9 @@ public:
    * \throws InvalidArgument if an option is outside its domain \throws IoError naming the file, if it cannot be read as
    * a network */
   explicit InstanceDetector (const InstanceDetectorOptions& options);
+  /** \brief Takes over what the other one has. */
   InstanceDetector (InstanceDetector&&) noexcept;
+  /** \brief Takes over what the other one has. */
   InstanceDetector& operator= (InstanceDetector&&) noexcept;
   ~InstanceDetector ();
 
@@ -183,6 +188,7 @@ public:
    * an input, or is of no known form */
   std::vector<DetectedInstance> detect (const Picture& picture);
 
+  /** \brief The options of the constructor. */
   const InstanceDetectorOptions& options () const;
 
 private:

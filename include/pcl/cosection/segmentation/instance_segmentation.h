@@ -50,8 +50,8 @@ protected:
   /** \brief Whether there are a network and an organised cloud; says so if not. Forgets the last result. */
   bool begin (bool input, unsigned int height);
 
-  /** \brief Run the network on the colours of a cloud; nothing, with a message, if that fails or all is black.
-   * \param[in] readings 0 where a pixel belongs to nothing */
+  /** \brief Run the network on the colours of a cloud where readings are not 0; empty outputs, with a message, if that
+   * fails or all is black. */
   void segmentPicture (const Picture& picture, const Image<std::uint8_t>& readings, const pcl::PCLHeader& header,
                        pcl::PointCloud<pcl::Label>& labels, std::vector<pcl::PointIndices>& label_indices);
 
@@ -88,8 +88,11 @@ class PCL_COSECTION_EXPORT InstanceSegmentation : public PCLBase<PointT>, public
   using Base = PCLBase<PointT>;
 
 public:
+  /** \brief Shared pointer. */
   using Ptr = shared_ptr<InstanceSegmentation<PointT>>;
+  /** \brief Shared pointer to what is constant. */
   using ConstPtr = shared_ptr<const InstanceSegmentation<PointT>>;
+  /** \brief Cloud of the points. */
   using PointCloud = pcl::PointCloud<PointT>;
 
   /** \brief Find the objects.

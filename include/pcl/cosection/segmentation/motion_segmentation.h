@@ -43,9 +43,9 @@ struct PCL_COSECTION_EXPORT MotionSegmentationOptions
 /** \brief A frame of an organised depth sensor, and what is known of it. */
 struct PCL_COSECTION_EXPORT MotionFrame
 {
-  PinholeCamera camera;
+  PinholeCamera camera;                ///< of the frame
   std::vector<Eigen::Vector3f> points; ///< one per pixel, row by row, sensor frame, metres; not finite: no reading
-  Eigen::Isometry3d T_world_sensor = Eigen::Isometry3d::Identity ();
+  Eigen::Isometry3d T_world_sensor = Eigen::Isometry3d::Identity (); ///< pose of the sensor, metres
 
   /** \brief One per pixel: the moving body whose model explains the reading, 0: none does, or the room's; empty: none
    * is known. */
@@ -106,7 +106,9 @@ public:
   /** \throws InvalidArgument as MotionSegmentationOptions::validate () */
   explicit MovingBodyFinder (const MotionSegmentationOptions& options = {});
   ~MovingBodyFinder ();
+  /** \brief Takes over what the other one has. */
   MovingBodyFinder (MovingBodyFinder&& other) noexcept;
+  /** \brief Takes over what the other one has. */
   MovingBodyFinder& operator= (MovingBodyFinder&& other) noexcept;
 
   /** \brief Look at the next frame. \throws InvalidArgument as MotionFrame::validate (); the frame is left out then */
@@ -163,8 +165,8 @@ protected:
   MotionSegmentationBase () = default;
   ~MotionSegmentationBase () = default;
 
-  /** \brief MovingBodyFinder::add (). \return false, with a message, if there is no frame, or it is not valid
-   * \param[in] T_world_sensor where the cloud itself says that its sensor was */
+  /** \brief MovingBodyFinder::add (), with the pose that the cloud itself gives unless another one was set.
+   * \return false, with a message, if the frame is not valid */
   bool addPoints (std::vector<Eigen::Vector3f> points, unsigned int width, unsigned int height,
                   const Eigen::Isometry3d& T_world_sensor);
 
@@ -213,8 +215,11 @@ class PCL_COSECTION_EXPORT MotionSegmentation : public PCLBase<PointT>, public M
   using Base = PCLBase<PointT>;
 
 public:
+  /** \brief Shared pointer. */
   using Ptr = shared_ptr<MotionSegmentation<PointT>>;
+  /** \brief Shared pointer to what is constant. */
   using ConstPtr = shared_ptr<const MotionSegmentation<PointT>>;
+  /** \brief Cloud of the points. */
   using PointCloud = pcl::PointCloud<PointT>;
 
   /** \brief Look at the cloud without looking for bodies in it: where that is wanted now and then only.

@@ -24,6 +24,7 @@ namespace pcl::cosection
 class PCL_COSECTION_EXPORT Shape
 {
 public:
+  /** \brief Shared pointer to what is constant. */
   using ConstPtr = std::shared_ptr<const Shape>;
 
   virtual ~Shape ();
@@ -93,6 +94,7 @@ public:
    * seconds, or the times do not grow by a microsecond at least. */
   KeyedVector (std::vector<double> times, std::vector<Eigen::Vector3d> values);
 
+  /** \brief Value at \a time, seconds. */
   Eigen::Vector3d at (double time) const;
 
 private:
@@ -112,6 +114,7 @@ public:
    */
   KeyedRotation (std::vector<double> times, std::vector<Eigen::Quaterniond> values);
 
+  /** \brief Orientation at \a time, seconds. */
   Eigen::Quaterniond at (double time) const;
 
 private:
@@ -174,6 +177,9 @@ struct PCL_COSECTION_EXPORT DepthNoise
 /** \brief Depth as the camera measures it. The result depends on \a seed and \a frame, not on threads.
  * \param[in] depth metres along the optical axis, NaN: nothing there
  * \param[in] normals unit, sensor frame, one per pixel
+ * \param[in] camera of the image
+ * \param[in] noise of the camera
+ * \param[in] seed, frame which random numbers
  * \return metres, NaN: no reading */
 PCL_COSECTION_EXPORT Image<float> measureDepth (const Image<float>& depth, const std::vector<Eigen::Vector3f>& normals,
                                                 const PinholeCamera& camera, const DepthNoise& noise,
@@ -182,18 +188,18 @@ PCL_COSECTION_EXPORT Image<float> measureDepth (const Image<float>& depth, const
 /** \brief A shape as a part of a body. */
 struct PCL_COSECTION_EXPORT BodyPart
 {
-  Shape::ConstPtr shape;
-  Eigen::Isometry3d T_body_part = Eigen::Isometry3d::Identity ();
-  TriangleMesh::Colour colour{180, 180, 180};
-  std::string file{}; ///< of a mesh; empty: the shape comes from none
+  Shape::ConstPtr shape;                                          ///< metres, in the frame of the part
+  Eigen::Isometry3d T_body_part = Eigen::Isometry3d::Identity (); ///< metres
+  TriangleMesh::Colour colour{180, 180, 180};                     ///< red, green, blue
+  std::string file{};                                             ///< of a mesh; empty: the shape comes from none
 };
 
 /** \brief A rigid thing of a scene. */
 struct PCL_COSECTION_EXPORT SceneBody
 {
-  std::string name; ///< part of file names; of the background: room or background
-  int id = 0;       ///< in the masks; 0: the background
-  std::vector<BodyPart> parts;
+  std::string name;            ///< part of file names; of the background: room or background
+  int id = 0;                  ///< in the masks; 0: the background
+  std::vector<BodyPart> parts; ///< the shape is their union
   KeyedMotion motion;          ///< T_world_body
   double pattern_size_m = 0.0; ///< period of the pattern on its surface; 0: plain
 
@@ -219,19 +225,20 @@ enum class DepthFormat
 /** \brief Everything that determines a simulated sequence. */
 struct PCL_COSECTION_EXPORT SimulatedScene
 {
-  PinholeCamera camera{640, 480, 525.0, 525.0, 319.5, 239.5};
-  KeyedMotion camera_motion; ///< T_world_camera
-  int frames = 1;
-  double rate = 30.0; ///< frames per second
-  std::uint64_t seed = 1;
-  std::optional<DepthNoise> noise;
-  DepthFormat depth_format = DepthFormat::Png;
-  double depth_scale = 1000.0;   ///< units of a PNG per metre
-  bool exact_depth = false;      ///< also without noise
-  int views_every = 0;           ///< frames from one point cloud to the next; 0: none
-  std::vector<SceneBody> bodies; ///< the background is the first
-  std::string spec;              ///< what it was read from, if anything
+  PinholeCamera camera{640, 480, 525.0, 525.0, 319.5, 239.5}; ///< of all frames
+  KeyedMotion camera_motion;                                  ///< T_world_camera
+  int frames = 1;                                             ///< number of them
+  double rate = 30.0;                                         ///< frames per second
+  std::uint64_t seed = 1;                                     ///< of the noise
+  std::optional<DepthNoise> noise;                            ///< nothing: depth is exact
+  DepthFormat depth_format = DepthFormat::Png;                ///< of the files
+  double depth_scale = 1000.0;                                ///< units of a PNG per metre
+  bool exact_depth = false;                                   ///< also without noise
+  int views_every = 0;                                        ///< frames from one point cloud to the next; 0: none
+  std::vector<SceneBody> bodies;                              ///< the background is the first
+  std::string spec;                                           ///< what it was read from, if anything
 
+  /** \brief Time of a frame, seconds. */
   double timeOf (int frame) const { return frame / rate; }
 
   /** \brief \throws InvalidArgument naming what is not right: no frames, two bodies with one id or name ... */
@@ -247,7 +254,7 @@ struct PCL_COSECTION_EXPORT SimulatedScene
 PCL_COSECTION_EXPORT SimulatedScene parseSceneSpec (const std::string& text, const std::string& name,
                                                     const std::string& folder = ".");
 
-/** \brief Read it from a file; mesh files are found beside it. \throws as parseSceneSpec () */
+/** \brief Read the description of a scene from a file; mesh files are found beside it. \throws as parseSceneSpec () */
 PCL_COSECTION_EXPORT SimulatedScene loadSceneSpec (const std::string& path);
 
 /** \brief What the scene was read from, with its present seed, noise and views, and the full names of its mesh files;
@@ -257,9 +264,9 @@ PCL_COSECTION_EXPORT std::string effectiveSpec (const SimulatedScene& scene);
 /** \brief A scene that comes with the library. */
 struct PCL_COSECTION_EXPORT ScenePreset
 {
-  std::string name;
-  std::string meaning;
-  std::string spec; ///< for parseSceneSpec ()
+  std::string name;    ///< for the program's --preset
+  std::string meaning; ///< one line for a user
+  std::string spec;    ///< for parseSceneSpec ()
 };
 
 /** \brief Objects on a table; toys that drive on a floor; an object that is lifted, turned and put on another. */

@@ -60,7 +60,9 @@ public:
 
 protected:
   FreeSpaceFilterBase ();
+  /** \brief The copy has the same views and parameters. */
   FreeSpaceFilterBase (const FreeSpaceFilterBase& other);
+  /** \brief Takes over the views and parameters of another one. */
   FreeSpaceFilterBase& operator= (const FreeSpaceFilterBase& other);
   ~FreeSpaceFilterBase ();
 
@@ -85,7 +87,7 @@ private:
  * margin. "Around" is as far as the margin reaches sideways, so that a point a little off a surface that is seen at a
  * grazing angle is not taken for free. A view sees a surface at a point when its reading there is within the margin.
  * Missing readings say nothing. A reading at a depth edge says at most that there is a surface, and that only if at
- * least three of its eight neighbours have the same depth: a mixed pixel does not vouch for itself.
+ * least three of its eight neighbours have the same depth: a mixed pixel does not support itself.
  *
  * \code
  * pcl::cosection::FreeSpaceFilter<pcl::PointXYZRGB> filter;
@@ -107,8 +109,11 @@ class PCL_COSECTION_EXPORT FreeSpaceFilter : public FilterIndices<PointT>, publi
   using Base = FilterIndices<PointT>;
 
 public:
+  /** \brief Shared pointer. */
   using Ptr = shared_ptr<FreeSpaceFilter<PointT>>;
+  /** \brief Shared pointer to what is constant. */
   using ConstPtr = shared_ptr<const FreeSpaceFilter<PointT>>;
+  /** \brief Cloud of the points. */
   using PointCloud = pcl::PointCloud<PointT>;
 
   /** \param[in] extract_removed_indices keep the indices of what is removed, for getRemovedIndices () */

@@ -154,8 +154,11 @@ class PCL_COSECTION_EXPORT HessianIMLS : public SurfaceReconstruction<PointNT>, 
   using Base = SurfaceReconstruction<PointNT>;
 
 public:
+  /** \brief Shared pointer. */
   using Ptr = shared_ptr<HessianIMLS<PointNT>>;
+  /** \brief Shared pointer to what is constant. */
   using ConstPtr = shared_ptr<const HessianIMLS<PointNT>>;
+  /** \brief Cloud of the points. */
   using PointCloud = pcl::PointCloud<PointNT>;
 
   using Base::indices_;
@@ -176,10 +179,13 @@ public:
   void reconstruct (pcl::PointCloud<PointNT>& points, std::vector<pcl::Vertices>& polygons) override;
 
 protected:
+  /** \brief The name in messages. */
   std::string getClassName () const override { return "cosection::HessianIMLS"; }
 
+  /** \brief Complete the input, once the base class has checked that there is one. */
   void performReconstruction (pcl::PolygonMesh& output) override;
 
+  /** \brief Complete the input, once the base class has checked that there is one. */
   void performReconstruction (pcl::PointCloud<PointNT>& points, std::vector<pcl::Vertices>& polygons) override;
 
 private:

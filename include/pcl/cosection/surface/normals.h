@@ -33,11 +33,13 @@ struct PCL_COSECTION_EXPORT OrganizedNormalsOptions
  * pixels of the same label count, and only those that the point reaches along rows and columns
  * without a jump in range larger than the sensor's noise (depthNoiseSigma ()) and a surface tilted
  * by 75 degrees explain; pixels far from a first fit are trimmed, and the rest is fitted again.
- * Points without enough support, off the plane of their neighbours (as \e flying pixels at depth
+ * Points without enough support, off the plane of their neighbours (as \e mixed pixels at depth
  * edges are), on something that is no plane, or seen at too flat an angle get no normal.
  *
  * \param[in] points width * height points, row by row, sensor at the origin; not finite: no reading
+ * \param[in] width, height pixels
  * \param[in] labels empty, or one per point
+ * \param[in] options of the window
  * \return one per point: unit, towards the sensor; NaN where there is no reliable normal
  * \throws InvalidArgument if the sizes do not agree
  *
@@ -51,7 +53,7 @@ computeOrganizedNormals (const std::vector<Eigen::Vector3f>& points, int width, 
 
 /** \brief Share in [0, 1] of the directions of space in which the outermost points of a cloud have normals that point
  * outward, weighted by how clearly they do: near 1 for a body or a part of one, near 0 if its normals are flipped,
- * about one half where the points do not tell, as for a flat piece.
+ * about one half where the points do not determine it, as for a flat piece.
  * \param[in] points metres \param[in] normals one per point; those that are not finite are left out
  * \throws InvalidArgument if there is not one normal per point */
 PCL_COSECTION_EXPORT double outwardShare (const std::vector<Eigen::Vector3f>& points,

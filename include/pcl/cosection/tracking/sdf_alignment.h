@@ -53,13 +53,15 @@ PCL_COSECTION_EXPORT const char* describe (SdfAlignmentStop stop);
 /** \brief What SdfAlignment found. */
 struct PCL_COSECTION_EXPORT SdfAlignmentResult
 {
+  /** \brief Translation first, then rotation. */
   using Vector6d = Eigen::Matrix<double, 6, 1>;
+  /** \brief Translation first, then rotation. */
   using Matrix6d = Eigen::Matrix<double, 6, 6>;
 
-  Eigen::Isometry3d T_grid_sensor = Eigen::Isometry3d::Identity ();
-  bool converged = false;
-  SdfAlignmentStop stop = SdfAlignmentStop::TooFewPoints;
-  int iterations = 0; ///< steps tried
+  Eigen::Isometry3d T_grid_sensor = Eigen::Isometry3d::Identity (); ///< the pose, metres
+  bool converged = false;                                           ///< stop is Converged
+  SdfAlignmentStop stop = SdfAlignmentStop::TooFewPoints;           ///< why it ended
+  int iterations = 0;                                               ///< steps tried
 
   std::size_t points = 0;               ///< finite, of positive weight, and drawn
   std::size_t points_with_distance = 0; ///< of them: within the volume, where it has been seen
@@ -90,11 +92,13 @@ public:
    * value per voxel */
   SdfTarget (const SignedDistanceField& field); // NOLINT: conversion is its purpose
 
+  /** \brief Distances; those without weight or support say nothing. */
   const SignedDistanceField& field () const { return *field_; }
 
   /** \brief One per voxel; null: all are 1. */
   const std::vector<float>* weights () const { return weights_; }
 
+  /** \brief The largest weight that a voxel may have. */
   double maxWeight () const { return max_weight_; }
 
   /** \brief Default of SdfAlignmentOptions::huber_m. */
@@ -140,13 +144,17 @@ public:
   /** \throws InvalidArgument as SdfAlignmentOptions::validate () */
   explicit SdfAlignment (const SdfAlignmentOptions& options = {});
   ~SdfAlignment ();
+  /** \brief Takes over what the other one has. */
   SdfAlignment (SdfAlignment&& other) noexcept;
+  /** \brief Takes over what the other one has. */
   SdfAlignment& operator= (SdfAlignment&& other) noexcept;
 
+  /** \brief The options of the constructor. */
   const SdfAlignmentOptions& options () const;
 
   /** \param[in] points metres, sensor frame; those that are not finite are left out
    * \param[in] weights one per point, or none: 1; what is not positive and finite counts as 0
+   * \param[in] target the volume
    * \param[in] guess T_grid_sensor to begin with, metres
    * \throws InvalidArgument if there is not one weight per point, the guess is not a finite rigid motion, or the volume
    * has more voxels than an int can count. Points that determine no pose are no error: see SdfAlignmentResult::stop. */
@@ -183,15 +191,15 @@ protected:
 
   ~SdfAlignmentBase () = default;
 
-  /** \brief Set a volume as the target. \return false, with a message, if it is null, or has no surface although it
-   * must
-   * \param[out] surface points on the surface, which there must be; null: they are not asked for */
+  /** \brief Set a volume as the target; where \a surface is not null, it must have a surface, and points on it are
+   * returned there. \return false, with a message, if the volume is null or has no surface although it must */
   bool setTarget (const TsdfVolume::ConstPtr& volume, std::vector<Eigen::Vector3f>* surface = nullptr);
 
-  /** \brief Set another field as the target. \return false, with a message, as for a volume, or if it is not valid
-   * \param[out] surface points on the surface, which there must be; null: they are not asked for */
+  /** \brief Set another field as the target; \a surface as for a volume. \return false, with a message, if the field is
+   * null, has not one value per voxel, or has no surface although it must */
   bool setTarget (const SignedDistanceField::ConstPtr& field, std::vector<Eigen::Vector3f>* surface = nullptr);
 
+  /** \brief Whether there is a target. */
   bool hasTarget () const { return volume_ || field_; }
 
   /** \brief What was set as the target. */
@@ -205,7 +213,7 @@ protected:
   /** \brief Say what is wrong, through PCL's console. */
   void report (const char* function, const std::string& error) const;
 
-  SdfAlignmentResult result_;
+  SdfAlignmentResult result_; ///< of the last alignment
 
 private:
   const char* name_;

@@ -52,10 +52,15 @@ class PCL_COSECTION_EXPORT SdfRegistration : public Registration<PointSource, Po
   using Base = Registration<PointSource, PointTarget, Scalar>;
 
 public:
+  /** \brief Shared pointer. */
   using Ptr = shared_ptr<SdfRegistration<PointSource, PointTarget, Scalar>>;
+  /** \brief Shared pointer to what is constant. */
   using ConstPtr = shared_ptr<const SdfRegistration<PointSource, PointTarget, Scalar>>;
+  /** \brief Homogeneous 4 x 4 matrix. */
   using Matrix4 = typename Base::Matrix4;
+  /** \brief Cloud that is aligned. */
   using PointCloudSource = typename Base::PointCloudSource;
+  /** \brief Cloud of points on the surface. */
   using PointCloudTarget = typename Base::PointCloudTarget;
 
   using Base::getClassName;
@@ -95,6 +100,8 @@ protected:
   using Base::transformation_;
   using Base::transformation_epsilon_;
 
+  /** \brief Align the source.
+   * \param[out] output the transformed source \param[in] guess T_volume_source to begin with */
   void computeTransformation (PointCloudSource& output, const Matrix4& guess) override;
 
 private:

@@ -108,7 +108,9 @@ class PCL_COSECTION_EXPORT SdfTracker : public pcl::tracking::Tracker<PointInT, 
   using Base = pcl::tracking::Tracker<PointInT, StateT>;
 
 public:
+  /** \brief Shared pointer. */
   using Ptr = shared_ptr<SdfTracker<PointInT, StateT>>;
+  /** \brief Shared pointer to what is constant. */
   using ConstPtr = shared_ptr<const SdfTracker<PointInT, StateT>>;
 
   SdfTracker () { tracker_name_ = "cosection::SdfTracker"; }
@@ -127,6 +129,7 @@ protected:
   using Base::input_;
   using Base::tracker_name_;
 
+  /** \brief Begin a frame. \return false without a cloud */
   bool initCompute () override;
 
 private:

@@ -43,6 +43,7 @@ PCL_COSECTION_EXPORT Eigen::Vector3d upDirection (const RunScene& scene);
 
 /** \brief From above and behind the cameras, with all objects in the picture, wherever they were; of a scene without
  * objects, with the background.
+ * \param[in] scene the run
  * \param[in] turn_rad go around the middle of what is to be seen; with pi, one sees what the cameras did not */
 PCL_COSECTION_EXPORT Viewpoint overview (const RunScene& scene, double turn_rad = 0.0);
 
@@ -53,7 +54,7 @@ PCL_COSECTION_EXPORT PinholeCamera fittedCamera (const PinholeCamera& camera, in
 /** \brief Write a viewpoint as JSON: eye, target, up, angle_deg. \throws IoError */
 PCL_COSECTION_EXPORT void saveViewpoint (const Viewpoint& viewpoint, const std::string& path);
 
-/** \brief Read one. \throws IoError naming the file and what is wrong */
+/** \brief Read what saveViewpoint () wrote. \throws IoError naming the file and what is wrong */
 PCL_COSECTION_EXPORT Viewpoint loadViewpoint (const std::string& path);
 
 /** \brief Readings of a frame in the world. */
@@ -67,15 +68,20 @@ struct PCL_COSECTION_EXPORT FramePoints
 class PCL_COSECTION_EXPORT FramePointReader
 {
 public:
-  /** \param[in] dataset empty: the one that the run's summary names
+  /** \param[in] scene the run
+   * \param[in] dataset empty: the one that the run's summary names
    * \throws IoError if there is none, or it cannot be read */
   explicit FramePointReader (const RunScene& scene, const std::string& dataset = "");
   ~FramePointReader ();
+  /** \brief Takes over what the other one has. */
   FramePointReader (FramePointReader&&) noexcept;
+  /** \brief Takes over what the other one has. */
   FramePointReader& operator= (FramePointReader&&) noexcept;
 
   /** \brief The readings of the frame nearest to \a stamp, at the run's pose of the camera; none if there is no such
    * frame or no pose.
+   * \param[in] scene the run
+   * \param[in] stamp seconds, or the number of a frame
    * \param[in] every take every so many pixels along each axis
    * \throws IoError naming the image that cannot be read */
   FramePoints read (const RunScene& scene, double stamp, int every = 1) const;
@@ -85,7 +91,7 @@ private:
   std::vector<double> stamps_;
 };
 
-/** \brief What the colour of a surface tells. */
+/** \brief What the colour of a surface means. */
 enum class ColourMode
 {
   Real,       ///< what the camera saw
@@ -98,19 +104,19 @@ enum class ColourMode
 /** \brief How a scene is drawn. */
 struct PCL_COSECTION_EXPORT SceneView
 {
-  int width = 1280;                   ///< pixels
-  int height = 720;                   ///< pixels
-  std::optional<Viewpoint> viewpoint; ///< nothing: with the camera of the run, where it was
-  SurfaceMode surface = SurfaceMode::Completed;
-  ColourMode colour = ColourMode::Real;
-  bool objects = true;
-  bool background = true;
-  bool path = true;    ///< of the camera, so far
-  bool frustum = true; ///< what the camera sees; not drawn from the camera itself
-  bool boxes = false;  ///< bounding volumes of the objects
-  bool legend = true;
-  bool caption = true;
-  int oversampling = 2; ///< for smooth edges; 1: none
+  int width = 1280;                             ///< pixels
+  int height = 720;                             ///< pixels
+  std::optional<Viewpoint> viewpoint;           ///< nothing: with the camera of the run, where it was
+  SurfaceMode surface = SurfaceMode::Completed; ///< of objects and background
+  ColourMode colour = ColourMode::Real;         ///< of surfaces
+  bool objects = true;                          ///< whether they are drawn
+  bool background = true;                       ///< whether it is drawn
+  bool path = true;                             ///< of the camera, so far
+  bool frustum = true;                          ///< what the camera sees; not drawn from the camera itself
+  bool boxes = false;                           ///< bounding volumes of the objects
+  bool legend = true;                           ///< of the colours
+  bool caption = true;                          ///< stamp and numbers, in a corner
+  int oversampling = 2;                         ///< for smooth edges; 1: none
 
   /** \brief \throws InvalidArgument naming the first parameter outside its domain. */
   void validate () const;
@@ -118,6 +124,9 @@ struct PCL_COSECTION_EXPORT SceneView
 
 /** \brief Draw the scene of a run at a time, without a display: every object where it was, if that is known. Triangles
  * of the background that face away are left out: one looks through the walls of a room from outside.
+ * \param[in] scene the run
+ * \param[in] stamp seconds, or the number of a frame
+ * \param[in] view what to draw, and from where
  * \param[in] points of the frame, for SurfaceMode::Points; null: none
  * \throws InvalidArgument as SceneView::validate ()
  * \code

@@ -25,13 +25,16 @@ struct VoxelGrid
   double voxel_size_m = 0.0;                           ///< edge of a voxel
   Eigen::Vector3d origin_m = Eigen::Vector3d::Zero (); ///< centre of voxel (0, 0, 0)
 
+  /** \brief Number of voxels. */
   std::size_t size () const { return static_cast<std::size_t> (dims.x ()) * dims.y () * dims.z (); }
 
+  /** \brief Position of voxel (i, j, k) in arrays of one value per voxel. */
   std::size_t index (int i, int j, int k) const
   {
     return (static_cast<std::size_t> (k) * dims.y () + j) * dims.x () + i;
   }
 
+  /** \brief Centre of voxel (i, j, k), metres, in the reference frame. */
   Eigen::Vector3d center (int i, int j, int k) const { return origin_m + voxel_size_m * Eigen::Vector3d (i, j, k); }
 
   /** \brief Continuous voxel coordinates; voxel (i, j, k) has its centre at (i, j, k). */
@@ -46,6 +49,7 @@ struct VoxelGrid
     return Eigen::Vector3i (v.round ().cast<int> ().max (0).min (dims.array () - 1));
   }
 
+  /** \brief Whether voxel (i, j, k) is in the grid. */
   bool contains (int i, int j, int k) const
   {
     return i >= 0 && j >= 0 && k >= 0 && i < dims.x () && j < dims.y () && k < dims.z ();
@@ -55,10 +59,12 @@ struct VoxelGrid
 /** \brief A signed distance sampled on a grid: metres, positive outside, negative inside. */
 struct PCL_COSECTION_EXPORT SignedDistanceField
 {
+  /** \brief Shared pointer. */
   using Ptr = std::shared_ptr<SignedDistanceField>;
+  /** \brief Shared pointer to what is constant. */
   using ConstPtr = std::shared_ptr<const SignedDistanceField>;
 
-  VoxelGrid grid;
+  VoxelGrid grid;                      ///< where the values are
   std::vector<float> values;           ///< metres, one per voxel
   std::vector<std::uint8_t> supported; ///< 1 where the value is evidence rather than extrapolation; empty: everywhere
 
@@ -99,6 +105,7 @@ private:
 template <typename Scalar> class TrilinearCell
 {
 public:
+  /** \brief A point, or a gradient. */
   using Vector3 = Eigen::Matrix<Scalar, 3, 1>;
 
   /** \brief The cell around \a p (metres, the grid's frame): nothing outside the box of voxel centres, for NaN, where
