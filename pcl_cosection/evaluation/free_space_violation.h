@@ -23,7 +23,7 @@ struct FreeSpaceViolation
 /** \brief Compare points of a surface with what views measured.
  *
  * A point violates free space if it is nearer than all four readings around its image, by more than \a tolerance_m: at
- * a silhouette the nearest of them counts. Where one of the four has no reading the view says nothing. Area-uniform
+ * an outline the nearest of them counts. Where one of the four has no reading the view says nothing. Area-uniform
  * points (sampleSurface ()) make the share one of the area. Before a distant wall, the smallest bulge is as deep as the
  * wall is far.
  * \param[in] points metres, world frame

@@ -25,7 +25,7 @@ shareWithin (const std::vector<double>& distances_m, double threshold_m)
   return static_cast<double> (within) / static_cast<double> (distances_m.size ());
 }
 
-/** \brief Of sorted values. */
+/** \brief A quantile of sorted values. */
 double
 quantile (const std::vector<double>& sorted, double share)
 {

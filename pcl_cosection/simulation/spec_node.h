@@ -66,7 +66,7 @@ public:
 
   bool isTrue () const { return value_.is_boolean () && value_.get<bool> (); }
 
-  /** \brief Refuse fields that nobody asked for. */
+  /** \brief Refuse fields that were not read. */
   void finish () const;
 
   const std::string& path () const { return path_; }

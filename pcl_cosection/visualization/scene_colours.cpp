@@ -14,7 +14,7 @@ namespace pcl::cosection
 namespace
 {
 
-constexpr TriangleMesh::Colour plain = {200, 200, 200}; ///< nothing is told
+constexpr TriangleMesh::Colour plain = {200, 200, 200}; ///< where nothing is known
 constexpr TriangleMesh::Colour background_grey = {225, 222, 216};
 
 /** \brief ", cup"; nothing if that is not known. */

@@ -14,8 +14,8 @@ namespace pcl::cosection
 /** \brief The colour of an object, the same in every run; of RunScene::background, grey. */
 TriangleMesh::Colour instanceColour (int id);
 
-/** \brief Of each vertex of an object's surface, or the background's. Where it does not tell what is asked for, as the
- * TSDF of provenance: grey. */
+/** \brief The colour of each vertex of an object's surface, or the background's. Grey where it is not known, such as
+ * the provenance of a TSDF. */
 std::vector<TriangleMesh::Colour> surfaceColours (const RunScene& scene, int id, SurfaceMode surface,
                                                   ColourMode colour);
 
@@ -38,7 +38,7 @@ struct ColourLegend
   bool hasScale () const { return most != least; }
 };
 
-/** \brief What the colours mean; nothing to tell of real ones. */
+/** \brief What the colours mean; empty for real ones. */
 ColourLegend legendOf (const RunScene& scene, ColourMode colour);
 
 } // namespace pcl::cosection

@@ -14,7 +14,7 @@ namespace pcl::cosection
 namespace
 {
 
-constexpr double usual_share = 0.95; ///< of the errors that the colours can tell apart
+constexpr double usual_share = 0.95; ///< of the errors that the colours distinguish
 
 std::vector<double>
 errorsOf (const TriangleMesh& mesh, const SurfaceDistance& truth, const Eigen::Isometry3d& T_truth_mesh, int threads)

@@ -38,7 +38,7 @@ using Cloud = pcl::PointCloud<pcl::PointXYZRGBNormal>;
 
 constexpr float range_m = 1.5f; ///< farther readings are too noisy for meshes
 constexpr float leaf_m = 0.004f;
-constexpr std::size_t made_up_objects = 3; ///< on the table that the program makes up; the visitor is none
+constexpr std::size_t made_up_objects = 3; ///< on the table that the program makes up, without the visitor
 
 View::Ptr
 load (const std::string& path)

@@ -46,7 +46,7 @@ TEST (Viewpoint, LooksAtItsTarget)
   EXPECT_NEAR (std::acos (upper.normalized ().dot (lower.normalized ())), view.angle_rad, 1e-9);
 }
 
-TEST (Viewpoint, WrongFilesAreTold)
+TEST (Viewpoint, WrongFilesAreReported)
 {
   const TemporaryFolder folder;
   const std::string path = folder.file ("view.json");

@@ -68,9 +68,9 @@ Refinement
 alignByIcp (const TriangleMesh& truth, int threads, TriangleMesh& reconstruction)
 {
   constexpr std::size_t points = 5000;
-  constexpr double reach = 0.1; // of the true mesh's diagonal
+  constexpr double search_share = 0.1; // of the true mesh's diagonal
   RefinementOptions options;
-  options.max_distance_m = reach * summarizeMesh (truth).box.diagonal ().norm ();
+  options.max_distance_m = search_share * summarizeMesh (truth).box.diagonal ().norm ();
   options.max_translation_m = options.max_distance_m;
   options.max_rotation_rad = 0.5;
   options.threads = threads;
