@@ -13,9 +13,9 @@
 #include <nlohmann/json.hpp>
 
 #include "pcl_cosection/simulation/penetration_check.h"
+#include "pcl_cosection/simulation/sequence_writer.h"
 #include <pcl/cosection/common/error.h>
-#include <pcl/cosection/simulation/scene_spec.h>
-#include <pcl/cosection/simulation/sequence_writer.h>
+#include <pcl/cosection/simulation/simulated_scene.h>
 
 #include <algorithm>
 #include <iostream>

@@ -3,10 +3,10 @@
 
 // Find the objects of an organised view by their geometry, then complete them together. 04_segment_and_complete
 // [VIEW.pcd]
-#include <pcl/cosection/segmentation/object_segmentation.h>
+#include <pcl/cosection/segmentation/geometric_segmentation.h>
 #include <pcl/cosection/surface/co_section.h>
-#include <pcl/cosection/surface/depth_view.h>
-#include <pcl/cosection/surface/organized_normals.h>
+#include <pcl/cosection/common/camera.h>
+#include <pcl/cosection/surface/normals.h>
 
 #include <pcl/io/pcd_io.h>
 #include <pcl/point_types.h>

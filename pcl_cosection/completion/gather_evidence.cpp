@@ -5,7 +5,7 @@
 #include "pcl_cosection/energy/data/measured_surface.h"
 #include "pcl_cosection/view/outliers/residual_clusters.h"
 #include "pcl_cosection/view/outliers/view_agreement.h"
-#include <pcl/cosection/surface/free_space_votes.h>
+#include "pcl_cosection/energy/constraints/free_space_votes.h"
 
 #include <algorithm>
 #include <cmath>

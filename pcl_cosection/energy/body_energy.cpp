@@ -5,7 +5,7 @@
 #include "pcl_cosection/common/parallel.h"
 #include "pcl_cosection/energy/solver/solver_detail.h"
 #include "pcl_cosection/volume/distance_transform.h"
-#include <pcl/cosection/surface/hull_constraint.h>
+#include "pcl_cosection/energy/constraints/hull_constraint.h"
 
 #include <algorithm>
 #include <cmath>

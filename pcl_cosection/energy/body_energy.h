@@ -4,7 +4,7 @@
 
 #include "pcl_cosection/energy/data/normal_bin_occupancy.h"
 #include "pcl_cosection/energy/data/shape_evidence.h"
-#include <pcl/cosection/surface/energy_problem.h>
+#include <pcl/cosection/surface/solver.h>
 #include <pcl/cosection/surface/options.h>
 #include <pcl/cosection/volume/signed_distance_field.h>
 

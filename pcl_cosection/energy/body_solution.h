@@ -4,7 +4,7 @@
 
 #include "body_energy.h"
 #include "pcl_cosection/energy/solver/local_solver.h"
-#include <pcl/cosection/common/progress.h>
+#include <pcl/cosection/common/error.h>
 #include <pcl/cosection/surface/solver.h>
 #include <pcl/cosection/volume/signed_distance_field.h>
 

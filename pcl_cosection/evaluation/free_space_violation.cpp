@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_cosection authors
-#include <pcl/cosection/evaluation/free_space_violation.h>
+#include "free_space_violation.h"
 
 #include <pcl/cosection/common/error.h>
 

@@ -2,8 +2,8 @@
 // Copyright (c) 2026, the pcl_cosection authors
 #include "object_matching.h"
 
+#include "pcl_cosection/evaluation/surface_distance.h"
 #include "surface_samples.h"
-#include <pcl/cosection/evaluation/surface_distance.h>
 
 #include <algorithm>
 

@@ -12,7 +12,7 @@ namespace pcl::cosection
 namespace
 {
 
-constexpr double width_px = 160.0; ///< of the pictures that tell
+constexpr double width_px = 160.0; ///< of the pictures that are drawn to find out
 constexpr double least_share = 0.001;
 
 PinholeCamera

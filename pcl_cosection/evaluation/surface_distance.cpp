@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_cosection authors
-#include <pcl/cosection/evaluation/surface_distance.h>
+#include "surface_distance.h"
 
 #include "pcl_cosection/volume/mesh_distance/triangle_tree.h"
 

@@ -6,7 +6,7 @@
 #include "frame_context.h"
 
 #include <pcl/cosection/common/error.h>
-#include <pcl/cosection/fusion/backend_thread.h>
+#include <pcl/cosection/fusion/co_section_backend.h>
 
 #include <algorithm>
 #include <array>

@@ -6,7 +6,7 @@
 
 #include "pcl_cosection/common/atomic_file.h"
 #include <pcl/cosection/common/error.h>
-#include <pcl/cosection/io/sdf_io.h>
+#include <pcl/cosection/io/mesh_io.h>
 
 #include <vtkFloatArray.h>
 #include <vtkImageData.h>

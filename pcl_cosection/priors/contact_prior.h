@@ -4,7 +4,7 @@
 
 #include <pcl/cosection/common/export.h>
 #include <pcl/cosection/common/oriented_point.h>
-#include <pcl/cosection/volume/voxel_grid.h>
+#include <pcl/cosection/volume/signed_distance_field.h>
 
 #include <Eigen/Core>
 

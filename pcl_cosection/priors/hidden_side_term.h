@@ -4,9 +4,9 @@
 
 #include "pcl_cosection/priors/shape/symmetric_extent.h"
 #include <pcl/cosection/common/oriented_point.h>
-#include <pcl/cosection/surface/energy_problem.h>
 #include <pcl/cosection/surface/options.h>
-#include <pcl/cosection/volume/voxel_grid.h>
+#include <pcl/cosection/surface/solver.h>
+#include <pcl/cosection/volume/signed_distance_field.h>
 
 #include <cstdint>
 #include <vector>

@@ -5,7 +5,7 @@
 #include "object_depth_buffer.h"
 
 #include <pcl/cosection/common/camera.h>
-#include <pcl/cosection/volume/voxel_grid.h>
+#include <pcl/cosection/volume/signed_distance_field.h>
 
 #include <Eigen/Geometry>
 

@@ -5,7 +5,7 @@
 #include "occlusion_map.h"
 
 #include <pcl/cosection/common/oriented_point.h>
-#include <pcl/cosection/volume/voxel_grid.h>
+#include <pcl/cosection/volume/signed_distance_field.h>
 
 #include <cstdint>
 #include <vector>

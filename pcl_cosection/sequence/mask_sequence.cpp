@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_cosection authors
-#include <pcl/cosection/io/mask_sequence.h>
+#include <pcl/cosection/io/rgbd_sequence.h>
 
 #include "numbered_files.h"
 #include "stamp_span.h"

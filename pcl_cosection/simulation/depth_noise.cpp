@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_cosection authors
-#include <pcl/cosection/simulation/depth_noise.h>
+#include <pcl/cosection/simulation/simulated_scene.h>
 
 #include "pcl_cosection/simulation/shapes/sine_table.h"
 

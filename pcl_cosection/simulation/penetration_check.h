@@ -2,8 +2,8 @@
 // Copyright (c) 2026, the pcl_cosection authors
 #pragma once
 
+#include <pcl/cosection/common/error.h>
 #include <pcl/cosection/common/export.h>
-#include <pcl/cosection/common/progress.h>
 #include <pcl/cosection/simulation/simulated_scene.h>
 
 #include <string>

@@ -11,7 +11,7 @@
 namespace pcl::cosection
 {
 
-/** \brief A rotation from the fields rpy_deg or quaternion; none is none. */
+/** \brief A rotation from the fields rpy_deg or quaternion; the identity without either. */
 Eigen::Quaterniond parseRotation (SpecNode& node);
 
 /** \brief A part of a body: shape, place and colour. */

@@ -8,8 +8,8 @@
 #include "pcl_cosection/view/outliers/mixed_pixels.h"
 #include "sensor_view.h"
 
-#include <pcl/cosection/common/camera_resection.h>
-#include <pcl/cosection/surface/organized_normals.h>
+#include "pcl_cosection/view/camera_resection.h"
+#include <pcl/cosection/surface/normals.h>
 
 #include <algorithm>
 #include <cmath>

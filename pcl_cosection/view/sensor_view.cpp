@@ -5,8 +5,8 @@
 #include "pcl_cosection/io/place_text.h"
 #include "pcl_cosection/view/normals/estimated_normals.h"
 
+#include "pcl_cosection/view/range_image.h"
 #include "sensor_location.h"
-#include <pcl/cosection/surface/range_image.h>
 
 #include <algorithm>
 #include <cmath>

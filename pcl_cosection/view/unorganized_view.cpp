@@ -10,8 +10,8 @@
 #include "pcl_cosection/view/outliers/scattered_points.h"
 #include "sensor_view.h"
 
-#include <pcl/cosection/surface/normal_orientation.h>
-#include <pcl/cosection/surface/range_image.h>
+#include "pcl_cosection/view/range_image.h"
+#include <pcl/cosection/surface/normals.h>
 
 #include <algorithm>
 #include <cmath>

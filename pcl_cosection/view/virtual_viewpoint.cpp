@@ -4,7 +4,7 @@
 
 #include "pcl_cosection/common/sphere_directions.h"
 
-#include <pcl/cosection/surface/range_image.h>
+#include "pcl_cosection/view/range_image.h"
 
 #include <algorithm>
 #include <cmath>

@@ -20,7 +20,7 @@ namespace pcl::cosection
 namespace
 {
 
-/** \brief What the camera is taken for if nothing tells. */
+/** \brief What the camera is taken for if it is not known. */
 constexpr PinholeCamera usual_camera = {640, 480, 525.0, 525.0, 319.5, 239.5};
 
 bool

@@ -3,7 +3,7 @@
 #pragma once
 
 #include <pcl/cosection/common/camera.h>
-#include <pcl/cosection/evaluation/scene_folders.h>
+#include <pcl/cosection/evaluation/run_evaluation.h>
 #include <pcl/cosection/io/rgbd_sequence.h>
 
 #include <map>

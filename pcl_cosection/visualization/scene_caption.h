@@ -2,9 +2,9 @@
 // Copyright (c) 2026, the pcl_cosection authors
 #pragma once
 
+#include "pcl_cosection/visualization/scene_colours.h"
 #include <pcl/cosection/common/export.h>
 #include <pcl/cosection/visualization/run_scene.h>
-#include <pcl/cosection/visualization/scene_colours.h>
 
 #include <string>
 #include <vector>

@@ -2,8 +2,8 @@
 // Copyright (c) 2026, the pcl_cosection authors
 
 #include "pcl_cosection/evaluation/pictures/error_picture.h"
+#include "pcl_cosection/evaluation/surface_distance.h"
 #include <pcl/cosection/evaluation/mesh_comparison.h>
-#include <pcl/cosection/evaluation/surface_distance.h>
 #include <pcl/cosection/visualization/run_scene.h>
 
 #include <algorithm>
@@ -14,7 +14,7 @@ namespace pcl::cosection
 namespace
 {
 
-constexpr double usual_share = 0.95; ///< of the errors that the colours can tell apart
+constexpr double usual_share = 0.95; ///< of the errors that the colours distinguish
 
 std::vector<double>
 errorsOf (const TriangleMesh& mesh, const SurfaceDistance& truth, const Eigen::Isometry3d& T_truth_mesh, int threads)

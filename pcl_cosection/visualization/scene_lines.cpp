@@ -2,7 +2,7 @@
 // Copyright (c) 2026, the pcl_cosection authors
 #include "scene_lines.h"
 
-#include <pcl/cosection/visualization/scene_colours.h>
+#include "pcl_cosection/visualization/scene_colours.h"
 
 #include <algorithm>
 #include <cmath>

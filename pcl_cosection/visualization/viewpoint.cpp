@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_cosection authors
-#include <pcl/cosection/visualization/viewpoint.h>
+#include <pcl/cosection/visualization/scene_picture.h>
 
 #include "pcl_cosection/common/atomic_file.h"
 #include "pcl_cosection/view/look_at.h"

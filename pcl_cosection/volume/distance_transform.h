@@ -3,7 +3,7 @@
 #pragma once
 
 #include <pcl/cosection/common/export.h>
-#include <pcl/cosection/volume/voxel_grid.h>
+#include <pcl/cosection/volume/signed_distance_field.h>
 
 #include <cstdint>
 #include <vector>

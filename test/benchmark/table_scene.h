@@ -4,9 +4,9 @@
 
 #include "completion/analytic_scene.h"
 
-#include <pcl/cosection/surface/energy_problem.h>
 #include <pcl/cosection/surface/options.h>
-#include <pcl/cosection/volume/voxel_grid.h>
+#include <pcl/cosection/surface/solver.h>
+#include <pcl/cosection/volume/signed_distance_field.h>
 
 namespace pcl::cosection::benchmark_scenes
 {

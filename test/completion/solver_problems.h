@@ -2,7 +2,7 @@
 // Copyright (c) 2026, the pcl_cosection authors
 #pragma once
 
-#include <pcl/cosection/surface/energy_problem.h>
+#include <pcl/cosection/surface/solver.h>
 
 #include <string>
 

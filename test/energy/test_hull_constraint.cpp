@@ -3,7 +3,7 @@
 #include "common/not_a_number.h"
 #include "completion/analytic_scene.h"
 
-#include <pcl/cosection/surface/hull_constraint.h>
+#include "pcl_cosection/energy/constraints/hull_constraint.h"
 
 #include <gtest/gtest.h>
 

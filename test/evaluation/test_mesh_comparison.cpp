@@ -4,10 +4,10 @@
 #include "common/temporary_folder.h"
 #include "evaluation_meshes.h"
 
+#include "pcl_cosection/evaluation/surface_distance.h"
 #include "pcl_cosection/evaluation/surface_samples.h"
 #include <pcl/cosection/common/error.h>
 #include <pcl/cosection/evaluation/mesh_comparison.h>
-#include <pcl/cosection/evaluation/surface_distance.h>
 
 #include <gtest/gtest.h>
 

@@ -4,9 +4,9 @@
 #include "common/temporary_folder.h"
 #include "evaluation_meshes.h"
 
+#include "pcl_cosection/evaluation/rigid_alignment.h"
 #include "pcl_cosection/evaluation/surface_samples.h"
 #include <pcl/cosection/common/error.h>
-#include <pcl/cosection/evaluation/rigid_alignment.h>
 #include <pcl/cosection/evaluation/trajectory_error.h>
 
 #include <gtest/gtest.h>

@@ -3,8 +3,8 @@
 
 // What an object is, by many detections that may contradict each other.
 
+#include "pcl_cosection/fusion/mapping/class_evidence.h"
 #include <pcl/cosection/common/error.h>
-#include <pcl/cosection/fusion/class_evidence.h>
 
 #include <gtest/gtest.h>
 

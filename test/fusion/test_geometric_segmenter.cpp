@@ -6,7 +6,7 @@
 #include "tracked_scene.h"
 
 #include <pcl/cosection/common/error.h>
-#include <pcl/cosection/fusion/geometric_segmenter.h>
+#include <pcl/cosection/fusion/frame_segmenter.h>
 
 #include <gtest/gtest.h>
 

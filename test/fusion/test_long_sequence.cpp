@@ -5,9 +5,9 @@
 
 #include "io/sequence_folder.h"
 
+#include "pcl_cosection/simulation/sequence_writer.h"
 #include <pcl/cosection/fusion/sequence_fusion.h>
-#include <pcl/cosection/simulation/scene_spec.h>
-#include <pcl/cosection/simulation/sequence_writer.h>
+#include <pcl/cosection/simulation/simulated_scene.h>
 
 #include <gtest/gtest.h>
 

@@ -5,7 +5,7 @@
 
 #include "tracked_scene.h"
 
-#include <pcl/cosection/fusion/motion_segmenter.h>
+#include <pcl/cosection/fusion/frame_segmenter.h>
 
 #include <gtest/gtest.h>
 

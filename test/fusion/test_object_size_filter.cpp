@@ -3,10 +3,9 @@
 
 // Something as large as a stool is seen over its corner, where it is too long for an object, and from its front.
 
-#include <pcl/cosection/fusion/geometric_segmenter.h>
-#include <pcl/cosection/simulation/depth_noise.h>
+#include <pcl/cosection/fusion/frame_segmenter.h>
 #include <pcl/cosection/simulation/scene_renderer.h>
-#include <pcl/cosection/simulation/scene_spec.h>
+#include <pcl/cosection/simulation/simulated_scene.h>
 
 #include <gtest/gtest.h>
 

@@ -5,8 +5,8 @@
 
 #include "completion/analytic_scene.h"
 
+#include "pcl_cosection/fusion/mapping/object_tsdf.h"
 #include <pcl/cosection/common/error.h>
-#include <pcl/cosection/fusion/object_tsdf.h>
 
 #include <gtest/gtest.h>
 

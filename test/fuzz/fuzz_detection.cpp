@@ -8,7 +8,7 @@
 #include "memory_file.h"
 
 #include <pcl/cosection/common/error.h>
-#include <pcl/cosection/segmentation/instance_labels.h>
+#include <pcl/cosection/segmentation/instance_detector.h>
 
 #include <algorithm>
 #include <cstring>

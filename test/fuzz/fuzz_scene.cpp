@@ -6,7 +6,7 @@
 #include "fuzz_target.h"
 
 #include <pcl/cosection/common/error.h>
-#include <pcl/cosection/simulation/scene_spec.h>
+#include <pcl/cosection/simulation/simulated_scene.h>
 
 using namespace pcl::cosection;
 

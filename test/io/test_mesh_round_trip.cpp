@@ -7,8 +7,8 @@
 #include "volume/analytic_fields.h"
 
 #include <pcl/cosection/common/mesh_decimation.h>
+#include <pcl/cosection/common/triangle_mesh.h>
 #include <pcl/cosection/io/mesh_io.h>
-#include <pcl/cosection/surface/polygon_mesh.h>
 #include <pcl/cosection/volume/iso_surface.h>
 
 #include <pcl/io/vtk_lib_io.h>

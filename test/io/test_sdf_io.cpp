@@ -4,7 +4,7 @@
 #include "common/temporary_folder.h"
 
 #include <pcl/cosection/common/error.h>
-#include <pcl/cosection/io/sdf_io.h>
+#include <pcl/cosection/io/mesh_io.h>
 
 #include <gtest/gtest.h>
 

@@ -2,9 +2,8 @@
 // Copyright (c) 2026, the pcl_cosection authors
 #include "moving_view.h"
 
-#include <pcl/cosection/simulation/depth_noise.h>
 #include <pcl/cosection/simulation/scene_renderer.h>
-#include <pcl/cosection/simulation/scene_spec.h>
+#include <pcl/cosection/simulation/simulated_scene.h>
 
 #include <cmath>
 #include <sstream>

@@ -2,7 +2,7 @@
 // Copyright (c) 2026, the pcl_cosection authors
 #pragma once
 
-#include <pcl/cosection/segmentation/moving_body_finder.h>
+#include <pcl/cosection/segmentation/motion_segmentation.h>
 #include <pcl/cosection/simulation/simulated_scene.h>
 
 #include <cstdint>

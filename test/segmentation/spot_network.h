@@ -5,7 +5,7 @@
 #include "affine_network.h"
 
 #include <pcl/cosection/common/image.h>
-#include <pcl/cosection/segmentation/network_outputs.h>
+#include <pcl/cosection/segmentation/instance_detector.h>
 
 #include <array>
 #include <string>

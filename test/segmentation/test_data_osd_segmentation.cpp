@@ -3,7 +3,7 @@
 
 // Real views of objects on a table, with labels drawn by hand.
 
-#include <pcl/cosection/segmentation/object_segmentation.h>
+#include <pcl/cosection/segmentation/geometric_segmentation.h>
 
 #include "common/data_folder.h"
 #include "label_comparison.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_cosection authors
-#include <pcl/cosection/segmentation/instance_labels.h>
+#include <pcl/cosection/segmentation/instance_detector.h>
 
 #include "common/temporary_folder.h"
 

@@ -3,7 +3,7 @@
 
 // What the arrays of a network tell, without a network.
 
-#include <pcl/cosection/segmentation/network_outputs.h>
+#include <pcl/cosection/segmentation/instance_detector.h>
 
 #include <pcl/cosection/common/error.h>
 

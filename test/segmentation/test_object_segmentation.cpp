@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_cosection authors
-#include <pcl/cosection/segmentation/object_segmentation.h>
+#include <pcl/cosection/segmentation/geometric_segmentation.h>
 
 #include "common/not_a_number.h"
 #include "label_comparison.h"

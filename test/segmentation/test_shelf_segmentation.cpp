@@ -3,7 +3,7 @@
 
 // Shelves, whose boards, sides and backs are parallel to the faces of what stands in them.
 
-#include <pcl/cosection/segmentation/object_segmentation.h>
+#include <pcl/cosection/segmentation/geometric_segmentation.h>
 
 #include "label_comparison.h"
 #include "table_view.h"

@@ -6,8 +6,6 @@
 #include "common/data_folder.h"
 
 #include "pcl_cosection/sequence/stamp_matching.h"
-#include <pcl/cosection/io/frame_reader.h>
-#include <pcl/cosection/io/mask_sequence.h>
 #include <pcl/cosection/io/rgbd_sequence.h>
 
 #include <gtest/gtest.h>

@@ -3,7 +3,7 @@
 #include "io/sequence_folder.h"
 
 #include <pcl/cosection/common/error.h>
-#include <pcl/cosection/io/frame_reader.h>
+#include <pcl/cosection/io/rgbd_sequence.h>
 
 #include <gtest/gtest.h>
 

@@ -3,7 +3,7 @@
 #include "pcl_cosection/simulation/penetration_check.h"
 #include <pcl/cosection/common/error.h>
 #include <pcl/cosection/simulation/scene_renderer.h>
-#include <pcl/cosection/simulation/scene_spec.h>
+#include <pcl/cosection/simulation/simulated_scene.h>
 
 #include <gtest/gtest.h>
 

@@ -3,13 +3,13 @@
 #include "common/temporary_folder.h"
 
 #include "pcl_cosection/io/image_io.h"
+#include "pcl_cosection/simulation/sequence_writer.h"
 #include <pcl/cosection/common/error.h>
 #include <pcl/cosection/io/mesh_io.h>
 #include <pcl/cosection/io/pcd_view.h>
 #include <pcl/cosection/io/trajectory.h>
 #include <pcl/cosection/simulation/scene_renderer.h>
-#include <pcl/cosection/simulation/scene_spec.h>
-#include <pcl/cosection/simulation/sequence_writer.h>
+#include <pcl/cosection/simulation/simulated_scene.h>
 
 #include <gtest/gtest.h>
 

@@ -7,9 +7,9 @@
 #include "tracking_scene.h"
 #include "volume/tsdf_views.h"
 
+#include "pcl_cosection/tracking/surface_points.h"
 #include <pcl/cosection/common/error.h>
 #include <pcl/cosection/tracking/sdf_alignment.h>
-#include <pcl/cosection/tracking/surface_points.h>
 
 #include <gtest/gtest.h>
 

@@ -5,7 +5,6 @@
 
 #include "tracking_scene.h"
 
-#include <pcl/cosection/common/error.h>
 #include <pcl/cosection/tracking/sdf_registration.h>
 #include <pcl/cosection/tracking/sdf_tracker.h>
 
@@ -170,10 +169,9 @@ TEST_F (SdfRegistrationTest, SaysWhatIsMissing)
   EXPECT_FALSE (registration.hasConverged ());
   EXPECT_TRUE (registration.getFinalTransformation ().allFinite ());
 
-  EXPECT_THROW (registration.setSignedDistance (SignedDistanceField::ConstPtr ()), InvalidArgument);
-  EXPECT_THROW (registration.setSignedDistance (TsdfVolume::ConstPtr ()), InvalidArgument);
-  EXPECT_THROW (registration.setSignedDistance (std::make_shared<TsdfVolume> (field ()->grid)),
-                InvalidArgument); // no surface
+  EXPECT_FALSE (registration.setSignedDistance (SignedDistanceField::ConstPtr ()));
+  EXPECT_FALSE (registration.setSignedDistance (TsdfVolume::ConstPtr ()));
+  EXPECT_FALSE (registration.setSignedDistance (std::make_shared<TsdfVolume> (field ()->grid))); // no surface
 }
 
 TEST_F (SdfRegistrationTest, TrackerFollowsAndSaysWhenTheObjectIsLost)
@@ -232,10 +230,10 @@ TEST_F (SdfRegistrationTest, TrackerRefusesWhatIsNotValid)
   tracker.setInputCloud (cloudOf (points_));
   tracker.compute (); // no volume
   EXPECT_TRUE (tracker.isLost ());
-  EXPECT_THROW (tracker.setSignedDistance (SignedDistanceField::ConstPtr ()), InvalidArgument);
-  EXPECT_THROW (tracker.setSignedDistance (TsdfVolume::ConstPtr ()), InvalidArgument);
-  EXPECT_THROW (tracker.setMinimumInlierShare (1.5f), InvalidArgument);
+  EXPECT_FALSE (tracker.setSignedDistance (SignedDistanceField::ConstPtr ()));
+  EXPECT_FALSE (tracker.setSignedDistance (TsdfVolume::ConstPtr ()));
+  EXPECT_FALSE (tracker.setMinimumInlierShare (1.5f));
   Eigen::Affine3f wrong = Eigen::Affine3f::Identity ();
   wrong.linear () *= 3.0f;
-  EXPECT_THROW (tracker.setTrans (wrong), InvalidArgument);
+  EXPECT_FALSE (tracker.setTrans (wrong));
 }

@@ -5,7 +5,7 @@
 #include "pcl_cosection/view/look_at.h"
 #include <pcl/cosection/common/error.h>
 #include <pcl/cosection/simulation/scene_renderer.h>
-#include <pcl/cosection/simulation/scene_spec.h>
+#include <pcl/cosection/simulation/simulated_scene.h>
 
 #include <algorithm>
 

@@ -74,7 +74,7 @@ hessianImls (const pcl::PointCloud<pcl::PointNormal>::ConstPtr& points,
   pcl::cosection::HessianIMLS<pcl::PointNormal> imls;
   imls.setInputCloud (points);
   imls.addView (depth_image);
-  imls.setSupportPlane (table);
+  imls.addSupportPlane (table);
   imls.reconstruct (mesh);
   if (mesh.polygons.empty ())
     return nullptr; // the console says why

@@ -11,7 +11,7 @@
 #include <pcl/cosection/io/mesh_io.h>
 #include <pcl/cosection/segmentation/geometric_segmentation.h>
 #include <pcl/cosection/surface/hessian_imls.h>
-#include <pcl/cosection/surface/organized_normals.h>
+#include <pcl/cosection/surface/normals.h>
 
 #include <pcl/filters/extract_indices.h>
 #include <pcl/filters/filter.h>
@@ -90,7 +90,7 @@ complete (const Cloud::Ptr& points, const View& view, const pcl::ModelCoefficien
   pcl::cosection::HessianIMLS<pcl::PointXYZRGBNormal> imls;
   imls.setInputCloud (points);
   imls.addView (view, Eigen::Isometry3d::Identity ()); // what lies before its surfaces is free
-  imls.setSupportPlane (table);
+  imls.addSupportPlane (table);
   pcl::PolygonMesh mesh;
   imls.reconstruct (mesh);
   if (mesh.polygons.empty ())

@@ -4,7 +4,7 @@
 // The code of doc/tutorial_tracking.md, on a simulated car that drives past a depth camera.
 
 #include <pcl/cosection/simulation/scene_renderer.h>
-#include <pcl/cosection/simulation/scene_spec.h>
+#include <pcl/cosection/simulation/simulated_scene.h>
 #include <pcl/cosection/tracking/sdf_registration.h>
 #include <pcl/cosection/tracking/sdf_tracker.h>
 

@@ -2,7 +2,7 @@
 // Copyright (c) 2026, the pcl_cosection authors
 #include "common/not_a_number.h"
 
-#include <pcl/cosection/common/camera_resection.h>
+#include "pcl_cosection/view/camera_resection.h"
 #include <pcl/cosection/common/error.h>
 
 #include <gtest/gtest.h>

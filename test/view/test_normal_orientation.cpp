@@ -2,7 +2,7 @@
 // Copyright (c) 2026, the pcl_cosection authors
 #include "completion/scenes/completion_scene.h"
 
-#include <pcl/cosection/surface/normal_orientation.h>
+#include <pcl/cosection/surface/normals.h>
 #include <pcl/cosection/volume/iso_surface.h>
 
 #include <gtest/gtest.h>

@@ -5,7 +5,7 @@
 
 #include <pcl/cosection/common/camera.h>
 #include <pcl/cosection/common/error.h>
-#include <pcl/cosection/surface/organized_normals.h>
+#include <pcl/cosection/surface/normals.h>
 
 #include <gtest/gtest.h>
 

@@ -2,8 +2,8 @@
 // Copyright (c) 2026, the pcl_cosection authors
 #include "completion/scenes/completion_scene.h"
 
-#include <pcl/cosection/surface/depth_view.h>
-#include <pcl/cosection/surface/range_image.h>
+#include "pcl_cosection/view/range_image.h"
+#include <pcl/cosection/common/camera.h>
 
 #include <pcl/point_types.h>
 

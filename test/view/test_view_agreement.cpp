@@ -6,8 +6,8 @@
 #include "completion/scenes/surrounding_views.h"
 #include "priors/moved_points.h"
 
+#include "pcl_cosection/energy/constraints/free_space_votes.h"
 #include <pcl/cosection/common/error.h>
-#include <pcl/cosection/surface/free_space_votes.h>
 
 #include <gtest/gtest.h>
 

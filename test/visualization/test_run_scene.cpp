@@ -95,7 +95,7 @@ TEST_F (RunSceneFolder, SurfacesAreDecimatedForDisplay)
   EXPECT_TRUE (computeTopology (scene.run.objects[0].mesh).closed_manifold);
 }
 
-TEST_F (RunSceneFolder, OtherFoldersAreTold)
+TEST_F (RunSceneFolder, OtherFoldersAreReported)
 {
   fs::remove (run_ + "/trajectory/camera.txt");
   EXPECT_NE (failure ().find ("no trajectory/camera.txt"), std::string::npos);
@@ -109,7 +109,7 @@ TEST_F (RunSceneFolder, OtherFoldersAreTold)
   EXPECT_NE (failure ().find ("is no folder"), std::string::npos);
 }
 
-TEST_F (RunSceneFolder, WhatIsMissingIsTold)
+TEST_F (RunSceneFolder, WhatIsMissingIsReported)
 {
   fs::remove (run_ + "/summary.json");
   writeFile (run_ + "/mesh/object_1_tsdf.ply", "ply\nformat");

@@ -184,7 +184,7 @@ TEST (ScenePicture, ColoursTellWhatIsAskedFor)
   EXPECT_EQ (colourOf (ColourMode::Error), (TriangleMesh::Colour{196, 30, 44})); // beyond the scale
   EXPECT_EQ (colourOf (ColourMode::Instance), instanceColour (1));
   EXPECT_NE (instanceColour (1), instanceColour (2));
-  // What is not known is told by no colour.
+  // What is not known has no colour.
   for (const ColourMode mode : {ColourMode::Real, ColourMode::Provenance, ColourMode::Confidence, ColourMode::Error})
   {
     const auto colour = surfaceColours (scene, 2, SurfaceMode::Completed, mode).front ();

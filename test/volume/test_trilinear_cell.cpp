@@ -4,7 +4,7 @@
 #include "analytic_fields.h"
 #include "tsdf_views.h"
 
-#include <pcl/cosection/volume/trilinear_cell.h>
+#include <pcl/cosection/volume/signed_distance_field.h>
 #include <pcl/cosection/volume/tsdf_volume.h>
 
 #include <gtest/gtest.h>

@@ -4,7 +4,7 @@
 
 #include <pcl/cosection/common/camera.h>
 #include <pcl/cosection/common/image.h>
-#include <pcl/cosection/volume/voxel_grid.h>
+#include <pcl/cosection/volume/signed_distance_field.h>
 
 #include <Eigen/Geometry>
 

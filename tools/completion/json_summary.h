@@ -16,6 +16,6 @@
 void writeJsonSummary (const Settings& settings, const pcl::cosection::SceneResult& result,
                        const std::map<std::string, double>& timings_s, const std::vector<std::string>& warnings);
 
-/** \brief The same of a run that failed as a whole: no objects, and the field error. Does nothing if it cannot be
+/** \brief The summary of a run that failed as a whole: no objects, and the field error. Does nothing if it cannot be
  * written. */
 void writeJsonOfFailure (const Settings& settings, const std::string& error, const std::vector<std::string>& warnings);

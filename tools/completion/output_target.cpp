@@ -7,7 +7,6 @@
 #include "pcl_cosection/common/atomic_file.h"
 #include <pcl/cosection/common/error.h>
 #include <pcl/cosection/io/mesh_io.h>
-#include <pcl/cosection/io/sdf_io.h>
 
 #include <unistd.h>
 

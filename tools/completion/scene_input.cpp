@@ -53,7 +53,7 @@ isWholeImage (const LabelledView& view)
           static_cast<double> (readings) > whole_image_share * static_cast<double> (pixels));
 }
 
-/** \brief How far points reach along the axes, without outliers, metres. */
+/** \brief How far points extend along the axes, without outliers, metres. */
 Eigen::Vector3d
 extentOf (const std::vector<OrientedPoint>& points)
 {
@@ -88,15 +88,16 @@ tooLong (std::uint32_t label, const std::vector<OrientedPoint>& points)
   return text.str ();
 }
 
-/** \brief A warning of a background that reaches no farther than an object, if it does: it may be the first object. */
+/** \brief A warning about a background that extends no farther than an object, if it does: it may be the first object.
+ */
 std::optional<std::string>
 smallBackground (const SceneInput& scene)
 {
   if (scene.background.empty ())
     return std::nullopt;
-  const double reach = extentOf (scene.background).norm ();
+  const double extent_m = extentOf (scene.background).norm ();
   for (const auto& [id, object] : scene.objects)
-    if (reach <= extentOf (object.points).norm ())
+    if (extent_m <= extentOf (object.points).norm ())
       return "label 0 is the background, and reaches no farther than object " + std::to_string (id) +
              ": if labels count the objects from 0, add 1 to them";
   return std::nullopt;

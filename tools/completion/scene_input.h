@@ -5,7 +5,7 @@
 #include "command_line.h"
 
 #include <pcl/cosection/common/camera.h>
-#include <pcl/cosection/common/progress.h>
+#include <pcl/cosection/common/error.h>
 #include <pcl/cosection/surface/co_section.h>
 
 #include <map>

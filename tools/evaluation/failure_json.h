@@ -27,7 +27,7 @@ withFailureJson (const std::string& json, Work&& work)
       }
       catch (const std::exception&)
       {
-        // the error itself is told
+        // the error itself is reported
       }
     throw;
   }

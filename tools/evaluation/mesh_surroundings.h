@@ -6,7 +6,7 @@
 #include "mesh_command.h"
 #include "terminal.h"
 
-#include <pcl/cosection/evaluation/free_space_violation.h>
+#include "pcl_cosection/evaluation/free_space_violation.h"
 
 #include <optional>
 #include <string>

@@ -10,7 +10,7 @@
 #include "run_report.h"
 
 #include <pcl/cosection/common/error.h>
-#include <pcl/cosection/evaluation/scene_folders.h>
+#include <pcl/cosection/evaluation/run_evaluation.h>
 
 #include <limits>
 

@@ -321,5 +321,5 @@ try
 }
 catch (const std::exception&)
 {
-  // the error itself is told
+  // the error itself is reported
 }

@@ -107,5 +107,5 @@ writeLiveScene (const LiveScene& scene, const std::string& folder)
     saveTrajectory (poses, (trajectory / ("object_" + std::to_string (id) + ".txt")).string ());
   if (!scene.camera.empty ())
     saveTrajectory (scene.camera,
-                    (trajectory / "camera.txt").string ()); // last: its time tells that there is something new
+                    (trajectory / "camera.txt").string ()); // last: its time shows that there is something new
 }

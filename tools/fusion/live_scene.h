@@ -21,7 +21,7 @@ struct LiveScene
   bool changed_background = false;
 };
 
-/** \brief Of every so manieth pixel of a frame that shows the background, a mesh in the world. */
+/** \brief A mesh in the world of the background's pixels in a frame, at a stride. */
 pcl::cosection::TriangleMesh backgroundOf (const pcl::cosection::FrameReport& report,
                                            const pcl::cosection::PinholeCamera& camera);
 

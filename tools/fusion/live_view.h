@@ -56,6 +56,6 @@ private:
   bool is_new_ = false;
   bool stop_ = false;
 
-  std::atomic<bool> is_over_{false}; ///< nobody looks any more
+  std::atomic<bool> is_over_{false}; ///< the window is closed
   std::thread thread_;               // last: it uses the rest
 };

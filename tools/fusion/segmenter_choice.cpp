@@ -3,9 +3,7 @@
 #include "segmenter_choice.h"
 
 #include <pcl/cosection/common/error.h>
-#include <pcl/cosection/fusion/geometric_segmenter.h>
-#include <pcl/cosection/fusion/motion_segmenter.h>
-#include <pcl/cosection/fusion/network_segmenter.h>
+#include <pcl/cosection/fusion/frame_segmenter.h>
 
 using namespace pcl::cosection;
 

@@ -5,7 +5,7 @@
 #include "pcl_cosection/evaluation/pictures/error_picture.h"
 #include "pcl_cosection/rendering/picture.h"
 #include <pcl/cosection/rendering/rasterizer.h>
-#include <pcl/cosection/visualization/viewpoint.h>
+#include <pcl/cosection/visualization/scene_picture.h>
 
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,7 @@
 // Copyright (c) 2026, the pcl_cosection authors
 #include "report_content.h"
 
-#include <pcl/cosection/visualization/viewpoint.h>
+#include <pcl/cosection/visualization/scene_picture.h>
 
 #include <filesystem>
 

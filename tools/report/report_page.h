@@ -4,7 +4,7 @@
 
 #include "report_content.h"
 
-#include <pcl/cosection/common/progress.h>
+#include <pcl/cosection/common/error.h>
 
 #include <string>
 

@@ -2,8 +2,8 @@
 // Copyright (c) 2026, the pcl_cosection authors
 #include "run_truth.h"
 
-#include <pcl/cosection/evaluation/scene_folders.h>
-#include <pcl/cosection/evaluation/surface_distance.h>
+#include "pcl_cosection/evaluation/surface_distance.h"
+#include <pcl/cosection/evaluation/run_evaluation.h>
 
 #include <algorithm>
 

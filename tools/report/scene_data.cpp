@@ -5,8 +5,8 @@
 #include "mesh_embedding.h"
 #include "scene_directions.h"
 
-#include <pcl/cosection/visualization/scene_colours.h>
-#include <pcl/cosection/visualization/viewpoint.h>
+#include "pcl_cosection/visualization/scene_colours.h"
+#include <pcl/cosection/visualization/scene_picture.h>
 
 #include <algorithm>
 #include <cmath>

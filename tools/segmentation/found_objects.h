@@ -4,7 +4,7 @@
 
 #include "segment_command_line.h"
 
-#include <pcl/cosection/io/organized_cloud.h>
+#include "pcl_cosection/view/organized_cloud.h"
 
 #include <Eigen/Core>
 

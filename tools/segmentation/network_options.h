@@ -7,7 +7,6 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include <pcl/cosection/segmentation/instance_detector.h>
-#include <pcl/cosection/segmentation/instance_labels.h>
 
 #include <optional>
 #include <string>

@@ -7,7 +7,7 @@
 #include "network_options.h"
 #include "terminal.h"
 
-#include <pcl/cosection/segmentation/object_segmentation.h>
+#include <pcl/cosection/segmentation/geometric_segmentation.h>
 
 #include <optional>
 #include <string>

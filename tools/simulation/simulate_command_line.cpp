@@ -6,7 +6,7 @@
 #include "option_values.h"
 #include "suggestion.h"
 
-#include <pcl/cosection/simulation/scene_spec.h>
+#include <pcl/cosection/simulation/simulated_scene.h>
 
 #include <algorithm>
 

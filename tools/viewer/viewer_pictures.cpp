@@ -9,7 +9,7 @@
 #include "pcl_cosection/rendering/picture.h"
 #include "pcl_cosection/sequence/stamp_matching.h"
 #include <pcl/cosection/common/error.h>
-#include <pcl/cosection/evaluation/scene_folders.h>
+#include <pcl/cosection/evaluation/run_evaluation.h>
 
 #include <array>
 #include <cmath>

@@ -5,7 +5,7 @@
 #include "pcl_cosection/priors/object_priors.h"
 #include "volume_layout.h"
 #include "voxel_size.h"
-#include <pcl/cosection/surface/hull_constraint.h>
+#include "pcl_cosection/energy/constraints/hull_constraint.h"
 
 #include <algorithm>
 #include <array>

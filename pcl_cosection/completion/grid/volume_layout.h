@@ -6,7 +6,7 @@
 
 #include <pcl/cosection/common/oriented_point.h>
 #include <pcl/cosection/surface/options.h>
-#include <pcl/cosection/volume/voxel_grid.h>
+#include <pcl/cosection/volume/signed_distance_field.h>
 
 #include <Eigen/Geometry>
 

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <pcl/cosection/common/error.h>
-#include <pcl/cosection/common/progress.h>
 
 #include <algorithm>
 #include <chrono>

@@ -2,9 +2,9 @@
 // Copyright (c) 2026, the pcl_cosection authors
 #pragma once
 
+#include "pcl_cosection/energy/constraints/hull_constraint.h"
 #include <pcl/cosection/common/export.h>
-#include <pcl/cosection/surface/hull_constraint.h>
-#include <pcl/cosection/volume/voxel_grid.h>
+#include <pcl/cosection/volume/signed_distance_field.h>
 
 #include <array>
 #include <cstdint>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_cosection authors
-#include <pcl/cosection/surface/hull_constraint.h>
+#include "hull_constraint.h"
 
 #include "pcl_cosection/view/projected_voxels.h"
 

@@ -3,7 +3,7 @@
 #pragma once
 
 #include <pcl/cosection/common/export.h>
-#include <pcl/cosection/surface/energy_problem.h>
+#include <pcl/cosection/surface/solver.h>
 #include <pcl/cosection/volume/signed_distance_field.h>
 
 #include <Eigen/Geometry>

@@ -3,9 +3,9 @@
 #pragma once
 
 #include "free_space_carving.h"
+#include "pcl_cosection/energy/constraints/hull_constraint.h"
 #include <pcl/cosection/common/oriented_point.h>
 #include <pcl/cosection/common/triangle_mesh.h>
-#include <pcl/cosection/surface/hull_constraint.h>
 #include <pcl/cosection/surface/options.h>
 #include <pcl/cosection/volume/signed_distance_field.h>
 

@@ -4,8 +4,8 @@
 
 #include "imls_data_term.h"
 #include "pcl_cosection/energy/constraints/free_space_carving.h"
+#include "pcl_cosection/energy/constraints/hull_constraint.h"
 #include <pcl/cosection/common/oriented_point.h>
-#include <pcl/cosection/surface/hull_constraint.h>
 #include <pcl/cosection/surface/options.h>
 
 #include <Eigen/Geometry>

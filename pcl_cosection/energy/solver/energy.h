@@ -5,7 +5,7 @@
 #include "row_kernels.h"
 
 #include "hessian_operator.h"
-#include <pcl/cosection/surface/energy_problem.h>
+#include <pcl/cosection/surface/solver.h>
 
 #include <cstdint>
 #include <vector>

@@ -7,7 +7,7 @@
 namespace pcl::cosection
 {
 
-/** \brief The same surface with normals that are smooth but for sharp edges, where vertices are there several times. */
+/** \brief Gives a surface normals that are smooth but for sharp edges, where vertices are repeated. */
 TriangleMesh withCreasedNormals (const TriangleMesh& mesh);
 
 } // namespace pcl::cosection

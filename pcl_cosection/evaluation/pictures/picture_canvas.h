@@ -13,7 +13,7 @@
 namespace pcl::cosection
 {
 
-/** \brief What a scale of errorColour () tells. */
+/** \brief What a scale of errorColour () means. */
 struct CanvasScale
 {
   std::vector<std::string> title; ///< lines above it

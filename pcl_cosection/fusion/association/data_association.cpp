@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_cosection authors
-#include <pcl/cosection/fusion/data_association.h>
+#include "data_association.h"
 
 #include "pcl_cosection/common/parallel.h"
 #include <pcl/cosection/common/camera.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_cosection authors
-#include <pcl/cosection/fusion/backend_thread.h>
+#include <pcl/cosection/fusion/co_section_backend.h>
 
 #include <pcl/cosection/common/error.h>
 

@@ -3,7 +3,7 @@
 #include <pcl/cosection/fusion/keyframe.h>
 
 #include <pcl/cosection/common/error.h>
-#include <pcl/cosection/surface/organized_normals.h>
+#include <pcl/cosection/surface/normals.h>
 
 #include <cmath>
 #include <limits>

@@ -4,8 +4,8 @@
 
 #include "pcl_cosection/fusion/tracking/frame_cloud.h"
 
+#include "pcl_cosection/fusion/association/data_association.h"
 #include <pcl/cosection/common/image.h>
-#include <pcl/cosection/fusion/data_association.h>
 
 #include <Eigen/Geometry>
 

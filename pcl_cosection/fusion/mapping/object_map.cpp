@@ -4,7 +4,7 @@
 
 #include "pcl_cosection/fusion/association/unassigned_components.h"
 
-#include <pcl/cosection/tracking/surface_points.h>
+#include "pcl_cosection/tracking/surface_points.h"
 
 #include <algorithm>
 #include <cmath>

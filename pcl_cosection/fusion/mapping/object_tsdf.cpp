@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_cosection authors
-#include <pcl/cosection/fusion/object_tsdf.h>
+#include "object_tsdf.h"
 
 #include <pcl/cosection/common/error.h>
 

@@ -5,7 +5,7 @@
 #include "pcl_cosection/fusion/tracking/surface_samples.h"
 #include "tracked_object.h"
 
-#include <pcl/cosection/fusion/data_association.h>
+#include "pcl_cosection/fusion/association/data_association.h"
 
 #include <Eigen/Geometry>
 

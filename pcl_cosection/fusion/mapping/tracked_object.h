@@ -4,7 +4,7 @@
 
 #include "pcl_cosection/fusion/tracking/brightness_tracking.h"
 
-#include <pcl/cosection/fusion/class_evidence.h>
+#include "pcl_cosection/fusion/mapping/class_evidence.h"
 #include <pcl/cosection/volume/tsdf_volume.h>
 
 #include <Eigen/Geometry>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_cosection authors
-#include <pcl/cosection/fusion/geometric_segmenter.h>
+#include <pcl/cosection/fusion/frame_segmenter.h>
 
 #include "pcl_cosection/fusion/mapping/object_size_filter.h"
 

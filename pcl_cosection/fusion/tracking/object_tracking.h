@@ -7,7 +7,7 @@
 #include "pcl_cosection/fusion/mapping/tracked_object.h"
 #include "pose_tracking.h"
 
-#include <pcl/cosection/fusion/data_association.h>
+#include "pcl_cosection/fusion/association/data_association.h"
 
 #include <Eigen/Geometry>
 

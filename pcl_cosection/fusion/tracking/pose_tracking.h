@@ -6,7 +6,7 @@
 #include "frame_cloud.h"
 #include "visibility_check.h"
 
-#include <pcl/cosection/fusion/data_association.h>
+#include "pcl_cosection/fusion/association/data_association.h"
 #include <pcl/cosection/tracking/sdf_alignment.h>
 
 #include <Eigen/Geometry>

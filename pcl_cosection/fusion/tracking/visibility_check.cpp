@@ -2,7 +2,7 @@
 // Copyright (c) 2026, the pcl_cosection authors
 #include "visibility_check.h"
 
-#include <pcl/cosection/tracking/surface_points.h>
+#include "pcl_cosection/tracking/surface_points.h"
 
 #include <cmath>
 

@@ -6,7 +6,7 @@
 #include "pcl_cosection/segmentation/planes/room_regions.h"
 #include "surface_patches.h"
 
-#include <pcl/cosection/segmentation/object_segmentation.h>
+#include <pcl/cosection/segmentation/geometric_segmentation.h>
 
 #include <vector>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_cosection authors
-#include <pcl/cosection/segmentation/object_segmentation.h>
+#include <pcl/cosection/segmentation/geometric_segmentation.h>
 
 #include "convexity_graph.h"
 #include "depth_grid.h"
@@ -11,7 +11,7 @@
 
 #include "pcl_cosection/common/parallel.h"
 #include <pcl/cosection/common/error.h>
-#include <pcl/cosection/surface/organized_normals.h>
+#include <pcl/cosection/surface/normals.h>
 
 #include <limits>
 #include <string>

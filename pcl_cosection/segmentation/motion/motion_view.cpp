@@ -5,7 +5,7 @@
 #include "pcl_cosection/segmentation/geometry/support_surfaces.h"
 
 #include "pcl_cosection/common/parallel.h"
-#include <pcl/cosection/surface/organized_normals.h>
+#include <pcl/cosection/surface/normals.h>
 
 #include <cmath>
 #include <limits>

@@ -4,7 +4,7 @@
 
 #include "pcl_cosection/segmentation/geometry/depth_grid.h"
 
-#include <pcl/cosection/segmentation/moving_body_finder.h>
+#include <pcl/cosection/segmentation/motion_segmentation.h>
 
 #include <cstdint>
 #include <map>

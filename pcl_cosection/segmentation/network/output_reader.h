@@ -4,7 +4,7 @@
 
 #include "soft_mask.h"
 
-#include <pcl/cosection/segmentation/network_outputs.h>
+#include <pcl/cosection/segmentation/instance_detector.h>
 
 #include <cstddef>
 #include <memory>

@@ -2,7 +2,7 @@
 // Copyright (c) 2026, the pcl_cosection authors
 #pragma once
 
-#include <pcl/cosection/segmentation/network_outputs.h>
+#include <pcl/cosection/segmentation/instance_detector.h>
 
 #include <vector>
 

@@ -3,7 +3,7 @@
 #pragma once
 
 #include <pcl/cosection/common/error.h>
-#include <pcl/cosection/simulation/shape.h>
+#include <pcl/cosection/simulation/simulated_scene.h>
 
 #include <cmath>
 #include <string>

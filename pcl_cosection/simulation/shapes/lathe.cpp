@@ -14,7 +14,7 @@ namespace
 constexpr int min_segments = 12;
 constexpr int max_segments = 4096;
 
-/** \brief Of a circle of \a radius, such that no chord is farther than \a chord_m from it. */
+/** \brief Angle of a segment of a circle of \a radius, such that no chord is farther than \a chord_m from it. */
 double
 segmentAngle (double radius, double chord_m)
 {

@@ -3,7 +3,7 @@
 #pragma once
 
 #include <pcl/cosection/common/triangle_mesh.h>
-#include <pcl/cosection/simulation/shape.h>
+#include <pcl/cosection/simulation/simulated_scene.h>
 
 namespace pcl::cosection
 {

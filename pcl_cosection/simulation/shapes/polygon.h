@@ -2,7 +2,7 @@
 // Copyright (c) 2026, the pcl_cosection authors
 #pragma once
 
-#include <pcl/cosection/simulation/shape.h>
+#include <pcl/cosection/simulation/simulated_scene.h>
 
 #include <array>
 #include <cstdint>

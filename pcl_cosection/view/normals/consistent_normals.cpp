@@ -6,7 +6,7 @@
 #include "pcl_cosection/view/object_surroundings.h"
 #include "pcl_cosection/view/outliers/scattered_points.h"
 
-#include <pcl/cosection/surface/normal_orientation.h>
+#include <pcl/cosection/surface/normals.h>
 
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,7 @@
 // Copyright (c) 2026, the pcl_cosection authors
 #include "mixed_pixels.h"
 
-#include <pcl/cosection/surface/hull_constraint.h>
+#include "pcl_cosection/energy/constraints/hull_constraint.h"
 
 #include <limits>
 

@@ -2,8 +2,8 @@
 // Copyright (c) 2026, the pcl_cosection authors
 #pragma once
 
+#include "pcl_cosection/energy/constraints/free_space_votes.h"
 #include <pcl/cosection/common/oriented_point.h>
-#include <pcl/cosection/surface/free_space_votes.h>
 
 #include <Eigen/Geometry>
 

@@ -9,7 +9,7 @@
 namespace pcl::cosection
 {
 
-/** \brief What a window can be told to do. */
+/** \brief What a key can make a window do. */
 enum class WindowAction
 {
   Play,

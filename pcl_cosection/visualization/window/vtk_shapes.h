@@ -7,7 +7,7 @@
 #include "pcl_cosection/visualization/sdf_slices.h"
 #include <pcl/cosection/common/image.h>
 #include <pcl/cosection/common/triangle_mesh.h>
-#include <pcl/cosection/visualization/frame_points.h>
+#include <pcl/cosection/visualization/scene_picture.h>
 
 #include <vtkActor.h>
 #include <vtkImageData.h>

@@ -4,8 +4,8 @@
 
 #include "vtk_shapes.h"
 
+#include "pcl_cosection/visualization/scene_colours.h"
 #include <pcl/cosection/common/error.h>
-#include <pcl/cosection/visualization/scene_colours.h>
 
 #include <vtkPointData.h>
 #include <vtkPolyDataMapper.h>

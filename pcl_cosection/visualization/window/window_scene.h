@@ -3,7 +3,6 @@
 #pragma once
 
 #include "pcl_cosection/visualization/sdf_slices.h"
-#include <pcl/cosection/visualization/frame_points.h>
 #include <pcl/cosection/visualization/run_scene.h>
 #include <pcl/cosection/visualization/scene_picture.h>
 

@@ -7,8 +7,8 @@
 #include "ray_march.h"
 
 #include "pcl_cosection/common/parallel.h"
+#include "pcl_cosection/volume/pixel_region.h"
 #include <pcl/cosection/common/error.h>
-#include <pcl/cosection/volume/pixel_region.h>
 
 #include <algorithm>
 #include <cmath>

@@ -3,7 +3,7 @@
 #pragma once
 
 #include <pcl/cosection/common/camera.h>
-#include <pcl/cosection/volume/voxel_grid.h>
+#include <pcl/cosection/volume/signed_distance_field.h>
 
 #include <Eigen/Geometry>
 

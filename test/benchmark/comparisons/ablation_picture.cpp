@@ -7,7 +7,7 @@
 #include "pcl_cosection/view/look_at.h"
 #include <pcl/cosection/rendering/rasterizer.h>
 
-#include <pcl/cosection/simulation/keyed_motion.h>
+#include <pcl/cosection/simulation/simulated_scene.h>
 
 #include <cmath>
 

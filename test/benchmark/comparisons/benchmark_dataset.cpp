@@ -2,8 +2,8 @@
 // Copyright (c) 2026, the pcl_cosection authors
 #include "benchmark_dataset.h"
 
-#include <pcl/cosection/simulation/scene_spec.h>
-#include <pcl/cosection/simulation/sequence_writer.h>
+#include "pcl_cosection/simulation/sequence_writer.h"
+#include <pcl/cosection/simulation/simulated_scene.h>
 
 #include <algorithm>
 

@@ -2,7 +2,7 @@
 // Copyright (c) 2026, the pcl_cosection authors
 #pragma once
 
-#include <pcl/cosection/evaluation/scene_folders.h>
+#include <pcl/cosection/evaluation/run_evaluation.h>
 #include <pcl/cosection/fusion/sequence_fusion.h>
 
 #include <filesystem>

@@ -6,7 +6,7 @@
 
 #include "segmentation/label_comparison.h"
 
-#include <pcl/cosection/segmentation/object_segmentation.h>
+#include <pcl/cosection/segmentation/geometric_segmentation.h>
 
 #include <pcl/io/pcd_io.h>
 #include <pcl/point_types.h>

@@ -7,10 +7,10 @@
 #include "random_table.h"
 #include "thing_scores.h"
 
-#include <pcl/cosection/evaluation/scene_folders.h>
+#include "pcl_cosection/simulation/sequence_writer.h"
+#include <pcl/cosection/evaluation/run_evaluation.h>
 #include <pcl/cosection/io/pcd_view.h>
-#include <pcl/cosection/simulation/scene_spec.h>
-#include <pcl/cosection/simulation/sequence_writer.h>
+#include <pcl/cosection/simulation/simulated_scene.h>
 
 #include <pcl/features/impl/normal_3d.hpp> // for points with labels
 #include <pcl/filters/impl/voxel_grid.hpp>

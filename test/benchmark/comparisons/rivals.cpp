@@ -2,7 +2,7 @@
 // Copyright (c) 2026, the pcl_cosection authors
 #include "rivals.h"
 
-#include <pcl/cosection/surface/polygon_mesh.h>
+#include <pcl/cosection/common/triangle_mesh.h>
 
 #include <pcl/point_types.h>
 #include <pcl/surface/convex_hull.h>

@@ -3,7 +3,7 @@
 #include "completion/mesh_distance.h"
 #include "completion_scene.h"
 
-#include <pcl/cosection/surface/hull_constraint.h>
+#include "pcl_cosection/energy/constraints/hull_constraint.h"
 
 #include <gtest/gtest.h>
 

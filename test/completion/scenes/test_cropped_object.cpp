@@ -6,7 +6,7 @@
 #include "completion/lowest_vertex.h"
 #include "surrounding_views.h"
 
-#include <pcl/cosection/surface/range_image.h>
+#include "pcl_cosection/view/range_image.h"
 
 #include <gtest/gtest.h>
 

@@ -7,8 +7,8 @@
 #include "surrounding_views.h"
 
 #include <pcl/cosection/common/error.h>
+#include <pcl/cosection/common/triangle_mesh.h>
 #include <pcl/cosection/surface/hessian_imls.h>
-#include <pcl/cosection/surface/polygon_mesh.h>
 
 #include <pcl/point_types.h>
 

@@ -12,7 +12,7 @@
 #include "scene_directions.h"
 #include "svg_chart.h"
 
-#include <pcl/cosection/visualization/scene_colours.h>
+#include "pcl_cosection/visualization/scene_colours.h"
 
 #include <gtest/gtest.h>
 

@@ -4,6 +4,7 @@
 
 #include <pcl/cosection/common/export.h>
 
+#include <functional>
 #include <stdexcept>
 #include <string>
 
@@ -57,5 +58,10 @@ public:
   using Error::Error;
   ~Cancelled () override;
 };
+
+/** \brief Called now and then with the name of the running stage and the finished fraction of the
+ * whole work in [0, 1], always from the calling thread. Returning false cancels: the running call
+ * throws Cancelled and leaves nothing half-written. */
+using ProgressCallback = std::function<bool (const std::string& stage, double fraction)>;
 
 } // namespace pcl::cosection

@@ -14,19 +14,22 @@ namespace pcl::cosection
 template <typename Pixel> struct Image
 {
   Image () = default;
+  /** \brief An image of one value. */
   Image (int width, int height, const Pixel& value = Pixel ())
       : width (width)
       , height (height)
       , pixels (static_cast<std::size_t> (width) * height, value)
   {}
 
+  /** \brief The pixel in column \a u and row \a v. */
   Pixel& at (int u, int v) { return pixels[static_cast<std::size_t> (v) * width + u]; }
 
+  /** \brief The pixel in column \a u and row \a v. */
   const Pixel& at (int u, int v) const { return pixels[static_cast<std::size_t> (v) * width + u]; }
 
-  int width = 0;
-  int height = 0;
-  std::vector<Pixel> pixels;
+  int width = 0;             ///< pixels
+  int height = 0;            ///< pixels
+  std::vector<Pixel> pixels; ///< width * height, row by row
 };
 
 /** \brief An 8-bit colour picture: red, green, blue. */
