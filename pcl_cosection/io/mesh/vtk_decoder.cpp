@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_cosection authors
 
+// Legacy VTK files are read by hand, because vtkPolyDataReader of VTK 9.1 follows lengths of cells beyond its buffers,
+// and null pointers where a type or a number is not what it expects: what would make it safe is a reader.
+
 #include "mesh_decoders.h"
 #include "pcl_cosection/io/cloud/value_reader.h"
 
