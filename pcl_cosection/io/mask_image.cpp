@@ -2,7 +2,6 @@
 // Copyright (c) 2026, the pcl_cosection authors
 #include "mask_image.h"
 
-#include "image_damage.h"
 #include "pcl_cosection/common/file_bytes.h"
 #include "pcl_cosection/io/mesh/vtk_errors.h"
 
@@ -38,9 +37,6 @@ loadMaskImage (const std::string& path)
   const std::string bytes = readBytes (path);
   if (bytes.compare (0, png_signature.size (), png_signature) != 0)
     throw IoError (path + (bytes.empty () ? ": is empty; it should be a PNG" : ": is not a PNG"));
-  const std::string damage = imageDamage (bytes);
-  if (!damage.empty ())
-    throw IoError (path + ": " + damage);
   vtkNew<vtkPNGReader> reader;
   const auto errors = VtkErrors::observe (*reader);
   reader->SetMemoryBuffer (bytes.data ());
