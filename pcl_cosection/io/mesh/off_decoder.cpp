@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_cosection authors
 
+// OFF files are read by hand, because VTK 9.1 has no reader for them.
+
 #include "mesh_decoders.h"
 #include "pcl_cosection/io/text_scanner.h"
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_cosection authors
 
+// STL files are read by hand, because the format is smaller than the checks that vtkSTLReader would need around it.
+
 #include "mesh_decoders.h"
 #include "pcl_cosection/io/text_scanner.h"
 
