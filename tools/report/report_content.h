@@ -32,9 +32,6 @@ Eigen::Vector3d upOf (const ReportContent& content);
 /** \brief What the run was made from: the last part of the dataset's name, or of the run's. */
 std::string titleOf (const ReportContent& content);
 
-/** \brief The class in the style sheet of instanceColour (id). */
-std::string styleOf (int id);
-
 /** \brief The last part of a path, whatever slashes it ends in. */
 std::string lastPartOf (const std::string& path);
 

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_cosection authors
-#include "object_pictures.h"
+#include "report_pictures.h"
 
 #include "pcl_cosection/evaluation/pictures/error_picture.h"
 #include "pcl_cosection/rendering/picture.h"
 #include <pcl/cosection/rendering/rasterizer.h>
+#include <pcl/cosection/visualization/scene_picture.h>
 #include <pcl/cosection/visualization/viewpoint.h>
 
 #include <algorithm>
@@ -15,6 +16,7 @@ using namespace pcl::cosection;
 namespace
 {
 
+constexpr int scene_width_px = 720, scene_height_px = 430;
 constexpr int panel_px = 400;
 constexpr int oversampling = 2;                         ///< each way
 constexpr double distance_radii = 4.0;                  ///< of the camera
@@ -129,5 +131,33 @@ drawObject (const RunObject& object, const ObjectDirections& directions, const s
     coloured.colours = errorColours (errors_m, error_max_m);
     add (coloured, "Error", "the completed mesh in the colours of its distance to the true surface");
   }
+  return (pictures);
+}
+
+std::vector<CaptionedPicture>
+drawScenePanels (const ReportContent& content)
+{
+  const RunScene& scene = content.scene;
+  const std::vector<double> stamps = scene.stamps ();
+  const bool has_objects = std::any_of (scene.run.objects.begin (), scene.run.objects.end (),
+                                        [] (const SceneRecord::Object& object) { return (!object.mesh.empty ()); });
+  if (stamps.empty () || !has_objects)
+    return {};
+  SceneView view;
+  view.width = scene_width_px;
+  view.height = scene_height_px;
+  view.legend = view.caption = view.path = view.frustum = false;
+  std::vector<CaptionedPicture> pictures;
+  const auto add = [&] (double turn_rad, SurfaceMode surface, ColourMode colour, const std::string& caption) {
+    view.viewpoint = overview (scene, turn_rad);
+    view.surface = surface;
+    view.colour = colour;
+    pictures.push_back ({caption, "The scene: " + caption, scene_width_px, scene_height_px,
+                         dataUri (drawScene (scene, stamps[stamps.size () / 2], view))});
+  };
+  add (0.0, SurfaceMode::Tsdf, ColourMode::Real, "Seen, from the side of the camera");
+  add (0.0, SurfaceMode::Completed, ColourMode::Real, "Completed, from the side of the camera");
+  add (M_PI, SurfaceMode::Tsdf, ColourMode::Real, "Seen, from behind");
+  add (M_PI, SurfaceMode::Completed, ColourMode::Provenance, "Completed, from behind, by provenance");
   return (pictures);
 }

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "data_uri.h"
-#include "run_folder.h"
+#include "report_content.h"
 #include "scene_directions.h"
 
 #include <string>
@@ -30,3 +30,7 @@ TransparentPicture drawFrontAndBack (const pcl::cosection::TriangleMesh& mesh,
 std::vector<CaptionedPicture> drawObject (const RunObject& object, const ObjectDirections& directions,
                                           const std::vector<double>& errors_m, double error_max_m,
                                           const std::string& name);
+
+/** \brief The whole scene in the middle of the sequence, as it was seen and as it was completed: from above the cameras
+ * and from the other side. None without trajectories or meshes. */
+std::vector<CaptionedPicture> drawScenePanels (const ReportContent& content);
