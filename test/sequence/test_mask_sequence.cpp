@@ -84,7 +84,7 @@ TEST (MaskSequence, BadMasksAreNamed)
   const auto readFailure = [&masks] (double stamp) { return messageOf<IoError> ([&] { masks.read (stamp); }); };
   EXPECT_NE (readFailure (0).find ("Mask0000.png: has 9 x 6 pixels, but the depth images have 8 x 6"),
              std::string::npos);
-  EXPECT_NE (readFailure (1).find ("Mask0001.png: is not an image that can be read"), std::string::npos);
+  EXPECT_NE (readFailure (1).find ("Mask0001.png: is damaged"), std::string::npos);
   EXPECT_NE (readFailure (2).find ("Mask0002.png: is not a mask"), std::string::npos);
   EXPECT_FALSE (masks.read (3));
 }

@@ -196,7 +196,7 @@ TEST_F (FusionToolErrors, DamagedFramesAreSkippedAndTold)
   for (const char* part :
        {"Depth0000.png: is not an image that can be read; the frame is skipped", "Depth0003.png: is empty",
         "Depth0005.png: has 20 x 20 pixels, but sim/calibration.txt has 120 x 90 pixels", "frames are missing after",
-        "Mask0001.png: is not an image that can be read"})
+        "Mask0001.png: is damaged"})
     EXPECT_NE (errors_.find (part), std::string::npos) << part << '\n' << errors_;
   const auto summary = nlohmann::json::parse (readFile (file ("out/summary.json")));
   EXPECT_EQ (summary["frames"], 8);
