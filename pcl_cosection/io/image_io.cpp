@@ -44,7 +44,7 @@ encode (const cv::Mat& image, const std::string& path)
   }
   catch (const cv::Exception&)
   {
-    // told below
+    // reported below
   }
   if (!done)
     throw IoError (path + ": cannot be encoded as an image");
@@ -84,7 +84,7 @@ decode (const std::string& path, int flags)
   }
   catch (const cv::Exception&)
   {
-    // told below
+    // reported below
   }
   if (image.empty ())
     throw IoError (path + ": is not an image that can be read");

@@ -24,6 +24,6 @@
  *   x, y, z in axes of which the third is up);
  * - `scene`: what sceneData () says, for page/scene_view.js; null without meshes or three.js.
  *
- * \param[in] progress told what is being drawn; it may stop the work
+ * \param[in] progress called with what is being drawn; it may stop the work
  * \throws pcl::cosection::Cancelled if it does */
 Json reportData (const ReportContent& content, const pcl::cosection::ProgressCallback& progress);

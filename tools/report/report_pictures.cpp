@@ -86,9 +86,9 @@ drawFrontAndBack (const TriangleMesh& mesh, const TriangleMesh& fit_to, const Ob
   for (const Eigen::Vector3f& vertex : fit_to.vertices)
     box.extend (vertex.cast<double> ());
   const Eigen::Vector3d up = directions.up;
-  const Eigen::Vector3d level = (directions.front - directions.front.dot (up) * up).normalized ();
+  const Eigen::Vector3d horizontal = (directions.front - directions.front.dot (up) * up).normalized ();
   const double elevation = std::max (elevation_rad, std::asin (std::clamp (directions.front.dot (up), -1.0, 1.0)));
-  const Eigen::Vector3d front = std::cos (elevation) * level + std::sin (elevation) * up;
+  const Eigen::Vector3d front = std::cos (elevation) * horizontal + std::sin (elevation) * up;
   TransparentPicture result (size_px, 2 * size_px, {255, 255, 255, 0});
   for (int row = 0; row < 2; ++row)
   {

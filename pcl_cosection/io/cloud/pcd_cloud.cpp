@@ -113,7 +113,7 @@ readVectors (const std::string& path, const PcdHeader& header, const PCLPointClo
   return (vectors);
 }
 
-/** \brief The file, its points as they stand in it, and as they are handed on. */
+/** \brief A file: its points as it has them, and as they are returned. */
 void
 checkMemory (const std::string& path, const PcdHeader& header, std::size_t limit_bytes)
 {

@@ -13,7 +13,7 @@ namespace pcl::cosection
 namespace
 {
 
-/** \brief The lines of an OFF file that hold anything, without comments. */
+/** \brief The lines of an OFF file that are not empty, without comments. */
 class OffLines
 {
 public:

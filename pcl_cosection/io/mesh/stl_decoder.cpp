@@ -19,7 +19,7 @@ namespace
 
 constexpr std::size_t header_size = 84; // title and number of triangles
 constexpr std::size_t title_size = 80;
-constexpr std::size_t triangle_size = 50; // normal, corners, two bytes of nothing
+constexpr std::size_t triangle_size = 50; // normal, corners, two unused bytes
 
 std::string
 lowerCase (std::string_view word)

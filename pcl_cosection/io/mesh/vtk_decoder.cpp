@@ -205,7 +205,7 @@ private:
     }
   }
 
-  /** \brief Ends with an empty line. */
+  /** \brief Skips lines up to an empty one. */
   void skipMetadata ()
   {
     scanner_.line ();
@@ -228,7 +228,7 @@ PolygonSoup
 decodeVtk (const std::string& bytes)
 {
   TextScanner scanner (bytes);
-  scanner.line (); // the version: what differs between versions is told by keywords
+  scanner.line (); // the version: keywords show what differs between versions
   scanner.line (); // the title
   const std::string encoding = upperCase (scanner.word ());
   if (encoding != "ASCII" && encoding != "BINARY")

@@ -25,8 +25,7 @@ constexpr std::size_t longest_reason = 200;
 const char* const tensorflow_detections = "detection_out_final";
 const char* const tensorflow_masks = "detection_masks";
 
-/** \brief While it lives, OpenCV says nothing on the console and has so many threads. Both are settings of the process.
- */
+/** \brief While it lives, OpenCV prints nothing and uses so many threads. Both are settings of the process. */
 class OpenCvSettings
 {
 public:
@@ -91,7 +90,7 @@ readNetwork (const std::string& model, const InstanceDetectorOptions& options)
   return (net);
 }
 
-/** \brief Those that matter; in OpenCV, a layer that another one uses is not an output by itself. */
+/** \brief The outputs to compute; in OpenCV, a layer that another one uses is not an output by itself. */
 std::vector<std::string>
 outputNames (const cv::dnn::Net& net)
 {
@@ -100,7 +99,7 @@ outputNames (const cv::dnn::Net& net)
   return (net.getUnconnectedOutLayersNames ());
 }
 
-/** \brief What its outputs will be, as their names and their number tell. */
+/** \brief The form of the outputs, by their names and their number. */
 NetworkOutputForm
 expectedForm (const std::vector<std::string>& output_names)
 {

@@ -338,7 +338,7 @@
   }
 
   // --- Times ---------------------------------------------------------------------------------------------------------------
-  // Stages as summary.json and as a reader calls them; a part belongs to the stage before that is none, and what is
+  // Names of stages in summary.json and for readers. A part belongs to the stage before it that is not a part; what is
   // beside happens at the same time as others.
   const stages = [
     ["read", "waiting for images", "stage"], ["segmentation", "masks, segmentation, association", "stage"],

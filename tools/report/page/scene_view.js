@@ -276,12 +276,12 @@
     controls.update();
   }
 
-  // The upright angle of view; wider where the view is narrow, so that the scene fits.
+  // The vertical angle of view; wider where the view is narrow, so that the scene fits.
   function setAngle() {
     const camera = follow.checked ? data.intrinsics : null;
-    const upright = camera ? 0.5 * camera.height / camera.fy : Math.tan(Math.PI / 8);
-    const sideways = camera ? 0.5 * camera.width / camera.fx : 1.3 * upright;
-    eye.fov = 2 * Math.atan(Math.max(upright, sideways / eye.aspect)) * 180 / Math.PI;
+    const vertical = camera ? 0.5 * camera.height / camera.fy : Math.tan(Math.PI / 8);
+    const horizontal = camera ? 0.5 * camera.width / camera.fx : 1.3 * vertical;
+    eye.fov = 2 * Math.atan(Math.max(vertical, horizontal / eye.aspect)) * 180 / Math.PI;
     eye.updateProjectionMatrix();
   }
 
@@ -329,7 +329,7 @@
     draw();
   }
 
-  // How many pixels show something; none where WebGL says that it works and does not.
+  // How many pixels show something; 0 where WebGL says that it works and does not.
   function drawnPixels() {
     const gl = renderer.getContext();
     const pixels = new Uint8Array(4 * gl.drawingBufferWidth * gl.drawingBufferHeight);
