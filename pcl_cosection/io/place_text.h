@@ -24,7 +24,7 @@ placeText (const Eigen::Vector3d& place)
   return text.str ();
 }
 
-/** \brief What says where the sensor stood. */
+/** \brief What determines where the sensor stood. */
 inline std::string
 sourceOfViewpoint (const PcdViewOptions& options)
 {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_cosection authors
 
+// Written by hand, because VTK's rendering needs a display even off the screen.
+
 #include "frustum_clip.h"
 #include "pixel_coverage.h"
 

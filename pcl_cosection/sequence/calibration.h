@@ -14,7 +14,7 @@ namespace pcl::cosection
  * \throws IoError if it cannot be read or is no plausible camera */
 PinholeCamera readCalibration (const std::string& path);
 
-/** \brief What is implausible about a camera, whose size may be 0: unknown; empty if nothing is. */
+/** \brief What is implausible about a camera, whose size may be 0 (unknown); empty if nothing is. */
 std::string implausibleIntrinsics (const PinholeCamera& camera);
 
 } // namespace pcl::cosection

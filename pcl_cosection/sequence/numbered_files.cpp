@@ -36,7 +36,7 @@ lowerCase (std::string text)
   return text;
 }
 
-/** \brief The name without the longest ending that it has; nothing if it has none. */
+/** \brief The name without the longest ending that it has; nothing if it has no such ending. */
 std::optional<std::string>
 withoutEnding (const std::string& name, const std::vector<std::string>& endings)
 {

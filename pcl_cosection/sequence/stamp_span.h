@@ -8,7 +8,7 @@
 namespace pcl::cosection
 {
 
-/** \brief "0 to 59", of stamps, for messages. */
+/** \brief The range of stamps for messages: "0 to 59". */
 inline std::string
 stampSpan (double first, double last)
 {

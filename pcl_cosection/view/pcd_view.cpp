@@ -42,7 +42,7 @@ collectObjects (const SensorCloud& cloud, LabelledView& result)
     ++object.readings;
     const Eigen::Vector3d normal = cloud.normals[i].cast<double> ();
     const double length = normal.norm ();
-    if (!(length > 1e-3) || !std::isfinite (length)) // none; infinite where points are absurdly far apart
+    if (!(length > 1e-3) || !std::isfinite (length)) // no normal; infinite where points are absurdly far apart
       continue;
     OrientedPoint point;
     point.position = (T * cloud.positions[i].cast<double> ()).cast<float> ();

@@ -18,5 +18,5 @@ std::string toBase64 (const void* bytes, std::size_t size);
 /** \brief "data:image/webp;base64,...": the picture in the place of its address. */
 std::string dataUri (const TransparentPicture& picture);
 
-/** \brief The same of a picture that fills its rectangle. */
+/** \brief A picture that fills its rectangle, in the place of its address. */
 std::string dataUri (const pcl::cosection::Picture& picture);

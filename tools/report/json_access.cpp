@@ -7,11 +7,11 @@
 const Json&
 member (const Json& json, const std::string& key)
 {
-  static const Json none;
+  static const Json missing;
   if (!json.is_object ())
-    return (none);
+    return (missing);
   const auto found = json.find (key);
-  return (found == json.end () ? none : *found);
+  return (found == json.end () ? missing : *found);
 }
 
 std::optional<double>

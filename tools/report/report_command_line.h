@@ -13,7 +13,7 @@
 struct ReportSettings
 {
   std::string run;                 ///< folder
-  std::string truth;               ///< dataset; empty: none
+  std::string truth;               ///< dataset; empty: not given
   std::vector<std::string> others; ///< folders of other runs
   std::string output = "report.html";
   int threads = 0; ///< 0: all

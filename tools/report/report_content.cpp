@@ -8,13 +8,6 @@
 
 using namespace pcl::cosection;
 
-namespace
-{
-
-constexpr std::size_t colours = 10; ///< of instanceColour (), after which they repeat
-
-} // namespace
-
 std::string
 nameOf (const RunObject& object, const ReportContent& content)
 {
@@ -51,12 +44,6 @@ titleOf (const ReportContent& content)
 {
   const std::string dataset = textIn (member (content.run.summary, "parameters"), "dataset");
   return (lastPartOf (dataset.empty () ? content.run.path : dataset));
-}
-
-std::string
-styleOf (int id)
-{
-  return ("s" + std::to_string (static_cast<std::size_t> (id - 1) % colours + 1));
 }
 
 std::string

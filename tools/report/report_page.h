@@ -9,6 +9,6 @@
 #include <string>
 
 /** \brief The report: one HTML page that needs nothing else. The same for the same content.
- * \param[in] progress told what is being drawn; it may stop the work
+ * \param[in] progress called with what is being drawn; it may stop the work
  * \throws pcl::cosection::Cancelled if it does */
 std::string reportPage (const ReportContent& content, const pcl::cosection::ProgressCallback& progress = {});

@@ -16,7 +16,7 @@ struct ObjectDirections
 /** \brief Unit vectors, not along each other; the defaults where poses are missing. */
 ObjectDirections directionsOf (const RunObject& object, const RunFolder& run, const Eigen::Vector3d& up);
 
-/** \brief The pose at a stamp, give or take a millionth; null if there is none. */
+/** \brief The pose at a stamp, to a millionth; null if there is no such pose. */
 const Eigen::Isometry3d* poseAt (const std::vector<pcl::cosection::StampedPose>& poses, double stamp);
 
 /** \brief Length, width and height (metres) of the smallest box around a mesh that stands vertical; zero without

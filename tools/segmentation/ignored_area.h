@@ -22,7 +22,7 @@ struct GivenIgnoredArea
 struct IgnoredArea
 {
   std::vector<std::array<int, 4>> regions; ///< left, top, width, height in pixels
-  std::string mask;                        ///< file; empty: none
+  std::string mask;                        ///< file; empty: not given
 
   bool empty () const { return (regions.empty () && mask.empty ()); }
 };

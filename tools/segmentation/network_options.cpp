@@ -67,7 +67,7 @@ declareNetworkOptions (CLI::App& app, GivenNetwork& given)
       ->check (numberRange (0.0, 1.0))
       ->group (group);
   addList (app, "--input-size", given.input_size,
-           "Pixels that the network takes (default: what an ONNX file fixes; else YOLO: 640,640, others: the image's)")
+           "Pixels that the network takes (default: YOLO: 640,640, others: the image's)")
       ->option_text ("W,H")
       ->group (group);
   app.add_option ("--input-fit", given.input_fit, "How an image fills them (default: stretch; YOLO: letterbox)")

@@ -31,7 +31,7 @@ struct NetworkSettings
 /** \brief Declare them in the group "Network". */
 void declareNetworkOptions (CLI::App& app, GivenNetwork& given);
 
-/** \brief An option that was given; empty if there is none. */
+/** \brief The name of an option that was given; empty if no option was. */
 std::string anyNetworkOption (const GivenNetwork& given);
 
 /** \throws UsageError */

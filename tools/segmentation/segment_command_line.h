@@ -18,7 +18,7 @@ struct SegmentSettings
 {
   std::string input, output;
   std::string json;
-  std::optional<NetworkSettings> network; ///< none: by geometry
+  std::optional<NetworkSettings> network; ///< not set: by geometry
   pcl::cosection::ObjectSegmentationOptions segmentation;
   IgnoredArea ignored;
   double scale = 1.0;

@@ -103,7 +103,7 @@ store (double value, std::uint8_t* target)
 
 using Store = bool (*) (double, std::uint8_t*);
 
-/** \brief What writes a number as an element of \a field; it tells whether the number fits. */
+/** \brief A function that writes a number as an element of \a field and returns whether the number fits. */
 Store
 storeFor (const PcdField& field)
 {

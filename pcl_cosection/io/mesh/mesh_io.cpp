@@ -23,7 +23,7 @@ namespace
 {
 
 /** \brief Binary STL: 80 bytes of title, the number of triangles, and for each one its normal, its
- * corners and two bytes of nothing. */
+ * corners and two unused bytes. */
 std::string
 encodeStl (const TriangleMesh& mesh)
 {

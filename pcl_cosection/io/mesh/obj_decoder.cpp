@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_cosection authors
 
+// OBJ files are read by hand, because faces are a small part of the format and vtkOBJReader reads no bytes from memory.
+
 #include "mesh_decoders.h"
 #include "pcl_cosection/io/text_scanner.h"
 

@@ -37,7 +37,7 @@ check (const PolygonSoup& soup)
   }
 }
 
-/** \brief Divides polygons into triangles, concave ones too. */
+/** \brief Divides polygons into triangles; polygons may be concave. */
 class Triangulator
 {
 public:

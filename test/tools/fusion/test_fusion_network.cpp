@@ -27,8 +27,9 @@ protected:
 
   static Words withNetwork (Words more = {})
   {
-    Words words = {"sim",           "out",   "--segmentation",          "mask-rcnn", "--model", "net.onnx",
-                   "--class-names", "names", "--background-voxel-size", "0.03"};
+    Words words = {"sim",          "out",      "--segmentation",          "mask-rcnn",
+                   "--model",      "net.onnx", "--class-names",           "names",
+                   "--input-size", "24,18",    "--background-voxel-size", "0.03"};
     words.insert (words.end (), more.begin (), more.end ());
     return (words);
   }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_cosection authors
-#include "object_pictures.h"
+#include "report_pictures.h"
 
 #include "pcl_cosection/evaluation/pictures/error_picture.h"
 #include "pcl_cosection/rendering/picture.h"
@@ -15,6 +15,7 @@ using namespace pcl::cosection;
 namespace
 {
 
+constexpr int scene_width_px = 720, scene_height_px = 430;
 constexpr int panel_px = 400;
 constexpr int oversampling = 2;                         ///< each way
 constexpr double distance_radii = 4.0;                  ///< of the camera
@@ -84,9 +85,9 @@ drawFrontAndBack (const TriangleMesh& mesh, const TriangleMesh& fit_to, const Ob
   for (const Eigen::Vector3f& vertex : fit_to.vertices)
     box.extend (vertex.cast<double> ());
   const Eigen::Vector3d up = directions.up;
-  const Eigen::Vector3d level = (directions.front - directions.front.dot (up) * up).normalized ();
+  const Eigen::Vector3d horizontal = (directions.front - directions.front.dot (up) * up).normalized ();
   const double elevation = std::max (elevation_rad, std::asin (std::clamp (directions.front.dot (up), -1.0, 1.0)));
-  const Eigen::Vector3d front = std::cos (elevation) * level + std::sin (elevation) * up;
+  const Eigen::Vector3d front = std::cos (elevation) * horizontal + std::sin (elevation) * up;
   TransparentPicture result (size_px, 2 * size_px, {255, 255, 255, 0});
   for (int row = 0; row < 2; ++row)
   {
@@ -129,5 +130,33 @@ drawObject (const RunObject& object, const ObjectDirections& directions, const s
     coloured.colours = errorColours (errors_m, error_max_m);
     add (coloured, "Error", "the completed mesh in the colours of its distance to the true surface");
   }
+  return (pictures);
+}
+
+std::vector<CaptionedPicture>
+drawScenePanels (const ReportContent& content)
+{
+  const RunScene& scene = content.scene;
+  const std::vector<double> stamps = scene.stamps ();
+  const bool has_objects = std::any_of (scene.run.objects.begin (), scene.run.objects.end (),
+                                        [] (const SceneRecord::Object& object) { return (!object.mesh.empty ()); });
+  if (stamps.empty () || !has_objects)
+    return {};
+  SceneView view;
+  view.width = scene_width_px;
+  view.height = scene_height_px;
+  view.legend = view.caption = view.path = view.frustum = false;
+  std::vector<CaptionedPicture> pictures;
+  const auto add = [&] (double turn_rad, SurfaceMode surface, ColourMode colour, const std::string& caption) {
+    view.viewpoint = overview (scene, turn_rad);
+    view.surface = surface;
+    view.colour = colour;
+    pictures.push_back ({caption, "The scene: " + caption, scene_width_px, scene_height_px,
+                         dataUri (drawScene (scene, stamps[stamps.size () / 2], view))});
+  };
+  add (0.0, SurfaceMode::Tsdf, ColourMode::Real, "Seen, from the side of the camera");
+  add (0.0, SurfaceMode::Completed, ColourMode::Real, "Completed, from the side of the camera");
+  add (M_PI, SurfaceMode::Tsdf, ColourMode::Real, "Seen, from behind");
+  add (M_PI, SurfaceMode::Completed, ColourMode::Provenance, "Completed, from behind, by provenance");
   return (pictures);
 }

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "data_uri.h"
-#include "run_folder.h"
+#include "report_content.h"
 #include "scene_directions.h"
 
 #include <string>
@@ -25,8 +25,12 @@ TransparentPicture drawFrontAndBack (const pcl::cosection::TriangleMesh& mesh,
                                      int panel_px);
 
 /** \brief What was seen of an object, what was completed, why it is there, and where it is wrong.
- * \param[in] errors_m of the completed mesh's vertices; none: not known
+ * \param[in] errors_m of the completed mesh's vertices; empty: not known
  * \param[in] name of the object, for captions */
 std::vector<CaptionedPicture> drawObject (const RunObject& object, const ObjectDirections& directions,
                                           const std::vector<double>& errors_m, double error_max_m,
                                           const std::string& name);
+
+/** \brief The whole scene in the middle of the sequence, as it was seen and as it was completed: from above the cameras
+ * and from the other side. Empty without trajectories or meshes. */
+std::vector<CaptionedPicture> drawScenePanels (const ReportContent& content);
