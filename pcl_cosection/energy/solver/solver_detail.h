@@ -15,7 +15,7 @@ namespace pcl::cosection
 /** \brief Values within this many voxels of zero count as near the zero set. */
 constexpr double zero_band_vox = 1.5;
 
-/** \brief How much may be left to change where a level is solved, in units of u. */
+/** \brief The remaining changes at which a level counts as solved, in units of u. */
 struct LevelTolerance
 {
   double band;    ///< where |u| is less
@@ -40,7 +40,7 @@ SolverSummary solveLevelFastJacobi (const EnergyProblem& problem, const SolverOp
                                     const LevelTolerance& tolerance, std::vector<Real>& u,
                                     const ProgressCallback& progress);
 
-/** \brief Minimise on voxels of twice the size, as all constraints allow but Fast Jacobi does not.
+/** \brief Minimise on voxels of twice the size. Fast Jacobi has no such level.
  * \param[in,out] half the field there, voxels of \a problem; if its size is wrong, started coarse to fine
  * \param[out] u \a half interpolated: a start for solve ()
  * \return false, and nothing is done, if the solver has no such level */
