@@ -18,18 +18,18 @@ constexpr double zero_band_vox = 1.5;
 /** \brief The remaining changes at which a level counts as solved, in units of u. */
 struct LevelTolerance
 {
-  double band;    ///< where |u| is less
-  double mean;    ///< root mean square
-  double largest; ///< of any voxel
+  double band;    ///< only voxels with |u| below this count
+  double mean;    ///< limit of the root mean square change
+  double largest; ///< limit of the change of any voxel
 
-  /** \brief Whether \a factor times the last change is little enough. */
+  /** \brief Whether \a factor times the last change is below both limits. */
   bool met (const kernels::SquaredChange& change, double factor = 1.0) const
   {
     return factor * change.rootMean () < mean && factor * std::sqrt (change.largest) < largest;
   }
 };
 
-/** \brief One level of a solve: minimise from the given u. */
+/** \brief Minimise the energy of one level from the given u, by multigrid. */
 template <typename Real>
 SolverSummary solveLevelMultigrid (const EnergyProblem& problem, const SolverOptions& options,
                                    const LevelTolerance& tolerance, std::vector<Real>& u,
