@@ -34,10 +34,9 @@ struct BodyState
   int updates_without_wall = 0; // since the last one that found a wall
   std::size_t points_read = 0;
   std::size_t views_read = 0;
-  std::vector<bool> outliers; // which points are left out, of those known at the last update
+  std::vector<bool> outliers; // whether a point is left out; for the points of the last update
 
-  /** \brief Read everything again, on a grid of the same lattice or another; on the same lattice the solution is kept
-   * as a start. */
+  /** \brief Change the grid and read everything again. The solution is kept as a start if the lattice is the same. */
   void restart (const VoxelGrid& new_grid, const CoSectionOptions& new_options, bool carve);
 
   /** \brief Read all points and views again; the grid and the solution stay. */
