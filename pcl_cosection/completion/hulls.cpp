@@ -15,7 +15,7 @@ namespace pcl::cosection
 namespace
 {
 
-constexpr double hull_reach = 1.0;     // limit around the observed box, of its longest side, as unseen space is unbounded
+constexpr double hull_reach = 1.0; // limit around the observed box, of its longest side, as unseen space is unbounded
 constexpr double layer_more_vox = 1.0; // of the layer on planes, in addition to the margin of free space
 constexpr double around_vox = 3.0;     // margin around hull and mesh
 constexpr std::size_t max_voxels = std::size_t (1) << 25; // of a hull that is larger than the object's volume
@@ -38,8 +38,8 @@ unseenLayer (const OcclusionMap::Views& views, const Eigen::Vector3d& place, dou
          layer_more_vox * voxel_size_m;
 }
 
-/** \brief A grid for an object's hull and mesh, on the lattice of its volume; \a lattice itself if a larger grid exceeds
- * the memory limit. \param[in] unseen box of the hull */
+/** \brief A grid for an object's hull and mesh, on the lattice of its volume; \a lattice itself if a larger grid
+ * exceeds the memory limit. \param[in] unseen box of the hull */
 VoxelGrid
 hullGrid (const VoxelGrid& lattice, const TriangleMesh& mesh, const Eigen::AlignedBox3d& unseen, std::size_t used_bytes,
           std::size_t limit_bytes)

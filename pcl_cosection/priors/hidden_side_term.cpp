@@ -18,21 +18,22 @@ namespace pcl::cosection
 namespace
 {
 
-constexpr float near_weight = 0.3f;     // sum of weights: a point within 1.1 sigma
-constexpr float far_weight = 0.01f;     // sum of weights: a point within 2.1 sigma
-constexpr float gap_vox = 2.0f;         // the term applies at least so far from data
-constexpr double reach_vox = 0.7;       // depth of copies inside the plausible region; deeper ones may be of a cavity
-constexpr double profile_weight = 10.0; // of shapes with a profile, in multiples of beta_extent, as those below
-constexpr double wall_weight = 5.0;     // of vertical walls
-constexpr double vessel_weight = 100.0; // of a vessel's wall, which vanishes with less
-constexpr double empty_weight = 10.0;   // of its cavity and of the space beyond the vessel
-constexpr double below_top_vox = 1.5;   // free space at least so far below a top is beside it, not above it
-constexpr double least_wall = 0.6;      // least thickness of a wall, of its mean thickness: noise would make holes
-constexpr double least_wall_vox = 1.25; // least thickness of a wall
+constexpr float near_weight = 0.3f;      // sum of weights: a point within 1.1 sigma
+constexpr float far_weight = 0.01f;      // sum of weights: a point within 2.1 sigma
+constexpr float gap_vox = 2.0f;          // the term applies at least so far from data
+constexpr double reach_vox = 0.7;        // depth of copies inside the plausible region; deeper ones may be of a cavity
+constexpr double profile_weight = 10.0;  // of shapes with a profile, in multiples of beta_extent, as those below
+constexpr double wall_weight = 5.0;      // of vertical walls
+constexpr double vessel_weight = 100.0;  // of a vessel's wall, which vanishes with less
+constexpr double empty_weight = 10.0;    // of its cavity and of the space beyond the vessel
+constexpr double below_top_vox = 1.5;    // free space at least so far below a top is beside it, not above it
+constexpr double least_wall = 0.6;       // least thickness of a wall, of its mean thickness: noise would make holes
+constexpr double least_wall_vox = 1.25;  // least thickness of a wall
 constexpr double empty_margin_vox = 1.0; // distance of expected empty space from the surface
 constexpr double empty_far_vox = 6.0;    // largest expected signed distance
 
-/** \brief One point per cube of half the width of the Gaussians: enough for a weak term, whatever the number of views. */
+/** \brief One point per cube of half the width of the Gaussians: enough for a weak term, whatever the number of views.
+ */
 std::vector<OrientedPoint>
 thinned (const VoxelGrid& grid, const std::vector<OrientedPoint>& points, double sigma_vox)
 {
@@ -110,8 +111,8 @@ private:
   std::vector<std::uint8_t> expected_;
 };
 
-/** \brief Add the term of a vessel. Its wall is the intersection of the insides of all parts of its surface: the largest
- * of their signed distances is the target. */
+/** \brief Add the term of a vessel. Its wall is the intersection of the insides of all parts of its surface: the
+ * largest of their signed distances is the target. */
 void
 addVessel (EnergyProblem& problem, const VoxelGrid& grid, const SymmetricExtent& plausible,
            const std::vector<OrientedPoint>& measured, const std::vector<OrientedPoint>& expected,

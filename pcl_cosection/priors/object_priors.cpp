@@ -29,10 +29,10 @@ namespace
 constexpr std::size_t most_points = 10000; // even subset of the points for inferring a plane
 constexpr double along_axis = 0.9;         // cosine: a round object stands on a plane across its axis
 // Heights of the lowest points over a plane, of the middle observed extent: the object rests on the plane ...
-constexpr double resting_reach = 0.15;     // ... in any case
-constexpr double hidden_foot_reach = 0.5;  // ... if the space between them was not observed
-constexpr double lowest_plane_reach = 2.0; // ... if its walls continue down to the plane behind other things
-constexpr double resting_share = 0.01;     // of the points: outliers among the lowest ones
+constexpr double resting_reach = 0.15;        // ... in any case
+constexpr double hidden_foot_reach = 0.5;     // ... if the space between them was not observed
+constexpr double lowest_plane_reach = 2.0;    // ... if its walls continue down to the plane behind other things
+constexpr double resting_share = 0.01;        // of the points: outliers among the lowest ones
 constexpr std::ptrdiff_t least_ground = 20;   // background points seen in the cavity, which make a vessel a tube
 constexpr double refuted_copies = 0.1;        // of the wall columns in free space: the other side is no copy
 constexpr double refuted_outline = 0.5;       // of the wall columns in free space: there are no vertical walls
@@ -56,15 +56,16 @@ hasFootNear (const Observation& object, const Eigen::Vector4d& plane, double rea
   return lower > static_cast<std::ptrdiff_t> (resting_share * static_cast<double> (points.size ()));
 }
 
-/** \brief Whether the lowest points are so near to a plane that the object rests on it unless free space or another body
- * was observed between them. */
+/** \brief Whether the lowest points are so near to a plane that the object rests on it unless free space or another
+ * body was observed between them. */
 bool
 mayRestOn (const Observation& object, const Eigen::Vector4d& plane)
 {
   return hasFootNear (object, plane, hidden_foot_reach);
 }
 
-/** \brief The symmetric extent of the points; without floor if background was seen where a vessel would have its floor. */
+/** \brief The symmetric extent of the points; without floor if background was seen where a vessel would have its floor.
+ */
 SymmetricExtent
 fitExtent (const Observation& object, const ObjectSetting& setting, const std::optional<Eigen::Vector4d>& plane)
 {

@@ -27,8 +27,8 @@ struct Observation
   double voxel_size_m = 0.0;                              // of the object's grid; vessels may have a finer one
   Eigen::Vector3d extents_m = Eigen::Vector3d::Zero ();   // observedExtents () of the points
   std::shared_ptr<const DepthView> virtual_view;          // from a virtual viewpoint, if there are no views; else null
-  OcclusionMap::Views views;       // views with a known pose of the object, or the virtual view
-  std::shared_ptr<ShapeFits> fits; // shapes that were fitted to the points so far
+  OcclusionMap::Views views;                              // views with a known pose of the object, or the virtual view
+  std::shared_ptr<ShapeFits> fits;                        // shapes that were fitted to the points so far
 
   const std::vector<OrientedPoint>& points () const { return inliers.empty () ? *all_points : inliers; }
 
@@ -38,8 +38,8 @@ struct Observation
 /** \brief The surroundings of an object, as priors need them. */
 struct ObjectSetting
 {
-  bool is_alone = false;                        // no plane, background or obstacle is known
-  const std::vector<OrientedPoint>& background; // world frame; empty: the object was cut out
+  bool is_alone = false;                                              // no plane, background or obstacle is known
+  const std::vector<OrientedPoint>& background;                       // world frame; empty: the object was cut out
   Eigen::Isometry3d T_object_world = Eigen::Isometry3d::Identity ();  // in its first view
   const OcclusionMap& hidden;                                         // occlusion of the object's volume by its views
   std::function<bool (const Eigen::Vector3d&)> is_of_other = nullptr; // may another object be there? object frame

@@ -30,9 +30,9 @@ std::vector<VoxelTile> tilesOf (const VoxelGrid& grid);
 /** \brief What hides places that are not seen free, as the maximum of Hidden over all views. Views and points can be
  * added.
  *
- * Further views and points can only hide more, so the results of voxels are kept: a new view is evaluated at all voxels,
- * earlier ones only where new points changed their depth buffers. The result is that of all views and points at once.
- * Everything is in the points' frame. */
+ * Further views and points can only hide more, so the results of voxels are kept: a new view is evaluated at all
+ * voxels, earlier ones only where new points changed their depth buffers. The result is that of all views and points at
+ * once. Everything is in the points' frame. */
 class OcclusionMap
 {
 public:

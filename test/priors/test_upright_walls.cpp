@@ -125,7 +125,7 @@ TEST (VerticalWalls, GoOnUnderTheTopWhereTheyWereNotSeen)
 TEST (VerticalWalls, OfAWedgeAreThoseOfItsTopOrOfItsTopAndACopy)
 {
   const SymmetricExtent extent (observedWedge (), {0.0, 0.0, 1.0, 0.0});
-  const Eigen::Vector3d slope (0.08, 0.05, 0.04), far_side (0.12, 0.093, 0.1); // its tip is a outlier
+  const Eigen::Vector3d slope (0.08, 0.05, 0.04), far_side (0.12, 0.093, 0.1); // its tip is an outlier
   const Eigen::Vector3d out = Eigen::Vector3d (1.0 / 0.16, 1.0 / 0.1, 0.0).normalized ();
   const std::vector<OrientedPoint> own = joined (extent.verticalWalls (wall_step_m, false));
   EXPECT_TRUE (hasWallAt (own, slope, out));

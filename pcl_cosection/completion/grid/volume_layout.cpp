@@ -4,9 +4,9 @@
 
 #include "pcl_cosection/common/byte_text.h"
 #include "pcl_cosection/common/ranked_values.h"
+#include "pcl_cosection/energy/body_energy.h"
 #include "pcl_cosection/priors/extent_bounds.h"
 #include "pcl_cosection/view/pixel_of.h"
-#include "pcl_cosection/energy/body_energy.h"
 
 #include "pcl_cosection/common/parallel.h"
 #include "pcl_cosection/priors/extent_prior.h"

@@ -21,7 +21,7 @@ double supportedVoxelSize (const std::vector<OrientedPoint>& points, const Eigen
 struct PointSpacing
 {
   double supported_m = 0.0; // supportedVoxelSize ()
-  double noise_m = 0.0; // standard deviation along the normal, median over the surface; 0 with too few points
+  double noise_m = 0.0;     // standard deviation along the normal, median over the surface; 0 with too few points
 };
 
 PointSpacing measureSpacing (const std::vector<OrientedPoint>& points, const Eigen::AlignedBox3d& observed);

@@ -67,8 +67,8 @@ std::size_t firstView (const ObjectInput& object);
 
 Eigen::Isometry3d firstPose (const ObjectInput& object);
 
-/** \brief T_to_of over all views (T_world_of if \a to is null), thinned to motions of more than half a voxel of \a grid,
- * which is in the frame of \a of. */
+/** \brief T_to_of over all views (T_world_of if \a to is null), thinned to motions of more than half a voxel of \a
+ * grid, which is in the frame of \a of. */
 std::vector<Eigen::Isometry3d> relativePoses (const ObjectInput& of, const VoxelGrid& grid, const ObjectInput* to);
 
 /** \brief A plane n.x + d = 0 in the frame of the target. */

@@ -59,8 +59,8 @@ public:
   /** \brief The part of a vessel to which a point belongs; the outer side for other shapes. */
   VesselPart partOf (const OrientedPoint& point) const;
 
-  /** \brief Distance of a place in the cavity of a vessel from the wall (across the axis) or above the floor, the smaller
-   * one; metres, 0 elsewhere. */
+  /** \brief Distance of a place in the cavity of a vessel from the wall (across the axis) or above the floor, the
+   * smaller one; metres, 0 elsewhere. */
   double depthInCavity (const Eigen::Vector3d& position) const;
 
   /** \brief Distance of a place under a dish from its wall and foot, metres; 0 elsewhere, and for other vessels. */
