@@ -40,7 +40,7 @@ observedBall (const Eigen::Vector3d& middle, double radius, const Eigen::Vector3
   return points;
 }
 
-/** \brief Around the hidden faces (x, y > 0) the region ends where the box does. */
+/** \brief Expect that the region ends with the box around the hidden faces (x, y > 0). */
 void
 expectRegionOfBox (const SymmetricExtent& extent)
 {
