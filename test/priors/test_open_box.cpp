@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_cosection authors
 
-// Open boxes: trays, bins, and similar things that are none of these.
+// Open boxes: trays, bins, and similar things that are not open boxes.
 
 #include "completion/scenes/surrounding_views.h"
 #include "moved_points.h"

@@ -24,8 +24,8 @@ constexpr double inward_share = 0.05;  // of the points: with more facing inward
 constexpr double max_deviation = 0.05; // of the radius, root mean square, without noise
 constexpr double max_noise = 0.15;     // of the radius, root mean square, of all points
 constexpr double max_radius = 1.0;     // of the size: too small a part of a larger ball was seen
-constexpr int
-    cells = 4; // along the edge of a cube around the ball; noise averages out in the cells of its faces, shape does not
+// Cells along the edge of a cube around the ball. Noise averages out in the cells of its faces, shape does not.
+constexpr int cells = 4;
 
 /** \brief Distances of points from a ball's surface. */
 class BallDeviation

@@ -24,8 +24,7 @@ constexpr double level = 0.9;             // component of a floor's normal upwar
 constexpr std::size_t least_points = 10;  // of a side or of the floor
 constexpr std::size_t parts = 8;          // of the length of a side
 constexpr std::ptrdiff_t least_parts = 3; // in which it must be seen
-constexpr double
-    least_rise = 0.2; // least observed height of a side, of the walls' height or the width, the smaller one
+constexpr double least_rise = 0.2;        // least observed height of a side, relative to the walls' height or the width
 constexpr double outlier_share = 0.01;
 constexpr std::size_t least_walls = 3;
 constexpr std::size_t least_inner = 2; // walls seen from inside

@@ -30,8 +30,7 @@ constexpr double least_rise = 1.0; // of the wall's thickness: a flatter thing i
 constexpr double lid_rise = 0.12;  // of the radius: a thing with a lower but steep border may be a lid
 constexpr double steep = 2.0;      // rise of a steep border, of its breadth
 constexpr std::array<double, 2> border = {0.2, 0.8}; // part of the rise that counts as border
-constexpr double
-    highest_floor = 0.35; // height of the floor, of the radius: a higher dish stands on something, or is solid
+constexpr double highest_floor = 0.35;  // of the radius: a dish with a higher floor stands on something, or is solid
 constexpr double thinnest_cells = 0.25; // least wall thickness, the accuracy of planes
 constexpr double noise_cells = 0.4;     // lower limit of noise_m_; at most half of the wall
 constexpr double noise_spreads = 3.0;   // noise_m_ in median distances of points from the inside

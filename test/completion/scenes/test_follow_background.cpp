@@ -180,7 +180,7 @@ TEST_F (FollowBackground, GrowsNotWithEveryView)
   expectSameBackground (followed, task.reconstruct ());
 }
 
-/** \brief A view without points removes points that contradict its free space. */
+/** \brief A view without points removes the surface of a ghost that it looks through. */
 TEST_F (FollowBackground, FreeSpaceChangesAndNoPoints)
 {
   CoSection task (options ());
