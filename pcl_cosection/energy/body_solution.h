@@ -40,7 +40,7 @@ BodySolution startFrom (const BodySolution& solution, const VoxelGrid& from, con
 SolverSummary solve (const BodyEnergy& energy, Resolution resolution, BodySolution& solution,
                      const ProgressCallback& progress);
 
-/** \brief What followSolution () did. */
+/** \brief Result of followSolution (). */
 struct FollowSummary
 {
   SolverSummary solver;

@@ -162,6 +162,6 @@ TEST (RaysWithoutReturn, NothingIsExpectedWhereViewsLookedPast)
     std::printf ("T, views: %zu: mean error %.2f mm with the table, %.2f with its plane, %.2f alone\n", sensors.size (),
                  1e3 * with_table_m, 1e3 * with_plane_m, 1e3 * alone_m);
     EXPECT_LE (with_plane_m, with_table_m + 0.001);
-    EXPECT_LE (alone_m, sensors.size () == 2 ? 0.0025 : 0.0014); // nothing tells where it stands
+    EXPECT_LE (alone_m, sensors.size () == 2 ? 0.0025 : 0.0014); // its support is unknown
   }
 }

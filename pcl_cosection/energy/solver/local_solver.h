@@ -17,7 +17,7 @@ struct NearData
   float reach_vox;
 };
 
-/** \brief What a local solve did. */
+/** \brief Result of a local solve. */
 struct LocalSolution
 {
   SolverSummary summary;  ///< iterations: the maximum over all boxes; without intermediate energies

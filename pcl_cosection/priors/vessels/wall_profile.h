@@ -42,7 +42,7 @@ public:
   /** \brief The part of the surface to which a point belongs, by its normal; the rim also by its height. */
   virtual VesselPart partOf (const ProfilePoint& point) const = 0;
 
-  /** \brief What views see least of. \param[in] step_m between points */
+  /** \brief Points of the parts that views see least. \param[in] step_m between points */
   virtual std::vector<ProfilePoint> depths (double step_m) const = 0;
 
   /** \brief Whether a point is on a side of the wall, the rim, the floor or the bottom, and not on a handle. */

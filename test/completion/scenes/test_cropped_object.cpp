@@ -114,7 +114,7 @@ TEST_P (CroppedObject, AloneClosesWithoutSwelling)
   // With a table their hidden sides are expected; alone they come out small.
   const bool ball = GetParam () == Shape::Sphere;
   const bool torus = GetParam () == Shape::Torus;
-  const bool box = GetParam () == Shape::Box; // nothing tells of its walls, which with a table go straight down
+  const bool box = GetParam () == Shape::Box; // with a table, its walls continue straight down
   const DepthView unorganized = redrawn (seen_);
   const DepthView* const views[] = {&unorganized, nullptr};
   for (const DepthView* view : views)
