@@ -54,7 +54,7 @@ WORDS = {
     r"facing.?points": "normal-bin occupancy",
     r"takeAlong": "attach",
     r"removeScraps|\bscraps?\b": "drop",
-    r"\b[Tt]idy\b": "prune",
+    r"(?<!clang-)\b[Tt]idy\b": "prune",
     r"PlaneClaims|plane.?claims": "plane labelling",
     r"image.?damage": "integrity check",
     r"[Nn]obody.?s": "unassigned",

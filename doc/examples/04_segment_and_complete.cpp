@@ -31,7 +31,7 @@ main (int argc, char** argv)
   scene.addView (toDepthView (view).value ());
   std::map<int, std::vector<OrientedPoint>> points;
   for (std::size_t n = 0; n < positions.size (); ++n)
-    if (normals[n].allFinite ()) // there is none where it would not be reliable, as at depth edges
+    if (normals[n].allFinite ()) // NaN where it would not be reliable, as at depth edges
       points[static_cast<int> (labels[n])].push_back ({positions[n], normals[n]});
   scene.setBackground (points[0]);
   for (auto object = std::next (points.begin ()); object != points.end (); ++object)

@@ -19,15 +19,15 @@ namespace pcl::cosection
 namespace
 {
 
-constexpr double background_voxels_per_object_voxel = 2.0; // of what the points support, or what is asked for
+constexpr double background_voxels_per_object_voxel = 2.0; // size ratio of background and smallest object voxels
 constexpr double background_only_resolution = 128.0;       // voxels along the longest side, if there is no object
-constexpr double whole_background_voxel_m = 0.02;          // or smaller, if that gives no more than
+constexpr double whole_background_voxel_m = 0.02;          // smaller for small backgrounds, which get at least
 constexpr double whole_background_resolution = 128.0;      // voxels along the longest side
 constexpr double most_whole_voxels = 256.0 * 256.0 * 256.0;
 constexpr double whole_margin_vox = 4.0;
-constexpr double growth_vox = 12.0; // beyond where a background that is updated has grown to, as it will grow again
+constexpr double growth_vox = 12.0; // margin of an incremental background where it grows, as it will grow again
 
-/** \brief A box that is larger than a grid, and by more than it has to where it is. */
+/** \brief The box with a margin for further growth on those sides where it exceeds the grid, if memory allows. */
 Eigen::AlignedBox3d
 withRoomToGrow (const Eigen::AlignedBox3d& box, const VoxelGrid& grid)
 {
@@ -56,7 +56,7 @@ boxInWorld (const SceneObject& object)
   return box;
 }
 
-/** \brief Boxes of the background that are to be solved. */
+/** \brief The boxes in which the background is solved. */
 std::vector<Eigen::AlignedBox3d>
 backgroundBoxes (const Scene& scene, const std::vector<SceneObject>& objects)
 {
@@ -90,7 +90,7 @@ backgroundVoxelSize (const Scene& scene, const std::vector<SceneObject>& objects
   if (!options.whole_background)
     return std::isfinite (smallest) ? background_voxels_per_object_voxel * smallest : side / background_only_resolution;
   double voxel = std::min (whole_background_voxel_m, side / whole_background_resolution);
-  if (whole.grid) // stays, unless it is too small
+  if (whole.grid) // kept unless it is too small
     voxel = whole.grid->voxel_size_m;
   const auto voxelsOf = [&] (double voxel_size_m) {
     return ((boxes.front ().sizes ().array () + 2.0 * whole_margin_vox * voxel_size_m) / voxel_size_m + 1.0).prod ();
@@ -100,8 +100,8 @@ backgroundVoxelSize (const Scene& scene, const std::vector<SceneObject>& objects
   return voxel;
 }
 
-/** \brief The support planes of all objects, each where its object may be. Where planes of several objects overlap the
- * last one counts; it must not depend on the objects' order. */
+/** \brief The support planes of all objects, each in the region where its object may be. The last plane counts where
+ * planes of several objects overlap, so they are sorted: the result must not depend on the order of objects. */
 std::vector<PlaneContinuation>
 continuedPlanes (const std::vector<SceneObject>& objects)
 {

@@ -26,13 +26,13 @@ struct Background
   std::vector<SignedDistanceField::ConstPtr> fields () const;
 };
 
-/** \brief Give the background grids: near the objects, or everywhere. What fails is a warning.
- * \param[in] used_bytes of the memory that is allowed */
+/** \brief Give the background grids: near the objects, or everywhere. A failure is a warning.
+ * \param[in] used_bytes memory in use, of that which the options allow */
 BackgroundBodies placeBackground (const Scene& scene, const std::vector<SceneObject>& objects, CompletionMode mode,
                                   std::size_t used_bytes, SceneState& state, CompletionLog& log);
 
 /** \brief Minimise E_data + E_reg + E_hull of the background, its support planes continued under and behind the
- * objects. What fails is a warning. */
+ * objects. A failure is a warning. */
 Background solveBackground (const Scene& scene, const std::vector<SceneObject>& objects, CompletionMode mode,
                             UpdateOutput output, BackgroundBodies bodies, CompletionLog& log);
 

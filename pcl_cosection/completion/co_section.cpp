@@ -17,7 +17,7 @@ namespace pcl::cosection
 struct CoSection::Impl
 {
   Scene scene;
-  SceneState state; // of update ()
+  SceneState state; // between calls of update ()
 };
 
 namespace
@@ -63,7 +63,7 @@ CoSection::addView (DepthView view, const std::map<int, Eigen::Isometry3d>& T_wo
   const std::size_t before = impl_->scene.views.size ();
   for (const auto& [id, T] : T_world_object)
   {
-    const bool at_rest = impl_->scene.find (id) != nullptr; // until now
+    const bool at_rest = impl_->scene.find (id) != nullptr; // in all earlier views
     impl_->scene.poses[id].resize (before, at_rest ? Eigen::Isometry3d::Identity () : unknownPose ());
   }
   for (auto& [id, poses] : impl_->scene.poses)
@@ -83,7 +83,7 @@ CoSection::removeViews (const std::vector<bool>& remove)
   if (remove.size () != impl_->scene.views.size ())
     throw InvalidArgument ("there are " + std::to_string (impl_->scene.views.size ()) + " views, not " +
                            std::to_string (remove.size ()));
-  std::vector<int> number (remove.size ()); // those that remain
+  std::vector<int> number (remove.size ()); // new numbers of the remaining views
   for (std::size_t v = 0, next = 0; v < remove.size (); ++v)
     number[v] = remove[v] ? -1 : static_cast<int> (next++);
   const auto compact = [&] (auto& per_view) {

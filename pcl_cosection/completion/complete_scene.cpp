@@ -21,15 +21,15 @@ completeScene (const Scene& scene, CompletionMode mode, UpdateOutput output, con
   CompletionLog log (scene.objects.size (), progress);
   log.report ("measurements", 0.0);
 
-  // What was measured of each object: its points without outliers, their spacing and noise, what its views hide.
+  // The measurements of each object: its points without outliers, their spacing and noise, occlusion by its views.
   const std::vector<Observation> observations = log.timed ("data_term",
                                                            [&] { return observeObjects (scene, mode, state, log); });
 
-  // What objects stand on: given planes, and planes fitted to the background.
+  // Support planes: given ones, and ones fitted to the background.
   const std::vector<SupportPlanes> support = log.timed (
       "constraints", [&] { return findObjectPlanes (scene, observations, state, log); });
 
-  // A grid for each object, for what is around it, and for the background.
+  // A grid for each object, for its obstacles, and for the background.
   const std::vector<SceneObject> objects = log.timed (
       "constraints", [&] { return placeObjects (scene, observations, support, mode, state, log); });
   const std::size_t used_bytes = bytesInUse (scene, state, observations); // without obstacles
@@ -39,16 +39,16 @@ completeScene (const Scene& scene, CompletionMode mode, UpdateOutput output, con
     return placeBackground (scene, objects, mode, used_bytes + bytesOf (obstacles), state, log);
   });
 
-  // Equations (2) and (3): sums over points, and votes on what is free.
+  // Equations (2) and (3): sums over points, and votes on free space.
   const std::vector<double> contradicted = gatherEvidence (scene, mode, objects, bodies.bodies, log);
 
   // The background first, E_data + E_reg + E_hull: it is a constraint for all objects.
   Background background = solveBackground (scene, objects, mode, output, std::move (bodies), log);
 
-  // The energy of each object, equations (1) to (3), and what priors expect of its hidden sides.
+  // The energy of each object, equations (1) to (3), and the priors on its hidden sides.
   std::vector<BodyEnergy> energies = objectEnergies (scene, mode, objects, log);
 
-  // Equations (4) and (5): all objects at once, none inside another or its surroundings.
+  // Equations (4) and (5): all objects together, so that they penetrate neither each other nor their surroundings.
   const std::vector<SignedDistanceField::ConstPtr> background_fields = background.fields ();
   const std::vector<SolverSummary> solvers = solveJointly (scene, objects, background_fields, obstacles, energies, log);
 

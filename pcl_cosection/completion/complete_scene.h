@@ -9,8 +9,8 @@ namespace pcl::cosection
 {
 
 /** \brief The method: complete all objects of a scene and the background they stand on.
- * \param[in,out] state what the last update left, empty at first; what the next one begins with. If this is cancelled,
- * the state still goes with the scene
+ * \param[in,out] state incremental state: from the last update to the next, empty at first. It stays consistent with
+ * the scene if this is cancelled
  * \throws Cancelled */
 SceneResult completeScene (const Scene& scene, CompletionMode mode, UpdateOutput output,
                            const ProgressCallback& progress, SceneState& state);

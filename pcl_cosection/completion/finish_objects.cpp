@@ -17,9 +17,9 @@ namespace pcl::cosection
 namespace
 {
 
-constexpr double inferred_reach_voxels = 2.0; // of an inferred plane: what it bounds
+constexpr double inferred_reach_voxels = 2.0; // vertices so near to an inferred plane are bounded by it
 
-/** \brief An inferred plane is no body: what it bounds is inferred, too. */
+/** \brief Mark vertices that an inferred plane bounds as inferred, as such a plane is no body. */
 void
 markInferred (const SceneObject& object, TriangleMesh& mesh)
 {

@@ -18,9 +18,10 @@ namespace pcl::cosection
 namespace
 {
 
-constexpr int least_free_views = 2;            // that look through a point of the background, for it to have moved ...
-constexpr double free_share = 0.25;            // ... and so many of those that see it there
-constexpr double max_contradicted_share = 0.1; // of an object's points; good poses leave .03 or less
+// A background point has moved if so many views look through it, and at least so large a share of all that see it.
+constexpr int least_free_views = 2;
+constexpr double free_share = 0.25;
+constexpr double max_contradicted_share = 0.1; // of an object's points; good poses leave 0.03 or less
 constexpr double residual_cell_m = 0.02;
 
 void
@@ -38,7 +39,8 @@ readPoints (const SceneObject& object)
   body.points_read = all.size ();
 }
 
-/** \brief Which points of the background are on the object's surface where it was, or began to be known. */
+/** \brief Find background points on the object's surface at its pose in their view; for points before its first view,
+ * at its pose there. */
 void
 findPointsOf (const Scene& scene, const SceneObject& object, std::vector<bool>& found)
 {
@@ -54,7 +56,7 @@ findPointsOf (const Scene& scene, const SceneObject& object, std::vector<bool>& 
     const bool was_known = batch.view >= static_cast<int> (first_view);
     const Eigen::Isometry3d T_world_object = poseAt (*object.input,
                                                      was_known ? static_cast<std::size_t> (batch.view) : first_view);
-    // Before it was known it may not have been quite at rest.
+    // Before its first view the object may have moved a little.
     const double depth_vox = was_known ? MeasuredSurface::voxels_beside : MeasuredSurface::voxels_deep;
     if (T_world_object.matrix ().allFinite ())
     {
@@ -69,7 +71,7 @@ findPointsOf (const Scene& scene, const SceneObject& object, std::vector<bool>& 
   }
 }
 
-/** \brief Points of the background without those that views look through. */
+/** \brief The points of the background without those that moved. */
 std::vector<OrientedPoint>
 backgroundAtRest (const Scene& scene, const std::vector<SceneObject>& objects)
 {
@@ -111,7 +113,7 @@ readBackground (const Scene& scene, CompletionMode mode, const std::vector<Scene
   }
 }
 
-/** \brief How well views agree with an object's points; a warning if they do not. \return the contradicted share */
+/** \brief Warn if a view looks through many of the object's points. \return the contradicted share */
 double
 judgeAgreement (const Scene& scene, const SceneObject& object, const ViewAgreement& agreement, CompletionLog& log)
 {
@@ -127,7 +129,7 @@ judgeAgreement (const Scene& scene, const SceneObject& object, const ViewAgreeme
   return share;
 }
 
-/** \brief One view of a scene, prepared once, for the first body that has not read it. */
+/** \brief One view of a scene, prepared on first use and shared by all bodies that have not read it. */
 class SharedView
 {
 public:

@@ -9,10 +9,10 @@
 namespace pcl::cosection
 {
 
-/** \brief Let all bodies read the points and views that are new in the scene: equation (2), and the votes on free space
- * of equation (3). Warns of views that contradict an object's points.
+/** \brief Add the points and views that are new in the scene to the evidence of all bodies: equation (2), and the votes
+ * on free space of equation (3). Warns of views that contradict an object's points.
  * \param[in] background the bodies of the background
- * \return of each object of the scene, ObjectResult::contradicted_share */
+ * \return ObjectResult::contradicted_share of each object of the scene */
 std::vector<double> gatherEvidence (const Scene& scene, CompletionMode mode, const std::vector<SceneObject>& objects,
                                     const std::vector<BodyState*>& background, CompletionLog& log);
 

@@ -15,13 +15,12 @@ namespace pcl::cosection
 namespace
 {
 
-constexpr double
-    hull_reach = 1.0; // beyond what was observed, of its longest side: of space that nobody saw there is no end
-constexpr double layer_more_vox = 1.0;                    // the layer on planes, beyond the margin of free space
-constexpr double around_vox = 3.0;                        // what is left around hull and mesh
+constexpr double hull_reach = 1.0; // limit around the observed box, of its longest side, as unseen space is unbounded
+constexpr double layer_more_vox = 1.0; // of the layer on planes, in addition to the margin of free space
+constexpr double around_vox = 3.0;     // margin around hull and mesh
 constexpr std::size_t max_voxels = std::size_t (1) << 25; // of a hull that is larger than the object's volume
 
-/** \brief The thickness of the layer on a surface at a place that the views do not see free. */
+/** \brief Thickness of the layer on a surface at a place within which the views do not see free space. */
 double
 unseenLayer (const OcclusionMap::Views& views, const Eigen::Vector3d& place, double voxel_size_m)
 {
@@ -39,8 +38,8 @@ unseenLayer (const OcclusionMap::Views& views, const Eigen::Vector3d& place, dou
          layer_more_vox * voxel_size_m;
 }
 
-/** \brief A grid for an object's hull and mesh, on the lattice of its volume; that of its volume where more memory is
- * not allowed. \param[in] unseen box of the hull */
+/** \brief A grid for an object's hull and mesh, on the lattice of its volume; \a lattice itself if a larger grid
+ * exceeds the memory limit. \param[in] unseen box of the hull */
 VoxelGrid
 hullGrid (const VoxelGrid& lattice, const TriangleMesh& mesh, const Eigen::AlignedBox3d& unseen, std::size_t used_bytes,
           std::size_t limit_bytes)
@@ -88,7 +87,7 @@ beginHull (const Scene& scene, const SceneObject& object, const TriangleMesh& me
       views.emplace_back (&scene.views[v].depth, T);
   search.layer_m = unseenLayer (views, observation.box.center (), observation.voxel_size_m);
   VoxelGrid grid = object.grid ();
-  // What surrounded a thing that was cut out is not unseen but gone.
+  // Around an object that was cut out, space is not unseen: its readings were removed.
   if (!views.empty () && !scene.background.empty () && options.padding <= 0.0)
   {
     const Eigen::Vector3d reach = Eigen::Vector3d::Constant (hull_reach * observation.box.sizes ().maxCoeff ());

@@ -9,16 +9,16 @@
 namespace pcl::cosection
 {
 
-/** \brief Bounds of an object's shape as meshes; empty where they were not asked for. Object frame. */
+/** \brief Outer bounds of an object's shape as meshes in its frame; empty if not requested. */
 struct HullMeshes
 {
   TriangleMesh hull;
   TriangleMesh outer_bound;
 };
 
-/** \brief What no view saw free, for each object: ObjectResult::hull and ObjectResult::outer_bound.
+/** \brief ObjectResult::hull and ObjectResult::outer_bound of each object: the space that no view saw free.
  * \param[in] meshes the closed meshes, \a fields the solved fields, one per object
- * \param[in] used_bytes of the memory that is allowed */
+ * \param[in] used_bytes memory in use, of that which the options allow */
 std::vector<HullMeshes> findHulls (const Scene& scene, const std::vector<SceneObject>& objects,
                                    const std::vector<const TriangleMesh*>& meshes,
                                    const std::vector<const SignedDistanceField*>& fields, std::size_t used_bytes,

@@ -15,12 +15,12 @@ namespace pcl::cosection
 namespace
 {
 
-constexpr double penetration_voxels = 0.5; // more is resolved by growing weights
-constexpr double coarse_voxels = 2.0; // no more is allowed however coarse the surroundings are, voxels of the object
+constexpr double penetration_voxels = 0.5; // deeper penetration makes weights grow
+constexpr double coarse_voxels = 2.0;      // upper limit of the allowed depth in coarse surroundings, object voxels
 constexpr double weight_growth = 4.0;
 constexpr double max_weight_growth = 1024.0;
 
-/** \brief Progress when the passes of one resolution begin, when the first of them is done, and when all are. */
+/** \brief Progress values when the passes of one resolution begin, after the first of them, and after all. */
 struct PassProgress
 {
   double begin;
@@ -35,10 +35,10 @@ constexpr PassProgress full_progress{0.5, 0.8, 0.95};
 struct JointObject
 {
   SignedDistanceField field; // its shape after the last pass
-  SignedDistanceField shown; // the shape that its neighbours answer
+  SignedDistanceField shown; // the shape that bounds its neighbours
   std::optional<IntersectionConstraint> surroundings;
-  std::map<std::size_t, double> beta; // growth of the weights of single neighbours
-  double beta_surroundings = 1.0;     // growth of the weight of the surroundings
+  std::map<std::size_t, double> beta; // factor of the weight, by neighbour
+  double beta_surroundings = 1.0;     // factor of the weight of the surroundings
   bool changed = true;                // whether the energy has changed since the last solve
   SolverSummary solver;
 };
@@ -59,7 +59,7 @@ public:
       , joint_ (objects.size ())
   {
     for (std::size_t o = 0; o < objects.size (); ++o)
-      if (alive (o)) // the first pass sees neighbours through their data alone
+      if (alive (o)) // in the first pass neighbours are their data alone
         joint_[o].shown = measuredField (energies[o]);
   }
 
@@ -79,7 +79,7 @@ private:
   std::vector<LowerBound> boundsOf (std::size_t o);
   void solvePass (Resolution resolution, int pass);
   void solveObject (std::size_t o, Resolution resolution, double begin, double share);
-  /** \brief Let neighbours see what a pass has made of the objects. */
+  /** \brief Update the shapes that bound neighbours after a pass. */
   void showSolutions ();
   bool growWeightsWherePenetrating (Resolution resolution);
   double coarsestSurroundings () const;
@@ -93,7 +93,7 @@ private:
   std::vector<JointObject> joint_;
 };
 
-/** \brief Equation (4) for one object: the largest of all bodies' depths. */
+/** \brief Equation (4) for one object: the largest depth over all bodies. */
 std::vector<LowerBound>
 JointProblem::boundsOf (std::size_t o)
 {
@@ -174,9 +174,9 @@ JointProblem::showSolutions ()
     if (alive (o))
       log_.guard (objects_[o].index, [&] {
         JointObject& object = joint_[o];
-        const bool first = object.field.values.empty (); // what was shown until now are measurements
+        const bool first = object.field.values.empty (); // shown are measurements so far
         object.field = solvedField (energies_[o], objects_[o].body->solution);
-        // Two bodies that give way and spread by turns settle when each answers the mean of the other's last two.
+        // Bounds from the mean of the last two solutions converge where two bodies would give way and spread in turn.
         if (first)
           object.shown = object.field;
         else
@@ -262,7 +262,7 @@ solveJointly (const Scene& scene, const std::vector<SceneObject>& objects,
               std::vector<BodyEnergy>& energies, CompletionLog& log)
 {
   JointProblem problem (scene, objects, background, obstacles, energies, log);
-  // The first pass of all sees neighbours through their data alone, so it is not the last.
+  // The very first pass bounds objects by the data of their neighbours alone, so a second pass must follow.
   const int needed = scene.objects.size () > 1 ? 2 : 1;
   const bool half_first = scene.options.solver.type == SolverType::Multigrid;
   if (half_first)

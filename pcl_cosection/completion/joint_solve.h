@@ -9,14 +9,14 @@
 namespace pcl::cosection
 {
 
-/** \brief Minimise the energies of all objects under the constraint that they enter neither each other nor their
- * surroundings, equations (4) and (5).
+/** \brief Minimise the energies of all objects with the intersection constraint: they penetrate neither each other nor
+ * their surroundings, equations (4) and (5).
  *
  * Passes over all objects are simultaneous: all bounds come from the fields of the pass before, so that the order of
- * objects has no influence. While an object is deeper in another body than allowed, the weight of that pair grows.
+ * objects has no influence. While an object is deeper in another body than allowed, the weight of this pair grows.
  * \param[in,out] energies one per object; the bounds of equation (5) are added. The solutions are in the objects'
  * states
- * \return one summary per object, its iterations those of all passes at full resolution */
+ * \return one summary per object, with the iterations of all passes at full resolution */
 std::vector<SolverSummary> solveJointly (const Scene& scene, const std::vector<SceneObject>& objects,
                                          const std::vector<SignedDistanceField::ConstPtr>& background,
                                          const std::vector<Obstacle>& obstacles, std::vector<BodyEnergy>& energies,

@@ -14,7 +14,8 @@ namespace pcl::cosection
 namespace
 {
 
-/** \brief Whether a place, object frame, may be another object's: it is in the box of what was observed of that. */
+/** \brief A query whether a place (object frame) may belong to another object: it is in the box of that one's points.
+ */
 std::function<bool (const Eigen::Vector3d&)>
 placesOfOthers (const std::vector<SceneObject>& objects, std::size_t own, const CompletionLog& log)
 {

@@ -9,8 +9,8 @@
 namespace pcl::cosection
 {
 
-/** \brief The energy of each object: what was measured, the hull, and the terms of the priors. An object without any
- * measurement outside of seen free space fails. */
+/** \brief The energy of each object: data, hull and prior terms. An object without any measurement outside of seen free
+ * space fails. */
 std::vector<BodyEnergy> objectEnergies (const Scene& scene, CompletionMode mode,
                                         const std::vector<SceneObject>& objects, CompletionLog& log);
 

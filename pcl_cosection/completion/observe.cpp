@@ -21,9 +21,9 @@ namespace pcl::cosection
 namespace
 {
 
-constexpr double outlier_reach_voxels = 3.0;  // of a point in the data term
-constexpr double max_outlier_share = 0.2;     // more are no exception
-constexpr double least_spacings_across = 5.0; // an object, along the middle of its extents, or its shape is lost
+constexpr double outlier_reach_voxels = 3.0;  // cutoff of a point in the data term
+constexpr double max_outlier_share = 0.2;     // if more points seem to be outliers, all points are kept
+constexpr double least_spacings_across = 5.0; // least middle extent of an object, in supported voxels
 
 std::string
 nameOf (const ObjectInput& object)
@@ -54,12 +54,12 @@ measure (const CoSectionOptions& options, Observation& object)
   object.voxel_size_m = objectVoxelSize (spacing, object.box, options);
 }
 
-/** \brief Which points are a few far from all others, which would become bodies of their own. */
+/** \brief Marks small groups of points far from all others, which would become separate components. */
 std::vector<bool>
 findOutliers (const Observation& object)
 {
   const std::vector<OrientedPoint>& points = *object.all_points;
-  const double reach_m = outlier_reach_voxels * std::max (object.voxel_size_m, object.spacing_m); // however fine voxels
+  const double reach_m = outlier_reach_voxels * std::max (object.voxel_size_m, object.spacing_m);
   std::vector<bool> outliers = findOutlierPoints (points, object.box.center (), reach_m);
   const auto count = static_cast<double> (std::count (outliers.begin (), outliers.end (), true));
   if (count > max_outlier_share * static_cast<double> (points.size ()))
@@ -67,7 +67,7 @@ findOutliers (const Observation& object)
   return outliers;
 }
 
-/** \brief The views that saw where the object is, or may be, and T_object_sensor; not those for free space only. */
+/** \brief The views for which the object's pose is known, and T_object_sensor; not those for free space only. */
 OcclusionMap::Views
 viewsOf (const Scene& scene, const ObjectInput& object)
 {
@@ -95,7 +95,7 @@ warnIfFarApart (const ObjectInput& input, const Observation& object, CompletionL
               " cm apart, each smaller than that: a pose may be wrong, or two things have one label");
 }
 
-/** \brief Warn if the points support no voxels that show much of the object. */
+/** \brief Warn if the voxels that the points support are too large for the object. */
 void
 warnIfCoarse (const ObjectInput& input, const Observation& object, CompletionLog& log)
 {
@@ -149,7 +149,7 @@ observeObjects (const Scene& scene, CompletionMode mode, SceneState& state, Comp
       {
         object.virtual_view = std::make_shared<const DepthView> (std::move (*view));
         object.views.emplace_back (object.virtual_view.get (), object.virtual_view->T_world_sensor);
-        body.hidden.clear (); // it is another view each time
+        body.hidden.clear (); // the virtual view differs each time
       }
     body.hidden.add (object.views, object.points (), options.threads);
     return object;

@@ -12,8 +12,8 @@
 namespace pcl::cosection
 {
 
-/** \brief What was measured of each object, in the order of the scene, without outliers; default values for those that
- * fail. The state takes in which points are outliers, and what views hide of each object. */
+/** \brief The observation of each object, in the order of the scene; default values for objects that fail. Also updates
+ * outliers and occlusion maps in the state. */
 std::vector<Observation> observeObjects (const Scene& scene, CompletionMode mode, SceneState& state,
                                          CompletionLog& log);
 

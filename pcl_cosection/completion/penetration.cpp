@@ -12,7 +12,8 @@ namespace pcl::cosection
 namespace
 {
 
-/** \brief Deepest of the places where a field's zero set crosses an edge of its grid; depthAt (place), 0 if outside. */
+/** \brief Largest depthAt (place) over the places where a field's zero set crosses edges of its grid; 0 if all are
+ * outside. */
 template <typename DepthAt>
 double
 deepest (const SignedDistanceField& field, int threads, DepthAt&& depthAt)

@@ -22,14 +22,14 @@ namespace
 
 constexpr double plane_inlier_voxels = 2.0;
 constexpr double min_plane_inlier_m = 0.004;
-constexpr double hidden_plane_reach = 2.0; // of its longest side: where support is looked for if none is seen near it
+constexpr double hidden_plane_reach = 2.0; // of the longest side: wider search for support, if none is visible nearby
 constexpr double same_plane_cosine = 0.999;
 constexpr double same_plane_m = 0.005;
 constexpr std::size_t most_samples = 2000; // of an object's points
-constexpr double cut_voxels = 2.0;         // so deep a point cannot be for its noise
-constexpr double max_share_behind = 0.05;  // of an object's points, behind a plane or in a body that the user gave
+constexpr double cut_voxels = 2.0;         // noise alone puts no point so deep
+constexpr double max_share_behind = 0.05;  // of an object's points, behind a given plane or in an obstacle
 
-/** \brief The plane with its normal to the side of most of the object's points. */
+/** \brief The plane with its normal towards the side of most of the object's points. */
 Eigen::Vector4d
 towards (const ObjectInput& object, const Observation& observation, const Eigen::Vector4d& plane)
 {
@@ -40,8 +40,8 @@ towards (const ObjectInput& object, const Observation& observation, const Eigen:
   return 2 * above < observation.points ().size () ? Eigen::Vector4d (-plane) : plane;
 }
 
-/** \brief Warn if what the user gave leaves no room for some of the object's points.
- * \param[in] isCut of a point, object frame */
+/** \brief Warn if a given plane or obstacle contains too many of the object's points.
+ * \param[in] isCut whether it contains a point (object frame) */
 template <typename IsCut>
 void
 warnIfCut (const ObjectInput& object, const Observation& observation, IsCut&& isCut, const std::string& where,
@@ -89,7 +89,7 @@ warnIfCutByObstacles (const SceneObject& object, const std::vector<Obstacle>& ob
                "inside a body that was given (an open mesh is solid behind its triangles)", log);
 }
 
-/** \brief A mesh as fields where the objects may be: all of them or, where that fails, none. */
+/** \brief A mesh as signed distance fields on boxes around the objects. \throws MemoryLimitExceeded */
 std::vector<Obstacle>
 sampleMesh (const MeshObstacle& obstacle, const std::vector<SceneObject>& objects, double voxel_size_m, double band_m,
             std::size_t used_bytes, const CoSectionOptions& options)
@@ -145,7 +145,7 @@ boundingPlanes (const Scene& scene, const ObjectInput& object, const Observation
   SupportPlaneOptions options;
   options.inlier_distance_m = std::max (min_plane_inlier_m, plane_inlier_voxels * observation.voxel_size_m);
   std::vector<Eigen::Vector4d> found = findSupportPlanes (scene.background, points, options);
-  if (found.empty ()) // something hides the background around it
+  if (found.empty ()) // other things may hide the background nearby
   {
     options.reach = hidden_plane_reach;
     found = findSupportPlanes (scene.background, points, options);

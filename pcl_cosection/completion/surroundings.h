@@ -18,10 +18,10 @@ namespace pcl::cosection
 struct SupportPlanes
 {
   std::vector<Eigen::Vector4d> planes;
-  bool inferred = false; // the only plane is inferSupportPlane ()'s: it bounds the estimate, not what may be
+  bool inferred = false; // the only plane is that of inferSupportPlane (): it bounds the mesh, but not the hull
 };
 
-/** \brief One object of the scene once it has a grid. */
+/** \brief One object of the scene with a grid. */
 struct SceneObject
 {
   std::size_t index = 0; // in the scene
@@ -29,7 +29,7 @@ struct SceneObject
   const Observation* observation = nullptr;
   const SupportPlanes* support = nullptr;
   BodyState* body = nullptr;
-  std::vector<Eigen::Isometry3d> T_world_object; // relativePoses () to the world
+  std::vector<Eigen::Isometry3d> T_world_object; // relativePoses () with respect to the world
 
   const std::vector<OrientedPoint>& points () const { return observation->points (); }
 
@@ -39,29 +39,29 @@ struct SceneObject
   std::vector<Eigen::Vector4d> planes () const;
 };
 
-/** \brief What priors may know of an object's surroundings. */
+/** \brief The surroundings of an object, as priors need them. */
 ObjectSetting settingOf (const Scene& scene, const ObjectInput& object, const BodyState& body);
 
-/** \brief The given planes, turned towards the object, and those that support it in the background. */
+/** \brief The given planes, oriented towards the object, and its support planes found in the background. */
 std::vector<Eigen::Vector4d> boundingPlanes (const Scene& scene, const ObjectInput& object,
                                              const Observation& observation);
 
-/** \brief boundingPlanes () of each object; where nothing is known around an object, the plane that its shape suggests.
- * Warns if given planes cut off many points. */
+/** \brief boundingPlanes () of each object; inferSupportPlane () for an object without known surroundings. Warns if
+ * given planes cut off many points. */
 std::vector<SupportPlanes> findObjectPlanes (const Scene& scene, const std::vector<Observation>& observations,
                                              SceneState& state, CompletionLog& log);
 
-/** \brief All different planes of all objects. */
+/** \brief The planes of all objects, without duplicates. */
 std::vector<Eigen::Vector4d> differentPlanes (const Scene& scene, const std::vector<Observation>& observations,
                                               const std::vector<SupportPlanes>& support);
 
-/** \brief The given bodies as fields, those given as meshes sampled where the objects may be. Warns if they contain
- * many points of an object, and of meshes that have to be left out.
- * \param[in] used_bytes of the memory that is allowed, without obstacles */
+/** \brief The obstacles as fields; meshes are sampled where objects may be. Warns if an obstacle contains many points
+ * of an object, and if a mesh has to be left out.
+ * \param[in] used_bytes memory in use, without obstacles */
 std::vector<Obstacle> sampleObstacles (const Scene& scene, const std::vector<SceneObject>& objects,
                                        std::size_t used_bytes, CompletionLog& log);
 
-/** \brief Equation (5) for everything that is not an object: planes, the background, given bodies. */
+/** \brief Equation (5) for everything that is not an object: planes, the background, obstacles. */
 IntersectionConstraint surroundingsConstraint (const SceneObject& object, const BodyEnergy& energy,
                                                const std::vector<SignedDistanceField::ConstPtr>& background,
                                                const std::vector<Obstacle>& obstacles, const CoSectionOptions& options);

@@ -17,11 +17,11 @@ namespace
 {
 
 constexpr float observed_weight = 0.3f; // sum of weights that makes a voxel one with data: a point within 1.1 sigma
-constexpr double continued_plane_weight = 0.5;  // of the data term on a continued plane, as of a densely measured one
+constexpr double continued_plane_weight = 0.5;  // of the data term on a continued plane: that of dense measurements
 constexpr double continued_plane_gap_vox = 2.0; // planes are continued where no data is nearer
 constexpr std::size_t bytes_per_voxel = 94;
 
-/** \brief f (index) for every voxel, planes of them on several threads. */
+/** \brief Call f (index) for every voxel; threads divide the planes of the grid. */
 template <typename Function>
 void
 forEachVoxel (const BodyEnergy& energy, Function&& f)
@@ -48,7 +48,7 @@ addDataTerm (const ImlsDataTerm& data, BodyEnergy& energy)
   energy.data_distance_vox = distanceTransform (energy.grid.dims, energy.data, energy.options.threads);
 }
 
-/** \brief A data term where a support plane goes on under or behind what hides it. */
+/** \brief Add a data term where a support plane continues under or behind the objects that hide it. */
 void
 continuePlane (const PlaneContinuation& continuation, BodyEnergy& energy)
 {
@@ -74,7 +74,7 @@ continuePlane (const PlaneContinuation& continuation, BodyEnergy& energy)
   });
 }
 
-/** \brief Equation (3). */
+/** \brief Add the bounds of the hull constraint, equation (3). */
 void
 addHullBound (BodyEnergy& energy)
 {

@@ -21,23 +21,23 @@ namespace
 constexpr double observed_reach_vox = 1.0;
 constexpr double intersection_reach_vox = 1.0;
 constexpr double hull_reach_vox = 1.5;
-constexpr float vouched_depth_vox = 3.0f; // behind a measured surface, where matter is sure: the reach of its points
+constexpr float vouched_depth_vox = 3.0f; // depth of sure matter behind a measured surface: the cutoff of the data term
 constexpr float vouched_step_vox = 0.5f;
 constexpr float vouched_radius_vox = 0.75f; // closes the gaps between points
-constexpr double half_cells_vox = 1.0;      // what is lost by taking a point and a vertex for their voxels' centres
+constexpr double half_cells_vox = 1.0;      // largest error of replacing a point and a vertex by their voxels' centres
 constexpr double confidence_scale_vox = 5.0;
-constexpr double small_component_voxels = 3.0; // long: what is smaller, beside something larger, is noise
+constexpr double small_component_voxels = 3.0; // length: smaller components beside a larger one are noise
 
 /** \brief A component is noise if it is smaller than all of this. */
 struct NoiseLimits
 {
-  float length;  // of the longest component's length
-  double share;  // observed share of its vertices, of that of the component seen best
-  double weight; // of all observed vertices
+  float length;  // relative to the longest component
+  double share;  // observed share of its vertices, relative to the best observed component
+  double weight; // share of all observed vertices
 };
 
 constexpr std::array<NoiseLimits, 2> noise_limits = {{{0.33f, 0.5, 0.02}, {1.0f, 0.3, 0.04}}};
-constexpr float border_voxels = 2.0f; // a closed surface stays so far inside its volume
+constexpr float border_voxels = 2.0f; // distance of a closed surface from the border of its volume
 
 /** \brief Raise a field near the border so that its zero set stays inside. */
 void
@@ -67,7 +67,7 @@ attachEvidence (const BodyEnergy& energy, const BodySolution& solution, Triangle
     double data_distance = std::numeric_limits<double>::infinity ();
     bool bounded_by_body = false;
     bool bounded_by_hull = false;
-    constexpr int reach = 2; // voxels, of the largest distance below
+    constexpr int reach = 2; // voxels, the largest distance below rounded up
     const Eigen::Vector3i base = at.array ().floor ().cast<int> ();
     for (int dz = -reach + 1; dz <= reach; ++dz)
       for (int dy = -reach + 1; dy <= reach; ++dy)
@@ -143,7 +143,7 @@ observedComponents (const BodyEnergy& energy, const TriangleMesh& mesh)
   const std::ptrdiff_t best = observed.empty ()
                                   ? 0
                                   : std::max_element (observed.begin (), observed.end ()) - observed.begin ();
-  // Mixed pixels at the edge of something make small components of which little more than those pixels is observed.
+  // Mixed pixels at a depth edge make small components with hardly any observed vertices but those pixels.
   const auto is_noise = [&] (std::size_t c) {
     return std::any_of (noise_limits.begin (), noise_limits.end (), [&] (const NoiseLimits& limits) {
       return length (c) < limits.length * longest &&
@@ -172,7 +172,7 @@ closedMesh (const BodyEnergy& energy, const BodySolution& solution)
 TriangleMesh
 innerMesh (const BodyEnergy& energy, const BodySolution& solution, const std::vector<OrientedPoint>& points)
 {
-  // Every point vouches for the voxels straight behind it.
+  // The voxels straight behind each point are surely matter.
   std::vector<std::uint8_t> vouched (energy.grid.size (), 0);
   for (const OrientedPoint& point : points)
     for (float depth = 0.0f; depth <= vouched_depth_vox; depth += vouched_step_vox)

@@ -14,12 +14,11 @@ namespace pcl::cosection
 /** \brief Closed mesh of the minimiser with provenance and confidence, without components that have no data. */
 TriangleMesh closedMesh (const BodyEnergy& energy, const BodySolution& solution);
 
-/** \brief Closed mesh of the part of the minimiser's body that lies just behind points. */
+/** \brief Inner bound: closed mesh of the part of the minimiser's body that lies just behind points. */
 TriangleMesh innerMesh (const BodyEnergy& energy, const BodySolution& solution,
                         const std::vector<OrientedPoint>& points);
 
-/** \brief Open mesh of the minimiser where it is supported, no farther from \a points and continued planes than
- * evidence reaches. */
+/** \brief Open mesh of the minimiser, trimmed to its supported part near \a points and continued planes. */
 TriangleMesh trimmedMesh (const BodyEnergy& energy, const BodySolution& solution,
                           const std::vector<OrientedPoint>& points);
 

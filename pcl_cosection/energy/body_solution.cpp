@@ -17,7 +17,7 @@ namespace
 {
 
 constexpr float carving_reach_vox = 1.5f; // from the boundary of free space into the hull
-// What follows new evidence at full resolution reaches so far beyond what is supported.
+// Local solutions after new evidence extend so far beyond the supported region.
 constexpr double follow_margin_vox = 3.0;
 
 SolverOptions
@@ -42,7 +42,7 @@ startFrom (const BodySolution& solution, const VoxelGrid& from, const VoxelGrid&
     for (int j = 0; j < to.dims.y (); ++j)
       for (int i = 0; i < to.dims.x (); ++i)
       {
-        // Beyond the other grid the field is as far outside as at the border, and the way to there.
+        // Beyond the other grid: the value at its border plus the distance to it.
         const Eigen::Vector3i at = Eigen::Vector3i (i, j, k) + shift;
         const Eigen::Vector3i inside = at.cwiseMax (0).cwiseMin (from.dims - Eigen::Vector3i::Ones ());
         start.u[to.index (i, j, k)] = solution.u[from.index (inside.x (), inside.y (), inside.z ())] +
@@ -71,7 +71,7 @@ followSolution (const BodyEnergy& energy, BodySolution& solution, const Progress
 {
   const SolverOptions solver = solverOptions (energy.options);
   QuarterResolution quarter;
-  std::swap (quarter, solution.quarter); // back when all has been done
+  std::swap (quarter, solution.quarter); // returned at the end
   const bool follows = quarter.update (energy.problem, solver, solution.u, progress) && solution.solved_fully;
   FollowSummary summary;
   std::optional<LocalSolution> local;

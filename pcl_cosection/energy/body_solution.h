@@ -16,7 +16,7 @@ namespace pcl::cosection
 /** \brief How finely a body is solved. */
 enum class Resolution
 {
-  Half, ///< a step on the way, eight times cheaper
+  Half, ///< voxels of twice the size: an intermediate step, eight times cheaper
   Full,
 };
 
@@ -25,7 +25,7 @@ struct BodySolution
 {
   std::vector<float> u;
   std::vector<float> half_u; // at half the resolution
-  QuarterResolution quarter; // of follow ()
+  QuarterResolution quarter; // for followSolution ()
   bool solved_fully = false; // at full resolution
 
   /** \brief Whether this is a solution at this resolution, or a finer one. */
@@ -40,23 +40,23 @@ BodySolution startFrom (const BodySolution& solution, const VoxelGrid& from, con
 SolverSummary solve (const BodyEnergy& energy, Resolution resolution, BodySolution& solution,
                      const ProgressCallback& progress);
 
-/** \brief What followSolution () did. */
+/** \brief Result of followSolution (). */
 struct FollowSummary
 {
   SolverSummary solver;
   double solved_share = 1.0; // part of the voxels that was solved at full resolution
 };
 
-/** \brief Minimise after more evidence, for a body of which only what is near data is used: everywhere on voxels of
- * four times the size, and at full resolution near data where that has changed. The first time, or where most has
- * changed, as solve ().
+/** \brief Minimise after more evidence, for a body whose field is used only near data: everywhere on voxels of four
+ * times the size, and at full resolution near data that has changed. Calls solve () the first time, and if most has
+ * changed.
  * \throws Cancelled */
 FollowSummary followSolution (const BodyEnergy& energy, BodySolution& solution, const ProgressCallback& progress);
 
-/** \brief The minimiser less what was carved off, at a voxel, voxels. */
+/** \brief The carved minimiser max (u, c) at a voxel, in voxels. */
 float carvedValue (const BodyEnergy& energy, const BodySolution& solution, std::size_t voxel);
 
-/** \brief The minimiser, less what was carved off; supported within reach of data and where not seen free. Metres. */
+/** \brief The carved minimiser, supported near data where not seen free. Metres. */
 SignedDistanceField solvedField (const BodyEnergy& energy, const BodySolution& solution);
 
 } // namespace pcl::cosection

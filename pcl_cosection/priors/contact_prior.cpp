@@ -18,8 +18,8 @@ namespace pcl::cosection
 namespace
 {
 
-constexpr int least_part_cells = 4;     // of contact; less is a outlier
-constexpr double lowest_free_vox = 3.0; // over the plane: what is seen free lower down cannot be told from it
+constexpr int least_part_cells = 4;     // of a part of the contact; smaller ones are outliers
+constexpr double lowest_free_vox = 3.0; // over the plane: lower free space cannot be distinguished from the plane
 constexpr double highest_free_vox = 7.0;
 constexpr int closing_cells = 3; // gaps between points up to twice this wide are closed
 
@@ -52,7 +52,7 @@ convexHull (std::vector<Eigen::Vector2d> points)
   return hull;
 }
 
-/** \brief Whether a point is in a convex polygon. */
+/** \brief Whether a point is inside a convex polygon. */
 bool
 inside (const std::vector<Eigen::Vector2d>& polygon, const Eigen::Vector2d& p)
 {
@@ -104,8 +104,8 @@ ContactPrior::patch (const VoxelGrid& grid, const Eigen::Vector4d& plane, const 
   }
   if (static_cast<int> (contacts.size ()) < min_contacts || above.empty ())
     return {};
-  // The middle is that of a cell, so that the map is the same for either sense of the axes.
-  const Eigen::Vector2d reach = (high - middle).cwiseMax (middle - low); // of what is above and its turned copy
+  // The middle is the centre of a cell, so that the map does not depend on the sense of the axes.
+  const Eigen::Vector2d reach = (high - middle).cwiseMax (middle - low); // of the points above and their turned copies
   const Eigen::Vector2d half = ((reach.array () / h).ceil () + 0.5) * h;
   low = middle - half;
   high = middle + half;
@@ -121,7 +121,7 @@ ContactPrior::patch (const VoxelGrid& grid, const Eigen::Vector4d& plane, const 
   for (const Eigen::Vector2d& p : contacts)
     touched.set (p);
   touched.close (closing_cells);
-  // How much of the space over a polygon, close to the plane, and below what was seen, or its copy.
+  // The share seen free of the space over a polygon, close to the plane and below observed surface or its copy.
   const auto seenFree = [&] (const std::vector<Eigen::Vector2d>& polygon) {
     std::size_t all = 0, free = 0;
     for (int k = 0; k < grid.dims.z (); ++k)
@@ -152,7 +152,7 @@ ContactPrior::patch (const VoxelGrid& grid, const Eigen::Vector4d& plane, const 
         gap = std::min (gap, (a - turned (b)).norm ());
       }
     const bool completed = gap <= gap_per_length * length;
-    std::vector<Eigen::Vector2d> own, both; // corners, a voxel around the middles, which may lie on one line
+    std::vector<Eigen::Vector2d> own, both; // corners a voxel around the centres, which may be collinear
     for (const Eigen::Vector2d& p : part)
       for (const Eigen::Vector2d& corner :
            {Eigen::Vector2d (-h, -h), Eigen::Vector2d (h, -h), Eigen::Vector2d (-h, h), Eigen::Vector2d (h, h)})

@@ -21,18 +21,18 @@ namespace pcl::cosection
 namespace
 {
 
-constexpr double steep = 0.3;          // component of the normal of a wall upwards, at most
+constexpr double steep = 0.3;          // largest component of a wall's normal upwards
 constexpr double cell_steps = 1.5;     // width of a column
-constexpr double end_steps = 3.0;      // height of what tells how a wall ends
-constexpr double least_walls = 0.7;    // of the points there
+constexpr double end_steps = 3.0;      // height of the lowest part of a column, which shows how the wall ends
+constexpr double least_walls = 0.7;    // share of wall points in that part
 constexpr double least_aligned = 0.8;  // length of their mean normal
-constexpr double contact_steps = 2.0;  // over the plane: what comes so low stands on it
-constexpr int first_steps = 6;         // below what was seen, within which it is hidden; silhouettes are coarse
-constexpr double least_hidden = 0.5;   // of the places below, by something else
-constexpr std::size_t sectors = 24;    // of directions, for how walls lean
-constexpr double vertical_lean = 0.05; // what leans less is vertical
+constexpr double contact_steps = 2.0;  // height over the plane below which a wall stands on it
+constexpr int first_steps = 6;         // below the wall: occlusion must begin within these, as silhouettes are coarse
+constexpr double least_hidden = 0.5;   // share of those places that something else hides
+constexpr std::size_t sectors = 24;    // of directions, each with one inclination
+constexpr double vertical_lean = 0.05; // a smaller inclination counts as vertical
 
-/** \brief A point over the plane. */
+/** \brief A point in axes of the plane. */
 struct Raised
 {
   Eigen::Vector2d place;
@@ -100,7 +100,7 @@ private:
     return {static_cast<int> (cell.x ()), static_cast<int> (cell.y ())};
   }
 
-  /** \brief The middle of the lowest part of a wall, if it is that of a wall in all of the neighbourhood. */
+  /** \brief The mean of the lowest part of a column, if the neighbourhood belongs to a wall too. */
   std::optional<Raised> endOf (const Cell& cell, const std::vector<Raised>& column) const
   {
     double lowest = std::numeric_limits<double>::infinity ();
@@ -165,7 +165,7 @@ private:
 
   Eigen::Vector4d plane_;
   double step_m_;
-  Eigen::Matrix3d axes_;                             // the last one is up
+  Eigen::Matrix3d axes_;                             // columns; the last one points upwards
   Eigen::Vector2d first_ = Eigen::Vector2d::Zero (); // where cells begin
   std::map<Cell, std::vector<Raised>> columns_;
   std::array<double, sectors> leans_{};

@@ -12,8 +12,8 @@ namespace pcl::cosection
 namespace
 {
 
-constexpr double rounding = 1e-9; // relative: more than what the depths of a box's corners are wrong by
-constexpr double slack_px = 1.0;  // likewise of their pixels
+constexpr double rounding = 1e-9; // relative bound of the rounding errors of a box's depths
+constexpr double slack_px = 1.0;  // bound of the errors of its pixels
 constexpr float infinity = std::numeric_limits<float>::infinity ();
 
 } // namespace
@@ -116,7 +116,7 @@ ObjectDepthBuffer::at (const Eigen::Vector3d& p, const DepthView& view) const
     return Hidden::Nothing;
   if (q.z () > depthOf (u, v))
     return Hidden::ByObject;
-  return q.z () > view.at (u, v) ? Hidden::ByOther : Hidden::Nothing; // no reading: not a number
+  return q.z () > view.at (u, v) ? Hidden::ByOther : Hidden::Nothing; // NaN: no reading
 }
 
 ObjectDepthBuffer::Outlook
@@ -130,7 +130,7 @@ ObjectDepthBuffer::outlook (const Eigen::Vector3d& center, const Eigen::Vector3d
   Outlook outlook;
   if (farthest <= 0.0)
     return outlook;
-  if (nearest <= 0.0) // no bound on where it is projected
+  if (nearest <= 0.0) // its projection is unbounded
   {
     outlook.in_view = outlook.may_be_hidden = true;
     outlook.may_have_changed = any_changed_;
@@ -151,7 +151,7 @@ ObjectDepthBuffer::outlook (const Eigen::Vector3d& center, const Eigen::Vector3d
   if ((high < 0.0).any () || (low >= end).any ())
     return outlook;
   outlook.in_view = true;
-  bool covered = (low >= 0.0).all () && (high < end).all (); // by cells all of which are nearer
+  bool covered = (low >= 0.0).all () && (high < end).all (); // all cells are nearer than the box
   const Eigen::Array2i first = low.max (0.0).cast<int> () / cell_px - first_;
   const Eigen::Array2i last = high.min (end - 1.0).cast<int> () / cell_px - first_;
   covered = covered && (first >= 0).all () && (last < size_).all ();

@@ -26,18 +26,18 @@ namespace pcl::cosection
 namespace
 {
 
-constexpr std::size_t most_points = 10000; // an even subset of no more shows a plane
-constexpr double along_axis = 0.9;         // cosine: what is round ends across its axis
-constexpr double resting_reach = 0.15;     // of the middle observed extent: what is as low over a plane rests on it
-constexpr double hidden_foot_reach = 0.5;  // of the middle observed extent: what is as low rests on it, if that may be
-// Of the middle observed extent: what goes down behind others rests on what is no lower.
-constexpr double lowest_plane_reach = 2.0;
-constexpr double resting_share = 0.01;        // of the points, which may be lower
-constexpr std::ptrdiff_t least_ground = 20;   // points of the background, seen through what would be a vessel else
-constexpr double refuted_copies = 0.1;        // of the columns of walls: copies are not alike
-constexpr double refuted_outline = 0.5;       // it has no such walls
-constexpr double beside_steps = 2.0;          // from the edge of a top
-constexpr double same_resting_cosine = 0.995; // planes of two views on which it rests the same way
+constexpr std::size_t most_points = 10000; // even subset of the points for inferring a plane
+constexpr double along_axis = 0.9;         // cosine: a round object stands on a plane across its axis
+// Heights of the lowest points over a plane, of the middle observed extent: the object rests on the plane ...
+constexpr double resting_reach = 0.15;        // ... in any case
+constexpr double hidden_foot_reach = 0.5;     // ... if the space between them was not observed
+constexpr double lowest_plane_reach = 2.0;    // ... if its walls continue down to the plane behind other things
+constexpr double resting_share = 0.01;        // of the points: outliers among the lowest ones
+constexpr std::ptrdiff_t least_ground = 20;   // background points seen in the cavity, which make a vessel a tube
+constexpr double refuted_copies = 0.1;        // of the wall columns in free space: the other side is no copy
+constexpr double refuted_outline = 0.5;       // of the wall columns in free space: there are no vertical walls
+constexpr double beside_steps = 2.0;          // distance from the edge of a top
+constexpr double same_resting_cosine = 0.995; // planes of two views on which the object rests in the same way
 
 double
 heightOver (const Eigen::Vector4d& plane, const Eigen::Vector3d& p)
@@ -45,7 +45,7 @@ heightOver (const Eigen::Vector4d& plane, const Eigen::Vector3d& p)
   return plane.head<3> ().dot (p) + plane[3];
 }
 
-/** \brief Whether some of the points are lower over a plane than \a reach of the middle extent. */
+/** \brief Whether the lowest points are nearer to a plane than \a reach of the middle extent. */
 bool
 hasFootNear (const Observation& object, const Eigen::Vector4d& plane, double reach)
 {
@@ -56,16 +56,16 @@ hasFootNear (const Observation& object, const Eigen::Vector4d& plane, double rea
   return lower > static_cast<std::ptrdiff_t> (resting_share * static_cast<double> (points.size ()));
 }
 
-/** \brief Whether the lowest points are so near to a plane that the object rests there unless something is seen
- * between. */
+/** \brief Whether the lowest points are so near to a plane that the object rests on it unless free space or another
+ * body was observed between them. */
 bool
 mayRestOn (const Observation& object, const Eigen::Vector4d& plane)
 {
   return hasFootNear (object, plane, hidden_foot_reach);
 }
 
-/** \brief The symmetric extent of the points; that of a tube if the background is seen where a vessel would have its
- * floor. */
+/** \brief The symmetric extent of the points; without floor if background was seen where a vessel would have its floor.
+ */
 SymmetricExtent
 fitExtent (const Observation& object, const ObjectSetting& setting, const std::optional<Eigen::Vector4d>& plane)
 {
@@ -107,8 +107,8 @@ unseenPlaces (const ObjectSetting& setting, const BodyEnergy& energy)
   return {is_free, setting.is_of_other, is_behind_other};
 }
 
-/** \brief Whether nothing is known between the foot of the axis on a plane and what was seen of the object: neither
- * free space nor another body. */
+/** \brief Whether neither free space nor another body was observed between the foot of the axis on a plane and the
+ * height of the lowest point. */
 bool
 footIsHidden (const Observation& object, const ObjectSetting& setting, const UnseenPlaces& places,
               const Eigen::Vector4d& plane, double step_m)
@@ -125,7 +125,7 @@ footIsHidden (const Observation& object, const ObjectSetting& setting, const Uns
   return true;
 }
 
-/** \brief The planes on which the object comes to rest in some view. \param[in] step_m between points of walls */
+/** \brief The planes on which the object rests in some view. \param[in] step_m between points of walls */
 std::vector<Eigen::Vector4d>
 restingPlanes (const Observation& object, const ObjectSetting& setting, const UnseenPlaces& places,
                const std::vector<Eigen::Vector4d>& planes, const BodyEnergy& energy, double step_m)
@@ -155,8 +155,8 @@ restingPlanes (const Observation& object, const ObjectSetting& setting, const Un
   return plane == planes.end () ? resting : std::vector<Eigen::Vector4d>{*plane};
 }
 
-/** \brief The points of those walls that nothing refutes; nothing if too many are refuted.
- * \param[in] of_copies walls of the symmetric copy, else of the outline */
+/** \brief The points of walls that observations do not refute; nothing if too many are refuted.
+ * \param[in] of_copies walls around the points and their copies; otherwise around the points alone */
 std::optional<std::vector<OrientedPoint>>
 possibleWalls (const SymmetricExtent& extent, const UnseenPlaces& places, double step_m, bool of_copies)
 {
@@ -180,7 +180,7 @@ possibleWalls (const SymmetricExtent& extent, const UnseenPlaces& places, double
                  [&] (const WallColumn& wall) { possible.insert (possible.end (), wall.begin (), wall.end ()); });
   if (of_copies)
     return possible;
-  // Where the outline is not convex, free space is seen beside its top.
+  // Where the outline is not convex, free space was seen beside its top.
   for (const WallColumn& wall : extent.wallsBelowEdges (step_m))
     if (!wall.empty () &&
         places.is_free (wall.back ().position.cast<double> () +
@@ -190,12 +190,12 @@ possibleWalls (const SymmetricExtent& extent, const UnseenPlaces& places, double
   return possible;
 }
 
-/** \brief The extent with the vertical walls that bound it, or with those walls that others hide. */
+/** \brief The extent with its vertical walls; without vertical walls, with the walls that other things hide. */
 SymmetricExtent
 withHiddenWalls (const Observation& object, const SymmetricExtent& extent, const UnseenPlaces& places,
                  const Eigen::Vector4d& plane, double step_m)
 {
-  if (extent.wallThickness () > 0.0) // goes down to its bottom anyway
+  if (extent.wallThickness () > 0.0) // a vessel's profile already extends down to its bottom
     return extent;
   for (const bool of_copies : {true, false})
     if (const auto walls = possibleWalls (extent, places, step_m, of_copies))
@@ -203,7 +203,7 @@ withHiddenWalls (const Observation& object, const SymmetricExtent& extent, const
   return extent.continuedBy (wallsBehindOthers (object.points (), plane, step_m, places));
 }
 
-/** \brief Expect nothing where rays beside an object that was cut out of its scene have no return. */
+/** \brief Mark voxels on rays without return as empty, for an object that was cut out of its scene. */
 void
 addRaysWithoutReturn (const Observation& object, BodyEnergy& energy)
 {
@@ -214,7 +214,7 @@ addRaysWithoutReturn (const Observation& object, BodyEnergy& energy)
     energy.empty[n] |= open[n] && !energy.data[n];
 }
 
-/** \brief Let the object rest on a support plane where that is hidden. */
+/** \brief Add the contact prior on a support plane. */
 void
 addContactPrior (const Observation& object, const Eigen::Vector4d& plane, const Eigen::Vector3d& center,
                  BodyEnergy& energy)
@@ -237,7 +237,7 @@ addContactPrior (const Observation& object, const Eigen::Vector4d& plane, const 
   }
 }
 
-/** \brief Voxels to data, or to where walls are expected behind others, and to what they enclose. */
+/** \brief Distance to data, to walls that are expected behind other things, and to the space they enclose; voxels. */
 std::vector<float>
 distanceToExpected (const BodyEnergy& energy, const std::vector<SymmetricExtent>& plausible)
 {
@@ -246,7 +246,7 @@ distanceToExpected (const BodyEnergy& energy, const std::vector<SymmetricExtent>
   for (const SymmetricExtent& extent : plausible)
     for (const OrientedPoint& point : extent.continuation ())
     {
-      // The wall, and what it encloses: from it inwards as far as to beside the middle.
+      // The wall, and the enclosed space from it to the level of the centre.
       const Eigen::Vector3d wall = point.position.cast<double> ();
       const Eigen::Vector3d outwards = point.normal.cast<double> ();
       const double middle_m = std::max (0.0, outwards.dot (wall - extent.center ()));
@@ -261,7 +261,7 @@ distanceToExpected (const BodyEnergy& energy, const std::vector<SymmetricExtent>
   return expected.empty () ? energy.data_distance_vox : distanceTransform (grid.dims, expected, energy.options.threads);
 }
 
-/** \brief Add the pull that prevents swelling. */
+/** \brief Add the extent bound. */
 void
 addExtentPrior (const ExtentPrior& prior, const Observation& object, OcclusionMap& hidden,
                 const std::vector<SymmetricExtent>& plausible, BodyEnergy& energy)
@@ -279,7 +279,7 @@ addExtentPrior (const ExtentPrior& prior, const Observation& object, OcclusionMa
                                             hidden, plausible, bounded, options.threads);
   if (energy.empty != energy.free_space)
   {
-    // A place on a ray without return is no farther from the surface than from the nearest place that is not on one.
+    // The bound on a ray without return is at most the distance to the nearest voxel that is not on such a ray.
     std::vector<std::uint8_t> closed (grid.size ());
     for (std::size_t n = 0; n < grid.size (); ++n)
       closed[n] = !energy.empty[n];
@@ -294,7 +294,7 @@ addExtentPrior (const ExtentPrior& prior, const Observation& object, OcclusionMa
       exterior[n] = LowerBound (bounds[n], static_cast<float> (options.beta_extent));
 }
 
-/** \brief Prefer surface where copies of the points make it likely, weakly, where nothing was seen. */
+/** \brief Add the hidden side that symmetry or a profile suggests. */
 void
 addHiddenSide (const SymmetricExtent& plausible, const Observation& object, BodyEnergy& energy)
 {
@@ -338,7 +338,7 @@ inferSupportPlane (const Observation& object, const ObjectSetting& setting)
     if (all[p].position.allFinite () && all[p].normal.allFinite ())
       points.push_back (all[p]);
   std::optional<Eigen::Vector4d> plane = inferredSupportPlane (points);
-  if (plane || extent.isFaceted ()) // flat faces end at edges as they do where they touch something
+  if (plane || extent.isFaceted ()) // flat faces end at edges, so their ends show no contact
     return plane;
   plane = contactBoundaryPlane (points, object.views);
   if (const std::optional<Eigen::Vector3d> axis = extent.axisDirection ();
@@ -372,9 +372,9 @@ addPriors (const Observation& object, const ObjectSetting& setting, const std::v
     return;
   const bool is_cut_out = setting.background.empty ();
   const UnseenPlaces places = unseenPlaces (setting, energy);
-  const double step_m = std::max (energy.grid.voxel_size_m, object.spacing_m); // no nearer than points that were seen
+  const double step_m = std::max (energy.grid.voxel_size_m, object.spacing_m); // no denser than observed points
   const std::vector<Eigen::Vector4d> resting = restingPlanes (object, setting, places, planes, energy, step_m);
-  std::vector<SymmetricExtent> standing; // on each of the planes; or, if there is no plane, anywhere
+  std::vector<SymmetricExtent> standing; // one per plane, or one without a plane
   if (options.use_symmetric_extent)
   {
     for (const Eigen::Vector4d& plane : resting)
@@ -384,9 +384,9 @@ addPriors (const Observation& object, const ObjectSetting& setting, const std::v
   }
   const bool has_profile = std::any_of (standing.begin (), standing.end (),
                                         [] (const SymmetricExtent& extent) { return extent.hasProfile (); });
-  if (options.use_extent_prior && is_cut_out && !has_profile) // a profile is worth more
+  if (options.use_extent_prior && is_cut_out && !has_profile) // a profile is more reliable
     addRaysWithoutReturn (object, energy);
-  if (options.use_contact_prior && !plane_is_inferred) // an inferred plane is where the object was seen to end
+  if (options.use_contact_prior && !plane_is_inferred) // observed points already end at an inferred plane
     for (std::size_t n = 0; n < resting.size (); ++n)
       addContactPrior (object, resting[n], standing.empty () ? object.box.center () : standing[n].center (), energy);
   if (!options.use_extent_prior)

@@ -15,10 +15,10 @@ namespace pcl::cosection
 namespace
 {
 
-constexpr int cell_px = 4;      // closes the pores between points
-constexpr int margin_cells = 1; // around the object; silhouettes are not that sure
+constexpr int cell_px = 4;      // closes the gaps between points
+constexpr int margin_cells = 1; // around the object, as silhouettes are inaccurate
 
-/** \brief Which cells of an image are beside an object. */
+/** \brief The cells of an image beside an object, outside its outline. */
 class Beside
 {
 public:
@@ -28,7 +28,7 @@ public:
       , size_ ((view.camera.width + cell_px - 1) / cell_px, (view.camera.height + cell_px - 1) / cell_px)
       , cells_ (static_cast<std::size_t> (size_.x ()) * size_.y (), 0)
   {
-    for (int v = 0; v < view.camera.height; ++v) // readings without a normal are of something, too
+    for (int v = 0; v < view.camera.height; ++v) // readings without a normal show a surface, too
       for (int u = 0; u < view.camera.width; ++u)
         if (std::isfinite (view.at (u, v)))
           mark (Eigen::Array2i (u, v) / cell_px);
@@ -63,7 +63,7 @@ private:
         cells_[indexOf ({u, v})] = object;
   }
 
-  /** \brief From the border of the image, as far as no cell is the object's. */
+  /** \brief Flood fill from the border of the image through cells that are not the object's. */
   void fill ()
   {
     std::vector<Eigen::Array2i> front;

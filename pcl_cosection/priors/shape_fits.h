@@ -13,12 +13,12 @@
 namespace pcl::cosection
 {
 
-/** \brief The symmetric extents of one object's points: each plane's is fitted once. */
+/** \brief The symmetric extents of one object's points, one per support plane, each fitted once. */
 class ShapeFits
 {
 public:
-  /** \brief The extent of an object that stands on a plane, or of one of which that is not known.
-   * \param[in] fit makes it */
+  /** \brief The extent of an object that stands on a plane, or without a known plane.
+   * \param[in] fit computes the extent at the first call with this plane */
   template <typename Fit> const SymmetricExtent& of (const std::optional<Eigen::Vector4d>& plane, Fit&& fit)
   {
     const Key key = plane ? Key{(*plane)[0], (*plane)[1], (*plane)[2], (*plane)[3]} : Key{};
@@ -29,7 +29,7 @@ public:
   }
 
 private:
-  using Key = std::array<double, 4>; // a plane; zeros: none
+  using Key = std::array<double, 4>; // a plane; zeros: no plane
   std::map<Key, SymmetricExtent> fits_;
 };
 

@@ -49,7 +49,7 @@ private:
   std::filesystem::path path_;
 };
 
-/** \brief While it lives, files of this process cannot grow beyond a size, as on a full disk. */
+/** \brief Limits the size of files that this process writes, for its lifetime, to simulate a full disk. */
 class FileSizeLimit
 {
 public:
@@ -84,7 +84,7 @@ readFile (const std::string& path)
 inline void
 writeFile (const std::string& path, const std::string& bytes)
 {
-  std::filesystem::remove (path); // some file systems wait for the disk where a file is written over
+  std::filesystem::remove (path); // some file systems wait for the disk when a file is overwritten
   std::ofstream (path, std::ios::binary) << bytes;
 }
 

@@ -14,7 +14,7 @@
 #include <cmath>
 #include <vector>
 
-// What the tests of HessianIMLS share: a sphere of points, and what is asked of its mesh.
+// Shared by the tests of HessianIMLS: points of a sphere, and expectations on its mesh.
 
 namespace pcl::cosection::test
 {
@@ -78,7 +78,7 @@ reconstruct (Imls& imls)
   return mesh;
 }
 
-/** \brief As after a failure: nothing at all. */
+/** \brief Expect empty outputs, as after a failure. */
 inline void
 expectNothing (Imls& imls)
 {

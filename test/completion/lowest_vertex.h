@@ -10,7 +10,7 @@
 namespace pcl::cosection::test
 {
 
-/** \brief Least coordinate of any vertex; along z unless told. */
+/** \brief Least coordinate of any vertex, by default along z. */
 inline float
 lowest (const TriangleMesh& mesh, int axis = 2)
 {

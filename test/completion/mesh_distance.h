@@ -19,7 +19,7 @@ class MeshDistance
 public:
   MeshDistance (const TriangleMesh& mesh, double reach_m);
 
-  /** \brief Never more than the reach. */
+  /** \brief The distance, clamped to the reach. */
   double operator() (const Eigen::Vector3d& p) const;
 
 private:

@@ -9,7 +9,7 @@
 namespace pcl::cosection::test
 {
 
-/** \brief Problems as reconstruction poses them, and one that it does not. */
+/** \brief Problems like those of a reconstruction, and a random one. */
 enum class ProblemKind
 {
   HalfSphere, ///< data on one side of a sphere, nothing else

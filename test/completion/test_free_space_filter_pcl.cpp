@@ -18,7 +18,7 @@
 #include <algorithm>
 #include <numeric>
 
-// FreeSpaceFilter as one of PCL's filters.
+// FreeSpaceFilter as a PCL filter.
 
 using namespace pcl::cosection;
 using namespace pcl::cosection::test;
@@ -28,7 +28,7 @@ namespace
 
 using Filter = FreeSpaceFilter<pcl::PointXYZ>;
 
-/** \brief Three views, and their points with a ghost, with a point that is not finite in every hundred. */
+/** \brief Three views, and their points with those of a ghost ball; every hundredth point is not finite. */
 class FreeSpaceFilterPclTest : public testing::Test
 {
 protected:
@@ -106,7 +106,7 @@ TEST_F (FreeSpaceFilterPclTest, RemovedIndicesAreKeptOnlyOnDemand)
   EXPECT_TRUE (filter.getRemovedIndices ()->empty ());
 }
 
-/** \brief In their order, which need not be ascending. */
+/** \brief Indices keep their order, which need not be ascending. */
 TEST_F (FreeSpaceFilterPclTest, HonoursIndices)
 {
   const pcl::Indices of_all = filtered (false);
@@ -297,7 +297,7 @@ TEST (FreeSpaceFilterBadInput, GivesNothing)
   EXPECT_TRUE (passing (filter, pcl::make_shared<Points> (ghosts ())).empty ());
 }
 
-/** \brief In the frame of the filtered cloud, as after pcl::transformPointCloud. */
+/** \brief Views in the frame of the filtered cloud, as after pcl::transformPointCloud. */
 TEST_F (FreeSpaceFilterPclTest, ViewsMayBeInTheFrameOfTheCloud)
 {
   Filter same;

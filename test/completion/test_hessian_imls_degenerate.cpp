@@ -5,7 +5,7 @@
 
 #include <vector>
 
-// HessianIMLS on input that determines no surface: a message and nothing, never a crash.
+// HessianIMLS on input that determines no surface gives a message and empty outputs, and does not crash.
 
 using namespace pcl::cosection;
 using namespace pcl::cosection::test;

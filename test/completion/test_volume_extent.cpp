@@ -38,7 +38,7 @@ class VolumeExtent : public testing::TestWithParam<Shape>
 
 } // namespace
 
-/** \brief Nothing bounds a shape that hangs in the air, but the volume's sides must not either. */
+/** \brief The volume must not bound a shape that hangs in the air without any other bound. */
 TEST_P (VolumeExtent, HoldsTheHiddenBackOfWhatHangsInTheAir)
 {
   AnalyticScene scene;

@@ -19,8 +19,8 @@ class FastJacobiCycles : public testing::TestWithParam<int>
 
 } // namespace
 
-/** \brief Long cycles amplify what the constraints, switching on and off in mid-cycle, leave undamped. Whatever
- * happens then, the solver must not say that it converged elsewhere than at the minimum. */
+/** \brief In long cycles the active set changes, which leaves errors undamped or amplified. The solver must not report
+ * convergence away from the minimum. */
 TEST_P (FastJacobiCycles, ConvergeToTheMinimumOrDoNotClaimTo)
 {
   for (const ProblemKind kind : {ProblemKind::All, ProblemKind::Random})

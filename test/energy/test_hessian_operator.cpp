@@ -32,7 +32,7 @@ randomField (const Eigen::Vector3i& dims, unsigned seed)
   return u;
 }
 
-/** \brief f (i, j, k) at every voxel. */
+/** \brief Samples of f (i, j, k) at every voxel. */
 template <typename Real, typename Function>
 std::vector<Real>
 sampledField (const Eigen::Vector3i& dims, Function&& f)

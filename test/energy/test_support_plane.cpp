@@ -143,7 +143,7 @@ TEST (SupportPlaneInliers, MustBeNear)
   EXPECT_TRUE (findSupportPlanes ({}, boxOn ({0.0, 0.0, 0.0})).empty ());
 }
 
-/** \brief Which side is free is a matter of the points' normals, not of where the object happens to be. */
+/** \brief The normals of the points determine the free side, not the place of the object. */
 TEST (SupportPlaneNormals, PointToFreeSpace)
 {
   std::vector<OrientedPoint> ceiling = table ();

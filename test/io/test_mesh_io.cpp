@@ -177,7 +177,7 @@ TEST (MeshIo, DamagedPlyNeverCrashes)
     writeFile (path, bytes);
     try
     {
-      computeTopology (loadPlyMesh (path)); // whatever is read is at least consistent
+      computeTopology (loadPlyMesh (path)); // a mesh that is read is consistent
     }
     catch (const IoError&)
     {}

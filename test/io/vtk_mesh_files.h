@@ -36,10 +36,10 @@ enum class VtkFile
   XmlRaw, ///< appended, neither compressed nor in base 64
 };
 
-/** \brief All of them. */
+/** \brief All kinds of VtkFile. */
 std::vector<VtkFile> vtkFiles ();
 
-/** \brief ".ply" ... */
+/** \brief The file name extension, such as ".ply". */
 std::string extensionOf (VtkFile file);
 
 /** \brief An OFF file, which VTK does not write. */

@@ -18,7 +18,7 @@ using namespace pcl::cosection;
 namespace
 {
 
-/** \brief Largest distance of points on the triangles, not only their corners, from the sphere about the origin. */
+/** \brief Largest distance of points on the triangles, not only of vertices, from the sphere about the origin. */
 double
 distanceFromSphere (const TriangleMesh& mesh, double radius)
 {
@@ -58,7 +58,7 @@ struct Solid
 {
   const char* name;
   TriangleMesh mesh;
-  std::size_t reachable; ///< triangles, at most
+  std::size_t reachable; ///< upper limit of the smallest number of triangles
 };
 
 } // namespace
@@ -204,7 +204,7 @@ TEST (MeshDecimation, LeavesEmptyArraysEmpty)
 {
   TriangleMesh mesh = test::sphereMesh (1.0, 8);
   mesh.normals.clear ();
-  mesh.vertices.push_back (Eigen::Vector3f::Constant (std::numeric_limits<float>::quiet_NaN ())); // used by nothing
+  mesh.vertices.push_back (Eigen::Vector3f::Constant (std::numeric_limits<float>::quiet_NaN ())); // not used
   const TriangleMesh result = decimate (mesh, 100);
   EXPECT_EQ (result.triangles.size (), 100u);
   EXPECT_EQ (result.vertices.size (), 52u);
@@ -286,7 +286,7 @@ TEST (MeshDecimation, RemovesTrianglesWithoutArea)
 
 TEST (MeshDecimation, LetsNormalsTurnNoFurtherThanAllowed)
 {
-  // A subdivided box cannot lose its corners if nothing may turn.
+  // A subdivided box cannot lose its corners if no normal may turn.
   DecimationOptions options;
   options.max_triangles = 1;
   options.max_normal_turn_deg = 1.0;

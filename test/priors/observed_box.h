@@ -11,7 +11,7 @@
 namespace pcl::cosection::test
 {
 
-/** \brief What something stands on: the plane z = 0. */
+/** \brief The support plane z = 0. */
 inline const Eigen::Vector4d ground (0.0, 0.0, 1.0, 0.0);
 
 /** \brief Points every \a spacing_m on those faces of a box about the origin that a camera in the direction \a

@@ -226,7 +226,7 @@ TEST (Rasterizer, NothingIsNearerThanTheNearPlane)
 
 TEST (Rasterizer, NormalsFaceTheCameraFromBothSides)
 {
-  auto mesh = parallelogram ({-9, -9, 2}, {18, 0, 0}, {0, 18, 0}); // its outer side looks away
+  auto mesh = parallelogram ({-9, -9, 2}, {18, 0, 0}, {0, 18, 0}); // its outer side faces away
   for (const bool smooth : {false, true})
   {
     if (smooth)

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_cosection authors
 
-// Networks that the tests make, run by OpenCV.
+// Networks that the tests create, run by OpenCV.
 
 #include <pcl/cosection/segmentation/instance_detector.h>
 
@@ -40,7 +40,7 @@ protected:
     return (options);
   }
 
-  /** \brief A network that finds spots, with what its form does not tell. */
+  /** \brief Options of a network that finds spots. */
   InstanceDetectorOptions spotNetwork (NetworkOutputForm form, float brightest = 255.0f, bool fixed_size = true) const
   {
     if (form != NetworkOutputForm::DetectionOut)
@@ -72,7 +72,7 @@ protected:
   const test::TemporaryFolder folder_;
 };
 
-/** \brief Pixels of the picture that an instance has. */
+/** \brief Mask of an instance in the picture. */
 Image<std::uint8_t>
 inPicture (const DetectedInstance& instance, const Picture& picture)
 {

@@ -23,7 +23,7 @@ using namespace pcl::cosection::test;
 namespace
 {
 
-/** \brief What is found in the last of some frames. */
+/** \brief The segmentation of the last of some frames. */
 struct Found
 {
   MovingView last;
@@ -38,7 +38,7 @@ struct Found
     return numbers;
   }
 
-  /** \brief Pixels that are at rest and are found to move. */
+  /** \brief Number of resting pixels that are labelled as moving. */
   long wrong () const
   {
     long count = 0;
@@ -79,7 +79,7 @@ const std::string resting = movingBox (1, carton, R"({"position": [0.2, 0.1, 0.0
 
 TEST (MotionSegmentation, SlidesAlongATable)
 {
-  // Its top slides in itself, and so does the table: only its outline and the sides show it.
+  // Its top slides along itself, in front of the table: only its outline and the sides show the motion.
   const MovingTable table (resting + movingBox (2, carton, R"({"time": 0.3, "position": [-0.2, 0, 0.051]},
                                                               {"time": 1.3, "position": [0, -0.1, 0.051]})"));
   EXPECT_TRUE (segmented (table, upTo (9)).bodies ().empty ());

@@ -25,7 +25,7 @@ failure (const std::string& path, const SequenceSource& source = {})
   return messageOf<IoError> ([&] { RgbdSequence (path, source); });
 }
 
-/** \brief The failure names the file, and has the words. */
+/** \brief Expect that the message names the file and has the words. */
 void
 expectFailure (const std::string& path, const std::string& file, const std::string& words,
                const SequenceSource& source = {})

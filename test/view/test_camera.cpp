@@ -27,7 +27,7 @@ tinyCamera ()
   return camera;
 }
 
-/** \brief The camera's image of a bumpy scene, each pixel off by Gaussian noise of \a noise_px. */
+/** \brief The camera's image of a bumpy scene, with Gaussian noise of \a noise_px on the pixels. */
 std::vector<Eigen::Vector3f>
 organizedCloud (const PinholeCamera& camera, double noise_px, double missing)
 {

@@ -20,8 +20,8 @@ constexpr int image_width = 80;
 constexpr int image_height = 60;
 const PinholeCamera truth{image_width, image_height, 71.0, 73.5, 38.2, 31.7};
 
-/** \brief The image of something whose depths spread by \a relief_m about 1.3 m, each pixel off by Gaussian noise of \a
- * noise_px. */
+/** \brief The image of a surface with depths within \a relief_m of 1.3 m and Gaussian noise of \a noise_px on the
+ * pixels. */
 std::vector<Eigen::Vector3f>
 image (double relief_m, double noise_px = 0.0)
 {
@@ -79,7 +79,8 @@ TEST (LocateCamera, FindsTheSensorInAnyFrame)
     expectLocated (moved (somePose (seed), image (0.5)), somePose (seed), 1e-4, 0.01);
 }
 
-/** \brief A flat thing tells by what noise of depth leaves; single precision is much finer. */
+/** \brief A nearly flat surface determines the camera if its relief exceeds the depth noise; rounding is much smaller.
+ */
 TEST (LocateCamera, MillimetresOfReliefAreEnough)
 {
   expectLocated (moved (somePose (1), image (0.003)), somePose (1), 0.02, 1.0);
@@ -96,8 +97,7 @@ TEST (LocateCamera, LeavesOutMissingReadings)
   std::mt19937 random (5);
   for (Eigen::Vector3f& p : points)
     if (random () % 3 == 0)
-      p.setConstant (random () % 2 == 0 ? not_a_number
-                                        : 0.0f); // the latter is not told from a reading once it is moved
+      p.setConstant (random () % 2 == 0 ? not_a_number : 0.0f); // a moved zero looks like a reading
   const Eigen::Isometry3d T = somePose (4);
   expectLocated (moved (T, points), T, 1e-4, 0.01);
   const auto seen = takeToSensor (T.inverse (), moved (T, points));

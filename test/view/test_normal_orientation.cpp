@@ -27,7 +27,7 @@ struct Oriented
     return all;
   }
 
-  /** \brief Each normal at random of either sign. */
+  /** \brief The normals with random signs. */
   std::vector<Eigen::Vector3f> shuffled () const
   {
     std::mt19937 random (7);

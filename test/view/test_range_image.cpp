@@ -58,7 +58,7 @@ TEST_P (RangeImageOf, AViewShowsItsPoints)
   for (const float z : image->view.depth)
     readings += std::isfinite (z);
   EXPECT_GE (points.size (), 2 * readings);                 // some points in each pixel that has any
-  EXPECT_GE (readings * 10, image->view.depth.size () * 2); // and not all in a few
+  EXPECT_GE (readings * 10, image->view.depth.size () * 2); // and not all points in a few pixels
   const PinholeCamera& camera = image->view.camera;
   for (const Eigen::Vector3f& point : points)
   {

@@ -36,7 +36,7 @@ box (const Eigen::Vector3d& half)
   };
 }
 
-/** \brief f (index of a voxel, its centre), of all voxels. */
+/** \brief Call f (index of a voxel, its centre) for all voxels. */
 template <typename Function>
 void
 forEachVoxel (const VoxelGrid& grid, Function&& f)

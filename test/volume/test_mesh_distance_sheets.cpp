@@ -31,7 +31,7 @@ TEST (MeshDistanceSheets, AnOpenSheetSpeaksInFrontAndBehindOnly)
     supported += field.supported[n];
   });
   EXPECT_GT (supported, 20 * 20 * 6);
-  // Interpolation at the rim of what is supported invents nothing.
+  // Interpolation at the rim of the supported region invents no values.
   std::mt19937 random (1);
   std::uniform_real_distribution<double> uniform (-0.15, 0.15);
   for (int trial = 0; trial < 20000; ++trial)

@@ -102,7 +102,7 @@ frontPose ()
   return pose;
 }
 
-/** \brief The same depth everywhere, of smallCamera (). */
+/** \brief A constant depth image of smallCamera (). */
 inline Image<float>
 wallDepth (float depth_m)
 {

@@ -17,17 +17,18 @@ namespace pcl::cosection
 namespace
 {
 
-constexpr double default_padding = 0.3; // of the longest side, where views and prior do not say how far a shape reaches
-constexpr double follow_tolerance = 0.5; // of the solver's: what one update leaves, the next begins with
-// Of voxels and of their points' Gaussians, until a body that is updated gets others.
+constexpr double default_padding = 0.3; // of the longest side, where views and prior do not bound the shape
+// Factor of the solver's tolerance in incremental mode: each update starts from the errors of the last one.
+constexpr double follow_tolerance = 0.5;
+// An updated body keeps its voxels and Gaussians while the wanted sizes differ by less than this factor.
 constexpr double max_change = 1.2;
-constexpr int forgotten_after = 2;      // updates in which a vessel does not look like one
-constexpr double most_of_memory = 0.67; // is for objects, of what points and views leave; the rest for the background
-constexpr double max_sigma_vox = 10.0;  // as for the option
-constexpr double max_empty_share = 0.5; // of a volume that was large enough for what was known before
+constexpr int forgotten_after = 2;      // updates without a wall, until an object is no vessel any more
+constexpr double most_of_memory = 0.67; // share for objects of the memory beside points and views; the rest: background
+constexpr double max_sigma_vox = 10.0;  // largest value of the option
+constexpr double max_empty_share = 0.5; // of an earlier volume: with more beyond the present box, it is replaced
 constexpr std::size_t bytes_per_field_voxel = sizeof (float) + sizeof (std::uint8_t);
 
-/** \brief Is what a body has near enough to what it should have? */
+/** \brief Whether an earlier size is near enough to the wanted one to be kept. */
 bool
 isSimilar (double earlier, double wanted)
 {
@@ -57,8 +58,8 @@ volumeBox (const Scene& scene, const ObjectInput& input, const Observation& obje
                       body.hidden, planes, options.threads);
 }
 
-/** \brief Voxels as the points support them; finer for the walls of vessels. A wall that does not show for a while is
- * remembered. */
+/** \brief The voxel size that the points support; finer for the walls of vessels. A wall that is not found in an update
+ * is remembered for a while. */
 double
 finestVoxelSize (const Scene& scene, const ObjectInput& input, const Observation& object, const SupportPlanes& support,
                  BodyState& body)
@@ -77,7 +78,7 @@ finestVoxelSize (const Scene& scene, const ObjectInput& input, const Observation
                            : object.voxel_size_m;
 }
 
-/** \brief Where an object's volume is, and voxel sizes for it, from the best one to one that takes little memory. */
+/** \brief The box of an object's volume, and voxel sizes for it, from the best one to one that takes little memory. */
 struct Placement
 {
   Eigen::AlignedBox3d box;
@@ -152,7 +153,7 @@ placeBody (const Eigen::AlignedBox3d& box, double voxel_size_m, double blur, boo
     const bool same_blur = isSimilar (body.options.sigma_vox, of_body.sigma_vox);
     if (same_blur)
       of_body.sigma_vox = body.options.sigma_vox;
-    // On its lattice; the same as long as it is large enough and not much too large.
+    // On the lattice of its grid; the same grid while it is large enough and not much too large.
     const Eigen::Vector3d first = body.grid->toVoxel (box.min ()).array ().floor ();
     const Eigen::Vector3d last = body.grid->toVoxel (box.max ()).array ().ceil ();
     if (same_blur && (first.array () >= 0.0).all () &&
@@ -184,7 +185,7 @@ placeObjects (const Scene& scene, const std::vector<Observation>& observations,
     volumes += bytesOfGrid (bodyOf (o));
     return placement;
   });
-  // As fine as leaves room for all of them and the background: coarse meshes of all rather than fine ones of some.
+  // The finest sizes that leave room for all objects and the background: coarse meshes of all rather than of a few.
   const std::size_t limit = options.max_memory_bytes, used = usedBytes () - volumes;
   std::size_t level = 0;
   while (limit > 0 && level + 1 < bytes.size () &&
@@ -197,7 +198,7 @@ placeObjects (const Scene& scene, const std::vector<Observation>& observations,
     const bool placed = !log.failed (o) && log.guard (o, [&] {
       BodyState& body = bodyOf (o);
       double voxel_size_m = placements[o].sizes_m[level];
-      if (body.grid && isSimilar (body.grid->voxel_size_m, voxel_size_m)) // a body that is updated keeps its voxels
+      if (body.grid && isSimilar (body.grid->voxel_size_m, voxel_size_m)) // an updated body keeps its voxels
         voxel_size_m = body.grid->voxel_size_m;
       const bool is_vessel = body.wall_m > 0.0 && !fixedVoxelSize (options);
       const double smooth_m = is_vessel ? observations[o].spacing_m : observations[o].voxel_size_m;

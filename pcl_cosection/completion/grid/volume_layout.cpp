@@ -4,9 +4,9 @@
 
 #include "pcl_cosection/common/byte_text.h"
 #include "pcl_cosection/common/ranked_values.h"
+#include "pcl_cosection/energy/body_energy.h"
 #include "pcl_cosection/priors/extent_bounds.h"
 #include "pcl_cosection/view/pixel_of.h"
-#include "pcl_cosection/energy/body_energy.h"
 
 #include "pcl_cosection/common/parallel.h"
 #include "pcl_cosection/priors/extent_prior.h"
@@ -28,12 +28,12 @@ constexpr double outlier_share = 0.005; // of the points, at either end of each 
 constexpr int min_axis = 8;             // voxels
 constexpr double max_axis = 8192;       // voxels
 constexpr double min_extent_m = 1e-6;
-// Where an object may be is found on cells, so many along its longest side; no whole number, lest sides run along the
-// borders of cells.
+// Cells along the longest side in the search for the region where an object may be. It is no whole number, so that
+// sides do not run along the borders of cells.
 constexpr double possible_cells = 20.6;
-constexpr double possible_margin_vox = 6.0; // around that
+constexpr double possible_margin_vox = 6.0; // around that region
 
-/** \brief Whether a point in the sensor's frame lies before what was measured, by more than \a margin_m. */
+/** \brief Whether a point in the sensor's frame lies in front of the reading, by more than \a margin_m. */
 bool
 seenFree (const DepthView& view, const Eigen::Vector3d& p, double margin_m)
 {
@@ -173,7 +173,7 @@ possibleBox (const std::vector<OrientedPoint>& points, const Eigen::AlignedBox3d
         if (away <= allowed (places.at (p)))
           box.extend (p);
       }
-  // Whole voxels from the observed box, so that the lattice depends on that alone.
+  // Whole voxels from the observed box, so that the lattice depends on that box alone.
   const auto whole = [&] (const Eigen::Vector3d& beyond) {
     return Eigen::Vector3d (voxel_size_m * ((beyond.array () + margin) / voxel_size_m).ceil ());
   };
@@ -191,7 +191,7 @@ unseenBox (const std::vector<OrientedPoint>& points, const Eigen::AlignedBox3d& 
   cells.dims = (within.sizes () / cells.voxel_size_m).array ().ceil ().cast<int> () + 1;
   cells.origin_m = within.min ();
   const AnySeesFree free (views, cells.voxel_size_m);
-  const auto isUnseen = [&] (const Eigen::Vector3d& p) { // and no mere pixel without a reading
+  const auto isUnseen = [&] (const Eigen::Vector3d& p) { // and not only behind single pixels without a reading
     bool unseen = !free (p);
     for (int side = 0; side < 6 && unseen; ++side)
       unseen = !free (p + (side % 2 == 0 ? 0.5 : -0.5) * cells.voxel_size_m * Eigen::Vector3d::Unit (side / 2));

@@ -19,20 +19,21 @@ namespace pcl::cosection
 /** \brief Box of an object's points without outliers. \throws DegenerateInput */
 Eigen::AlignedBox3d observedBox (const std::vector<OrientedPoint>& points, int threads = 0);
 
-/** \brief Box of where an object may be, with a margin: where ExtentPrior asks for no distance, on the upper
- * side of all \a planes; and \a known.
+/** \brief Box of the region where an object may be, with a margin: where ExtentPrior gives no bound, above all
+ * \a planes, united with \a known.
  * \param[in] extents_m observedExtents () of the points
  * \param[in] views depth views and their sensors' poses in the points' frame
- * \param[in] places what those views hide */
+ * \param[in] places occlusion by those views */
 Eigen::AlignedBox3d possibleBox (const std::vector<OrientedPoint>& points, const Eigen::AlignedBox3d& observed,
                                  const Eigen::AlignedBox3d& known, const Eigen::Vector3d& extents_m,
                                  double voxel_size_m, const OcclusionMap::Views& views, const OcclusionMap& places,
                                  const std::vector<Eigen::Vector4d>& planes, int threads);
 
-/** \brief Box of the places in \a within that no view saw free and that hang together with points, with a margin; for
+/** \brief Box of the space in \a within that no view saw free and that is connected with points, with a margin; for
  * ObjectHull.
  * \param[in] views depth views and their sensors' poses in the points' frame
- * \param[in] planes that are not crossed, nor the layer of \a layer_m on them followed; normals to the points' side */
+ * \param[in] planes that bound the space, normals towards the points; it does not extend along the layer of \a layer_m
+ * on them */
 Eigen::AlignedBox3d unseenBox (const std::vector<OrientedPoint>& points, const Eigen::AlignedBox3d& observed,
                                const Eigen::AlignedBox3d& within, double voxel_size_m, const OcclusionMap::Views& views,
                                const std::vector<Eigen::Vector4d>& planes, double layer_m);
@@ -41,7 +42,8 @@ Eigen::AlignedBox3d unseenBox (const std::vector<OrientedPoint>& points, const E
 VoxelGrid layoutBox (const Eigen::AlignedBox3d& box, double voxel_size_m);
 
 /** \brief \throws MemoryLimitExceeded if a volume needs more than is left
- * \param[in] limit_bytes 0: no limit \param[in] used_bytes of it */
+ * \param[in] limit_bytes 0: no limit
+ * \param[in] used_bytes memory in use */
 void checkMemory (const VoxelGrid& grid, std::size_t limit_bytes, std::size_t used_bytes);
 
 /** \brief Box of the voxels' centres. */

@@ -22,17 +22,18 @@ namespace
 
 constexpr int default_resolution = 64;
 constexpr double points_per_voxel = 3.0;
-constexpr double least_points_per_voxel = 1.5; // where more would take the shape:
-constexpr int least_resolution = 16;           // voxels along the longest side
+// So few points per voxel are enough if more would need voxels so large that they lose the shape:
+constexpr double least_points_per_voxel = 1.5;
+constexpr int least_resolution = 16; // voxels along the longest side
 constexpr double voxel_growth = 1.1;
-// Voxels that are smaller than what the points' spacing supports by
+// Voxels smaller than the points' spacing supports, by this factor, are more accurate than coarse ones with less
+// smoothing, and than fine ones with the absolute smoothing of coarse ones.
 constexpr double finer = 0.65;
-// are more accurate: more so than coarse ones with less smoothing, and than fine ones with as much as the coarse have.
-// But not where they are finer than the points' noise, which three points in each average:
+// But voxels must not be finer than this multiple of the points' noise, which voxels of three points average.
 constexpr double voxels_per_noise = 1.6;
 constexpr std::size_t points_to_measure_noise = 5; // in a cell
-constexpr double noise_cells = 3.0;  // their edge, in voxels that the points support: less would cut the noise off
-constexpr double facing_alike = 0.4; // length of the mean normal: with less there are two sides in a cell
+constexpr double noise_cells = 3.0;  // their edge, in supported voxels: smaller cells would clip the noise
+constexpr double facing_alike = 0.4; // least length of the mean normal: a cell with less holds two sides of a wall
 constexpr double voxels_per_wall = 2.0;
 constexpr double finest_vessel = 0.5; // of the voxels that the points' spacing supports
 constexpr int least_voxels = 8;       // voxels
@@ -73,7 +74,7 @@ struct CellOfPoints
     squares += p * p.transpose ();
   }
 
-  /** \brief Standard deviation from the plane through their middle that faces as they do. */
+  /** \brief Standard deviation from the plane through their mean with their mean normal. */
   double scatterAlongNormal () const
   {
     const Eigen::Vector3d n = normal.normalized ();
@@ -111,7 +112,7 @@ measureSpacing (const std::vector<OrientedPoint>& points, const Eigen::AlignedBo
 {
   PointSpacing spacing;
   spacing.supported_m = supportedVoxelSize (points, box);
-  if (!(spacing.supported_m > box.sizes ().maxCoeff () / default_resolution)) // as fine as voxels get
+  if (!(spacing.supported_m > box.sizes ().maxCoeff () / default_resolution)) // the finest size
     return spacing;
   std::unordered_map<std::uint64_t, CellOfPoints> cells;
   const double per_m = 1.0 / (noise_cells * spacing.supported_m);

@@ -17,17 +17,16 @@ namespace pcl::cosection
  * the longest side. */
 double supportedVoxelSize (const std::vector<OrientedPoint>& points, const Eigen::AlignedBox3d& observed);
 
-/** \brief How near together points are, and how much they scatter. */
+/** \brief Spacing and noise of points. */
 struct PointSpacing
 {
   double supported_m = 0.0; // supportedVoxelSize ()
-  double noise_m = 0.0; // across the surface, as a standard deviation, in half of the places; 0 if they are too few to
-                        // tell
+  double noise_m = 0.0;     // standard deviation along the normal, median over the surface; 0 with too few points
 };
 
 PointSpacing measureSpacing (const std::vector<OrientedPoint>& points, const Eigen::AlignedBox3d& observed);
 
-/** \brief Whether the options say how large an object's voxels are. */
+/** \brief Whether the options give a voxel size or a resolution for objects. */
 bool fixedVoxelSize (const CoSectionOptions& options);
 
 /** \brief The voxel size of the options. If neither it nor a resolution is given, 64 voxels along the longest side,
@@ -37,9 +36,9 @@ bool fixedVoxelSize (const CoSectionOptions& options);
 double objectVoxelSize (const PointSpacing& spacing, const Eigen::AlignedBox3d& observed,
                         const CoSectionOptions& options);
 
-/** \brief Voxels of a vessel (SymmetricExtent::wallThickness ()): half as large as its wall is thick, if that is
- * smaller than \a supported_m, but no smaller than half of it and a 64th of the longest side. They may be finer than
- * the points' spacing supports, as points are turned to all sides. */
+/** \brief Voxel size of a vessel (SymmetricExtent::wallThickness ()): half of its wall thickness, if that is smaller
+ * than \a supported_m, but no less than half of \a supported_m and a 64th of the longest side. Voxels finer than the
+ * points' spacing supports are possible, as points have copies on all sides. */
 double vesselVoxelSize (double supported_m, double wall_m, const Eigen::AlignedBox3d& observed);
 
 } // namespace pcl::cosection

@@ -15,13 +15,13 @@
 namespace pcl::cosection
 {
 
-/** \brief What a completion says beside its result: progress, times, warnings, and why objects failed. */
+/** \brief Messages of a completion: progress, times, warnings, and why objects failed. */
 class CompletionLog
 {
 public:
   CompletionLog (std::size_t objects, const ProgressCallback& progress) : errors_ (objects), progress_ (progress) {}
 
-  /** \throws Cancelled if the callback says so */
+  /** \throws Cancelled if the callback returns false */
   void report (const std::string& stage, double fraction) const
   {
     if (progress_ && !progress_ (stage, std::min (1.0, fraction)))
@@ -30,14 +30,14 @@ public:
 
   void warn (std::string warning) { warnings_.push_back (std::move (warning)); }
 
-  /** \brief Does something, adds the time that it takes to that of a stage, and returns what it returns. */
+  /** \brief Call f (), add its time to that of a stage, and return its result. */
   template <typename Function> auto timed (const char* stage, Function&& f)
   {
     const Stopwatch watch{timings_s_[stage]};
     return f ();
   }
 
-  /** \brief Does something for one object. If it fails, only that object is lost: failed () is true from then on.
+  /** \brief Call f () for one object. If it throws, only that object fails: failed () is then true.
    * \return whether it succeeded */
   template <typename Function> bool guard (std::size_t object, Function&& f)
   {
@@ -45,7 +45,7 @@ public:
     return errors_[object].empty ();
   }
 
-  /** \brief A value for each object that has not failed; default values for the others. */
+  /** \brief The results of f (o) for all objects o that have not failed; default values for the others. */
   template <typename Function> auto forEachObject (Function&& f)
   {
     std::vector<std::invoke_result_t<Function, std::size_t>> values (errors_.size ());
@@ -55,7 +55,7 @@ public:
     return values;
   }
 
-  /** \brief Why a function fails; empty if it does not. \throws Cancelled */
+  /** \brief Call f () and return the reason of its failure; empty if it succeeds. \throws Cancelled */
   template <typename Function> static std::string reasonOfFailure (Function&& f)
   {
     try

@@ -11,21 +11,21 @@
 namespace pcl::cosection
 {
 
-/** \brief A given body that objects cannot enter, as a field. */
+/** \brief An obstacle (a given body that objects cannot enter) as a field, at some poses. */
 struct Obstacle
 {
   SignedDistanceField::ConstPtr field;
   std::vector<Eigen::Isometry3d> T_field_world;
 };
 
-/** \brief A given body that objects cannot enter, as a mesh. */
+/** \brief An obstacle as a mesh, at some poses. */
 struct MeshObstacle
 {
   TriangleMesh mesh;
   std::vector<Eigen::Isometry3d> T_mesh_world;
 };
 
-/** \brief So many points were added after a view; -1: before the first. */
+/** \brief The number of points added after a view; view -1: before the first. */
 struct PointBatch
 {
   int view;
@@ -49,13 +49,13 @@ struct Scene
   std::vector<Eigen::Vector4d> planes; // unit normals, world frame
   std::vector<Obstacle> obstacles;
   std::vector<MeshObstacle> mesh_obstacles;
-  std::map<int, std::vector<Eigen::Isometry3d>> poses; // T_world_object, as named with views
-  std::map<int, std::vector<PointBatch>> batches;      // by object, 0 the background
+  std::map<int, std::vector<Eigen::Isometry3d>> poses; // T_world_object by object, as given with views
+  std::map<int, std::vector<PointBatch>> batches;      // by object; 0: the background
 
   ObjectInput* find (int id);
   void countBatch (int id, std::size_t points);
 
-  /** \brief Whether there is nothing but objects and views. */
+  /** \brief Whether there is no background, plane or obstacle. */
   bool hasNothingAround () const;
 };
 
@@ -67,16 +67,16 @@ std::size_t firstView (const ObjectInput& object);
 
 Eigen::Isometry3d firstPose (const ObjectInput& object);
 
-/** \brief Poses of \a of relative to \a to, or to the world if that is null, over all views, thinned to motions of more
- * than half a voxel of \a grid, which is in the frame of \a of. */
+/** \brief T_to_of over all views (T_world_of if \a to is null), thinned to motions of more than half a voxel of \a
+ * grid, which is in the frame of \a of. */
 std::vector<Eigen::Isometry3d> relativePoses (const ObjectInput& of, const VoxelGrid& grid, const ObjectInput* to);
 
 /** \brief A plane n.x + d = 0 in the frame of the target. */
 Eigen::Vector4d transformPlane (const Eigen::Vector4d& plane, const Eigen::Isometry3d& T_plane_target);
 
-/** \brief Planes of the world in an object's frame at some poses, without those to whose other side the object has been
- * taken: from a table to the floor.
- * \param[in] center of what was observed of the object, its frame */
+/** \brief Planes of the world in an object's frame at some poses, except at poses where the object is on the plane's
+ * other side, as after a move from the table to the floor.
+ * \param[in] center of the observed points, object frame */
 std::vector<Eigen::Vector4d> planesAtPoses (const ObjectInput& object, const Eigen::Vector3d& center,
                                             const std::vector<Eigen::Vector4d>& planes,
                                             const std::vector<Eigen::Isometry3d>& T_world_object);

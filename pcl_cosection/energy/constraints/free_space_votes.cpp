@@ -17,9 +17,9 @@ namespace
 
 constexpr double min_margin_m = 0.005;
 constexpr int max_footprint = 12; ///< pixels
-constexpr int min_support = 3;    ///< neighbours of the same depth: those that a corner of a surface has
+constexpr int min_support = 3;    ///< neighbours of the same depth, as many as a corner of a surface has
 
-/** \brief One view's opinion on points. */
+/** \brief The votes of one view on points. */
 class Witness
 {
 public:
@@ -60,7 +60,7 @@ private:
     return z > 0.0f && std::isfinite (z);
   }
 
-  /** \brief Whether test (depth) holds for all readings in a square window; ends with the first for which not. */
+  /** \brief Whether test (depth) holds for all readings in a square window. */
   template <typename Test> bool allReadings (int u, int v, int radius, Test&& test) const
   {
     for (int row = std::max (0, v - radius); row <= std::min (depth_.camera.height - 1, v + radius); ++row)

@@ -23,7 +23,7 @@ constexpr double edge_sigmas = 6.0; // neighbouring depths that differ by more a
 constexpr double edge_slope = 0.03; // ... unless a steep surface explains it: fraction of the depth
 constexpr int max_footprint = 12;   // pixels
 
-/** \brief filterDepth () by whole rows, which the compiler vectorises. */
+/** \brief filterDepth () row by row, so that the compiler vectorises it. */
 template <typename Best>
 std::vector<float>
 filterWindows (const std::vector<float>& image, const PinholeCamera& camera, int radius, const PixelRegion& region,

@@ -84,7 +84,7 @@ IntersectionConstraint::addBody (const SignedDistanceField& body, const InsideBr
         const Eigen::Vector3d v = start + i * step;
         const int empty = inside.emptyVoxels (v);
         if (empty > 0)
-          i += static_cast<int> (empty * steps_per_voxel - 0.01); // those are empty as well; less what rounding may do
+          i += static_cast<int> (empty * steps_per_voxel - 0.01); // skip empty voxels, with a margin for rounding
         if (empty >= 0)
           continue;
         const auto u = body.sampleInside (v);

@@ -24,8 +24,8 @@ struct PCL_COSECTION_EXPORT SupportPlaneOptions
 };
 
 /** \brief Planes of the background that an object stands on or leans against: fitted by RANSAC (PCL) to
- * the background points near the object, with all of the object on their free side, which the normals of
- * the background points tell.
+ * the background points near the object, with all of the object on their free side. The normals of the background
+ * points determine that side.
  * \return (n, d) with unit n towards free space and n.x + d = 0 on the plane; best supported first. The
  * result is the same every time. */
 PCL_COSECTION_EXPORT std::vector<Eigen::Vector4d> findSupportPlanes (const std::vector<OrientedPoint>& background,

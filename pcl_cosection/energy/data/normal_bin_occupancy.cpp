@@ -11,8 +11,8 @@ namespace
 {
 
 constexpr int reach = 3;           // voxels
-constexpr float along_axis = 0.5f; // component of a point's normal
-constexpr float alike = 0.3f;      // component of a normal along the axis of a point's
+constexpr float along_axis = 0.5f; // least component of a point's normal along the axis of its bin
+constexpr float alike = 0.3f;      // least component of a queried normal along the axis of an occupied bin
 
 } // namespace
 

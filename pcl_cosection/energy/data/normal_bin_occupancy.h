@@ -13,23 +13,23 @@
 namespace pcl::cosection
 {
 
-/** \brief Which ways measured points face, by voxel: both sides of a thin wall are near the points of either, but only
- * one may have been seen. */
+/** \brief Directions of the normals of measured points, in six bins per voxel. Both sides of a thin wall are near the
+ * points of either side; the normals show which of them was seen. */
 class NormalBinOccupancy
 {
 public:
   NormalBinOccupancy () = default;
   NormalBinOccupancy (const VoxelGrid& grid, const std::vector<OrientedPoint>& points);
 
-  /** \brief None were given? */
+  /** \brief Whether no points were given. */
   bool empty () const { return ways_.empty (); }
 
-  /** \brief Does any point within three voxels face about as \a normal does? */
+  /** \brief Whether a point within three voxels has about the same normal as \a normal. */
   bool face (const Eigen::Vector3f& position, const Eigen::Vector3f& normal) const;
 
 private:
   VoxelGrid grid_;
-  std::vector<std::uint8_t> ways_; // by voxel, a bit for either sense of each axis
+  std::vector<std::uint8_t> ways_; // by voxel, a bit for each sense of each axis
 };
 
 } // namespace pcl::cosection

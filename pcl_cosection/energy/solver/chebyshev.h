@@ -5,7 +5,7 @@
 namespace pcl::cosection
 {
 
-/** \brief An estimated largest eigenvalue is taken larger by this. */
+/** \brief Safety factor for an estimated largest eigenvalue. */
 constexpr double chebyshev_safety = 1.08;
 
 /** \brief Coefficients of a Chebyshev iteration of the fourth kind, which needs only the largest

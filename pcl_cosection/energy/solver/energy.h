@@ -13,7 +13,7 @@
 namespace pcl::cosection
 {
 
-/** \brief The terms of a problem from voxel \a at on. */
+/** \brief The terms of a problem along a row that begins at voxel \a at. */
 inline kernels::EnergyRow
 energyRow (const EnergyProblem& problem, std::size_t at)
 {

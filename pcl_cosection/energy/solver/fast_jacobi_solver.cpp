@@ -85,7 +85,7 @@ solveLevelFastJacobi (const EnergyProblem& problem, const SolverOptions& options
     const double previous = summary.energies.back ();
     if (!(energy <= previous + energy_rounding * std::abs (previous)) && cycle_length > 1)
     {
-      // Long cycles amplify rounding, and the active set changes half way: go back, and take shorter ones.
+      // Long cycles amplify rounding errors, and the active set changes within them: undo it, and shorten the cycles.
       u = before;
       cycle_length /= 2;
       factors = relaxationFactors (cycle_length);

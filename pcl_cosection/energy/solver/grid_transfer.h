@@ -11,7 +11,7 @@ namespace pcl::cosection
 {
 
 /** \brief Linear interpolation along one axis between cell-centred grids, a coarse voxel covering
- * two fine ones; linear extrapolation at the border, so that affine functions are carried exactly.
+ * two fine ones; linear extrapolation at the border, so that affine functions are reproduced exactly.
  *
  * The same weights are the refinement rule of quadratic B-splines: a coarse value is the coefficient
  * of a basis function of bounded second derivative, which a Galerkin operator of fourth order needs. */

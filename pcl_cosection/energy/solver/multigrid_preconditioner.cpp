@@ -16,8 +16,8 @@ constexpr double largest_eigenvalue_finest = 144.0 / 42.0 * chebyshev_safety; //
 constexpr int coarsest_axis = 4; // axes are halved down to this many voxels
 constexpr std::size_t deep_levels = 6;
 
-/** \brief Largest eigenvalue of D^-1 R for the regulariser R of a coarse level. The border, where
- * interpolation extrapolates, decides it; a few voxels between the borders suffice. */
+/** \brief Largest eigenvalue of D^-1 R for the regulariser R of a coarse level. It depends on the border, where
+ * interpolation extrapolates; a few voxels between the borders suffice. */
 double
 largestEigenvalue (const std::array<GalerkinAxis, 3>& axes)
 {

@@ -16,21 +16,21 @@ namespace pcl::cosection
 namespace
 {
 
-constexpr int directions = 72; // in which the farthest points are sought
+constexpr int directions = 72; // in each of which the outermost point is found
 constexpr int sectors = 36;
-constexpr double outlier_share = 0.002;  // of all points, may lie farther out
+constexpr double outlier_share = 0.002;  // of all points: outliers that lie farther out
 constexpr double sector_outliers = 0.05; // of the points of a sector
-constexpr double round_reach = 0.065;    // of the radius: sectors whose points reach so far more or less are round
-constexpr int round_sectors = 22;        // noise turns some that are round away
-constexpr double least_facing = 0.2;     // length of the mean normal of what mostly faces one way
+constexpr double round_reach = 0.065;    // of the radius: largest deviation in a sector of a round thing
+constexpr int round_sectors = 22;        // least number of such sectors; noise spoils some
+constexpr double least_facing = 0.2;     // least length of the mean normal, if points mostly face one way
 constexpr int rim_rounds = 5;
 constexpr int plane_rounds = 20;
-constexpr double plane_reach = 0.02; // of the size: points so far from the level plane count little
+constexpr double plane_reach = 0.02; // of NormalLines::size: distance from the plane with a low weight
 
 using Points = std::vector<Eigen::Vector2d>;
 using Points3 = std::vector<Eigen::Vector3d>;
 
-/** \brief The value that so many are above. */
+/** \brief The value that so many values exceed. */
 double
 quantile (std::vector<double>& values, double share_above)
 {
@@ -56,7 +56,7 @@ struct Footprint
   Points points;
 };
 
-/** \brief Indices of points that are farthest in some direction each. */
+/** \brief Indices of the points that are farthest along each of some directions. */
 std::vector<std::size_t>
 farthestOf (const Points& points)
 {
@@ -79,7 +79,7 @@ farthestOf (const Points& points)
   return ends;
 }
 
-/** \brief The middle of the circle that is nearest to the points; algebraically. */
+/** \brief The centre of the algebraically fitted circle. */
 Eigen::Vector2d
 circleCenter (const Points& points)
 {
@@ -94,7 +94,7 @@ circleCenter (const Points& points)
   return left.ldlt ().solve (right).head<2> ();
 }
 
-/** \brief Do the points reach equally far from a place in nearly all directions? */
+/** \brief Whether the points extend equally far from a place in nearly all directions. */
 bool
 isRound (const Points& points, const Eigen::Vector2d& center)
 {

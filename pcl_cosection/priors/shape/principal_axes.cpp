@@ -11,7 +11,7 @@ namespace pcl::cosection
 Scatter
 scatterOf (const std::vector<OrientedPoint>& points)
 {
-  // In one pass, about a place among the points, so that no digits are lost.
+  // One pass, relative to a point near the mean, so that no digits are lost.
   const Eigen::Vector3d about = points.empty () ? Eigen::Vector3d::Zero ()
                                                 : points.front ().position.cast<double> ().eval ();
   Eigen::Vector3d sum = Eigen::Vector3d::Zero ();
@@ -46,7 +46,7 @@ principalAxes (const std::vector<OrientedPoint>& points, const std::optional<Eig
   const Eigen::Vector3d
       vertical = up ? *up : Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> (covariance).eigenvectors ().col (0);
   longest = (longest - vertical.dot (longest) * vertical).normalized ();
-  if (!(longest.norm () > 0.5)) // all points are in one line along up
+  if (!(longest.norm () > 0.5)) // all points lie on one line along up
     longest = vertical.unitOrthogonal ();
   Eigen::Matrix3d axes;
   axes << longest, vertical.cross (longest), vertical;

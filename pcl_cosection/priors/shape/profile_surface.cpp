@@ -19,12 +19,12 @@ namespace pcl::cosection
 namespace
 {
 
-constexpr double max_radius = 1.5;      // of the size
-constexpr double cell_size = 0.05;      // of the size, of the profile
+constexpr double max_radius = 1.5;      // of NormalLines::size
+constexpr double cell_size = 0.05;      // of the profile, of NormalLines::size
 constexpr int sectors = 36;             // around the axis
-constexpr int round_sectors = 5;        // in a row: what is seen in so many is no handle
-constexpr double least_step = 0.05;     // of a cell: between points of what is deep inside a vessel
-constexpr double outlier_share = 0.002; // of the points, may lie farther out
+constexpr int round_sectors = 5;        // next to each other: a handle is not seen in so many
+constexpr double least_step = 0.05;     // of a cell: between points of the inside of a vessel
+constexpr double outlier_share = 0.002; // of the points: outliers that lie farther out
 
 int
 longestRun (const std::array<bool, sectors>& seen)

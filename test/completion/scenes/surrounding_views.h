@@ -23,7 +23,7 @@ around (int n)
   return lookAt ({0.45 * std::sin (angle), -0.45 * std::cos (angle), 0.28 + 0.03 * n}, {0.0, 0.0, 0.04});
 }
 
-/** \brief Complete object 1 of a scene from what several sensors see of it. */
+/** \brief Complete object 1 of a scene from the views of several sensors. */
 inline ObjectResult
 completeFrom (const AnalyticScene& scene, const std::vector<int>& sensors, const CoSectionOptions& options)
 {

@@ -18,7 +18,7 @@ TEST_P (CompletionContact, IsRightWhereTheTableBoundsIt)
   EXPECT_LE (largestError (Provenance::Intersection, [] (const Eigen::Vector3d&) { return true; }), 2.25);
 }
 
-/** \brief What counts as observed faces as the observed surface does. */
+/** \brief Vertices marked as observed have the normals of the observed surface. */
 TEST_P (CompletionContact, ObservedSurfaceFacesOutwards)
 {
   const TriangleMesh& mesh = object ().mesh;

@@ -20,7 +20,7 @@ class BackgroundResidual : public testing::TestWithParam<Shape>
 
 } // namespace
 
-/** \brief The passes over all objects end without penetration however the data and the other terms pull. */
+/** \brief The passes over all objects end without penetration whatever the data and the other terms. */
 TEST_P (NeighbourResidual, IsResolvedByGrowingWeights)
 {
   CoSectionOptions options = optionsFor (neighbour_voxel_m);

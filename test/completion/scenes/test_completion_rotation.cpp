@@ -15,7 +15,7 @@ class Rotation : public testing::TestWithParam<Shape>
 
 } // namespace
 
-/** \brief The grid is aligned with the axes; what it cannot resolve is all that may depend on that. */
+/** \brief A rotation with respect to the grid changes results only by discretisation errors. */
 TEST_P (Rotation, ChangesNoMoreThanDiscretisation)
 {
   EXPECT_LE (effectOfMotion (GetParam (), 0.005, motion (1.1, {1.0, 2.0, -1.0}, {-0.3, 0.5, 1.1})), 0.3);

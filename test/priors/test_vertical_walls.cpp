@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_cosection authors
 
-// Where the walls of what stands are to be expected, though few of them were seen.
+// Expected vertical walls of standing things, few of which were seen.
 
 #include "moved_points.h"
 #include "observed_box.h"
@@ -36,7 +36,7 @@ joined (const std::vector<WallColumn>& walls)
   return all;
 }
 
-/** \brief Is there a point near \a p that faces along \a normal? */
+/** \brief Whether there is a point near \a p with about the normal \a normal. */
 bool
 hasWallAt (const std::vector<OrientedPoint>& walls, const Eigen::Vector3d& p, const Eigen::Vector3d& normal)
 {
@@ -71,7 +71,7 @@ without (std::vector<OrientedPoint> points, const std::function<bool (const Eige
   return points;
 }
 
-/** \brief Walls on all four sides, from the plane to the top, and nowhere else. */
+/** \brief Expect walls on all four sides, from the plane to the top, and nowhere else. */
 void
 expectWallsOfBox (const std::vector<OrientedPoint>& walls)
 {
@@ -121,11 +121,11 @@ TEST (VerticalWalls, GoOnUnderTheTopWhereTheyWereNotSeen)
   expectWallsOfBox (joined (extent.verticalWalls (wall_step_m, false)));
 }
 
-/** \brief Turned by half a revolution, a wedge would be the other half of a box. */
+/** \brief The copy of a wedge by a half turn would be the other half of a box. */
 TEST (VerticalWalls, OfAWedgeAreThoseOfItsTopOrOfItsTopAndACopy)
 {
   const SymmetricExtent extent (observedWedge (), {0.0, 0.0, 1.0, 0.0});
-  const Eigen::Vector3d slope (0.08, 0.05, 0.04), far_side (0.12, 0.093, 0.1); // its tip is a outlier
+  const Eigen::Vector3d slope (0.08, 0.05, 0.04), far_side (0.12, 0.093, 0.1); // its tip is an outlier
   const Eigen::Vector3d out = Eigen::Vector3d (1.0 / 0.16, 1.0 / 0.1, 0.0).normalized ();
   const std::vector<OrientedPoint> own = joined (extent.verticalWalls (wall_step_m, false));
   EXPECT_TRUE (hasWallAt (own, slope, out));
@@ -194,7 +194,7 @@ TEST (VerticalWalls, MoveWithTheObject)
   expectWallsOfBox (moved (walls, T.inverse ()));
 }
 
-/** \brief Balls, roofs and what does not stand have none. */
+/** \brief Balls, roofs and things that do not stand have no vertical walls. */
 TEST (VerticalWalls, AreOnlyOfWhatHasSuchWalls)
 {
   EXPECT_TRUE (SymmetricExtent (observedBox (block_half_size, block_view)).verticalWalls (wall_step_m, true).empty ());
@@ -217,7 +217,7 @@ TEST (VerticalWalls, AreTheHiddenSideOfWhatTheyBound)
   EXPECT_EQ (prism.continuation ().size (), walls.size ());
 }
 
-/** \brief What is expected beside what was seen is plausible, and so are its copies. */
+/** \brief The plausible region contains further expected points and their copies. */
 TEST (Continuation, WidensThePlausibleRegion)
 {
   const auto lower_half = [] (const Eigen::Vector3f& p) { return p.z () < 0.0f; };
