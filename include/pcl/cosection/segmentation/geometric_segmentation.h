@@ -87,7 +87,8 @@ private:
   std::vector<pcl::ModelCoefficients> support_planes_;
 };
 
-} // namespace pcl::cosection
+} // namespace cosection
+} // namespace pcl
 
 #ifdef PCL_NO_PRECOMPILE
 #include <pcl/cosection/segmentation/impl/geometric_segmentation.hpp>
@@ -112,5 +113,6 @@ extern template class PCL_COSECTION_EXPORT GeometricSegmentation<pcl::PointXYZRG
 extern template class PCL_COSECTION_EXPORT GeometricSegmentation<pcl::PointNormal>;
 extern template class PCL_COSECTION_EXPORT GeometricSegmentation<pcl::PointXYZRGBNormal>;
 extern template class PCL_COSECTION_EXPORT GeometricSegmentation<pcl::PointXYZINormal>;
-} // namespace pcl::cosection
+} // namespace cosection
+} // namespace pcl
 #endif

@@ -76,7 +76,8 @@ private:
   std::vector<DetectedInstance> instances_;
 };
 
-} // namespace pcl::cosection
+} // namespace cosection
+} // namespace pcl
 
 #ifdef PCL_NO_PRECOMPILE
 #include <pcl/cosection/segmentation/impl/instance_segmentation.hpp>
@@ -93,5 +94,6 @@ extern template class PCL_COSECTION_EXPORT InstanceSegmentation<pcl::PointXYZRGB
 extern template class PCL_COSECTION_EXPORT InstanceSegmentation<pcl::PointXYZRGBA>;
 extern template class PCL_COSECTION_EXPORT InstanceSegmentation<pcl::PointXYZRGBL>;
 extern template class PCL_COSECTION_EXPORT InstanceSegmentation<pcl::PointXYZRGBNormal>;
-} // namespace pcl::cosection
+} // namespace cosection
+} // namespace pcl
 #endif

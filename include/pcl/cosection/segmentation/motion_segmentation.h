@@ -101,7 +101,8 @@ public:
   PCL_MAKE_ALIGNED_OPERATOR_NEW
 };
 
-} // namespace pcl::cosection
+} // namespace cosection
+} // namespace pcl
 
 #ifdef PCL_NO_PRECOMPILE
 #include <pcl/cosection/segmentation/impl/motion_segmentation.hpp>
@@ -126,5 +127,6 @@ extern template class PCL_COSECTION_EXPORT MotionSegmentation<pcl::PointXYZRGBL>
 extern template class PCL_COSECTION_EXPORT MotionSegmentation<pcl::PointNormal>;
 extern template class PCL_COSECTION_EXPORT MotionSegmentation<pcl::PointXYZRGBNormal>;
 extern template class PCL_COSECTION_EXPORT MotionSegmentation<pcl::PointXYZINormal>;
-} // namespace pcl::cosection
+} // namespace cosection
+} // namespace pcl
 #endif

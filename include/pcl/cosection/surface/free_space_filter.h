@@ -122,5 +122,6 @@ extern template class PCL_COSECTION_EXPORT FreeSpaceFilter<pcl::PointXYZRGBL>;
 extern template class PCL_COSECTION_EXPORT FreeSpaceFilter<pcl::PointNormal>;
 extern template class PCL_COSECTION_EXPORT FreeSpaceFilter<pcl::PointXYZRGBNormal>;
 extern template class PCL_COSECTION_EXPORT FreeSpaceFilter<pcl::PointXYZINormal>;
-} // namespace pcl::cosection
+} // namespace cosection
+} // namespace pcl
 #endif

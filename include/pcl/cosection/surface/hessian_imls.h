@@ -157,5 +157,6 @@ namespace cosection
 extern template class PCL_COSECTION_EXPORT HessianIMLS<pcl::PointNormal>;
 extern template class PCL_COSECTION_EXPORT HessianIMLS<pcl::PointXYZRGBNormal>;
 extern template class PCL_COSECTION_EXPORT HessianIMLS<pcl::PointXYZINormal>;
-} // namespace pcl::cosection
+} // namespace cosection
+} // namespace pcl
 #endif

@@ -139,5 +139,6 @@ extern template class PCL_COSECTION_EXPORT SdfRegistration<pcl::PointXYZRGBA>;
 extern template class PCL_COSECTION_EXPORT SdfRegistration<pcl::PointNormal>;
 extern template class PCL_COSECTION_EXPORT SdfRegistration<pcl::PointXYZRGBNormal>;
 extern template class PCL_COSECTION_EXPORT SdfRegistration<pcl::PointXYZINormal>;
-} // namespace pcl::cosection
+} // namespace cosection
+} // namespace pcl
 #endif

@@ -150,5 +150,6 @@ extern template class PCL_COSECTION_EXPORT SdfTracker<pcl::PointXYZRGB>;
 extern template class PCL_COSECTION_EXPORT SdfTracker<pcl::PointXYZRGBA>;
 extern template class PCL_COSECTION_EXPORT SdfTracker<pcl::PointNormal>;
 extern template class PCL_COSECTION_EXPORT SdfTracker<pcl::PointXYZRGBNormal>;
-} // namespace pcl::cosection
+} // namespace cosection
+} // namespace pcl
 #endif
