@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <sstream>
 #include <utility>
 
@@ -17,16 +18,16 @@ namespace
 
 constexpr std::size_t min_object_points = 50;
 constexpr int object_rounds = 2;            // of association and alignment
-constexpr double min_confirmed = 0.5;       // of an object's surface about which a frame says something
+constexpr double min_confirmed = 0.5;       // of an object's surface that a frame confirms or contradicts
 constexpr double min_found_confirmed = 0.7; // of one that comes back
 constexpr double min_in_view = 0.1;
-constexpr double min_tracked_in_view = 0.3; // what is left of an object at the image's border slides
+constexpr double min_tracked_in_view = 0.3; // less of an object at the image's border slides
 constexpr double tolerance_voxels = 2.0;
 constexpr double standard_pixels = 640.0 * 480.0;
 constexpr double correlated_pixels = 49.0; // the depth filter's window, in an image of so many
 
 constexpr SampleOptions object_samples{1000, 1.5};
-constexpr MotionPrior object_motion{0.0, 10.0}; // what does not seem to turn does not
+constexpr MotionPrior object_motion{0.0, 10.0}; // rather a shift than a turn
 constexpr PoseLimits object_limits{0.15, 0.5, 0.3, 0.0};
 
 Eigen::Vector3d
@@ -53,7 +54,7 @@ line (const Parts&... parts)
   return text.str ();
 }
 
-/** \brief The reliable points that may lie in a volume, and what they count. */
+/** \brief The reliable points that lie in a volume. */
 std::vector<Eigen::Vector3f>
 pointsNear (const FrameCloud& cloud, const AssociatedModel& model)
 {
@@ -90,18 +91,9 @@ pointsNear (const FrameCloud& cloud, const AssociatedModel& model)
 
 } // namespace
 
-SdfAlignmentOptions
-trackingOptions (int max_points, int threads)
-{
-  SdfAlignmentOptions options;
-  options.max_points = max_points;
-  options.threads = threads;
-  return options;
-}
-
 std::string
-doubtOf (const SdfAlignmentResult& result, const Eigen::Isometry3d& pose, const Eigen::Isometry3d& guess,
-         const Eigen::Vector3d& centre, std::size_t points, const PoseLimits& limits, double frames_passed)
+rejectionReason (const SdfAlignmentResult& result, const Eigen::Isometry3d& pose, const Eigen::Isometry3d& guess,
+                 const Eigen::Vector3d& centre, std::size_t points, const PoseLimits& limits, double frames_passed)
 {
   if (result.stop == SdfAlignmentStop::TooFewPoints || result.stop == SdfAlignmentStop::NoGradient)
     return describe (result.stop);
@@ -122,21 +114,17 @@ correlatedReadings (const PinholeCamera& camera)
   return std::max (1.0, correlated_pixels * camera.width * camera.height / standard_pixels);
 }
 
-void
-weighReadings (const std::vector<Eigen::Vector3f>& points, double voxel_size_m, std::vector<float>& weights)
+std::vector<float>
+readingWeights (const std::vector<Eigen::Vector3f>& points, double voxel_size_m, std::vector<float> weights)
 {
   for (std::size_t n = 0; n < points.size (); ++n)
     weights[n] *= readingWeight (points[n].z (), voxel_size_m);
+  return weights;
 }
 
-PoseTracking::PoseTracking (int max_points, const AssociationOptions& association, int threads)
-    : object_ (trackingOptions (max_points, threads))
-    , association_ (association)
-{}
-
 PoseEstimate
-PoseTracking::trackObject (const FrameCloud& cloud, std::vector<AssociatedModel> models, std::size_t target,
-                           double frames_passed, BrightnessTracking& brightness)
+trackObject (const FrameCloud& cloud, std::vector<AssociatedModel> models, std::size_t target, double frames_passed,
+             const BrightnessReference& brightness, const PoseSolver& solver)
 {
   const TsdfVolume& volume = *models[target].volume;
   const Eigen::Isometry3d guess = models[target].T_model_sensor;
@@ -145,61 +133,65 @@ PoseTracking::trackObject (const FrameCloud& cloud, std::vector<AssociatedModel>
   Eigen::Vector3d centre = Eigen::Vector3d::Zero ();
   for (int round = 0; round < object_rounds; ++round)
   {
-    points_ = pointsNear (cloud, models[target]);
-    probabilities_ = association_.probabilities (points_, models, target);
-    const std::vector<Eigen::Vector3f>& points = points_;
-    std::vector<float> weights = probabilities_;
+    estimate.tracked.points = pointsNear (cloud, models[target]);
+    const std::vector<Eigen::Vector3f>& points = estimate.tracked.points;
+    estimate.tracked.probabilities = solver.association.probabilities (points, models, target);
     if (round == 0)
-      centre = centroid (points, weights);
-    weighReadings (points, volume.grid ().voxel_size_m, weights);
-    estimate.alignment = object_.align (points, weights, volume, models[target].T_model_sensor);
+      centre = centroid (points, estimate.tracked.probabilities);
+    const std::vector<float> weights = readingWeights (points, volume.grid ().voxel_size_m,
+                                                       estimate.tracked.probabilities);
+    estimate.alignment = solver.alignment.align (points, weights, volume, models[target].T_model_sensor);
     const Eigen::Isometry3d& found = estimate.alignment.T_grid_sensor;
     const std::vector<SurfaceSample> samples = sampleSurface (points, weights, volume, found, object_samples);
     const ObservedMotion observed = observedMotion (samples, guess, found, object_motion);
     const UncertainPose by_shape{observed.T_model_camera, observed.precision / correlatedReadings (cloud.camera)};
-    const auto by_brightness = brightness.track (cloud, MotionChart (samples), by_shape, guess);
-    const int told_by_shape = std::min (observed.directions, estimate.alignment.observed_directions);
-    // Distances alone let a pose slide where they do not tell.
-    estimate.doubt = estimate.alignment.points_with_distance < min_object_points
-                         ? std::string (describe (SdfAlignmentStop::TooFewPoints))
-                         : doubtOf (estimate.alignment, by_brightness ? by_brightness->T_model_camera : found, guess,
-                                    centre, points.size (), object_limits, frames_passed);
-    if (!estimate.doubt.empty ())
+    const BrightnessFit fit = trackBrightness (brightness, cloud, MotionChart (samples), by_shape, guess);
+    const std::optional<UncertainPose>& by_brightness = fit.pose;
+    estimate.tracked.brightness_agreement = fit.agreement;
+    const int by_shape_alone = std::min (observed.directions, estimate.alignment.observed_directions);
+    // Distances alone let a pose slide along directions that they do not observe.
+    estimate.rejection_reason = estimate.alignment.points_with_distance < min_object_points
+                                    ? std::string (describe (SdfAlignmentStop::TooFewPoints))
+                                    : rejectionReason (estimate.alignment,
+                                                       by_brightness ? by_brightness->T_model_camera : found, guess,
+                                                       centre, points.size (), object_limits, frames_passed);
+    if (!estimate.isAccepted ())
       break;
     estimate.T_model_camera = by_brightness ? by_brightness->T_model_camera : observed.T_model_camera;
-    estimate.observed_directions = by_brightness ? std::max (told_by_shape, by_brightness->directions ())
-                                                 : told_by_shape;
+    estimate.observed_directions = by_brightness ? std::max (by_shape_alone, by_brightness->directions ())
+                                                 : by_shape_alone;
     models[target].T_model_sensor = estimate.T_model_camera;
   }
   estimate.visibility = checkVisibility (volume, estimate.T_model_camera, cloud,
                                          tolerance_voxels * volume.grid ().voxel_size_m);
-  if (estimate.doubt.empty () && estimate.visibility.inViewShare () < min_tracked_in_view)
-    estimate.doubt = line ("only ", 100.0 * estimate.visibility.inViewShare (), " % of its surface is in view");
-  else if (estimate.doubt.empty () && estimate.visibility.confirmedShare () < min_confirmed)
-    estimate.doubt = line ("readings are behind ", 100.0 * (1.0 - estimate.visibility.confirmedShare ()),
-                           " % of its surface");
+  if (estimate.isAccepted () && estimate.visibility.inViewShare () < min_tracked_in_view)
+    estimate.rejection_reason = line ("only ", 100.0 * estimate.visibility.inViewShare (),
+                                      " % of its surface is in view");
+  else if (estimate.isAccepted () && estimate.visibility.confirmedShare () < min_confirmed)
+    estimate.rejection_reason = line ("readings are behind ", 100.0 * (1.0 - estimate.visibility.confirmedShare ()),
+                                      " % of its surface");
   return estimate;
 }
 
 PoseEstimate
-PoseTracking::findObject (const FrameCloud& cloud, const std::vector<Eigen::Vector3f>& points, const TsdfVolume& volume,
-                          const Eigen::Isometry3d& guess)
+findObject (const FrameCloud& cloud, const std::vector<Eigen::Vector3f>& points, const TsdfVolume& volume,
+            const Eigen::Isometry3d& guess, SdfAlignment& alignment)
 {
   PoseEstimate estimate;
-  std::vector<float> weights (points.size (), 1.0f);
-  weighReadings (points, volume.grid ().voxel_size_m, weights);
-  estimate.alignment = object_.align (points, weights, volume, guess);
+  const std::vector<float> weights = readingWeights (points, volume.grid ().voxel_size_m,
+                                                     std::vector<float> (points.size (), 1.0f));
+  estimate.alignment = alignment.align (points, weights, volume, guess);
   estimate.T_model_camera = estimate.alignment.T_grid_sensor;
   estimate.visibility = checkVisibility (volume, estimate.T_model_camera, cloud,
                                          tolerance_voxels * volume.grid ().voxel_size_m);
   const SdfAlignmentResult& result = estimate.alignment;
   if (result.points_with_distance < std::max (min_object_points, points.size () / 2))
-    estimate.doubt = "most points are where its model knows nothing";
+    estimate.rejection_reason = "most points are where its model knows nothing";
   else if (result.inlier_share < min_found_confirmed)
-    estimate.doubt = line ("only ", 100.0 * result.inlier_share, " % of the points fit");
+    estimate.rejection_reason = line ("only ", 100.0 * result.inlier_share, " % of the points fit");
   else if (estimate.visibility.confirmedShare () < min_found_confirmed ||
            estimate.visibility.inViewShare () < min_in_view)
-    estimate.doubt = "the readings do not confirm its surface";
+    estimate.rejection_reason = "the readings do not confirm its surface";
   return estimate;
 }
 

@@ -19,8 +19,8 @@ Visibility::inViewShare () const
 double
 Visibility::confirmedShare () const
 {
-  const std::size_t told = confirmed + contradicted;
-  return told > 0 ? static_cast<double> (confirmed) / static_cast<double> (told) : 1.0;
+  const std::size_t seen = confirmed + contradicted;
+  return seen > 0 ? static_cast<double> (confirmed) / static_cast<double> (seen) : 1.0;
 }
 
 Visibility
@@ -34,7 +34,7 @@ checkVisibility (const TsdfVolume& volume, const Eigen::Isometry3d& T_model_came
   {
     const auto cell = volume.sample<float> (point);
     if (!cell || cell->gradient ().dot (eye - point) <= 0.0f)
-      continue; // it is turned away, or at the end of what is known
+      continue; // it is turned away, or at the end of the known space
     const Eigen::Vector3d p = T_camera_model * point.cast<double> ();
     const Eigen::Vector2d pixel = p.z () > 0.0 ? cloud.camera.project (p) : Eigen::Vector2d (-1.0, -1.0);
     if (!(pixel.x () > -0.5 && pixel.y () > -0.5 && pixel.x () < cloud.camera.width - 0.5 &&

@@ -13,7 +13,7 @@
 namespace pcl::cosection
 {
 
-/** \brief What a frame says of a model's surface at a pose: points of the surface that face the camera, counted. */
+/** \brief How a frame agrees with a model's surface at a pose: numbers of surface points that face the camera. */
 struct Visibility
 {
   std::size_t outside = 0;      ///< of the image
@@ -24,14 +24,15 @@ struct Visibility
 
   std::size_t facing () const { return outside + unread + occluded + confirmed + contradicted; }
 
-  /** \brief Share of the points about which the frame says something; 0 without points. */
+  /** \brief Share of the points that the frame confirms or contradicts; 0 without points. */
   double inViewShare () const;
 
-  /** \brief Share of those that is confirmed; 1 if it says nothing. */
+  /** \brief Share of these that it confirms; 1 without any. */
   double confirmedShare () const;
 };
 
-/** \param[in] tolerance_m how far a reading may be from the surface, beside three standard deviations of its noise */
+/** \brief Compare a model's surface points with the readings of their pixels.
+ * \param[in] tolerance_m how far a reading may be from the surface, beside three standard deviations of its noise */
 Visibility checkVisibility (const TsdfVolume& volume, const Eigen::Isometry3d& T_model_camera, const FrameCloud& cloud,
                             double tolerance_m);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_cosection authors
-#include "pcl_cosection/fusion/frame_context.h"
+#include "frame_context.h"
 
 #include <pcl/cosection/common/error.h>
 
