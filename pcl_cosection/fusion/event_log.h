@@ -11,7 +11,7 @@
 namespace pcl::cosection
 {
 
-/** \brief Lines about decisions; what it keeps is bounded. */
+/** \brief Lines about decisions: the first hundred, then their number. */
 class EventLog
 {
 public:

@@ -189,7 +189,7 @@ struct OpenStep
   int directions = 0;
 };
 
-/** \brief Finds poses along the directions that the background leaves open. */
+/** \brief Finds poses along the open directions of the background by pieces. */
 class PoseByPieces
 {
 public:
