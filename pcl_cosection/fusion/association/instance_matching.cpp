@@ -3,7 +3,7 @@
 #include "instance_matching.h"
 
 #include "mask_matching.h"
-#include "pcl_cosection/fusion/tracking/pose_tracking.h"
+#include "pcl_cosection/fusion/tracking/object_tracking.h"
 #include "unassigned_components.h"
 
 #include <pcl/cosection/tracking/surface_points.h>

@@ -4,7 +4,7 @@
 
 #include "observed_motion.h"
 #include "pcl_cosection/fusion/mapping/resting_objects.h"
-#include "pose_tracking.h"
+#include "pose_estimate.h"
 
 #include <algorithm>
 #include <cmath>

@@ -4,7 +4,7 @@
 
 #include "pcl_cosection/fusion/event_log.h"
 #include "pcl_cosection/fusion/mapping/object_map.h"
-#include "pose_tracking.h"
+#include "pose_estimate.h"
 
 namespace pcl::cosection
 {
@@ -13,5 +13,9 @@ namespace pcl::cosection
  * \param[in] background volume of the same world */
 void trackObjects (const PosedFrame& frame, const TsdfVolume& background, const PoseSolver& solver, ObjectMap& objects,
                    EventLog& log);
+
+/** \brief Find an object again from points that are all supposed to be its own. \param[in] guess T_model_camera */
+PoseEstimate findObject (const FrameCloud& cloud, const std::vector<Eigen::Vector3f>& points, const TsdfVolume& volume,
+                         const Eigen::Isometry3d& guess, SdfAlignment& alignment);
 
 } // namespace pcl::cosection

@@ -4,7 +4,6 @@
 
 #include "brightness_tracking.h"
 #include "frame_cloud.h"
-#include "visibility_check.h"
 
 #include <pcl/cosection/fusion/data_association.h>
 #include <pcl/cosection/tracking/sdf_alignment.h>
@@ -19,6 +18,24 @@ namespace pcl::cosection
 {
 
 constexpr int all_directions = 6; ///< of a pose
+
+/** \brief How a frame agrees with a model's surface at a pose: numbers of surface points that face the camera. */
+struct Visibility
+{
+  std::size_t outside = 0;      ///< of the image
+  std::size_t unread = 0;       ///< where there is no reading
+  std::size_t occluded = 0;     ///< something is in front
+  std::size_t confirmed = 0;    ///< the reading is on the surface
+  std::size_t contradicted = 0; ///< the reading is behind
+
+  std::size_t facing () const { return outside + unread + occluded + confirmed + contradicted; }
+
+  /** \brief Share of the points that the frame confirms or contradicts; 0 without points. */
+  double inViewShare () const;
+
+  /** \brief Share of these that it confirms; 1 without any. */
+  double confirmedShare () const;
+};
 
 /** \brief A model's pose relative to the camera, and whether to believe it. */
 struct PoseEstimate
@@ -63,16 +80,5 @@ double correlatedReadings (const PinholeCamera& camera);
 /** \brief Weights of points times readingWeight (). */
 std::vector<float> readingWeights (const std::vector<Eigen::Vector3f>& points, double voxel_size_m,
                                    std::vector<float> weights);
-
-/** \brief Track an object relative to the camera, from its pose among \a models: points weighted by association are
- * aligned with its volume, and brightness determines what the shape leaves open.
- * \param[in] models the background first; they know nothing of this frame yet
- * \param[in] target number of the object's model */
-PoseEstimate trackObject (const FrameCloud& cloud, std::vector<AssociatedModel> models, std::size_t target,
-                          double frames_passed, const BrightnessReference& brightness, const PoseSolver& solver);
-
-/** \brief Find an object again from points that are all supposed to be its own. \param[in] guess T_model_camera */
-PoseEstimate findObject (const FrameCloud& cloud, const std::vector<Eigen::Vector3f>& points, const TsdfVolume& volume,
-                         const Eigen::Isometry3d& guess, SdfAlignment& alignment);
 
 } // namespace pcl::cosection
