@@ -35,14 +35,14 @@ public:
   virtual FrameKnowns next (const RgbdFrame& frame) = 0;
 
   /** \brief Map the objects in the frame, if that is not done yet.
-   * \param[in,out] keyframe loses the points of labels that are no object; null: the frame is none
+   * \param[in,out] keyframe loses the points of labels without an object; null: the frame is no keyframe
    * \return T_world_object of the objects whose pose is known */
   virtual CoSectionBackend::Poses mapObjects (const RgbdFrame& frame, const FrameKnowns& known, Keyframe* keyframe) = 0;
 
   /** \brief Ids that keyframes had of what turned out to be no object of its own. */
   virtual std::set<int> wrongObjects () const { return {}; }
 
-  /** \brief Surface of an object so far, object frame; empty if there is none. */
+  /** \brief Surface of an object so far, object frame; empty without such an object. */
   virtual TriangleMesh surfaceMesh (int id) const = 0;
 
   /** \brief A few words for the progress; may be empty. */
@@ -63,7 +63,7 @@ std::unique_ptr<FrameContext> makeTrackedPoses (const TrackedSequence& sequence,
 class MaskReader
 {
 public:
-  /** \param[in] masks null: there are none */
+  /** \param[in] masks null: no frame has one */
   explicit MaskReader (const MaskSequence* masks) : masks_ (masks) {}
 
   /** \brief The mask of a frame; nothing if it has none or the mask is damaged. */
@@ -77,8 +77,8 @@ private:
   std::size_t more_ = 0;
 };
 
-/** \brief Erase an object of a result. \param[in] completed whether it is no matter if its completion succeeded; else
- * only a failed completion is erased. \return the next object */
+/** \brief Erase an object of a result. \param[in] completed erase its completion in any case, else only if it failed
+ * \return the next object */
 std::map<int, FusedObject>::iterator eraseObject (std::map<int, FusedObject>::iterator object, bool completed,
                                                   FusionResult& result);
 

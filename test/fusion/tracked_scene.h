@@ -32,7 +32,7 @@ constexpr double wrong_m = 0.04;
 /** \brief Whether a point of the world is of a thing, see TrackedScene::addThing (), that stands at (\a x, 0, 0). */
 bool isThing (const Eigen::Vector3d& p, double x);
 
-/** \brief The same instances with other numbers, which differ from frame to frame. */
+/** \brief A mask whose instances have other numbers, which differ from frame to frame. */
 Image<std::uint16_t> reshuffled (const Image<std::uint16_t>& mask, int frame);
 
 /** \brief From one place to another in a second, turning about z by \a turn_rad. */

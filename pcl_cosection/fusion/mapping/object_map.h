@@ -36,7 +36,7 @@ struct ObjectMap
   /** \brief Ids of objects that are tracked and have moved since they began. */
   std::set<int> moved () const;
 
-  /** \brief Null: there is none of this id. */
+  /** \brief The object of an id; null without one. */
   const TrackedObject* find (int id) const;
 
   /** \brief Erase an object as if it had never been. */

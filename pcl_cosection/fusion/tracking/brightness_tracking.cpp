@@ -42,7 +42,7 @@ constexpr double worn = 0.8;               // agreement below which another fram
 constexpr double largest_turn_rad = 0.35;  // from the reference: light falls differently then
 constexpr double known_sigma_m = 2e-3;     // of a direction that counts as observed
 
-/** \brief The same place in an image of half the size, level by level. */
+/** \brief A place of the first level in another level, each half the size of the one before. */
 Eigen::Vector2d
 atLevel (const Eigen::Vector2d& pixel, std::size_t level)
 {
