@@ -116,7 +116,7 @@ TEST_F (BackendThreadTest, CanBeGivenUpAtAnyTime)
         thread.addKeyframe (stamped (n), atRest ());
       thread.wait (0, wait * moment);
     }
-    backend.addKeyframe (stamped (5), atRest ()); // it is nobody else's any more
+    backend.addKeyframe (stamped (5), atRest ()); // the thread is gone
     EXPECT_EQ (backend.update (UpdateOutput::Fields).objects.at (0).error, "");
   }
 }

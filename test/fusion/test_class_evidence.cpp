@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_cosection authors
 
-// What an object is, by many detections that may contradict each other.
+// The class of an object, by many detections that may contradict each other.
 
 #include "pcl_cosection/fusion/mapping/class_evidence.h"
 #include <pcl/cosection/common/error.h>

@@ -11,7 +11,7 @@ namespace pcl::cosection
 namespace
 {
 
-constexpr double voxel_m = 0.05; // poses are known better
+constexpr double voxel_m = 0.05; // larger than errors of poses
 constexpr int key_bits = 21;     // of each coordinate: 100 km
 
 std::uint64_t
@@ -27,8 +27,8 @@ keyOf (const Eigen::Vector3d& p)
 } // namespace
 
 void
-ObjectSizeFilter::judge (const std::vector<Eigen::Vector3f>& points, const Eigen::Isometry3d& T_world_camera,
-                         ObjectSegmentation& found)
+ObjectSizeFilter::filter (const std::vector<Eigen::Vector3f>& points, const Eigen::Isometry3d& T_world_camera,
+                          ObjectSegmentation& found)
 {
   ++frame_;
   std::vector<std::size_t> pixels (found.objects + 1, 0), too_long (found.objects + 1, 0);

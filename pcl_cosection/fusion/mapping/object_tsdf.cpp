@@ -16,10 +16,10 @@ namespace
 {
 
 constexpr double outlier_share = 0.01; // of the points, at either end of each axis
-constexpr double core_share = 0.1;     // without these, outlier parts of a mask count no more
+constexpr double core_share = 0.1;     // of the points; without these, outliers of a mask do not count
 constexpr std::size_t min_points = 20;
 
-/** \brief Of the points without a share of them at either end of each axis. */
+/** \brief Bounding box of points without a share of them at either end of each axis. */
 Eigen::AlignedBox3d
 boxWithout (double share, const std::vector<OrientedPoint>& points)
 {
@@ -97,7 +97,7 @@ ObjectTsdf::makeRoom (const std::vector<OrientedPoint>& points)
   }
   const VoxelGrid& grid = volume_->grid ();
   const Eigen::Array3i dims = grid.dims.array ();
-  // Not more than allowed, whatever is asked for.
+  // Clamped before the conversion to int.
   const Eigen::Array3d most = Eigen::Array3d::Constant (options_.max_resolution);
   const Eigen::Array3i low = grid.toVoxel (wanted.min ()).array ().floor ().max (-most).cast<int> ().min (0);
   const Eigen::Array3i

@@ -16,7 +16,7 @@ namespace
 constexpr double placing_share = 0.1; // of the points, at either end of each axis
 constexpr double edge_factor = 2.0;
 constexpr double growing_share = 0.02;
-constexpr double margin_share = 0.1; // of a volume's side, around what is seen
+constexpr double margin_share = 0.1; // of a volume's side, around its points
 constexpr int growth_step = 8;       // voxels
 constexpr std::size_t min_points = 20;
 constexpr double surface_share = 0.2; // of a volume's side: how far an object's surface is from its centre
@@ -43,7 +43,7 @@ boxWithout (double share, const std::vector<Eigen::Vector3f>& points)
 void
 TrackedObject::moveTo (const Eigen::Isometry3d& T_world)
 {
-  const VoxelGrid& grid = volume.grid ();
+  const VoxelGrid& grid = volume->grid ();
   const Eigen::Vector3d centre = grid.origin_m + 0.5 * grid.voxel_size_m * grid.dims.cast<double> ();
   const double radius = surface_share * grid.voxel_size_m * grid.dims.maxCoeff ();
   const double turn = Eigen::AngleAxisd (T_world.linear ().transpose () * T_world_rest.linear ()).angle ();
@@ -56,6 +56,14 @@ TrackedObject::moveTo (const Eigen::Isometry3d& T_world)
     frames_at_rest = 0;
   }
   T_world_object = T_world;
+}
+
+void
+TrackedObject::retire ()
+{
+  surface = volume->surfaceMesh ();
+  volume.reset ();
+  state = ObjectState::Retired;
 }
 
 std::optional<VoxelGrid>

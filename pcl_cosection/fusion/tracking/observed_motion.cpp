@@ -62,11 +62,10 @@ observedMotion (const std::vector<SurfaceSample>& samples, const Eigen::Isometry
   {
     const Vector6d direction = solver.eigenvectors ().col (k);
     const double along = direction.dot (moved);
-    const bool observed = tellingOf (samples, chart, direction).isEnough (total);
+    const bool observed = directionSupport (samples, chart, direction).isEnough (total);
     const double variance = sigma * sigma * prior.correlated / solver.eigenvalues ()[k];
     const bool significant = along * along >= significance * significance * variance;
     result.directions += observed;
-    result.held += observed && !significant;
     if (observed)
       result.precision += solver.eigenvalues ()[k] / std::max (sigma * sigma, least_sigma * least_sigma) * direction *
                           direction.transpose ();

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Copyright (c) 2026, the pcl_cosection authors
-#include "pcl_cosection/fusion/frame_context.h"
+#include "frame_context.h"
 
 #include <pcl/cosection/common/error.h>
+
+#include <algorithm>
 
 namespace pcl::cosection
 {
@@ -34,6 +36,19 @@ MaskReader::warnings () const
   if (more_ > 0)
     result.push_back ("and " + std::to_string (more_) + " more warnings about masks");
   return result;
+}
+
+std::map<int, FusedObject>::iterator
+eraseObject (std::map<int, FusedObject>::iterator object, bool completed, FusionResult& result)
+{
+  std::vector<ObjectResult>& completions = result.scene.objects;
+  completions.erase (std::remove_if (completions.begin (), completions.end (),
+                                     [&] (const ObjectResult& completion) {
+                                       return completion.id == object->first &&
+                                              (completed || !completion.error.empty ());
+                                     }),
+                     completions.end ());
+  return result.objects.erase (object);
 }
 
 } // namespace pcl::cosection
