@@ -3,7 +3,7 @@
 #include "volume_layout.h"
 
 #include "pcl_cosection/common/byte_text.h"
-#include "pcl_cosection/common/ranked_values.h"
+#include "pcl_cosection/common/trimmed_box.h"
 #include "pcl_cosection/priors/extent_bounds.h"
 #include "pcl_cosection/view/pixel_of.h"
 #include "shape_volume.h"
@@ -114,18 +114,10 @@ observedBox (const std::vector<OrientedPoint>& points, int threads)
 {
   if (points.empty ())
     throw DegenerateInput ("no points with finite coordinates and a normal");
-  Eigen::AlignedBox3d box;
-  parallelFor (0, 3, threads, [&] (int a) {
-    std::vector<float> values (points.size ());
-    for (std::size_t n = 0; n < points.size (); ++n)
-      values[n] = points[n].position[a];
-    if (!std::all_of (values.begin (), values.end (), [] (float v) { return std::isfinite (v); }))
-      throw DegenerateInput ("some points have no finite coordinates");
-    const auto cut = static_cast<std::size_t> (outlier_share * static_cast<double> (values.size ()));
-    const std::array<float, 2> ends = valuesOfRanks (values, {cut, values.size () - 1 - cut});
-    box.min ()[a] = ends[0];
-    box.max ()[a] = ends[1];
-  });
+  if (!std::all_of (points.begin (), points.end (), [] (const OrientedPoint& p) { return p.position.allFinite (); }))
+    throw DegenerateInput ("some points have no finite coordinates");
+  const auto box = trimmedBox<double> (
+      points, outlier_share, [] (const OrientedPoint& p) { return p.position; }, threads);
   if (!(box.sizes ().maxCoeff () > min_extent_m))
     throw DegenerateInput ("all points lie on one spot");
   return box;

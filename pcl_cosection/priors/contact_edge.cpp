@@ -2,6 +2,8 @@
 // Copyright (c) 2026, the pcl_cosection authors
 #include "contact_edge.h"
 
+#include "pcl_cosection/common/quantile.h"
+#include "pcl_cosection/common/sectors.h"
 #include "pcl_cosection/common/sphere_directions.h"
 #include "pcl_cosection/priors/shape/normal_axis.h"
 
@@ -233,10 +235,7 @@ private:
     heights.reserve (lines_.size ());
     for (const NormalLine& line : lines_)
       heights.push_back (up.dot (line.position));
-    const auto rank = heights.begin () +
-                      static_cast<std::ptrdiff_t> (share * static_cast<double> (heights.size () - 1));
-    std::nth_element (heights.begin (), rank, heights.end ());
-    return *rank;
+    return quantile (heights, share);
   }
 
   /** \brief What is level may end at a sharp edge. */
@@ -314,14 +313,11 @@ private:
                                      [&] (const NormalLine& line) { return plane.up.dot (line.normal) < facing_down; });
     if (static_cast<double> (down) > down_share * static_cast<double> (lines_.size ()))
       return false;
-    const Eigen::Vector3d x = plane.up.unitOrthogonal ();
-    const Eigen::Vector3d y = plane.up.cross (x);
+    const Sectors around (plane.up, sectors);
     std::array<const Cell*, sectors> lowest{};
     for (const Cell& cell : cells_)
     {
-      const double turn = std::atan2 (y.dot (cell.position), x.dot (cell.position)) / (2.0 * M_PI) + 0.5;
-      const Cell*&
-          of_sector = lowest[static_cast<std::size_t> (std::clamp (static_cast<int> (turn * sectors), 0, sectors - 1))];
+      const Cell*& of_sector = lowest[around.of (cell.position)];
       if (!of_sector || plane.up.dot (cell.position) < plane.up.dot (of_sector->position))
         of_sector = &cell;
     }

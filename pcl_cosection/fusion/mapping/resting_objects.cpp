@@ -2,6 +2,7 @@
 // Copyright (c) 2026, the pcl_cosection authors
 #include "resting_objects.h"
 
+#include "pcl_cosection/common/quantile.h"
 #include "pcl_cosection/fusion/tracking/frame_cloud.h"
 
 #include <pcl/cosection/common/camera.h>
@@ -79,9 +80,7 @@ spread (std::vector<double> distances)
 {
   for (double& distance : distances)
     distance = std::abs (distance);
-  const auto middle = distances.begin () + static_cast<std::ptrdiff_t> (distances.size () / 2);
-  std::nth_element (distances.begin (), middle, distances.end ());
-  return 1.4826 * *middle;
+  return sigmaOfSizes (distances);
 }
 
 /** \brief Whether the readings that tell of a direction do not fit the background: borders are frayed, walls are not.

@@ -2,6 +2,8 @@
 // Copyright (c) 2026, the pcl_cosection authors
 #include "brightness_tracking.h"
 
+#include "pcl_cosection/common/quantile.h"
+
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 
@@ -54,14 +56,6 @@ bool
 isWithin (const Image<float>& image, const Eigen::Vector2d& pixel)
 {
   return pixel.x () >= 0.0 && pixel.y () >= 0.0 && pixel.x () <= image.width - 1.0 && pixel.y () <= image.height - 1.0;
-}
-
-double
-median (std::vector<double>& values)
-{
-  const auto middle = values.begin () + static_cast<std::ptrdiff_t> (values.size () / 2);
-  std::nth_element (values.begin (), middle, values.end ());
-  return *middle;
 }
 
 /** \brief Projection onto the directions that are told. */
@@ -140,10 +134,10 @@ BrightnessTracking::Sums::Sums (const std::vector<Comparison>& points) : seen (p
   std::vector<double> differences (seen);
   std::transform (points.begin (), points.end (), differences.begin (),
                   [] (const Comparison& point) { return point.now - point.then; });
-  const double offset = median (differences);
+  const double offset = upperMedian (differences);
   for (double& difference : differences)
     difference = std::abs (difference - offset);
-  sigma = std::max (least_sigma, 1.4826 * median (differences));
+  sigma = std::max (least_sigma, sigmaOfSizes (differences));
   double mean = 0.0;
   for (const Comparison& point : points)
     mean += point.then / static_cast<double> (seen);

@@ -2,6 +2,8 @@
 // Copyright (c) 2026, the pcl_cosection authors
 #include "axis_refinement.h"
 
+#include "pcl_cosection/common/quantile.h"
+
 #include <Eigen/Cholesky>
 #include <Eigen/Geometry>
 
@@ -105,9 +107,7 @@ refineAxis (const Axis& first, const std::vector<NormalLine>& lines)
     }
     if (residuals.empty ())
       return first;
-    const auto half = residuals.begin () + static_cast<std::ptrdiff_t> (residuals.size () / 2);
-    std::nth_element (residuals.begin (), half, residuals.end ());
-    scale = outlier_scale * *half;
+    scale = outlier_scale * upperMedian (residuals);
     left.diagonal ().array () += ridge * left.trace ();
     const Eigen::Vector2d change = left.ldlt ().solve (right);
     axis.point += change[0] * x + change[1] * y;

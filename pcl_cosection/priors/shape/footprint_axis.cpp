@@ -2,6 +2,9 @@
 // Copyright (c) 2026, the pcl_cosection authors
 #include "footprint_axis.h"
 
+#include "pcl_cosection/common/quantile.h"
+#include "pcl_cosection/common/sectors.h"
+
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
@@ -29,16 +32,6 @@ constexpr double plane_reach = 0.02; // of the size: points so far from the leve
 
 using Points = std::vector<Eigen::Vector2d>;
 using Points3 = std::vector<Eigen::Vector3d>;
-
-/** \brief The value that so many are above. */
-double
-quantile (std::vector<double>& values, double share_above)
-{
-  const auto rank = values.end () - 1 -
-                    static_cast<std::ptrdiff_t> (share_above * static_cast<double> (values.size ()));
-  std::nth_element (values.begin (), rank, values.end ());
-  return *rank;
-}
 
 /** \brief Points as seen from above. */
 struct Footprint
@@ -102,14 +95,12 @@ isRound (const Points& points, const Eigen::Vector2d& center)
   for (const Eigen::Vector2d& p : points)
   {
     const Eigen::Vector2d q = p - center;
-    const double turn = std::atan2 (q.y (), q.x ()) / (2.0 * M_PI) + 0.5;
-    radii[static_cast<std::size_t> (std::clamp (static_cast<int> (turn * sectors), 0, sectors - 1))].push_back (
-        q.norm ());
+    radii[sectorOf (q.x (), q.y (), sectors)].push_back (q.norm ());
   }
   std::vector<double> reaches;
   for (std::vector<double>& sector : radii)
     if (!sector.empty ())
-      reaches.push_back (quantile (sector, sector_outliers));
+      reaches.push_back (trimmedMax (sector, sector_outliers));
   std::vector<double> sorted = reaches;
   const double radius = quantile (sorted, 0.5);
   const auto alike = std::count_if (reaches.begin (), reaches.end (),

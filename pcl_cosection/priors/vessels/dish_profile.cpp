@@ -2,6 +2,8 @@
 // Copyright (c) 2026, the pcl_cosection authors
 #include "dish_profile.h"
 
+#include "pcl_cosection/common/quantile.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -37,14 +39,6 @@ constexpr double thinnest_cells = 0.25; // a wall, as planes are not known bette
 constexpr double noise_cells = 0.4;     // how far points may be from a side, at least; of the wall, half
 constexpr double noise_spreads = 3.0;   // and of the median distance of points from the inside
 constexpr double beyond_share = 0.1;    // of all points, may be farther from the inside than the wall reaches
-
-double
-quantile (std::vector<double> values, double share)
-{
-  const auto rank = values.begin () + static_cast<std::ptrdiff_t> (share * static_cast<double> (values.size () - 1));
-  std::nth_element (values.begin (), rank, values.end ());
-  return *rank;
-}
 
 /** \brief From a straight piece. */
 double
@@ -140,7 +134,7 @@ DishProfile::findInside (const std::vector<ProfilePoint>& points, double step_m)
     part.upwards.push_back (position.x () - position.y ());
     part.normal += normal;
   }
-  for (const auto& [number, part] : parts)
+  for (auto& [number, part] : parts)
     if (part.outwards.size () >= least_points && part.normal.norm () > 0.0)
     {
       const double outwards = quantile (part.outwards, 0.5), upwards = quantile (part.upwards, 0.5);
