@@ -3,6 +3,7 @@
 #include "contact_edge.h"
 
 #include "pcl_cosection/common/quantile.h"
+#include "pcl_cosection/common/robust_weights.h"
 #include "pcl_cosection/common/sectors.h"
 #include "pcl_cosection/common/sphere_directions.h"
 #include "pcl_cosection/priors/shape/normal_axis.h"
@@ -299,7 +300,7 @@ private:
       const Eigen::Vector3d normal = solver.eigenvectors ().col (0);
       plane.up = normal.dot (before.up) < 0.0 ? Eigen::Vector3d (-normal) : normal;
       for (std::size_t n = 0; n < ends.size (); ++n)
-        weights[n] = 1.0 / (1.0 + std::pow (plane.up.dot (ends[n] - middle) / fit_scale, 2));
+        weights[n] = cauchyWeight (plane.up.dot (ends[n] - middle) / fit_scale);
     }
     plane.height = heightAlong (plane.up, outlier_share);
     return plane;

@@ -86,19 +86,14 @@ findUnassignedComponents (const std::vector<bool>& unassigned, const FrameCloud&
       sets.unite (a, b);
   });
   UnassignedComponents regions;
-  regions.of_pixel.assign (unassigned.size (), UnassignedComponents::none);
-  for (std::size_t n = 0; n < unassigned.size (); ++n)
+  regions.of_pixel = sets.numbers ([&] (std::size_t n) { return unassigned[n]; });
+  for (const int region : regions.of_pixel)
   {
-    if (!unassigned[n])
+    if (region == UnassignedComponents::none)
       continue;
-    const std::size_t root = sets.find (n); // the first of its region
-    if (root == n)
-    {
-      regions.of_pixel[n] = static_cast<int> (regions.pixels.size ());
+    if (region == static_cast<int> (regions.pixels.size ())) // its first pixel
       regions.pixels.push_back (0);
-    }
-    regions.of_pixel[n] = regions.of_pixel[root];
-    ++regions.pixels[regions.of_pixel[n]];
+    ++regions.pixels[region];
   }
   std::vector<std::size_t> ends (regions.pixels.size (), 0);
   forEnds (cloud, [&] (const std::vector<std::size_t>& end) {

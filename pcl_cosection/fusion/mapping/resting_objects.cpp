@@ -3,6 +3,7 @@
 #include "resting_objects.h"
 
 #include "pcl_cosection/common/quantile.h"
+#include "pcl_cosection/common/robust_weights.h"
 #include "pcl_cosection/fusion/tracking/frame_cloud.h"
 
 #include <pcl/cosection/common/camera.h>
@@ -66,8 +67,7 @@ samplesOf (const Pieces& pieces, const Eigen::Isometry3d& T_world_camera)
     {
       sample.position = piece->T_world_object * sample.position;
       sample.normal = piece->T_world_object.linear () * sample.normal;
-      sample.weight *= std::min (1.0, huber / std::max (1e-12, std::abs (sample.distance))) /
-                       (piece->tolerance_m * piece->tolerance_m);
+      sample.weight *= huberWeight (std::abs (sample.distance), huber) / (piece->tolerance_m * piece->tolerance_m);
       all.push_back (sample);
     }
   }

@@ -3,6 +3,7 @@
 #include "brightness_tracking.h"
 
 #include "pcl_cosection/common/quantile.h"
+#include "pcl_cosection/common/robust_weights.h"
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
@@ -146,12 +147,12 @@ BrightnessTracking::Sums::Sums (const std::vector<Comparison>& points) : seen (p
   for (const Comparison& point : points)
   {
     const double difference = point.now - point.then - offset, size = std::abs (difference);
-    const double weight = size <= huber ? 1.0 : huber / size;
+    const double weight = huberWeight (size, huber);
     VectorXd change;
     change << point.slope, (point.then - mean) / factor_unit, 1.0, point.place;
     squares += weight * change * change.transpose ();
     gradient += weight * difference * change;
-    cost += size <= huber ? 0.5 * difference * difference : huber * (size - 0.5 * huber);
+    cost += huberCost (size, huber);
     agreeing += size <= as_bright;
   }
   cost /= static_cast<double> (seen);

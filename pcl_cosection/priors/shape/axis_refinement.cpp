@@ -3,6 +3,7 @@
 #include "axis_refinement.h"
 
 #include "pcl_cosection/common/quantile.h"
+#include "pcl_cosection/common/robust_weights.h"
 
 #include <Eigen/Cholesky>
 #include <Eigen/Geometry>
@@ -99,8 +100,7 @@ refineAxis (const Axis& first, const std::vector<NormalLine>& lines)
       for (const Sample& s : samples)
       {
         residuals.push_back (std::abs (s.radius));
-        const double relative = scale > 0.0 ? s.radius / scale : 0.0;
-        const double weight = 1.0 / (1.0 + relative * relative);
+        const double weight = cauchyWeight (scale > 0.0 ? s.radius / scale : 0.0);
         left += weight * s.change * s.change.transpose ();
         right -= weight * s.change * s.radius;
       }

@@ -3,6 +3,7 @@
 #include "footprint_axis.h"
 
 #include "pcl_cosection/common/quantile.h"
+#include "pcl_cosection/common/robust_weights.h"
 #include "pcl_cosection/common/sectors.h"
 
 #include <Eigen/Cholesky>
@@ -145,7 +146,7 @@ planeNormal (const Points3& points, Eigen::Vector3d normal)
     for (const Eigen::Vector3d& p : points)
     {
       const double off = normal.dot (p - center) / plane_reach;
-      const double weight = 1.0 / (1.0 + off * off);
+      const double weight = cauchyWeight (off);
       sum += weight * (p - center);
       products += weight * (p - center) * (p - center).transpose ();
       weights += weight;
