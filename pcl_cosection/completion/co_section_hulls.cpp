@@ -3,6 +3,7 @@
 #include "co_section_run.h"
 
 #include "pcl_cosection/energy/constraints/object_hull.h"
+#include "pcl_cosection/view/visibility.h"
 #include "volume_layout.h"
 
 #include <algorithm>
@@ -30,10 +31,7 @@ unseenLayer (const OcclusionMap::Views& views, const Eigen::Vector3d& place, dou
   for (const auto& [view, T_object_sensor] : views)
   {
     const Eigen::Vector3d p = T_object_sensor.inverse () * place;
-    if (p.z () <= 0.0)
-      continue;
-    const Eigen::Array2d pixel = view->camera.project (p);
-    if ((pixel >= 0.0).all () && pixel.x () < view->camera.width && pixel.y () < view->camera.height)
+    if (pixelOf (view->camera, p))
       margin_m = std::min (margin_m, freeSpaceMargin (p.z (), voxel_size_m));
   }
   return (margin_m < std::numeric_limits<double>::infinity () ? margin_m : freeSpaceMargin (0.0, voxel_size_m)) +

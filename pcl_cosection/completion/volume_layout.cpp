@@ -5,7 +5,7 @@
 #include "pcl_cosection/common/byte_text.h"
 #include "pcl_cosection/common/trimmed_box.h"
 #include "pcl_cosection/priors/extent_bounds.h"
-#include "pcl_cosection/view/pixel_of.h"
+#include "pcl_cosection/view/visibility.h"
 #include "shape_volume.h"
 
 #include "pcl_cosection/common/parallel.h"
@@ -33,14 +33,6 @@ constexpr double min_extent_m = 1e-6;
 constexpr double possible_cells = 20.6;
 constexpr double possible_margin_vox = 6.0; // around that
 
-/** \brief Whether a point in the sensor's frame lies before what was measured, by more than \a margin_m. */
-bool
-seenFree (const DepthView& view, const Eigen::Vector3d& p, double margin_m)
-{
-  const std::optional<Eigen::Array2i> pixel = pixelOf (view.camera, p);
-  return pixel && p.z () < view.at (pixel->x (), pixel->y ()) - margin_m; // NaN: no reading
-}
-
 /** \brief Whether any view sees a place free. */
 class AnySeesFree
 {
@@ -54,7 +46,7 @@ public:
   bool operator() (const Eigen::Vector3d& p) const
   {
     for (std::size_t v = 0; v < views_.size (); ++v)
-      if (seenFree (*views_[v].first, T_sensor_points_[v] * p, margin_m_))
+      if (visibilityOf (T_sensor_points_[v] * p, *views_[v].first, margin_m_) == PointVisibility::Free)
         return true;
     return false;
   }

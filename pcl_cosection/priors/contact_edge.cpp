@@ -8,7 +8,7 @@
 #include "pcl_cosection/common/sphere_directions.h"
 #include "pcl_cosection/priors/shape/normal_axis.h"
 
-#include "pcl_cosection/view/pixel_of.h"
+#include "pcl_cosection/view/visibility.h"
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
@@ -199,18 +199,15 @@ private:
   /** \brief Would a view see something there? Nothing else hides it, by more than so much. */
   static bool isOpen (const Eigen::Vector3d& p, double depth_m, const Views::value_type& view)
   {
-    const Eigen::Vector3d q = view.second.inverse () * p;
-    const std::optional<Eigen::Array2i> pixel = pixelOf (view.first->camera, q);
-    return pixel && !(view.first->at (pixel->x (), pixel->y ()) < q.z () - depth_m); // no reading: not a number
+    const PointVisibility visibility = visibilityOf (view.second.inverse () * p, *view.first, depth_m);
+    return visibility != PointVisibility::Outside && visibility != PointVisibility::Occluded;
   }
 
   /** \brief Does a view see something just there? Without a reliable normal it is no point of the surface, which yet
    * does not end before it. */
   static bool isSeen (const Eigen::Vector3d& p, double depth_m, const Views::value_type& view)
   {
-    const Eigen::Vector3d q = view.second.inverse () * p;
-    const std::optional<Eigen::Array2i> pixel = pixelOf (view.first->camera, q);
-    return pixel && std::abs (view.first->at (pixel->x (), pixel->y ()) - q.z ()) < depth_m;
+    return visibilityOf (view.second.inverse () * p, *view.first, depth_m) == PointVisibility::AtSurface;
   }
 
   /** \brief Are all sensors above a plane? If it leads to one, an edge that hides something may make it. */
