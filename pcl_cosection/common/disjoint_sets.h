@@ -38,6 +38,26 @@ public:
     parent_[b] = a;
   }
 
+  /** \brief The number of each element's set, in the order of their first elements.
+   * \param[in] counts (element): whether it has a number, else -1; the same for all of a set */
+  template <typename Counts> std::vector<int> numbers (Counts&& counts)
+  {
+    std::vector<int> numbers (parent_.size (), -1);
+    int next = 0;
+    for (std::size_t i = 0; i < numbers.size (); ++i)
+      if (counts (i))
+      {
+        const std::size_t first = find (i);
+        numbers[i] = first == i ? next++ : numbers[first];
+      }
+    return numbers;
+  }
+
+  std::vector<int> numbers ()
+  {
+    return numbers ([] (std::size_t) { return true; });
+  }
+
 private:
   std::vector<std::size_t> parent_;
 };

@@ -4,6 +4,7 @@
 
 #include "pcl_cosection/completion/grid/volume_layout.h"
 #include "pcl_cosection/energy/constraints/object_hull.h"
+#include "pcl_cosection/view/visibility.h"
 
 #include <algorithm>
 #include <limits>
@@ -28,10 +29,7 @@ unseenLayer (const OcclusionMap::Views& views, const Eigen::Vector3d& place, dou
   for (const auto& [view, T_object_sensor] : views)
   {
     const Eigen::Vector3d p = T_object_sensor.inverse () * place;
-    if (p.z () <= 0.0)
-      continue;
-    const Eigen::Array2d pixel = view->camera.project (p);
-    if ((pixel >= 0.0).all () && pixel.x () < view->camera.width && pixel.y () < view->camera.height)
+    if (pixelOf (view->camera, p))
       margin_m = std::min (margin_m, freeSpaceMargin (p.z (), voxel_size_m));
   }
   return (margin_m < std::numeric_limits<double>::infinity () ? margin_m : freeSpaceMargin (0.0, voxel_size_m)) +

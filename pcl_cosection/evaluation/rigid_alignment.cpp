@@ -3,6 +3,7 @@
 #include "rigid_alignment.h"
 
 #include "pcl_cosection/common/parallel.h"
+#include "pcl_cosection/common/robust_weights.h"
 #include <pcl/cosection/common/error.h>
 
 #include <Eigen/Eigenvalues>
@@ -77,8 +78,7 @@ public:
         continue;
       squares += distance * distance;
       count += 1.0;
-      const double ratio = distance / options_.max_distance_m;
-      const double weight = (1.0 - ratio * ratio) * (1.0 - ratio * ratio); // Tukey
+      const double weight = tukeyWeight (distance / options_.max_distance_m);
       Vector6d row;
       row << (p - motion * centre_).cross (nearest[n].normal) / radius_m_, nearest[n].normal;
       hessian += weight * row * row.transpose ();

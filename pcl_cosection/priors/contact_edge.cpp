@@ -2,10 +2,13 @@
 // Copyright (c) 2026, the pcl_cosection authors
 #include "contact_edge.h"
 
+#include "pcl_cosection/common/quantile.h"
+#include "pcl_cosection/common/robust_weights.h"
+#include "pcl_cosection/common/sectors.h"
 #include "pcl_cosection/common/sphere_directions.h"
 #include "pcl_cosection/priors/shape/normal_axis.h"
 
-#include "pcl_cosection/view/pixel_of.h"
+#include "pcl_cosection/view/visibility.h"
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
@@ -198,18 +201,15 @@ private:
   /** \brief Whether a view would see a surface at a place: no reading lies in front of it by more than depth_m. */
   static bool isOpen (const Eigen::Vector3d& p, double depth_m, const Views::value_type& view)
   {
-    const Eigen::Vector3d q = view.second.inverse () * p;
-    const std::optional<Eigen::Array2i> pixel = pixelOf (view.first->camera, q);
-    return pixel && !(view.first->at (pixel->x (), pixel->y ()) < q.z () - depth_m); // NaN: no reading
+    const PointVisibility visibility = visibilityOf (view.second.inverse () * p, *view.first, depth_m);
+    return visibility != PointVisibility::Outside && visibility != PointVisibility::Occluded;
   }
 
   /** \brief Whether a view has a reading just there. Without a reliable normal it is no point, but the surface does not
    * end in front of it. */
   static bool isSeen (const Eigen::Vector3d& p, double depth_m, const Views::value_type& view)
   {
-    const Eigen::Vector3d q = view.second.inverse () * p;
-    const std::optional<Eigen::Array2i> pixel = pixelOf (view.first->camera, q);
-    return pixel && std::abs (view.first->at (pixel->x (), pixel->y ()) - q.z ()) < depth_m;
+    return visibilityOf (view.second.inverse () * p, *view.first, depth_m) == PointVisibility::AtSurface;
   }
 
   /** \brief Whether all sensors are above a plane. An edge that hides the object may make a plane through a sensor. */
@@ -235,10 +235,7 @@ private:
     heights.reserve (lines_.size ());
     for (const NormalLine& line : lines_)
       heights.push_back (up.dot (line.position));
-    const auto rank = heights.begin () +
-                      static_cast<std::ptrdiff_t> (share * static_cast<double> (heights.size () - 1));
-    std::nth_element (heights.begin (), rank, heights.end ());
-    return *rank;
+    return quantile (heights, share);
   }
 
   /** \brief Whether the end of a cell counts: a horizontal surface may end at a sharp edge. */
@@ -302,7 +299,7 @@ private:
       const Eigen::Vector3d normal = solver.eigenvectors ().col (0);
       plane.up = normal.dot (before.up) < 0.0 ? Eigen::Vector3d (-normal) : normal;
       for (std::size_t n = 0; n < ends.size (); ++n)
-        weights[n] = 1.0 / (1.0 + std::pow (plane.up.dot (ends[n] - middle) / fit_scale, 2));
+        weights[n] = cauchyWeight (plane.up.dot (ends[n] - middle) / fit_scale);
     }
     plane.height = heightAlong (plane.up, outlier_share);
     return plane;
@@ -316,14 +313,11 @@ private:
                                      [&] (const NormalLine& line) { return plane.up.dot (line.normal) < facing_down; });
     if (static_cast<double> (down) > down_share * static_cast<double> (lines_.size ()))
       return false;
-    const Eigen::Vector3d x = plane.up.unitOrthogonal ();
-    const Eigen::Vector3d y = plane.up.cross (x);
+    const Sectors around (plane.up, sectors);
     std::array<const Cell*, sectors> lowest{};
     for (const Cell& cell : cells_)
     {
-      const double turn = std::atan2 (y.dot (cell.position), x.dot (cell.position)) / (2.0 * M_PI) + 0.5;
-      const Cell*&
-          of_sector = lowest[static_cast<std::size_t> (std::clamp (static_cast<int> (turn * sectors), 0, sectors - 1))];
+      const Cell*& of_sector = lowest[around.of (cell.position)];
       if (!of_sector || plane.up.dot (cell.position) < plane.up.dot (of_sector->position))
         of_sector = &cell;
     }

@@ -2,6 +2,7 @@
 // Copyright (c) 2026, the pcl_cosection authors
 #include "contact_prior.h"
 
+#include "pcl_cosection/common/convex_hull.h"
 #include "pcl_cosection/priors/shape/principal_axes.h"
 
 #include "pcl_cosection/energy/constraints/plane_map.h"
@@ -22,48 +23,6 @@ constexpr int least_part_cells = 4;     // of a part of the contact; smaller one
 constexpr double lowest_free_vox = 3.0; // over the plane: lower free space cannot be distinguished from the plane
 constexpr double highest_free_vox = 7.0;
 constexpr int closing_cells = 3; // gaps between points up to twice this wide are closed
-
-double
-cross (const Eigen::Vector2d& a, const Eigen::Vector2d& b)
-{
-  return a.x () * b.y () - a.y () * b.x ();
-}
-
-/** \brief Corners of the convex hull, counter-clockwise (Andrew's monotone chain). */
-std::vector<Eigen::Vector2d>
-convexHull (std::vector<Eigen::Vector2d> points)
-{
-  std::sort (points.begin (), points.end (), [] (const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
-    return a.x () < b.x () || (a.x () == b.x () && a.y () < b.y ());
-  });
-  std::vector<Eigen::Vector2d> hull;
-  for (int side = 0; side < 2; ++side) // lower, upper
-  {
-    const std::size_t begin = hull.size ();
-    for (const Eigen::Vector2d& p : points)
-    {
-      while (hull.size () >= begin + 2 && cross (hull.back () - hull[hull.size () - 2], p - hull.back ()) <= 0.0)
-        hull.pop_back ();
-      hull.push_back (p);
-    }
-    hull.pop_back ();
-    std::reverse (points.begin (), points.end ());
-  }
-  return hull;
-}
-
-/** \brief Whether a point is inside a convex polygon. */
-bool
-inside (const std::vector<Eigen::Vector2d>& polygon, const Eigen::Vector2d& p)
-{
-  for (std::size_t n = 0; n < polygon.size (); ++n)
-  {
-    const Eigen::Vector2d side = polygon[(n + 1) % polygon.size ()] - polygon[n];
-    if (cross (side, p - polygon[n]) < 0.0)
-      return false;
-  }
-  return !polygon.empty ();
-}
 
 } // namespace
 
@@ -132,7 +91,7 @@ ContactPrior::patch (const VoxelGrid& grid, const Eigen::Vector4d& plane, const 
           if (height (p) < lowest_free_vox * h || height (p) > highest_free_vox * h)
             continue;
           const Eigen::Vector2d q = flat (p);
-          if (!covered.at (q) || !inside (polygon, q))
+          if (!covered.at (q) || !isInside (polygon, q))
             continue;
           ++all;
           free += static_cast<std::size_t> (free_space[grid.index (i, j, k)] != 0);
@@ -176,7 +135,7 @@ ContactPrior::patch (const VoxelGrid& grid, const Eigen::Vector4d& plane, const 
           continue;
         const Eigen::Vector2d q = flat (p);
         patch[n] = covered.at (q) && std::any_of (undersides.begin (), undersides.end (),
-                                                  [&] (const auto& hull) { return inside (hull, q); });
+                                                  [&] (const auto& hull) { return isInside (hull, q); });
       }
   return patch;
 }

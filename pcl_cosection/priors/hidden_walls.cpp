@@ -3,6 +3,7 @@
 #include "hidden_walls.h"
 
 #include "pcl_cosection/common/quantile.h"
+#include "pcl_cosection/common/sectors.h"
 
 #include <Eigen/Geometry>
 
@@ -64,7 +65,7 @@ public:
       const Raised raised{p.head<2> (), p.z () + plane[3], axes_.transpose () * point.normal.cast<double> ()};
       columns_[cellOf (raised.place)].push_back (raised);
       if (isWall (raised))
-        leans[sectorOf (raised.normal)].push_back (raised.normal.z ());
+        leans[sectorOf (raised.normal.x (), raised.normal.y (), sectors)].push_back (raised.normal.z ());
     }
     for (std::size_t s = 0; s < sectors; ++s)
       if (!leans[s].empty ())
@@ -87,12 +88,6 @@ public:
 
 private:
   static bool isWall (const Raised& p) { return std::abs (p.normal.z ()) < steep; }
-
-  static std::size_t sectorOf (const Eigen::Vector3d& normal)
-  {
-    const double turn = 0.5 + std::atan2 (normal.y (), normal.x ()) / (2.0 * M_PI);
-    return std::min (sectors - 1, static_cast<std::size_t> (turn * sectors));
-  }
 
   Cell cellOf (const Eigen::Vector2d& place) const
   {
@@ -135,7 +130,7 @@ private:
         end.normal.norm () < least_aligned * static_cast<double> (walls))
       return std::nullopt;
     end.place /= static_cast<double> (own);
-    const double lean = leans_[sectorOf (end.normal)];
+    const double lean = leans_[sectorOf (end.normal.x (), end.normal.y (), sectors)];
     end.normal.z () = std::abs (lean) < vertical_lean ? 0.0 : lean;
     end.normal.head<2> () *= std::sqrt (1.0 - end.normal.z () * end.normal.z ()) / end.normal.head<2> ().norm ();
     return end;

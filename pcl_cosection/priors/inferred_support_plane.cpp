@@ -3,6 +3,7 @@
 #include "inferred_support_plane.h"
 
 #include "pcl_cosection/common/quantile.h"
+#include "pcl_cosection/common/sectors.h"
 #include "pcl_cosection/priors/shape/footprint_axis.h"
 #include "pcl_cosection/priors/shape/normal_axis.h"
 
@@ -62,15 +63,12 @@ public:
   /** \brief Number of sectors whose rim is higher than \a height. */
   std::ptrdiff_t sectorsHigherThan (double height) const
   {
-    const Eigen::Vector3d x = up_.unitOrthogonal ();
-    const Eigen::Vector3d y = up_.cross (x);
+    const Sectors numbers (up_, sectors);
     std::array<std::vector<Eigen::Vector3d>, sectors> around;
     std::array<double, sectors> reach{};
     for (const NormalLine& line : lines_)
     {
-      const Eigen::Vector3d q = line.position - center_;
-      const double turn = std::atan2 (y.dot (q), x.dot (q)) / (2.0 * M_PI) + 0.5;
-      const auto s = static_cast<std::size_t> (std::clamp (static_cast<int> (turn * sectors), 0, sectors - 1));
+      const std::size_t s = numbers.of (line.position - center_);
       around[s].push_back (line.position);
       reach[s] = std::max (reach[s], radiusOf (line.position));
     }

@@ -2,7 +2,7 @@
 // Copyright (c) 2026, the pcl_cosection authors
 #include "object_depth_buffer.h"
 
-#include "pcl_cosection/view/pixel_of.h"
+#include "pcl_cosection/view/visibility.h"
 
 #include <algorithm>
 
@@ -116,7 +116,8 @@ ObjectDepthBuffer::at (const Eigen::Vector3d& p, const DepthView& view) const
     return Hidden::Nothing;
   if (q.z () > depthOf (u, v))
     return Hidden::ByObject;
-  return q.z () > view.at (u, v) ? Hidden::ByOther : Hidden::Nothing; // NaN: no reading
+  return compareWithReading (q.z (), view.at (u, v), 0.0) == PointVisibility::Occluded ? Hidden::ByOther
+                                                                                       : Hidden::Nothing;
 }
 
 ObjectDepthBuffer::Outlook

@@ -2,7 +2,7 @@
 // Copyright (c) 2026, the pcl_cosection authors
 #include "rays_without_return.h"
 
-#include "pcl_cosection/view/pixel_of.h"
+#include "pcl_cosection/view/visibility.h"
 
 #include "pcl_cosection/common/parallel.h"
 
@@ -43,7 +43,7 @@ public:
     const Eigen::Vector3d q = T_sensor_object_ * place;
     const auto pixel = pixelOf (view_.camera, q);
     return pixel && cells_[indexOf (*pixel / cell_px)] == outside &&
-           !(view_.at (pixel->x (), pixel->y ()) < q.z ()); // no reading: not a number
+           compareWithReading (q.z (), view_.at (pixel->x (), pixel->y ()), 0.0) != PointVisibility::Occluded;
   }
 
 private:

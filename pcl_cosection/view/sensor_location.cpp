@@ -2,6 +2,8 @@
 // Copyright (c) 2026, the pcl_cosection authors
 #include "sensor_location.h"
 
+#include "pcl_cosection/common/quantile.h"
+
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 
@@ -76,8 +78,7 @@ findJumps (const std::vector<Eigen::Vector3f>& points)
                                                  [&] (float step) { return jump_spacings * step < *here; }) <= window)
       continue;
     about.assign (here - window, here + window + 1);
-    std::nth_element (about.begin (), about.begin () + window, about.end ());
-    const float longest = longest_step * about[window];
+    const float longest = longest_step * upperMedian (about);
     jumps.push_back ({finite[i].cast<double> (), finite[i + 1].cast<double> (),
                       meanStep (finite, i - window, i, longest), meanStep (finite, i + 1, i + 1 + window, longest)});
   }

@@ -2,6 +2,7 @@
 // Copyright (c) 2026, the pcl_cosection authors
 #include "sensor_view.h"
 
+#include "pcl_cosection/common/quantile.h"
 #include "pcl_cosection/io/place_text.h"
 #include "pcl_cosection/view/normals/estimated_normals.h"
 
@@ -74,10 +75,9 @@ withoutLonely (const PcdViewOptions& options, const Members& members, const Sens
     const std::vector<float> reach = neighbourDistances (pick (cloud.positions, indices), lonely_neighbours,
                                                          options.threads);
     std::vector<float> sorted = reach;
-    const auto middle = sorted.begin () + static_cast<std::ptrdiff_t> (sorted.size () / 2);
-    std::nth_element (sorted.begin (), middle, sorted.end ());
+    const float usual = upperMedian (sorted);
     for (std::size_t k = 0; k < indices.size (); ++k)
-      if (reach[k] <= lonely_factor * *middle)
+      if (reach[k] <= lonely_factor * usual)
         core.positions[indices[k]] = cloud.positions[indices[k]];
   }
   return core;

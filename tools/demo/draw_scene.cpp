@@ -5,6 +5,7 @@
 // meshes in the folder MESHES from there, and the meshes from behind, coloured by provenance. Up is where most of the
 // background faces.
 
+#include "pcl_cosection/common/quantile.h"
 #include "pcl_cosection/rendering/picture.h"
 #include "pcl_cosection/view/look_at.h"
 #include <pcl/cosection/common/error.h>
@@ -51,14 +52,6 @@ struct Scene
   TriangleMesh background;
   std::vector<TriangleMesh> objects;
 };
-
-double
-quantile (std::vector<double>& values, double share)
-{
-  const auto middle = values.begin () + static_cast<std::ptrdiff_t> (share * (values.size () - 1));
-  std::nth_element (values.begin (), middle, values.end ());
-  return (*middle);
-}
 
 void
 addView (const std::string& path, Scene& scene)

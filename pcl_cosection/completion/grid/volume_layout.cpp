@@ -3,10 +3,10 @@
 #include "volume_layout.h"
 
 #include "pcl_cosection/common/byte_text.h"
-#include "pcl_cosection/common/ranked_values.h"
+#include "pcl_cosection/common/trimmed_box.h"
 #include "pcl_cosection/energy/body_energy.h"
 #include "pcl_cosection/priors/extent_bounds.h"
-#include "pcl_cosection/view/pixel_of.h"
+#include "pcl_cosection/view/visibility.h"
 
 #include "pcl_cosection/common/parallel.h"
 #include "pcl_cosection/priors/extent_prior.h"
@@ -33,14 +33,6 @@ constexpr double min_extent_m = 1e-6;
 constexpr double possible_cells = 20.6;
 constexpr double possible_margin_vox = 6.0; // around that region
 
-/** \brief Whether a point in the sensor's frame lies in front of the reading, by more than \a margin_m. */
-bool
-seenFree (const DepthView& view, const Eigen::Vector3d& p, double margin_m)
-{
-  const std::optional<Eigen::Array2i> pixel = pixelOf (view.camera, p);
-  return pixel && p.z () < view.at (pixel->x (), pixel->y ()) - margin_m; // NaN: no reading
-}
-
 /** \brief Whether any view sees a place free. */
 class AnySeesFree
 {
@@ -54,7 +46,7 @@ public:
   bool operator() (const Eigen::Vector3d& p) const
   {
     for (std::size_t v = 0; v < views_.size (); ++v)
-      if (seenFree (*views_[v].first, T_sensor_points_[v] * p, margin_m_))
+      if (visibilityOf (T_sensor_points_[v] * p, *views_[v].first, margin_m_) == PointVisibility::Free)
         return true;
     return false;
   }
@@ -114,18 +106,10 @@ observedBox (const std::vector<OrientedPoint>& points, int threads)
 {
   if (points.empty ())
     throw DegenerateInput ("no points with finite coordinates and a normal");
-  Eigen::AlignedBox3d box;
-  parallelFor (0, 3, threads, [&] (int a) {
-    std::vector<float> values (points.size ());
-    for (std::size_t n = 0; n < points.size (); ++n)
-      values[n] = points[n].position[a];
-    if (!std::all_of (values.begin (), values.end (), [] (float v) { return std::isfinite (v); }))
-      throw DegenerateInput ("some points have no finite coordinates");
-    const auto cut = static_cast<std::size_t> (outlier_share * static_cast<double> (values.size ()));
-    const std::array<float, 2> ends = valuesOfRanks (values, {cut, values.size () - 1 - cut});
-    box.min ()[a] = ends[0];
-    box.max ()[a] = ends[1];
-  });
+  if (!std::all_of (points.begin (), points.end (), [] (const OrientedPoint& p) { return p.position.allFinite (); }))
+    throw DegenerateInput ("some points have no finite coordinates");
+  const auto box = trimmedBox<double> (
+      points, outlier_share, [] (const OrientedPoint& p) { return p.position; }, threads);
   if (!(box.sizes ().maxCoeff () > min_extent_m))
     throw DegenerateInput ("all points lie on one spot");
   return box;

@@ -3,7 +3,7 @@
 #include "voxel_size.h"
 
 #include "pcl_cosection/common/cell_key.h"
-#include "pcl_cosection/common/ranked_values.h"
+#include "pcl_cosection/common/quantile.h"
 
 #include <pcl/cosection/common/error.h>
 
@@ -127,7 +127,7 @@ measureSpacing (const std::vector<OrientedPoint>& points, const Eigen::AlignedBo
     if (cell.count >= points_to_measure_noise && cell.normal.norm () > facing_alike * static_cast<double> (cell.count))
       noise_m.push_back (cell.scatterAlongNormal ());
   if (!noise_m.empty ())
-    spacing.noise_m = valuesOfRanks (noise_m, {noise_m.size () / 2, noise_m.size () / 2})[0];
+    spacing.noise_m = upperMedian (noise_m);
   return spacing;
 }
 

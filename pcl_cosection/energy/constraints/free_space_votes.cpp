@@ -3,6 +3,7 @@
 #include "free_space_votes.h"
 
 #include "pcl_cosection/common/parallel.h"
+#include "pcl_cosection/view/visibility.h"
 #include <pcl/cosection/common/error.h>
 
 #include <algorithm>
@@ -33,39 +34,27 @@ public:
   void vote (const Eigen::Vector3f& point, FreeSpaceVotes& votes) const
   {
     const Eigen::Vector3d p = T_sensor_points_ * point.cast<double> ();
-    if (!(p.z () > 0.0))
+    const std::optional<Eigen::Array2i> pixel = pixelOf (depth_.camera, p);
+    if (!pixel)
       return;
-    const PinholeCamera& camera = depth_.camera;
-    const Eigen::Vector2d pixel = camera.project (p);
-    if (!(pixel.x () >= -0.5 && pixel.x () < camera.width - 0.5 && pixel.y () >= -0.5 &&
-          pixel.y () < camera.height - 0.5))
-      return;
-    const auto u = static_cast<int> (pixel.x () + 0.5);
-    const auto v = static_cast<int> (pixel.y () + 0.5);
-    const double gap = depth_.at (u, v) - p.z ();
-    if (!isReading (u, v) || gap < -margin (depth_.at (u, v)))
-      return;
-    if (gap <= margin (depth_.at (u, v)))
+    const int u = pixel->x (), v = pixel->y ();
+    const float reading = depth_.at (u, v);
+    const PointVisibility visibility = compareWithReading (p.z (), reading, margin (reading));
+    if (visibility == PointVisibility::AtSurface)
       votes.surface += !view_.atEdge (u, v) || isSupported (u, v);
-    else
+    else if (visibility == PointVisibility::Free)
       votes.free += !view_.atEdge (u, v) && isClear (u, v, p.z ());
   }
 
 private:
   double margin (double z) const { return margin_m_ > 0.0 ? margin_m_ : pointMargin (z); }
 
-  bool isReading (int u, int v) const
-  {
-    const float z = depth_.at (u, v);
-    return z > 0.0f && std::isfinite (z);
-  }
-
   /** \brief Whether test (depth) holds for all readings in a square window. */
   template <typename Test> bool allReadings (int u, int v, int radius, Test&& test) const
   {
     for (int row = std::max (0, v - radius); row <= std::min (depth_.camera.height - 1, v + radius); ++row)
       for (int column = std::max (0, u - radius); column <= std::min (depth_.camera.width - 1, u + radius); ++column)
-        if (isReading (column, row) && !test (depth_.at (column, row)))
+        if (isReading (depth_.at (column, row)) && !test (depth_.at (column, row)))
           return false;
     return true;
   }

@@ -42,7 +42,7 @@ MeasuredSurface::has (const OrientedPoint& point, double depth_vox) const
   };
   for (int k = 0; k < 27; ++k)
   {
-    const auto cell = cells_.find (keyOf (*place + CellIndex (k % 3 - 1, k / 3 % 3 - 1, k / 9 - 1)));
+    const auto cell = cells_.find (keyOf (neighbourOf (*place, k)));
     if (cell != cells_.end () && std::any_of (cell->second.begin (), cell->second.end (), isBeside))
       return true;
   }

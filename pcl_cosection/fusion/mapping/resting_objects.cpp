@@ -2,6 +2,8 @@
 // Copyright (c) 2026, the pcl_cosection authors
 #include "resting_objects.h"
 
+#include "pcl_cosection/common/quantile.h"
+#include "pcl_cosection/common/robust_weights.h"
 #include "pcl_cosection/fusion/tracking/frame_cloud.h"
 
 #include <pcl/cosection/common/camera.h>
@@ -65,8 +67,7 @@ samplesOf (const Pieces& pieces, const Eigen::Isometry3d& T_world_camera)
     {
       sample.position = piece->T_world_object * sample.position;
       sample.normal = piece->T_world_object.linear () * sample.normal;
-      sample.weight *= std::min (1.0, huber / std::max (1e-12, std::abs (sample.distance))) /
-                       (piece->tolerance_m * piece->tolerance_m);
+      sample.weight *= huberWeight (std::abs (sample.distance), huber) / (piece->tolerance_m * piece->tolerance_m);
       all.push_back (sample);
     }
   }
@@ -79,9 +80,7 @@ spread (std::vector<double> distances)
 {
   for (double& distance : distances)
     distance = std::abs (distance);
-  const auto middle = distances.begin () + static_cast<std::ptrdiff_t> (distances.size () / 2);
-  std::nth_element (distances.begin (), middle, distances.end ());
-  return 1.4826 * *middle;
+  return sigmaOfSizes (distances);
 }
 
 /** \brief Whether the readings that observe a direction do not fit the background: depth edges are noisy, walls not. */

@@ -2,6 +2,9 @@
 // Copyright (c) 2026, the pcl_cosection authors
 #include "axis_refinement.h"
 
+#include "pcl_cosection/common/quantile.h"
+#include "pcl_cosection/common/robust_weights.h"
+
 #include <Eigen/Cholesky>
 #include <Eigen/Geometry>
 
@@ -98,17 +101,14 @@ refineAxis (const Axis& first, const std::vector<NormalLine>& lines)
       for (const Sample& s : samples)
       {
         residuals.push_back (std::abs (s.radius));
-        const double relative = scale > 0.0 ? s.radius / scale : 0.0;
-        const double weight = 1.0 / (1.0 + relative * relative);
+        const double weight = cauchyWeight (scale > 0.0 ? s.radius / scale : 0.0);
         left += weight * s.change * s.change.transpose ();
         right -= weight * s.change * s.radius;
       }
     }
     if (residuals.empty ())
       return first;
-    const auto half = residuals.begin () + static_cast<std::ptrdiff_t> (residuals.size () / 2);
-    std::nth_element (residuals.begin (), half, residuals.end ());
-    scale = outlier_scale * *half;
+    scale = outlier_scale * upperMedian (residuals);
     left.diagonal ().array () += ridge * left.trace ();
     const Eigen::Vector2d change = left.ldlt ().solve (right);
     axis.point += change[0] * x + change[1] * y;

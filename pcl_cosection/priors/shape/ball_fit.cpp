@@ -2,6 +2,8 @@
 // Copyright (c) 2026, the pcl_cosection authors
 #include "ball_fit.h"
 
+#include "pcl_cosection/common/robust_weights.h"
+
 #include <Eigen/Cholesky>
 #include <Eigen/Geometry>
 
@@ -99,7 +101,7 @@ fittedBall (Ball ball, const std::vector<NormalLine>& lines)
       const Eigen::Vector3d from_center = line.position - ball.center;
       const double residual = from_center.norm () - ball.radius;
       const Eigen::Vector4d slope = from_center.normalized ().homogeneous ();
-      const double weight = 1.0 / (1.0 + std::pow (residual / outlier_scale, 2));
+      const double weight = cauchyWeight (residual / outlier_scale);
       left += weight * slope * slope.transpose ();
       right += weight * residual * slope;
     }

@@ -2,6 +2,10 @@
 // Copyright (c) 2026, the pcl_cosection authors
 #include "footprint_axis.h"
 
+#include "pcl_cosection/common/quantile.h"
+#include "pcl_cosection/common/robust_weights.h"
+#include "pcl_cosection/common/sectors.h"
+
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
@@ -29,16 +33,6 @@ constexpr double plane_reach = 0.02; // of NormalLines::size: distance from the 
 
 using Points = std::vector<Eigen::Vector2d>;
 using Points3 = std::vector<Eigen::Vector3d>;
-
-/** \brief The value that so many values exceed. */
-double
-quantile (std::vector<double>& values, double share_above)
-{
-  const auto rank = values.end () - 1 -
-                    static_cast<std::ptrdiff_t> (share_above * static_cast<double> (values.size ()));
-  std::nth_element (values.begin (), rank, values.end ());
-  return *rank;
-}
 
 /** \brief Points as seen from above. */
 struct Footprint
@@ -102,14 +96,12 @@ isRound (const Points& points, const Eigen::Vector2d& center)
   for (const Eigen::Vector2d& p : points)
   {
     const Eigen::Vector2d q = p - center;
-    const double turn = std::atan2 (q.y (), q.x ()) / (2.0 * M_PI) + 0.5;
-    radii[static_cast<std::size_t> (std::clamp (static_cast<int> (turn * sectors), 0, sectors - 1))].push_back (
-        q.norm ());
+    radii[sectorOf (q.x (), q.y (), sectors)].push_back (q.norm ());
   }
   std::vector<double> reaches;
   for (std::vector<double>& sector : radii)
     if (!sector.empty ())
-      reaches.push_back (quantile (sector, sector_outliers));
+      reaches.push_back (trimmedMax (sector, sector_outliers));
   std::vector<double> sorted = reaches;
   const double radius = quantile (sorted, 0.5);
   const auto alike = std::count_if (reaches.begin (), reaches.end (),
@@ -154,7 +146,7 @@ planeNormal (const Points3& points, Eigen::Vector3d normal)
     for (const Eigen::Vector3d& p : points)
     {
       const double off = normal.dot (p - center) / plane_reach;
-      const double weight = 1.0 / (1.0 + off * off);
+      const double weight = cauchyWeight (off);
       sum += weight * (p - center);
       products += weight * (p - center) * (p - center).transpose ();
       weights += weight;

@@ -4,6 +4,8 @@
 
 #include "principal_axes.h"
 
+#include "pcl_cosection/common/robust_weights.h"
+
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 
@@ -93,7 +95,7 @@ weighted (const std::vector<NormalLine>& lines, const Axis& axis)
   for (const NormalLine& line : lines)
   {
     const double distance = distanceFrom (axis, line) / outlier_scale;
-    equations.add (line, 1.0 / (1.0 + distance * distance));
+    equations.add (line, cauchyWeight (distance));
   }
   return equations;
 }

@@ -3,6 +3,8 @@
 #include "profile_surface.h"
 
 #include "normal_axis.h"
+#include "pcl_cosection/common/quantile.h"
+#include "pcl_cosection/common/sectors.h"
 #include "pcl_cosection/priors/vessels/dish_profile.h"
 #include "pcl_cosection/priors/vessels/vessel_profile.h"
 
@@ -78,13 +80,10 @@ ProfileSurface::findProfile (const std::vector<OrientedPoint>& points, double si
   cells_ = (box.sizes () / cell_m_).array ().floor ().cast<int> () + 1;
   std::vector<std::array<bool, sectors>> seen (static_cast<std::size_t> (cells_.prod ()), std::array<bool, sectors>{});
   std::array<bool, sectors> seen_anywhere{};
-  const Eigen::Vector3d x = direction_.unitOrthogonal ();
-  const Eigen::Vector3d y = direction_.cross (x);
+  const Sectors around (direction_, sectors);
   for (std::size_t n = 0; n < points.size (); ++n)
   {
-    const Eigen::Vector3d q = points[n].position.cast<double> () - center_;
-    const double angle = std::atan2 (y.dot (q), x.dot (q)) / (2.0 * M_PI) + 0.5;
-    const int sector = std::min (static_cast<int> (angle * sectors), sectors - 1);
+    const std::size_t sector = around.of (points[n].position.cast<double> () - center_);
     const Eigen::Vector2i cell = cellOf (profile[n].position);
     for (int j = std::max (0, cell.y () - 1); j <= std::min (cells_.y () - 1, cell.y () + 1); ++j)
       for (int i = std::max (0, cell.x () - 1); i <= std::min (cells_.x () - 1, cell.x () + 1); ++i)
@@ -162,10 +161,7 @@ ProfileSurface::extent (const Eigen::Vector3d& n) const
   extents.reserve (profile_.size ());
   for (const ProfilePoint& p : profile_)
     extents.push_back (rise * p.position.x () + reachOf (across, p.position.y ()));
-  const auto end = extents.end () - 1 -
-                   static_cast<std::ptrdiff_t> (outlier_share * static_cast<double> (extents.size ()));
-  std::nth_element (extents.begin (), end, extents.end ());
-  return *end;
+  return trimmedMax (extents, outlier_share);
 }
 
 VesselPart

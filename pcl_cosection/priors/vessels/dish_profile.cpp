@@ -2,6 +2,8 @@
 // Copyright (c) 2026, the pcl_cosection authors
 #include "dish_profile.h"
 
+#include "pcl_cosection/common/quantile.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -35,14 +37,6 @@ constexpr double thinnest_cells = 0.25; // least wall thickness, the accuracy of
 constexpr double noise_cells = 0.4;     // lower limit of noise_m_; at most half of the wall
 constexpr double noise_spreads = 3.0;   // noise_m_ in median distances of points from the inside
 constexpr double beyond_share = 0.1;    // of all points: those that may be farther from the inside than the wall
-
-double
-quantile (std::vector<double> values, double share)
-{
-  const auto rank = values.begin () + static_cast<std::ptrdiff_t> (share * static_cast<double> (values.size () - 1));
-  std::nth_element (values.begin (), rank, values.end ());
-  return *rank;
-}
 
 /** \brief Distance from a line segment. */
 double
@@ -138,7 +132,7 @@ DishProfile::findInside (const std::vector<ProfilePoint>& points, double step_m)
     part.upwards.push_back (position.x () - position.y ());
     part.normal += normal;
   }
-  for (const auto& [number, part] : parts)
+  for (auto& [number, part] : parts)
     if (part.outwards.size () >= least_points && part.normal.norm () > 0.0)
     {
       const double outwards = quantile (part.outwards, 0.5), upwards = quantile (part.upwards, 0.5);

@@ -2,6 +2,8 @@
 // Copyright (c) 2026, the pcl_cosection authors
 #include "vessel_profile.h"
 
+#include "pcl_cosection/common/quantile.h"
+
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -50,29 +52,12 @@ struct Sides
   }
 };
 
-/** \brief The largest value, without a share of outliers. */
-double
-lowest (std::vector<double>& heights, double outliers)
-{
-  const auto rank = heights.begin () + static_cast<std::ptrdiff_t> (outliers * static_cast<double> (heights.size ()));
-  std::nth_element (heights.begin (), rank, heights.end ());
-  return *rank;
-}
-
 /** \brief Radius of a point, moved along its tangent to the middle of its band of heights. */
 double
 radiusInBand (const ProfilePoint& p, double band_m)
 {
   const double up = (std::floor (p.position.x () / band_m) + 0.5) * band_m - p.position.x ();
   return p.position.y () - p.normal.x () / p.normal.y () * up;
-}
-
-double
-middle (std::vector<double>& values)
-{
-  const auto half = values.begin () + static_cast<std::ptrdiff_t> (values.size () / 2);
-  std::nth_element (values.begin (), half, values.end ());
-  return *half;
 }
 
 } // namespace
@@ -120,17 +105,17 @@ VesselProfile::findWall (const std::vector<ProfilePoint>& points, double cell_m)
   for (auto& [number, band] : sides)
     if (band.outer.size () >= least_points && band.inner.size () >= least_points)
     {
-      radii.push_back (middle (band.outer));
-      thickness.push_back ((radii.back () - middle (band.inner)) * band.meanAcross ());
+      radii.push_back (upperMedian (band.outer));
+      thickness.push_back ((radii.back () - upperMedian (band.inner)) * band.meanAcross ());
     }
   if (thickness.size () < least_bands)
     return false;
   std::vector<double> sorted = thickness;
-  wall_m_ = middle (sorted);
+  wall_m_ = upperMedian (sorted);
   noise_m_ = rim_band_m_ = std::max (even * wall_m_, noise_cells * cell_m);
   const std::ptrdiff_t similar = std::count_if (thickness.begin (), thickness.end (),
                                                 [&] (double t) { return std::abs (t - wall_m_) <= noise_m_; });
-  if (!(wall_m_ > 0.0) || wall_m_ > thickest * middle (radii) ||
+  if (!(wall_m_ > 0.0) || wall_m_ > thickest * upperMedian (radii) ||
       static_cast<double> (similar) < even_share * static_cast<double> (thickness.size ()))
     return false;
   findBands (points, cell_m);
@@ -167,14 +152,14 @@ VesselProfile::findBands (const std::vector<ProfilePoint>& points, double band_m
     const bool has_inner = band.inner.size () >= least;
     const auto add = [&] (double outer, double wall) { bands_.push_back ({height, std::max (0.0, outer), wall}); };
     if (band.outer.size () >= least)
-      add (middle (band.outer), wall_m);
+      add (upperMedian (band.outer), wall_m);
     else if (band.through.size () >= least)
     {
-      const double outer = middle (band.through);
-      add (outer, has_inner ? outer - middle (band.inner) : wall_m);
+      const double outer = upperMedian (band.through);
+      add (outer, has_inner ? outer - upperMedian (band.inner) : wall_m);
     }
     else if (has_inner)
-      add (middle (band.inner) + wall_m, wall_m);
+      add (upperMedian (band.inner) + wall_m, wall_m);
   }
 }
 
@@ -195,8 +180,8 @@ VesselProfile::findBottom (const std::vector<ProfilePoint>& points, double cell_
         end.outer.push_back (up * p.position.x ());
       else if (p.normal.y () < -sideways)
         end.inner.push_back (up * p.position.x ());
-    end.lowest_outer = lowest (end.outer, outer_outliers);
-    end.lowest_inner = lowest (end.inner, inner_outliers);
+    end.lowest_outer = trimmedMin (end.outer, outer_outliers);
+    end.lowest_inner = trimmedMin (end.inner, inner_outliers);
     const double within = up > 0.0 ? bands_.front ().outer - bands_.front ().wall
                                    : bands_.back ().outer - bands_.back ().wall;
     for (const ProfilePoint& p : points)
@@ -230,7 +215,7 @@ VesselProfile::findBottom (const std::vector<ProfilePoint>& points, double cell_
   if (!has_floor && end.lowest_inner - lower_end < std::max (open_wall * wall_m_, open_cells * cell_m) &&
       bands_.front ().outer > narrow * bands_.back ().outer)
     return false;
-  const double floor = has_floor ? middle (end.floor) : end.lowest_inner;
+  const double floor = has_floor ? upperMedian (end.floor) : end.lowest_inner;
   if (!is_standing)
     bottom = std::min (bottom, floor - wall_m_);
   bottom_m_ = opening_ * bottom;

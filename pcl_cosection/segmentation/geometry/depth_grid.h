@@ -39,4 +39,15 @@ struct DepthGrid
   }
 };
 
+/** \brief Call \a follow (first pixel, stride, number of pixels, axis) for all rows (axis 0) and columns (axis 1). */
+template <typename Follow>
+void
+forEachLine (const DepthGrid& grid, Follow&& follow)
+{
+  for (int v = 0; v < grid.height; ++v)
+    follow (v * grid.width, 1, grid.width, 0);
+  for (int u = 0; u < grid.width; ++u)
+    follow (u, grid.width, grid.height, 1);
+}
+
 } // namespace pcl::cosection

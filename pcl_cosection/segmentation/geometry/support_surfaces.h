@@ -41,9 +41,6 @@ struct SupportSurface
   bool carries (const DepthGrid& grid, int pixel, float margin_m) const;
 };
 
-/** \brief Convex hull, counter-clockwise (A. M. Andrew's monotone chain, 1979). */
-std::vector<Eigen::Vector2f> convexHull (std::vector<Eigen::Vector2f> points);
-
 /** \brief A plane as far as its blocks reach. */
 SupportSurface makeSurface (const DepthGrid& grid, const BlockImage& image, const PlaneProposal& plane);
 

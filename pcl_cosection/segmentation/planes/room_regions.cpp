@@ -5,6 +5,8 @@
 #include "plane_labelling.h"
 #include "plane_regions.h"
 
+#include "pcl_cosection/common/convex_hull.h"
+
 #include <algorithm>
 
 namespace pcl::cosection

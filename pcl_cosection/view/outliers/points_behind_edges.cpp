@@ -2,6 +2,7 @@
 // Copyright (c) 2026, the pcl_cosection authors
 #include "points_behind_edges.h"
 
+#include "pcl_cosection/common/quantile.h"
 #include "pcl_cosection/view/normals/estimated_normals.h"
 
 #include <pcl/cosection/common/camera.h>
@@ -52,12 +53,7 @@ valuesOf (std::vector<float> values, const std::array<double, N>& shares)
 {
   std::array<float, N> result;
   for (std::size_t n = 0; n < N; ++n)
-  {
-    const auto rank = values.begin () +
-                      static_cast<std::ptrdiff_t> (shares[n] * static_cast<double> (values.size () - 1));
-    std::nth_element (values.begin (), rank, values.end ());
-    result[n] = *rank;
-  }
+    result[n] = quantile (values, shares[n]);
   return result;
 }
 
