@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 
 // One object from the upper half of its surface, in place of pcl::Poisson. Writes ball.ply.
 #include <pcl/cosection/io/mesh_io.h>

@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 
 // All labelled objects of one view, completed together with the table. 02_several_objects [VIEW.pcd]
 #include <pcl/cosection/common/error.h>

@@ -1,11 +1,10 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 
 // Find the objects of an organised view by their geometry, then complete them together. 04_segment_and_complete
 // [VIEW.pcd]
+#include <pcl/cosection/common/camera.h>
 #include <pcl/cosection/segmentation/geometric_segmentation.h>
 #include <pcl/cosection/surface/co_section.h>
-#include <pcl/cosection/common/camera.h>
 #include <pcl/cosection/surface/normals.h>
 
 #include <pcl/io/pcd_io.h>

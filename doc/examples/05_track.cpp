@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 
 // Follow an object of known shape, a box of 10 x 14 x 20 cm, through three clouds of three of its faces.
 #include <pcl/cosection/tracking/sdf_tracker.h>

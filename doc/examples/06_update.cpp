@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 
 // Complete a scene again and again as views come; each update starts from the last one. 06_update [VIEW.pcd ...]
 #include <pcl/cosection/common/error.h>

@@ -1,11 +1,10 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "body_energy.h"
 
 #include "pcl_cosection/common/parallel.h"
+#include "pcl_cosection/energy/constraints/hull_constraint.h"
 #include "pcl_cosection/energy/solver/solver_detail.h"
 #include "pcl_cosection/volume/distance_transform.h"
-#include "pcl_cosection/energy/constraints/hull_constraint.h"
 
 #include <algorithm>
 #include <cmath>

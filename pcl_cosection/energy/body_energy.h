@@ -1,11 +1,10 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 #include "pcl_cosection/energy/data/normal_bin_occupancy.h"
 #include "pcl_cosection/energy/data/shape_evidence.h"
-#include <pcl/cosection/surface/solver.h>
 #include <pcl/cosection/surface/options.h>
+#include <pcl/cosection/surface/solver.h>
 #include <pcl/cosection/volume/signed_distance_field.h>
 
 #include <Eigen/Geometry>

@@ -1,9 +1,8 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include <pcl/cosection/io/pcd_view.h>
 
-#include "pcl_cosection/io/cloud/pcd_cloud.h"
 #include "organized_view.h"
+#include "pcl_cosection/io/cloud/pcd_cloud.h"
 #include "unorganized_view.h"
 
 #include <pcl/cosection/common/error.h>

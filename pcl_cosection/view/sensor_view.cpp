@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "sensor_view.h"
 
 #include "pcl_cosection/common/quantile.h"
@@ -21,8 +20,8 @@ namespace
 {
 
 constexpr double max_default_slope = 1.7321; // of points before a camera whose pose was left at the default: 60 degrees
-constexpr double
-    max_hidden_from_guess = 0.02; // of all points, from where the header does not say that they were seen ...
+// A share of all points, from where the header does not say that they were seen ...
+constexpr double max_hidden_from_guess = 0.02;
 constexpr double max_hidden_of_label_from_guess = 0.1; // ... and of those of a label
 constexpr double same_place = 0.1;                     // of the distance to the points
 constexpr int lonely_neighbours = 6;                   // of which the farthest ...

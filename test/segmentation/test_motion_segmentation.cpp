@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include <pcl/cosection/segmentation/motion_segmentation.h>
 
 #include "common/not_a_number.h"
@@ -256,8 +255,7 @@ TEST (MotionSegmentation, WhatMovesAsAKnownBodyIsAPartOfIt)
   EXPECT_GE (comparison.best_iou.at (2), 0.8);
   EXPECT_GT (std::count (labels.begin (), labels.end (), 7u), 0);
   EXPECT_EQ (
-      std::count_if (labels.begin (), labels.end (),
-        [] (std::uint32_t label) { return label != 0 && label != 7; }), 0);
+      std::count_if (labels.begin (), labels.end (), [] (std::uint32_t label) { return label != 0 && label != 7; }), 0);
 }
 
 TEST (MotionSegmentation, AnyNumberOfThreads)

@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "common/not_a_number.h"
 
 #include "pcl_cosection/view/camera_resection.h"
@@ -125,11 +124,12 @@ TEST (LocateCamera, RefusesWhatDoesNotTell)
     p.x () += 0.001f * p.z () * p.y ();
   EXPECT_FALSE (locateCamera (moved (T, orthographic), image_width, image_height));
   const std::size_t pixels = static_cast<std::size_t> (image_width) * image_height;
-  EXPECT_FALSE (
-      locateCamera (std::vector<Eigen::Vector3f> (pixels, Eigen::Vector3f::Constant (not_a_number)), image_width, image_height));
-  EXPECT_FALSE (
-      locateCamera (std::vector<Eigen::Vector3f> (pixels, Eigen::Vector3f (1.0f, 2.0f, 3.0f)), image_width, image_height));
-  EXPECT_FALSE (locateCamera (std::vector<Eigen::Vector3f> (pixels, Eigen::Vector3f::Constant (3e38f)), image_width, image_height));
+  EXPECT_FALSE (locateCamera (std::vector<Eigen::Vector3f> (pixels, Eigen::Vector3f::Constant (not_a_number)),
+                              image_width, image_height));
+  EXPECT_FALSE (locateCamera (std::vector<Eigen::Vector3f> (pixels, Eigen::Vector3f (1.0f, 2.0f, 3.0f)), image_width,
+                              image_height));
+  EXPECT_FALSE (locateCamera (std::vector<Eigen::Vector3f> (pixels, Eigen::Vector3f::Constant (3e38f)), image_width,
+                              image_height));
   EXPECT_THROW (locateCamera ({}, image_width, image_height), InvalidArgument);
 }
 

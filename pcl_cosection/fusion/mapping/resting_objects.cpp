@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "resting_objects.h"
 
 #include "pcl_cosection/common/quantile.h"
@@ -31,7 +30,7 @@ constexpr SampleOptions background_samples{5000, 0.0, true};
 constexpr SampleOptions object_samples{300, 1.5};
 constexpr double huber_share = 0.2;  // of the truncation distance
 constexpr double least_share = 0.01; // of the samples' weight, from which on a direction is observed
-// Of the objects' weight: where the background observes a direction by less, and fits badly, objects are used.
+// A share of the objects' weight: where the background observes a direction by less, and fits badly, objects are used.
 constexpr double share_of_objects = 0.5;
 constexpr double bad_fit = 0.5;     // of a voxel of the background
 constexpr double least_error = 0.1; // the same

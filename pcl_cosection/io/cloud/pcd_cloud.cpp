@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 
 // PCD files are read by hand, because pcl::PCDReader takes as much memory as a header claims and prints what is wrong
 // with a file instead of throwing it.

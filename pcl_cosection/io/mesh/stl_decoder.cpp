@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 
 // STL files are read by hand, because the format is smaller than the checks that vtkSTLReader would need around it.
 

@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 
 // Legacy VTK files are read by hand, because vtkPolyDataReader of VTK 9.1 follows lengths of cells beyond its buffers,
 // and null pointers where a type or a number is not what it expects: what would make it safe is a reader.

@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 
 // VTK parses the XML and decodes the arrays. They are put together by hand, because vtkXMLPolyDataReader takes as much
 // memory as counts, offsets of cells and sizes of blocks say and writes beyond it where they overflow or disagree.

@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 
 // pcl_cosection_report as a user calls it: the numbers on the page are those of the run and of its evaluation; the run
 // stays as it is.
@@ -78,8 +77,7 @@ TEST_F (Report, ObjectsAreAsTheSummarySays)
     EXPECT_EQ (cell (html, "objects", name, "Closed"), "yes");
     EXPECT_EQ (cell (html, "objects", name, "Inside others (mm)"), inMillimetres (object["penetration_m"]));
     EXPECT_EQ (cell (html, "objects", name, "Frames tracked"), object["frames_tracked"].dump ());
-    EXPECT_EQ (cell (html, "objects", name, "Solver").rfind (object["solver"]["iterations"].dump () + " iteration",
-      0),
+    EXPECT_EQ (cell (html, "objects", name, "Solver").rfind (object["solver"]["iterations"].dump () + " iteration", 0),
                0u);
     std::string shares;
     for (const char* kind : {"observed", "inferred", "hull", "intersection"})
@@ -239,9 +237,8 @@ TEST_F (Report, FailedRuns)
     GTEST_SKIP () << "there is no browser";
   fs::remove_all (file ("out/mesh"));
   fs::remove_all (file ("out/trajectory"));
-  writeFile (
-      file ("out/summary.json"),
-      R"({"error": "no frame can be read", "objects": [], "failed": [], "warnings": [],
+  writeFile (file ("out/summary.json"),
+             R"({"error": "no frame can be read", "objects": [], "failed": [], "warnings": [],
         "parameters": {"dataset": "a/b"}})");
   const std::string html = shown ({"out"});
   EXPECT_NE (errors_.find ("warning: the run failed: no frame can be read"), std::string::npos) << errors_;
@@ -259,8 +256,7 @@ TEST_F (Report, RunsWithoutSomeOfTheirFiles)
   fs::remove (file ("out/trajectory/camera.txt"));
   const std::string html = shown ({"--truth", "sim", "out"});
   for (const char* part : {"object_1.ply", "object 1 has no completed mesh", "object 2 has no trajectory",
-                           "there is no trajectory of the camera",
-                             "the run cannot be compared with the truth of sim"})
+                           "there is no trajectory of the camera", "the run cannot be compared with the truth of sim"})
   {
     EXPECT_NE (errors_.find (part), std::string::npos) << part << '\n' << errors_;
     EXPECT_NE (html.find (part), std::string::npos) << part;
@@ -278,9 +274,8 @@ TEST_F (Report, DamagedAndOddSummaries)
     page ({"out"});
     EXPECT_NE (errors_.find ("is not JSON as pcl_cosection_fusion writes it"), std::string::npos) << text;
   }
-  writeFile (
-      file ("out/summary.json"),
-      R"({"error": 5, "timings_s": {"total": "long", "read": []}, "frames": -3, "parameters": [1],
+  writeFile (file ("out/summary.json"),
+             R"({"error": 5, "timings_s": {"total": "long", "read": []}, "frames": -3, "parameters": [1],
         "camera": {"fx": "wide"},
     "objects": [{"id": 1, "volume_m3": "much", "closed": 7, "provenance": [], "solver": 3}, {"id": "x"},
       {"id": 1e300}, 5, null],

@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 #include <pcl/cosection/common/camera.h>
@@ -65,8 +64,8 @@ struct PCL_COSECTION_EXPORT BackgroundResult
 {
   SignedDistanceField::Ptr signed_distance; ///< world frame
   SolverSummary solver;                     ///< what the solver did
-  double
-      solved_share = 1.0; ///< of its voxels that were solved; less where an update found the others as they have to be
+  /** \brief Share of its voxels that were solved: less than 1 where an update left the others as they were. */
+  double solved_share = 1.0;
 };
 
 /** \brief Everything CoSection::reconstruct () computes. */

@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 
 // draw_scene VIEW.pcd MESHES OUTPUT.png: three pictures beside each other: the points of a view seen from the side, the
 // meshes in the folder MESHES from there, and the meshes from behind, coloured by provenance. Up is where most of the

@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 
 // draw_meshes UP FRONT OUTPUT.png FILE...: each file, a mesh (.ply) or a cloud (.pcd), from two sides, all with the
 // camera that fits the first one: from the direction FRONT in the upper row, turned about UP in the lower one. UP and

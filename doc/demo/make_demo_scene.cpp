@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 
 // make_demo_scene OUTPUT.pcd: renders the sample of the demo, a box, a ball and a bottle on a table, as a
 // structured-light camera sees them from one side. The same file every time.
