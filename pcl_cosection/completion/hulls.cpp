@@ -3,7 +3,7 @@
 
 #include "pcl_cosection/completion/grid/volume_layout.h"
 #include "pcl_cosection/energy/constraints/object_hull.h"
-#include "pcl_cosection/view/visibility.h"
+#include "pcl_cosection/view/visibility/visibility.h"
 
 #include <algorithm>
 #include <limits>

@@ -7,7 +7,7 @@
 #include "pcl_cosection/common/sphere_directions.h"
 #include "pcl_cosection/priors/shape/normal_axis.h"
 
-#include "pcl_cosection/view/visibility.h"
+#include "pcl_cosection/view/visibility/visibility.h"
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>

@@ -1,7 +1,7 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "object_depth_buffer.h"
 
-#include "pcl_cosection/view/visibility.h"
+#include "pcl_cosection/view/visibility/visibility.h"
 
 #include <algorithm>
 

@@ -5,7 +5,7 @@
 #include "completion/scenes/surrounding_views.h"
 #include "priors/moved_points.h"
 
-#include "pcl_cosection/energy/constraints/free_space_votes.h"
+#include "pcl_cosection/view/visibility/free_space_votes.h"
 #include <pcl/cosection/common/error.h>
 
 #include <gtest/gtest.h>

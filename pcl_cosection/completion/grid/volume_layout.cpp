@@ -5,7 +5,7 @@
 #include "pcl_cosection/common/trimmed_box.h"
 #include "pcl_cosection/energy/body_energy.h"
 #include "pcl_cosection/priors/extent_bounds.h"
-#include "pcl_cosection/view/visibility.h"
+#include "pcl_cosection/view/visibility/visibility.h"
 
 #include "pcl_cosection/common/parallel.h"
 #include "pcl_cosection/priors/extent_prior.h"

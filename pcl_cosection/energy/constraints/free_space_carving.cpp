@@ -1,7 +1,7 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "free_space_carving.h"
 
-#include "pcl_cosection/view/projected_voxels.h"
+#include "pcl_cosection/view/visibility/projected_voxels.h"
 
 #include "pcl_cosection/common/parallel.h"
 

@@ -1,6 +1,6 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "object_tracking.h"
-#include "pcl_cosection/view/visibility.h"
+#include "pcl_cosection/view/visibility/visibility.h"
 
 #include "observed_motion.h"
 

@@ -1,9 +1,9 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "mixed_pixels.h"
 
-#include "pcl_cosection/view/visibility.h"
+#include "pcl_cosection/view/visibility/visibility.h"
 
-#include "pcl_cosection/energy/constraints/hull_constraint.h"
+#include "pcl_cosection/view/visibility/free_space_view.h"
 
 #include <limits>
 

@@ -2,7 +2,7 @@
 #include "free_space_votes.h"
 
 #include "pcl_cosection/common/parallel.h"
-#include "pcl_cosection/view/visibility.h"
+#include "visibility.h"
 #include <pcl/cosection/common/error.h>
 
 #include <algorithm>

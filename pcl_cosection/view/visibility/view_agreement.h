@@ -1,7 +1,7 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "pcl_cosection/energy/constraints/free_space_votes.h"
+#include "free_space_votes.h"
 #include <pcl/cosection/common/oriented_point.h>
 
 #include <Eigen/Geometry>

@@ -1,8 +1,8 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include <pcl/cosection/surface/free_space_filter.h>
 
+#include "free_space_votes.h"
 #include "pcl_cosection/common/console_errors.h"
-#include "pcl_cosection/energy/constraints/free_space_votes.h"
 
 #include <pcl/filters/impl/filter_indices.hpp> // the base's own applyFilter (): libpcl_filters need not be loaded
 #include <pcl/impl/instantiate.hpp>
