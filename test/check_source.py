@@ -57,7 +57,7 @@ WORDS = {
     r"(?<!clang-)\b[Tt]idy\b": "prune",
     r"PlaneClaims|plane.?claims": "plane labelling",
     r"image.?damage": "integrity check",
-    r"[Nn]obody.?s": "unassigned",
+    r"[Nn]obody'?s\b": "unassigned",
     r"[Ii]nexact": "unreliable",
     r"object.?unions": "object merging",
     r"length.?memory": "object size filter",
@@ -70,7 +70,7 @@ WORDS = {
     r"\b(is|are|be|was|were|been|being) told\b|\b[Tt]elling\b": "observed, observable",
     r"addIntersection": "addObstacle",
     r"brief (The same|As above|More of)\b": "what differs",
-    r"\b(is|are) none\b": "a sentence with its noun",
+    r"(?<!there )\b(is|are) none\b": "a sentence with its noun",
 }
 
 

@@ -20,6 +20,74 @@ struct AttributeSum
   double count = 0.0;
 };
 
+/** \brief Sums by voxel. */
+using VoxelSums = std::unordered_map<std::size_t, AttributeSum>;
+
+VoxelSums
+sumsByVoxel (const std::vector<OrientedPoint>& points, const VoxelGrid& grid, bool measured)
+{
+  VoxelSums voxels;
+  for (const OrientedPoint& point : points)
+  {
+    const auto at = grid.nearest (point.position.cast<double> ());
+    if (!at || (measured && !std::isfinite (point.intensity)))
+      continue;
+    AttributeSum& voxel = voxels[grid.index (at->x (), at->y (), at->z ())];
+    voxel.sum += Eigen::Vector4d (point.colour[0], point.colour[1], point.colour[2], measured ? point.intensity : 0.0f);
+    voxel.count += 1.0;
+  }
+  return voxels;
+}
+
+/** \brief The sum over a voxel and its 26 neighbours. */
+AttributeSum
+sumAround (const VoxelSums& voxels, const VoxelGrid& grid, const Eigen::Vector3i& at)
+{
+  AttributeSum total;
+  for (int dz = -1; dz <= 1; ++dz)
+    for (int dy = -1; dy <= 1; ++dy)
+      for (int dx = -1; dx <= 1; ++dx)
+      {
+        if (!grid.contains (at.x () + dx, at.y () + dy, at.z () + dz))
+          continue;
+        const auto voxel = voxels.find (grid.index (at.x () + dx, at.y () + dy, at.z () + dz));
+        if (voxel == voxels.end ())
+          continue;
+        total.sum += voxel->second.sum;
+        total.count += voxel->second.count;
+      }
+  return total;
+}
+
+/** \brief Vertices along edges of a mesh: those of vertex v are vertices[begin[v]] up to vertices[begin[v + 1]]. */
+struct VertexNeighbours
+{
+  std::vector<std::uint32_t> begin;
+  std::vector<std::uint32_t> vertices;
+};
+
+VertexNeighbours
+vertexNeighbours (const TriangleMesh& mesh)
+{
+  VertexNeighbours neighbours;
+  std::vector<std::uint32_t>& begin = neighbours.begin;
+  begin.assign (mesh.vertices.size () + 1, 0);
+  for (const auto& triangle : mesh.triangles)
+    for (const std::uint32_t v : triangle)
+      begin[v + 1] += 2;
+  for (std::size_t v = 0; v < mesh.vertices.size (); ++v)
+    begin[v + 1] += begin[v];
+  neighbours.vertices.resize (begin.back ());
+  std::vector<std::uint32_t> next (begin.begin (), begin.end () - 1);
+  for (const auto& triangle : mesh.triangles)
+    for (int c = 0; c < 3; ++c)
+    {
+      neighbours.vertices[next[triangle[c]]++] = triangle[(c + 1) % 3];
+      neighbours.vertices[next[triangle[c]]++] = triangle[(c + 2) % 3];
+    }
+  return neighbours;
+}
+
 } // namespace
 
 void
@@ -33,17 +101,7 @@ transferAttributes (const std::vector<OrientedPoint>& points, const VoxelGrid& g
   });
   if (!coloured && !measured)
     return;
-  std::unordered_map<std::size_t, AttributeSum> voxels;
-  for (const OrientedPoint& point : points)
-  {
-    const auto at = grid.nearest (point.position.cast<double> ());
-    if (!at || (measured && !std::isfinite (point.intensity)))
-      continue;
-    AttributeSum& voxel = voxels[grid.index (at->x (), at->y (), at->z ())];
-    voxel.sum += Eigen::Vector4d (point.colour[0], point.colour[1], point.colour[2], measured ? point.intensity : 0.0f);
-    voxel.count += 1.0;
-  }
-
+  const VoxelSums voxels = sumsByVoxel (points, grid, measured);
   if (coloured)
     mesh.colours.assign (mesh.vertices.size (), unknown_colour);
   if (measured)
@@ -52,23 +110,8 @@ transferAttributes (const std::vector<OrientedPoint>& points, const VoxelGrid& g
   std::vector<std::uint32_t> front;
   for (std::size_t v = 0; v < mesh.vertices.size (); ++v)
   {
-    const auto nearest = grid.nearest (mesh.vertices[v].cast<double> ());
-    if (!nearest)
-      continue;
-    const Eigen::Vector3i at = *nearest;
-    AttributeSum total;
-    for (int dz = -1; dz <= 1; ++dz)
-      for (int dy = -1; dy <= 1; ++dy)
-        for (int dx = -1; dx <= 1; ++dx)
-        {
-          if (!grid.contains (at.x () + dx, at.y () + dy, at.z () + dz))
-            continue;
-          const auto voxel = voxels.find (grid.index (at.x () + dx, at.y () + dy, at.z () + dz));
-          if (voxel == voxels.end ())
-            continue;
-          total.sum += voxel->second.sum;
-          total.count += voxel->second.count;
-        }
+    const auto at = grid.nearest (mesh.vertices[v].cast<double> ());
+    const AttributeSum total = at ? sumAround (voxels, grid, *at) : AttributeSum ();
     if (total.count == 0.0)
       continue;
     for (int c = 0; coloured && c < 3; ++c)
@@ -80,32 +123,19 @@ transferAttributes (const std::vector<OrientedPoint>& points, const VoxelGrid& g
   }
 
   // Breadth first along the edges from all vertices near points at once.
-  std::vector<std::uint32_t> begin (mesh.vertices.size () + 1, 0);
-  for (const auto& triangle : mesh.triangles)
-    for (const std::uint32_t v : triangle)
-      begin[v + 1] += 2;
-  for (std::size_t v = 0; v < mesh.vertices.size (); ++v)
-    begin[v + 1] += begin[v];
-  std::vector<std::uint32_t> neighbours (begin.back ());
-  std::vector<std::uint32_t> next (begin.begin (), begin.end () - 1);
-  for (const auto& triangle : mesh.triangles)
-    for (int c = 0; c < 3; ++c)
-    {
-      neighbours[next[triangle[c]]++] = triangle[(c + 1) % 3];
-      neighbours[next[triangle[c]]++] = triangle[(c + 2) % 3];
-    }
+  const VertexNeighbours neighbours = vertexNeighbours (mesh);
   for (std::size_t head = 0; head < front.size (); ++head)
   {
     const std::uint32_t v = front[head];
-    for (std::uint32_t e = begin[v]; e < begin[v + 1]; ++e)
-      if (!done[neighbours[e]])
+    for (std::uint32_t e = neighbours.begin[v]; e < neighbours.begin[v + 1]; ++e)
+      if (const std::uint32_t other = neighbours.vertices[e]; !done[other])
       {
-        done[neighbours[e]] = true;
+        done[other] = true;
         if (coloured)
-          mesh.colours[neighbours[e]] = mesh.colours[v];
+          mesh.colours[other] = mesh.colours[v];
         if (measured)
-          mesh.intensity[neighbours[e]] = mesh.intensity[v];
-        front.push_back (neighbours[e]);
+          mesh.intensity[other] = mesh.intensity[v];
+        front.push_back (other);
       }
   }
 }

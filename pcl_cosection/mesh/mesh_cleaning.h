@@ -7,7 +7,7 @@
 namespace pcl::cosection
 {
 
-/** \brief The same surface with the connectivity that its coordinates imply: vertices of equal
+/** \brief The surface with the connectivity that its coordinates imply: vertices of equal
  * coordinates are one, triangles of two equal corners are gone, repeated ones are there once, and those of
  * three corners on a line are gone without opening a gap: the triangle at their longest side is divided.
  * Vertices keep their order; those without a triangle, and all vertex properties, are dropped. */

@@ -23,6 +23,92 @@ constexpr double lowest_free_vox = 3.0; // over the plane: lower free space cann
 constexpr double highest_free_vox = 7.0;
 constexpr int closing_cells = 3; // gaps between points up to twice this wide are closed
 
+using Polygon = std::vector<Eigen::Vector2d>;
+
+/** \brief Coordinates over a support plane, metres. */
+struct PlaneFrame
+{
+  Eigen::Vector4d plane;
+  Eigen::Vector3d across, along; // axes in the plane
+  Eigen::Vector2d middle;        // of the object's axis
+
+  double height (const Eigen::Vector3d& p) const { return plane.head<3> ().dot (p) + plane[3]; }
+
+  Eigen::Vector2d flat (const Eigen::Vector3d& p) const { return {across.dot (p), along.dot (p)}; }
+
+  /** \brief By half a revolution about the object's axis. */
+  Eigen::Vector2d turned (const Eigen::Vector2d& p) const { return 2.0 * middle - p; }
+};
+
+/** \brief The points of contact, and the points above the plane, both in the plane. */
+struct FlatPoints
+{
+  std::vector<Eigen::Vector2d> contacts, above;
+};
+
+FlatPoints
+flatten (const ContactPrior& prior, const VoxelGrid& grid, const PlaneFrame& frame,
+         const std::vector<OrientedPoint>& points)
+{
+  const double h = grid.voxel_size_m;
+  const Eigen::Vector3d normal = frame.plane.head<3> ();
+  const Eigen::Array3d begin = grid.origin_m.array ();
+  const Eigen::Array3d end = begin + h * grid.dims.cast<double> ().array ();
+  FlatPoints flat;
+  flat.above.reserve (points.size ());
+  for (const OrientedPoint& point : points)
+  {
+    const Eigen::Vector3d p = point.position.cast<double> ();
+    if ((p.array () < begin).any () || (p.array () >= end).any ())
+      continue;
+    const double z = frame.height (p);
+    if (std::abs (z) <= prior.contact_height_vox * h &&
+        std::abs (normal.dot (point.normal.cast<double> ())) < prior.max_slope)
+      flat.contacts.push_back (frame.flat (p));
+    if (z > 0.0)
+      flat.above.push_back (frame.flat (p));
+  }
+  return flat;
+}
+
+/** \brief The share seen free of the space over a polygon, close to the plane and below observed surface or its copy.
+ */
+double
+freeShareOver (const Polygon& polygon, const VoxelGrid& grid, const PlaneFrame& frame, const PlaneMap& covered,
+               const std::vector<std::uint8_t>& free_space)
+{
+  const double h = grid.voxel_size_m;
+  std::size_t all = 0, free = 0;
+  for (int k = 0; k < grid.dims.z (); ++k)
+    for (int j = 0; j < grid.dims.y (); ++j)
+      for (int i = 0; i < grid.dims.x (); ++i)
+      {
+        const Eigen::Vector3d p = grid.center (i, j, k);
+        if (frame.height (p) < lowest_free_vox * h || frame.height (p) > highest_free_vox * h)
+          continue;
+        const Eigen::Vector2d q = frame.flat (p);
+        if (!covered.at (q) || !isInside (polygon, q))
+          continue;
+        ++all;
+        free += static_cast<std::size_t> (free_space[grid.index (i, j, k)] != 0);
+      }
+  return all == 0 ? 0.0 : static_cast<double> (free) / static_cast<double> (all);
+}
+
+/** \brief Whether a part of the contact and its turned copy are no farther apart than the part is long. */
+bool
+isNearItsCopy (const std::vector<Eigen::Vector2d>& part, const PlaneFrame& frame, double gap_per_length)
+{
+  double length = 0.0, gap = std::numeric_limits<double>::infinity ();
+  for (const Eigen::Vector2d& a : part)
+    for (const Eigen::Vector2d& b : part)
+    {
+      length = std::max (length, (a - b).norm ());
+      gap = std::min (gap, (a - frame.turned (b)).norm ());
+    }
+  return gap <= gap_per_length * length;
+}
+
 } // namespace
 
 std::vector<std::uint8_t>
@@ -30,97 +116,49 @@ ContactPrior::patch (const VoxelGrid& grid, const Eigen::Vector4d& plane, const 
                      const Eigen::Vector3d& center, const std::vector<std::uint8_t>& free_space) const
 {
   const double h = grid.voxel_size_m;
-  const Eigen::Vector3d normal = plane.head<3> ();
-  const auto height = [&] (const Eigen::Vector3d& p) { return normal.dot (p) + plane[3]; };
-  const Eigen::Matrix3d axes = principalAxes (points, normal);
-  const Eigen::Vector3d across = axes.col (0);
-  const Eigen::Vector3d along = axes.col (1);
-  const auto flat = [&] (const Eigen::Vector3d& p) { return Eigen::Vector2d (across.dot (p), along.dot (p)); };
-  const Eigen::Vector2d middle = flat (center);
-  const auto turned = [&] (const Eigen::Vector2d& p) { return Eigen::Vector2d (2.0 * middle - p); };
-
-  std::vector<Eigen::Vector2d> contacts, above;
-  above.reserve (points.size ());
-  Eigen::Vector2d low = Eigen::Vector2d::Constant (1e30);
-  Eigen::Vector2d high = Eigen::Vector2d::Constant (-1e30);
-  const Eigen::Array3d begin = grid.origin_m.array ();
-  const Eigen::Array3d end = begin + h * grid.dims.cast<double> ().array ();
-  for (const OrientedPoint& point : points)
-  {
-    const Eigen::Vector3d p = point.position.cast<double> ();
-    if ((p.array () < begin).any () || (p.array () >= end).any ())
-      continue;
-    const double z = height (p);
-    if (std::abs (z) <= contact_height_vox * h && std::abs (normal.dot (point.normal.cast<double> ())) < max_slope)
-      contacts.push_back (flat (p));
-    if (z > 0.0)
-    {
-      above.push_back (flat (p));
-      low = low.cwiseMin (above.back ());
-      high = high.cwiseMax (above.back ());
-    }
-  }
-  if (static_cast<int> (contacts.size ()) < min_contacts || above.empty ())
+  const Eigen::Matrix3d axes = principalAxes (points, plane.head<3> ());
+  PlaneFrame frame{plane, axes.col (0), axes.col (1), {}};
+  frame.middle = frame.flat (center);
+  const FlatPoints flat = flatten (*this, grid, frame, points);
+  if (static_cast<int> (flat.contacts.size ()) < min_contacts || flat.above.empty ())
     return {};
+  Eigen::AlignedBox2d box;
+  for (const Eigen::Vector2d& p : flat.above)
+    box.extend (p);
   // The middle is the centre of a cell, so that the map does not depend on the sense of the axes.
-  const Eigen::Vector2d reach = (high - middle).cwiseMax (middle - low); // of the points above and their turned copies
+  const Eigen::Vector2d& middle = frame.middle;
+  const Eigen::Vector2d reach = (box.max () - middle).cwiseMax (middle - box.min ()); // of points and turned copies
   const Eigen::Vector2d half = ((reach.array () / h).ceil () + 0.5) * h;
-  low = middle - half;
-  high = middle + half;
-  PlaneMap covered (low, high, h, closing_cells + 1);
-  for (const Eigen::Vector2d& p : above)
+  PlaneMap covered (middle - half, middle + half, h, closing_cells + 1);
+  for (const Eigen::Vector2d& p : flat.above)
   {
     covered.set (p);
-    covered.set (turned (p));
+    covered.set (frame.turned (p));
   }
   covered.close (closing_cells);
-
-  PlaneMap touched (low, high, h, closing_cells + 1);
-  for (const Eigen::Vector2d& p : contacts)
+  PlaneMap touched (middle - half, middle + half, h, closing_cells + 1);
+  for (const Eigen::Vector2d& p : flat.contacts)
     touched.set (p);
   touched.close (closing_cells);
-  // The share seen free of the space over a polygon, close to the plane and below observed surface or its copy.
-  const auto seenFree = [&] (const std::vector<Eigen::Vector2d>& polygon) {
-    std::size_t all = 0, free = 0;
-    for (int k = 0; k < grid.dims.z (); ++k)
-      for (int j = 0; j < grid.dims.y (); ++j)
-        for (int i = 0; i < grid.dims.x (); ++i)
-        {
-          const Eigen::Vector3d p = grid.center (i, j, k);
-          if (height (p) < lowest_free_vox * h || height (p) > highest_free_vox * h)
-            continue;
-          const Eigen::Vector2d q = flat (p);
-          if (!covered.at (q) || !isInside (polygon, q))
-            continue;
-          ++all;
-          free += static_cast<std::size_t> (free_space[grid.index (i, j, k)] != 0);
-        }
-    return all == 0 ? 0.0 : static_cast<double> (free) / static_cast<double> (all);
-  };
-  std::vector<std::vector<Eigen::Vector2d>> undersides;
+
+  std::vector<Polygon> undersides;
   for (const std::vector<Eigen::Vector2d>& part : touched.parts ())
   {
     if (static_cast<int> (part.size ()) < least_part_cells)
       continue;
-    double length = 0.0, gap = std::numeric_limits<double>::infinity ();
-    for (const Eigen::Vector2d& a : part)
-      for (const Eigen::Vector2d& b : part)
-      {
-        length = std::max (length, (a - b).norm ());
-        gap = std::min (gap, (a - turned (b)).norm ());
-      }
-    const bool completed = gap <= gap_per_length * length;
-    std::vector<Eigen::Vector2d> own, both; // corners a voxel around the centres, which may be collinear
+    Polygon own, both; // corners a voxel around the centres, which may be collinear
     for (const Eigen::Vector2d& p : part)
       for (const Eigen::Vector2d& corner :
            {Eigen::Vector2d (-h, -h), Eigen::Vector2d (h, -h), Eigen::Vector2d (-h, h), Eigen::Vector2d (h, h)})
       {
         own.emplace_back (p + corner);
         both.emplace_back (p + corner);
-        both.emplace_back (turned (p) + corner);
+        both.emplace_back (frame.turned (p) + corner);
       }
     both = convexHull (std::move (both));
-    undersides.push_back (completed && seenFree (both) < max_free_share ? both : convexHull (std::move (own)));
+    const bool completed = isNearItsCopy (part, frame, gap_per_length) &&
+                           freeShareOver (both, grid, frame, covered, free_space) < max_free_share;
+    undersides.push_back (completed ? both : convexHull (std::move (own)));
   }
 
   std::vector<std::uint8_t> patch (grid.size (), 0);
@@ -130,11 +168,11 @@ ContactPrior::patch (const VoxelGrid& grid, const Eigen::Vector4d& plane, const 
       {
         const std::size_t n = grid.index (i, j, k);
         const Eigen::Vector3d p = grid.center (i, j, k);
-        if (std::abs (height (p)) > reach_vox * h || free_space[n])
+        if (std::abs (frame.height (p)) > reach_vox * h || free_space[n])
           continue;
-        const Eigen::Vector2d q = flat (p);
+        const Eigen::Vector2d q = frame.flat (p);
         patch[n] = covered.at (q) && std::any_of (undersides.begin (), undersides.end (),
-                                                  [&] (const auto& hull) { return isInside (hull, q); });
+                                                  [&] (const Polygon& hull) { return isInside (hull, q); });
       }
   return patch;
 }

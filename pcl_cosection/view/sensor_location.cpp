@@ -24,7 +24,7 @@ constexpr double jump_spacings = 20.0; // length of a jump, at least
 constexpr float longest_step = 5.0f;   // in spacings, of one that is no jump
 // Tolerance of the angle between neighbours, in such angles, to find the lines that meet ...
 constexpr double loose = 2.0;
-constexpr double strict = 0.25; // ... and to adjust where: a missing reading between both ends is told then
+constexpr double strict = 0.25; // ... and to adjust where: a missing reading between both ends shows then
 constexpr std::size_t most_jumps = 2000;
 constexpr int samples = 1000;
 constexpr int adjustments = 15;

@@ -34,7 +34,7 @@ TEST (MaskSequence, AFileForEachFrameThatHasOne)
   ASSERT_TRUE (masks.read (5));
   EXPECT_EQ (masks.read (5)->at (3, 2), 200);
   EXPECT_EQ (masks.read (7)->at (3, 2), 60000);
-  EXPECT_FALSE (masks.read (6)) << "the mask of a neighbour is none";
+  EXPECT_FALSE (masks.read (6)) << "the mask of a neighbour does not count";
   EXPECT_FALSE (masks.read (9));
   EXPECT_EQ (masks.file (5), folder.path ("mask/Mask0005.png"));
   ASSERT_EQ (masks.warnings ().size (), 1u);

@@ -82,7 +82,7 @@ removeFiles (const fs::path& folder, Predicate&& isOurs)
     fs::remove (folder, ignored); // fails if it is not empty, as it should
 }
 
-/** \brief Files that are read; empty names are none. */
+/** \brief Files that are read; empty names are left out. */
 std::vector<std::string>
 inputFiles (const FusionSettings& settings)
 {

@@ -119,7 +119,7 @@ labelInstances (const std::vector<DetectedInstance>& instances, int width, int h
 
   const auto ignored = static_cast<std::uint32_t> (instances.size () + 1);
   const std::uint32_t no_reading = ignored + 1;
-  Image<std::uint32_t> owners (width, height, 0); // 0: nobody's; 1 + instance; ignored; no_reading
+  Image<std::uint32_t> owners (width, height, 0); // 0: unassigned; 1 + instance; ignored; no_reading
   for (std::size_t i = 0; i < readings.pixels.size (); ++i)
     if (readings.pixels[i] == 0)
       owners.pixels[i] = no_reading;

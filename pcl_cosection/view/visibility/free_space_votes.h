@@ -37,7 +37,7 @@ std::vector<FreeSpaceVotes> voteOnPoints (const std::vector<Eigen::Vector3f>& po
                                           const std::vector<FreeSpaceView>& views, double margin_m = 0.0,
                                           int threads = 0);
 
-/** \brief The same of one more view.
+/** \brief Add the votes of one more view.
  * \param[in] points any frame
  * \param[in] T_points_sensor pose of the sensor in that frame, whatever that of the view
  * \param[in,out] votes one per point, to which those of the view are added

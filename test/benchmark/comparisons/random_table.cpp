@@ -17,7 +17,8 @@ const std::vector<std::string> kinds = {"ball", "bottle", "bowl",    "box",    "
                                         "cone", "cup",    "hexagon", "lbrick", "torus", "wedge"};
 constexpr int things = 6;
 
-/** \brief The same numbers everywhere, which std::uniform_real_distribution does not promise. */
+/** \brief Random numbers that do not depend on the standard library, which std::uniform_real_distribution does not
+ * promise. */
 class Dice
 {
 public:

@@ -93,7 +93,7 @@ toDepthView (const std::vector<Eigen::Vector3f>& points, int width, int height,
              const Eigen::Isometry3d& T_world_points = Eigen::Isometry3d::Identity ());
 
 /** \brief The depth image that a cloud of PCL's is: see toDepthView () of points. A cloud whose size is not its width
- * times its height is none. */
+ * times its height gives nothing. */
 template <typename PointT>
 std::optional<DepthView>
 toDepthView (const pcl::PointCloud<PointT>& cloud,

@@ -128,8 +128,8 @@ struct PCL_COSECTION_EXPORT RunEvaluation
   std::vector<ObjectEvaluation> objects;     ///< in the order of the estimate
   std::optional<MeshEvaluation> background;  ///< nothing if one of the two has none
   std::vector<PairPenetration> penetrations; ///< of each pair of bodies that were measured
-  std::vector<int> unmatched;                ///< estimated objects that are none of the truth's
-  std::vector<int> missed;                   ///< true objects that are none of the estimate's
+  std::vector<int> unmatched;                ///< estimated objects without a true one
+  std::vector<int> missed;                   ///< true objects without an estimated one
   std::vector<std::string> warnings;         ///< one line each
 };
 

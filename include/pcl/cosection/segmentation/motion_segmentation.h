@@ -83,7 +83,7 @@ struct PCL_COSECTION_EXPORT MotionSegments
  *     sum_i a_i (x_i - y_i)^2 + lambda sum_ij w_ij (x_i - x_j)^2,   x_i > 1/2: moves
  *
  * with the votes y_i in {0, 1}, their strength a_i, and the length of common borders w_ij (after L. Grady, "Multilabel
- * Random Walker Image Segmentation Using Prior Models", CVPR 2005). What is left over begins the next hypothesis.
+ * Random Walker Image Segmentation Using Prior Models", CVPR 2005). The remaining points begin the next hypothesis.
  * Surface that comes in sight behind something that moves away is not moving: nothing was seen free where it is.
  *
  * Known bodies come first: what moves as one of them and touches it, is a part of it.
