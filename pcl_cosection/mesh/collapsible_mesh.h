@@ -21,7 +21,7 @@ public:
   using Vertex = std::uint32_t;
   using Triangle = TriangleMesh::Triangle;
 
-  /** \brief More than these cannot be told apart by 32-bit indices of their corners. */
+  /** \brief More than these cannot be numbered by 32-bit indices of their corners. */
   static constexpr std::size_t max_triangles = 0xffffffffu / 3 - 1;
 
   /** \brief \a triangles must form a manifold: computeTopology () counts nothing non-manifold. */

@@ -25,7 +25,7 @@ constexpr double jump_spacings = 20.0; // length of a jump, at least
 constexpr float longest_step = 5.0f;   // in spacings, of one that is no jump
 constexpr double
     loose = 2.0; // tolerance of the angle between neighbours, in such angles, to find the lines that meet ...
-constexpr double strict = 0.25; // ... and to adjust where: a missing reading between both ends is told then
+constexpr double strict = 0.25; // ... and to adjust where: a missing reading between both ends is noticed then
 constexpr std::size_t most_jumps = 2000;
 constexpr int samples = 1000;
 constexpr int adjustments = 15;
@@ -136,7 +136,7 @@ meeting (const Jump& a, const Jump& b)
   return 0.5 * (a.from + on_a * along_a + b.from + on_b * along_b);
 }
 
-/** \brief Least-squares meeting place of the lines that pass by \a sensor; nothing if they do not tell one. */
+/** \brief Least-squares meeting place of the lines that pass by \a sensor; nothing if they do not determine one. */
 std::optional<Eigen::Vector3d>
 adjust (const std::vector<Jump>& jumps, const Eigen::Vector3d& sensor, double tolerance)
 {

@@ -16,7 +16,7 @@ namespace pcl::cosection
 constexpr int no_object = -1;
 constexpr int too_long_object = -2;
 
-/** \brief Joins pieces to objects, and drops what is none. Joined are: fragments with what they touch most; parts that
+/** \brief Joins pieces to objects, and drops the others. Joined are: fragments with what they touch most; parts that
  * are held from the side and stand on nothing; the inside of a hollow thing with its outside; pieces of one surface
  * that something nearer divides. Dropped are those that are too small, too large, above no support, or that hardly
  * stand out from the room.

@@ -33,8 +33,8 @@ movingPatches (const PatchImage& image, const std::vector<float>& votes, const P
       sum[image.patch_of[i]] += votes[i];
   for (Eigen::Index k = 0; k < count; ++k)
   {
-    const double doubt = std::min (std::abs (sum[k]), undecided * image.patches[k].pixels);
-    sum[k] -= sum[k] > 0.0 ? doubt : -doubt;
+    const double open = std::min (std::abs (sum[k]), undecided * image.patches[k].pixels);
+    sum[k] -= sum[k] > 0.0 ? open : -open;
   }
   std::vector<Eigen::Triplet<double>> entries;
   for (Eigen::Index k = 0; k < count; ++k)
