@@ -1,4 +1,5 @@
-// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_cosection authors
 #pragma once
 
 #include <pcl/cosection/common/triangle_mesh.h>
@@ -20,7 +21,7 @@ public:
   using Vertex = std::uint32_t;
   using Triangle = TriangleMesh::Triangle;
 
-  /** \brief 32-bit indices of corners cannot number more triangles. */
+  /** \brief More than these cannot be numbered by 32-bit indices of their corners. */
   static constexpr std::size_t max_triangles = 0xffffffffu / 3 - 1;
 
   /** \brief \a triangles must form a manifold: computeTopology () counts nothing non-manifold. */

@@ -51,7 +51,8 @@ constexpr double thin_quality = 0.01;
 /** \brief Thinner triangles are never made: when their corners are rounded to single precision they might flip. */
 constexpr double least_quality = 1e-3;
 
-/** \brief Of the volume of what is closed: with less than that thin walls lie on each other, or turn inside out. */
+/** \brief The least share of a closed surface's volume that is kept: with less, thin walls lie on each other, or turn
+ * inside out. */
 constexpr double least_volume_share = 0.1;
 
 /** \brief Fraction of the way from \a a to \a b at which \a x lies. */

@@ -60,7 +60,7 @@ public:
     return clamped / clamped.sum ();
   }
 
-  /** \brief Of any length, towards the camera's side. */
+  /** \brief Normal of any length, towards the camera's side. */
   Eigen::Vector3d normal () const { return faces_camera_ ? normal_ : -normal_; }
 
   bool facesCamera () const { return faces_camera_; }

@@ -49,7 +49,7 @@ saveLabelledCloud (const DepthView& view, const Image<std::uint16_t>& labels, co
     }
     catch (const std::exception&)
     {
-      // told below
+      // reported below
     }
     if (!written)
       throw IoError (path + ": cannot be written");

@@ -136,7 +136,7 @@ copyWithLabels (const std::string& input, const std::vector<std::uint32_t>& labe
     }
     catch (const std::exception&)
     {
-      // told below
+      // reported below
     }
     if (!written)
       throw IoError (output + ": cannot be written");

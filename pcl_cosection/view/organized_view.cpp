@@ -26,7 +26,7 @@ constexpr float nan_value = std::numeric_limits<float>::quiet_NaN ();
 constexpr double intrinsics_tolerance_px = 2.0;
 constexpr double same_place = 0.05;       // of the distance to the points: two places of one sensor
 constexpr double least_reliable = 0.15;   // share of a label's points with a reliable normal ...
-constexpr std::size_t least_points = 100; // ... and their number: with fewer, points without an order tell more
+constexpr std::size_t least_points = 100; // ... and their number: with fewer, points without an order say more
 
 /** \brief Root mean square distance of the points from their pixels under a camera. */
 double
@@ -58,13 +58,13 @@ moveToSensor (const std::string& path, const PcdViewOptions& options, const Loca
     if (p.allFinite ())
       distance += (p.z () - distance) / static_cast<double> (++count);
   const Eigen::Vector3d found = located.T_points_sensor.translation ();
-  const Eigen::Isometry3d told = cloud.T_world_sensor;
+  const Eigen::Isometry3d given = cloud.T_world_sensor;
   const auto isNear = [&] (const Eigen::Vector3d& place) { return (found - place).norm () < same_place * distance; };
   const bool at_origin = isNear (
       Eigen::Vector3d::Zero ()); // of the points: their axes alone are others than the sensor's
   const bool in_world = !at_origin && cloud.has_viewpoint && !options.world_points && !options.viewpoint &&
-                        isNear (told.translation ());
-  cloud.T_world_sensor = in_world ? located.T_points_sensor : told * located.T_points_sensor;
+                        isNear (given.translation ());
+  cloud.T_world_sensor = in_world ? located.T_points_sensor : given * located.T_points_sensor;
   if (in_world)
     result.warnings.push_back (path + ": its VIEWPOINT is where its points were seen from if they are in the world "
                                       "frame: taken as with --world-points");
@@ -160,7 +160,7 @@ completeOrganized (const std::string& path, const PcdViewOptions& options, Senso
   cloud.normals = computeOrganizedNormals (cloud.positions, cloud.width, cloud.height, cloud.labels, normal_options);
   const Members members = membersOf (cloud);
   if (addMissingNormals (options, members, cloud) && result.view)
-    leaveOutFlyingPixels (*result.view, cloud);
+    leaveOutMixedPixels (*result.view, cloud);
   addGrazingNormals (options.threads, members, cloud);
 }
 

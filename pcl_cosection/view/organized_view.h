@@ -14,7 +14,7 @@ namespace pcl::cosection
  *
  * The camera is fitted to the points; if they are in another frame than the sensor's, so is its pose, and the points
  * are taken to the sensor. Labels of which too little has a reliable normal (computeOrganizedNormals ()), as with many
- * missing readings, get those of points without an order. \a result.warnings tells what is not as the header says. */
+ * missing readings, get those of points without an order. \a result.warnings says what is not as in the header. */
 void completeOrganized (const std::string& path, const PcdViewOptions& options, SensorCloud& cloud,
                         LabelledView& result);
 

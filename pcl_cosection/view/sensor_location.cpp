@@ -1,4 +1,5 @@
-// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_cosection authors
 #include "sensor_location.h"
 
 #include "pcl_cosection/common/quantile.h"
@@ -22,9 +23,9 @@ namespace
 constexpr int window = 8;              // steps before and after one, whose median is the spacing of the points there
 constexpr double jump_spacings = 20.0; // length of a jump, at least
 constexpr float longest_step = 5.0f;   // in spacings, of one that is no jump
-// Tolerance of the angle between neighbours, in such angles, to find the lines that meet ...
-constexpr double loose = 2.0;
-constexpr double strict = 0.25; // ... and to adjust where: a missing reading between both ends shows then
+constexpr double
+    loose = 2.0; // tolerance of the angle between neighbours, in such angles, to find the lines that meet ...
+constexpr double strict = 0.25; // ... and to adjust where: a missing reading between both ends is noticed then
 constexpr std::size_t most_jumps = 2000;
 constexpr int samples = 1000;
 constexpr int adjustments = 15;
@@ -135,7 +136,7 @@ meeting (const Jump& a, const Jump& b)
   return 0.5 * (a.from + on_a * along_a + b.from + on_b * along_b);
 }
 
-/** \brief Least-squares meeting place of the lines that pass by \a sensor; nothing if they do not tell one. */
+/** \brief Least-squares meeting place of the lines that pass by \a sensor; nothing if they do not determine one. */
 std::optional<Eigen::Vector3d>
 adjust (const std::vector<Jump>& jumps, const Eigen::Vector3d& sensor, double tolerance)
 {

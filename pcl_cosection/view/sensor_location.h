@@ -20,7 +20,7 @@ namespace pcl::cosection
  * as of pcl::VoxelGrid.
  * \param[in] points row by row, in any frame, metres; not finite: no reading
  * \return places by which most lines pass, at most three; none if too few meet, or if they are too nearly parallel to
- * tell how far away. Whether all points are visible from there, drawRangeImage () tells. The error is a few pixels'
+ * say how far away. drawRangeImage () finds whether all points are visible from there. The error is a few pixels'
  * width at the distance of the points
  *
  * O (points); deterministic. */

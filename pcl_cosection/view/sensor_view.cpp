@@ -28,7 +28,7 @@ constexpr int lonely_neighbours = 6;                   // of which the farthest 
 constexpr float lonely_factor = 2.0f;                  // ... is so much farther than usual
 constexpr std::size_t most_to_judge = 500000;          // points: of more, trails are no share worth mentioning
 
-/** \brief What tells that a sensor at some place saw the points, or did not. */
+/** \brief Evidence that a sensor at some place saw the points, or did not. */
 struct Sight
 {
   std::optional<RangeImage> image; ///< none if they do not fit into one
@@ -98,7 +98,7 @@ struct FoundSensor
   Sight sight;
 };
 
-/** \brief The one place from which all points were seen as their order tells; nothing if there are several, as of
+/** \brief The one place from which all points were seen by their order; nothing if there are several, as of
  * merged views. */
 std::optional<FoundSensor>
 findSensor (const Members& members, const SensorCloud& cloud)

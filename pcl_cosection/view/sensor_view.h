@@ -21,9 +21,9 @@ using Members = std::map<std::uint32_t, std::vector<std::size_t>>;
 /** \brief The points of each label that have a finite position. */
 Members membersOf (const SensorCloud& cloud);
 
-/** \brief An unorganised cloud as seen from where it was seen from: where its header tells, if all points are visible
- * from there, or where their order tells. Points of another frame than the sensor's are taken to it. \a result.warnings
- * tells what is not as the header says.
+/** \brief An unorganised cloud as seen from its sensor: at the viewpoint of its header, if all points are visible from
+ * there, or else where the order of its points says. Points of another frame than the sensor's are moved into it. \a
+ * result.warnings says what is not as in the header.
  * \return nothing if that is not known */
 std::optional<DepthView> viewFromSensor (const std::string& path, const PcdViewOptions& options, const Members& members,
                                          SensorCloud& cloud, LabelledView& result);

@@ -63,7 +63,7 @@ turnTowardsViewpoint (float away, SensorCloud& cloud)
   return all == 0 ? 0.0 : static_cast<double> (turned) / static_cast<double> (all);
 }
 
-/** \brief Check normals of the file against the shape, where no viewpoint tells their sign. */
+/** \brief Check normals of the file against the shape, where no viewpoint gives their sign. */
 void
 checkWithoutViewpoint (const std::string& path, const Members& members, SensorCloud& cloud, LabelledView& result)
 {
@@ -116,7 +116,7 @@ addNormals (const PcdViewOptions& options, const std::vector<std::size_t>& indic
     cloud.normals[indices[k]] = estimated.normals[estimated.of[k]];
 }
 
-/** \brief Fields that nobody has filled, with zeros or not finite, are as none. */
+/** \brief Fields without values, all zero or not finite, count as absent. */
 void
 dropUnfilledNormals (SensorCloud& cloud)
 {
@@ -171,7 +171,7 @@ completeUnorganized (const std::string& path, const PcdViewOptions& options, Sen
   for (const auto& [label, indices] : members)
     if (label != 0)
       leaveOutTrails (options, *result.view, indices, cloud);
-  leaveOutFlyingPixels (*result.view, cloud);
+  leaveOutMixedPixels (*result.view, cloud);
   leaveOutScattered (options, objects, background.near, cloud);
 }
 

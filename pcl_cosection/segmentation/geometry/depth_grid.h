@@ -1,6 +1,8 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "pcl_cosection/view/depth_edges.h"
+
 #include <pcl/cosection/common/camera.h>
 
 #include <Eigen/Core>
@@ -28,13 +30,11 @@ struct DepthGrid
   /** \brief Standard deviation of the depth at a pixel, metres. */
   float sigma (int i) const { return (static_cast<float> (depthNoiseSigma (points[i].z ()))); }
 
-  /** \brief Whether noise and a surface tilted by 75 degrees explain the depths of two pixels that are \a steps apart.
-   */
+  /** \brief Whether two pixels that are \a steps apart may be on one surface (largestSurfaceStep ()). */
   bool continuous (int i, int j, int steps = 1) const
   {
     const float z = std::min (points[i].z (), points[j].z ());
-    const float noise = 4.0f * static_cast<float> (depthNoiseSigma (z));
-    return (std::abs (points[i].z () - points[j].z ()) <= noise + 3.7f * pitch * z * static_cast<float> (steps));
+    return std::abs (points[i].z () - points[j].z ()) <= largestSurfaceStep (z, pitch * z * steps);
   }
 };
 

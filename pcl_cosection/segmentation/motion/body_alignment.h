@@ -27,8 +27,8 @@ struct BodyAlignment
 
 /** \brief Find where a body was, by Gauss-Newton on robust point-to-plane distances to the earlier view's surface.
  * Points that come to where the earlier view has seen through are drawn to its surface beside them, and what is gone
- * since to the body's: so the outline holds it where a surface slides in itself. What neither tells stays as it is in
- * the guess.
+ * since to the body's: so the outline holds it where a surface slides in itself. What neither determines stays as it is
+ * in the guess.
  * \param[in] guesses of T_then_now: the best is taken */
 BodyAlignment alignBody (const BodySightings& body, const std::vector<Eigen::Isometry3d>& guesses);
 

@@ -1,4 +1,5 @@
-// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_cosection authors
 #include "motion_labelling.h"
 
 #include "pcl_cosection/common/disjoint_sets.h"
@@ -32,8 +33,8 @@ movingPatches (const PatchImage& image, const std::vector<float>& votes, const P
       sum[image.patch_of[i]] += votes[i];
   for (Eigen::Index k = 0; k < count; ++k)
   {
-    const double undecided_votes = std::min (std::abs (sum[k]), undecided * image.patches[k].pixels);
-    sum[k] -= sum[k] > 0.0 ? undecided_votes : -undecided_votes;
+    const double open = std::min (std::abs (sum[k]), undecided * image.patches[k].pixels);
+    sum[k] -= sum[k] > 0.0 ? open : -open;
   }
   std::vector<Eigen::Triplet<double>> entries;
   for (Eigen::Index k = 0; k < count; ++k)

@@ -63,7 +63,7 @@ private:
   /** \brief Those that move so, without parts that show it nowhere. \param[in] body known, or 0 */
   std::vector<char> pixelsMoving (const Motion& motion, std::uint32_t body) const;
 
-  /** \brief Of numbered parts, the one that shows most, and those near it that show something. */
+  /** \brief The numbered part that shows most, and those near it that show something. */
   std::vector<char> oneBody (const std::vector<int>& parts, std::uint32_t body) const;
 
   /** \brief How many of these pixels are new in the earlier view in which most are, and explained there. */

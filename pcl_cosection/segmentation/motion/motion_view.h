@@ -49,7 +49,7 @@ struct Sighting
   float ahead_m = 0.0f; ///< how much farther than the place that reading is: positive, where it was seen through
 };
 
-/** \brief Of the readings beside the place's pixel, which differ by edges and grazing surfaces, the one nearest to it.
+/** \brief The reading nearest to the place, among those beside its pixel, which differ by edges and grazing surfaces.
  * \param[in] q sensor frame of the view */
 Sighting sightAt (const MotionView& view, const Eigen::Vector3f& q);
 

@@ -76,7 +76,7 @@ struct MovingBodyFinder::Impl
 {
   explicit Impl (const MotionSegmentationOptions& options) : options (options) { options.validate (); }
 
-  /** \brief Of the views before, those the last one is compared with, the youngest first: at ages of 1, 2, 4 ...
+  /** \brief Earlier views that the last one is compared with, the youngest first: at ages of 1, 2, 4 ...
    * frames, the oldest, and the last one in which bodies were searched. */
   std::vector<MotionView*> earlierViews ();
 

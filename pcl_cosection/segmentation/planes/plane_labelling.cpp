@@ -44,7 +44,7 @@ PlaneLabelling::PlaneLabelling (const DepthGrid& grid, float max_object_size_m, 
 }
 
 void
-PlaneLabelling::claim (bool small)
+PlaneLabelling::label (bool small)
 {
   parallelFor (0, grid_.height, threads_, [&] (int v) {
     for (int u = 0; u < grid_.width; ++u)

@@ -18,7 +18,7 @@ public:
   /** \brief Give the pixels without a plane to the one that fits them best: of those with blocks that are together
    * longer than an object, which go on through the whole image; with \a small also of the others, which go on only as
    * far as they are connected to where they were found. */
-  void claim (bool small);
+  void label (bool small);
 
   /** \brief Take away the pixels that are not \a kept. */
   void withdraw (const std::vector<char>& kept);

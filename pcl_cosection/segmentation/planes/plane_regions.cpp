@@ -21,13 +21,13 @@ constexpr int shadow_share = 16;      ///< share of the image's width that the s
 constexpr float beside_sigmas = 3.0f; ///< what is farther from a plane is before or behind it
 constexpr float border_sigmas = 1.0f; ///< the same beside a region's border
 constexpr int probe_px = 4;           ///< beyond it, where it is looked at what is there
-constexpr int border_reach_px = 3;    ///< pixels around a border's that tell its direction
+constexpr int border_reach_px = 3;    ///< pixels around a border's that determine its direction
 constexpr float free_share = 0.35f;   ///< of the border of a face that ends freely
 constexpr float longest_step = 8.0f;  ///< of a pixel on a plane seen at a small angle, relative to one that faces
 constexpr int seam_px = 3;            ///< readings on no plane that there may be at an edge
 constexpr float edge_cosine = 0.7f;   ///< between the normals of planes that meet at one
 constexpr int directions = RegionExtents::directions;
-constexpr int speck_px = 16; ///< what is smaller does not tell how a region beside it ends
+constexpr int speck_px = 16; ///< what is smaller does not show how a region beside it ends
 
 class Division
 {

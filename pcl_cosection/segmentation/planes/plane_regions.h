@@ -1,4 +1,5 @@
-// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_cosection authors
 #pragma once
 
 #include "pcl_cosection/segmentation/geometry/depth_grid.h"
@@ -31,7 +32,7 @@ struct PlaneRegions
   std::vector<PlaneRegion> regions;
 };
 
-/** \brief Divides planes into connected regions. Strips, as the edge of a board is, are separated from what is wider:
+/** \brief Divides planes into connected regions. Strips, as the edge of a board is, are divided from what is wider:
  * the front of a box that is as far away as the edge of the shelf. A strip goes on through what is wider. What is in
  * front of a plane may divide a region, but two faces that end freely on their sides are not one behind it.
  * \param[in] surface_of one per pixel: the plane it is on; -1: none */

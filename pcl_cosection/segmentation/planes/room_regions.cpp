@@ -19,7 +19,7 @@ constexpr float enclosed_share = 0.25f;
 constexpr float hidden_share = 0.15f;    ///< or relative to all that is before it
 constexpr float continued_share = 0.25f; ///< of the border of a remainder of the room, on the same plane
 constexpr float edge_share = 0.25f;      ///< of the border of what begins at an edge of the room
-constexpr int min_enclosed_px = 60;      ///< less does not tell how it ends
+constexpr int min_enclosed_px = 60;      ///< less does not show how it ends
 
 /** \brief Whether a region is a remainder of the room, or enclosed by it. */
 bool
@@ -60,20 +60,20 @@ enclose (const std::vector<PlaneRegion>& regions, std::vector<char>& is_room)
 
 /** \brief The surfaces that have room, best seen first, as far as it reaches. */
 Room
-describeRoom (const DepthGrid& grid, const PlaneLabelling& claims, const PlaneRegions& planes,
+describeRoom (const DepthGrid& grid, const PlaneLabelling& labelling, const PlaneRegions& planes,
               const std::vector<char>& is_room)
 {
   Room room;
   room.surface_of.assign (grid.points.size (), -1);
-  std::vector<std::vector<Eigen::Vector2f>> feet (claims.surfaces ().size ());
+  std::vector<std::vector<Eigen::Vector2f>> feet (labelling.surfaces ().size ());
   std::vector<float> area (feet.size (), 0.0f);
   for (std::size_t k = 0; k < is_room.size (); ++k)
     area[planes.regions[k].surface] += is_room[k] ? planes.regions[k].area_m2 : 0.0f;
   for (std::size_t i = 0; i < grid.points.size (); ++i)
     if (planes.region_of[i] >= 0 && is_room[planes.region_of[i]])
     {
-      room.surface_of[i] = claims.surfaceOf ()[i];
-      feet[room.surface_of[i]].push_back (claims.surfaces ()[room.surface_of[i]].place (grid.points[i]));
+      room.surface_of[i] = labelling.surfaceOf ()[i];
+      feet[room.surface_of[i]].push_back (labelling.surfaces ()[room.surface_of[i]].place (grid.points[i]));
     }
   std::vector<int> order;
   for (std::size_t k = 0; k < feet.size (); ++k)
@@ -84,7 +84,7 @@ describeRoom (const DepthGrid& grid, const PlaneLabelling& claims, const PlaneRe
   for (const int k : order)
   {
     number[k] = static_cast<int> (room.surfaces.size ());
-    room.surfaces.push_back (claims.surfaces ()[k]);
+    room.surfaces.push_back (labelling.surfaces ()[k]);
     room.surfaces.back ().area_m2 = area[k];
     room.surfaces.back ().outline = convexHull (std::move (feet[k]));
   }
@@ -100,16 +100,16 @@ findRoom (const DepthGrid& grid, float max_object_size_m, float min_area_m2, int
 {
   if (findSupportSurfaces (grid, max_object_size_m, min_area_m2).empty ())
     return {{}, std::vector<int> (grid.points.size (), -1)};
-  PlaneLabelling claims (grid, max_object_size_m, min_area_m2, threads);
-  claims.claim (false);
-  PlaneRegions planes = dividePlanes (grid, claims.surfaces (), claims.surfaceOf (), max_object_size_m);
+  PlaneLabelling labelling (grid, max_object_size_m, min_area_m2, threads);
+  labelling.label (false);
+  PlaneRegions planes = dividePlanes (grid, labelling.surfaces (), labelling.surfaceOf (), max_object_size_m);
   std::vector<char> kept (grid.points.size (), 0);
   for (std::size_t i = 0; i < kept.size (); ++i)
     kept[i] = planes.region_of[i] >= 0 && planes.regions[planes.region_of[i]].length_m > max_object_size_m;
-  claims.withdraw (kept);
+  labelling.withdraw (kept);
 
-  claims.claim (true);
-  planes = dividePlanes (grid, claims.surfaces (), claims.surfaceOf (), max_object_size_m);
+  labelling.label (true);
+  planes = dividePlanes (grid, labelling.surfaces (), labelling.surfaceOf (), max_object_size_m);
   std::vector<int> long_px (planes.regions.size (), 0);
   for (std::size_t i = 0; i < kept.size (); ++i)
     if (kept[i] && planes.region_of[i] >= 0)
@@ -124,7 +124,7 @@ findRoom (const DepthGrid& grid, float max_object_size_m, float min_area_m2, int
   if (!is_room.empty () && planes.regions[largest].area_m2 >= min_area_m2)
     is_room[largest] = 1;
   enclose (planes.regions, is_room);
-  return (describeRoom (grid, claims, planes, is_room));
+  return (describeRoom (grid, labelling, planes, is_room));
 }
 
 } // namespace pcl::cosection

@@ -1,4 +1,5 @@
-// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
+// SPDX-License-Identifier: BSD-3-Clause
+// Copyright (c) 2026, the pcl_cosection authors
 #include "consistent_normals.h"
 
 #include "estimated_normals.h"
@@ -17,9 +18,9 @@ namespace pcl::cosection
 namespace
 {
 
-// Length of the mean normal of a background that has a side; of random ones to one side, 0.5.
-constexpr float one_sided = 0.7f;
-constexpr std::size_t least_background = 100; // points, which tell of a side
+constexpr float
+    one_sided = 0.7f; // length of the mean normal of a background that has a side; of random ones to one side, 0.5
+constexpr std::size_t least_background = 100; // points, to decide on a side
 constexpr double decisive = 0.75;             // share of a piece that faces to one side
 
 /** \brief How much of what of all normals has a sign does have a positive one. */

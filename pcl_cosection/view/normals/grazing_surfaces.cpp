@@ -25,7 +25,7 @@ constexpr int radius_px = 7;         // half of the window on which a plane is f
 constexpr std::size_t least_support = 12; // pixels on that plane
 constexpr double trim_sigmas = 3.0;       // those farther from it are not of it
 constexpr double thickest = 0.4;     // standard deviations from the plane, and in the image across it: a steep plane is
-                                     // thin, flying pixels are not
+                                     // thin, mixed pixels are not
 constexpr float alike_cosine = 0.9f; // of the angle between two normals: 26 degrees
 constexpr int reach_px = 20;         // how far the end of the plane is looked for
 constexpr float noise_sigmas = 4.0f; // there readings are on it, but for noise ...
@@ -59,7 +59,7 @@ cosineToSensor (const Eigen::Vector3f& normal, const Eigen::Vector3f& position)
 
 /** \brief Whether the plane at \a i goes on to where its object ends, with what is behind it far behind. Depth edges
  * that a sensor or a filter has smeared over several pixels are planes along the rays, too, but go on beyond the label
- * or level out. */
+ * or flatten out. */
 bool
 endsInJump (const SensorCloud& cloud, const Eigen::Vector3f& normal, std::size_t i)
 {

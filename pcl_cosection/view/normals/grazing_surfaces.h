@@ -9,7 +9,7 @@ namespace pcl::cosection
 /** \brief Give points of objects on surfaces that an organised view sees at grazing angles normals, towards the sensor.
  *
  * From row to row they are as far apart as points on the two sides of a depth edge, so that computeOrganizedNormals ()
- * finds none. Here planes are fitted to the pixels around that are steep or have no normal either. Flying pixels, too,
+ * finds none. Here planes are fitted to the pixels around that are steep or have no normal either. Mixed pixels, too,
  * lie on surfaces along the rays; but these are a few pixels wide in the image and scatter, whereas normals are given
  * only where thin planes are several pixels wide and end, where they are farthest, with a jump to what is behind them,
  * unlike edges that were smeared.

@@ -5,6 +5,7 @@
 
 #include "pcl_cosection/common/parallel.h"
 #include "pcl_cosection/common/quantile.h"
+#include "pcl_cosection/view/depth_edges.h"
 #include <pcl/cosection/common/camera.h>
 #include <pcl/cosection/common/error.h>
 
@@ -24,8 +25,6 @@ namespace
 
 constexpr int max_radius = 15;
 constexpr double trim_sigmas = 3.5;   ///< points farther from the first plane are not of this surface
-constexpr double link_sigmas = 4.0;   ///< jump in range between neighbours that noise explains ...
-constexpr double link_slope = 3.7;    ///< ... plus this, tan (75 degrees), times the distance across
 constexpr double planar_sigmas = 1.5; ///< thickness of a plane that noise explains ...
 constexpr double planar_ratio = 0.05; ///< ... plus this share of the second eigenvalue for curvature
 constexpr double line_ratio = 0.02;   ///< second over first eigenvalue: below, the support is a line
@@ -213,15 +212,14 @@ private:
    * a jump in range. Unusable pixels are stepped over. */
   template <typename Visit> void walk (int start, int stride, int steps, Visit&& visit) const
   {
-    const float noise = static_cast<float> (link_sigmas * depthNoiseSigma (range_[start]));
-    const float slope = static_cast<float> (link_slope * pitch_) * range_[start];
+    const double range = range_[start], pixel_m = pitch_ * range;
     int last = 0;
     for (int k = 1; k <= steps; ++k)
     {
       const int i = start + k * stride;
       if (!usable (start, i))
         continue;
-      if (std::abs (range_[i] - range_[start + last * stride]) > noise + slope * static_cast<float> (k - last))
+      if (std::abs (range_[i] - range_[start + last * stride]) > largestSurfaceStep (range, pixel_m * (k - last)))
         return;
       visit (k, i);
       last = k;

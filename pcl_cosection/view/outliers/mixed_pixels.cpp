@@ -11,7 +11,7 @@ namespace pcl::cosection
 {
 
 void
-leaveOutFlyingPixels (const DepthView& view, SensorCloud& cloud)
+leaveOutMixedPixels (const DepthView& view, SensorCloud& cloud)
 {
   const FreeSpaceView seen (view);
   const Eigen::Isometry3d T_view_points = view.T_world_sensor.inverse () * cloud.T_world_sensor;

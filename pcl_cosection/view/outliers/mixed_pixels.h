@@ -9,6 +9,6 @@ namespace pcl::cosection
 /** \brief Take the normals of points of the background at depth edges, so that they are left out: between something and
  * what is behind it a sensor measures what is nowhere, and walls of such points would stand between things. Those of
  * objects are too few to do without. */
-void leaveOutFlyingPixels (const DepthView& view, SensorCloud& cloud);
+void leaveOutMixedPixels (const DepthView& view, SensorCloud& cloud);
 
 } // namespace pcl::cosection

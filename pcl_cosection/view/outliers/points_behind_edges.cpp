@@ -1,6 +1,8 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "points_behind_edges.h"
 
+#include "pcl_cosection/view/depth_edges.h"
+
 #include "pcl_cosection/common/quantile.h"
 #include "pcl_cosection/view/normals/estimated_normals.h"
 
@@ -24,9 +26,7 @@ namespace
 constexpr int spacing_neighbours = 6;
 constexpr float reach_to_spacing = 0.72f; // square root of pi / 6: as many neighbours, a point in each square
 constexpr float beside_spacings = 1.25f;  // from a point of an edge in the image
-constexpr float behind_spacings = 6.0f;   // a surface of up to 78 degrees to the image falls off less on that way ...
-constexpr double edge_sigmas = 6.0;       // ... but for noise, ...
-constexpr double edge_slope = 0.03;       // ... and never by so small a fraction of the depth
+constexpr float behind_spacings = 6.0f;   // a surface of up to 78 degrees to the image falls off less on that way
 constexpr float lonely_factor = 3.0f;     // of the usual spacing: trails have fewer points than surfaces
 // A share of the usual distance in the image, that of the nearest pixels; means in cells have 0.5 to 0.8.
 constexpr float regular = 0.93f;
@@ -91,8 +91,7 @@ public:
   void add (const Eigen::Vector3f& point, float spacing)
   {
     const float z = point.z ();
-    const float behind = z + std::max (behind_spacings * spacing,
-                                       static_cast<float> (edge_sigmas * depthNoiseSigma (z) + edge_slope * z));
+    const float behind = z + std::max (behind_spacings * spacing, static_cast<float> (smallestEdgeStep (z)));
     const float radius = std::min (most_pixels_beside, beside_spacings * spacing / z / pixel_);
     const Eigen::Array2f centre = place (point);
     const Eigen::Array2i first = (centre - radius).ceil ().cast<int> ().max (0);

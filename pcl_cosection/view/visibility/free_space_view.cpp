@@ -1,6 +1,7 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "free_space_view.h"
 
+#include "pcl_cosection/view/depth_edges.h"
 #include "visibility.h"
 
 #include <algorithm>
@@ -16,8 +17,6 @@ namespace
 
 constexpr double margin_voxels = 3.0;
 constexpr double margin_sigmas = 3.0;
-constexpr double edge_sigmas = 6.0; // neighbouring depths that differ by more are different surfaces ...
-constexpr double edge_slope = 0.03; // ... unless a steep surface explains it: fraction of the depth
 
 /** \brief filterDepth () row by row, so that the compiler vectorises it. */
 template <typename Best>
@@ -80,7 +79,7 @@ FreeSpaceView::FreeSpaceView (DepthView view) : view_ (std::move (view)), edge_ 
     if (!std::isfinite (a) || !std::isfinite (b))
       return;
     const double near = std::min (a, b);
-    if (std::abs (a - b) > edge_sigmas * depthNoiseSigma (near) + edge_slope * near)
+    if (std::abs (a - b) > smallestEdgeStep (near))
     {
       edge_[static_cast<std::size_t> (v) * width + u] = 1;
       edge_[static_cast<std::size_t> (v2) * width + u2] = 1;

@@ -139,11 +139,11 @@ public:
   }
 
 private:
-  /** \brief 0 where the nearest point does not tell. */
+  /** \brief The side of the surface; 0 where the nearest point does not determine it. */
   double sideOf (const NearestPoint& nearest) const
   {
-    const bool tells = std::isfinite (nearest.squared_m2) && body_.normals.isRegular (nearest);
-    return tells ? body_.normals.side (nearest) : 0.0;
+    const bool known = std::isfinite (nearest.squared_m2) && body_.normals.isRegular (nearest);
+    return known ? body_.normals.side (nearest) : 0.0;
   }
 
   const SearchableSurface& body_;

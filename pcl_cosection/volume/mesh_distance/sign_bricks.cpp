@@ -18,7 +18,7 @@ namespace
 constexpr std::int32_t positive = 1;
 constexpr std::int32_t not_positive = 2;
 
-/** \brief Of the voxels of a row; NaN has no sign. */
+/** \brief Signs of the voxels of a row; NaN has no sign. */
 PCL_COSECTION_MULTIVERSION void
 addSigns (const float* __restrict values, int count, std::int32_t* __restrict signs)
 {

@@ -28,7 +28,7 @@ public:
   /** \brief 0: both signs are in this brick; n: in none of those that are less than n bricks away along each axis. */
   int distance (int i, int j, int k) const { return distances_[index (i, j, k)]; }
 
-  /** \brief Of the brick that a cell is in. */
+  /** \brief Index of the brick that a cell is in. */
   int distanceAt (std::size_t i, std::size_t j, std::size_t k) const
   {
     return distances_[index (i / edge, j / edge, k / edge)];

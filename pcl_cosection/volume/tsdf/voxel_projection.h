@@ -11,7 +11,7 @@
 namespace pcl::cosection
 {
 
-/** \brief Of a row of voxels along x: [begin, end). */
+/** \brief Part [begin, end) of a row of voxels along x. */
 struct VoxelRange
 {
   int begin = 0;
