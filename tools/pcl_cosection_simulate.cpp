@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 
 // Renders known scenes, with the truth; see pcl_cosection_simulate --help.
 
@@ -13,9 +12,9 @@
 #include <nlohmann/json.hpp>
 
 #include "pcl_cosection/simulation/penetration_check.h"
+#include "pcl_cosection/simulation/sequence_writer.h"
 #include <pcl/cosection/common/error.h>
-#include <pcl/cosection/simulation/scene_spec.h>
-#include <pcl/cosection/simulation/sequence_writer.h>
+#include <pcl/cosection/simulation/simulated_scene.h>
 
 #include <algorithm>
 #include <iostream>

@@ -1,9 +1,151 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include <pcl/cosection/surface/hessian_imls.h>
-#include <pcl/cosection/surface/impl/hessian_imls.hpp>
+
+#include "pcl_cosection/common/console_errors.h"
 
 #include <pcl/impl/instantiate.hpp>
 #include <pcl/point_types.h>
 
+namespace pcl::cosection
+{
+
+bool
+HessianIMLSBase::setOptions (const CoSectionOptions& options)
+{
+  return reportErrors ("cosection::HessianIMLS::setOptions", [&] {
+    options.validate ();
+    options_ = options;
+  });
+}
+
+bool
+HessianIMLSBase::setVoxelSize (float voxel_size_m)
+{
+  return reportErrors ("cosection::HessianIMLS::setVoxelSize", [&] {
+    if (!(voxel_size_m > 0.0f))
+      throw InvalidArgument ("voxel size must be positive, in metres");
+    CoSectionOptions options = options_;
+    options.voxel_size_m = voxel_size_m;
+    options.validate ();
+    options_ = options;
+  });
+}
+
+bool
+HessianIMLSBase::setResolution (int resolution)
+{
+  return reportErrors ("cosection::HessianIMLS::setResolution", [&] {
+    CoSectionOptions options = options_;
+    options.resolution = resolution;
+    options.voxel_size_m = 0.0;
+    options.validate ();
+    options_ = options;
+  });
+}
+
+void
+HessianIMLSBase::setNumberOfThreads (unsigned int threads)
+{
+  options_.threads = static_cast<int> (threads);
+}
+
+bool
+HessianIMLSBase::addView (const DepthView& view)
+{
+  return reportErrors ("cosection::HessianIMLS::addView", [&] {
+    view.validate ();
+    views_.push_back (view);
+  });
+}
+
+bool
+HessianIMLSBase::addCloud (const std::optional<DepthView>& view)
+{
+  if (view)
+    return addView (*view);
+  PCL_ERROR (
+      "[pcl::cosection::HessianIMLS::addView] The cloud is not the image of a pinhole camera, nor all visible from "
+      "the origin of its frame; it is left out.\n");
+  return false;
+}
+
+bool
+HessianIMLSBase::addObstacle (const SignedDistanceField::ConstPtr& body, const Poses& T_body_object)
+{
+  return reportErrors ("cosection::HessianIMLS::addObstacle", [&] {
+    CoSection ().addObstacle (body, T_body_object); // validates
+    fields_.emplace_back (body, T_body_object);
+  });
+}
+
+bool
+HessianIMLSBase::addObstacle (const TriangleMesh& body, const Poses& T_body_object)
+{
+  return reportErrors ("cosection::HessianIMLS::addObstacle", [&] {
+    CoSection ().addObstacle (body, T_body_object); // validates
+    meshes_.emplace_back (body, T_body_object);
+  });
+}
+
+bool
+HessianIMLSBase::addObstacle (const pcl::PolygonMesh& body, const Poses& T_body_object)
+{
+  TriangleMesh mesh;
+  return reportErrors ("cosection::HessianIMLS::addObstacle", [&] { mesh = fromPolygonMesh (body); }) &&
+         addObstacle (mesh, T_body_object);
+}
+
+bool
+HessianIMLSBase::addSupportPlane (const pcl::ModelCoefficients& coefficients)
+{
+  return reportErrors ("cosection::HessianIMLS::addSupportPlane", [&] {
+    const auto& c = coefficients.values;
+    if (c.size () != 4)
+      throw InvalidArgument ("a plane has four coefficients, not " + std::to_string (c.size ()));
+    const Eigen::Vector4d plane (c[0], c[1], c[2], c[3]);
+    CoSection ().addSupportPlane (plane); // validates
+    planes_.push_back (plane);
+  });
+}
+
+void
+HessianIMLSBase::clearConstraints ()
+{
+  views_.clear ();
+  fields_.clear ();
+  meshes_.clear ();
+  planes_.clear ();
+}
+
+bool
+HessianIMLSBase::complete (std::vector<OrientedPoint> points)
+{
+  result_ = ObjectResult ();
+  return reportErrors ("cosection::HessianIMLS::reconstruct", [&] {
+    CoSection scene (options_);
+    for (const DepthView& view : views_)
+      scene.addView (view);
+    for (const auto& [body, poses] : fields_)
+      scene.addObstacle (body, poses);
+    for (const auto& [body, poses] : meshes_)
+      scene.addObstacle (body, poses);
+    for (const Eigen::Vector4d& plane : planes_)
+      scene.addSupportPlane (plane);
+    scene.addObject ({1, std::move (points), {}});
+    ObjectResult result = std::move (scene.reconstruct (progress_).objects.front ());
+    if (!result.error.empty ())
+      throw Error (result.error);
+    result_ = std::move (result);
+  });
+}
+
+void
+HessianIMLSBase::reportMissingInput () const
+{
+  PCL_ERROR ("[pcl::cosection::HessianIMLS::reconstruct] There is no input cloud.\n");
+}
+
+} // namespace pcl::cosection
+
+#define PCL_INSTANTIATE_CosectionHessianIMLS(T) template class pcl::cosection::HessianIMLS<T>;
 PCL_INSTANTIATE (CosectionHessianIMLS, (pcl::PointNormal) (pcl::PointXYZRGBNormal) (pcl::PointXYZINormal))

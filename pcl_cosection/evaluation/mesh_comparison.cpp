@@ -1,10 +1,9 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include <pcl/cosection/evaluation/mesh_comparison.h>
 
+#include "pcl_cosection/evaluation/surface_distance.h"
 #include "surface_samples.h"
 #include <pcl/cosection/common/error.h>
-#include <pcl/cosection/evaluation/surface_distance.h>
 
 #include <algorithm>
 #include <cmath>
@@ -25,7 +24,7 @@ shareWithin (const std::vector<double>& distances_m, double threshold_m)
   return static_cast<double> (within) / static_cast<double> (distances_m.size ());
 }
 
-/** \brief Of sorted values. */
+/** \brief A quantile of sorted values. */
 double
 quantile (const std::vector<double>& sorted, double share)
 {

@@ -1,9 +1,8 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "object_matching.h"
 
+#include "pcl_cosection/evaluation/surface_distance.h"
 #include "surface_samples.h"
-#include <pcl/cosection/evaluation/surface_distance.h>
 
 #include <algorithm>
 

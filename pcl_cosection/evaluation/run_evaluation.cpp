@@ -1,13 +1,13 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include <pcl/cosection/evaluation/run_evaluation.h>
 
 #include "object_matching.h"
 #include "run_penetration.h"
 #include "scene_visibility.h"
 
+#include "rigid_alignment.h"
+#include "surface_distance.h"
 #include <pcl/cosection/common/error.h>
-#include <pcl/cosection/evaluation/surface_distance.h>
 
 #include <algorithm>
 

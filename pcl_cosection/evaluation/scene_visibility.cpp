@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "scene_visibility.h"
 
 #include <pcl/cosection/rendering/rasterizer.h>
@@ -12,7 +11,7 @@ namespace pcl::cosection
 namespace
 {
 
-constexpr double width_px = 160.0; ///< of the pictures that tell
+constexpr double width_px = 160.0; ///< of the pictures that are drawn to find out
 constexpr double least_share = 0.001;
 
 PinholeCamera

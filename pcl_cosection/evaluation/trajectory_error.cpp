@@ -1,11 +1,10 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include <pcl/cosection/evaluation/trajectory_error.h>
 
 #include "pcl_cosection/sequence/stamp_span.h"
 
+#include "pcl_cosection/evaluation/rigid_alignment.h"
 #include <pcl/cosection/common/error.h>
-#include <pcl/cosection/evaluation/rigid_alignment.h>
 
 #include <algorithm>
 #include <cmath>
@@ -139,7 +138,7 @@ computeRpe (const Matches& matches, const TrajectoryOptions& options, Trajectory
     error.notes.emplace_back ("RPE needs more than " + std::to_string (delta) + " matching poses");
     return;
   }
-  // Truth of another rate makes the stamps of matches uneven: what delta matches span usually tells what a gap is.
+  // Truth of another rate makes the stamps of matches uneven: the usual span of delta matches says what a gap is.
   std::vector<double> spans;
   for (std::size_t i = 0, j = delta; j < matches.size (); ++i, ++j)
     spans.push_back (matches.truth[j].stamp - matches.truth[i].stamp);

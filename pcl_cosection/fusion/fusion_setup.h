@@ -1,9 +1,8 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "pcl_cosection/fusion/association/data_association.h"
 #include <pcl/cosection/common/camera.h>
-#include <pcl/cosection/fusion/data_association.h>
 #include <pcl/cosection/fusion/dynamic_fusion.h>
 
 #include <cstddef>

@@ -1,7 +1,7 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "frame_context.h"
 
+#include "pcl_cosection/fusion/mapping/object_tsdf.h"
 #include "pcl_cosection/sequence/stamp_matching.h"
 
 #include <algorithm>

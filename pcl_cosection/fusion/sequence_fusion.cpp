@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include <pcl/cosection/fusion/sequence_fusion.h>
 
 #include "frame_context.h"
@@ -7,7 +6,7 @@
 #include "pcl_cosection/sequence/stamp_span.h"
 
 #include <pcl/cosection/common/error.h>
-#include <pcl/cosection/fusion/backend_thread.h>
+#include <pcl/cosection/fusion/co_section_backend.h>
 
 #include <algorithm>
 #include <array>

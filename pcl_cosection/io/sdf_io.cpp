@@ -1,12 +1,11 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 
 #include "pcl_cosection/common/file_bytes.h"
 #include "pcl_cosection/io/mesh/vtk_errors.h"
 
 #include "pcl_cosection/common/atomic_file.h"
 #include <pcl/cosection/common/error.h>
-#include <pcl/cosection/io/sdf_io.h>
+#include <pcl/cosection/io/mesh_io.h>
 
 #include <vtkFloatArray.h>
 #include <vtkImageData.h>

@@ -1,6 +1,5 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
-#include <pcl/cosection/io/frame_reader.h>
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
+#include <pcl/cosection/io/rgbd_sequence.h>
 
 #include <pcl/cosection/common/error.h>
 

@@ -1,6 +1,5 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
-#include <pcl/cosection/simulation/keyed_motion.h>
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
+#include <pcl/cosection/simulation/simulated_scene.h>
 
 #include "pcl_cosection/view/look_at.h"
 #include <pcl/cosection/common/error.h>

@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include <pcl/cosection/simulation/scene_renderer.h>
 
 #include "pcl_cosection/simulation/shapes/sine_table.h"
@@ -70,14 +69,14 @@ SceneRenderer::refined (const Shape& shape, const Eigen::Vector3d& origin, const
   const double here = distance (z);
   if (std::abs (here) < flat_m)
     return z;
-  const double reach = std::max (search_chords * chord_m, 2.0 * std::abs (here)) / least_cosine / length;
+  const double search_m = std::max (search_chords * chord_m, 2.0 * std::abs (here)) / least_cosine / length;
   double step = std::max (2.0 * std::abs (here), precision_m) / length;
   double a = z, fa = here, b = z, fb = here;
   // Towards the surface: forward if in front of it, back if inside.
   const double direction = here > 0.0 ? 1.0 : -1.0;
   while ((fa > 0.0) == (fb > 0.0))
   {
-    if (std::abs (b - z) > reach || fb == 0.0)
+    if (std::abs (b - z) > search_m || fb == 0.0)
       return fb == 0.0 ? b : z;
     a = b;
     fa = fb;

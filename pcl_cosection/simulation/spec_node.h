@@ -1,9 +1,8 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 #include <pcl/cosection/common/triangle_mesh.h>
-#include <pcl/cosection/simulation/shape.h>
+#include <pcl/cosection/simulation/simulated_scene.h>
 
 #include <Eigen/Geometry>
 
@@ -66,7 +65,7 @@ public:
 
   bool isTrue () const { return value_.is_boolean () && value_.get<bool> (); }
 
-  /** \brief Refuse fields that nobody asked for. */
+  /** \brief Refuse fields that were not read. */
   void finish () const;
 
   const std::string& path () const { return path_; }

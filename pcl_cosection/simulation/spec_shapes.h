@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 #include "spec_node.h"
@@ -11,7 +10,7 @@
 namespace pcl::cosection
 {
 
-/** \brief A rotation from the fields rpy_deg or quaternion; none is none. */
+/** \brief A rotation from the fields rpy_deg or quaternion; the identity without either. */
 Eigen::Quaterniond parseRotation (SpecNode& node);
 
 /** \brief A part of a body: shape, place and colour. */

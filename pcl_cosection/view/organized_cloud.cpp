@@ -1,6 +1,5 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
-#include <pcl/cosection/io/organized_cloud.h>
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
+#include "organized_cloud.h"
 
 #include "pcl_cosection/io/cloud/pcd_cloud.h"
 #include "pcl_cosection/io/cloud/pcd_header.h"
@@ -8,7 +7,7 @@
 #include "pcl_cosection/io/quiet_console.h"
 
 #include "pcl_cosection/common/atomic_file.h"
-#include <pcl/cosection/common/camera_resection.h>
+#include "pcl_cosection/view/camera_resection.h"
 #include <pcl/cosection/common/error.h>
 
 #include <pcl/common/io.h>

@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "organized_view.h"
 
 #include "pcl_cosection/io/place_text.h"
@@ -8,8 +7,8 @@
 #include "pcl_cosection/view/outliers/mixed_pixels.h"
 #include "sensor_view.h"
 
-#include <pcl/cosection/common/camera_resection.h>
-#include <pcl/cosection/surface/organized_normals.h>
+#include "pcl_cosection/view/camera_resection.h"
+#include <pcl/cosection/surface/normals.h>
 
 #include <algorithm>
 #include <cmath>

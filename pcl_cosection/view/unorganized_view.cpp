@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "unorganized_view.h"
 
 #include "object_surroundings.h"
@@ -10,8 +9,8 @@
 #include "pcl_cosection/view/outliers/scattered_points.h"
 #include "sensor_view.h"
 
-#include <pcl/cosection/surface/normal_orientation.h>
-#include <pcl/cosection/surface/range_image.h>
+#include "pcl_cosection/view/range_image.h"
+#include <pcl/cosection/surface/normals.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include <pcl/cosection/visualization/run_scene.h>
 
 #include "run_summary.h"
@@ -20,7 +19,7 @@ namespace pcl::cosection
 namespace
 {
 
-/** \brief What the camera is taken for if nothing tells. */
+/** \brief What the camera is taken for if it is not known. */
 constexpr PinholeCamera usual_camera = {640, 480, 525.0, 525.0, 319.5, 239.5};
 
 bool

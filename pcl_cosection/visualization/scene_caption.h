@@ -1,10 +1,9 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "pcl_cosection/visualization/scene_colours.h"
 #include <pcl/cosection/common/export.h>
 #include <pcl/cosection/visualization/run_scene.h>
-#include <pcl/cosection/visualization/scene_colours.h>
 
 #include <string>
 #include <vector>

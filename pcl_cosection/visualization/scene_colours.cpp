@@ -1,6 +1,5 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
-#include <pcl/cosection/visualization/scene_colours.h>
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
+#include "scene_colours.h"
 
 #include "pcl_cosection/evaluation/pictures/error_picture.h"
 #include "pcl_cosection/rendering/picture.h"
@@ -14,7 +13,7 @@ namespace pcl::cosection
 namespace
 {
 
-constexpr TriangleMesh::Colour plain = {200, 200, 200}; ///< nothing is told
+constexpr TriangleMesh::Colour plain = {200, 200, 200}; ///< where nothing is known
 constexpr TriangleMesh::Colour background_grey = {225, 222, 216};
 
 /** \brief ", cup"; nothing if that is not known. */

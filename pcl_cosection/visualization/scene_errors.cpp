@@ -1,9 +1,9 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 
+#include "pcl_cosection/common/quantile.h"
 #include "pcl_cosection/evaluation/pictures/error_picture.h"
+#include "pcl_cosection/evaluation/surface_distance.h"
 #include <pcl/cosection/evaluation/mesh_comparison.h>
-#include <pcl/cosection/evaluation/surface_distance.h>
 #include <pcl/cosection/visualization/run_scene.h>
 
 #include <algorithm>
@@ -14,7 +14,7 @@ namespace pcl::cosection
 namespace
 {
 
-constexpr double usual_share = 0.95; ///< of the errors that the colours can tell apart
+constexpr double usual_share = 0.95; ///< of the errors that the colours distinguish
 
 std::vector<double>
 errorsOf (const TriangleMesh& mesh, const SurfaceDistance& truth, const Eigen::Isometry3d& T_truth_mesh, int threads)
@@ -52,9 +52,7 @@ measureErrors (RunScene& scene, const SceneRecord& truth, const RunEvaluation& e
     all = scene.errors[RunScene::background].completed;
   if (all.empty ())
     return;
-  const auto place = all.begin () + static_cast<std::ptrdiff_t> (usual_share * static_cast<double> (all.size () - 1));
-  std::nth_element (all.begin (), place, all.end ());
-  scene.error_max_m = roundErrorUp (*place);
+  scene.error_max_m = roundErrorUp (quantile (all, usual_share));
 }
 
 std::vector<std::string>

@@ -1,12 +1,11 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "table_scene.h"
 
+#include "pcl_cosection/energy/constraints/hull_constraint.h"
 #include "pcl_cosection/energy/constraints/intersection_constraint.h"
 #include "pcl_cosection/energy/data/imls_data_term.h"
 #include "pcl_cosection/priors/extent_prior.h"
 #include "pcl_cosection/volume/distance_transform.h"
-#include <pcl/cosection/surface/hull_constraint.h>
 
 #include <algorithm>
 

@@ -1,12 +1,11 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 #include "completion/analytic_scene.h"
 
-#include <pcl/cosection/surface/energy_problem.h>
 #include <pcl/cosection/surface/options.h>
-#include <pcl/cosection/volume/voxel_grid.h>
+#include <pcl/cosection/surface/solver.h>
+#include <pcl/cosection/volume/signed_distance_field.h>
 
 namespace pcl::cosection::benchmark_scenes
 {

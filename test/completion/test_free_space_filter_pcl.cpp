@@ -1,9 +1,7 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "common/not_a_number.h"
 #include "free_space_scene.h"
 
-#include <pcl/cosection/common/error.h>
 #include <pcl/cosection/surface/hessian_imls.h>
 
 #include <pcl/common/io.h>
@@ -19,7 +17,7 @@
 #include <algorithm>
 #include <numeric>
 
-// FreeSpaceFilter as one of PCL's filters.
+// FreeSpaceFilter as a PCL filter.
 
 using namespace pcl::cosection;
 using namespace pcl::cosection::test;
@@ -29,7 +27,7 @@ namespace
 
 using Filter = FreeSpaceFilter<pcl::PointXYZ>;
 
-/** \brief Three views, and their points with a ghost, with a point that is not finite in every hundred. */
+/** \brief Three views, and their points with those of a ghost ball; every hundredth point is not finite. */
 class FreeSpaceFilterPclTest : public testing::Test
 {
 protected:
@@ -107,7 +105,7 @@ TEST_F (FreeSpaceFilterPclTest, RemovedIndicesAreKeptOnlyOnDemand)
   EXPECT_TRUE (filter.getRemovedIndices ()->empty ());
 }
 
-/** \brief In their order, which need not be ascending. */
+/** \brief Indices keep their order, which need not be ascending. */
 TEST_F (FreeSpaceFilterPclTest, HonoursIndices)
 {
   const pcl::Indices of_all = filtered (false);
@@ -298,7 +296,7 @@ TEST (FreeSpaceFilterBadInput, GivesNothing)
   EXPECT_TRUE (passing (filter, pcl::make_shared<Points> (ghosts ())).empty ());
 }
 
-/** \brief In the frame of the filtered cloud, as after pcl::transformPointCloud. */
+/** \brief Views in the frame of the filtered cloud, as after pcl::transformPointCloud. */
 TEST_F (FreeSpaceFilterPclTest, ViewsMayBeInTheFrameOfTheCloud)
 {
   Filter same;
@@ -326,13 +324,13 @@ TEST (FreeSpaceFilterBadInput, ViewsThatAreNone)
 
   DepthView bad = view;
   bad.depth.pop_back ();
-  EXPECT_THROW (filter.addView (bad), InvalidArgument);
+  EXPECT_FALSE (filter.addView (bad));
   bad = view;
   bad.camera.fx = 0.0;
-  EXPECT_THROW (filter.addView (bad), InvalidArgument);
+  EXPECT_FALSE (filter.addView (bad));
   bad = view;
   bad.T_world_sensor.translation ().x () = not_a_number;
-  EXPECT_THROW (filter.addView (bad), InvalidArgument);
+  EXPECT_FALSE (filter.addView (bad));
 
   const auto cloud = pcl::make_shared<Points> (ghosts ());
   EXPECT_EQ (passing (filter, cloud).size (), cloud->size ()) << "none of them was added";
@@ -341,9 +339,9 @@ TEST (FreeSpaceFilterBadInput, ViewsThatAreNone)
 TEST (FreeSpaceFilterBadInput, Parameters)
 {
   Filter filter;
-  EXPECT_THROW (filter.setMargin (-0.01f), InvalidArgument);
-  EXPECT_THROW (filter.setMargin (not_a_number), InvalidArgument);
-  EXPECT_THROW (filter.setMinimumViews (0), InvalidArgument);
+  EXPECT_FALSE (filter.setMargin (-0.01f));
+  EXPECT_FALSE (filter.setMargin (not_a_number));
+  EXPECT_FALSE (filter.setMinimumViews (0));
   filter.setMargin (0.02f);
   filter.setMinimumViews (2);
   EXPECT_EQ (filter.getMargin (), 0.02f);

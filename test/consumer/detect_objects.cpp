@@ -1,6 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
-#include <pcl/cosection/common/error.h>
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include <pcl/cosection/segmentation/instance_segmentation.h>
 
 #include <pcl/point_types.h>
@@ -16,14 +14,6 @@ main ()
   InstanceDetectorOptions network;
   network.model = "absent.onnx";
   InstanceSegmentation<pcl::PointXYZRGB> segmentation;
-  try
-  {
-    segmentation.setNetwork (network);
-  }
-  catch (const IoError& error)
-  {
-    std::cout << error.what () << '\n';
-    return (0);
-  }
-  return (1);
+  std::cout << "a network that is not there:\n";
+  return segmentation.setNetwork (network) ? 1 : 0;
 }

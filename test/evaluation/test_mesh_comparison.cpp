@@ -1,13 +1,12 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 
 #include "common/temporary_folder.h"
 #include "evaluation_meshes.h"
 
+#include "pcl_cosection/evaluation/surface_distance.h"
 #include "pcl_cosection/evaluation/surface_samples.h"
 #include <pcl/cosection/common/error.h>
 #include <pcl/cosection/evaluation/mesh_comparison.h>
-#include <pcl/cosection/evaluation/surface_distance.h>
 
 #include <gtest/gtest.h>
 

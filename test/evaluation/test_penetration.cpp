@@ -1,11 +1,10 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 
 #include "evaluation_meshes.h"
 
+#include "pcl_cosection/evaluation/free_space_violation.h"
 #include "pcl_cosection/evaluation/surface_samples.h"
 #include <pcl/cosection/common/error.h>
-#include <pcl/cosection/evaluation/free_space_violation.h>
 #include <pcl/cosection/evaluation/mesh_comparison.h>
 #include <pcl/cosection/evaluation/penetration.h>
 
@@ -27,7 +26,7 @@ box (const Eigen::Vector3f& low, const Eigen::Vector3f& high, const PenetrationO
 
 TEST (Penetration, OfBoxesIsExact)
 {
-  // One reaches 1 cm into the other.
+  // One extends 1 cm into the other.
   const PenetrationBody a = box ({0.0f, 0.0f, 0.0f}, {0.1f, 0.1f, 0.1f});
   const PenetrationBody b = box ({0.09f, 0.02f, 0.02f}, {0.2f, 0.08f, 0.08f});
   EXPECT_NEAR (a.depthOf (b), 0.01, 1e-7);
@@ -195,7 +194,7 @@ TEST (FreeSpaceViolation, FollowsThePoseAndIgnoresWhatIsNotSeen)
   EXPECT_NEAR (result.max_depth_m, 0.1, 1e-6);
 }
 
-TEST (FreeSpaceViolation, ASilhouetteIsNone)
+TEST (FreeSpaceViolation, AnOutlineIsNoViolation)
 {
   // The left half of the image is an object at 1 m, the right half the wall: a point of the object whose image lies
   // between the two is no violation.

@@ -1,12 +1,11 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 
 #include "common/temporary_folder.h"
 #include "evaluation_meshes.h"
 
+#include "pcl_cosection/evaluation/rigid_alignment.h"
 #include "pcl_cosection/evaluation/surface_samples.h"
 #include <pcl/cosection/common/error.h>
-#include <pcl/cosection/evaluation/rigid_alignment.h>
 #include <pcl/cosection/evaluation/trajectory_error.h>
 
 #include <gtest/gtest.h>

@@ -1,9 +1,8 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 
+#include "pcl_cosection/fusion/association/data_association.h"
 #include "pcl_cosection/fusion/association/mask_matching.h"
 #include <pcl/cosection/common/error.h>
-#include <pcl/cosection/fusion/data_association.h>
 
 #include <gtest/gtest.h>
 

@@ -1,12 +1,11 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 
 // The back end in a thread of its own: what it has in the end does not depend on how the threads run.
 
 #include "backend_fixture.h"
 
 #include <pcl/cosection/common/error.h>
-#include <pcl/cosection/fusion/backend_thread.h>
+#include <pcl/cosection/fusion/co_section_backend.h>
 
 #include <algorithm>
 

@@ -1,10 +1,9 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 
 // The class of an object, by many detections that may contradict each other.
 
+#include "pcl_cosection/fusion/mapping/class_evidence.h"
 #include <pcl/cosection/common/error.h>
-#include <pcl/cosection/fusion/class_evidence.h>
 
 #include <gtest/gtest.h>
 

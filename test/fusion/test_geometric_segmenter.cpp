@@ -1,12 +1,11 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 
 // Objects that are found by geometry while they are tracked, and what masks that are not exact do to them.
 
 #include "tracked_scene.h"
 
 #include <pcl/cosection/common/error.h>
-#include <pcl/cosection/fusion/geometric_segmenter.h>
+#include <pcl/cosection/fusion/frame_segmenter.h>
 
 #include <gtest/gtest.h>
 

@@ -1,13 +1,12 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 
 // A sequence may go on for as long as it likes: what is remembered of it is bounded.
 
 #include "io/sequence_folder.h"
 
+#include "pcl_cosection/simulation/sequence_writer.h"
 #include <pcl/cosection/fusion/sequence_fusion.h>
-#include <pcl/cosection/simulation/scene_spec.h>
-#include <pcl/cosection/simulation/sequence_writer.h>
+#include <pcl/cosection/simulation/simulated_scene.h>
 
 #include <gtest/gtest.h>
 

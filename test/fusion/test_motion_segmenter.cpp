@@ -1,11 +1,10 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 
 // Objects that the front end finds by their motion alone.
 
 #include "tracked_scene.h"
 
-#include <pcl/cosection/fusion/motion_segmenter.h>
+#include <pcl/cosection/fusion/frame_segmenter.h>
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,5 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
-#include <pcl/cosection/fusion/network_segmenter.h>
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
+#include <pcl/cosection/fusion/frame_segmenter.h>
 
 #include "common/temporary_folder.h"
 #include "segmentation/spot_network.h"

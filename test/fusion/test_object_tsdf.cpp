@@ -1,12 +1,11 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 
 // The TSDF volume of an object finds its place, grows, and shows what was seen.
 
 #include "completion/analytic_scene.h"
 
+#include "pcl_cosection/fusion/mapping/object_tsdf.h"
 #include <pcl/cosection/common/error.h>
-#include <pcl/cosection/fusion/object_tsdf.h>
 
 #include <gtest/gtest.h>
 

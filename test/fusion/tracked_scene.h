@@ -1,8 +1,8 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 #include <pcl/cosection/fusion/dynamic_fusion.h>
+#include <pcl/cosection/fusion/frame_segmenter.h>
 #include <pcl/cosection/simulation/simulated_scene.h>
 
 #include <functional>

@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 
 // Bytes as class names and as the outputs of a network: a list of names, a line "%%", a line for each output (its name
 // and its shape), an empty line, and the values as they stand in memory.
@@ -8,7 +7,7 @@
 #include "memory_file.h"
 
 #include <pcl/cosection/common/error.h>
-#include <pcl/cosection/segmentation/instance_labels.h>
+#include <pcl/cosection/segmentation/instance_detector.h>
 
 #include <algorithm>
 #include <cstring>

@@ -1,9 +1,8 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "io/sequence_folder.h"
 
 #include <pcl/cosection/common/error.h>
-#include <pcl/cosection/io/mask_sequence.h>
+#include <pcl/cosection/io/rgbd_sequence.h>
 
 #include <gtest/gtest.h>
 

@@ -1,15 +1,14 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "common/temporary_folder.h"
 
 #include "pcl_cosection/io/image_io.h"
+#include "pcl_cosection/simulation/sequence_writer.h"
 #include <pcl/cosection/common/error.h>
 #include <pcl/cosection/io/mesh_io.h>
 #include <pcl/cosection/io/pcd_view.h>
 #include <pcl/cosection/io/trajectory.h>
 #include <pcl/cosection/simulation/scene_renderer.h>
-#include <pcl/cosection/simulation/scene_spec.h>
-#include <pcl/cosection/simulation/sequence_writer.h>
+#include <pcl/cosection/simulation/simulated_scene.h>
 
 #include <gtest/gtest.h>
 
@@ -31,12 +30,15 @@ smallScene ()
   return parseSceneSpec (R"({
     "frames": 7, "rate": 5,
     "camera": {"width": 96, "height": 72,
-               "keys": [{"position": [0, -1, 0.5], "look_at": [0, 0, 0]}, {"time": 1, "position": [0.2, -1, 0.5], "look_at": [0, 0, 0]}]},
+               "keys": [{"position": [0, -1, 0.5], "look_at": [0, 0, 0]}, {"time": 1, "position": [0.2, -1, 0.5],
+                 "look_at": [0, 0, 0]}]},
     "views": {"every": 3},
     "background": {"parts": [{"type": "plane"}]},
     "objects": [
-      {"name": "ball", "shape": {"type": "sphere", "radius": 0.1}, "keys": [{"position": [0, 0, 0.1]}, {"time": 1, "position": [0.1, 0, 0.1]}]},
-      {"name": "box", "id": 9, "shape": {"type": "box", "size": [0.1, 0.1, 0.1]}, "keys": [{"position": [-0.2, 0.1, 0.05]}]}
+      {"name": "ball", "shape": {"type": "sphere", "radius": 0.1}, "keys": [{"position": [0, 0, 0.1]}, {"time": 1,
+        "position": [0.1, 0, 0.1]}]},
+      {"name": "box", "id": 9, "shape": {"type": "box", "size": [0.1, 0.1, 0.1]}, "keys": [{"position": [-0.2, 0.1,
+        0.05]}]}
     ]
   })",
                          "small");

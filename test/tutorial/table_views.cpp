@@ -1,8 +1,7 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "table_views.h"
 
-#include "tools/demo/shapes.h"
+#include "doc/demo/shapes.h"
 
 #include "pcl_cosection/rendering/picture.h"
 #include "pcl_cosection/view/look_at.h"
@@ -24,7 +23,7 @@ namespace
 {
 
 constexpr double depth_edge_m = 0.05;  ///< across larger steps between pixels a reading may be a mixture
-constexpr double flying_share = 0.3;   ///< of the pixels at such steps
+constexpr double mixed_share = 0.3;    ///< of the pixels at such steps
 constexpr double min_incidence = 0.17; ///< cosine; at flatter angles nothing is read
 constexpr float missing = std::numeric_limits<float>::quiet_NaN ();
 
@@ -93,7 +92,7 @@ measure (const PinholeCamera& camera, const Eigen::Isometry3d& T_world_camera, b
       double depth = image.depth[n];
       const double noise = random.gauss ();
       const double other = u + 1 < camera.width ? image.depth[n + 1] : depth;
-      if (std::abs (other - depth) > depth_edge_m && random.uniform () < flying_share)
+      if (std::abs (other - depth) > depth_edge_m && random.uniform () < mixed_share)
         depth += random.uniform () * (other - depth);
       point.getVector3fMap () = ((depth + noise * depthNoiseSigma (depth)) * ray).cast<float> ();
     }

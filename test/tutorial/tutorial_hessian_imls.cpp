@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 
 // The code of doc/tutorial_hessian_imls.md, on a ball on a table of which one view was taken.
 
@@ -74,7 +73,7 @@ hessianImls (const pcl::PointCloud<pcl::PointNormal>::ConstPtr& points,
   pcl::cosection::HessianIMLS<pcl::PointNormal> imls;
   imls.setInputCloud (points);
   imls.addView (depth_image);
-  imls.setSupportPlane (table);
+  imls.addSupportPlane (table);
   imls.reconstruct (mesh);
   if (mesh.polygons.empty ())
     return nullptr; // the console says why

@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 
 // The code of doc/tutorial_segmentation.md.
 //
@@ -11,7 +10,7 @@
 #include <pcl/cosection/io/mesh_io.h>
 #include <pcl/cosection/segmentation/geometric_segmentation.h>
 #include <pcl/cosection/surface/hessian_imls.h>
-#include <pcl/cosection/surface/organized_normals.h>
+#include <pcl/cosection/surface/normals.h>
 
 #include <pcl/filters/extract_indices.h>
 #include <pcl/filters/filter.h>
@@ -90,7 +89,7 @@ complete (const Cloud::Ptr& points, const View& view, const pcl::ModelCoefficien
   pcl::cosection::HessianIMLS<pcl::PointXYZRGBNormal> imls;
   imls.setInputCloud (points);
   imls.addView (view, Eigen::Isometry3d::Identity ()); // what lies before its surfaces is free
-  imls.setSupportPlane (table);
+  imls.addSupportPlane (table);
   pcl::PolygonMesh mesh;
   imls.reconstruct (mesh);
   if (mesh.polygons.empty ())

@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 
 // The code of doc/tutorial_table_scene.md.
 //
@@ -11,7 +10,7 @@
 #include <pcl/cosection/io/mesh_io.h>
 #include <pcl/cosection/surface/free_space_filter.h>
 #include <pcl/cosection/surface/hessian_imls.h>
-#include <pcl/cosection/surface/organized_normals.h>
+#include <pcl/cosection/surface/normals.h>
 
 #include <pcl/common/transforms.h>
 #include <pcl/filters/extract_indices.h>
@@ -38,7 +37,7 @@ using Cloud = pcl::PointCloud<pcl::PointXYZRGBNormal>;
 
 constexpr float range_m = 1.5f; ///< farther readings are too noisy for meshes
 constexpr float leaf_m = 0.004f;
-constexpr std::size_t made_up_objects = 3; ///< on the table that the program makes up; the visitor is none
+constexpr std::size_t made_up_objects = 3; ///< on the table that the program makes up, without the visitor
 
 View::Ptr
 load (const std::string& path)
@@ -202,7 +201,7 @@ complete (const Cloud::Ptr& objects, const pcl::PointIndices& cluster, const std
   imls.setIndices (pcl::make_shared<pcl::PointIndices> (cluster));
   for (const auto& view : views)
     imls.addView (*view, pose (*view));
-  imls.setSupportPlane (table);
+  imls.addSupportPlane (table);
   pcl::PolygonMesh mesh;
   imls.reconstruct (mesh);
   if (mesh.polygons.empty ())

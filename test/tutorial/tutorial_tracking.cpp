@@ -1,10 +1,9 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 
 // The code of doc/tutorial_tracking.md, on a simulated car that drives past a depth camera.
 
 #include <pcl/cosection/simulation/scene_renderer.h>
-#include <pcl/cosection/simulation/scene_spec.h>
+#include <pcl/cosection/simulation/simulated_scene.h>
 #include <pcl/cosection/tracking/sdf_registration.h>
 #include <pcl/cosection/tracking/sdf_tracker.h>
 

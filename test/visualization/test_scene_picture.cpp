@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 
 #include "run_folder.h"
 
@@ -184,7 +183,7 @@ TEST (ScenePicture, ColoursTellWhatIsAskedFor)
   EXPECT_EQ (colourOf (ColourMode::Error), (TriangleMesh::Colour{196, 30, 44})); // beyond the scale
   EXPECT_EQ (colourOf (ColourMode::Instance), instanceColour (1));
   EXPECT_NE (instanceColour (1), instanceColour (2));
-  // What is not known is told by no colour.
+  // What is not known has no colour.
   for (const ColourMode mode : {ColourMode::Real, ColourMode::Provenance, ColourMode::Confidence, ColourMode::Error})
   {
     const auto colour = surfaceColours (scene, 2, SurfaceMode::Completed, mode).front ();

@@ -1,10 +1,9 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 
 #include "run_folder.h"
 
 #include <pcl/cosection/common/error.h>
-#include <pcl/cosection/visualization/viewpoint.h>
+#include <pcl/cosection/visualization/scene_picture.h>
 
 #include <gtest/gtest.h>
 
@@ -46,7 +45,7 @@ TEST (Viewpoint, LooksAtItsTarget)
   EXPECT_NEAR (std::acos (upper.normalized ().dot (lower.normalized ())), view.angle_rad, 1e-9);
 }
 
-TEST (Viewpoint, WrongFilesAreTold)
+TEST (Viewpoint, WrongFilesAreReported)
 {
   const TemporaryFolder folder;
   const std::string path = folder.file ("view.json");

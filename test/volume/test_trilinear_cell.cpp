@@ -1,10 +1,9 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 
 #include "analytic_fields.h"
 #include "tsdf_views.h"
 
-#include <pcl/cosection/volume/trilinear_cell.h>
+#include <pcl/cosection/volume/signed_distance_field.h>
 #include <pcl/cosection/volume/tsdf_volume.h>
 
 #include <gtest/gtest.h>

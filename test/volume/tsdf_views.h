@@ -1,10 +1,9 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 #include <pcl/cosection/common/camera.h>
 #include <pcl/cosection/common/image.h>
-#include <pcl/cosection/volume/voxel_grid.h>
+#include <pcl/cosection/volume/signed_distance_field.h>
 
 #include <Eigen/Geometry>
 
@@ -102,7 +101,7 @@ frontPose ()
   return pose;
 }
 
-/** \brief The same depth everywhere, of smallCamera (). */
+/** \brief A constant depth image of smallCamera (). */
 inline Image<float>
 wallDepth (float depth_m)
 {

@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -33,7 +32,7 @@ std::vector<std::string> helpTopics (const CLI::App& app);
  * most 24 lines. */
 std::string helpText (const CLI::App& app, const ProgramText& program, const std::string& topic = "");
 
-/** \brief The same as a page for man (1). */
+/** \brief The help as a page for man (1). */
 std::string manPage (const CLI::App& app, const ProgramText& program);
 
 /** \brief A command of a program that has several, each with options of its own. */

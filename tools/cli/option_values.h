@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -55,7 +54,7 @@ std::size_t physicalMemory ();
  * Nothing if they do not come in groups of \a size. */
 std::optional<std::vector<double>> parseGroups (const std::vector<std::string>& values, std::size_t size);
 
-/** \brief The same, group by group. */
+/** \brief The values of the options, group by group. */
 template <std::size_t Size>
 std::optional<std::vector<std::array<double, Size>>>
 parseTuples (const std::vector<std::string>& values)

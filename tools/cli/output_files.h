@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -11,7 +10,7 @@
 /** \brief The folder that a file is in; "." for a name without one. */
 std::filesystem::path folderOf (const std::filesystem::path& path);
 
-/** \brief Whether both names stand for the same file, be it that there is none yet, or that links lead to it. */
+/** \brief Whether both names stand for the same file, even if it does not exist yet, or links lead to it. */
 bool isSameFile (const std::string& first, const std::string& second);
 
 /** \brief Whether \a path is \a folder or lies in it, be it through links. */

@@ -1,11 +1,10 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 #include <string>
 #include <vector>
 
-/** \brief Of \a names, the one with the smallest edit distance to \a word; the first if several
+/** \brief The one of \a names with the smallest edit distance to \a word; the first if several
  * are as near, nothing if none is near. */
 std::string nearestName (const std::string& word, const std::vector<std::string>& names);
 

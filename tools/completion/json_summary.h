@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 #include "command_line.h"
@@ -16,6 +15,6 @@
 void writeJsonSummary (const Settings& settings, const pcl::cosection::SceneResult& result,
                        const std::map<std::string, double>& timings_s, const std::vector<std::string>& warnings);
 
-/** \brief The same of a run that failed as a whole: no objects, and the field error. Does nothing if it cannot be
+/** \brief The summary of a run that failed as a whole: no objects, and the field error. Does nothing if it cannot be
  * written. */
 void writeJsonOfFailure (const Settings& settings, const std::string& error, const std::vector<std::string>& warnings);

@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "output_target.h"
 
 #include "output_files.h"
@@ -7,7 +6,6 @@
 #include "pcl_cosection/common/atomic_file.h"
 #include <pcl/cosection/common/error.h>
 #include <pcl/cosection/io/mesh_io.h>
-#include <pcl/cosection/io/sdf_io.h>
 
 #include <unistd.h>
 

@@ -1,8 +1,9 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "scene_input.h"
 
 #include "object_poses.h"
+
+#include "pcl_cosection/common/trimmed_box.h"
 
 #include <pcl/cosection/common/error.h>
 #include <pcl/cosection/io/mesh_io.h>
@@ -53,23 +54,11 @@ isWholeImage (const LabelledView& view)
           static_cast<double> (readings) > whole_image_share * static_cast<double> (pixels));
 }
 
-/** \brief How far points reach along the axes, without outliers, metres. */
+/** \brief How far points extend along the axes, without outliers, metres. */
 Eigen::Vector3d
 extentOf (const std::vector<OrientedPoint>& points)
 {
-  Eigen::Vector3d extent;
-  std::vector<float> along (points.size ());
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    std::transform (points.begin (), points.end (), along.begin (),
-                    [axis] (const OrientedPoint& p) { return p.position[axis]; });
-    const auto cut = static_cast<std::ptrdiff_t> (outlier_share * static_cast<double> (along.size ()));
-    std::nth_element (along.begin (), along.begin () + cut, along.end ());
-    const double least = along[cut];
-    std::nth_element (along.begin (), along.end () - 1 - cut, along.end ());
-    extent[axis] = *(along.end () - 1 - cut) - least;
-  }
-  return extent;
+  return trimmedBox<double> (points, outlier_share, [] (const OrientedPoint& p) { return p.position; }).sizes ();
 }
 
 /** \brief A warning of an object that is too long to be one, if it is: without labels it may be a whole scene, or its
@@ -88,15 +77,16 @@ tooLong (std::uint32_t label, const std::vector<OrientedPoint>& points)
   return text.str ();
 }
 
-/** \brief A warning of a background that reaches no farther than an object, if it does: it may be the first object. */
+/** \brief A warning about a background that extends no farther than an object, if it does: it may be the first object.
+ */
 std::optional<std::string>
 smallBackground (const SceneInput& scene)
 {
   if (scene.background.empty ())
     return std::nullopt;
-  const double reach = extentOf (scene.background).norm ();
+  const double extent_m = extentOf (scene.background).norm ();
   for (const auto& [id, object] : scene.objects)
-    if (reach <= extentOf (object.points).norm ())
+    if (extent_m <= extentOf (object.points).norm ())
       return "label 0 is the background, and reaches no farther than object " + std::to_string (id) +
              ": if labels count the objects from 0, add 1 to them";
   return std::nullopt;

@@ -1,11 +1,10 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 #include "command_line.h"
 
 #include <pcl/cosection/common/camera.h>
-#include <pcl/cosection/common/progress.h>
+#include <pcl/cosection/common/error.h>
 #include <pcl/cosection/surface/co_section.h>
 
 #include <map>

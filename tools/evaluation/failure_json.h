@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 #include "evaluation_json.h"
@@ -27,7 +26,7 @@ withFailureJson (const std::string& json, Work&& work)
       }
       catch (const std::exception&)
       {
-        // the error itself is told
+        // the error itself is reported
       }
     throw;
   }

@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "mesh_command.h"
 
 #include "arguments.h"
@@ -12,12 +11,12 @@
 #include "text_table.h"
 
 #include "pcl_cosection/evaluation/pictures/error_picture.h"
+#include "pcl_cosection/evaluation/rigid_alignment.h"
+#include "pcl_cosection/evaluation/surface_distance.h"
 #include "pcl_cosection/evaluation/surface_samples.h"
 #include "pcl_cosection/rendering/picture.h"
 #include <pcl/cosection/common/error.h>
 #include <pcl/cosection/evaluation/mesh_comparison.h>
-#include <pcl/cosection/evaluation/rigid_alignment.h>
-#include <pcl/cosection/evaluation/surface_distance.h>
 #include <pcl/cosection/io/mesh_io.h>
 
 #include <algorithm>
@@ -68,9 +67,9 @@ Refinement
 alignByIcp (const TriangleMesh& truth, int threads, TriangleMesh& reconstruction)
 {
   constexpr std::size_t points = 5000;
-  constexpr double reach = 0.1; // of the true mesh's diagonal
+  constexpr double search_share = 0.1; // of the true mesh's diagonal
   RefinementOptions options;
-  options.max_distance_m = reach * summarizeMesh (truth).box.diagonal ().norm ();
+  options.max_distance_m = search_share * summarizeMesh (truth).box.diagonal ().norm ();
   options.max_translation_m = options.max_distance_m;
   options.max_rotation_rad = 0.5;
   options.threads = threads;

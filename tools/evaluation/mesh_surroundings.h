@@ -1,12 +1,11 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 #include "evaluation_json.h"
 #include "mesh_command.h"
 #include "terminal.h"
 
-#include <pcl/cosection/evaluation/free_space_violation.h>
+#include "pcl_cosection/evaluation/free_space_violation.h"
 
 #include <optional>
 #include <string>

@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "run_command.h"
 
 #include "arguments.h"
@@ -10,7 +9,7 @@
 #include "run_report.h"
 
 #include <pcl/cosection/common/error.h>
-#include <pcl/cosection/evaluation/scene_folders.h>
+#include <pcl/cosection/evaluation/run_evaluation.h>
 
 #include <limits>
 

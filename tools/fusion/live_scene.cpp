@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "live_scene.h"
 
 #include <pcl/cosection/io/mesh_io.h>
@@ -107,5 +106,5 @@ writeLiveScene (const LiveScene& scene, const std::string& folder)
     saveTrajectory (poses, (trajectory / ("object_" + std::to_string (id) + ".txt")).string ());
   if (!scene.camera.empty ())
     saveTrajectory (scene.camera,
-                    (trajectory / "camera.txt").string ()); // last: its time tells that there is something new
+                    (trajectory / "camera.txt").string ()); // last: its time shows that there is something new
 }

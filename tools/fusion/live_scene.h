@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 #include <pcl/cosection/fusion/sequence_fusion.h>
@@ -21,7 +20,7 @@ struct LiveScene
   bool changed_background = false;
 };
 
-/** \brief Of every so manieth pixel of a frame that shows the background, a mesh in the world. */
+/** \brief A mesh in the world of the background's pixels in a frame, at a stride. */
 pcl::cosection::TriangleMesh backgroundOf (const pcl::cosection::FrameReport& report,
                                            const pcl::cosection::PinholeCamera& camera);
 

@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 #include "live_scene.h"
@@ -56,6 +55,6 @@ private:
   bool is_new_ = false;
   bool stop_ = false;
 
-  std::atomic<bool> is_over_{false}; ///< nobody looks any more
+  std::atomic<bool> is_over_{false}; ///< the window is closed
   std::thread thread_;               // last: it uses the rest
 };

@@ -1,11 +1,8 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "segmenter_choice.h"
 
 #include <pcl/cosection/common/error.h>
-#include <pcl/cosection/fusion/geometric_segmenter.h>
-#include <pcl/cosection/fusion/motion_segmenter.h>
-#include <pcl/cosection/fusion/network_segmenter.h>
+#include <pcl/cosection/fusion/frame_segmenter.h>
 
 using namespace pcl::cosection;
 

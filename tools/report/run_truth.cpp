@@ -1,9 +1,8 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "run_truth.h"
 
-#include <pcl/cosection/evaluation/scene_folders.h>
-#include <pcl/cosection/evaluation/surface_distance.h>
+#include "pcl_cosection/evaluation/surface_distance.h"
+#include <pcl/cosection/evaluation/run_evaluation.h>
 
 #include <algorithm>
 

@@ -1,12 +1,11 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "scene_data.h"
 
 #include "mesh_embedding.h"
 #include "scene_directions.h"
 
-#include <pcl/cosection/visualization/scene_colours.h>
-#include <pcl/cosection/visualization/viewpoint.h>
+#include "pcl_cosection/visualization/scene_colours.h"
+#include <pcl/cosection/visualization/scene_picture.h>
 
 #include <algorithm>
 #include <cmath>

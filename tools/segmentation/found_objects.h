@@ -1,10 +1,9 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 #include "segment_command_line.h"
 
-#include <pcl/cosection/io/organized_cloud.h>
+#include "pcl_cosection/view/organized_cloud.h"
 
 #include <Eigen/Core>
 

@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 #include "arguments.h"
@@ -7,7 +6,7 @@
 #include "network_options.h"
 #include "terminal.h"
 
-#include <pcl/cosection/segmentation/object_segmentation.h>
+#include <pcl/cosection/segmentation/geometric_segmentation.h>
 
 #include <optional>
 #include <string>
@@ -18,7 +17,7 @@ struct SegmentSettings
 {
   std::string input, output;
   std::string json;
-  std::optional<NetworkSettings> network; ///< none: by geometry
+  std::optional<NetworkSettings> network; ///< not set: by geometry
   pcl::cosection::ObjectSegmentationOptions segmentation;
   IgnoredArea ignored;
   double scale = 1.0;

@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "viewer_pictures.h"
 
 #include "interruption.h"
@@ -9,7 +8,7 @@
 #include "pcl_cosection/rendering/picture.h"
 #include "pcl_cosection/sequence/stamp_matching.h"
 #include <pcl/cosection/common/error.h>
-#include <pcl/cosection/evaluation/scene_folders.h>
+#include <pcl/cosection/evaluation/run_evaluation.h>
 
 #include <array>
 #include <cmath>

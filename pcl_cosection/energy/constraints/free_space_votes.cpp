@@ -1,8 +1,8 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
-#include <pcl/cosection/surface/free_space_votes.h>
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
+#include "free_space_votes.h"
 
 #include "pcl_cosection/common/parallel.h"
+#include "pcl_cosection/view/visibility.h"
 #include <pcl/cosection/common/error.h>
 
 #include <algorithm>
@@ -17,9 +17,9 @@ namespace
 
 constexpr double min_margin_m = 0.005;
 constexpr int max_footprint = 12; ///< pixels
-constexpr int min_support = 3;    ///< neighbours of the same depth: those that a corner of a surface has
+constexpr int min_support = 3;    ///< neighbours of the same depth, as many as a corner of a surface has
 
-/** \brief One view's opinion on points. */
+/** \brief The votes of one view on points. */
 class Witness
 {
 public:
@@ -33,39 +33,27 @@ public:
   void vote (const Eigen::Vector3f& point, FreeSpaceVotes& votes) const
   {
     const Eigen::Vector3d p = T_sensor_points_ * point.cast<double> ();
-    if (!(p.z () > 0.0))
+    const std::optional<Eigen::Array2i> pixel = pixelOf (depth_.camera, p);
+    if (!pixel)
       return;
-    const PinholeCamera& camera = depth_.camera;
-    const Eigen::Vector2d pixel = camera.project (p);
-    if (!(pixel.x () >= -0.5 && pixel.x () < camera.width - 0.5 && pixel.y () >= -0.5 &&
-          pixel.y () < camera.height - 0.5))
-      return;
-    const auto u = static_cast<int> (pixel.x () + 0.5);
-    const auto v = static_cast<int> (pixel.y () + 0.5);
-    const double gap = depth_.at (u, v) - p.z ();
-    if (!isReading (u, v) || gap < -margin (depth_.at (u, v)))
-      return;
-    if (gap <= margin (depth_.at (u, v)))
+    const int u = pixel->x (), v = pixel->y ();
+    const float reading = depth_.at (u, v);
+    const PointVisibility visibility = compareWithReading (p.z (), reading, margin (reading));
+    if (visibility == PointVisibility::AtSurface)
       votes.surface += !view_.atEdge (u, v) || isSupported (u, v);
-    else
+    else if (visibility == PointVisibility::Free)
       votes.free += !view_.atEdge (u, v) && isClear (u, v, p.z ());
   }
 
 private:
   double margin (double z) const { return margin_m_ > 0.0 ? margin_m_ : pointMargin (z); }
 
-  bool isReading (int u, int v) const
-  {
-    const float z = depth_.at (u, v);
-    return z > 0.0f && std::isfinite (z);
-  }
-
-  /** \brief Whether test (depth) holds for all readings in a square window; ends with the first for which not. */
+  /** \brief Whether test (depth) holds for all readings in a square window. */
   template <typename Test> bool allReadings (int u, int v, int radius, Test&& test) const
   {
     for (int row = std::max (0, v - radius); row <= std::min (depth_.camera.height - 1, v + radius); ++row)
       for (int column = std::max (0, u - radius); column <= std::min (depth_.camera.width - 1, u + radius); ++column)
-        if (isReading (column, row) && !test (depth_.at (column, row)))
+        if (isReading (depth_.at (column, row)) && !test (depth_.at (column, row)))
           return false;
     return true;
   }

@@ -1,8 +1,8 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
-#include <pcl/cosection/surface/hull_constraint.h>
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
+#include "hull_constraint.h"
 
 #include "pcl_cosection/view/projected_voxels.h"
+#include "pcl_cosection/view/visibility.h"
 
 #include "pcl_cosection/common/parallel.h"
 #include "pcl_cosection/volume/distance_transform.h"
@@ -23,7 +23,7 @@ constexpr double edge_sigmas = 6.0; // neighbouring depths that differ by more a
 constexpr double edge_slope = 0.03; // ... unless a steep surface explains it: fraction of the depth
 constexpr int max_footprint = 12;   // pixels
 
-/** \brief filterDepth () by whole rows, which the compiler vectorises. */
+/** \brief filterDepth () row by row, so that the compiler vectorises it. */
 template <typename Best>
 std::vector<float>
 filterWindows (const std::vector<float>& image, const PinholeCamera& camera, int radius, const PixelRegion& region,
@@ -101,7 +101,7 @@ FreeSpaceView::FreeSpaceView (DepthView view) : view_ (std::move (view)), edge_ 
 
   std::vector<float> depth (view_.depth);
   for (float& z : depth)
-    if (!std::isfinite (z) || z <= 0.0f)
+    if (!isReading (z))
       z = 0.0f;
   const PixelRegion all = wholeImage (view_.camera);
   opened_ = filterDepth (filterDepth (depth, view_.camera, 1, false, all), view_.camera, 1, true, all);
@@ -117,7 +117,7 @@ FreeSpaceView::nearestDepth (int radius, const PixelRegion& region) const
     for (int u = left; u < right; ++u)
     {
       const float z = view_.at (u, v);
-      depth[static_cast<std::size_t> (v) * view_.camera.width + u] = std::isfinite (z) && z > 0.0f
+      depth[static_cast<std::size_t> (v) * view_.camera.width + u] = isReading (z)
                                                                          ? z
                                                                          : std::numeric_limits<float>::infinity ();
     }
@@ -158,15 +158,12 @@ HullConstraint::add (const FreeSpaceView& view, const Eigen::Isometry3d& T_grid_
   };
   forEachProjectedVoxel (grid_, camera, T_grid_sensor, threads_, [&] (const ProjectedVoxel& voxel) {
     const float depth = view.view ().depth[voxel.pixel];
-    if (!(depth > 0.0f) || !std::isfinite (depth))
-      return;
     const double margin = freeSpaceMargin (depth, grid_.voxel_size_m);
-    const double gap = depth - voxel.z;
-    if (gap < -margin)
-      return;
-    if (gap <= margin)
+    const PointVisibility visibility = compareWithReading (voxel.z, depth, margin);
+    if (visibility == PointVisibility::AtSurface)
       vote (votes_against_[voxel.index]);
-    else if (!view.atEdge (voxel.column, voxel.row) && nearest_depth[voxel.pixel] - voxel.z > margin)
+    else if (visibility == PointVisibility::Free && !view.atEdge (voxel.column, voxel.row) &&
+             nearest_depth[voxel.pixel] - voxel.z > margin)
       vote (votes_for_[voxel.index]);
   });
 }

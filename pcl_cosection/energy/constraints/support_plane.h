@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 #include <pcl/cosection/common/export.h>
@@ -24,8 +23,8 @@ struct PCL_COSECTION_EXPORT SupportPlaneOptions
 };
 
 /** \brief Planes of the background that an object stands on or leans against: fitted by RANSAC (PCL) to
- * the background points near the object, with all of the object on their free side, which the normals of
- * the background points tell.
+ * the background points near the object, with all of the object on their free side. The normals of the background
+ * points determine that side.
  * \return (n, d) with unit n towards free space and n.x + d = 0 on the plane; best supported first. The
  * result is the same every time. */
 PCL_COSECTION_EXPORT std::vector<Eigen::Vector4d> findSupportPlanes (const std::vector<OrientedPoint>& background,

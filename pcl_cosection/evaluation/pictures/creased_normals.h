@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 #include <pcl/cosection/common/triangle_mesh.h>
@@ -7,7 +6,7 @@
 namespace pcl::cosection
 {
 
-/** \brief The same surface with normals that are smooth but for sharp edges, where vertices are there several times. */
+/** \brief Gives a surface normals that are smooth but for sharp edges, where vertices are repeated. */
 TriangleMesh withCreasedNormals (const TriangleMesh& mesh);
 
 } // namespace pcl::cosection

@@ -1,14 +1,13 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "error_picture.h"
 
 #include "creased_normals.h"
 #include "picture_canvas.h"
 
+#include "pcl_cosection/evaluation/surface_distance.h"
 #include "pcl_cosection/view/look_at.h"
 #include <pcl/cosection/common/error.h>
 #include <pcl/cosection/evaluation/mesh_comparison.h>
-#include <pcl/cosection/evaluation/surface_distance.h>
 #include <pcl/cosection/rendering/rasterizer.h>
 
 #include <opencv2/core.hpp>
@@ -28,7 +27,7 @@ namespace
 constexpr int oversampling = 2;        ///< everything is drawn larger, for smooth edges and letters
 constexpr double distance_radii = 4.0; ///< of the camera
 constexpr double filled = 0.92;        ///< of a panel, by the meshes
-constexpr double ambient_light = 0.55; ///< much, for colours that can be told from each other
+constexpr double ambient_light = 0.55; ///< much, so that colours can be distinguished
 constexpr double turn_rad = 2.6;       ///< between the columns
 constexpr int title_px = 48;
 constexpr int scale_px = 150; ///< width of the column of the scale

@@ -1,6 +1,5 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
-#include <pcl/cosection/fusion/data_association.h>
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
+#include "data_association.h"
 
 #include "pcl_cosection/common/parallel.h"
 #include <pcl/cosection/common/camera.h>

@@ -1,9 +1,8 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "pcl_cosection/fusion/mapping/class_evidence.h"
 #include <pcl/cosection/common/image.h>
-#include <pcl/cosection/fusion/class_evidence.h>
 
 #include <cstdint>
 #include <map>

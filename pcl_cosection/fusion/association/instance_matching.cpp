@@ -1,12 +1,11 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "instance_matching.h"
 
 #include "mask_matching.h"
 #include "pcl_cosection/fusion/tracking/object_tracking.h"
 #include "unassigned_components.h"
 
-#include <pcl/cosection/tracking/surface_points.h>
+#include "pcl_cosection/tracking/surface_points.h"
 
 #include <algorithm>
 #include <numeric>

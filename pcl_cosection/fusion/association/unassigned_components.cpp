@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "unassigned_components.h"
 
 #include "pcl_cosection/common/disjoint_sets.h"
@@ -87,19 +86,14 @@ findUnassignedComponents (const std::vector<bool>& unassigned, const FrameCloud&
       sets.unite (a, b);
   });
   UnassignedComponents components;
-  components.of_pixel.assign (unassigned.size (), UnassignedComponents::none);
-  for (std::size_t n = 0; n < unassigned.size (); ++n)
+  components.of_pixel = sets.numbers ([&] (std::size_t n) { return unassigned[n]; });
+  for (const int component : components.of_pixel)
   {
-    if (!unassigned[n])
+    if (component == UnassignedComponents::none)
       continue;
-    const std::size_t root = sets.find (n); // its first pixel
-    if (root == n)
-    {
-      components.of_pixel[n] = static_cast<int> (components.pixels.size ());
+    if (component == static_cast<int> (components.pixels.size ())) // its first pixel
       components.pixels.push_back (0);
-    }
-    components.of_pixel[n] = components.of_pixel[root];
-    ++components.pixels[components.of_pixel[n]];
+    ++components.pixels[component];
   }
   std::vector<std::size_t> ends (components.pixels.size (), 0);
   forEnds (cloud, [&] (const std::vector<std::size_t>& end) {

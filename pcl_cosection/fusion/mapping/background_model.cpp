@@ -1,6 +1,7 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "background_model.h"
+
+#include "pcl_cosection/common/trimmed_box.h"
 
 #include <algorithm>
 #include <cmath>
@@ -29,23 +30,11 @@ seenBox (const PosedFrame& frame)
   const double pixels = static_cast<double> (cloud.camera.width) * cloud.camera.height;
   const std::vector<Eigen::Vector3f> points = cloud.sample (
       std::max (1, static_cast<int> (std::sqrt (pixels / points_of_box))));
-  Eigen::AlignedBox3d box;
   if (points.size () < min_points)
-    return box;
-  std::vector<double> values (points.size ());
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    std::transform (points.begin (), points.end (), values.begin (),
-                    [&] (const Eigen::Vector3f& p) { return (frame.T_world_camera * p.cast<double> ())[axis]; });
-    const auto cut = static_cast<std::ptrdiff_t> (outlier_share * static_cast<double> (values.size ()));
-    const auto low = values.begin () + cut;
-    const auto high = values.end () - 1 - cut;
-    std::nth_element (values.begin (), low, values.end ());
-    box.min ()[axis] = *low;
-    std::nth_element (low, high, values.end ());
-    box.max ()[axis] = *high;
-  }
-  return box;
+    return {};
+  return trimmedBox<double> (points, outlier_share, [&] (const Eigen::Vector3f& p) -> Eigen::Vector3d {
+    return frame.T_world_camera * p.cast<double> ();
+  });
 }
 
 /** \brief The volume's grid around the box that the first frame shows. */

@@ -1,7 +1,7 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "moving_parts.h"
 
+#include "pcl_cosection/common/quantile.h"
 #include <pcl/cosection/fusion/dynamic_fusion.h>
 
 #include <algorithm>
@@ -31,9 +31,7 @@ const float log_peak = std::log (0.39894f / moving_density);
 float
 spreadOf (std::vector<float> sizes)
 {
-  const auto quartile = sizes.begin () + static_cast<std::ptrdiff_t> (3 * sizes.size () / 4);
-  std::nth_element (sizes.begin (), quartile, sizes.end ());
-  return *quartile / 1.1503f;
+  return valueOfRank (sizes, 3 * sizes.size () / 4) / 1.1503f;
 }
 
 /** \brief The point of a node, sensor frame. */

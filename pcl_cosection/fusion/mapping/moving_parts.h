@@ -1,11 +1,10 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 #include "pcl_cosection/fusion/tracking/frame_cloud.h"
 
+#include "pcl_cosection/fusion/association/data_association.h"
 #include <pcl/cosection/common/image.h>
-#include <pcl/cosection/fusion/data_association.h>
 
 #include <Eigen/Geometry>
 

@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 #include "object_merging.h"
@@ -8,8 +7,8 @@
 #include "pcl_cosection/fusion/tracking/frame_cloud.h"
 #include "tracked_object.h"
 
+#include "pcl_cosection/fusion/association/data_association.h"
 #include <pcl/cosection/common/image.h>
-#include <pcl/cosection/fusion/data_association.h>
 
 #include <Eigen/Geometry>
 

@@ -1,6 +1,7 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
-#include <pcl/cosection/fusion/object_tsdf.h>
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
+#include "object_tsdf.h"
+
+#include "pcl_cosection/common/trimmed_box.h"
 
 #include <pcl/cosection/common/error.h>
 
@@ -23,21 +24,7 @@ constexpr std::size_t min_points = 20;
 Eigen::AlignedBox3d
 boxWithout (double share, const std::vector<OrientedPoint>& points)
 {
-  Eigen::AlignedBox3d box;
-  std::vector<float> values (points.size ());
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    std::transform (points.begin (), points.end (), values.begin (),
-                    [axis] (const OrientedPoint& point) { return point.position[axis]; });
-    const auto cut = static_cast<std::ptrdiff_t> (share * static_cast<double> (values.size ()));
-    const auto low = values.begin () + cut;
-    const auto high = values.end () - 1 - cut;
-    std::nth_element (values.begin (), low, values.end ());
-    box.min ()[axis] = *low;
-    std::nth_element (values.begin (), high, values.end ());
-    box.max ()[axis] = *high;
-  }
-  return box;
+  return trimmedBox<double> (points, share, [] (const OrientedPoint& point) { return point.position; });
 }
 
 } // namespace

@@ -1,7 +1,8 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "resting_objects.h"
 
+#include "pcl_cosection/common/quantile.h"
+#include "pcl_cosection/common/robust_weights.h"
 #include "pcl_cosection/fusion/tracking/frame_cloud.h"
 
 #include <pcl/cosection/common/camera.h>
@@ -29,7 +30,7 @@ constexpr SampleOptions background_samples{5000, 0.0, true};
 constexpr SampleOptions object_samples{300, 1.5};
 constexpr double huber_share = 0.2;  // of the truncation distance
 constexpr double least_share = 0.01; // of the samples' weight, from which on a direction is observed
-// Of the objects' weight: where the background observes a direction by less, and fits badly, objects are used.
+// A share of the objects' weight: where the background observes a direction by less, and fits badly, objects are used.
 constexpr double share_of_objects = 0.5;
 constexpr double bad_fit = 0.5;     // of a voxel of the background
 constexpr double least_error = 0.1; // the same
@@ -65,8 +66,7 @@ samplesOf (const Pieces& pieces, const Eigen::Isometry3d& T_world_camera)
     {
       sample.position = piece->T_world_object * sample.position;
       sample.normal = piece->T_world_object.linear () * sample.normal;
-      sample.weight *= std::min (1.0, huber / std::max (1e-12, std::abs (sample.distance))) /
-                       (piece->tolerance_m * piece->tolerance_m);
+      sample.weight *= huberWeight (std::abs (sample.distance), huber) / (piece->tolerance_m * piece->tolerance_m);
       all.push_back (sample);
     }
   }
@@ -79,9 +79,7 @@ spread (std::vector<double> distances)
 {
   for (double& distance : distances)
     distance = std::abs (distance);
-  const auto middle = distances.begin () + static_cast<std::ptrdiff_t> (distances.size () / 2);
-  std::nth_element (distances.begin (), middle, distances.end ());
-  return 1.4826 * *middle;
+  return sigmaOfSizes (distances);
 }
 
 /** \brief Whether the readings that observe a direction do not fit the background: depth edges are noisy, walls not. */

@@ -1,6 +1,7 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "tracked_object.h"
+
+#include "pcl_cosection/common/trimmed_box.h"
 
 #include <pcl/cosection/common/camera.h>
 
@@ -24,18 +25,7 @@ constexpr double surface_share = 0.2; // of a volume's side: how far an object's
 Eigen::AlignedBox3d
 boxWithout (double share, const std::vector<Eigen::Vector3f>& points)
 {
-  Eigen::AlignedBox3d box;
-  std::vector<float> values (points.size ());
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    std::transform (points.begin (), points.end (), values.begin (),
-                    [axis] (const Eigen::Vector3f& p) { return p[axis]; });
-    std::sort (values.begin (), values.end ());
-    const auto cut = static_cast<std::size_t> (share * static_cast<double> (values.size ()));
-    box.min ()[axis] = values[cut];
-    box.max ()[axis] = values[values.size () - 1 - cut];
-  }
-  return box;
+  return trimmedBox<double> (points, share, [] (const Eigen::Vector3f& p) { return p; });
 }
 
 } // namespace

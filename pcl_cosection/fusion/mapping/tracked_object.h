@@ -1,11 +1,10 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 #include "pcl_cosection/fusion/tracking/brightness_tracking.h"
 
+#include "class_evidence.h"
 #include <pcl/cosection/common/triangle_mesh.h>
-#include <pcl/cosection/fusion/class_evidence.h>
 #include <pcl/cosection/volume/tsdf_volume.h>
 
 #include <Eigen/Geometry>

@@ -1,6 +1,5 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
-#include <pcl/cosection/fusion/geometric_segmenter.h>
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
+#include <pcl/cosection/fusion/frame_segmenter.h>
 
 #include "pcl_cosection/fusion/mapping/object_size_filter.h"
 

@@ -1,6 +1,8 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "brightness_tracking.h"
+
+#include "pcl_cosection/common/quantile.h"
+#include "pcl_cosection/common/robust_weights.h"
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
@@ -54,14 +56,6 @@ bool
 isWithin (const Image<float>& image, const Eigen::Vector2d& pixel)
 {
   return pixel.x () >= 0.0 && pixel.y () >= 0.0 && pixel.x () <= image.width - 1.0 && pixel.y () <= image.height - 1.0;
-}
-
-double
-median (std::vector<double>& values)
-{
-  const auto middle = values.begin () + static_cast<std::ptrdiff_t> (values.size () / 2);
-  std::nth_element (values.begin (), middle, values.end ());
-  return *middle;
 }
 
 /** \brief Projection onto the directions that are observed. */
@@ -133,10 +127,10 @@ Sums::Sums (const std::vector<Comparison>& points) : seen (points.size ())
   std::vector<double> differences (seen);
   std::transform (points.begin (), points.end (), differences.begin (),
                   [] (const Comparison& point) { return point.now - point.then; });
-  const double offset = median (differences);
+  const double offset = upperMedian (differences);
   for (double& difference : differences)
     difference = std::abs (difference - offset);
-  sigma = std::max (least_sigma, 1.4826 * median (differences));
+  sigma = std::max (least_sigma, sigmaOfSizes (differences));
   double mean = 0.0;
   for (const Comparison& point : points)
     mean += point.then / static_cast<double> (seen);
@@ -145,12 +139,12 @@ Sums::Sums (const std::vector<Comparison>& points) : seen (points.size ())
   for (const Comparison& point : points)
   {
     const double difference = point.now - point.then - offset, size = std::abs (difference);
-    const double weight = size <= huber ? 1.0 : huber / size;
+    const double weight = huberWeight (size, huber);
     VectorXd change;
     change << point.slope, (point.then - mean) / factor_unit, 1.0, point.place;
     squares += weight * change * change.transpose ();
     gradient += weight * difference * change;
-    cost += size <= huber ? 0.5 * difference * difference : huber * (size - 0.5 * huber);
+    cost += huberCost (size, huber);
     agreeing += size <= as_bright;
   }
   cost /= static_cast<double> (seen);

@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "camera_at_rest.h"
 
 #include <algorithm>
@@ -17,12 +16,12 @@ constexpr int blocks_across = 16;
 constexpr int blocks_of_sector = 4;      // along a side
 constexpr float brightness_sigma = 4.0f; // of 256, of a smoothed picture
 constexpr float most_sigmas = 3.0f;      // differences count no more
-// Of a block's sums of squares: the difference that one good edge makes.
+// In a block's sums of squares, the difference that one good edge makes.
 constexpr double plain_difference = 20.0;
 // The right pose leaves a block's noise; a motion that is known roughly leaves less than twice as much.
 constexpr double plain_ratio = 2.2;
 constexpr float most_of_better = 1.5f;
-// Of the whole image's sums, when no block votes: the motion explains it so much worse.
+// Where no block votes, the motion explains the whole image's sums so much worse.
 constexpr double least_ratio_to_stay = 1.03;
 // Rest may explain the image so much worse: what moves by itself is a part of it.
 constexpr double most_ratio_to_rest = 1.25;
@@ -30,7 +29,7 @@ constexpr double growth_of_unexplained = 1.05; // from frame to frame, at most
 constexpr std::ptrdiff_t least_sectors = 2;
 constexpr std::ptrdiff_t least_to_start = 3; // for a camera that rested: a thing that passes by is in two
 constexpr std::ptrdiff_t majority = 2;       // for a camera that moved
-// Of sectors with motion, up to which a camera that rested goes on resting.
+// Sectors with motion, up to which a camera that rested goes on resting.
 constexpr std::ptrdiff_t majority_to_stay = 3;
 constexpr std::ptrdiff_t majority_to_start = 4; // of sectors with motion, above which it moves
 constexpr double largest_unseen_shift_px = 3.0; // where nothing in the image votes

@@ -1,10 +1,10 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "object_tracking.h"
+#include "pcl_cosection/view/visibility.h"
 
 #include "observed_motion.h"
 
-#include <pcl/cosection/tracking/surface_points.h>
+#include "pcl_cosection/tracking/surface_points.h"
 
 #include <algorithm>
 #include <cmath>
@@ -94,24 +94,27 @@ checkVisibility (const TsdfVolume& volume, const Eigen::Isometry3d& T_model_came
     if (!cell || cell->gradient ().dot (eye - point) <= 0.0f)
       continue; // it is turned away, or at the end of the known space
     const Eigen::Vector3d p = T_camera_model * point.cast<double> ();
-    const Eigen::Vector2d pixel = p.z () > 0.0 ? cloud.camera.project (p) : Eigen::Vector2d (-1.0, -1.0);
-    if (!(pixel.x () > -0.5 && pixel.y () > -0.5 && pixel.x () < cloud.camera.width - 0.5 &&
-          pixel.y () < cloud.camera.height - 0.5))
+    const std::optional<Eigen::Array2i> pixel = pixelOf (cloud.camera, p);
+    if (!pixel)
     {
       ++result.outside;
       continue;
     }
-    const float z = cloud.depth.at (static_cast<int> (std::lround (pixel.x ())),
-                                    static_cast<int> (std::lround (pixel.y ())));
-    const double tolerance = tolerance_m + 3.0 * depthNoiseSigma (p.z ());
-    if (!std::isfinite (z))
-      ++result.unread;
-    else if (z < p.z () - tolerance)
+    switch (compareWithReading (p.z (), cloud.depth.at (pixel->x (), pixel->y ()),
+                                tolerance_m + 3.0 * depthNoiseSigma (p.z ())))
+    {
+    case PointVisibility::Occluded:
       ++result.occluded;
-    else if (z > p.z () + tolerance)
-      ++result.contradicted;
-    else
+      break;
+    case PointVisibility::AtSurface:
       ++result.confirmed;
+      break;
+    case PointVisibility::Free:
+      ++result.contradicted;
+      break;
+    default:
+      ++result.unread;
+    }
   }
   return result;
 }

@@ -1,6 +1,7 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "observed_motion.h"
+
+#include "pcl_cosection/common/quantile.h"
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/QR>
@@ -28,9 +29,7 @@ spread (const std::vector<SurfaceSample>& samples)
   std::transform (samples.begin (), samples.end (), sizes.begin (), [] (const SurfaceSample& sample) {
     return std::abs (sample.distance) * std::sqrt (sample.weight / sample.points);
   });
-  const auto middle = sizes.begin () + static_cast<std::ptrdiff_t> (sizes.size () / 2);
-  std::nth_element (sizes.begin (), middle, sizes.end ());
-  return 1.4826 * *middle;
+  return sigmaOfSizes (sizes);
 }
 
 } // namespace

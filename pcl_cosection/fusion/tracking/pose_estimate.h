@@ -1,11 +1,10 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 #include "brightness_tracking.h"
 #include "frame_cloud.h"
 
-#include <pcl/cosection/fusion/data_association.h>
+#include "pcl_cosection/fusion/association/data_association.h"
 #include <pcl/cosection/tracking/sdf_alignment.h>
 
 #include <Eigen/Geometry>

@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 #include <pcl/cosection/volume/tsdf_volume.h>
@@ -29,8 +28,8 @@ struct SurfaceSample
 struct SampleOptions
 {
   std::size_t most_points = 5000;
-  double
-      reach_vox = 0.0; ///< half length of the differences that give slopes, as young models are rough; 0: of the cell
+  // Half length of the differences that give slopes, as young models are rough; 0: of the cell.
+  double reach_vox = 0.0;
   /** \brief Take differences as long as noise in the model's distances calls for, so that no sample observes a
    * direction by noise alone. Otherwise surfaces that are far away, and rough in the model, observe motion along
    * themselves. */

@@ -1,10 +1,9 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 #include "pcl_cosection/segmentation/geometry/depth_grid.h"
 
-#include <pcl/cosection/segmentation/moving_body_finder.h>
+#include <pcl/cosection/segmentation/motion_segmentation.h>
 
 #include <cstdint>
 #include <map>

@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "lathe.h"
 
 #include <algorithm>
@@ -14,7 +13,7 @@ namespace
 constexpr int min_segments = 12;
 constexpr int max_segments = 4096;
 
-/** \brief Of a circle of \a radius, such that no chord is farther than \a chord_m from it. */
+/** \brief Angle of a segment of a circle of \a radius, such that no chord is farther than \a chord_m from it. */
 double
 segmentAngle (double radius, double chord_m)
 {

@@ -1,9 +1,8 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 #include <pcl/cosection/common/triangle_mesh.h>
-#include <pcl/cosection/simulation/shape.h>
+#include <pcl/cosection/simulation/simulated_scene.h>
 
 namespace pcl::cosection
 {

@@ -1,6 +1,5 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
-#include <pcl/cosection/surface/normal_orientation.h>
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
+#include <pcl/cosection/surface/normals.h>
 
 #include "pcl_cosection/common/disjoint_sets.h"
 #include "pcl_cosection/common/sphere_directions.h"

@@ -1,9 +1,8 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "pcl_cosection/energy/constraints/free_space_votes.h"
 #include <pcl/cosection/common/oriented_point.h>
-#include <pcl/cosection/surface/free_space_votes.h>
 
 #include <Eigen/Geometry>
 

@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 #include <optional>
@@ -9,7 +8,7 @@
 namespace pcl::cosection
 {
 
-/** \brief What a window can be told to do. */
+/** \brief What a key can make a window do. */
 enum class WindowAction
 {
   Play,

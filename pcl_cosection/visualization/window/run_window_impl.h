@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 #include "key_bindings.h"
@@ -25,7 +24,7 @@
 namespace pcl::cosection
 {
 
-/** \brief The window, and what it is told by keys, mouse, slider and time. */
+/** \brief The window, and what keys, mouse, slider and time do with it. */
 struct RunWindow::Impl
 {
 public:
@@ -60,7 +59,7 @@ private:
   /** \brief Show the frame as everything is set now. */
   void draw ();
   double stamp () const { return stamps_[frame_]; }
-  /** \brief Tell who listens; and on the window, if \a message. */
+  /** \brief Call RunWindowOptions::said with a line, and show it in the window if \a message. */
   void say (const std::string& line, bool message);
 
   RunWindowOptions options_;

@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 #include "pcl_cosection/visualization/scene_lines.h"
@@ -7,7 +6,7 @@
 #include "pcl_cosection/visualization/sdf_slices.h"
 #include <pcl/cosection/common/image.h>
 #include <pcl/cosection/common/triangle_mesh.h>
-#include <pcl/cosection/visualization/frame_points.h>
+#include <pcl/cosection/visualization/scene_picture.h>
 
 #include <vtkActor.h>
 #include <vtkImageData.h>

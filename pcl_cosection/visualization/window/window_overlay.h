@@ -1,8 +1,7 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <pcl/cosection/visualization/scene_colours.h>
+#include "pcl_cosection/visualization/scene_colours.h"
 
 #include <vtkLegendBoxActor.h>
 #include <vtkRenderer.h>
@@ -24,7 +23,7 @@ public:
   /** \brief What is shown; empty: nothing. */
   void setCaption (const std::string& text);
 
-  /** \brief A line that tells what a key has done; empty: nothing. */
+  /** \brief A line about what a key has done; empty: nothing. */
   void setMessage (const std::string& text);
 
   void setLegend (const ColourLegend& legend);

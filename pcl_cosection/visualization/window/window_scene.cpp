@@ -1,11 +1,10 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "window_scene.h"
 
 #include "vtk_shapes.h"
 
+#include "pcl_cosection/visualization/scene_colours.h"
 #include <pcl/cosection/common/error.h>
-#include <pcl/cosection/visualization/scene_colours.h>
 
 #include <vtkPointData.h>
 #include <vtkPolyDataMapper.h>

@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "ablation_picture.h"
 
 #include "pcl_cosection/rendering/picture.h"
@@ -7,7 +6,7 @@
 #include "pcl_cosection/view/look_at.h"
 #include <pcl/cosection/rendering/rasterizer.h>
 
-#include <pcl/cosection/simulation/keyed_motion.h>
+#include <pcl/cosection/simulation/simulated_scene.h>
 
 #include <cmath>
 

@@ -1,9 +1,8 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "benchmark_dataset.h"
 
-#include <pcl/cosection/simulation/scene_spec.h>
-#include <pcl/cosection/simulation/sequence_writer.h>
+#include "pcl_cosection/simulation/sequence_writer.h"
+#include <pcl/cosection/simulation/simulated_scene.h>
 
 #include <algorithm>
 

@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 
 // compare_hidden_sides [SCENES [FIRST_SEED]]: how well things on random tables, some of which hide others in part, are
 // completed from one view and from two; by kind.
@@ -7,10 +6,10 @@
 #include "random_table.h"
 #include "thing_scores.h"
 
-#include <pcl/cosection/evaluation/scene_folders.h>
+#include "pcl_cosection/simulation/sequence_writer.h"
+#include <pcl/cosection/evaluation/run_evaluation.h>
 #include <pcl/cosection/io/pcd_view.h>
-#include <pcl/cosection/simulation/scene_spec.h>
-#include <pcl/cosection/simulation/sequence_writer.h>
+#include <pcl/cosection/simulation/simulated_scene.h>
 #include <pcl/cosection/surface/co_section.h>
 
 #include <array>

@@ -1,12 +1,11 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 
 // compare_segmentation FILE.pcd ...: how well segmentObjects () finds the objects of labelled organised clouds, and how
 // fast.
 
 #include "segmentation/label_comparison.h"
 
-#include <pcl/cosection/segmentation/object_segmentation.h>
+#include <pcl/cosection/segmentation/geometric_segmentation.h>
 
 #include <pcl/io/pcd_io.h>
 #include <pcl/point_types.h>

@@ -1,14 +1,19 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 #include <pcl/cosection/common/export.h>
 
 #include <Eigen/Geometry>
 
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <vector>
+
+namespace pcl
+{
+template <typename PointT> class PointCloud;
+}
 
 namespace pcl::cosection
 {
@@ -40,11 +45,12 @@ struct PCL_COSECTION_EXPORT PinholeCamera
 /** \brief One depth image and where it was taken from. */
 struct PCL_COSECTION_EXPORT DepthView
 {
-  PinholeCamera camera;
+  PinholeCamera camera;     ///< of the image
   std::vector<float> depth; ///< width * height, row by row, metres along the optical axis; NaN: no reading
-  Eigen::Isometry3d T_world_sensor = Eigen::Isometry3d::Identity ();
-  std::string name = {}; ///< in warnings; empty: its number is told
+  Eigen::Isometry3d T_world_sensor = Eigen::Isometry3d::Identity (); ///< pose of the sensor, metres
+  std::string name = {};                                             ///< used in warnings; empty: they give its number
 
+  /** \brief Depth at column \a u and row \a v, metres; NaN: no reading. */
   float at (int u, int v) const { return depth[static_cast<std::size_t> (v) * camera.width + u]; }
 
   /** \brief \throws InvalidArgument if the camera is not valid, there is not one depth per pixel, or the pose is not
@@ -63,10 +69,45 @@ depthNoiseSigma (double z)
 
 /** \brief Least-squares pinhole of an organised cloud in its sensor frame: x/z and y/z as affine
  * functions of the column and the row.
- * \param[in] points width * height points, row by row; not finite: no reading
+ * \param[in] points width * height points, row by row, sensor frame, metres; not finite: no reading
+ * \param[in] width, height pixels
  * \return nothing if fewer than 50 points are usable, or the residual's root mean square exceeds
  * half a pixel (the cloud is not a pinhole's image) */
 PCL_COSECTION_EXPORT std::optional<PinholeCamera> fitPinholeCamera (const std::vector<Eigen::Vector3f>& points,
                                                                     int width, int height);
+
+/** \brief The depth image that a cloud is: of an organised one its pixels, of an unorganised one the nearest point in
+ * each direction from its sensor.
+ *
+ * An organised cloud may be in any frame: its pixels determine the camera's intrinsics and pose. An unorganised one is
+ * in its sensor's frame.
+ * \param[in] points width * height points, row by row, metres (organised in the sensor's frame: x right, y down, z
+ * forward); not finite, or z <= 0 of an organised one: no reading
+ * \param[in] width, height of an organised cloud; height 1: not organised
+ * \param[in] T_world_points pose of the frame in which the points are
+ * \return nothing if there are no points, if an organised cloud is not the image of a pinhole camera (fitPinholeCamera
+ * ()), or if more than a tenth of the points of an unorganised one is hidden from the sensor
+ * \throws InvalidArgument if there are not width * height points */
+PCL_COSECTION_EXPORT std::optional<DepthView>
+toDepthView (const std::vector<Eigen::Vector3f>& points, int width, int height,
+             const Eigen::Isometry3d& T_world_points = Eigen::Isometry3d::Identity ());
+
+/** \brief The depth image that a cloud of PCL's is: see toDepthView () of points. A cloud whose size is not its width
+ * times its height is none. */
+template <typename PointT>
+std::optional<DepthView>
+toDepthView (const pcl::PointCloud<PointT>& cloud,
+             const Eigen::Isometry3d& T_world_cloud = Eigen::Isometry3d::Identity ())
+{
+  if (cloud.height > 1 && cloud.size () != static_cast<std::size_t> (cloud.width) * cloud.height)
+    return std::nullopt;
+  std::vector<Eigen::Vector3f> points;
+  points.reserve (cloud.size ());
+  for (const PointT& p : cloud)
+    points.emplace_back (p.x, p.y, p.z);
+  const bool organized = cloud.height > 1;
+  return toDepthView (points, organized ? static_cast<int> (cloud.width) : static_cast<int> (points.size ()),
+                      organized ? static_cast<int> (cloud.height) : 1, T_world_cloud);
+}
 
 } // namespace pcl::cosection

@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 #include <array>
@@ -14,19 +13,22 @@ namespace pcl::cosection
 template <typename Pixel> struct Image
 {
   Image () = default;
+  /** \brief An image of one value. */
   Image (int width, int height, const Pixel& value = Pixel ())
       : width (width)
       , height (height)
       , pixels (static_cast<std::size_t> (width) * height, value)
   {}
 
+  /** \brief The pixel in column \a u and row \a v. */
   Pixel& at (int u, int v) { return pixels[static_cast<std::size_t> (v) * width + u]; }
 
+  /** \brief The pixel in column \a u and row \a v. */
   const Pixel& at (int u, int v) const { return pixels[static_cast<std::size_t> (v) * width + u]; }
 
-  int width = 0;
-  int height = 0;
-  std::vector<Pixel> pixels;
+  int width = 0;             ///< pixels
+  int height = 0;            ///< pixels
+  std::vector<Pixel> pixels; ///< width * height, row by row
 };
 
 /** \brief An 8-bit colour picture: red, green, blue. */

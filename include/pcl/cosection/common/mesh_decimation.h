@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 #include <pcl/cosection/common/export.h>
@@ -24,7 +23,7 @@ struct PCL_COSECTION_EXPORT DecimationOptions
   void validate () const;
 };
 
-/** \brief The same surface with fewer triangles: edges collapse, the least harmful first, until no more than
+/** \brief Represents a surface with fewer triangles: edges collapse, the least harmful first, until no more than
  * \a max_triangles are left.
  *
  * The harm is the quadric error of M. Garland, P. Heckbert, "Surface Simplification Using Quadric Error Metrics",
@@ -54,7 +53,7 @@ struct PCL_COSECTION_EXPORT DecimationOptions
  * without boundary, consistently oriented) or has a vertex that is not finite */
 PCL_COSECTION_EXPORT TriangleMesh decimate (const TriangleMesh& mesh, const DecimationOptions& options);
 
-/** \brief As above, with the defaults of the other options. */
+/** \brief Decimation to \a max_triangles, with the defaults of the other options. */
 PCL_COSECTION_EXPORT TriangleMesh decimate (const TriangleMesh& mesh, std::size_t max_triangles);
 
 } // namespace pcl::cosection

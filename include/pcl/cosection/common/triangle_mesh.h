@@ -1,8 +1,9 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 #include <pcl/cosection/common/export.h>
+
+#include <pcl/PolygonMesh.h>
 
 #include <Eigen/Core>
 
@@ -27,17 +28,20 @@ enum class Provenance : std::uint8_t
  * The per-vertex arrays are empty or as long as \a vertices. */
 struct PCL_COSECTION_EXPORT TriangleMesh
 {
+  /** \brief Indices of three vertices. */
   using Triangle = std::array<std::uint32_t, 3>;
+  /** \brief Red, green, blue. */
   using Colour = std::array<std::uint8_t, 3>;
 
-  std::vector<Eigen::Vector3f> vertices;
-  std::vector<Triangle> triangles;
-  std::vector<Eigen::Vector3f> normals; ///< unit, outward
-  std::vector<Colour> colours;          ///< red, green, blue
-  std::vector<float> intensity;         ///< as the points'
-  std::vector<float> confidence;        ///< exp (-d / 5), d: voxels to the nearest data
-  std::vector<std::uint8_t> provenance; ///< Provenance
+  std::vector<Eigen::Vector3f> vertices; ///< metres
+  std::vector<Triangle> triangles;       ///< counter-clockwise from outside
+  std::vector<Eigen::Vector3f> normals;  ///< unit, outward
+  std::vector<Colour> colours;           ///< red, green, blue
+  std::vector<float> intensity;          ///< as the points'
+  std::vector<float> confidence;         ///< exp (-d / 5), d: voxels to the nearest data
+  std::vector<std::uint8_t> provenance;  ///< Provenance
 
+  /** \brief Whether there is no triangle. */
   bool empty () const { return triangles.empty (); }
 };
 
@@ -55,9 +59,9 @@ struct PCL_COSECTION_EXPORT MeshTopology
 /** \brief Volume integrals of a closed mesh of unit density. */
 struct PCL_COSECTION_EXPORT MassProperties
 {
-  double volume_m3 = 0.0;
-  Eigen::Vector3d centroid_m = Eigen::Vector3d::Zero ();
-  Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero (); ///< about the centroid, density 1 kg/m^3: kg m^2
+  double volume_m3 = 0.0;                                ///< negative if the mesh is turned inside out
+  Eigen::Vector3d centroid_m = Eigen::Vector3d::Zero (); ///< centre of mass
+  Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero ();    ///< about the centroid, density 1 kg/m^3: kg m^2
 };
 
 /** \brief Analyse the connectivity; O (triangles log triangles). */
@@ -75,5 +79,15 @@ PCL_COSECTION_EXPORT TriangleMesh extractTriangles (const TriangleMesh& mesh, co
 
 /** \brief Append \a other to \a mesh; a per-vertex array missing in one of them is dropped. */
 PCL_COSECTION_EXPORT void appendMesh (TriangleMesh& mesh, const TriangleMesh& other);
+
+/** \brief As PCL's mesh: fields x y z, normal_x normal_y normal_z, rgb, intensity, confidence (float) and provenance
+ * (unsigned char), as far as \a mesh has them. The header is left alone.
+ * \throws InvalidArgument if the vertices need more than 4 GiB, PCL's limit */
+PCL_COSECTION_EXPORT void toPolygonMesh (const TriangleMesh& mesh, pcl::PolygonMesh& output);
+
+/** \brief Vertices and faces of PCL's mesh; polygons are split into triangles around their first vertex.
+ * \throws InvalidArgument if it has no fields x, y and z of floats, or a polygon of fewer than three vertices or of
+ * vertices that do not exist */
+PCL_COSECTION_EXPORT TriangleMesh fromPolygonMesh (const pcl::PolygonMesh& mesh);
 
 } // namespace pcl::cosection

@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 #include <pcl/cosection/common/export.h>
@@ -31,11 +30,11 @@ struct PCL_COSECTION_EXPORT MeshComparisonOptions
 /** \brief What distances, or angles, of a set are like; of none, all are 0. */
 struct PCL_COSECTION_EXPORT ErrorStatistics
 {
-  double mean = 0.0;
-  double rmse = 0.0; ///< root of the mean square
-  double median = 0.0;
-  double p95 = 0.0; ///< 95 % are at most this large
-  double max = 0.0;
+  double mean = 0.0;   ///< arithmetic mean
+  double rmse = 0.0;   ///< root of the mean square
+  double median = 0.0; ///< 50 % are at most this large
+  double p95 = 0.0;    ///< 95 % are at most this large
+  double max = 0.0;    ///< the largest
 };
 
 /** \brief Quantiles are interpolated linearly between the sorted values. */
@@ -56,6 +55,11 @@ struct PCL_COSECTION_EXPORT MeshComparison
  * 2020), and the F-score (A. Knapitsch et al., "Tanks and Temples", TOG 2017), which has samples within the threshold,
  * it included.
  *
+ * \code
+ * const MeshComparison comparison = compareMeshes (loadMesh ("truth.ply"), loadMesh ("completed.ply"));
+ * std::cout << comparison.accuracy.mean << " m, " << comparison.completeness.mean << " m, " << comparison.f_score;
+ * \endcode
+ *
  * Both meshes are in one frame; they may be open. The result is the same for any number of threads.
  * \throws InvalidArgument, DegenerateInput as requireSurface (), and for options outside their domain */
 PCL_COSECTION_EXPORT MeshComparison compareMeshes (const TriangleMesh& truth, const TriangleMesh& reconstruction,
@@ -64,10 +68,10 @@ PCL_COSECTION_EXPORT MeshComparison compareMeshes (const TriangleMesh& truth, co
 /** \brief What a mesh is like by itself. */
 struct PCL_COSECTION_EXPORT MeshSummary
 {
-  std::size_t vertices = 0; ///< that triangles refer to
-  std::size_t triangles = 0;
-  MeshTopology topology;
-  double area_m2 = 0.0;
+  std::size_t vertices = 0;        ///< that triangles refer to
+  std::size_t triangles = 0;       ///< number of them
+  MeshTopology topology;           ///< what the connectivity says
+  double area_m2 = 0.0;            ///< of all triangles
   std::optional<double> volume_m3; ///< of a closed manifold only
   Eigen::AlignedBox3d box;         ///< metres
 };

@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 #include <pcl/cosection/common/export.h>
@@ -36,14 +35,21 @@ class SolidDepth;
 /** \brief A mesh that others may penetrate, and that may penetrate others.
  *
  * What is inside is what sampleSignedDistance () says: closed parts are solid, cavities are not; behind open parts
- * there is matter within a band, where the nearest point is not on their rim. */
+ * there is matter within a band, where the nearest point is not on their rim.
+ *
+ * \code
+ * const PenetrationBody cup (cup_mesh), table (table_mesh);
+ * const double depth_m = table.depthOf (cup, T_table_cup);
+ * \endcode */
 class PCL_COSECTION_EXPORT PenetrationBody
 {
 public:
   /** \throws InvalidArgument, DegenerateInput as requireSurface (), and for options outside their domain */
   explicit PenetrationBody (const TriangleMesh& mesh, const PenetrationOptions& options = {});
   ~PenetrationBody ();
+  /** \brief Takes over what the other one has. */
   PenetrationBody (PenetrationBody&&) noexcept;
+  /** \brief Takes over what the other one has. */
   PenetrationBody& operator= (PenetrationBody&&) noexcept;
 
   /** \brief Whether some of the mesh is open: it has no inside, only a band behind it. */
@@ -54,6 +60,7 @@ public:
 
   /** \brief How deep the surface of \a other, by its vertices and area-uniform samples of it, lies inside this: the
    * greatest distance to this surface, metres; 0: it does not.
+   * \param[in] other the body whose surface is measured
    * \param[in] T_this_other pose of \a other in the frame of this mesh */
   double depthOf (const PenetrationBody& other,
                   const Eigen::Isometry3d& T_this_other = Eigen::Isometry3d::Identity ()) const;

@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 #include <pcl/cosection/common/export.h>
@@ -28,8 +27,8 @@ enum class TrajectoryAlignment
 struct PCL_COSECTION_EXPORT TrajectoryOptions
 {
   std::optional<double> max_difference_s; ///< of stamps that match; nothing: half the truth's median period
-  TrajectoryAlignment alignment = TrajectoryAlignment::Se3;
-  int delta = 1; ///< of the relative pose error, in matched poses
+  TrajectoryAlignment alignment = TrajectoryAlignment::Se3; ///< of the estimate
+  int delta = 1;                                            ///< of the relative pose error, in matched poses
 
   /** \brief \throws InvalidArgument naming the first parameter outside its domain. */
   void validate () const;
@@ -38,8 +37,8 @@ struct PCL_COSECTION_EXPORT TrajectoryOptions
 /** \brief Two poses that belong to each other, by their indices. */
 struct PosePair
 {
-  std::size_t truth = 0;
-  std::size_t estimate = 0;
+  std::size_t truth = 0;    ///< index in the truth
+  std::size_t estimate = 0; ///< index in the estimate
 };
 
 /** \brief The median difference of successive stamps; nothing of fewer than two poses. */
@@ -48,6 +47,7 @@ PCL_COSECTION_EXPORT std::optional<double> medianPeriod (const std::vector<Stamp
 /** \brief Match poses one to one: the two nearest stamps first, then the two nearest of those that remain, up to
  * \a max_difference_s, it included. O (n log n).
  * \param[in] truth, estimate by ascending stamps
+ * \param[in] max_difference_s seconds
  * \return by ascending stamps of the truth */
 PCL_COSECTION_EXPORT std::vector<PosePair> associatePoses (const std::vector<StampedPose>& truth,
                                                            const std::vector<StampedPose>& estimate,
@@ -57,22 +57,24 @@ PCL_COSECTION_EXPORT std::vector<PosePair> associatePoses (const std::vector<Sta
  * IROS 2012). */
 struct PCL_COSECTION_EXPORT TrajectoryError
 {
-  std::size_t truth_poses = 0;
-  std::size_t estimate_poses = 0;
-  std::size_t matched = 0;
-  double max_difference_s = 0.0; ///< of stamps that matched at most
-  double truth_begin_s = 0.0, truth_end_s = 0.0;
-  double estimate_begin_s = 0.0, estimate_end_s = 0.0;
-  double largest_gap_s = 0.0; ///< between successive matches
-  double path_m = 0.0;        ///< length of the truth's path through the matches
+  std::size_t truth_poses = 0;    ///< number of them
+  std::size_t estimate_poses = 0; ///< number of them
+  std::size_t matched = 0;        ///< pairs of poses
+  double max_difference_s = 0.0;  ///< of stamps that matched at most
+  double truth_begin_s = 0.0;     ///< first stamp of the truth
+  double truth_end_s = 0.0;       ///< last stamp of the truth
+  double estimate_begin_s = 0.0;  ///< first stamp of the estimate
+  double estimate_end_s = 0.0;    ///< last stamp of the estimate
+  double largest_gap_s = 0.0;     ///< between successive matches
+  double path_m = 0.0;            ///< length of the truth's path through the matches
 
   Eigen::Isometry3d T_truth_estimate = Eigen::Isometry3d::Identity (); ///< the alignment
   ErrorStatistics ate_m; ///< absolute trajectory error: distances of aligned positions
 
-  std::size_t rpe_pairs = 0;
+  std::size_t rpe_pairs = 0;    ///< that were compared
   std::size_t rpe_left_out = 0; ///< pairs of delta matches with a gap between them
   ErrorStatistics rpe_trans_m;  ///< relative pose error: of motions between matches that are delta apart
-  ErrorStatistics rpe_rot_rad;
+  ErrorStatistics rpe_rot_rad;  ///< their angles
 
   std::vector<std::string> notes; ///< what could not be determined
 };
@@ -83,6 +85,7 @@ struct PCL_COSECTION_EXPORT TrajectoryError
  * (T_i^-1 T_j)^-1 (E_i^-1 E_j) for matches i and j = i + delta whose stamps differ by as much as those of most such
  * pairs, give or take half a period or 2 %: a motion over a gap is left out and counted.
  * \param[in] truth, estimate by ascending stamps
+ * \param[in] options how to compare them
  * \throws InvalidArgument if an option is outside its domain
  * \throws DegenerateInput if a trajectory is empty, or no stamps match; the message has the spans of both */
 PCL_COSECTION_EXPORT TrajectoryError compareTrajectories (const std::vector<StampedPose>& truth,

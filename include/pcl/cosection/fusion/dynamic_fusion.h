@@ -1,13 +1,10 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <pcl/cosection/common/camera.h>
 #include <pcl/cosection/common/export.h>
 #include <pcl/cosection/common/image.h>
 #include <pcl/cosection/common/triangle_mesh.h>
-#include <pcl/cosection/fusion/class_evidence.h>
-#include <pcl/cosection/fusion/data_association.h>
-#include <pcl/cosection/fusion/frame_segmenter.h>
 #include <pcl/cosection/io/rgbd_sequence.h>
 
 #include <Eigen/Geometry>
@@ -25,12 +22,35 @@
 namespace pcl::cosection
 {
 
+class FrameSegmenter;
+
+/** \brief A class of things, and how certain it is that something belongs to it. */
+struct PCL_COSECTION_EXPORT ClassScore
+{
+  int class_id = 0;       ///< as the network counts
+  std::string class_name; ///< its number where there are no names
+  double score = 0.0;     ///< in [0, 1]
+};
+
+/** \brief How points are shared out among models. */
+struct PCL_COSECTION_EXPORT AssociationOptions
+{
+  double sigma_m = 0.02; ///< scale of the Laplace distribution of distances; at least the noise of the reading's depth
+  double inlier_share = 0.8;    ///< alpha: of readings that show a model at all
+  double uniform = 1.0;         ///< density of the others, 1 / m
+  double free_truncation = 0.9; ///< distances above this fraction of the truncation distance are seen free
+  int threads = 0;              ///< 0: all; no result depends on it
+
+  /** \brief \throws InvalidArgument naming the first parameter outside its domain. */
+  void validate () const;
+};
+
 /** \brief How DynamicFusion follows a scene. */
 struct PCL_COSECTION_EXPORT DynamicFusionOptions
 {
-  int background_resolution = 256;      ///< voxels along each axis
-  double background_voxel_size_m = 0.0; ///< 0: so that the volume holds the first frame, up to 0.02
-  double background_truncation_vox = 5.0;
+  int background_resolution = 256;        ///< voxels along each axis
+  double background_voxel_size_m = 0.0;   ///< 0: so that the volume holds the first frame, up to 0.02
+  double background_truncation_vox = 5.0; ///< distances are cut off at this many voxels
   bool objects = true;    ///< there will be masks or a segmenter; without, the background takes less time and memory
   int segment_every = 10; ///< frames, from one in which the segmenter is asked for objects to the next
   int object_resolution = 64;         ///< voxels along each axis, at first
@@ -48,7 +68,7 @@ struct PCL_COSECTION_EXPORT DynamicFusionOptions
   double min_existence = 0.1;         ///< below, an object is given up
   double min_association = 0.1;       ///< mean over its pixels; below, an object is given up
   int max_objects = 64;               ///< at a time
-  AssociationOptions association;
+  AssociationOptions association;     ///< of points to models
   Eigen::Isometry3d first_pose = Eigen::Isometry3d::Identity (); ///< T_world_camera of the first frame
   int threads = 0;                                               ///< 0: all; no result depends on it
 
@@ -93,14 +113,18 @@ public:
   /** \throws InvalidArgument as DynamicFusionOptions::validate () and PinholeCamera::validate () */
   explicit DynamicFusion (const PinholeCamera& camera, const DynamicFusionOptions& options = {});
   ~DynamicFusion ();
+  /** \brief Takes over what the other one has. */
   DynamicFusion (DynamicFusion&& other) noexcept;
+  /** \brief Takes over what the other one has. */
   DynamicFusion& operator= (DynamicFusion&& other) noexcept;
 
   /** \brief Find objects in frames that come without a mask. What it notes is among the events. \param[in] segmenter
    * null: none */
   void setSegmenter (std::shared_ptr<FrameSegmenter> segmenter);
 
-  /** \brief \param[in] mask instances of the frame, 0: none, FrameSegmenter::ignored: neither objects nor background;
+  /** \brief Track and map the next frame.
+   * \param[in] frame in the order of time
+   * \param[in] mask instances of the frame, 0: none, FrameSegmenter::ignored: neither objects nor background;
    * null: there is no mask
    * \return valid until the next call
    * \throws InvalidArgument if the depth or a mask is not of the camera's size; what the segmenter throws */

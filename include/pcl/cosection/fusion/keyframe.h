@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 #include <pcl/cosection/common/camera.h>
@@ -19,7 +18,7 @@ namespace pcl::cosection
 struct PCL_COSECTION_EXPORT KeyframeOptions
 {
   double max_depth_m = 10.0; ///< readings beyond are left out
-  int background_step = 2;   ///< of the background, every so manieth pixel along rows and columns
+  int background_step = 2;   ///< stride along rows and columns between the background's pixels that are used
   int threads = 0;           ///< 0: all
 
   /** \brief \throws InvalidArgument naming the first parameter outside its domain. */
@@ -29,7 +28,7 @@ struct PCL_COSECTION_EXPORT KeyframeOptions
 /** \brief The readings of one frame as oriented points, sorted by what they belong to. */
 struct PCL_COSECTION_EXPORT Keyframe
 {
-  double stamp = 0.0;
+  double stamp = 0.0;                               ///< of the frame
   DepthView view;                                   ///< of the whole scene, with the camera's pose
   std::map<int, std::vector<OrientedPoint>> points; ///< by instance, 0 the background; sensor frame
 };
@@ -40,7 +39,11 @@ PCL_COSECTION_EXPORT DepthView makeDepthView (const Image<float>& depth, const P
                                               const KeyframeOptions& options = {});
 
 /** \brief Turn a frame into a keyframe. Points without a reliable normal (computeOrganizedNormals ()) are left out.
+ * \param[in] frame depth, and colour if there is any
+ * \param[in] camera of the frame
  * \param[in] instances one per pixel, 0: background; empty: all is background
+ * \param[in] T_world_camera pose of the camera, metres
+ * \param[in] options what is taken
  * \throws InvalidArgument if \a instances or the depth have another size than the camera */
 PCL_COSECTION_EXPORT Keyframe makeKeyframe (const RgbdFrame& frame, const PinholeCamera& camera,
                                             const Image<std::uint16_t>& instances,

@@ -1,9 +1,9 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 #include <pcl/cosection/common/export.h>
 #include <pcl/cosection/common/triangle_mesh.h>
+#include <pcl/cosection/volume/signed_distance_field.h>
 
 #include <string>
 
@@ -33,5 +33,10 @@ PCL_COSECTION_EXPORT TriangleMesh loadPlyMesh (const std::string& path);
  * \throws IoError if the file cannot be read, has no known format, is damaged or cut off, has no triangles of
  * any area, or vertices of these that are not finite */
 PCL_COSECTION_EXPORT TriangleMesh loadMesh (const std::string& path);
+
+/** \brief Write a signed distance field as VTK image data (`.vti`): point arrays
+ * `signed_distance` (float, metres) and, if present, `supported` (unsigned char); the origin is the
+ * first voxel's centre. Through a temporary name. \throws IoError */
+PCL_COSECTION_EXPORT void saveSignedDistance (const SignedDistanceField& field, const std::string& path);
 
 } // namespace pcl::cosection

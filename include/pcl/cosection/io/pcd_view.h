@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 #include <pcl/cosection/common/camera.h>
@@ -45,11 +44,11 @@ struct PCL_COSECTION_EXPORT LabelledView
 
   std::optional<DepthView> view; ///< of an organised cloud from a pinhole camera, or of points seen from the viewpoint
   std::map<std::uint32_t, Points> objects; ///< by label; 0: background
-  bool organized = false;
-  bool has_labels = false; ///< without, everything is object 1
-  bool has_colour = false;
-  bool has_intensity = false;
-  std::vector<std::string> warnings; ///< one line each, naming the file
+  bool organized = false;                  ///< HEIGHT > 1
+  bool has_labels = false;                 ///< without, everything is object 1
+  bool has_colour = false;                 ///< the file has rgb or rgba
+  bool has_intensity = false;              ///< the file has intensity
+  std::vector<std::string> warnings;       ///< one line each, naming the file
 };
 
 /** \brief Read a PCD file as one view.
@@ -58,12 +57,18 @@ struct PCL_COSECTION_EXPORT LabelledView
  * world. An organised cloud (HEIGHT > 1) gives a depth view and normals (computeOrganizedNormals ());
  * an unorganised one has its normals in the file, or gets them from pcl::NormalEstimationOMP, per label.
  * These are turned towards the viewpoint if the points were seen from there, which also gives a depth view
- * (drawRangeImage ()) and tells readings between things and what is behind them, which have no reliable one; else so
+ * (toDepthView ()) and shows which readings are mixed from two surfaces and so have no reliable one; else so
  * that neighbours agree and bodies are on their inner side. If the points are in another frame
- * after all, the sensor is at the VIEWPOINT if they were seen from there, or where the pixels of an organised cloud
- * (locateCamera ()) or the order of an unorganised one (locateSensor ()) tell. Fields: x y z
- * (floating point), label (integer; negative or 65535: ignored), rgb or rgba, intensity (a number), normal_x normal_y
- * normal_z; others are skipped.
+ * after all, the sensor is at the VIEWPOINT if they were seen from there, or where the pixels of an organised cloud or
+ * the order of an unorganised one put it. Fields: x y z (floating point), label (integer; negative or 65535: ignored),
+ * rgb or rgba, intensity (a number), normal_x normal_y normal_z; others are skipped.
+ *
+ * \code
+ * const LabelledView view = readPcdView ("table.pcd");
+ * CoSection scene;
+ * scene.addView (*view.view); // if there is one
+ * scene.addObject ({1, view.objects.at (1).points, {}});
+ * \endcode
  *
  * \throws MemoryLimitExceeded before reading the points
  * \throws IoError if the file is not a well formed PCD file with these fields

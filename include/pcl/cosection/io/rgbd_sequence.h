@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 #include <pcl/cosection/common/camera.h>
@@ -10,9 +9,16 @@
 #include <Eigen/Geometry>
 
 #include <array>
+#include <condition_variable>
 #include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <exception>
+#include <limits>
+#include <mutex>
 #include <optional>
 #include <string>
+#include <thread>
 #include <vector>
 
 namespace pcl::cosection
@@ -30,7 +36,7 @@ enum class SequenceFormat
 /** \brief How to read a sequence. */
 struct PCL_COSECTION_EXPORT SequenceSource
 {
-  SequenceFormat format = SequenceFormat::Detect;
+  SequenceFormat format = SequenceFormat::Detect;  ///< Detect: by the files that are there
   std::string depth_folder;                        ///< of the Co-Fusion layout; empty: depth_noise, else depth
   double depth_scale = 0.0;                        ///< units of a PNG per metre; 0: 5000 for TUM, 1000 for others
   std::optional<std::array<double, 4>> intrinsics; ///< fx, fy, cx, cy in pixels, instead of calibration.txt
@@ -66,7 +72,7 @@ struct PCL_COSECTION_EXPORT RgbdFrame
  * stamp of a frame is that of its depth.
  * * calibration.txt is "fx fy cx cy [width height]" in pixels; without a size, that of the first depth image that can
  * be read is taken. 7-Scenes' layout does without: 585 585 320 240 640 480.
- * * Of 7-Scenes' layout, a depth of 65535 is no reading.
+ * * In 7-Scenes' layout a depth of 65535 is no reading.
  *
  * \code
  * const RgbdSequence sequence ("toycars");
@@ -79,23 +85,27 @@ class PCL_COSECTION_EXPORT RgbdSequence
 {
 public:
   /** \brief List the frames of a folder.
-   * \throws IoError if there is no such folder, no layout is recognised, a list has a line that is none, there are no
-   * frames, calibration.txt is missing or wrong, or no depth image tells the size
+   * \throws IoError if there is no such folder, no layout is recognised, a line of a list cannot be read, there are no
+   * frames, calibration.txt is missing or wrong, or no depth image can be read for the size
    * \throws InvalidArgument if an option is outside its domain */
   explicit RgbdSequence (const std::string& folder, const SequenceSource& source = {});
 
+  /** \brief Number of frames. */
   std::size_t size () const { return files_.size (); }
 
   /** \brief By ascending stamps. */
   const FrameFiles& files (std::size_t index) const { return files_[index]; }
 
+  /** \brief Stamp of a frame. */
   double stamp (std::size_t index) const { return files_[index].stamp; }
 
+  /** \brief Stamps of all frames, ascending. */
   std::vector<double> stamps () const;
 
   /** \brief Median time from one frame to the next; 1 for a single frame. */
   double period () const { return period_; }
 
+  /** \brief The camera of the depth images. */
   const PinholeCamera& camera () const { return camera_; }
 
   /** \brief What was asked for or detected. */
@@ -108,15 +118,15 @@ public:
   const std::vector<std::string>& warnings () const { return warnings_; }
 
   /** \brief Read a frame. A colour image that is missing, damaged or of another aspect than the depth leaves colour
-   * empty and is told in \a warnings; one of the same aspect is brought to the depth's size. Depths that seem to have
-   * the wrong unit are told there, too.
+   * empty and adds a line to \a warnings; one of the same aspect is brought to the depth's size. Depths that seem to
+   * have the wrong unit do so, too.
    * \throws IoError naming the file, if its depth is missing or damaged, or has another size than the camera
    * \throws InvalidArgument if there is no such frame */
   RgbdFrame read (std::size_t index, std::vector<std::string>& warnings) const;
 
   /** \brief T_world_camera of a frame as 7-Scenes' pose file gives it; nothing if there is none. One that is not finite
-   * or not rigid (the tracking was lost) counts as none and is told in \a warnings. \throws InvalidArgument if there is
-   * no such frame */
+   * or not rigid (the tracking was lost) counts as missing and adds a line to \a warnings. \throws InvalidArgument if
+   * there is no such frame */
   std::optional<Eigen::Isometry3d> givenPose (std::size_t index, std::vector<std::string>& warnings) const;
 
   /** \brief T_world_camera of all frames that have one, by ascending stamps. */
@@ -133,6 +143,119 @@ private:
   PinholeCamera camera_;
   std::string size_source_; // for messages
   std::vector<FrameFiles> files_;
+  std::vector<std::string> warnings_;
+};
+
+/** \brief Which frames FrameReader reads. */
+struct PCL_COSECTION_EXPORT FrameRange
+{
+  std::size_t first = 0;                                       ///< index
+  std::size_t last = std::numeric_limits<std::size_t>::max (); ///< index of the frame behind the last; larger: the
+                                                               ///< sequence's end
+};
+
+/** \brief Reads the frames of a sequence ahead, in a thread of its own.
+ *
+ * Frames come in their order. One that cannot be read is skipped; warnings () names it. The same files give the same
+ * frames and warnings, however the threads run.
+ *
+ * \code
+ * FrameReader reader (sequence);
+ * while (const std::optional<RgbdFrame> frame = reader.next ())
+ *   use (*frame);
+ * \endcode */
+class PCL_COSECTION_EXPORT FrameReader
+{
+public:
+  /** \brief Start to read. The reader has a copy of the sequence, which is names only.
+   * \param[in] sequence the frames
+   * \param[in] range which of them
+   * \param[in] ahead frames that are held at most until they are asked for
+   * \throws InvalidArgument if the range has no frame of the sequence, or \a ahead is 0 */
+  explicit FrameReader (const RgbdSequence& sequence, const FrameRange& range = {}, std::size_t ahead = 4);
+
+  /** \brief Stops as soon as the frame that is being read is done. */
+  ~FrameReader ();
+
+  FrameReader (const FrameReader&) = delete;
+  FrameReader& operator= (const FrameReader&) = delete;
+
+  /** \brief The next frame that can be read; waits for it. Nothing at the end, again and again.
+   * \throws std::bad_alloc if memory ran out even for a message about a frame */
+  std::optional<RgbdFrame> next ();
+
+  /** \brief Lines about the frames up to the last that next () returned, in their order: the first twenty, then how
+   * many more. From any thread. */
+  std::vector<std::string> warnings () const;
+
+  /** \brief How many frames were skipped up to the last that next () returned. From any thread. */
+  std::size_t skipped () const;
+
+private:
+  struct Result
+  {
+    std::optional<RgbdFrame> frame; // nothing: skipped
+    std::vector<std::string> warnings;
+  };
+
+  void run (std::size_t first, std::size_t last) noexcept;
+
+  void readFrames (std::size_t first, std::size_t last);
+
+  Result readFrame (std::size_t index) const;
+
+  const RgbdSequence sequence_;
+  const std::size_t ahead_;
+
+  mutable std::mutex mutex_; // of what follows
+  std::condition_variable changed_;
+  std::deque<Result> results_;
+  bool done_ = false;
+  bool stop_ = false;
+  std::exception_ptr failure_;
+  std::vector<std::string> kept_warnings_;
+  std::size_t more_warnings_ = 0;
+  std::size_t skipped_ = 0;
+
+  std::thread thread_; // last: it uses the rest
+};
+
+/** \brief Masks of instances for the frames of a sequence: a folder of PNGs of one channel of 8 or 16 bits, a file per
+ * frame that has one. A pixel is the number of an instance, 0 none. A name ends in the frame's number or stamp:
+ * Mask0003.png, 0.033333.png. Several threads may read.
+ *
+ * \code
+ * const MaskSequence masks ("toycars/mask", sequence);
+ * if (const auto mask = masks.read (sequence.stamp (0)))
+ *   use (*mask);
+ * \endcode */
+class PCL_COSECTION_EXPORT MaskSequence
+{
+public:
+  /** \brief List the masks for a sequence.
+   * \throws IoError if there is no such folder, it has no masks, or none of them matches a frame */
+  MaskSequence (const std::string& folder, const RgbdSequence& sequence);
+
+  /** \brief How many files there are. */
+  std::size_t size () const { return paths_.size (); }
+
+  /** \brief The file for a frame: that of the nearest stamp if it is less than half a frame period away; else nothing.
+   */
+  std::optional<std::string> file (double stamp) const;
+
+  /** \brief Read the mask for a frame; nothing if there is none.
+   * \throws IoError naming the file, if it is damaged, is no mask, or has another size than the depth */
+  std::optional<Image<std::uint16_t>> read (double stamp) const;
+
+  /** \brief Lines about what is odd: files that match no frame, or whose names have no number; two of one number. */
+  const std::vector<std::string>& warnings () const { return warnings_; }
+
+private:
+  double half_period_;
+  int width_;
+  int height_;
+  std::vector<double> stamps_; // ascending
+  std::vector<std::string> paths_;
   std::vector<std::string> warnings_;
 };
 

@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 #include <pcl/cosection/common/export.h>
@@ -22,11 +21,12 @@ struct StampedPose
 /** \brief Read a trajectory in the format of the TUM RGB-D benchmark: a line "stamp tx ty tz qx qy qz qw" per pose;
  * empty lines and lines that begin with # are skipped. Quaternions are normalised.
  * \return by ascending stamps
- * \throws IoError if the file cannot be read, has no pose, a line that is none, or a stamp twice; the message names the
- * line */
+ * \throws IoError if the file cannot be read, has no pose, a line that cannot be read, or a stamp twice; the message
+ * names the line */
 PCL_COSECTION_EXPORT std::vector<StampedPose> loadTrajectory (const std::string& path);
 
-/** \brief Write one in the same format; stamps that are whole numbers without a decimal point. \throws IoError */
+/** \brief Write a trajectory in the format that loadTrajectory () reads; stamps that are whole numbers without a
+ * decimal point. \throws IoError */
 PCL_COSECTION_EXPORT void saveTrajectory (const std::vector<StampedPose>& poses, const std::string& path);
 
 } // namespace pcl::cosection

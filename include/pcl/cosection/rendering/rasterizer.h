@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 #include <pcl/cosection/common/camera.h>
@@ -15,8 +14,8 @@ namespace pcl::cosection
 /** \brief What the rasteriser writes for each pixel; row by row, width * height entries. */
 struct PCL_COSECTION_EXPORT RasterImage
 {
-  int width = 0;
-  int height = 0;
+  int width = 0;            ///< pixels
+  int height = 0;           ///< pixels
   std::vector<float> depth; ///< metres along the optical axis; NaN: nothing hit
   std::vector<Eigen::Vector3f>
       normals;                   ///< sensor frame, unit, towards the camera's side of the triangle; zero: nothing
@@ -45,10 +44,14 @@ public:
              const std::array<std::uint8_t, 3>& colour = {200, 200, 200});
 
   /** \brief Draw points as squares of \a size_px pixels; their normal faces the camera.
-   * \param[in] colours empty, or one per point */
+   * \param[in] points metres, world frame
+   * \param[in] colours empty, or one per point
+   * \param[in] id written where a point is seen
+   * \param[in] size_px edge of the squares */
   void drawPoints (const std::vector<Eigen::Vector3f>& points, const std::vector<std::array<std::uint8_t, 3>>& colours,
                    int id, int size_px = 2);
 
+  /** \brief What was drawn so far. */
   const RasterImage& image () const { return image_; }
 
 private:

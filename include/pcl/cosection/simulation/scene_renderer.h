@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 #include <pcl/cosection/common/export.h>
@@ -14,15 +13,20 @@ namespace pcl::cosection
 /** \brief A scene as the camera sees it at a time. */
 struct PCL_COSECTION_EXPORT SimulatedFrame
 {
-  Eigen::Isometry3d T_world_camera = Eigen::Isometry3d::Identity ();
-  Picture colour;
+  Eigen::Isometry3d T_world_camera = Eigen::Isometry3d::Identity (); ///< pose of the camera, metres
+  Picture colour;                                                    ///< what the camera sees, shaded
   Image<float> depth;                   ///< metres along the optical axis, without noise; NaN: nothing
   Image<std::uint16_t> mask;            ///< id of the body; 0: the background, or nothing
   std::vector<Eigen::Vector3f> normals; ///< unit, sensor frame, one per pixel; zero: nothing
 };
 
 /** \brief Renders a scene: what the camera sees is found by a rasteriser, analytic shapes are then met where their
- * signed distance is zero, to less than 0.01 mm along the ray. Several threads may render with one renderer. */
+ * signed distance is zero, to less than 0.01 mm along the ray. Several threads may render with one renderer.
+ *
+ * \code
+ * const SceneRenderer renderer (loadSceneSpec ("scene.json"));
+ * const SimulatedFrame frame = renderer.render (0.0); // depth, colour, mask, normals
+ * \endcode */
 class PCL_COSECTION_EXPORT SceneRenderer
 {
 public:

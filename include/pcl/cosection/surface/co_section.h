@@ -1,11 +1,10 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 #include <pcl/cosection/common/camera.h>
+#include <pcl/cosection/common/error.h>
 #include <pcl/cosection/common/export.h>
 #include <pcl/cosection/common/oriented_point.h>
-#include <pcl/cosection/common/progress.h>
 #include <pcl/cosection/common/triangle_mesh.h>
 #include <pcl/cosection/surface/options.h>
 #include <pcl/cosection/surface/solver.h>
@@ -34,25 +33,27 @@ struct PCL_COSECTION_EXPORT ObjectInput
 /** \brief A completed object. */
 struct PCL_COSECTION_EXPORT ObjectResult
 {
-  int id = 0;
+  int id = 0;        ///< as it was given
   std::string error; ///< empty, or why there is no mesh
   TriangleMesh mesh; ///< closed, object frame
   /** \brief If asked for: closed, object frame. The hull is all that may be the object: what no view saw free, above
-   * support planes, as far as it hangs together with the object's points and lies no farther from them than the longest
+   * support planes, as far as it is connected with the object's points and lies no farther from them than the longest
    * side of their box (in the object's volume if there are no views or no background, a padding is given, or memory
    * allows no more). It shrinks as views are added, also with their points, but for noise. The inner bound is where
-   * measured surfaces vouch for matter, a layer of three voxels behind them; the outer bound is the mesh and the hull.
+   * measured surfaces imply matter, a layer of three voxels behind them; the outer bound is the mesh and the hull.
    * Up to a quarter of a voxel, inner_bound lies inside mesh, and mesh inside outer_bound; both are right to about a
    * voxel and a half at sharp edges. */
-  TriangleMesh hull, inner_bound, outer_bound;
+  TriangleMesh hull;
+  TriangleMesh inner_bound;                 ///< as \a hull says
+  TriangleMesh outer_bound;                 ///< as \a hull says
   SignedDistanceField::Ptr signed_distance; ///< object frame
   std::size_t outlier_points = 0;           ///< left out, because they are a few and far from the others
-  /** \brief Of its points that a view sees or looks through, the share of the latter, for the view of which it is
-   * largest (of many views, one in twenty may be worse): wrong poses and motion make it so. Told by
-   * CoSection::reconstruct () where seen free space is used. */
+  /** \brief Share in [0, 1] of the points that a view looks through, among those that it sees or looks through, for the
+   * view with the largest share (of many views, one in twenty may be worse). Wrong poses and motion make it large.
+   * CoSection::reconstruct () sets it where seen free space is used. */
   double contradicted_share = 0.0;
-  /** \brief Of an object around which nothing is known, the plane on which it seems to have stood, world frame, n.x + d
-   * = 0, unit n towards it: guessed from where it ends, or how it is open. It bounds the mesh. */
+  /** \brief The plane on which an object seems to have stood around which nothing is known, world frame, n.x + d = 0,
+   * unit n towards it: inferred from where it ends, or how it is open. It bounds the mesh. */
   std::optional<Eigen::Vector4d> guessed_plane;
   SolverSummary solver;       ///< of the last pass; its iterations are those of all passes at full resolution
   double penetration_m = 0.0; ///< deepest place of its surface in supported parts of another body
@@ -62,9 +63,9 @@ struct PCL_COSECTION_EXPORT ObjectResult
 struct PCL_COSECTION_EXPORT BackgroundResult
 {
   SignedDistanceField::Ptr signed_distance; ///< world frame
-  SolverSummary solver;
-  double
-      solved_share = 1.0; ///< of its voxels that were solved; less where an update found the others as they have to be
+  SolverSummary solver;                     ///< what the solver did
+  /** \brief Share of its voxels that were solved: less than 1 where an update left the others as they were. */
+  double solved_share = 1.0;
 };
 
 /** \brief Everything CoSection::reconstruct () computes. */
@@ -76,7 +77,7 @@ struct PCL_COSECTION_EXPORT SceneResult
   std::vector<Eigen::Vector4d>
       planes; ///< support planes used: unit normal n towards the objects, n.x + d = 0, world frame
   std::map<std::string, double> timings_s; ///< data_term, constraints, solve, mesh
-  std::vector<std::string> warnings;
+  std::vector<std::string> warnings;       ///< one line each
 };
 
 /** \brief What a view is used for. */
@@ -111,7 +112,9 @@ public:
   /** \throws InvalidArgument */
   explicit CoSection (const CoSectionOptions& options = {});
   ~CoSection ();
+  /** \brief Takes over what the other one has. */
   CoSection (CoSection&&) noexcept;
+  /** \brief Takes over what the other one has. */
   CoSection& operator= (CoSection&&) noexcept;
 
   /** \brief Add a depth view of the whole scene; what lies in front of its readings is free.
@@ -119,10 +122,13 @@ public:
    * \throws InvalidArgument if the camera is not valid or the depth has another size */
   int addView (DepthView view);
 
-  /** \brief The same, with the poses at this view of objects that move: of those that were added, and of those that
-   * will be. Objects that are not named are where they have been if they have no poses, and unknown at this view if
-   * they have.
-   * \param[in] T_world_object by id */
+  /** \brief Add a depth view with the poses of objects that move: of those that were added, and of those that will be.
+   * Objects that are not named are where they have been if they have no poses, and unknown at this view if they have.
+   * \param[in] view a depth image of the whole scene
+   * \param[in] T_world_object by id, metres
+   * \param[in] use what the view is used for
+   * \return its index, as the other addView ()
+   * \throws InvalidArgument if the view is not valid, or a pose not finite */
   int addView (DepthView view, const std::map<int, Eigen::Isometry3d>& T_world_object, ViewUse use = ViewUse::Full);
 
   /** \brief Give up views, and the points that were added since each of them and before the next. Those that remain are
@@ -138,7 +144,7 @@ public:
   /** \brief Points of everything that is not an object, world frame; replaces earlier ones. */
   void setBackground (std::vector<OrientedPoint> points);
 
-  /** \brief More of them. */
+  /** \brief Add points of what is not an object to the earlier ones, world frame. */
   void addBackground (const std::vector<OrientedPoint>& points);
 
   /** \throws InvalidArgument if the id is not positive or already there */
@@ -155,21 +161,24 @@ public:
   void addSupportPlane (const Eigen::Vector4d& plane);
 
   /** \brief Another body that objects cannot enter, at one or many poses relative to the world.
+   * \param[in] body signed distance in the frame of the body, one value per voxel
    * \param[in] T_body_world takes points of the world to the frame of the body: the inverse of the body's pose
    * \throws InvalidArgument if the field does not have one value per voxel, or a pose is not finite */
   void addObstacle (SignedDistanceField::ConstPtr body,
                     const std::vector<Eigen::Isometry3d>& T_body_world = {Eigen::Isometry3d::Identity ()});
 
-  /** \brief The same, given as a mesh: closed, or open as the boundary of what lies behind it (sampleSignedDistance
+  /** \brief Add an obstacle that is given as a mesh: closed, or open as the boundary of what lies behind it
+   * (sampleSignedDistance
    * ()).
    * \throws InvalidArgument if the mesh bounds nothing */
   void addObstacle (TriangleMesh body,
                     const std::vector<Eigen::Isometry3d>& T_body_world = {Eigen::Isometry3d::Identity ()});
 
-  /** \brief Run from the start; if there were updates, with voxels at the places that they have given them. One failing
-   * object (degenerate, too large for the memory allowed ...) does not lose the others: see ObjectResult::error; a
-   * background that fails is a warning.
-   * \throws Cancelled */
+  /** \brief Complete everything from the start, whatever update () has left. An object that fails (degenerate, too
+   * large for the memory allowed ...) does not lose the others: see ObjectResult::error. A background that fails is a
+   * warning.
+   * \return meshes and signed distances of all objects, and of the background
+   * \throws Cancelled if \a progress asks for it */
   SceneResult reconstruct (const ProgressCallback& progress = {}) const;
 
   /** \brief Run on what was added since the last time: measurements are gathered once, and every shape starts from the
@@ -183,7 +192,6 @@ public:
   void forgetUpdates ();
 
 private:
-  friend class CoSectionRun;
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };

@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 #include <pcl/cosection/common/export.h>
@@ -13,7 +12,7 @@ namespace pcl::cosection
 /** \brief How the measurements at a voxel are combined. */
 enum class Weighting
 {
-  Mean, ///< divided by the number of points in reach: bounded whatever the number of views
+  Mean, ///< divided by the number of points within the cut-off: bounded whatever the number of views
   Sum,  ///< equation (2) as printed
 };
 
@@ -24,16 +23,17 @@ enum class HullDistance
   OneVoxel, ///< the paper's lower bound
 };
 
+/** \brief How the energy is minimised. */
 enum class SolverType
 {
-  Multigrid,
-  FastJacobi,
+  Multigrid,  ///< semismooth Newton method with conjugate gradients, preconditioned by a V-cycle
+  FastJacobi, ///< the paper's optimiser, coarse to fine
 };
 
 /** \brief Parameters of the minimisation. */
 struct PCL_COSECTION_EXPORT SolverOptions
 {
-  SolverType type = SolverType::Multigrid;
+  SolverType type = SolverType::Multigrid; ///< of the solver
   int max_iterations = 60;         ///< per level: multigrid cycles (Fast Jacobi: cycles of \a cycle_length sweeps)
   double tolerance_vox = 0.03;     ///< stop this close to the solution, root mean square near the zero set
   double peak_tolerance_vox = 0.0; ///< and this close at every voxel there, which takes longer; 0: no such limit
@@ -49,7 +49,7 @@ struct PCL_COSECTION_EXPORT CoSectionOptions
   int resolution = 0; ///< voxels along the longest observed side; 0: 64, but fewer where the points' spacing does not
                       ///< support them; more where a vessel's wall needs it
   /** \brief Volume beyond the observed box on each side, as a fraction of its longest side; 0: as far as the
-   * extent prior lets the shape reach, or 0.3 without views, hull constraint or that prior. */
+   * extent prior lets the shape extend, or 0.3 without views, hull constraint or that prior. */
   double padding = 0.0;
   double background_voxel_size_m = 0.0; ///< 0: twice the smallest object voxel that is asked for, or that points'
                                         ///< spacing supports; see also \a whole_background
@@ -58,23 +58,22 @@ struct PCL_COSECTION_EXPORT CoSectionOptions
   bool use_intersection = true;     ///< E_inter, equation (5)
   bool use_planes = true;           ///< find support planes in the background and continue them under the objects
   bool use_extent_prior = true;     ///< remedy for swelling: a weak pull outside where nothing suggests the object
-  bool use_symmetric_extent = true; ///< part of the extent prior: hidden parts reach as far as those seen do, see
-                                    ///< SymmetricExtent
+  bool use_symmetric_extent = true; ///< part of the extent prior: hidden parts extend as far as those seen do
   bool use_contact_prior = true;    ///< let objects that come down to a support plane rest on it where that is hidden
-  bool carve_free_space = true;     ///< with the hull: cut the result along the silhouettes, finer than a voxel
-  bool revise_votes = true;         ///< free space can be revised by contradicting evidence
+  bool carve_free_space = true; ///< with the hull: cut the result along the outlines seen by views, finer than a voxel
+  bool revise_votes = true;     ///< free space can be revised by contradicting evidence
   bool intersect_solved = true; ///< neighbours act through their optimised fields (false: through their data alone, the
                                 ///< paper)
 
-  double alpha = 0.005;        ///< weight of the Hessian, per voxel units: metric value times h^4
-  double beta_hull = 0.01;     ///< weight of the hull constraint
-  double beta_inter = 0.04;    ///< weight of the intersection constraint
-  double beta_extent = 0.001;  ///< weight of the pull that prevents swelling
-  double beta_contact = 0.007; ///< weight of the contact with a support plane
-  double sigma_vox = 1.0;      ///< width of a point's Gaussian; cut off at three times it
-  double max_bound_vox = 5.0;  ///< cap of the intersection distance, and reach of evidence behind data
-  Weighting weighting = Weighting::Mean;
-  HullDistance hull_distance = HullDistance::Exact;
+  double alpha = 0.005;                  ///< weight of the Hessian, per voxel units: metric value times h^4
+  double beta_hull = 0.01;               ///< weight of the hull constraint
+  double beta_inter = 0.04;              ///< weight of the intersection constraint
+  double beta_extent = 0.001;            ///< weight of the pull that prevents swelling
+  double beta_contact = 0.007;           ///< weight of the contact with a support plane
+  double sigma_vox = 1.0;                ///< width of a point's Gaussian; cut off at three times it
+  double max_bound_vox = 5.0;            ///< cap of the intersection distance, and of the evidence behind data
+  Weighting weighting = Weighting::Mean; ///< of the data term
+  HullDistance hull_distance = HullDistance::Exact; ///< d_hull
 
   /** \brief Complete all of the background, not only what is near objects: with voxels of 2 cm unless given, smaller in
    * small scenes and larger where there would be more than 256^3. */
@@ -89,8 +88,8 @@ struct PCL_COSECTION_EXPORT CoSectionOptions
   std::size_t min_points = 1;       ///< objects with fewer are not completed
   int max_passes = 5;               ///< simultaneous passes over all objects, at half and at full resolution each
   std::size_t max_memory_bytes = 0; ///< 0: no limit
-  SolverOptions solver;
-  int threads = 0; ///< 0: all
+  SolverOptions solver;             ///< of the minimisation; its threads are those below
+  int threads = 0;                  ///< 0: all
 
   /** \brief The parameters of the publication. */
   static CoSectionOptions paper ();

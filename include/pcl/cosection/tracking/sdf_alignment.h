@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 #include <pcl/cosection/common/export.h>
@@ -10,6 +9,7 @@
 
 #include <cstddef>
 #include <memory>
+#include <string>
 #include <vector>
 
 namespace pcl::cosection
@@ -52,13 +52,15 @@ PCL_COSECTION_EXPORT const char* describe (SdfAlignmentStop stop);
 /** \brief What SdfAlignment found. */
 struct PCL_COSECTION_EXPORT SdfAlignmentResult
 {
+  /** \brief Translation first, then rotation. */
   using Vector6d = Eigen::Matrix<double, 6, 1>;
+  /** \brief Translation first, then rotation. */
   using Matrix6d = Eigen::Matrix<double, 6, 6>;
 
-  Eigen::Isometry3d T_grid_sensor = Eigen::Isometry3d::Identity ();
-  bool converged = false;
-  SdfAlignmentStop stop = SdfAlignmentStop::TooFewPoints;
-  int iterations = 0; ///< steps tried
+  Eigen::Isometry3d T_grid_sensor = Eigen::Isometry3d::Identity (); ///< the pose, metres
+  bool converged = false;                                           ///< stop is Converged
+  SdfAlignmentStop stop = SdfAlignmentStop::TooFewPoints;           ///< why it ended
+  int iterations = 0;                                               ///< steps tried
 
   std::size_t points = 0;               ///< finite, of positive weight, and drawn
   std::size_t points_with_distance = 0; ///< of them: within the volume, where it has been seen
@@ -89,11 +91,13 @@ public:
    * value per voxel */
   SdfTarget (const SignedDistanceField& field); // NOLINT: conversion is its purpose
 
+  /** \brief Distances; those without weight or support say nothing. */
   const SignedDistanceField& field () const { return *field_; }
 
   /** \brief One per voxel; null: all are 1. */
   const std::vector<float>* weights () const { return weights_; }
 
+  /** \brief The largest weight that a voxel may have. */
   double maxWeight () const { return max_weight_; }
 
   /** \brief Default of SdfAlignmentOptions::huber_m. */
@@ -139,13 +143,17 @@ public:
   /** \throws InvalidArgument as SdfAlignmentOptions::validate () */
   explicit SdfAlignment (const SdfAlignmentOptions& options = {});
   ~SdfAlignment ();
+  /** \brief Takes over what the other one has. */
   SdfAlignment (SdfAlignment&& other) noexcept;
+  /** \brief Takes over what the other one has. */
   SdfAlignment& operator= (SdfAlignment&& other) noexcept;
 
+  /** \brief The options of the constructor. */
   const SdfAlignmentOptions& options () const;
 
   /** \param[in] points metres, sensor frame; those that are not finite are left out
    * \param[in] weights one per point, or none: 1; what is not positive and finite counts as 0
+   * \param[in] target the volume
    * \param[in] guess T_grid_sensor to begin with, metres
    * \throws InvalidArgument if there is not one weight per point, the guess is not a finite rigid motion, or the volume
    * has more voxels than an int can count. Points that determine no pose are no error: see SdfAlignmentResult::stop. */
@@ -155,6 +163,62 @@ public:
 private:
   struct Impl;
   std::unique_ptr<Impl> impl_;
+};
+
+/** \brief The volume, options and last result of SdfRegistration and SdfTracker, which do not depend on the type of
+ * their points.
+ *
+ * A setter that cannot use what it gets says why through PCL's console, changes nothing and returns false. */
+class PCL_COSECTION_EXPORT SdfAlignmentBase
+{
+public:
+  /** \brief Set all parameters at once. */
+  bool setOptions (const SdfAlignmentOptions& options);
+
+  /** \brief The parameters, as setOptions () and setNumberOfThreads () left them. */
+  const SdfAlignmentOptions& getOptions () const { return options_; }
+
+  /** \brief Set the number of threads; 0 (default): all processors. The result does not depend on it. */
+  void setNumberOfThreads (unsigned int threads = 0);
+
+  /** \brief Why the last alignment ended, how well points fit, and which directions they determine. */
+  const SdfAlignmentResult& getAlignment () const { return result_; }
+
+protected:
+  /** \param[in] name of the class, for messages: "cosection::SdfTracker" */
+  explicit SdfAlignmentBase (const char* name) : name_ (name) {}
+
+  ~SdfAlignmentBase () = default;
+
+  /** \brief Set a volume as the target; where \a surface is not null, it must have a surface, and points on it are
+   * returned there. \return false, with a message, if the volume is null or has no surface although it must */
+  bool setTarget (const TsdfVolume::ConstPtr& volume, std::vector<Eigen::Vector3f>* surface = nullptr);
+
+  /** \brief Set another field as the target; \a surface as for a volume. \return false, with a message, if the field is
+   * null, has not one value per voxel, or has no surface although it must */
+  bool setTarget (const SignedDistanceField::ConstPtr& field, std::vector<Eigen::Vector3f>* surface = nullptr);
+
+  /** \brief Whether there is a target. */
+  bool hasTarget () const { return volume_ || field_; }
+
+  /** \brief What was set as the target. */
+  SdfTarget target () const { return volume_ ? SdfTarget (*volume_) : SdfTarget (*field_); }
+
+  /** \brief Fill the result by SdfAlignment::align (). \return false, with a message, if there is no target, or the
+   * input or an option is not valid; the result is empty then */
+  bool alignPoints (const SdfAlignmentOptions& options, const std::vector<Eigen::Vector3f>& points,
+                    const std::vector<float>& weights, const Eigen::Isometry3d& guess);
+
+  /** \brief Say what is wrong, through PCL's console. */
+  void report (const char* function, const std::string& error) const;
+
+  SdfAlignmentResult result_; ///< of the last alignment
+
+private:
+  const char* name_;
+  SdfAlignmentOptions options_;
+  TsdfVolume::ConstPtr volume_;
+  SignedDistanceField::ConstPtr field_;
 };
 
 } // namespace pcl::cosection

@@ -1,12 +1,10 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 #include <pcl/cosection/common/camera.h>
 #include <pcl/cosection/common/export.h>
 #include <pcl/cosection/common/triangle_mesh.h>
 #include <pcl/cosection/evaluation/run_evaluation.h>
-#include <pcl/cosection/evaluation/scene_folders.h>
 #include <pcl/cosection/io/rgbd_sequence.h>
 
 #include <cstddef>
@@ -29,7 +27,8 @@ enum class SurfaceMode
 /** \brief How far the vertices of an object's surfaces are from the truth, metres; empty: not known. */
 struct PCL_COSECTION_EXPORT VertexErrors
 {
-  std::vector<double> completed, tsdf;
+  std::vector<double> completed; ///< of the completed mesh
+  std::vector<double> tsdf;      ///< of what was seen
 };
 
 /** \brief What there is to show of a run: where everything was at each frame, and its surfaces. */
@@ -38,7 +37,7 @@ struct PCL_COSECTION_EXPORT RunScene
   /** \brief Where the vertex errors of the background are. */
   static constexpr int background = PairPenetration::background;
 
-  std::string folder;
+  std::string folder;                 ///< that was read
   SceneRecord run;                    ///< poses and completed meshes; intrinsics if the summary has them
   std::map<int, TriangleMesh> tsdf;   ///< what was seen, by object; object frame
   std::map<int, VertexErrors> errors; ///< by object; see measureErrors ()
@@ -54,7 +53,8 @@ struct PCL_COSECTION_EXPORT RunScene
   std::optional<Eigen::Isometry3d> cameraAt (double stamp) const;
 
   /** \brief T_world_object likewise; nothing where the object is not known, which is not shown then.
-   * \param[in] object of run.objects */
+   * \param[in] object of run.objects
+   * \param[in] stamp seconds, or the number of a frame */
   std::optional<Eigen::Isometry3d> poseAt (const SceneRecord::Object& object, double stamp) const;
 
   /** \brief The mesh of an object, or of the \a background; empty: there is none, or the mode is Points. */
@@ -76,7 +76,9 @@ struct PCL_COSECTION_EXPORT RunSceneOptions
 
 /** \brief Read what a run wrote: as readRun (), and mesh/object_ID_tsdf.ply, and of summary.json the camera, the
  * dataset and the objects' classes. Nothing is written.
+ * \param[in] folder of the run
  * \param[out] notes what is missing or cannot be read
+ * \param[in] options how much of it
  * \throws IoError naming the folder: it is not there, is a dataset or something else, or the run failed or did not come
  * to its end */
 PCL_COSECTION_EXPORT RunScene loadRunScene (const std::string& folder, ReadingNotes& notes,
@@ -84,13 +86,15 @@ PCL_COSECTION_EXPORT RunScene loadRunScene (const std::string& folder, ReadingNo
 
 /** \brief Set the distance of every vertex to the truth: errors, and error_max_m, 95 % of them rounded up. What matches
  * nothing true has no errors.
+ * \param[in,out] scene the run
+ * \param[in] truth of the scene
  * \param[in] evaluation of scene.run with that truth, as evaluateRun () returns it
  * \param[in] threads 0: all */
 PCL_COSECTION_EXPORT void measureErrors (RunScene& scene, const SceneRecord& truth, const RunEvaluation& evaluation,
                                          int threads = 0);
 
-/** \brief As above, with an evaluation that is as quick as can be. \return its warnings \throws DegenerateInput as
- * evaluateRun () */
+/** \brief Evaluate the run as quickly as can be, and set the distance of every vertex to the truth. \return its
+ * warnings \throws DegenerateInput as evaluateRun () */
 PCL_COSECTION_EXPORT std::vector<std::string> measureErrors (RunScene& scene, const SceneRecord& truth,
                                                              int threads = 0);
 

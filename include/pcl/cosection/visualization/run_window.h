@@ -1,11 +1,9 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 #include <pcl/cosection/common/export.h>
 #include <pcl/cosection/visualization/run_scene.h>
 #include <pcl/cosection/visualization/scene_picture.h>
-#include <pcl/cosection/visualization/viewpoint.h>
 
 #include <cstddef>
 #include <functional>
@@ -25,26 +23,26 @@ PCL_COSECTION_EXPORT std::shared_ptr<void> requireDisplay ();
 /** \brief A scene in the place of the one that a window shows. */
 struct PCL_COSECTION_EXPORT SceneUpdate
 {
-  RunScene scene;
+  RunScene scene;                     ///< what is shown from now on
   std::optional<SurfaceMode> surface; ///< to show from now on; nothing: as before
 };
 
 /** \brief What a window shows first, and where it may write. */
 struct PCL_COSECTION_EXPORT RunWindowOptions
 {
-  std::string title = "pcl_cosection";
-  SceneView view; ///< size, modes and parts; nothing as viewpoint: it follows the camera
-  std::size_t first_frame = 0;
+  std::string title = "pcl_cosection";           ///< of the window
+  SceneView view;                                ///< size, modes and parts; nothing as viewpoint: it follows the camera
+  std::size_t first_frame = 0;                   ///< that is shown, from 0
   std::string dataset;                           ///< of the input points; empty: the one that the run names
   std::string viewpoint_file = "viewpoint.json"; ///< that the key v writes; empty: it refuses to
-  std::string
-      picture_prefix = "window_";  ///< of the pictures that the key p writes, beside a number and .png; empty: likewise
+  /** \brief Begin of the names of pictures that the key p writes, before a number and .png; empty: no pictures. */
+  std::string picture_prefix = "window_";
   double frames_per_second = 30.0; ///< when playing
   /** \brief Called some five times a second: a scene that is new, or nothing. */
   std::function<std::optional<SceneUpdate> ()> newScene;
   std::function<bool ()> stop; ///< called likewise: whether to close the window
   std::function<void (const std::string& line)>
-      said;        ///< told what changed, in a line: "frame 3 of 12", "wrote view.json"
+      said;        ///< called with what changed, in a line: "frame 3 of 12", "wrote view.json"
   int threads = 0; ///< for signed distances; 0: all
 
   /** \brief \throws InvalidArgument naming the first parameter outside its domain. */

@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 #include <pcl/cosection/common/export.h>
@@ -24,13 +23,21 @@ namespace pcl::cosection
  * - <em>Open parts</em> (a wall of one quadrilateral, a bin without a lid) are the boundary of matter behind
  *   them: their normals point to free space. They say something only within \a band_m and where the nearest
  *   point is not on their rim, nor on an edge where more than two triangles meet or two disagree. \a supported
- *   tells where that is; where it is 0, the value only continues what is nearby. A mesh of both kinds is
+ *   is 1 there; where it is 0, the value only continues what is nearby. A mesh of both kinds is
  *   supported inside and within \a band_m of closed parts as well.
  *
  * Vertices of equal coordinates are taken as one. Triangles that lie back to back, as where two bodies share a
  * face, and closed parts without any volume bound nothing and are left out. One part that intersects itself
  * has no defined sign near the intersection. The result is the same for any number of threads.
  * O (triangles log triangles + voxels near the surface * log triangles).
+ *
+ * \code
+ * VoxelGrid grid;
+ * grid.dims.setConstant (64);
+ * grid.voxel_size_m = 0.005;
+ * const auto body = std::make_shared<SignedDistanceField> (sampleSignedDistance (mesh, grid, 0.05));
+ * imls.addObstacle (body);
+ * \endcode
  *
  * \param[in] mesh triangles counter-clockwise from outside, in the grid's frame
  * \param[in] grid where to sample

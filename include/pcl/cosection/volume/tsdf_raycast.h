@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 #include <pcl/cosection/common/camera.h>
@@ -16,9 +15,10 @@
 namespace pcl::cosection
 {
 
+/** \brief How raycast () looks at volumes. */
 struct PCL_COSECTION_EXPORT RaycastOptions
 {
-  int stride = 1;                                                ///< every so manieth pixel along rows and columns
+  int stride = 1;                                                ///< between pixels along rows and columns
   bool normals = false;                                          ///< beside depths
   bool weights = false;                                          ///< beside depths
   double max_depth_m = std::numeric_limits<double>::infinity (); ///< surfaces beyond are not seen
@@ -31,10 +31,10 @@ struct PCL_COSECTION_EXPORT RaycastOptions
 /** \brief A volume as a part of a scene. */
 struct PCL_COSECTION_EXPORT RaycastBody
 {
-  const TsdfVolume* volume = nullptr;
-  Eigen::Isometry3d
-      T_grid_sensor = Eigen::Isometry3d::Identity (); ///< the sensor's pose in the frame of the volume's grid
-  std::uint16_t id = 0;                               ///< by custom, 0 is the background
+  const TsdfVolume* volume = nullptr; ///< must be set, and live as long as this is used
+  // The sensor's pose in the frame of the volume's grid.
+  Eigen::Isometry3d T_grid_sensor = Eigen::Isometry3d::Identity ();
+  std::uint16_t id = 0;         ///< by custom, 0 is the background
   bool foreground_only = false; ///< rays pass surfaces whose foreground probability is not known to be above 1/2
 };
 
@@ -74,7 +74,8 @@ struct PCL_COSECTION_EXPORT RaycastImage
 PCL_COSECTION_EXPORT RaycastImage raycast (const std::vector<RaycastBody>& bodies, const PinholeCamera& camera,
                                            const RaycastOptions& options = {});
 
-/** \brief As above, of one volume, with the id 0. */
+/** \brief What a camera would see of one volume, whose id is 0.
+ * \throws InvalidArgument as for many */
 PCL_COSECTION_EXPORT RaycastImage raycast (const TsdfVolume& volume, const PinholeCamera& camera,
                                            const Eigen::Isometry3d& T_grid_sensor, const RaycastOptions& options = {});
 

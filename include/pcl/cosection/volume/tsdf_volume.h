@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 #include <pcl/cosection/common/camera.h>
@@ -7,7 +6,6 @@
 #include <pcl/cosection/common/image.h>
 #include <pcl/cosection/common/triangle_mesh.h>
 #include <pcl/cosection/volume/signed_distance_field.h>
-#include <pcl/cosection/volume/trilinear_cell.h>
 
 #include <Eigen/Geometry>
 
@@ -21,6 +19,7 @@
 namespace pcl::cosection
 {
 
+/** \brief How TsdfVolume averages. */
 struct PCL_COSECTION_EXPORT TsdfOptions
 {
   double truncation_vox = 10.0; ///< distances are cut off at this many voxels; thinner bodies come out thicker
@@ -38,8 +37,8 @@ struct PCL_COSECTION_EXPORT TsdfPixels
 {
   const Image<float>* weights = nullptr;        ///< >= 0, instead of 1; NaN: 0
   const Image<std::uint16_t>* labels = nullptr; ///< only pixels of \a label are integrated
-  std::uint16_t label = 0;
-  const Picture* colours = nullptr; ///< taken if the volume has colour
+  std::uint16_t label = 0;                      ///< of the pixels that are integrated, where there are labels
+  const Picture* colours = nullptr;             ///< taken if the volume has colour
 };
 
 /** \brief A truncated signed distance volume: the running average of what depth images say about the distance to the
@@ -74,7 +73,9 @@ struct PCL_COSECTION_EXPORT TsdfPixels
 class PCL_COSECTION_EXPORT TsdfVolume
 {
 public:
+  /** \brief Shared pointer. */
   using Ptr = std::shared_ptr<TsdfVolume>;
+  /** \brief Shared pointer to what is constant. */
   using ConstPtr = std::shared_ptr<const TsdfVolume>;
 
   /** \brief An empty volume. \throws InvalidArgument as estimateBytes () */
@@ -88,7 +89,9 @@ public:
 
   /** \brief Average a depth image in. O (voxels in the frustum up to the farthest reading + pixels).
    * \param[in] depth metres along the optical axis; not finite or not positive: no reading
+   * \param[in] camera of the image
    * \param[in] T_grid_sensor pose of the sensor in the grid's frame; it may be within the volume
+   * \param[in] pixels what else is known of the pixels
    * \throws InvalidArgument if the camera is not valid, an image is not of its size, or the pose is not a finite rigid
    * motion; nothing was changed then */
   void integrate (const Image<float>& depth, const PinholeCamera& camera, const Eigen::Isometry3d& T_grid_sensor,
@@ -96,8 +99,7 @@ public:
 
   /** \brief Average in that space is free, from pixels of other labels than the volume's: voxels more than the
    * truncation distance in front of their readings come nearer to that distance. Others, also those beside what the
-   * readings show, learn nothing.
-   * \param[in] labels pixels of \a label are left out
+   * readings show, learn nothing. Pixels of \a label in \a labels are left out.
    * \throws InvalidArgument as integrate () */
   void integrateFreeSpace (const Image<float>& depth, const PinholeCamera& camera,
                            const Eigen::Isometry3d& T_grid_sensor, const Image<std::uint16_t>& labels,
@@ -160,11 +162,13 @@ public:
   /** \brief Truncated distances, metres; NaN where the weight is 0. */
   const SignedDistanceField& field () const { return field_; }
 
+  /** \brief Where the voxels are. */
   const VoxelGrid& grid () const { return field_.grid; }
 
   /** \brief One per voxel. */
   const std::vector<float>& weights () const { return weights_; }
 
+  /** \brief The options of the constructor. */
   const TsdfOptions& options () const { return options_; }
 
   double truncation () const ///< metres

@@ -1,0 +1,39 @@
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <pcl/cosection/common/image.h>
+#include <pcl/cosection/io/pcd_view.h>
+
+#include <Eigen/Core>
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace pcl::cosection
+{
+
+/** \brief The points of an organised PCD file. */
+struct OrganizedCloud
+{
+  int width = 0;
+  int height = 0;
+  std::vector<Eigen::Vector3f> points; ///< row by row, sensor frame, metres; NaN: no reading
+  Picture picture;                     ///< the colours; empty if the file has none
+  bool moved = false; ///< those of the file are in another frame, in which the sensor was found (locateCamera ())
+};
+
+/** \brief Read an organised PCD file; of the options, the scale, the frame of the points and the memory count.
+ * \throws IoError if the file is not a well formed PCD file with x, y and z, or not organised (HEIGHT 1)
+ * \throws DegenerateInput if it holds no finite point
+ * \throws MemoryLimitExceeded, InvalidArgument as readPcdView () */
+OrganizedCloud readOrganizedCloud (const std::string& path, const PcdViewOptions& options = {});
+
+/** \brief Write a copy of a PCD file with other labels: width, height, order, viewpoint and the other fields stay; the
+ * field label is replaced, or added as the last one. The copy is binary_compressed.
+ * \param[in] labels one per point
+ * \throws IoError naming the file that cannot be read or written \throws InvalidArgument if the number of labels is
+ * wrong */
+void copyWithLabels (const std::string& input, const std::vector<std::uint32_t>& labels, const std::string& output);
+
+} // namespace pcl::cosection
