@@ -38,8 +38,8 @@ requireFrames (const RgbdSequence& images, const FusionOptions& options)
   const Image<std::uint8_t>& ignored = options.ignored;
   const PinholeCamera& camera = images.camera ();
   if (!ignored.pixels.empty () && (ignored.width != camera.width || ignored.height != camera.height))
-    throw InvalidArgument ("the ignored pixels fill an image of " + std::to_string (ignored.width) + " x " +
-                           std::to_string (ignored.height) + ", those of the sequence one of " +
+    throw InvalidArgument ("the image of ignored pixels has " + std::to_string (ignored.width) + " x " +
+                           std::to_string (ignored.height) + " pixels; the images of the sequence have " +
                            std::to_string (camera.width) + " x " + std::to_string (camera.height));
   if (frames.first >= std::min (frames.last, images.size ()))
     throw InvalidArgument ("the frames from " + std::to_string (frames.first) +

@@ -160,8 +160,7 @@ pruneObjects (double stamp, const std::map<std::uint16_t, double>& mean_probabil
     }
     else if (object.isTracked () && mean != mean_probability.end () && mean->second < options.min_association)
     {
-      log.add (stamp, "object ", id, " is given up: its pixels are its own with a probability of ", mean->second,
-               " only");
+      log.add (stamp, "object ", id, " is given up: its pixels belong to it with a probability of only ", mean->second);
       wrong.push_back (id);
     }
     else if (object.frames_not_tracked > frames_until_dormant)

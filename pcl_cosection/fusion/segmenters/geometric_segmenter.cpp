@@ -60,7 +60,7 @@ try
 }
 catch (const DegenerateInput& error)
 {
-  return {std::nullopt, std::string ("no objects are looked for: ") + error.what ()};
+  return {std::nullopt, std::string ("no objects are searched for: ") + error.what ()};
 }
 
 } // namespace pcl::cosection

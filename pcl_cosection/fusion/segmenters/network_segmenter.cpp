@@ -20,7 +20,7 @@ NetworkSegmenter::segment (const ObservedFrame& frame)
 {
   const Picture& picture = frame.images.colour;
   if (picture.pixels.empty ())
-    return {std::nullopt, "there are frames without colour, in which the network finds nothing"};
+    return {std::nullopt, "frames without colour: the network finds no objects in them"};
   const std::vector<DetectedInstance> detected = detector_.detect (picture);
   InstanceLabels labelled = labelInstances (detected, picture.width, picture.height, roles_);
   FrameInstances found;

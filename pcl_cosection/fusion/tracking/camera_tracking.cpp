@@ -76,7 +76,7 @@ estimateCamera (const FrameCloud& cloud, const SceneModels& scene, const CameraS
   pose.T_model_camera = guess;
   if (points.size () < min_points)
   {
-    pose.rejection_reason = "there are hardly any readings";
+    pose.rejection_reason = "too few depth readings";
     return estimate;
   }
   pose.tracked.points = points;
@@ -137,7 +137,7 @@ trackCamera (const RgbdFrame& frame, const FrameCloud& cloud, const std::optiona
 {
   if (static_cast<double> (cloud.readings) < min_readings_share * static_cast<double> (cloud.points.size ()))
   {
-    log.add (frame.stamp, "there are hardly any readings: ", cloud.readings);
+    log.add (frame.stamp, "too few depth readings: ", cloud.readings);
     return {lost (std::move (before)), false, 0.0};
   }
   CameraEstimate estimate;

@@ -222,7 +222,7 @@ findObject (const FrameCloud& cloud, const std::vector<Eigen::Vector3f>& points,
                                          tolerance_voxels * volume.grid ().voxel_size_m);
   const SdfAlignmentResult& result = estimate.alignment;
   if (result.points_with_distance < std::max (min_object_points, points.size () / 2))
-    estimate.rejection_reason = "most points are where its model knows nothing";
+    estimate.rejection_reason = "most points are outside the known part of its model";
   else if (result.inlier_share < min_found_confirmed)
     estimate.rejection_reason = toText ("only ", 100.0 * result.inlier_share, " % of the points fit");
   else if (estimate.visibility.confirmedShare () < min_found_confirmed ||

@@ -45,7 +45,7 @@ rejectionReason (const SdfAlignmentResult& result, const Eigen::Isometry3d& pose
   const double shift = (pose * centre - guess * centre).norm ();
   const double turn = Eigen::AngleAxisd (guess.linear ().transpose () * pose.linear ()).angle ();
   if (shift > limits.max_shift_m * frames_passed || turn > limits.max_turn_rad * frames_passed)
-    return toText ("it would have jumped by ", shift, " m and ", turn * 180.0 / M_PI, " degrees");
+    return toText ("the pose would jump by ", shift, " m and ", turn * 180.0 / M_PI, " degrees");
   return "";
 }
 

@@ -136,7 +136,7 @@ public:
   /** \brief Numbers of all objects that were found so far and not given up as wrong. */
   std::set<int> foundObjects () const;
 
-  /** \brief What was seen of an object, its frame; empty if there is none. */
+  /** \brief Surface of an object as it was seen, object frame; empty without an object of that number. */
   TriangleMesh surfaceMesh (int id) const;
 
   /** \brief What an object is, by the detections of it; nothing if there is no object of that number, or no segmenter

@@ -33,7 +33,7 @@ struct PCL_COSECTION_EXPORT Keyframe
   std::map<int, std::vector<OrientedPoint>> points; ///< by instance, 0 the background; sensor frame
 };
 
-/** \brief The depth of a frame as a view of the scene; readings beyond the largest depth are left out. */
+/** \brief The depth of a frame as a view of the scene, without readings beyond the largest depth. */
 PCL_COSECTION_EXPORT DepthView makeDepthView (const Image<float>& depth, const PinholeCamera& camera,
                                               const Eigen::Isometry3d& T_world_camera,
                                               const KeyframeOptions& options = {});
