@@ -92,7 +92,7 @@ distanceToTriangle (const Eigen::Vector3d& p, const Eigen::Vector3d& a, const Ei
   return (std::min ({distanceToSegment (p, a, b), distanceToSegment (p, b, c), distanceToSegment (p, c, a)}));
 }
 
-MeshDistance::MeshDistance (const TriangleMesh& mesh)
+ExactMeshDistance::ExactMeshDistance (const TriangleMesh& mesh)
 {
   triangles_.reserve (mesh.triangles.size ());
   for (const TriangleMesh::Triangle& t : mesh.triangles)
@@ -103,7 +103,7 @@ MeshDistance::MeshDistance (const TriangleMesh& mesh)
 }
 
 std::uint32_t
-MeshDistance::build (std::uint32_t begin, std::uint32_t end)
+ExactMeshDistance::build (std::uint32_t begin, std::uint32_t end)
 {
   const auto index = static_cast<std::uint32_t> (nodes_.size ());
   Node node;
@@ -129,7 +129,7 @@ MeshDistance::build (std::uint32_t begin, std::uint32_t end)
 }
 
 double
-MeshDistance::operator() (const Eigen::Vector3d& p) const
+ExactMeshDistance::operator() (const Eigen::Vector3d& p) const
 {
   double best = std::numeric_limits<double>::infinity ();
   std::vector<std::uint32_t> open;

@@ -20,10 +20,10 @@ double distanceToTriangle (const Eigen::Vector3d& p, const Eigen::Vector3d& a, c
                            const Eigen::Vector3d& c);
 
 /** \brief Exact distances of points to a mesh, by a binary tree of boxes. */
-class MeshDistance
+class ExactMeshDistance
 {
 public:
-  explicit MeshDistance (const TriangleMesh& mesh);
+  explicit ExactMeshDistance (const TriangleMesh& mesh);
 
   /** \brief Infinite for an empty mesh. */
   double operator() (const Eigen::Vector3d& p) const;

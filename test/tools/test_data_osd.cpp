@@ -171,7 +171,7 @@ measure (const Scene& scene, const std::vector<Eigen::Vector3d>& points, const T
   result.closed = computeTopology (mesh).closed_manifold;
   result.voxel_size_m = voxel_size_m;
 
-  const MeshDistance distance (mesh);
+  const ExactMeshDistance distance (mesh);
   std::vector<double> distances;
   for (const Eigen::Vector3d& p : points)
     distances.push_back (distance (p));

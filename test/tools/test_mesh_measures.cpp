@@ -36,7 +36,7 @@ TEST (MeshMeasures, DistanceToTriangleInEveryRegion)
 TEST (MeshMeasures, DistanceToMeshEqualsBruteForce)
 {
   const TriangleMesh mesh = torusMesh (1.0, 0.3, 48, 24);
-  const MeshDistance distance (mesh);
+  const ExactMeshDistance distance (mesh);
   std::mt19937 random (1);
   std::uniform_real_distribution<double> uniform (-2.0, 2.0);
   for (int i = 0; i < 500; ++i)
@@ -50,7 +50,7 @@ TEST (MeshMeasures, DistanceToMeshEqualsBruteForce)
     EXPECT_EQ (distance (p), expected);
     EXPECT_NEAR (expected, std::abs (std::hypot (std::hypot (p.x (), p.y ()) - 1.0, p.z ()) - 0.3), 0.006);
   }
-  EXPECT_TRUE (std::isinf (MeshDistance (TriangleMesh ()) ({0, 0, 0})));
+  EXPECT_TRUE (std::isinf (ExactMeshDistance (TriangleMesh ()) ({0, 0, 0})));
 }
 
 TEST (MeshMeasures, SamplesAreUniformByArea)
@@ -58,7 +58,7 @@ TEST (MeshMeasures, SamplesAreUniformByArea)
   const TriangleMesh box = boxMesh ({0, 0, 0}, {4, 1, 1});
   const std::vector<Eigen::Vector3d> samples = sampleByArea (box, 20000, 7);
   ASSERT_EQ (samples.size (), 20000u);
-  const MeshDistance distance (box);
+  const ExactMeshDistance distance (box);
   Eigen::Vector3d mean = Eigen::Vector3d::Zero ();
   int top = 0;
   for (const Eigen::Vector3d& p : samples)

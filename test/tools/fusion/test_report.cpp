@@ -321,7 +321,8 @@ TEST_F (Report, ObjectsAreCalledByTheirClasses)
   writeFile (file ("out/summary.json"), summary.dump ());
   const auto names = [this] (const Words& arguments) {
     Words list;
-    for (const nlohmann::json& object : data (page (arguments))["objects"])
+    const nlohmann::json report = data (page (arguments));
+    for (const nlohmann::json& object : report["objects"])
       list.push_back (object["name"]);
     return (list);
   };
