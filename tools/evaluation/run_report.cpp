@@ -108,7 +108,7 @@ print (const RunEvaluation& run, const SceneRecord& truth, const RunSettings& se
                        " mm inside each other at " + toShortText (pair.stamp) +
                        (pair.volume_m3 ? ", " + inMillilitres (*pair.volume_m3) + " ml" : ""));
   for (const int id : run.unmatched)
-    terminal.result ("object " + std::to_string (id) + " is none of the true objects");
+    terminal.result ("object " + std::to_string (id) + " matches no true object");
   for (const int id : run.missed)
     terminal.result ("true object " + trueName (truth, id) + " was not found");
   for (const ObjectEvaluation& o : run.objects)
