@@ -2,7 +2,6 @@
 // Copyright (c) 2026, the pcl_cosection authors
 #pragma once
 
-#include <pcl/cosection/common/export.h>
 #include <pcl/cosection/common/oriented_point.h>
 #include <pcl/cosection/volume/signed_distance_field.h>
 
@@ -24,7 +23,7 @@ namespace pcl::cosection
  * the plane between them was seen free. Below the convex hull of K and K' (of K alone otherwise), where there is
  * observed surface or its copy above, the object is taken to lie on the plane. The result is a set of voxels next to
  * the plane at which u = -height is to be preferred, with a weight far below that of data. */
-struct PCL_COSECTION_EXPORT ContactPrior
+struct ContactPrior
 {
   double contact_height_vox = 2.5; ///< points this near to the plane are contact
   double max_slope = 0.7;          ///< largest |n.plane| of the normal n of a point of contact

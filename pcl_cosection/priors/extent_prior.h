@@ -4,7 +4,6 @@
 
 #include "pcl_cosection/priors/shape/symmetric_extent.h"
 #include <pcl/cosection/common/camera.h>
-#include <pcl/cosection/common/export.h>
 #include <pcl/cosection/common/oriented_point.h>
 #include <pcl/cosection/volume/signed_distance_field.h>
 
@@ -16,7 +15,7 @@ namespace pcl::cosection
 
 /** \brief How large an object appears: extents of its points (1st to 99th percentile) along their
  * principal axes, metres, largest first. Zero for no points. */
-PCL_COSECTION_EXPORT Eigen::Vector3d observedExtents (const std::vector<OrientedPoint>& points, int threads = 0);
+Eigen::Vector3d observedExtents (const std::vector<OrientedPoint>& points, int threads = 0);
 
 /** \brief Remedy for swelling: a distance that a voxel should keep from the object because nothing
  * suggests that the object reaches it.
@@ -37,7 +36,7 @@ PCL_COSECTION_EXPORT Eigen::Vector3d observedExtents (const std::vector<Oriented
  * that region, less max (\a symmetric_margin e2, \a least_depth e2 - e3), e2 and e3 the middle and the smallest
  * observed extent: of a thing of which one flat face was seen, the region is that face. Voxels that something else
  * hides are left out. The larger bound counts. */
-struct PCL_COSECTION_EXPORT ExtentPrior
+struct ExtentPrior
 {
   double depth_factor = 0.75;     ///< of the middle observed extent
   double occluded_factor = 0.5;   ///< of the middle observed extent

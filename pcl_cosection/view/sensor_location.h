@@ -2,8 +2,6 @@
 // Copyright (c) 2026, the pcl_cosection authors
 #pragma once
 
-#include <pcl/cosection/common/export.h>
-
 #include <Eigen/Core>
 
 #include <vector>
@@ -25,6 +23,6 @@ namespace pcl::cosection
  * width at the distance of the points
  *
  * O (points); deterministic. */
-PCL_COSECTION_EXPORT std::vector<Eigen::Vector3d> locateSensor (const std::vector<Eigen::Vector3f>& points);
+std::vector<Eigen::Vector3d> locateSensor (const std::vector<Eigen::Vector3f>& points);
 
 } // namespace pcl::cosection

@@ -2,7 +2,6 @@
 // Copyright (c) 2026, the pcl_cosection authors
 #pragma once
 
-#include <pcl/cosection/common/export.h>
 #include <pcl/cosection/common/image.h>
 
 #include <cstddef>
@@ -13,7 +12,7 @@ namespace pcl::cosection
 {
 
 /** \brief Which instances of a mask show which objects. */
-struct PCL_COSECTION_EXPORT MaskMatches
+struct MaskMatches
 {
   std::map<std::uint16_t, std::uint16_t> object_of;     ///< by instance, of those that match
   std::map<std::uint16_t, std::size_t> instance_pixels; ///< of all instances, that have a reading
@@ -27,7 +26,7 @@ struct PCL_COSECTION_EXPORT MaskMatches
  * \param[in] depth pixels without a reading do not count
  * \param[in] min_iou must be exceeded
  * \throws InvalidArgument if the images have not the same size */
-PCL_COSECTION_EXPORT MaskMatches matchMasks (const Image<std::uint16_t>& mask, const Image<std::uint16_t>& rendered,
-                                             const Image<float>& depth, double min_iou);
+MaskMatches matchMasks (const Image<std::uint16_t>& mask, const Image<std::uint16_t>& rendered,
+                        const Image<float>& depth, double min_iou);
 
 } // namespace pcl::cosection

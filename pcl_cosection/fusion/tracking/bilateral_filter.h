@@ -2,13 +2,12 @@
 // Copyright (c) 2026, the pcl_cosection authors
 #pragma once
 
-#include <pcl/cosection/common/export.h>
 #include <pcl/cosection/common/image.h>
 
 namespace pcl::cosection
 {
 
-struct PCL_COSECTION_EXPORT BilateralFilterOptions
+struct BilateralFilterOptions
 {
   int window_px = 7;           ///< edge of the square window, odd
   double sigma_depth_m = 0.04; ///< readings that differ by three times as much are not mixed at all
@@ -30,7 +29,6 @@ struct PCL_COSECTION_EXPORT BilateralFilterOptions
  * C. Tomasi, R. Manduchi, "Bilateral Filtering for Gray and Color Images", ICCV 1998. O (pixels * window^2).
  * \param[in] depth metres; not finite or not positive: no reading, which it stays, with the same value
  * \throws InvalidArgument if an option is not valid or the image has not as many pixels as its size says */
-PCL_COSECTION_EXPORT Image<float> bilateralFilter (const Image<float>& depth,
-                                                   const BilateralFilterOptions& options = {});
+Image<float> bilateralFilter (const Image<float>& depth, const BilateralFilterOptions& options = {});
 
 } // namespace pcl::cosection

@@ -2,7 +2,6 @@
 // Copyright (c) 2026, the pcl_cosection authors
 #pragma once
 
-#include <pcl/cosection/common/export.h>
 #include <pcl/cosection/common/oriented_point.h>
 
 #include <Eigen/Geometry>
@@ -44,7 +43,7 @@ using WallColumn = std::vector<OrientedPoint>;
  * The plausible region is the convex hull of S and its copy, as the intersection of half spaces { x : n_k.x <= s_k }
  * of fixed directions n_k and of those in which large parts of the surface face; s_k is the largest n_k.p of all
  * points p, but for 0.2 %, and of their copies. */
-class PCL_COSECTION_EXPORT SymmetricExtent
+class SymmetricExtent
 {
 public:
   /** \brief Inverted through a point. \param[in] points the object's, of one frame

@@ -25,7 +25,8 @@ struct PCL_COSECTION_EXPORT RaycastOptions
   double max_depth_m = std::numeric_limits<double>::infinity (); ///< surfaces beyond are not seen
   int threads = 0;                                               ///< 0: all; no result depends on it
 
-  /** \brief \throws InvalidArgument if \a stride or the depth is not positive, or \a threads is negative. */
+  /** \brief Check all values. \throws InvalidArgument if \a stride or the depth is not positive, or \a threads is
+   * negative. */
   void validate () const;
 };
 
