@@ -6,7 +6,8 @@
 #include "run_penetration.h"
 #include "scene_visibility.h"
 
-#include "pcl_cosection/evaluation/surface_distance.h"
+#include "rigid_alignment.h"
+#include "surface_distance.h"
 #include <pcl/cosection/common/error.h>
 
 #include <algorithm>

@@ -2,6 +2,7 @@
 // Copyright (c) 2026, the pcl_cosection authors
 #include "frame_context.h"
 
+#include "pcl_cosection/fusion/mapping/object_tsdf.h"
 #include "pcl_cosection/sequence/stamp_matching.h"
 #include <pcl/cosection/common/image.h>
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <pcl/cosection/fusion/dynamic_fusion.h>
+#include <pcl/cosection/fusion/frame_segmenter.h>
 #include <pcl/cosection/simulation/simulated_scene.h>
 
 #include <functional>
