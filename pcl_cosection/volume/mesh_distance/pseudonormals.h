@@ -4,6 +4,7 @@
 
 #include "triangle_tree.h"
 
+#include <pcl/cosection/common/export.h>
 #include <pcl/cosection/common/triangle_mesh.h>
 
 #include <cstdint>
@@ -13,7 +14,7 @@ namespace pcl::cosection
 {
 
 /** \brief On which side of a mesh a point is, by its nearest point (Baerentzen, Aanaes, TVCG 2005). */
-class Pseudonormals
+class PCL_COSECTION_EXPORT Pseudonormals
 {
 public:
   explicit Pseudonormals (const TriangleMesh& mesh);
