@@ -23,7 +23,11 @@ packages=(
   libgtest-dev
   libbenchmark-dev
   chromium
+  clang-format
+  clang-tidy
   doxygen
+  git
+  python3
   xvfb
   xdotool
 )

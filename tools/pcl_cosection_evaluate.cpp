@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 // Compares reconstructed meshes, trajectories and whole runs with the truth; see pcl_cosection_evaluate --help.
 
 #include "arguments.h"

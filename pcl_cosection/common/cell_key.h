@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 #include <Eigen/Core>
@@ -24,6 +23,14 @@ cellOf (const Eigen::Vector3d& place)
   return CellIndex (place.array ().floor ().cast<std::int64_t> ());
 }
 
+/** \brief The cell \a n, from 0 to 26, of those that are at most one cell away along each axis; 13: itself. */
+inline CellIndex
+neighbourOf (const CellIndex& cell, int n)
+{
+  return cell + CellIndex (n % 3 - 1, n / 3 % 3 - 1, n / 9 - 1);
+}
+
+/** \brief A different number for each cell that is not farther away than farthest_cell. */
 inline std::uint64_t
 keyOf (const CellIndex& cell)
 {

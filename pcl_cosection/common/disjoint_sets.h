@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 #include <cstddef>
@@ -36,6 +35,26 @@ public:
     if (b < a)
       std::swap (a, b);
     parent_[b] = a;
+  }
+
+  /** \brief The number of each element's set, in the order of their first elements.
+   * \param[in] counts (element): whether it has a number, else -1; the same for all of a set */
+  template <typename Counts> std::vector<int> numbers (Counts&& counts)
+  {
+    std::vector<int> numbers (parent_.size (), -1);
+    int next = 0;
+    for (std::size_t i = 0; i < numbers.size (); ++i)
+      if (counts (i))
+      {
+        const std::size_t first = find (i);
+        numbers[i] = first == i ? next++ : numbers[first];
+      }
+    return numbers;
+  }
+
+  std::vector<int> numbers ()
+  {
+    return numbers ([] (std::size_t) { return true; });
   }
 
 private:

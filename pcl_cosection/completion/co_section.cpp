@@ -1,8 +1,7 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include <pcl/cosection/surface/co_section.h>
 
-#include "co_section_run.h"
+#include "complete_scene.h"
 
 #include <pcl/cosection/common/error.h>
 #include <pcl/cosection/volume/mesh_distance.h>
@@ -13,6 +12,12 @@
 
 namespace pcl::cosection
 {
+
+struct CoSection::Impl
+{
+  Scene scene;
+  SceneState state; // between calls of update ()
+};
 
 namespace
 {
@@ -34,24 +39,10 @@ unknownPose ()
 
 } // namespace
 
-ObjectInput*
-CoSection::Impl::find (int id)
-{
-  const auto found = std::find_if (objects.begin (), objects.end (),
-                                   [id] (const ObjectInput& object) { return object.id == id; });
-  return found == objects.end () ? nullptr : &*found;
-}
-
-void
-CoSection::Impl::countBatch (int id, std::size_t points)
-{
-  batches[id].push_back ({static_cast<int> (views.size ()) - 1, points});
-}
-
 CoSection::CoSection (const CoSectionOptions& options) : impl_ (new Impl)
 {
   options.validate ();
-  impl_->options = options;
+  impl_->scene.options = options;
 }
 
 CoSection::~CoSection () = default;
@@ -68,30 +59,30 @@ int
 CoSection::addView (DepthView view, const std::map<int, Eigen::Isometry3d>& T_world_object, ViewUse use)
 {
   view.validate ();
-  const std::size_t before = impl_->views.size ();
+  const std::size_t before = impl_->scene.views.size ();
   for (const auto& [id, T] : T_world_object)
   {
-    const bool at_rest = impl_->find (id) != nullptr; // until now
-    impl_->poses[id].resize (before, at_rest ? Eigen::Isometry3d::Identity () : unknownPose ());
+    const bool at_rest = impl_->scene.find (id) != nullptr; // in all earlier views
+    impl_->scene.poses[id].resize (before, at_rest ? Eigen::Isometry3d::Identity () : unknownPose ());
   }
-  for (auto& [id, poses] : impl_->poses)
+  for (auto& [id, poses] : impl_->scene.poses)
   {
     const auto named = T_world_object.find (id);
     poses.push_back (named == T_world_object.end () ? unknownPose () : named->second);
-    if (ObjectInput* object = impl_->find (id))
+    if (ObjectInput* object = impl_->scene.find (id))
       object->T_world_object = poses;
   }
-  impl_->views.push_back ({std::move (view), use});
+  impl_->scene.views.push_back ({std::move (view), use});
   return static_cast<int> (before);
 }
 
 void
 CoSection::removeViews (const std::vector<bool>& remove)
 {
-  if (remove.size () != impl_->views.size ())
-    throw InvalidArgument ("there are " + std::to_string (impl_->views.size ()) + " views, not " +
+  if (remove.size () != impl_->scene.views.size ())
+    throw InvalidArgument ("there are " + std::to_string (impl_->scene.views.size ()) + " views, not " +
                            std::to_string (remove.size ()));
-  std::vector<int> number (remove.size ()); // those that remain
+  std::vector<int> number (remove.size ()); // new numbers of the remaining views
   for (std::size_t v = 0, next = 0; v < remove.size (); ++v)
     number[v] = remove[v] ? -1 : static_cast<int> (next++);
   const auto compact = [&] (auto& per_view) {
@@ -107,14 +98,14 @@ CoSection::removeViews (const std::vector<bool>& remove)
       }
     per_view.resize (next);
   };
-  compact (impl_->views);
-  for (auto& [id, poses] : impl_->poses)
+  compact (impl_->scene.views);
+  for (auto& [id, poses] : impl_->scene.poses)
     compact (poses);
-  for (ObjectInput& object : impl_->objects)
+  for (ObjectInput& object : impl_->scene.objects)
     compact (object.T_world_object);
-  for (auto& [id, batches] : impl_->batches)
+  for (auto& [id, batches] : impl_->scene.batches)
   {
-    std::vector<OrientedPoint>& points = id == 0 ? impl_->background : impl_->find (id)->points;
+    std::vector<OrientedPoint>& points = id == 0 ? impl_->scene.background : impl_->scene.find (id)->points;
     std::vector<OrientedPoint> left;
     std::vector<PointBatch> left_batches;
     auto begin = points.begin ();
@@ -131,37 +122,37 @@ CoSection::removeViews (const std::vector<bool>& remove)
     points = std::move (left);
     batches = std::move (left_batches);
   }
-  for (auto& [id, body] : impl_->memory.objects)
+  for (auto& [id, body] : impl_->state.objects)
     body.readAgain ();
-  impl_->memory.background.readAgain ();
+  impl_->state.background.readAgain ();
 }
 
 void
 CoSection::removeObject (int id)
 {
-  auto& objects = impl_->objects;
+  auto& objects = impl_->scene.objects;
   objects.erase (
       std::remove_if (objects.begin (), objects.end (), [id] (const ObjectInput& object) { return object.id == id; }),
       objects.end ());
-  impl_->poses.erase (id);
-  impl_->memory.objects.erase (id);
+  impl_->scene.poses.erase (id);
+  impl_->state.objects.erase (id);
   if (id != 0)
-    impl_->batches.erase (id);
+    impl_->scene.batches.erase (id);
 }
 
 void
 CoSection::setBackground (std::vector<OrientedPoint> points)
 {
-  impl_->background = std::move (points);
-  impl_->batches[0] = {{-1, impl_->background.size ()}};
-  impl_->memory.background = {};
+  impl_->scene.background = std::move (points);
+  impl_->scene.batches[0] = {{-1, impl_->scene.background.size ()}};
+  impl_->state.background = {};
 }
 
 void
 CoSection::addBackground (const std::vector<OrientedPoint>& points)
 {
-  impl_->background.insert (impl_->background.end (), points.begin (), points.end ());
-  impl_->countBatch (0, points.size ());
+  impl_->scene.background.insert (impl_->scene.background.end (), points.begin (), points.end ());
+  impl_->scene.countBatch (0, points.size ());
 }
 
 void
@@ -169,28 +160,28 @@ CoSection::addObject (ObjectInput object)
 {
   if (object.id <= 0)
     throw InvalidArgument ("object id is " + std::to_string (object.id) + "; it must be positive");
-  if (impl_->find (object.id))
+  if (impl_->scene.find (object.id))
     throw InvalidArgument ("object " + std::to_string (object.id) + " was added twice");
-  impl_->batches[object.id] = {{-1, object.points.size ()}};
-  impl_->objects.push_back (std::move (object));
+  impl_->scene.batches[object.id] = {{-1, object.points.size ()}};
+  impl_->scene.objects.push_back (std::move (object));
 }
 
 void
 CoSection::addPoints (int id, const std::vector<OrientedPoint>& points)
 {
-  ObjectInput* object = impl_->find (id);
+  ObjectInput* object = impl_->scene.find (id);
   if (!object)
   {
     ObjectInput fresh;
     fresh.id = id;
-    const auto poses = impl_->poses.find (id);
-    if (poses != impl_->poses.end ())
+    const auto poses = impl_->scene.poses.find (id);
+    if (poses != impl_->scene.poses.end ())
       fresh.T_world_object = poses->second;
     addObject (std::move (fresh));
-    object = impl_->find (id);
+    object = impl_->scene.find (id);
   }
   object->points.insert (object->points.end (), points.begin (), points.end ());
-  impl_->countBatch (id, points.size ());
+  impl_->scene.countBatch (id, points.size ());
 }
 
 void
@@ -199,7 +190,7 @@ CoSection::addSupportPlane (const Eigen::Vector4d& plane)
   const double norm = plane.head<3> ().stableNorm ();
   if (!(norm > 0.0) || !plane.allFinite ())
     throw InvalidArgument ("the coefficients of a plane must be finite and its normal not zero");
-  impl_->planes.push_back (plane / norm);
+  impl_->scene.planes.push_back (plane / norm);
 }
 
 void
@@ -209,7 +200,7 @@ CoSection::addObstacle (SignedDistanceField::ConstPtr body, const std::vector<Ei
       (!body->supported.empty () && body->supported.size () != body->grid.size ()))
     throw InvalidArgument ("a signed distance field must have one value per voxel");
   checkPoses (T_body_world);
-  impl_->bodies.push_back ({std::move (body), T_body_world});
+  impl_->scene.obstacles.push_back ({std::move (body), T_body_world});
 }
 
 void
@@ -220,26 +211,26 @@ CoSection::addObstacle (TriangleMesh body, const std::vector<Eigen::Isometry3d>&
   somewhere.dims.setConstant (2);
   somewhere.voxel_size_m = 1.0;
   sampleSignedDistance (body, somewhere, somewhere.voxel_size_m); // validates
-  impl_->meshes.push_back ({std::move (body), T_body_world});
+  impl_->scene.mesh_obstacles.push_back ({std::move (body), T_body_world});
 }
 
 SceneResult
 CoSection::reconstruct (const ProgressCallback& progress) const
 {
-  CoSectionMemory memory;
-  return CoSectionRun (*impl_, memory, progress).run ();
+  SceneState state;
+  return completeScene (impl_->scene, CompletionMode::Once, UpdateOutput::Meshes, progress, state);
 }
 
 SceneResult
 CoSection::update (UpdateOutput output, const ProgressCallback& progress)
 {
-  return CoSectionRun (*impl_, impl_->memory, progress, CoSectionRun::Mode::Follow).run (output);
+  return completeScene (impl_->scene, CompletionMode::Incremental, output, progress, impl_->state);
 }
 
 void
 CoSection::forgetUpdates ()
 {
-  impl_->memory = {};
+  impl_->state = {};
 }
 
 } // namespace pcl::cosection

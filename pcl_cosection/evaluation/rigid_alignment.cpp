@@ -1,11 +1,12 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "rigid_alignment.h"
 
 #include "pcl_cosection/common/parallel.h"
+#include "pcl_cosection/common/robust_weights.h"
 #include <pcl/cosection/common/error.h>
 
 #include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
 #include <Eigen/SVD>
 
 #include <algorithm>
@@ -76,8 +77,7 @@ public:
         continue;
       squares += distance * distance;
       count += 1.0;
-      const double ratio = distance / options_.max_distance_m;
-      const double weight = (1.0 - ratio * ratio) * (1.0 - ratio * ratio); // Tukey
+      const double weight = tukeyWeight (distance / options_.max_distance_m);
       Vector6d row;
       row << (p - motion * centre_).cross (nearest[n].normal) / radius_m_, nearest[n].normal;
       hessian += weight * row * row.transpose ();
@@ -124,23 +124,22 @@ alignPoints (const std::vector<Eigen::Vector3d>& target, const std::vector<Eigen
 {
   if (target.size () != source.size ())
     throw InvalidArgument ("alignPoints: there must be as many points of both");
-  const Eigen::Vector3d target_mean = meanOf (target), source_mean = meanOf (source);
-  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero ();
-  for (std::size_t n = 0; n < target.size (); ++n)
-    covariance += (target[n] - target_mean) * (source[n] - source_mean).transpose ();
-  const Eigen::JacobiSVD<Eigen::Matrix3d> svd (covariance, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  Eigen::Vector3d signs = Eigen::Vector3d::Ones ();
-  if (svd.matrixU ().determinant () * svd.matrixV ().determinant () < 0.0)
-    signs.z () = -1.0;
+  if (target.empty ())
+    return {Eigen::Isometry3d::Identity (), false};
+  PointAlignment result;
+  const auto count = static_cast<Eigen::Index> (target.size ());
+  const Eigen::Map<const Eigen::Matrix3Xd> to (target[0].data (), 3, count), from (source[0].data (), 3, count);
+  const Eigen::Vector3d to_mean = to.rowwise ().mean (), from_mean = from.rowwise ().mean ();
+  const Eigen::Matrix3d covariance = (to.colwise () - to_mean) * (from.colwise () - from_mean).transpose ();
+  const Eigen::Vector3d spread = covariance.jacobiSvd ().singularValues ();
   constexpr double on_a_line = 1e-6; // of the largest singular value
   constexpr double in_one_place_m2 = 1e-18;
-  const bool is_spread = svd.singularValues ()[0] > in_one_place_m2 * static_cast<double> (target.size ());
-  PointAlignment result;
-  result.determined = is_spread && svd.singularValues ()[1] > on_a_line * svd.singularValues ()[0];
-  // All in one place: no rotation is better than another, and none is the least surprising one.
+  const bool is_spread = spread[0] > in_one_place_m2 * static_cast<double> (count);
+  result.determined = is_spread && spread[1] > on_a_line * spread[0];
   if (is_spread)
-    result.T_target_source.linear () = svd.matrixU () * signs.asDiagonal () * svd.matrixV ().transpose ();
-  result.T_target_source.translation () = target_mean - result.T_target_source.linear () * source_mean;
+    result.T_target_source.matrix () = Eigen::umeyama (from, to, false);
+  else // no rotation is better than another, and the identity is the least surprising one
+    result.T_target_source.translation () = to_mean - from_mean;
   return result;
 }
 

@@ -1,8 +1,6 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <cmath>
 #include <cstddef>
 #include <sstream>
 #include <string>
@@ -11,7 +9,18 @@
 namespace pcl::cosection
 {
 
-/** \brief Lines about decisions; what it keeps is bounded. */
+/** \brief Words and numbers as one string, numbers with three digits. */
+template <typename... Parts>
+std::string
+toText (const Parts&... parts)
+{
+  std::ostringstream text;
+  text.precision (3);
+  (text << ... << parts);
+  return text.str ();
+}
+
+/** \brief Lines about decisions: the first hundred, then their number. */
 class EventLog
 {
 public:
@@ -24,9 +33,7 @@ public:
     }
     std::ostringstream text;
     text.precision (10);
-    text << "frame " << stamp << ": ";
-    text.precision (3);
-    (text << ... << parts);
+    text << "frame " << stamp << ": " << toText (parts...);
     lines_.push_back (text.str ());
   }
 

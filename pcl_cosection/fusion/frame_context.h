@@ -1,10 +1,10 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 #include <pcl/cosection/fusion/sequence_fusion.h>
 
 #include <chrono>
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -15,43 +15,42 @@
 namespace pcl::cosection
 {
 
-/** \brief What is known of the frames of a sequence, one after the other: given, or found out by tracking. */
+/** \brief The camera and the instances of a frame. */
+struct FrameKnowns
+{
+  std::optional<Eigen::Isometry3d> T_world_camera; ///< nothing: the frame is left out
+  /** \brief Id of the object per pixel, 0: background; empty: all is background. Nothing: it is not known. */
+  std::optional<Image<std::uint16_t>> instances;
+  bool masked = false; ///< a mask has part in the instances, or there are no masks at all
+};
+
+/** \brief Where poses and instances of frames come from: they are given, or found by tracking. */
 class FrameContext
 {
 public:
   virtual ~FrameContext () = default;
 
-  /** \brief Go on to a frame. \return T_world_camera; nothing: the frame is left out */
-  virtual std::optional<Eigen::Isometry3d> next (const RgbdFrame& frame) = 0;
+  /** \brief Go on to a frame. */
+  virtual FrameKnowns next (const RgbdFrame& frame) = 0;
 
-  /** \brief Instance of each pixel of the frame, 0: background, empty: all is. Nothing: they are not known. */
-  virtual const std::optional<Image<std::uint16_t>>& instances () const = 0;
+  /** \brief Map the objects in the frame, if that is not done yet.
+   * \param[in,out] keyframe loses the points of labels without an object; null: the frame is no keyframe
+   * \return T_world_object of the objects whose pose is known */
+  virtual CoSectionBackend::Poses mapObjects (const RgbdFrame& frame, const FrameKnowns& known, Keyframe* keyframe) = 0;
 
-  /** \brief Whether points may be taken from the frame. \param[in] overdue since how many frames they should be */
-  virtual bool isFitForKeyframe (std::size_t overdue) const = 0;
-
-  /** \brief Look at the points of the frame before they are used, with \a T_world_camera. */
-  virtual void look (Keyframe& keyframe) = 0;
-
-  /** \brief T_world_object of the objects that are known in the frame. */
-  virtual CoSectionBackend::Poses poses () const = 0;
-
-  /** \brief Numbers that keyframes had, of what turned out to be no object of its own. */
+  /** \brief Ids that keyframes had of what turned out to be no object of its own. */
   virtual std::set<int> wrongObjects () const { return {}; }
 
-  /** \brief Map what is seen of the objects, if that is not done. */
-  virtual void map (const RgbdFrame& frame, const Eigen::Isometry3d& T_world_camera) = 0;
+  /** \brief Surface of an object so far, object frame; empty without such an object. */
+  virtual TriangleMesh surfaceMesh (int id) const = 0;
 
-  /** \brief What was seen of an object so far, its frame; empty if nothing. */
-  virtual TriangleMesh seen (int id) const = 0;
-
-  /** \brief A few words for who waits; may be empty. */
-  virtual std::string status () const = 0;
+  /** \brief A few words for the progress; may be empty. */
+  virtual std::string status () const { return ""; }
 
   /** \brief Lines about masks that could not be read. */
   virtual std::vector<std::string> maskWarnings () const = 0;
 
-  /** \brief Add what is known beside the completion. */
+  /** \brief Add surfaces, times and messages. */
   virtual void finish (FusionResult& result) = 0;
 };
 
@@ -59,14 +58,14 @@ std::unique_ptr<FrameContext> makeKnownPoses (const KnownSequence& sequence, con
 
 std::unique_ptr<FrameContext> makeTrackedPoses (const TrackedSequence& sequence, const FusionOptions& options);
 
-/** \brief Reads masks, and remembers what was wrong with them. */
+/** \brief Reads masks, and collects warnings about them. */
 class MaskReader
 {
 public:
-  /** \param[in] masks null: there are none */
+  /** \param[in] masks null: no frame has one */
   explicit MaskReader (const MaskSequence* masks) : masks_ (masks) {}
 
-  /** \brief The mask of a frame; nothing if it has none or it is damaged. */
+  /** \brief The mask of a frame; nothing if it has none or the mask is damaged. */
   std::optional<Image<std::uint16_t>> read (const RgbdFrame& frame);
 
   std::vector<std::string> warnings () const;
@@ -77,14 +76,25 @@ private:
   std::size_t more_ = 0;
 };
 
-/** \brief Adds the time that something takes. */
-template <typename Function>
-void
-addSeconds (double& seconds, Function&& f)
+/** \brief Erase an object of a result. \param[in] completed erase its completion in any case, else only if it failed
+ * \return the next object */
+std::map<int, FusedObject>::iterator eraseObject (std::map<int, FusedObject>::iterator object, bool completed,
+                                                  FusionResult& result);
+
+/** \brief Adds the seconds of a scope. */
+class ScopedSeconds
 {
-  const auto start = std::chrono::steady_clock::now ();
-  f ();
-  seconds += std::chrono::duration<double> (std::chrono::steady_clock::now () - start).count ();
-}
+public:
+  explicit ScopedSeconds (double& seconds) : seconds_ (seconds) {}
+
+  ~ScopedSeconds () { seconds_ += std::chrono::duration<double> (std::chrono::steady_clock::now () - start_).count (); }
+
+  ScopedSeconds (const ScopedSeconds&) = delete;
+  ScopedSeconds& operator= (const ScopedSeconds&) = delete;
+
+private:
+  double& seconds_;
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now ();
+};
 
 } // namespace pcl::cosection

@@ -1,13 +1,11 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "frame_context.h"
 
 #include "pcl_cosection/fusion/mapping/object_tsdf.h"
 #include "pcl_cosection/sequence/stamp_matching.h"
-#include <pcl/cosection/common/image.h>
 
+#include <algorithm>
 #include <map>
-#include <set>
 
 namespace pcl::cosection
 {
@@ -15,50 +13,56 @@ namespace pcl::cosection
 namespace
 {
 
+using PosesByFrame = std::vector<std::optional<Eigen::Isometry3d>>;
+
+/** \brief An object of the masks, of a trajectory or of both. */
+struct KnownObject
+{
+  PosesByFrame T_world_object; ///< empty: it has no trajectory, and is at rest
+  bool seen = false;           ///< in a keyframe
+  std::optional<ObjectTsdf> tsdf;
+
+  /** \brief Its pose in a frame, if that is known. */
+  std::optional<Eigen::Isometry3d> pose (std::size_t frame) const
+  {
+    if (!T_world_object.empty ())
+      return T_world_object[frame];
+    return seen ? std::optional<Eigen::Isometry3d> (Eigen::Isometry3d::Identity ()) : std::nullopt;
+  }
+};
+
 /** \brief Poses and masks are given; TSDF volumes are made of the masked pixels. */
 class KnownPoses : public FrameContext
 {
 public:
   KnownPoses (const KnownSequence& sequence, const FusionOptions& options);
 
-  std::optional<Eigen::Isometry3d> next (const RgbdFrame& frame) override;
+  FrameKnowns next (const RgbdFrame& frame) override;
 
-  const std::optional<Image<std::uint16_t>>& instances () const override { return instances_; }
+  CoSectionBackend::Poses mapObjects (const RgbdFrame& frame, const FrameKnowns& known, Keyframe* keyframe) override;
 
-  bool isFitForKeyframe (std::size_t) const override { return instances_.has_value (); }
-
-  void look (Keyframe& keyframe) override;
-
-  /** \brief Those without a trajectory that were seen are at rest. */
-  CoSectionBackend::Poses poses () const override;
-
-  void map (const RgbdFrame& frame, const Eigen::Isometry3d& T_world_camera) override;
-
-  TriangleMesh seen (int id) const override
+  TriangleMesh surfaceMesh (int id) const override
   {
-    const auto found = tsdf_.find (id);
-    return found == tsdf_.end () || !found->second.volume () ? TriangleMesh ()
-                                                             : found->second.volume ()->surfaceMesh ();
+    const auto object = objects_.find (id);
+    return object == objects_.end () || !object->second.tsdf || !object->second.tsdf->volume ()
+               ? TriangleMesh ()
+               : object->second.tsdf->volume ()->surfaceMesh ();
   }
-
-  std::string status () const override { return ""; }
 
   std::vector<std::string> maskWarnings () const override { return masks_.warnings (); }
 
   void finish (FusionResult& result) override;
 
 private:
+  /** \brief Make room for the points of a keyframe. */
+  void placeVolumes (const Keyframe& keyframe, std::size_t frame);
+
   const KnownSequence& sequence_;
   const FusionOptions& options_;
   MaskReader masks_;
-  std::vector<std::optional<Eigen::Isometry3d>> camera_; // by frame
-  std::map<int, std::vector<std::optional<Eigen::Isometry3d>>> objects_;
-  std::set<int> at_rest_;
-  std::map<int, ObjectTsdf> tsdf_;
-  std::optional<Image<std::uint16_t>> instances_; // of the frame
-  bool saw_object_ = false;
-  std::size_t frame_ = 0;
-  std::size_t frames_with_pose_ = 0;
+  PosesByFrame T_world_camera_;
+  std::map<int, KnownObject> objects_;
+  std::size_t frames_ = 0;
   std::size_t frames_without_pose_ = 0;
   double segmentation_s_ = 0.0;
   double integration_s_ = 0.0;
@@ -71,81 +75,76 @@ KnownPoses::KnownPoses (const KnownSequence& sequence, const FusionOptions& opti
 {
   const std::vector<double> stamps = sequence.images->stamps ();
   const double period = sequence.images->period ();
-  camera_ = posesAtStamps (sequence.camera, stamps, period);
+  T_world_camera_ = posesAtStamps (sequence.camera, stamps, period);
   for (const auto& [id, trajectory] : sequence.objects)
-    objects_[id] = posesAtStamps (trajectory, stamps, period);
+    objects_[id].T_world_object = posesAtStamps (trajectory, stamps, period);
 }
 
-std::optional<Eigen::Isometry3d>
+FrameKnowns
 KnownPoses::next (const RgbdFrame& frame)
 {
-  frame_ = frame.index;
-  if (!camera_[frame_])
-  {
-    ++frames_without_pose_;
-    return std::nullopt;
-  }
-  ++frames_with_pose_;
-  addSeconds (segmentation_s_, [&] { instances_ = sequence_.masks ? masks_.read (frame) : Image<std::uint16_t> (); });
-  return camera_[frame_];
+  FrameKnowns known;
+  known.T_world_camera = T_world_camera_[frame.index];
+  known.masked = true;
+  ++frames_;
+  frames_without_pose_ += !known.T_world_camera;
+  const ScopedSeconds timer (segmentation_s_);
+  if (known.T_world_camera)
+    known.instances = sequence_.masks ? masks_.read (frame) : Image<std::uint16_t> ();
+  return known;
 }
 
 void
-KnownPoses::look (Keyframe& keyframe)
+KnownPoses::placeVolumes (const Keyframe& keyframe, std::size_t frame)
 {
-  keyframe.points.erase (ignored_label);
+  for (const auto& [id, points] : keyframe.points)
+    if (id != 0)
+      objects_[id].seen = true;
   for (const auto& [id, points] : keyframe.points)
   {
-    saw_object_ = saw_object_ || id != 0;
-    if (id != 0 && objects_.count (id) == 0)
-      at_rest_.insert (id);
-  }
-  const CoSectionBackend::Poses T_world_object = poses ();
-  for (const auto& [id, points] : keyframe.points)
-  {
-    const auto pose = T_world_object.find (id);
-    if (pose == T_world_object.end ())
+    const auto object = objects_.find (id);
+    const auto T_world_object = object == objects_.end () ? std::nullopt : object->second.pose (frame);
+    if (!T_world_object)
       continue;
     std::vector<OrientedPoint> local (points);
-    const Eigen::Isometry3d T_object_camera = pose->second.inverse () * keyframe.view.T_world_sensor;
+    const Eigen::Isometry3d T_object_camera = T_world_object->inverse () * keyframe.view.T_world_sensor;
     for (OrientedPoint& point : local)
       point.position = (T_object_camera * point.position.cast<double> ()).cast<float> ();
-    tsdf_.try_emplace (id, options_.tsdf).first->second.makeRoom (local);
+    if (!object->second.tsdf)
+      object->second.tsdf.emplace (options_.tsdf);
+    object->second.tsdf->makeRoom (local);
   }
 }
 
 CoSectionBackend::Poses
-KnownPoses::poses () const
+KnownPoses::mapObjects (const RgbdFrame& frame, const FrameKnowns& known, Keyframe* keyframe)
 {
+  if (keyframe)
+  {
+    keyframe->points.erase (ignored_label);
+    placeVolumes (*keyframe, frame.index);
+  }
   CoSectionBackend::Poses poses;
-  for (const int id : at_rest_)
-    poses[id] = Eigen::Isometry3d::Identity ();
-  for (const auto& [id, at_frames] : objects_)
-    if (at_frames[frame_])
-      poses[id] = *at_frames[frame_];
+  for (const auto& [id, object] : objects_)
+    if (const auto T_world_object = object.pose (frame.index))
+      poses[id] = *T_world_object;
+  if (!known.instances || known.instances->pixels.empty ())
+    return poses;
+  const ScopedSeconds timer (integration_s_);
+  for (const auto& [id, T_world_object] : poses)
+  {
+    std::optional<ObjectTsdf>& tsdf = objects_.at (id).tsdf;
+    if (!tsdf)
+      continue;
+    TsdfPixels pixels;
+    pixels.labels = &*known.instances;
+    pixels.label = static_cast<std::uint16_t> (id);
+    if (!frame.colour.pixels.empty ())
+      pixels.colours = &frame.colour;
+    tsdf->integrate (frame.depth, sequence_.images->camera (), T_world_object.inverse () * *known.T_world_camera,
+                     pixels);
+  }
   return poses;
-}
-
-void
-KnownPoses::map (const RgbdFrame& frame, const Eigen::Isometry3d& T_world_camera)
-{
-  if (!instances_ || instances_->pixels.empty ())
-    return;
-  addSeconds (integration_s_, [&] {
-    const CoSectionBackend::Poses T_world_object = poses ();
-    for (auto& [id, tsdf] : tsdf_)
-    {
-      const auto pose = T_world_object.find (id);
-      if (pose == T_world_object.end ())
-        continue;
-      TsdfPixels pixels;
-      pixels.labels = &*instances_;
-      pixels.label = static_cast<std::uint16_t> (id);
-      if (!frame.colour.pixels.empty ())
-        pixels.colours = &frame.colour;
-      tsdf.integrate (frame.depth, sequence_.images->camera (), pose->second.inverse () * T_world_camera, pixels);
-    }
-  });
 }
 
 void
@@ -153,17 +152,20 @@ KnownPoses::finish (FusionResult& result)
 {
   result.timings_s["segmentation"] += segmentation_s_;
   result.timings_s["integration"] += integration_s_;
-  for (auto& [id, tsdf] : tsdf_)
-    if (tsdf.volume ())
-      result.objects[id].tsdf = tsdf.volume ()->surfaceMesh ();
-  for (const int id : at_rest_)
-    result.warnings.push_back ("object " + std::to_string (id) +
-                               " of the masks has no trajectory: it is taken to be at rest");
+  for (const auto& [id, object] : objects_)
+  {
+    if (object.tsdf && object.tsdf->volume ())
+      result.objects[id].tsdf = object.tsdf->volume ()->surfaceMesh ();
+    if (object.T_world_object.empty ())
+      result.warnings.push_back ("object " + std::to_string (id) +
+                                 " of the masks has no trajectory: it is taken to be at rest");
+  }
   if (frames_without_pose_ > 0)
-    result.warnings.push_back (std::to_string (frames_without_pose_) + " of " +
-                               std::to_string (frames_without_pose_ + frames_with_pose_) +
+    result.warnings.push_back (std::to_string (frames_without_pose_) + " of " + std::to_string (frames_) +
                                " frames were left out: the camera's trajectory has no pose for them");
-  if (sequence_.masks && result.objects.empty () && !saw_object_)
+  const bool saw_object = std::any_of (objects_.begin (), objects_.end (),
+                                       [] (const auto& object) { return object.second.seen; });
+  if (sequence_.masks && result.objects.empty () && !saw_object)
     result.warnings.push_back ("the masks show no object in any keyframe");
   for (const auto& [id, trajectory] : sequence_.objects)
     if (result.objects[id].points == 0)

@@ -1,9 +1,9 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include <pcl/cosection/fusion/sequence_fusion.h>
 
-#include "frame_check.h"
 #include "frame_context.h"
+#include "pcl_cosection/sequence/stamp_matching.h"
+#include "pcl_cosection/sequence/stamp_span.h"
 
 #include <pcl/cosection/common/error.h>
 #include <pcl/cosection/fusion/co_section_backend.h>
@@ -28,272 +28,263 @@ namespace
 constexpr double frames_share = 0.5; // of the progress; the rest is the last solution
 constexpr std::size_t min_object_points = 100;
 constexpr std::size_t status_every = 10;           // frames
-constexpr std::chrono::milliseconds patience (50); // until a cancellation is heard
+constexpr std::chrono::milliseconds patience (50); // until a cancellation is noticed
 
-/** \brief One execution of SequenceFusion::run (). */
-class FusionRun
+/** \brief Check what is known before any frame is read. \throws InvalidArgument if there is no frame in the range, or
+ * the ignored pixels are not of the images' size */
+void
+requireFrames (const RgbdSequence& images, const FusionOptions& options)
+{
+  const FrameRange& frames = options.frames;
+  const Image<std::uint8_t>& ignored = options.ignored;
+  const PinholeCamera& camera = images.camera ();
+  if (!ignored.pixels.empty () && (ignored.width != camera.width || ignored.height != camera.height))
+    throw InvalidArgument ("the ignored pixels fill an image of " + std::to_string (ignored.width) + " x " +
+                           std::to_string (ignored.height) + ", those of the sequence one of " +
+                           std::to_string (camera.width) + " x " + std::to_string (camera.height));
+  if (frames.first >= std::min (frames.last, images.size ()))
+    throw InvalidArgument ("the frames from " + std::to_string (frames.first) +
+                           " on are not there; the sequence has 0:" + std::to_string (images.size ()));
+}
+
+/** \throws InvalidArgument if no frame of the range has a pose of the camera */
+void
+requirePoses (const KnownSequence& sequence, const FrameRange& frames)
+{
+  const std::vector<double> stamps = sequence.images->stamps ();
+  const std::size_t last = std::min (frames.last, stamps.size ());
+  const auto begin = stamps.begin () + static_cast<std::ptrdiff_t> (frames.first);
+  const std::vector<double> used (begin, stamps.begin () + static_cast<std::ptrdiff_t> (last));
+  const auto poses = posesAtStamps (sequence.camera, used, sequence.images->period ());
+  if (std::none_of (poses.begin (), poses.end (), [] (const auto& pose) { return pose.has_value (); }))
+    throw InvalidArgument ("the camera's trajectory has no pose for any frame: its stamps are " +
+                           stampSpan (sequence.camera.front ().stamp, sequence.camera.back ().stamp) +
+                           ", those of the frames " + stampSpan (used.front (), used.back ()) +
+                           "; they must be within half a frame of each other");
+}
+
+/** \brief Passes on how far a run is. */
+class RunProgress
 {
 public:
-  FusionRun (const RgbdSequence& images, FrameContext& knowledge, const FusionOptions& options,
-             const ProgressCallback& progress, const SequenceFusion::KeyframeCallback& report,
-             const SequenceFusion::FrameCallback& report_frame);
+  RunProgress (const ProgressCallback& callback, const FrameRange& frames, std::size_t size)
+      : callback_ (callback)
+      , first_ (frames.first)
+      , frames_ (std::min (frames.last, size) - std::min (frames.first, size))
+  {}
 
-  FusionResult run ();
+  /** \throws Cancelled */
+  void report (const std::string& stage, double fraction) const
+  {
+    if (callback_ && !callback_ (stage, std::min (1.0, fraction)))
+      throw Cancelled ("cancelled");
+  }
+
+  /** \brief A frame was read. \throws Cancelled */
+  void reportFrame (std::size_t index, const FrameContext& context)
+  {
+    done_ = frames_share * static_cast<double> (index - first_) /
+            static_cast<double> (std::max<std::size_t> (1, frames_));
+    if (frames_read_ > 0 && frames_read_ % status_every == 0)
+    {
+      const auto now = std::chrono::steady_clock::now ();
+      const double seconds = std::max (1e-3, std::chrono::duration<double> (now - status_time_).count ());
+      std::array<char, 32> rate;
+      std::snprintf (rate.data (), rate.size (), "%.1f fps", static_cast<double> (status_every) / seconds);
+      const std::string of_frame = context.status ();
+      status_ = rate.data () + (of_frame.empty () ? "" : ", " + of_frame);
+      status_time_ = now;
+    }
+    report (status_, done_);
+    ++frames_read_;
+  }
+
+  /** \brief The back end has completed a keyframe, or is doing so. \throws Cancelled */
+  void reportKeyframe () const { report ("keyframe", done_); }
+
+  std::size_t framesRead () const { return frames_read_; }
 
 private:
-  void report (const std::string& stage, double fraction) const;
-  /** \brief Say how it goes. */
-  void reportFrame (const RgbdFrame& frame);
-  void use (const RgbdFrame& frame);
-  void addKeyframe (const RgbdFrame& frame, const Eigen::Isometry3d& T_world_camera);
-  void addFrame (const RgbdFrame& frame, const Eigen::Isometry3d& T_world_camera);
-  /** \brief Pass updates on, once no more than so many views wait for the back end; 0: once all that were asked for are
-   * done. */
-  void followUpdates (std::size_t waiting_views);
-  void finish ();
-  /** \brief Those with too few points, which are no failure: masks have outlier pixels. */
-  void leaveOutSmallObjects ();
-  template <typename Function> void timed (const char* stage, Function&& f)
-  {
-    addSeconds (result_.timings_s[stage], f);
-  }
-
-  const RgbdSequence& images_;
-  FrameContext& knowledge_;
-  const FusionOptions& options_;
-  const ProgressCallback& progress_;
-  const SequenceFusion::KeyframeCallback& report_;
-  const SequenceFusion::FrameCallback& report_frame_;
-  FusionResult result_;
-  CoSectionBackend backend_;
-  std::optional<BackendThread> thread_; // has the backend, if there are updates
-  std::size_t frames_of_range_ = 0;
-  double done_ = 0.0; // of all, so far
+  const ProgressCallback& callback_;
+  std::size_t first_;
+  std::size_t frames_; // of the range
   std::size_t frames_read_ = 0;
+  double done_ = 0.0; // of all
   std::string status_ = "frames";
   std::chrono::steady_clock::time_point status_time_ = std::chrono::steady_clock::now ();
-  std::size_t points_without_pose_ = 0;
-  std::size_t points_ = 0; // in all keyframes
-  std::optional<std::size_t> next_keyframe_;
 };
 
-FusionRun::FusionRun (const RgbdSequence& images, FrameContext& knowledge, const FusionOptions& options,
-                      const ProgressCallback& progress, const SequenceFusion::KeyframeCallback& report,
-                      const SequenceFusion::FrameCallback& report_frame)
-    : images_ (images)
-    , knowledge_ (knowledge)
-    , options_ (options)
-    , progress_ (progress)
-    , report_ (report)
-    , report_frame_ (report_frame)
-    , backend_ (options.backend)
+/** \brief The back end, in a thread beside the front end if there are updates at keyframes. */
+class RunBackend
 {
-  frames_of_range_ = std::min (options.frames.last, images.size ()) - std::min (options.frames.first, images.size ());
-  for (const char* stage : {"read", "tracking", "raycast", "segmentation", "integration", "keyframes", "updates"})
-    result_.timings_s[stage] = 0.0;
-  result_.intrinsics = images.camera ();
-  if (options.updates != KeyframeUpdates::None)
-    thread_.emplace (backend_);
-}
-
-void
-FusionRun::report (const std::string& stage, double fraction) const
-{
-  if (progress_ && !progress_ (stage, std::min (1.0, fraction)))
-    throw Cancelled ("cancelled");
-}
-
-void
-FusionRun::reportFrame (const RgbdFrame& frame)
-{
-  done_ = frames_share * static_cast<double> (frame.index - options_.frames.first) /
-          static_cast<double> (std::max<std::size_t> (1, frames_of_range_));
-  if (frames_read_ > 0 && frames_read_ % status_every == 0)
+public:
+  explicit RunBackend (const FusionOptions& options) : backend_ (options.backend)
   {
-    const auto now = std::chrono::steady_clock::now ();
-    const double seconds = std::max (1e-3, std::chrono::duration<double> (now - status_time_).count ());
-    std::array<char, 32> rate;
-    std::snprintf (rate.data (), rate.size (), "%.1f fps", static_cast<double> (status_every) / seconds);
-    const std::string of_frame = knowledge_.status ();
-    status_ = rate.data () + (of_frame.empty () ? "" : ", " + of_frame);
-    status_time_ = now;
+    if (options.updates != KeyframeUpdates::None)
+      thread_.emplace (backend_);
   }
-  report (status_, done_);
-  ++frames_read_;
-}
+
+  void addKeyframe (Keyframe keyframe, const CoSectionBackend::Poses& T_world_object)
+  {
+    if (thread_)
+      thread_->addKeyframe (std::move (keyframe), T_world_object);
+    else
+      backend_.addKeyframe (keyframe, T_world_object);
+  }
+
+  void addFrame (DepthView view, const CoSectionBackend::Poses& T_world_object)
+  {
+    if (thread_)
+      thread_->addFrame (std::move (view), T_world_object);
+    else
+      backend_.addFrame (std::move (view), T_world_object);
+  }
+
+  /** \brief Pass updates on, when no more than so many views wait for the back end; 0: when all updates are done. */
+  void followUpdates (std::size_t waiting_views, const RunProgress& progress,
+                      const SequenceFusion::KeyframeCallback& callback, double& seconds)
+  {
+    if (!thread_)
+      return;
+    while (!thread_->wait (waiting_views, patience))
+      progress.reportKeyframe ();
+    for (const BackendUpdate& update : thread_->takeUpdates ())
+    {
+      seconds += update.seconds;
+      progress.reportKeyframe ();
+      if (callback)
+        callback ({update.stamp, update.scene});
+    }
+  }
+
+  /** \brief The back end with all views, as if there had been no updates. */
+  CoSectionBackend& withoutUpdates ()
+  {
+    thread_.reset ();
+    backend_.forgetUpdates ();
+    return backend_;
+  }
+
+private:
+  CoSectionBackend backend_;
+  std::optional<BackendThread> thread_;
+};
+
+/** \brief Numbers of points in all keyframes. */
+struct KeyframePoints
+{
+  std::size_t all = 0;
+  std::size_t without_pose = 0; ///< of objects whose pose is not known in the keyframe
+};
 
 void
-FusionRun::addKeyframe (const RgbdFrame& frame, const Eigen::Isometry3d& T_world_camera)
+countPoints (const Keyframe& keyframe, const CoSectionBackend::Poses& T_world_object,
+             std::map<int, FusedObject>& objects, KeyframePoints& points)
 {
-  Keyframe keyframe = makeKeyframe (frame, images_.camera (), *knowledge_.instances (), T_world_camera,
-                                    options_.keyframe);
-  knowledge_.look (keyframe);
-  const CoSectionBackend::Poses T_world_object = knowledge_.poses ();
-  for (const auto& [id, points] : keyframe.points)
+  for (const auto& [id, of_object] : keyframe.points)
   {
-    points_ += points.size ();
+    points.all += of_object.size ();
     if (id == 0)
       continue;
     if (T_world_object.count (id) > 0)
-      result_.objects[id].points += points.size ();
+      objects[id].points += of_object.size ();
     else
-      points_without_pose_ += points.size ();
-  }
-  ++result_.keyframes;
-  if (thread_)
-    thread_->addKeyframe (std::move (keyframe), T_world_object);
-  else
-    backend_.addKeyframe (keyframe, T_world_object);
-}
-
-void
-FusionRun::addFrame (const RgbdFrame& frame, const Eigen::Isometry3d& T_world_camera)
-{
-  DepthView view = makeDepthView (frame.depth, images_.camera (), T_world_camera, options_.keyframe);
-  if (thread_)
-    thread_->addFrame (std::move (view), knowledge_.poses ());
-  else
-    backend_.addFrame (std::move (view), knowledge_.poses ());
-}
-
-void
-FusionRun::followUpdates (std::size_t waiting_views)
-{
-  if (!thread_)
-    return;
-  while (!thread_->wait (waiting_views, patience))
-    report ("keyframe", done_);
-  for (const BackendUpdate& update : thread_->takeUpdates ())
-  {
-    result_.timings_s["updates"] += update.seconds;
-    report ("keyframe", done_);
-    if (report_)
-      report_ ({update.stamp, update.scene});
-  }
-}
-
-void
-FusionRun::use (const RgbdFrame& frame)
-{
-  const std::optional<Eigen::Isometry3d> T_world_camera = knowledge_.next (frame);
-  if (!T_world_camera)
-    return;
-  ++result_.frames;
-  result_.camera.push_back ({frame.stamp, *T_world_camera});
-  if (!next_keyframe_)
-    next_keyframe_ = frame.index;
-
-  const bool is_keyframe = frame.index >= *next_keyframe_ &&
-                           knowledge_.isFitForKeyframe (frame.index - *next_keyframe_);
-  if (is_keyframe)
-  {
-    timed ("keyframes", [&] { addKeyframe (frame, *T_world_camera); });
-    while (*next_keyframe_ <= frame.index)
-      *next_keyframe_ += static_cast<std::size_t> (options_.keyframe_every);
-  }
-  const CoSectionBackend::Poses T_world_object = knowledge_.poses ();
-  for (const auto& [id, T] : T_world_object)
-    result_.objects[id].trajectory.push_back ({frame.stamp, T});
-  if (!is_keyframe)
-    timed ("keyframes", [&] { addFrame (frame, *T_world_camera); });
-  knowledge_.map (frame, *T_world_camera);
-  if (report_frame_)
-  {
-    const auto& instances = knowledge_.instances ();
-    report_frame_ ({frame, *T_world_camera, T_world_object, instances ? &*instances : nullptr, is_keyframe,
-                    [this] (int id) { return knowledge_.seen (id); }});
-  }
-  followUpdates (is_keyframe && options_.updates == KeyframeUpdates::InStep ? 0 : options_.backend.max_views);
-}
-
-void
-FusionRun::finish ()
-{
-  followUpdates (0);
-  thread_.reset ();
-  backend_.forgetUpdates ();
-  for (const int id : knowledge_.wrongObjects ())
-    backend_.removeObject (id);
-  timed ("final_solve", [&] {
-    result_.scene = backend_.solve ([&] (const std::string& stage, double fraction) {
-      report (stage, frames_share + (1.0 - frames_share) * fraction);
-      return true;
-    });
-  });
-  for (const auto& [stage, seconds] : result_.scene.timings_s)
-    result_.timings_s[stage] += seconds;
-  result_.kept_keyframes = backend_.keyframes ();
-  knowledge_.finish (result_);
-  if (points_without_pose_ > 0)
-    result_.warnings.push_back (std::to_string (points_without_pose_) +
-                                " points of objects were left out: their trajectories have no pose for those frames");
-  leaveOutSmallObjects ();
-  result_.warnings.insert (result_.warnings.end (), result_.scene.warnings.begin (), result_.scene.warnings.end ());
-}
-
-void
-FusionRun::leaveOutSmallObjects ()
-{
-  for (auto object = result_.objects.begin (); object != result_.objects.end ();)
-  {
-    const auto& [id, fused] = *object;
-    if (fused.points >= min_object_points)
-    {
-      ++object;
-      continue;
-    }
-    if (fused.points > 0)
-      result_.warnings.push_back ("object " + std::to_string (id) + " was left out: it has only " +
-                                  std::to_string (fused.points) + " points in all keyframes; " +
-                                  std::to_string (min_object_points) + " are needed");
-    auto& completed = result_.scene.objects;
-    completed.erase (
-        std::remove_if (completed.begin (), completed.end (),
-                        [id = id] (const ObjectResult& result) { return result.id == id && !result.error.empty (); }),
-        completed.end ());
-    object = result_.objects.erase (object);
+      points.without_pose += of_object.size ();
   }
 }
 
 FusionResult
-FusionRun::run ()
+emptyResult (const RgbdSequence& images, const FrameRange& frames)
 {
-  if (options_.frames.last > images_.size () && options_.frames.last != FrameRange ().last)
-    result_.warnings.push_back ("frames from " + std::to_string (images_.size ()) +
-                                " on are not there; the sequence has 0:" + std::to_string (images_.size ()));
-  FrameReader reader (images_, options_.frames);
-  while (true)
-  {
-    std::optional<RgbdFrame> frame;
-    timed ("read", [&] { frame = reader.next (); });
-    if (!frame)
-      break;
-    for (std::size_t n = 0; n < options_.ignored.pixels.size (); ++n)
-      if (options_.ignored.pixels[n] != 0)
-        frame->depth.pixels[n] = std::numeric_limits<float>::quiet_NaN ();
-    reportFrame (*frame);
-    use (*frame);
-  }
-  const std::vector<std::string> mask_warnings = knowledge_.maskWarnings ();
-  const std::vector<std::string> warnings = reader.warnings ();
+  FusionResult result;
+  for (const char* stage : {"read", "tracking", "raycast", "segmentation", "integration", "keyframes", "updates"})
+    result.timings_s[stage] = 0.0;
+  result.intrinsics = images.camera ();
+  if (frames.last > images.size () && frames.last != FrameRange ().last)
+    result.warnings.push_back ("frames from " + std::to_string (images.size ()) +
+                               " on are not there; the sequence has 0:" + std::to_string (images.size ()));
+  return result;
+}
+
+/** \brief The next frame, without readings where pixels are ignored; nothing at the end. */
+std::optional<RgbdFrame>
+readFrame (FrameReader& reader, const Image<std::uint8_t>& ignored, double& seconds)
+{
+  const ScopedSeconds timer (seconds);
+  std::optional<RgbdFrame> frame = reader.next ();
+  for (std::size_t n = 0; frame && n < ignored.pixels.size (); ++n)
+    if (ignored.pixels[n] != 0)
+      frame->depth.pixels[n] = std::numeric_limits<float>::quiet_NaN ();
+  return frame;
+}
+
+/** \brief Add the warnings of readers. \throws IoError if no frame could be used */
+void
+requireKeyframes (std::size_t frames_read, std::size_t points, const std::vector<std::string>& frame_warnings,
+                  const std::vector<std::string>& mask_warnings, const FusionOptions& options, FusionResult& result)
+{
   const auto firstOf = [] (const std::vector<std::string>& lines) {
     return lines.empty () ? std::string () : ": " + lines.front ();
   };
-  result_.warnings.insert (result_.warnings.end (), warnings.begin (), warnings.end ());
-  result_.warnings.insert (result_.warnings.end (), mask_warnings.begin (), mask_warnings.end ());
-  if (result_.frames == 0)
-    throw IoError ((frames_read_ == 0 ? "no frame can be read" : "no frame that has a pose can be read") +
-                   firstOf (warnings));
-  if (result_.keyframes == 0)
+  result.warnings.insert (result.warnings.end (), frame_warnings.begin (), frame_warnings.end ());
+  result.warnings.insert (result.warnings.end (), mask_warnings.begin (), mask_warnings.end ());
+  if (result.frames == 0)
+    throw IoError ((frames_read == 0 ? "no frame can be read" : "no frame that has a pose can be read") +
+                   firstOf (frame_warnings));
+  if (result.keyframes == 0)
     throw IoError ("no frame has a mask that can be used" + firstOf (mask_warnings));
-  if (points_ == 0)
+  if (points == 0)
   {
     std::ostringstream text;
-    text << "no keyframe has a surface nearer than " << options_.keyframe.max_depth_m << " m" << firstOf (warnings);
+    text << "no keyframe has a surface nearer than " << options.keyframe.max_depth_m << " m"
+         << firstOf (frame_warnings);
     throw IoError (text.str ());
   }
-  finish ();
-  return std::move (result_);
+}
+
+/** \brief Leave out objects of too few points, which are no failure: masks have outliers. */
+void
+leaveOutSmallObjects (FusionResult& result)
+{
+  for (auto object = result.objects.begin (); object != result.objects.end ();)
+  {
+    const std::size_t points = object->second.points;
+    if (points >= min_object_points)
+    {
+      ++object;
+      continue;
+    }
+    if (points > 0)
+      result.warnings.push_back ("object " + std::to_string (object->first) + " was left out: it has only " +
+                                 std::to_string (points) + " points in all keyframes; " +
+                                 std::to_string (min_object_points) + " are needed");
+    object = eraseObject (object, false, result);
+  }
+}
+
+/** \brief Complete everything from all views. */
+void
+completeSequence (CoSectionBackend& backend, const RunProgress& progress, FrameContext& context,
+                  std::size_t points_without_pose, FusionResult& result)
+{
+  for (const int id : context.wrongObjects ())
+    backend.removeObject (id);
+  {
+    const ScopedSeconds timer (result.timings_s["final_solve"]);
+    result.scene = backend.solve ([&] (const std::string& stage, double fraction) {
+      progress.report (stage, frames_share + (1.0 - frames_share) * fraction);
+      return true;
+    });
+  }
+  for (const auto& [stage, seconds] : result.scene.timings_s)
+    result.timings_s[stage] += seconds;
+  result.kept_keyframes = backend.keyframes ();
+  context.finish (result);
+  if (points_without_pose > 0)
+    result.warnings.push_back (std::to_string (points_without_pose) +
+                               " points of objects were left out: their trajectories have no pose for those frames");
+  leaveOutSmallObjects (result);
+  result.warnings.insert (result.warnings.end (), result.scene.warnings.begin (), result.scene.warnings.end ());
 }
 
 } // namespace
@@ -340,13 +331,66 @@ SequenceFusion::SequenceFusion (const TrackedSequence& sequence, const FusionOpt
 }
 
 FusionResult
-SequenceFusion::run (const ProgressCallback& progress, const KeyframeCallback& keyframe,
-                     const FrameCallback& frame) const
+SequenceFusion::run (const ProgressCallback& progress, const KeyframeCallback& on_keyframe,
+                     const FrameCallback& on_frame) const
 {
-  const std::unique_ptr<FrameContext> knowledge = tracked_ ? makeTrackedPoses (*tracked_, options_)
-                                                           : makeKnownPoses (sequence_, options_);
   const RgbdSequence& images = tracked_ ? *tracked_->images : *sequence_.images;
-  return FusionRun (images, *knowledge, options_, progress, keyframe, frame).run ();
+  const std::unique_ptr<FrameContext> context = tracked_ ? makeTrackedPoses (*tracked_, options_)
+                                                         : makeKnownPoses (sequence_, options_);
+  const auto every = static_cast<std::size_t> (options_.keyframe_every);
+  FusionResult result = emptyResult (images, options_.frames);
+  KeyframePoints points;
+  RunProgress run_progress (progress, options_.frames, images.size ());
+  RunBackend backend (options_);
+  FrameReader reader (images, options_.frames);
+  std::optional<std::size_t> next_keyframe;
+  while (const auto frame = readFrame (reader, options_.ignored, result.timings_s["read"]))
+  {
+    run_progress.reportFrame (frame->index, *context);
+
+    // Poses and instances of the frame.
+    const FrameKnowns known = context->next (*frame);
+    if (!known.T_world_camera)
+      continue;
+    ++result.frames;
+    result.camera.push_back ({frame->stamp, *known.T_world_camera});
+
+    // Points of the frame, if a keyframe is due. It waits for a mask for as long as one may still come.
+    const std::size_t due = next_keyframe.value_or (frame->index);
+    const bool is_keyframe = frame->index >= due && known.instances && (known.masked || frame->index - due >= every);
+    next_keyframe = is_keyframe ? due + (frame->index - due) / every * every + every : due;
+    std::optional<Keyframe> keyframe;
+    if (const ScopedSeconds timer (result.timings_s["keyframes"]); is_keyframe)
+      keyframe = makeKeyframe (*frame, images.camera (), *known.instances, *known.T_world_camera, options_.keyframe);
+
+    // Surfaces and trajectories of objects.
+    const CoSectionBackend::Poses T_world_object = context->mapObjects (*frame, known, keyframe ? &*keyframe : nullptr);
+    for (const auto& [id, T] : T_world_object)
+      result.objects[id].trajectory.push_back ({frame->stamp, T});
+
+    // Points and free space for the completion.
+    if (keyframe)
+    {
+      ++result.keyframes;
+      countPoints (*keyframe, T_world_object, result.objects, points);
+    }
+    if (const ScopedSeconds timer (result.timings_s["keyframes"]); keyframe)
+      backend.addKeyframe (std::move (*keyframe), T_world_object);
+    else
+      backend.addFrame (makeDepthView (frame->depth, images.camera (), *known.T_world_camera, options_.keyframe),
+                        T_world_object);
+
+    if (on_frame)
+      on_frame ({*frame, *known.T_world_camera, T_world_object, known.instances ? &*known.instances : nullptr,
+                 is_keyframe, [&] (int id) { return context->surfaceMesh (id); }});
+    backend.followUpdates (is_keyframe && options_.updates == KeyframeUpdates::InStep ? 0 : options_.backend.max_views,
+                           run_progress, on_keyframe, result.timings_s["updates"]);
+  }
+  requireKeyframes (run_progress.framesRead (), points.all, reader.warnings (), context->maskWarnings (), options_,
+                    result);
+  backend.followUpdates (0, run_progress, on_keyframe, result.timings_s["updates"]);
+  completeSequence (backend.withoutUpdates (), run_progress, *context, points.without_pose, result);
+  return result;
 }
 
 } // namespace pcl::cosection

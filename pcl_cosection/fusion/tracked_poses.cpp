@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "frame_context.h"
 
 #include <pcl/cosection/fusion/dynamic_fusion.h>
@@ -7,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <set>
 
 namespace pcl::cosection
 {
@@ -29,46 +27,37 @@ frontEndOptions (const TrackedSequence& sequence, const FusionOptions& options)
   return front_end;
 }
 
-/** \brief Poses and what shows which object are found out frame by frame. */
+/** \brief Poses and instances are found by DynamicFusion. */
 class TrackedPoses : public FrameContext
 {
 public:
   TrackedPoses (const TrackedSequence& sequence, const FusionOptions& options)
-      : options_ (options)
-      , masks_ (sequence.masks)
-      , with_masks_ (hasObjects (sequence))
+      : masks_ (sequence.masks)
+      , has_objects_ (hasObjects (sequence))
       , fusion_ (sequence.images->camera (), frontEndOptions (sequence, options))
   {
     fusion_.setSegmenter (sequence.segmenter);
   }
 
-  std::optional<Eigen::Isometry3d> next (const RgbdFrame& frame) override;
+  FrameKnowns next (const RgbdFrame& frame) override;
 
-  const std::optional<Image<std::uint16_t>>& instances () const override { return instances_; }
-
-  /** \brief A mask is waited for as long as one may still come. */
-  bool isFitForKeyframe (std::size_t overdue) const override
+  CoSectionBackend::Poses mapObjects (const RgbdFrame&, const FrameKnowns&, Keyframe* keyframe) override
   {
-    return instances_ &&
-           (!with_masks_ || tracked_->masked || overdue >= static_cast<std::size_t> (options_.keyframe_every));
+    if (keyframe)
+      keyframe->points.erase (TrackedFrame::unassigned);
+    return tracked_->T_world_object;
   }
-
-  void look (Keyframe& keyframe) override { keyframe.points.erase (TrackedFrame::unassigned); }
-
-  CoSectionBackend::Poses poses () const override { return tracked_->T_world_object; }
 
   std::set<int> wrongObjects () const override
   {
     const std::set<int> found = fusion_.foundObjects ();
     std::set<int> wrong;
-    std::set_difference (told_.begin (), told_.end (), found.begin (), found.end (),
+    std::set_difference (tracked_ids_.begin (), tracked_ids_.end (), found.begin (), found.end (),
                          std::inserter (wrong, wrong.end ()));
     return wrong;
   }
 
-  void map (const RgbdFrame&, const Eigen::Isometry3d&) override {}
-
-  TriangleMesh seen (int id) const override { return fusion_.surfaceMesh (id); }
+  TriangleMesh surfaceMesh (int id) const override { return fusion_.surfaceMesh (id); }
 
   std::string status () const override;
 
@@ -77,32 +66,35 @@ public:
   void finish (FusionResult& result) override;
 
 private:
-  const FusionOptions& options_;
   MaskReader masks_;
-  const bool with_masks_;
+  const bool has_objects_;
   DynamicFusion fusion_;
-  const TrackedFrame* tracked_ = nullptr; // of the frame
-  std::optional<Image<std::uint16_t>> instances_;
-  std::set<int> told_; // numbers of objects
+  const TrackedFrame* tracked_ = nullptr; // of the last frame
+  std::set<int> tracked_ids_;             // of objects in any frame
   std::size_t frames_ = 0;
   std::size_t frames_lost_ = 0;
   double masks_s_ = 0.0;
 };
 
-std::optional<Eigen::Isometry3d>
+FrameKnowns
 TrackedPoses::next (const RgbdFrame& frame)
 {
   std::optional<Image<std::uint16_t>> mask;
-  addSeconds (masks_s_, [&] { mask = masks_.read (frame); });
+  {
+    const ScopedSeconds timer (masks_s_);
+    mask = masks_.read (frame);
+  }
   tracked_ = &fusion_.process (frame, mask ? &*mask : nullptr);
   ++frames_;
   frames_lost_ += !tracked_->T_world_camera;
-  instances_.reset ();
-  if (tracked_->T_world_camera)
-    instances_ = tracked_->instances;
   for (const auto& [id, T] : tracked_->T_world_object)
-    told_.insert (id);
-  return tracked_->T_world_camera;
+    tracked_ids_.insert (id);
+  FrameKnowns known;
+  known.T_world_camera = tracked_->T_world_camera;
+  known.masked = !has_objects_ || tracked_->masked;
+  if (known.T_world_camera)
+    known.instances = tracked_->instances;
+  return known;
 }
 
 std::string
@@ -111,7 +103,7 @@ TrackedPoses::status () const
   if (!tracked_)
     return "";
   std::string text;
-  if (with_masks_)
+  if (has_objects_)
     text = std::to_string (fusion_.objects ().size ()) + " objects, ";
   if (tracked_->lost > 0)
     text += std::to_string (tracked_->lost) + " lost, ";
@@ -135,18 +127,14 @@ TrackedPoses::finish (FusionResult& result)
   for (auto object = result.objects.begin (); object != result.objects.end ();)
   {
     const int id = object->first;
-    if (found.count (id) > 0)
+    if (found.count (id) == 0)
     {
-      object->second.tsdf = fusion_.surfaceMesh (id);
-      object->second.best_class = fusion_.objectClass (id);
-      ++object;
+      object = eraseObject (object, true, result);
       continue;
     }
-    auto& completed = result.scene.objects;
-    completed.erase (
-        std::remove_if (completed.begin (), completed.end (), [id] (const ObjectResult& o) { return o.id == id; }),
-        completed.end ());
-    object = result.objects.erase (object);
+    object->second.tsdf = fusion_.surfaceMesh (id);
+    object->second.best_class = fusion_.objectClass (id);
+    ++object;
   }
 }
 

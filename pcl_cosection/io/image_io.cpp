@@ -1,9 +1,7 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "image_io.h"
 
 #include "file_extension.h"
-#include "image_damage.h"
 #include "pcl_cosection/common/file_bytes.h"
 
 #include "pcl_cosection/common/atomic_file.h"
@@ -45,13 +43,25 @@ encode (const cv::Mat& image, const std::string& path)
   }
   catch (const cv::Exception&)
   {
-    // told below
+    // reported below
   }
   if (!done)
     throw IoError (path + ": cannot be encoded as an image");
   writeAtomically (path, [&bytes] (const std::string& temporary) {
     writeBytes (temporary, std::string (bytes.begin (), bytes.end ()));
   });
+}
+
+/** \brief Whether bytes begin as a JPEG does and its scan has no end: OpenCV fills what is missing of a JPEG with grey
+ * and reports no error, unlike for PNG and EXR. */
+bool
+isCutJpeg (const std::string& bytes)
+{
+  if (bytes.compare (0, 3, "\xff\xd8\xff") != 0)
+    return false;
+  const std::size_t scan = bytes.rfind ("\xff\xda"); // thumbnails in the header have a scan, too, before it
+  const std::size_t end = bytes.rfind ("\xff\xd9");
+  return scan == bytes.npos || end == bytes.npos || end < scan;
 }
 
 cv::Mat
@@ -63,9 +73,8 @@ decode (const std::string& path, int flags)
     throw IoError (path + ": is empty; it should be an image");
   if (bytes.size () > static_cast<std::size_t> (std::numeric_limits<int>::max ()))
     throw IoError (path + ": is too large for an image");
-  const std::string damage = imageDamage (bytes);
-  if (!damage.empty ())
-    throw IoError (path + ": " + damage);
+  if (isCutJpeg (bytes))
+    throw IoError (path + ": is damaged: the file is cut short");
   cv::Mat image;
   try
   {
@@ -74,7 +83,7 @@ decode (const std::string& path, int flags)
   }
   catch (const cv::Exception&)
   {
-    // told below
+    // reported below
   }
   if (image.empty ())
     throw IoError (path + ": is not an image that can be read");

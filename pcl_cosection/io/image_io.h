@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 #include "mask_image.h"
@@ -24,8 +23,8 @@ void saveDepthImage (const Image<float>& depth, const std::string& path, double 
  * \throws IoError naming the file, if it cannot be read, is damaged, or is no depth image */
 Image<float> loadDepthImage (const std::string& path, double scale = 1000.0);
 
-/** \brief Write ids of instances as PNG: of 16 bits if \a wide, else of 8. \throws IoError, InvalidArgument if an id
- * does not fit */
+/** \brief Write ids of instances as PNG, with 16 bits if \a wide, else with 8. \throws IoError, InvalidArgument if an
+ * id does not fit */
 void saveMaskImage (const Image<std::uint16_t>& mask, const std::string& path, bool wide = false);
 
 /** \brief Read a colour image. \throws IoError */

@@ -1,18 +1,19 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "mask_image.h"
 
-#include "image_damage.h"
 #include "pcl_cosection/common/file_bytes.h"
 #include "pcl_cosection/io/mesh/vtk_errors.h"
 
 #include <pcl/cosection/common/error.h>
+
+#include <boost/crc.hpp>
 
 #include <vtkImageData.h>
 #include <vtkNew.h>
 #include <vtkPNGReader.h>
 
 #include <algorithm>
+#include <string_view>
 
 namespace pcl::cosection
 {
@@ -30,6 +31,40 @@ copyRows (const Number* from, Image<std::uint16_t>& mask)
     std::copy_n (from, mask.width, mask.pixels.begin () + static_cast<std::ptrdiff_t> (v) * mask.width);
 }
 
+std::uint64_t
+bigEndian32 (std::string_view bytes, std::size_t at)
+{
+  std::uint64_t value = 0;
+  for (const char byte : bytes.substr (at, 4))
+    value = value << 8 | static_cast<unsigned char> (byte);
+  return value;
+}
+
+/** \brief Whether the chunks of a PNG (length, name, data, checksum) are whole, and their image is not absurdly large.
+ * vtkPNGReader crashes where libpng reports an error, and takes as much memory as the first chunk claims. */
+bool
+isWholePng (std::string_view bytes)
+{
+  constexpr std::size_t overhead = 12;
+  constexpr std::uint64_t most_pixels = std::uint64_t{1} << 27;
+  for (std::size_t at = png_signature.size (); at + overhead <= bytes.size ();)
+  {
+    const std::uint64_t length = bigEndian32 (bytes, at);
+    if (length > bytes.size () - at - overhead)
+      return false;
+    boost::crc_32_type checksum;
+    checksum.process_bytes (&bytes[at + 4], 4 + length);
+    const std::string_view name = bytes.substr (at + 4, 4);
+    if (checksum.checksum () != bigEndian32 (bytes, at + 8 + length) ||
+        (name == "IHDR" && bigEndian32 (bytes, at + 8) * bigEndian32 (bytes, at + 12) > most_pixels))
+      return false;
+    if (name == "IEND")
+      return true;
+    at += overhead + length;
+  }
+  return false;
+}
+
 } // namespace
 
 Image<std::uint16_t>
@@ -38,9 +73,8 @@ loadMaskImage (const std::string& path)
   const std::string bytes = readBytes (path);
   if (bytes.compare (0, png_signature.size (), png_signature) != 0)
     throw IoError (path + (bytes.empty () ? ": is empty; it should be a PNG" : ": is not a PNG"));
-  const std::string damage = imageDamage (bytes);
-  if (!damage.empty ())
-    throw IoError (path + ": " + damage);
+  if (!isWholePng (bytes))
+    throw IoError (path + ": is damaged: the file is cut short, or a checksum does not match");
   vtkNew<vtkPNGReader> reader;
   const auto errors = VtkErrors::observe (*reader);
   reader->SetMemoryBuffer (bytes.data ());

@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 #include <pcl/cosection/io/pcd_view.h>
@@ -24,7 +23,7 @@ placeText (const Eigen::Vector3d& place)
   return text.str ();
 }
 
-/** \brief What says where the sensor stood. */
+/** \brief What determines where the sensor stood. */
 inline std::string
 sourceOfViewpoint (const PcdViewOptions& options)
 {

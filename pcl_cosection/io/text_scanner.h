@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 #include <pcl/cosection/common/error.h>
@@ -27,7 +26,7 @@ public:
     return take (std::min (left_.find_first_of (" \t\r\n\v\f"), left_.size ()));
   }
 
-  /** \brief The rest of this line, without its end. */
+  /** \brief The rest of this line, without the line break. */
   std::string_view line ()
   {
     const std::string_view line = take (std::min (left_.find ('\n'), left_.size ()));
@@ -52,7 +51,7 @@ private:
   std::string_view left_;
 };
 
-/** \brief A word of a file in the words of a message: short, and printable. */
+/** \brief A word of a file in quotes, for messages: shortened, and only printable characters. */
 inline std::string
 quoted (std::string_view word)
 {
@@ -75,7 +74,7 @@ toReal (std::string_view word)
   const auto result = std::from_chars (digits.data (), digits.data () + digits.size (), value);
   if (digits.empty () || result.ptr != digits.data () + digits.size () || result.ec == std::errc::invalid_argument)
     throw IoError (word.empty () ? "it ends where a number should be" : quoted (word) + " is not a number");
-  if (result.ec == std::errc::result_out_of_range) // too large, or too small to tell from 0
+  if (result.ec == std::errc::result_out_of_range) // too large, or too small to differ from 0
     return digits.find ("e-") == digits.npos && digits.find ("E-") == digits.npos
                ? std::numeric_limits<double>::infinity ()
                : 0.0;

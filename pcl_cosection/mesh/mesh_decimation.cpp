@@ -1,5 +1,7 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
+
+// Written by hand, because vtkQuadricDecimation, which pcl::MeshQuadricDecimationVTK wraps, does not promise that a
+// closed manifold stays one.
 
 #include "collapsible_mesh.h"
 #include "mesh_checks.h"

@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 
 #include "mesh_parts.h"
 #include "mesh_sides.h"
@@ -130,18 +129,13 @@ divideMesh (const TriangleMesh& mesh)
 {
   const auto sides = sortedSides (mesh);
   DisjointSets sets = connectedTriangles (mesh, sides);
-  std::vector<MeshPart> parts;
-  std::vector<std::size_t> part_of_set (mesh.triangles.size ());
+  const std::vector<int> part_of = sets.numbers ();
+  std::vector<MeshPart> parts (part_of.empty () ? 0 : 1 + *std::max_element (part_of.begin (), part_of.end ()));
+  for (MeshPart& part : parts)
+    part.closed = true;
   for (std::uint32_t t = 0; t < mesh.triangles.size (); ++t)
   {
-    const std::size_t first = sets.find (t); // the smallest of its set
-    if (first == t)
-    {
-      part_of_set[t] = parts.size ();
-      parts.emplace_back ();
-      parts.back ().closed = true;
-    }
-    MeshPart& part = parts[part_of_set[first]];
+    MeshPart& part = parts[part_of[t]];
     part.triangles.push_back (t);
     for (const auto v : mesh.triangles[t])
       part.box.extend (mesh.vertices[v]);
@@ -149,7 +143,7 @@ divideMesh (const TriangleMesh& mesh)
   forEachEdge (sides, [&] (std::size_t begin, std::size_t end) {
     if (!isManifoldEdge (sides, begin, end))
       for (const std::size_t set : openSets (sides, begin, end, sets))
-        parts[part_of_set[set]].closed = false;
+        parts[part_of[set]].closed = false;
   });
   for (MeshPart& part : parts)
     if (part.closed)

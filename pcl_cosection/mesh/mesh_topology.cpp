@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 
 #include "mesh_checks.h"
 #include "mesh_sides.h"
@@ -75,15 +74,7 @@ std::vector<int>
 labelComponents (const TriangleMesh& mesh)
 {
   checkMesh (mesh);
-  DisjointSets connected = connectedVertices (mesh);
-  std::vector<int> labels (mesh.vertices.size ());
-  int count = 0;
-  for (std::size_t v = 0; v < labels.size (); ++v)
-  {
-    const std::size_t first = connected.find (v); // the component's smallest vertex: already labelled, or v itself
-    labels[v] = (first == v ? count++ : labels[first]);
-  }
-  return labels;
+  return connectedVertices (mesh).numbers ();
 }
 
 } // namespace pcl::cosection

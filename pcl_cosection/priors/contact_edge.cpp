@@ -1,11 +1,13 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "contact_edge.h"
 
+#include "pcl_cosection/common/quantile.h"
+#include "pcl_cosection/common/robust_weights.h"
+#include "pcl_cosection/common/sectors.h"
 #include "pcl_cosection/common/sphere_directions.h"
 #include "pcl_cosection/priors/shape/normal_axis.h"
 
-#include "pcl_cosection/view/pixel_of.h"
+#include "pcl_cosection/view/visibility/visibility.h"
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
@@ -25,43 +27,45 @@ namespace pcl::cosection
 namespace
 {
 
+// "Of the size" is relative to NormalLines::size.
 constexpr double cell_size = 0.06; // of the size
 constexpr double largest_cell = 0.16;
 constexpr double cell_growth = 1.3;
-constexpr double points_per_cell = 2.0;              // more: a cell without any is a hole, not one between points
+constexpr double points_per_cell = 2.0;              // with more, an empty cell is a hole and no gap between points
 constexpr double neighbour_reach = 2.3;              // cells
-constexpr std::size_t least_neighbours = 4;          // else it is a outlier
-constexpr double open_angle = 2.3;                   // without neighbours: of a border
-constexpr std::array<double, 2> beyond = {1.0, 1.6}; // cells: there the surface would go on
-constexpr double least_facing = 0.4;                 // cosine of what a sensor sees well
-constexpr double flat_ridge = 0.5;                   // cells squared: of few neighbours a bend is not believed
+constexpr std::size_t least_neighbours = 4;          // a cell with fewer is an outlier
+constexpr double open_angle = 2.3;                   // radians: a gap in the neighbours that makes a border cell
+constexpr std::array<double, 2> beyond = {1.0, 1.6}; // distances at which the surface would continue, cells
+constexpr double least_facing = 0.4;                 // cosine at which a sensor sees a surface well
+constexpr double flat_ridge = 0.5;                   // cells squared: damps curvature fitted to few neighbours
 constexpr int directions = 800;
 constexpr double outlier_share = 0.01; // of the points, may lie behind the plane
 constexpr double rough_reach = 0.12;   // of the size
-constexpr double reach = 1.2;          // cells: from the plane to the middle of a cell that touches it
+constexpr double reach = 1.2;          // cells, from the plane to the centre of a cell that touches it
 constexpr int rounds = 8;
 constexpr int fit_rounds = 6;      // of reweighting
-constexpr double fit_scale = 0.02; // of the size: a distance from the plane that counts half
+constexpr double fit_scale = 0.02; // of the size: a distance from the plane with half weight
 constexpr std::size_t least_cells = 6;
 constexpr double least_spread = 0.1; // of the size, in both directions along the plane
 constexpr int sectors = 36;
 constexpr int least_sectors = 9;
-constexpr double other_sectors = 0.2;   // of those, may end elsewhere
-constexpr double silhouette_rise = 0.8; // of all sensors' distances, over the plane
-constexpr double least_height = 0.15;   // of the size: what is flatter may be a face of it
-constexpr double level = 0.7;           // component of a normal upwards: what ends there may have a sharp edge
+constexpr double other_sectors = 0.2;   // of those: largest share in which the surface ends elsewhere
+constexpr double silhouette_rise = 0.8; // height of all sensors over the plane, of their distances
+constexpr double least_height = 0.15;   // of the size: a flatter plane may be a face of the object
+constexpr double level = 0.7;           // component of a normal upwards: such a surface may end at a sharp edge
 constexpr double facing_down = -0.5;
-constexpr double down_share = 0.02; // of all points: of what stands, no more is seen from below
-constexpr double least_rise = 0.15; // of a sensor's distance, over the plane; else an edge that hides it may make it
+constexpr double down_share = 0.02; // of all points: a standing object shows no more from below
+// Least height of a sensor over the plane, of its distance: an edge that hides the object may make a plane through it.
+constexpr double least_rise = 0.15;
 
 struct Demand // on contact
 {
-  double roughness; // of the size, root mean square of where it ends; no more
-  double facing;    // mean, more
+  double roughness; // upper limit of the root mean square distance of the ends from the plane, of the size
+  double facing;    // lower limit of the mean facing
 };
 
 constexpr Demand of_one_sensor = {0.028, 0.53};
-constexpr Demand of_several = {0.04, 0.5}; // their silhouettes are not on one plane
+constexpr Demand of_several = {0.04, 0.5}; // silhouettes of several sensors lie on no common plane
 constexpr Demand of_silhouettes = {0.028, 0.7};
 
 using Views = OcclusionMap::Views;
@@ -71,7 +75,7 @@ struct Cell
   Eigen::Vector3d position = Eigen::Vector3d::Zero ();
   Eigen::Vector3d normal = Eigen::Vector3d::Zero ();
   std::vector<Eigen::Vector3d> points;
-  double facing = 0.0; // beyond it, cosine to the sensor that would see that best; 0: here nothing ends
+  double facing = 0.0; // cosine to the sensor that would see the continued surface best; 0: no end here
 
   Eigen::Vector3d lowest (const Eigen::Vector3d& up) const
   {
@@ -103,8 +107,8 @@ cellsOf (const std::vector<NormalLine>& lines, double edge)
   return list;
 }
 
-/** \brief The middle of the directions along the surface, next to each other, in which a cell has no neighbours;
- * nothing if it has all around. */
+/** \brief The middle of the largest gap between the directions of a cell's neighbours along the surface; nothing if
+ * there is no large gap. */
 std::optional<Eigen::Vector3d>
 wayOut (const Cell& cell, const std::vector<Cell>& cells, double radius)
 {
@@ -175,8 +179,8 @@ public:
   }
 
 private:
-  /** \brief How much the surface would face a sensor a cell farther out, if it bent on as it does up to there. At
-   * silhouettes it bends away. */
+  /** \brief Cosine between the normal and the direction to a sensor, one cell farther out, if the surface continues
+   * with its curvature. At silhouettes the surface bends away. */
   double facingBeyond (const Cell& cell, const Eigen::Vector3d& out, const Eigen::Vector3d& sensor) const
   {
     const double radius = neighbour_reach * edge_;
@@ -193,24 +197,21 @@ private:
     return left.ldlt ().solve (right).sum ();
   }
 
-  /** \brief Would a view see something there? Nothing else hides it, by more than so much. */
+  /** \brief Whether a view would see a surface at a place: no reading lies in front of it by more than depth_m. */
   static bool isOpen (const Eigen::Vector3d& p, double depth_m, const Views::value_type& view)
   {
-    const Eigen::Vector3d q = view.second.inverse () * p;
-    const std::optional<Eigen::Array2i> pixel = pixelOf (view.first->camera, q);
-    return pixel && !(view.first->at (pixel->x (), pixel->y ()) < q.z () - depth_m); // no reading: not a number
+    const PointVisibility visibility = visibilityOf (view.second.inverse () * p, *view.first, depth_m);
+    return visibility != PointVisibility::Outside && visibility != PointVisibility::Occluded;
   }
 
-  /** \brief Does a view see something just there? Without a reliable normal it is no point of the surface, which yet
-   * does not end before it. */
+  /** \brief Whether a view has a reading just there. Without a reliable normal it is no point, but the surface does not
+   * end in front of it. */
   static bool isSeen (const Eigen::Vector3d& p, double depth_m, const Views::value_type& view)
   {
-    const Eigen::Vector3d q = view.second.inverse () * p;
-    const std::optional<Eigen::Array2i> pixel = pixelOf (view.first->camera, q);
-    return pixel && std::abs (view.first->at (pixel->x (), pixel->y ()) - q.z ()) < depth_m;
+    return visibilityOf (view.second.inverse () * p, *view.first, depth_m) == PointVisibility::AtSurface;
   }
 
-  /** \brief Are all sensors above a plane? If it leads to one, an edge that hides something may make it. */
+  /** \brief Whether all sensors are above a plane. An edge that hides the object may make a plane through a sensor. */
   bool isSeenFromAbove (const Plane& plane) const
   {
     return std::all_of (sensors_.begin (), sensors_.end (), [&] (const Eigen::Vector3d& sensor) {
@@ -218,7 +219,7 @@ private:
     });
   }
 
-  /** \brief Does it face all sensors, as the plane of a silhouette does? */
+  /** \brief Whether the plane faces all sensors, as the plane of a silhouette does. */
   bool mayBeSilhouette (const Plane& plane) const
   {
     return std::all_of (sensors_.begin (), sensors_.end (), [&] (const Eigen::Vector3d& sensor) {
@@ -226,20 +227,17 @@ private:
     });
   }
 
-  /** \brief Of that share of the points none is higher. */
+  /** \brief The quantile of the points' heights along \a up. */
   double heightAlong (const Eigen::Vector3d& up, double share) const
   {
     std::vector<double> heights;
     heights.reserve (lines_.size ());
     for (const NormalLine& line : lines_)
       heights.push_back (up.dot (line.position));
-    const auto rank = heights.begin () +
-                      static_cast<std::ptrdiff_t> (share * static_cast<double> (heights.size () - 1));
-    std::nth_element (heights.begin (), rank, heights.end ());
-    return *rank;
+    return quantile (heights, share);
   }
 
-  /** \brief What is level may end at a sharp edge. */
+  /** \brief Whether the end of a cell counts: a horizontal surface may end at a sharp edge. */
   static bool mayEnd (const Cell& cell, const Plane& plane)
   {
     return cell.facing > 0.0 && plane.up.dot (cell.normal) < level;
@@ -275,7 +273,7 @@ private:
     return best;
   }
 
-  /** \brief Nearest to the lowest points of some cells, below all points. */
+  /** \brief The plane nearest to the lowest points of some cells, if it is below all points. */
   std::optional<Plane> through (const std::vector<const Cell*>& cells, const Plane& before) const
   {
     if (cells.size () < least_cells)
@@ -300,7 +298,7 @@ private:
       const Eigen::Vector3d normal = solver.eigenvectors ().col (0);
       plane.up = normal.dot (before.up) < 0.0 ? Eigen::Vector3d (-normal) : normal;
       for (std::size_t n = 0; n < ends.size (); ++n)
-        weights[n] = 1.0 / (1.0 + std::pow (plane.up.dot (ends[n] - middle) / fit_scale, 2));
+        weights[n] = cauchyWeight (plane.up.dot (ends[n] - middle) / fit_scale);
     }
     plane.height = heightAlong (plane.up, outlier_share);
     return plane;
@@ -314,14 +312,11 @@ private:
                                      [&] (const NormalLine& line) { return plane.up.dot (line.normal) < facing_down; });
     if (static_cast<double> (down) > down_share * static_cast<double> (lines_.size ()))
       return false;
-    const Eigen::Vector3d x = plane.up.unitOrthogonal ();
-    const Eigen::Vector3d y = plane.up.cross (x);
+    const Sectors around (plane.up, sectors);
     std::array<const Cell*, sectors> lowest{};
     for (const Cell& cell : cells_)
     {
-      const double turn = std::atan2 (y.dot (cell.position), x.dot (cell.position)) / (2.0 * M_PI) + 0.5;
-      const Cell*&
-          of_sector = lowest[static_cast<std::size_t> (std::clamp (static_cast<int> (turn * sectors), 0, sectors - 1))];
+      const Cell*& of_sector = lowest[around.of (cell.position)];
       if (!of_sector || plane.up.dot (cell.position) < plane.up.dot (of_sector->position))
         of_sector = &cell;
     }

@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 #include "occlusion_map.h"
@@ -14,14 +13,14 @@
 namespace pcl::cosection
 {
 
-/** \brief The plane on which something stands, from where what was seen of it ends although sensors would have seen it
- * go on.
+/** \brief The contact boundary plane: the plane at which the observed surface of an object ends although its sensors
+ * would have seen it continue.
  *
- * What faces a sensor ends at its silhouette, where it turns away, at a sharp edge, where something hides it, or where
- * it touches what it stands on. If the lowest that was seen ends on one plane like that, with all else above it, that
- * is where it stands.
- * \param[in] points the object's
- * \param[in] views that saw it, and poses of their sensors, in the same frame
+ * A surface that faces a sensor ends at a silhouette, at a sharp edge, where something hides it, or where it touches
+ * the support. If the lowest observed surface ends on one plane for no other reason, and all points lie above this
+ * plane, it is the support plane.
+ * \param[in] points of the object
+ * \param[in] views of the object, and their sensors' poses in the points' frame
  * \return n.x + d = 0 with unit n towards the points; nothing if there is no such plane */
 std::optional<Eigen::Vector4d> contactBoundaryPlane (const std::vector<OrientedPoint>& points,
                                                      const OcclusionMap::Views& views);

@@ -1,7 +1,7 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "contact_prior.h"
 
+#include "pcl_cosection/common/convex_hull.h"
 #include "pcl_cosection/priors/shape/principal_axes.h"
 
 #include "pcl_cosection/energy/constraints/plane_map.h"
@@ -18,52 +18,10 @@ namespace pcl::cosection
 namespace
 {
 
-constexpr int least_part_cells = 4;     // of contact; less is a outlier
-constexpr double lowest_free_vox = 3.0; // over the plane: what is seen free lower down cannot be told from it
+constexpr int least_part_cells = 4;     // of a part of the contact; smaller ones are outliers
+constexpr double lowest_free_vox = 3.0; // over the plane: lower free space cannot be distinguished from the plane
 constexpr double highest_free_vox = 7.0;
 constexpr int closing_cells = 3; // gaps between points up to twice this wide are closed
-
-double
-cross (const Eigen::Vector2d& a, const Eigen::Vector2d& b)
-{
-  return a.x () * b.y () - a.y () * b.x ();
-}
-
-/** \brief Corners of the convex hull, counter-clockwise (Andrew's monotone chain). */
-std::vector<Eigen::Vector2d>
-convexHull (std::vector<Eigen::Vector2d> points)
-{
-  std::sort (points.begin (), points.end (), [] (const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
-    return a.x () < b.x () || (a.x () == b.x () && a.y () < b.y ());
-  });
-  std::vector<Eigen::Vector2d> hull;
-  for (int side = 0; side < 2; ++side) // lower, upper
-  {
-    const std::size_t begin = hull.size ();
-    for (const Eigen::Vector2d& p : points)
-    {
-      while (hull.size () >= begin + 2 && cross (hull.back () - hull[hull.size () - 2], p - hull.back ()) <= 0.0)
-        hull.pop_back ();
-      hull.push_back (p);
-    }
-    hull.pop_back ();
-    std::reverse (points.begin (), points.end ());
-  }
-  return hull;
-}
-
-/** \brief Whether a point is in a convex polygon. */
-bool
-inside (const std::vector<Eigen::Vector2d>& polygon, const Eigen::Vector2d& p)
-{
-  for (std::size_t n = 0; n < polygon.size (); ++n)
-  {
-    const Eigen::Vector2d side = polygon[(n + 1) % polygon.size ()] - polygon[n];
-    if (cross (side, p - polygon[n]) < 0.0)
-      return false;
-  }
-  return !polygon.empty ();
-}
 
 } // namespace
 
@@ -104,8 +62,8 @@ ContactPrior::patch (const VoxelGrid& grid, const Eigen::Vector4d& plane, const 
   }
   if (static_cast<int> (contacts.size ()) < min_contacts || above.empty ())
     return {};
-  // The middle is that of a cell, so that the map is the same for either sense of the axes.
-  const Eigen::Vector2d reach = (high - middle).cwiseMax (middle - low); // of what is above and its turned copy
+  // The middle is the centre of a cell, so that the map does not depend on the sense of the axes.
+  const Eigen::Vector2d reach = (high - middle).cwiseMax (middle - low); // of the points above and their turned copies
   const Eigen::Vector2d half = ((reach.array () / h).ceil () + 0.5) * h;
   low = middle - half;
   high = middle + half;
@@ -121,7 +79,7 @@ ContactPrior::patch (const VoxelGrid& grid, const Eigen::Vector4d& plane, const 
   for (const Eigen::Vector2d& p : contacts)
     touched.set (p);
   touched.close (closing_cells);
-  // How much of the space over a polygon, close to the plane, and below what was seen, or its copy.
+  // The share seen free of the space over a polygon, close to the plane and below observed surface or its copy.
   const auto seenFree = [&] (const std::vector<Eigen::Vector2d>& polygon) {
     std::size_t all = 0, free = 0;
     for (int k = 0; k < grid.dims.z (); ++k)
@@ -132,7 +90,7 @@ ContactPrior::patch (const VoxelGrid& grid, const Eigen::Vector4d& plane, const 
           if (height (p) < lowest_free_vox * h || height (p) > highest_free_vox * h)
             continue;
           const Eigen::Vector2d q = flat (p);
-          if (!covered.at (q) || !inside (polygon, q))
+          if (!covered.at (q) || !isInside (polygon, q))
             continue;
           ++all;
           free += static_cast<std::size_t> (free_space[grid.index (i, j, k)] != 0);
@@ -152,7 +110,7 @@ ContactPrior::patch (const VoxelGrid& grid, const Eigen::Vector4d& plane, const 
         gap = std::min (gap, (a - turned (b)).norm ());
       }
     const bool completed = gap <= gap_per_length * length;
-    std::vector<Eigen::Vector2d> own, both; // corners, a voxel around the middles, which may lie on one line
+    std::vector<Eigen::Vector2d> own, both; // corners a voxel around the centres, which may be collinear
     for (const Eigen::Vector2d& p : part)
       for (const Eigen::Vector2d& corner :
            {Eigen::Vector2d (-h, -h), Eigen::Vector2d (h, -h), Eigen::Vector2d (-h, h), Eigen::Vector2d (h, h)})
@@ -176,7 +134,7 @@ ContactPrior::patch (const VoxelGrid& grid, const Eigen::Vector4d& plane, const 
           continue;
         const Eigen::Vector2d q = flat (p);
         patch[n] = covered.at (q) && std::any_of (undersides.begin (), undersides.end (),
-                                                  [&] (const auto& hull) { return inside (hull, q); });
+                                                  [&] (const auto& hull) { return isInside (hull, q); });
       }
   return patch;
 }

@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "extent_bounds.h"
 
 #include "pcl_cosection/common/parallel.h"
@@ -13,9 +12,8 @@ namespace pcl::cosection
 namespace
 {
 
-/** \brief How far the voxels of a tile lie beyond all plausible regions, voxels; at least as far inside as less than
- * zero.
- * \return whether any is beyond */
+/** \brief Distances of a tile's voxels from the union of all plausible regions, voxels; negative inside.
+ * \return whether any voxel is outside */
 bool
 beyondAll (const VoxelGrid& grid, const VoxelTile& tile, const std::vector<SymmetricExtent>& plausible,
            float margin_vox, std::vector<float>& beyond_vox)
@@ -87,7 +85,7 @@ extentBounds (const ExtentPrior& prior, const VoxelGrid& grid, const std::vector
         if (!wanted[position])
           return;
         bounds[n] = std::max (0.0f, data_distance_vox[n] - allowed (hidden[position]));
-        if (hidden[position] != Hidden::ByOther) // what hides a part hides how far it reaches
+        if (hidden[position] != Hidden::ByOther) // the extent of an occluded object was not observed
           bounds[n] = std::max (bounds[n], beyond_vox[position]);
       });
     }

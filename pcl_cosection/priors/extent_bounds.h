@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 #include "occlusion_map.h"
@@ -14,7 +13,7 @@
 namespace pcl::cosection
 {
 
-/** \brief How far a voxel may be from the nearest data, as a part of the prior's size. */
+/** \brief Allowed distance of a voxel from the nearest data, as a fraction of the middle observed extent. */
 inline double
 allowedFactor (const ExtentPrior& prior, Hidden hidden)
 {
@@ -23,7 +22,7 @@ allowedFactor (const ExtentPrior& prior, Hidden hidden)
                                      : prior.side_factor;
 }
 
-/** \brief ExtentPrior::bounds () for an object of which \a places knows the points and the views.
+/** \brief ExtentPrior::bounds () with the occlusion map \a places of the object's points and views.
  * \param[in] extents_m observedExtents () of its points
  * \param[in] exempt 1 for voxels that get no bound; or empty */
 std::vector<float> extentBounds (const ExtentPrior& prior, const VoxelGrid& grid,

@@ -1,11 +1,10 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "extent_prior.h"
 
 #include "pcl_cosection/priors/shape/principal_axes.h"
 
 #include "extent_bounds.h"
-#include "pcl_cosection/common/ranked_values.h"
+#include "pcl_cosection/common/quantile.h"
 
 #include "pcl_cosection/common/parallel.h"
 
@@ -39,11 +38,7 @@ observedExtents (const std::vector<OrientedPoint>& points, int threads)
     const Eigen::Vector3d axis = solver.eigenvectors ().col (a);
     for (std::size_t n = 0; n < points.size (); ++n)
       along[n] = axis.dot (points[n].position.cast<double> () - scatter.mean);
-    const auto rank = [&] (double fraction) {
-      return static_cast<std::size_t> (fraction * static_cast<double> (points.size () - 1));
-    };
-    const std::array<double, 2> ends = valuesOfRanks (along, {rank (low_percentile), rank (high_percentile)});
-    extents[a] = ends[1] - ends[0];
+    extents[a] = quantile (along, high_percentile) - quantile (along, low_percentile);
   });
   std::sort (extents.data (), extents.data () + 3, std::greater<> ());
   return extents;

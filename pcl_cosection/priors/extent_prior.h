@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 #include "pcl_cosection/priors/shape/symmetric_extent.h"
@@ -13,53 +12,53 @@
 namespace pcl::cosection
 {
 
-/** \brief How large an object appears: extents of its points (1st to 99th percentile) along their
- * principal axes, metres, largest first. Zero for no points. */
+/** \brief Extents of an object's points (1st to 99th percentile) along their principal axes, metres, largest first.
+ * Zero for no points. */
 Eigen::Vector3d observedExtents (const std::vector<OrientedPoint>& points, int threads = 0);
 
-/** \brief Remedy for swelling: a distance that a voxel should keep from the object because nothing
- * suggests that the object reaches it.
+/** \brief The extent bound, which prevents swelling: a lower bound of the distance between a voxel and the object.
  *
- * Where no ray and no neighbour bounds a shape, the Hessian term alone continues it without end. What
- * speaks for matter in a hidden voxel is an observed surface of the object in front of it, and for how far
- * behind that surface, the size of what was observed: most things are about as deep as they are wide. So a
- * voxel may lie up to a fraction of the middle observed extent from the nearest data:
+ * Where no ray and no neighbour bounds a shape, the Hessian term alone continues it without end. An observed surface of
+ * the object in front of a hidden voxel suggests matter there, up to a depth that depends on the observed size, as most
+ * things are about as deep as they are wide. So a voxel may lie up to a fraction of the middle observed extent from the
+ * nearest data:
  *
  *     behind an observed surface of the object, along a viewing ray:  \a depth_factor
  *     behind the surface of something else (occluded):                \a occluded_factor
  *     elsewhere (missing readings, out of view):                      \a side_factor
  *
- * What it exceeds that by is the bound, to be applied with a weak weight to voxels that were not seen
- * free.
+ * The bound is the excess over this distance, for voxels that were not seen free, with a weak weight.
  *
- * Where a plausible region is given (SymmetricExtent), a voxel is also to keep the distance by which it lies beyond
- * that region, less max (\a symmetric_margin e2, \a least_depth e2 - e3), e2 and e3 the middle and the smallest
- * observed extent: of a thing of which one flat face was seen, the region is that face. Voxels that something else
- * hides are left out. The larger bound counts. */
+ * If there is a plausible region (SymmetricExtent), a second bound is the distance of a voxel from that region, less
+ * max (\a symmetric_margin e2, \a least_depth e2 - e3), with e2 and e3 the middle and the smallest observed extent:
+ * the region of a thing that showed one flat face is that face. It does not apply to voxels that something else hides.
+ * The larger bound counts. */
 struct ExtentPrior
 {
   double depth_factor = 0.75;     ///< of the middle observed extent
   double occluded_factor = 0.5;   ///< of the middle observed extent
   double side_factor = 0.15;      ///< of the middle observed extent
   double symmetric_margin = 0.02; ///< around the plausible region, of the middle observed extent
-  double least_depth = 0.25;      ///< that an object is taken to have, of the middle observed extent
+  double least_depth = 0.25;      ///< assumed least depth of an object, of the middle observed extent
 
-  /** \brief For an object whose points were cut out of a scene: what they stood on is gone, and a missing reading
-   * beside them suggests no matter. */
+  /** \brief Parameters for an object whose points were cut out of a scene: its surroundings are unknown, and a missing
+   * reading beside it suggests no matter. */
   static ExtentPrior cutOut ();
 
   /** \brief Largest distance from its data that an object may have, metres. */
   double farthest (const std::vector<OrientedPoint>& points) const;
 
-  /** \brief The same. \param[in] extents_m observedExtents () of its points */
+  /** \brief Largest distance from its data that an object with given extents may have, metres.
+   * \param[in] extents_m observedExtents () of its points */
   double farthest (const Eigen::Vector3d& extents_m) const;
 
-  /** \brief Bounds in voxels, 0 where there is none.
+  /** \brief Bounds in voxels; 0 for voxels without a bound.
    * \param[in] data_distance_vox distance to the nearest voxel with data
-   * \param[in] points the object's, the grid's frame
-   * \param[in] views depth views and their sensors' poses in the grid's frame; none: every voxel counts as
+   * \param[in] points of the object, the grid's frame
+   * \param[in] views depth views and their sensors' poses in the grid's frame; if empty, every voxel counts as
    * behind an observed surface
-   * \param[in] plausible regions of which any may hold the object, the grid's frame; none: no such bound */
+   * \param[in] plausible regions of which any may hold the object, the grid's frame; if empty, there is no second
+   * bound */
   std::vector<float> bounds (const VoxelGrid& grid, const std::vector<float>& data_distance_vox,
                              const std::vector<OrientedPoint>& points,
                              const std::vector<std::pair<const DepthView*, Eigen::Isometry3d>>& views, int threads = 0,

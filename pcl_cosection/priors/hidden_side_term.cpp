@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "hidden_side_term.h"
 
 #include "pcl_cosection/common/parallel.h"
@@ -19,22 +18,21 @@ namespace
 {
 
 constexpr float near_weight = 0.3f;      // sum of weights: a point within 1.1 sigma
-constexpr float far_weight = 0.01f;      // one within 2.1 sigma
-constexpr float gap_vox = 2.0f;          // nothing is expected where data is nearer
-constexpr double reach_vox = 0.7;        // inside the plausible region; what is deeper may be a cavity
-constexpr double profile_weight = 10.0;  // of what has a profile, which is surely like that seen; in weights of what is
-                                         // only alike from both sides
+constexpr float far_weight = 0.01f;      // sum of weights: a point within 2.1 sigma
+constexpr float gap_vox = 2.0f;          // the term applies at least so far from data
+constexpr double reach_vox = 0.7;        // depth of copies inside the plausible region; deeper ones may be of a cavity
+constexpr double profile_weight = 10.0;  // of shapes with a profile, in multiples of beta_extent, as those below
 constexpr double wall_weight = 5.0;      // of vertical walls
-constexpr double vessel_weight = 100.0;  // of a vessel's wall, which vanishes under less
-constexpr double empty_weight = 10.0;    // of its cavity, and of what is beyond all of it
-constexpr double below_top_vox = 1.5;    // lower than it, free space is beside a top, not over it
-constexpr double least_wall = 0.6;       // of its thickness: walls are nowhere thinner, noise would make holes
-constexpr double least_wall_vox = 1.25;  // nor thinner than this
-constexpr double empty_margin_vox = 1.0; // to that
-constexpr double empty_far_vox = 6.0;    // all that is farther is as far
+constexpr double vessel_weight = 100.0;  // of a vessel's wall, which vanishes with less
+constexpr double empty_weight = 10.0;    // of its cavity and of the space beyond the vessel
+constexpr double below_top_vox = 1.5;    // free space at least so far below a top is beside it, not above it
+constexpr double least_wall = 0.6;       // least thickness of a wall, of its mean thickness: noise would make holes
+constexpr double least_wall_vox = 1.25;  // least thickness of a wall
+constexpr double empty_margin_vox = 1.0; // distance of expected empty space from the surface
+constexpr double empty_far_vox = 6.0;    // largest expected signed distance
 
-/** \brief The first of the points in each cube of half the width of their Gaussians: as many as a surface of weak
- * targets needs, whatever the number of views. */
+/** \brief One point per cube of half the width of the Gaussians: enough for a weak term, whatever the number of views.
+ */
 std::vector<OrientedPoint>
 thinned (const VoxelGrid& grid, const std::vector<OrientedPoint>& points, double sigma_vox)
 {
@@ -73,7 +71,7 @@ termOf (const VoxelGrid& grid, const std::vector<OrientedPoint>& points, const C
   return term;
 }
 
-/** \brief Signed distances from one part of a vessel's surface, where it was seen, or else where it is expected. */
+/** \brief Signed distances from one part of a vessel's surface, as measured or else as expected. */
 class PartOfWall
 {
 public:
@@ -104,7 +102,7 @@ public:
 
   bool isExpected (std::size_t n) const { return expected_[n] != 0; }
 
-  /** \brief Voxels outside; -infinity where the part is not known. */
+  /** \brief Signed distance at a voxel, voxels, positive outside; -infinity where the part is not known. */
   float distance (std::size_t n) const { return distance_[n]; }
 
 private:
@@ -112,8 +110,8 @@ private:
   std::vector<std::uint8_t> expected_;
 };
 
-/** \brief A wall is what is inside of all parts of its surface: what is near it heeds the part of which it is farthest
- * outside. */
+/** \brief Add the term of a vessel. Its wall is the intersection of the insides of all parts of its surface: the
+ * largest of their signed distances is the target. */
 void
 addVessel (EnergyProblem& problem, const VoxelGrid& grid, const SymmetricExtent& plausible,
            const std::vector<OrientedPoint>& measured, const std::vector<OrientedPoint>& expected,
@@ -152,7 +150,7 @@ addVessel (EnergyProblem& problem, const VoxelGrid& grid, const SymmetricExtent&
         const double from_inner = inner.distance (n);
         const double from_rim = rim.distance (n);
         const double lacking = std::max (0.0, wall_vox + from_outside +
-                                                  from_inner); // of the wall; none, unless both sides are known
+                                                  from_inner); // missing thickness; 0 unless both sides are known
         const double from_sides = std::max (from_outside, from_inner) - 0.5 * lacking;
         const double target = std::max (from_sides, from_rim);
         const PartOfWall& nearer = from_rim > from_sides ? rim : from_outside > from_inner ? outside : inner;
@@ -174,7 +172,7 @@ addVessel (EnergyProblem& problem, const VoxelGrid& grid, const SymmetricExtent&
   });
 }
 
-/** \brief What is below free space that is lower than the top is beside what has vertical walls. */
+/** \brief Expect free space below free space that is lower than the top: it is beside the vertical walls. */
 void
 emptyBesideTop (EnergyProblem& problem, const VoxelGrid& grid, const Eigen::Vector3d& up, double top_m,
                 const SeenVoxels& seen, const CoSectionOptions& options)

@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 #include "pcl_cosection/priors/shape/symmetric_extent.h"
@@ -14,21 +13,21 @@
 namespace pcl::cosection
 {
 
-/** \brief What was seen of the voxels of an object. */
+/** \brief Free space and data of an object's voxels. */
 struct SeenVoxels
 {
   const std::vector<std::uint8_t>& free;   // 1 where seen free
   const std::vector<float>& data_distance; // to the nearest with data, voxels
 };
 
-/** \brief Prefer surface where copies of the points make it likely, weakly, where nothing was seen; with more weight
- * for what has a profile, whose copies are where its surface is.
+/** \brief Add a weak data term for the expected hidden side: signed distances from copies of the points, at voxels
+ * without data that were not seen free. Shapes with a profile get more weight, as their copies are reliable.
  *
- * The two sides of a vessel's wall are no farther apart than data reaches, and blur each other. So they are told apart:
- * the wall is what is inside of both, each as seen or else as expected, and it is nowhere much thinner than on the
- * average, where noise would make holes. The cavity is expected to be empty.
- * \param[in,out] problem already with its data term; measured targets at the walls of vessels are replaced \param[in]
- * points all that were measured */
+ * The data of the two sides of a vessel's wall overlap and blur each other. So both sides have separate signed
+ * distances, measured or else expected; the wall is their intersection, and nowhere much thinner than its mean
+ * thickness, as noise would make holes. The cavity is expected to be empty.
+ * \param[in,out] problem already with its data term; measured targets at the walls of vessels are replaced
+ * \param[in] points all measured points */
 void addHiddenSide (EnergyProblem& problem, const VoxelGrid& grid, const SymmetricExtent& plausible,
                     const std::vector<OrientedPoint>& points, const SeenVoxels& seen, const CoSectionOptions& options);
 

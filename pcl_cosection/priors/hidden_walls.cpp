@@ -1,8 +1,8 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "hidden_walls.h"
 
 #include "pcl_cosection/common/quantile.h"
+#include "pcl_cosection/common/sectors.h"
 
 #include <Eigen/Geometry>
 
@@ -21,18 +21,18 @@ namespace pcl::cosection
 namespace
 {
 
-constexpr double steep = 0.3;          // component of the normal of a wall upwards, at most
+constexpr double steep = 0.3;          // largest component of a wall's normal upwards
 constexpr double cell_steps = 1.5;     // width of a column
-constexpr double end_steps = 3.0;      // height of what tells how a wall ends
-constexpr double least_walls = 0.7;    // of the points there
+constexpr double end_steps = 3.0;      // height of the lowest part of a column, which shows how the wall ends
+constexpr double least_walls = 0.7;    // share of wall points in that part
 constexpr double least_aligned = 0.8;  // length of their mean normal
-constexpr double contact_steps = 2.0;  // over the plane: what comes so low stands on it
-constexpr int first_steps = 6;         // below what was seen, within which it is hidden; silhouettes are coarse
-constexpr double least_hidden = 0.5;   // of the places below, by something else
-constexpr std::size_t sectors = 24;    // of directions, for how walls lean
-constexpr double vertical_lean = 0.05; // what leans less is vertical
+constexpr double contact_steps = 2.0;  // height over the plane below which a wall stands on it
+constexpr int first_steps = 6;         // below the wall: occlusion must begin within these, as silhouettes are coarse
+constexpr double least_hidden = 0.5;   // share of those places that something else hides
+constexpr std::size_t sectors = 24;    // of directions, each with one inclination
+constexpr double vertical_lean = 0.05; // a smaller inclination counts as vertical
 
-/** \brief A point over the plane. */
+/** \brief A point in axes of the plane. */
 struct Raised
 {
   Eigen::Vector2d place;
@@ -64,7 +64,7 @@ public:
       const Raised raised{p.head<2> (), p.z () + plane[3], axes_.transpose () * point.normal.cast<double> ()};
       columns_[cellOf (raised.place)].push_back (raised);
       if (isWall (raised))
-        leans[sectorOf (raised.normal)].push_back (raised.normal.z ());
+        leans[sectorOf (raised.normal.x (), raised.normal.y (), sectors)].push_back (raised.normal.z ());
     }
     for (std::size_t s = 0; s < sectors; ++s)
       if (!leans[s].empty ())
@@ -88,19 +88,13 @@ public:
 private:
   static bool isWall (const Raised& p) { return std::abs (p.normal.z ()) < steep; }
 
-  static std::size_t sectorOf (const Eigen::Vector3d& normal)
-  {
-    const double turn = 0.5 + std::atan2 (normal.y (), normal.x ()) / (2.0 * M_PI);
-    return std::min (sectors - 1, static_cast<std::size_t> (turn * sectors));
-  }
-
   Cell cellOf (const Eigen::Vector2d& place) const
   {
     const Eigen::Array2d cell = ((place - first_).array () / (cell_steps * step_m_)).floor ();
     return {static_cast<int> (cell.x ()), static_cast<int> (cell.y ())};
   }
 
-  /** \brief The middle of the lowest part of a wall, if it is that of a wall in all of the neighbourhood. */
+  /** \brief The mean of the lowest part of a column, if the neighbourhood belongs to a wall too. */
   std::optional<Raised> endOf (const Cell& cell, const std::vector<Raised>& column) const
   {
     double lowest = std::numeric_limits<double>::infinity ();
@@ -135,7 +129,7 @@ private:
         end.normal.norm () < least_aligned * static_cast<double> (walls))
       return std::nullopt;
     end.place /= static_cast<double> (own);
-    const double lean = leans_[sectorOf (end.normal)];
+    const double lean = leans_[sectorOf (end.normal.x (), end.normal.y (), sectors)];
     end.normal.z () = std::abs (lean) < vertical_lean ? 0.0 : lean;
     end.normal.head<2> () *= std::sqrt (1.0 - end.normal.z () * end.normal.z ()) / end.normal.head<2> ().norm ();
     return end;
@@ -165,7 +159,7 @@ private:
 
   Eigen::Vector4d plane_;
   double step_m_;
-  Eigen::Matrix3d axes_;                             // the last one is up
+  Eigen::Matrix3d axes_;                             // columns; the last one points upwards
   Eigen::Vector2d first_ = Eigen::Vector2d::Zero (); // where cells begin
   std::map<Cell, std::vector<Raised>> columns_;
   std::array<double, sectors> leans_{};

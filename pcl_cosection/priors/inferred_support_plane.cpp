@@ -1,8 +1,8 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "inferred_support_plane.h"
 
 #include "pcl_cosection/common/quantile.h"
+#include "pcl_cosection/common/sectors.h"
 #include "pcl_cosection/priors/shape/footprint_axis.h"
 #include "pcl_cosection/priors/shape/normal_axis.h"
 
@@ -21,19 +21,19 @@ namespace
 
 constexpr std::size_t least_points = 50;
 constexpr double usual_wall = 0.04;  // of the radius
-constexpr double lid_rise = 0.12;    // of the radius: what has a lower border may be the lid of something
+constexpr double lid_rise = 0.12;    // of the radius: a thing with a lower border may be a lid
 constexpr double facing_down = -0.3; // component of a normal upwards
-constexpr double down_share = 0.05;  // of all points: of what is open, no more face down
+constexpr double down_share = 0.05;  // of all points: an open thing shows no more that face down
 constexpr double level = 0.9;        // component of a floor's normal upwards
-constexpr double floor_radius = 0.5; // of the radius of all: the floor is in the middle
+constexpr double floor_radius = 0.5; // of the radius: points of the floor are nearer to the middle
 constexpr std::size_t least_floor = 10;
-constexpr double outlier_share = 0.01; // of all points, may lie under what it stands on
+constexpr double outlier_share = 0.01; // of all points: those that may lie below the plane
 constexpr int sectors = 36;            // around the middle
-constexpr double rim_radius = 0.8;     // of the farthest in a sector: what is farther out is near the rim
-constexpr double rim_outliers = 0.1;   // of those points, may be higher than it
-constexpr int higher_sectors = 27;     // whose rim is higher than the floor
+constexpr double rim_radius = 0.8;     // of the farthest point in a sector: points farther out are near the rim
+constexpr double rim_outliers = 0.1;   // of those: points that may be higher than the rim
+constexpr int higher_sectors = 27;     // least number with a rim higher than the floor
 
-/** \brief What lies about an vertical axis. */
+/** \brief The points around a vertical axis, by sector. */
 class Surroundings
 {
 public:
@@ -46,10 +46,10 @@ public:
       radius_ += radiusOf (lines[n].position) / static_cast<double> (rim.size ());
   }
 
-  /** \brief Mean distance of what is farthest out. */
+  /** \brief Mean over sectors of the largest distance from the axis. */
   double radius () const { return radius_; }
 
-  /** \brief Level points in the middle. */
+  /** \brief Points with vertical normals in the middle. */
   std::vector<Eigen::Vector3d> floor () const
   {
     std::vector<Eigen::Vector3d> floor;
@@ -59,18 +59,15 @@ public:
     return floor;
   }
 
-  /** \brief In how many sectors the rim is higher than that. */
+  /** \brief Number of sectors whose rim is higher than \a height. */
   std::ptrdiff_t sectorsHigherThan (double height) const
   {
-    const Eigen::Vector3d x = up_.unitOrthogonal ();
-    const Eigen::Vector3d y = up_.cross (x);
+    const Sectors numbers (up_, sectors);
     std::array<std::vector<Eigen::Vector3d>, sectors> around;
     std::array<double, sectors> reach{};
     for (const NormalLine& line : lines_)
     {
-      const Eigen::Vector3d q = line.position - center_;
-      const double turn = std::atan2 (y.dot (q), x.dot (q)) / (2.0 * M_PI) + 0.5;
-      const auto s = static_cast<std::size_t> (std::clamp (static_cast<int> (turn * sectors), 0, sectors - 1));
+      const std::size_t s = numbers.of (line.position - center_);
       around[s].push_back (line.position);
       reach[s] = std::max (reach[s], radiusOf (line.position));
     }

@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 #include <pcl/cosection/common/oriented_point.h>
@@ -12,12 +11,11 @@
 namespace pcl::cosection
 {
 
-/** \brief The plane on which something open would stand of which hardly more than the inside was seen: a tray, a crate,
- * a bowl.
+/** \brief The support plane of an open thing that showed hardly more than its inside: a tray, a crate, a bowl.
  *
- * Its rim lies over its floor all around. It ends at its lowest points; and under its floor it is taken to be as thick
- * as crockery is.
- * \return n.x + d = 0 with unit n upwards; nothing if it is not open */
+ * Its rim is higher than its floor all around. The plane is below its lowest points, and below the floor by the usual
+ * thickness of crockery.
+ * \return n.x + d = 0 with unit n upwards; nothing if the thing is not open */
 std::optional<Eigen::Vector4d> inferredSupportPlane (const std::vector<OrientedPoint>& points);
 
 } // namespace pcl::cosection

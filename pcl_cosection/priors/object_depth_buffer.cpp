@@ -1,8 +1,7 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "object_depth_buffer.h"
 
-#include "pcl_cosection/view/pixel_of.h"
+#include "pcl_cosection/view/visibility/visibility.h"
 
 #include <algorithm>
 
@@ -12,8 +11,8 @@ namespace pcl::cosection
 namespace
 {
 
-constexpr double rounding = 1e-9; // relative: more than what the depths of a box's corners are wrong by
-constexpr double slack_px = 1.0;  // likewise of their pixels
+constexpr double rounding = 1e-9; // relative bound of the rounding errors of a box's depths
+constexpr double slack_px = 1.0;  // bound of the errors of its pixels
 constexpr float infinity = std::numeric_limits<float>::infinity ();
 
 } // namespace
@@ -116,7 +115,8 @@ ObjectDepthBuffer::at (const Eigen::Vector3d& p, const DepthView& view) const
     return Hidden::Nothing;
   if (q.z () > depthOf (u, v))
     return Hidden::ByObject;
-  return q.z () > view.at (u, v) ? Hidden::ByOther : Hidden::Nothing; // no reading: not a number
+  return compareWithReading (q.z (), view.at (u, v), 0.0) == PointVisibility::Occluded ? Hidden::ByOther
+                                                                                       : Hidden::Nothing;
 }
 
 ObjectDepthBuffer::Outlook
@@ -130,7 +130,7 @@ ObjectDepthBuffer::outlook (const Eigen::Vector3d& center, const Eigen::Vector3d
   Outlook outlook;
   if (farthest <= 0.0)
     return outlook;
-  if (nearest <= 0.0) // no bound on where it is projected
+  if (nearest <= 0.0) // its projection is unbounded
   {
     outlook.in_view = outlook.may_be_hidden = true;
     outlook.may_have_changed = any_changed_;
@@ -151,7 +151,7 @@ ObjectDepthBuffer::outlook (const Eigen::Vector3d& center, const Eigen::Vector3d
   if ((high < 0.0).any () || (low >= end).any ())
     return outlook;
   outlook.in_view = true;
-  bool covered = (low >= 0.0).all () && (high < end).all (); // by cells all of which are nearer
+  bool covered = (low >= 0.0).all () && (high < end).all (); // all cells are nearer than the box
   const Eigen::Array2i first = low.max (0.0).cast<int> () / cell_px - first_;
   const Eigen::Array2i last = high.min (end - 1.0).cast<int> () / cell_px - first_;
   covered = covered && (first >= 0).all () && (last < size_).all ();

@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 #include <pcl/cosection/common/camera.h>
@@ -18,13 +17,13 @@ namespace pcl::cosection
 /** \brief What hides a place from a view that does not see it free. */
 enum class Hidden : std::uint8_t
 {
-  Nothing,  ///< no reading before it, or out of view
+  Nothing,  ///< no reading in front of it, or out of view
   ByOther,  ///< the surface of something else
   ByObject, ///< an observed surface of the object
 };
 
-/** \brief What a view sees of an object: the nearest depth of its points per cell of the image. Cells of some pixels
- * close the pores between points. The more points, the more is hidden. */
+/** \brief Depth buffer of an object's points in one view: the nearest depth per cell of the image. Cells of several
+ * pixels close the gaps between points. Further points can only hide more places. */
 class ObjectDepthBuffer
 {
 public:
@@ -34,7 +33,7 @@ public:
   /** \brief Add points from the \a first on; cells that this makes nearer count as changed. */
   void add (const std::vector<OrientedPoint>& points, std::size_t first = 0);
 
-  /** \brief From now on no cell counts as changed. */
+  /** \brief Mark all cells as unchanged. */
   void settle ();
 
   bool changed () const { return any_changed_; }
@@ -42,13 +41,13 @@ public:
   /** \brief What hides \a p. \param[in] view the depth image */
   Hidden at (const Eigen::Vector3d& p, const DepthView& view) const;
 
-  /** \brief What is known of all places in a box. */
+  /** \brief Visibility of a box of places. */
   struct Outlook
   {
-    bool in_view = false;       ///< some may be
-    bool all_hidden = false;    ///< all are hidden by the object
-    bool may_be_hidden = false; ///< by the object
-    bool may_have_changed = false;
+    bool in_view = false;          ///< some places may be in view
+    bool all_hidden = false;       ///< the object hides all places
+    bool may_be_hidden = false;    ///< the object may hide some places
+    bool may_have_changed = false; ///< the cells of some places may have changed
   };
 
   /** \param[in] center of the box \param[in] half_sizes of the box, along the axes of the points' frame */
@@ -57,9 +56,9 @@ public:
   std::size_t bytes () const { return depth_.capacity () * sizeof (float) + changed_.capacity (); }
 
 private:
-  /** \brief The pixel that shows a place in the sensor's frame, if any does. */
+  /** \brief The pixel of a place (sensor's frame); false if it is out of view. */
   bool find (const Eigen::Vector3d& p, int& u, int& v) const;
-  /** \brief Hold also the cells from \a low to \a high. */
+  /** \brief Enlarge the buffer to hold the cells from \a low to \a high. */
   void extend (const Eigen::Array2i& low, const Eigen::Array2i& high);
 
   float depthOf (int u, int v) const
@@ -72,7 +71,7 @@ private:
   static constexpr int cell_px = 4;
   PinholeCamera camera_;
   Eigen::Isometry3d T_sensor_object_;
-  Eigen::Array2i first_ = Eigen::Array2i::Zero (); // cells that are held: others show no point
+  Eigen::Array2i first_ = Eigen::Array2i::Zero (); // first cell of the buffer; cells beyond it show no point
   Eigen::Array2i size_ = Eigen::Array2i::Zero ();
   std::vector<float> depth_;
   std::vector<std::uint8_t> changed_;

@@ -1,8 +1,7 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "rays_without_return.h"
 
-#include "pcl_cosection/view/pixel_of.h"
+#include "pcl_cosection/view/visibility/visibility.h"
 
 #include "pcl_cosection/common/parallel.h"
 
@@ -15,10 +14,10 @@ namespace pcl::cosection
 namespace
 {
 
-constexpr int cell_px = 4;      // closes the pores between points
-constexpr int margin_cells = 1; // around the object; silhouettes are not that sure
+constexpr int cell_px = 4;      // closes the gaps between points
+constexpr int margin_cells = 1; // around the object, as silhouettes are inaccurate
 
-/** \brief Which cells of an image are beside an object. */
+/** \brief The cells of an image beside an object, outside its outline. */
 class Beside
 {
 public:
@@ -28,7 +27,7 @@ public:
       , size_ ((view.camera.width + cell_px - 1) / cell_px, (view.camera.height + cell_px - 1) / cell_px)
       , cells_ (static_cast<std::size_t> (size_.x ()) * size_.y (), 0)
   {
-    for (int v = 0; v < view.camera.height; ++v) // readings without a normal are of something, too
+    for (int v = 0; v < view.camera.height; ++v) // readings without a normal show a surface, too
       for (int u = 0; u < view.camera.width; ++u)
         if (std::isfinite (view.at (u, v)))
           mark (Eigen::Array2i (u, v) / cell_px);
@@ -43,7 +42,7 @@ public:
     const Eigen::Vector3d q = T_sensor_object_ * place;
     const auto pixel = pixelOf (view_.camera, q);
     return pixel && cells_[indexOf (*pixel / cell_px)] == outside &&
-           !(view_.at (pixel->x (), pixel->y ()) < q.z ()); // no reading: not a number
+           compareWithReading (q.z (), view_.at (pixel->x (), pixel->y ()), 0.0) != PointVisibility::Occluded;
   }
 
 private:
@@ -63,7 +62,7 @@ private:
         cells_[indexOf ({u, v})] = object;
   }
 
-  /** \brief From the border of the image, as far as no cell is the object's. */
+  /** \brief Flood fill from the border of the image through cells that are not the object's. */
   void fill ()
   {
     std::vector<Eigen::Array2i> front;

@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 #include "occlusion_map.h"
@@ -13,13 +12,13 @@
 namespace pcl::cosection
 {
 
-/** \brief Places that some view looks at, beside an object that was cut out of its scene, without a reading nearer than
- * them: what is beside it was cut away.
+/** \brief Voxels on rays without return: beside an object that was cut out of its scene, in view, and without a reading
+ * in front of them. The readings beside the object were cut away, so no part of the object is there.
  *
- * Missing readings that the object surrounds in the image may be what the sensor does not see of it; they tell nothing,
- * nor does what is out of view.
- * \param[in] views that saw the object, and their sensors' poses in the points' frame \param[in] points the object's
- * \return 1 per voxel that is such a place */
+ * Missing readings inside the object's outline in the image do not count, as the sensor may miss parts of the object.
+ * \param[in] views of the object, and their sensors' poses in the points' frame
+ * \param[in] points of the object
+ * \return 1 for such voxels, 0 for others */
 std::vector<std::uint8_t> findRaysWithoutReturn (const VoxelGrid& grid, const OcclusionMap::Views& views,
                                                  const std::vector<OrientedPoint>& points, int threads);
 

@@ -1,5 +1,6 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
+
+// Written by hand, because VTK's rendering needs a display even off the screen.
 
 #include "frustum_clip.h"
 #include "pixel_coverage.h"

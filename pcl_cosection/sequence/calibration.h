@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 #include <pcl/cosection/common/camera.h>
@@ -14,7 +13,7 @@ namespace pcl::cosection
  * \throws IoError if it cannot be read or is no plausible camera */
 PinholeCamera readCalibration (const std::string& path);
 
-/** \brief What is implausible about a camera, whose size may be 0: unknown; empty if nothing is. */
+/** \brief What is implausible about a camera, whose size may be 0 (unknown); empty if nothing is. */
 std::string implausibleIntrinsics (const PinholeCamera& camera);
 
 } // namespace pcl::cosection

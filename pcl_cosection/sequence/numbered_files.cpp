@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "numbered_files.h"
 
 #include "pcl_cosection/io/text_scanner.h"
@@ -36,7 +35,7 @@ lowerCase (std::string text)
   return text;
 }
 
-/** \brief The name without the longest ending that it has; nothing if it has none. */
+/** \brief The name without the longest ending that it has; nothing if it has no such ending. */
 std::optional<std::string>
 withoutEnding (const std::string& name, const std::vector<std::string>& endings)
 {

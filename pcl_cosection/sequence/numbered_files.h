@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 #include <string>
@@ -22,13 +21,13 @@ struct NumberedFile
   std::string path;
 };
 
-/** \brief The names of the files in a folder, sorted; no hidden ones, no folders. \throws IoError if it cannot be
+/** \brief The names of the files in a folder, sorted, without hidden ones and folders. \throws IoError if it cannot be
  * listed */
 std::vector<std::string> fileNames (const std::string& folder);
 
 /** \brief The files of a series, by ascending numbers, which may have a fraction (0.033333.png). Those without a
- * number, with one of more than 15 digits before the point, or one that another file has too, are left out and told in
- * \a warnings.
+ * number, with one of more than 15 digits before the point, or one that another file has too, are left out, with a
+ * message in \a warnings.
  * \param[in] names of the files in \a folder, sorted */
 std::vector<NumberedFile> numberedFiles (const std::string& folder, const std::vector<std::string>& names,
                                          const NumberedNames& series, std::vector<std::string>& warnings);

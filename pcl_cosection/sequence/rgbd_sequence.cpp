@@ -1,8 +1,8 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include <pcl/cosection/io/rgbd_sequence.h>
 
 #include "calibration.h"
+#include "pcl_cosection/common/quantile.h"
 #include "pcl_cosection/io/file_extension.h"
 #include "pose_matrix.h"
 #include "sequence_layouts.h"
@@ -58,12 +58,11 @@ depthOddity (const Image<float>& depth, const std::string& path)
                 [] (float z) { return std::isfinite (z); });
   if (readings.empty ())
     return path + ": has no depth in any pixel";
-  const auto middle = readings.begin () + static_cast<std::ptrdiff_t> (readings.size () / 2);
-  std::nth_element (readings.begin (), middle, readings.end ());
-  if (*middle >= nearest_median_m && *middle <= farthest_median_m)
+  const float middle = upperMedian (readings);
+  if (middle >= nearest_median_m && middle <= farthest_median_m)
     return {};
   std::ostringstream text;
-  text << path << ": half of the depths are " << (*middle < nearest_median_m ? "less" : "more") << " than " << *middle
+  text << path << ": half of the depths are " << (middle < nearest_median_m ? "less" : "more") << " than " << middle
        << " m; ";
   text << (lowerCaseExtension (path) == ".exr" ? "an .exr must be in metres"
                                                : "give --depth-scale if their unit is another");

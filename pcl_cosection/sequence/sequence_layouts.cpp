@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "sequence_layouts.h"
 
 #include "numbered_files.h"
@@ -129,7 +128,7 @@ hasSevenScenesFrames (const std::string& folder)
   return !numberedFiles (folder, fileNames (folder), seven_scenes_depth, ignored).empty ();
 }
 
-/** \brief The folder seq-NN of a scene of 7-Scenes that has only one; the folder itself if it has none.
+/** \brief The folder seq-NN of a scene of 7-Scenes that has only one; the folder itself if it has no such folder.
  * \throws IoError if there are several */
 std::string
 sevenScenesFolder (const std::string& folder)
@@ -192,7 +191,7 @@ sortFiles (SequenceListing& listing)
 }
 
 void
-tellMissingColour (SequenceListing& listing)
+warnOfMissingColour (SequenceListing& listing)
 {
   std::vector<std::string> without;
   for (const FrameFiles& files : listing.files)
@@ -204,7 +203,7 @@ tellMissingColour (SequenceListing& listing)
 }
 
 void
-tellGaps (SequenceListing& listing)
+warnOfGaps (SequenceListing& listing)
 {
   std::vector<double> stamps;
   for (const FrameFiles& files : listing.files)
@@ -223,7 +222,7 @@ tellGaps (SequenceListing& listing)
 SequenceListing
 listSequence (const std::string& folder, const SequenceSource& source)
 {
-  fileNames (folder); // throws if it is none
+  fileNames (folder); // throws if it is not a folder
   SequenceListing listing;
   listing.folder = folder;
   listing.format = source.format == SequenceFormat::Detect ? detectFormat (folder, source) : source.format;
@@ -237,8 +236,8 @@ listSequence (const std::string& folder, const SequenceSource& source)
   else
     listCoFusion (source, listing);
   sortFiles (listing);
-  tellMissingColour (listing);
-  tellGaps (listing);
+  warnOfMissingColour (listing);
+  warnOfGaps (listing);
   return listing;
 }
 

@@ -1,6 +1,7 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "stamp_matching.h"
+
+#include "pcl_cosection/common/quantile.h"
 
 #include <pcl/cosection/common/error.h>
 
@@ -18,9 +19,7 @@ stampPeriod (const std::vector<double>& stamps)
   std::vector<double> differences (stamps.size () - 1);
   for (std::size_t n = 0; n < differences.size (); ++n)
     differences[n] = stamps[n + 1] - stamps[n];
-  const auto middle = differences.begin () + static_cast<std::ptrdiff_t> (differences.size () / 2);
-  std::nth_element (differences.begin (), middle, differences.end ());
-  return *middle;
+  return upperMedian (differences);
 }
 
 std::optional<std::size_t>

@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 #include <pcl/cosection/common/export.h>
@@ -14,7 +13,7 @@
 namespace pcl::cosection
 {
 
-/** \brief The median difference of successive stamps that ascend; 1 of fewer than two. */
+/** \brief The median difference of successive stamps that ascend; 1 if there are fewer than two. */
 PCL_COSECTION_EXPORT double stampPeriod (const std::vector<double>& stamps);
 
 /** \brief The index of the stamp nearest to \a stamp, if it is less than \a limit away; the earlier of two that are

@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 #include <sstream>
@@ -8,7 +7,7 @@
 namespace pcl::cosection
 {
 
-/** \brief "0 to 59", of stamps, for messages. */
+/** \brief The range of stamps for messages: "0 to 59". */
 inline std::string
 stampSpan (double first, double last)
 {

@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "tum_lists.h"
 
 #include "pcl_cosection/common/file_bytes.h"
@@ -93,7 +92,7 @@ contains (const std::string& name, const char* word)
   return lower.find (word) != lower.npos;
 }
 
-/** \brief More than 0: the name is that of depth; less: that of colour. */
+/** \brief Positive if the name is that of depth, negative if it is that of colour. */
 int
 depthLikeness (const std::string& name)
 {
@@ -128,7 +127,8 @@ readStampedFiles (const std::string& folder, const char* name)
   return files;
 }
 
-/** \brief Give each frame a colour image, none to two: the pairs nearest in time first, up to max_difference_s. */
+/** \brief Give each frame a colour image, and no image to two frames: the pairs nearest in time first, up to
+ * max_difference_s. */
 void
 associate (std::vector<FrameFiles>& frames, std::vector<StampedFile> colours)
 {

@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include <pcl/cosection/simulation/simulated_scene.h>
 
 #include "pcl_cosection/simulation/shapes/sine_table.h"
@@ -18,8 +17,8 @@ namespace
 {
 
 constexpr float missing = std::numeric_limits<float>::quiet_NaN ();
-constexpr double
-    shadow_margin = 0.01; // of the depth: what is so much farther than what the projector lights is in its shadow
+// A share of the depth: what is so much farther than what the projector lights is in its shadow.
+constexpr double shadow_margin = 0.01;
 
 /** \brief Random numbers that belong to a pixel of a frame, whoever draws them (splitmix64). */
 class PixelRandom

@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include <pcl/cosection/simulation/simulated_scene.h>
 
 namespace pcl::cosection
@@ -36,7 +35,8 @@ const char* const table = R"json({
     {
       "name": "mug", "id": 1, "colour": [205, 75, 60], "pattern_size": 0.03,
       "parts": [
-        {"type": "revolution", "profile": [[0, 0], [0.040, 0], [0.040, 0.098], [0.038, 0.1], [0.035, 0.1], [0.034, 0.098],
+        {"type": "revolution", "profile": [[0, 0], [0.040, 0], [0.040, 0.098], [0.038, 0.1], [0.035, 0.1], [0.034,
+          0.098],
                                            [0.034, 0.008], [0, 0.006]]},
         {"type": "capsule", "radius": 0.005, "length": 0.026, "position": [0.038, 0, 0.078], "rpy_deg": [0, 90, 0]},
         {"type": "capsule", "radius": 0.005, "length": 0.05, "position": [0.064, 0, 0.028]},
@@ -92,7 +92,8 @@ const char* const toys = R"json({
     "parts": [
       {"type": "room", "size": [4, 4, 2.6], "position": [0, 0, 1.3], "colour": [190, 185, 175]},
       {"type": "box", "size": [4, 0.02, 0.12], "position": [0, 1.99, 0.06], "colour": [120, 90, 70]},
-      {"type": "box", "size": [0.5, 0.4, 0.45], "position": [1.3, 1.2, 0.225], "rpy_deg": [0, 0, 12], "colour": [90, 140, 110]}
+      {"type": "box", "size": [0.5, 0.4, 0.45], "position": [1.3, 1.2, 0.225], "rpy_deg": [0, 0, 12],
+        "colour": [90, 140, 110]}
     ]
   },
   "objects": [
@@ -100,10 +101,14 @@ const char* const toys = R"json({
       "name": "truck", "id": 1, "colour": [200, 60, 50], "pattern_size": 0.07,
       "parts": [
         {"type": "box", "size": [0.32, 0.13, 0.05], "rounding": 0.006, "position": [0, 0, 0.075]},
-        {"type": "box", "size": [0.09, 0.13, 0.11], "rounding": 0.012, "position": [0.115, 0, 0.145], "colour": [220, 90, 60]},
-        {"type": "box", "size": [0.19, 0.14, 0.10], "rounding": 0.006, "position": [-0.06, 0, 0.145], "colour": [210, 190, 90]},
-        {"type": "cylinder", "radius": 0.04, "height": 0.15, "position": [0.1, 0.075, 0.04], "rpy_deg": [90, 0, 0], "colour": [60, 60, 60]},
-        {"type": "cylinder", "radius": 0.04, "height": 0.15, "position": [-0.1, 0.075, 0.04], "rpy_deg": [90, 0, 0], "colour": [60, 60, 60]}
+        {"type": "box", "size": [0.09, 0.13, 0.11], "rounding": 0.012, "position": [0.115, 0, 0.145],
+          "colour": [220, 90, 60]},
+        {"type": "box", "size": [0.19, 0.14, 0.10], "rounding": 0.006, "position": [-0.06, 0, 0.145],
+          "colour": [210, 190, 90]},
+        {"type": "cylinder", "radius": 0.04, "height": 0.15, "position": [0.1, 0.075, 0.04], "rpy_deg": [90, 0, 0],
+          "colour": [60, 60, 60]},
+        {"type": "cylinder", "radius": 0.04, "height": 0.15, "position": [-0.1, 0.075, 0.04], "rpy_deg": [90, 0,
+          0], "colour": [60, 60, 60]}
       ],
       "keys": [
         {"time": 0.0, "position": [-0.60, 0.30, 0]},
@@ -117,10 +122,13 @@ const char* const toys = R"json({
       "name": "car", "id": 2, "colour": [50, 90, 205], "pattern_size": 0.06,
       "parts": [
         {"type": "extrusion", "height": 0.11, "position": [0, 0.055, 0], "rpy_deg": [90, 0, 0],
-         "outline": [[-0.12, 0.03], [0.12, 0.03], [0.122, 0.062], [0.075, 0.072], [0.03, 0.115], [-0.06, 0.115], [-0.095, 0.076],
+         "outline": [[-0.12, 0.03], [0.12, 0.03], [0.122, 0.062], [0.075, 0.072], [0.03, 0.115], [-0.06, 0.115],
+           [-0.095, 0.076],
                      [-0.122, 0.07]]},
-        {"type": "cylinder", "radius": 0.032, "height": 0.125, "position": [0.075, 0.0625, 0.032], "rpy_deg": [90, 0, 0], "colour": [50, 50, 55]},
-        {"type": "cylinder", "radius": 0.032, "height": 0.125, "position": [-0.075, 0.0625, 0.032], "rpy_deg": [90, 0, 0], "colour": [50, 50, 55]}
+        {"type": "cylinder", "radius": 0.032, "height": 0.125, "position": [0.075, 0.0625, 0.032], "rpy_deg": [90,
+          0, 0], "colour": [50, 50, 55]},
+        {"type": "cylinder", "radius": 0.032, "height": 0.125, "position": [-0.075, 0.0625, 0.032], "rpy_deg": [90,
+          0, 0], "colour": [50, 50, 55]}
       ],
       "keys": [
         {"time": 0.0, "position": [ 0.55, -0.30, 0], "rpy_deg": [0, 0, 170]},
@@ -187,8 +195,10 @@ const char* const stack = R"json({
     },
     {
       "name": "can", "id": 3, "colour": [80, 160, 95], "pattern_size": 0.04,
-      "shape": {"type": "revolution", "profile": [[0, 0.003], [0.028, 0.003], [0.03, 0], [0.0325, 0.003], [0.033, 0.006], [0.033, 0.109],
-                                                  [0.0325, 0.112], [0.03, 0.115], [0.0285, 0.113], [0.028, 0.111], [0, 0.111]]},
+      "shape": {"type": "revolution", "profile": [[0, 0.003], [0.028, 0.003], [0.03, 0], [0.0325, 0.003], [0.033,
+        0.006], [0.033, 0.109],
+                                                  [0.0325, 0.112], [0.03, 0.115], [0.0285, 0.113], [0.028, 0.111],
+                                                    [0, 0.111]]},
       "keys": [{"position": [-0.05, 0.17, 0]}]
     }
   ]

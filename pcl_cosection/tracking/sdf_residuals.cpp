@@ -1,10 +1,10 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "sdf_residuals.h"
 
 #include "pcl_cosection/common/multiversion.h"
 
 #include "pcl_cosection/common/parallel.h"
+#include "pcl_cosection/common/robust_weights.h"
 
 #include <algorithm>
 #include <cmath>
@@ -173,8 +173,7 @@ linearise (const VoxelMap& map, const RobustWeights& robust, const float* __rest
     const float weight = known ? w : 0.0f;
     const float size = std::abs (distance);
     const bool inlier = size <= huber;
-    const float h = inlier ? 1.0f : huber / std::max (size, huber);
-    const float robust_weight = weight * h;
+    const float robust_weight = weight * huberWeight (size, huber);
     const float qx = b.lever[0][n];
     const float qy = b.lever[1][n];
     const float qz = b.lever[2][n];
@@ -281,7 +280,7 @@ compare (const Block& b, float huber, int count, const float* __restrict weight_
   for (int n = 0; n < count; ++n)
   {
     const float size = std::abs (b.distance[n]);
-    const float cost = size <= huber ? 0.5f * size * size : huber * (size - 0.5f * huber);
+    const float cost = huberCost (size, huber);
     weight[n] = weight_before[n] * b.known[n];
     before[n] = cost_before[n];
     now[n] = cost;

@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "camera_resection.h"
 
 #include <pcl/cosection/common/error.h>
@@ -23,8 +22,8 @@ using Matrix12 = Eigen::Matrix<double, 12, 12>;
 
 constexpr int reweightings = 3;
 constexpr std::size_t min_points = 50;
-constexpr double
-    min_distinction = 100.0;         ///< of the second smallest eigenvalue from the smallest, or several matrices fit
+// Least ratio of the second smallest eigenvalue to the smallest; below it, several matrices fit.
+constexpr double min_distinction = 100.0;
 constexpr double at_sensor = 1e-3;   ///< of the mean depth; points that are nearer are no readings
 constexpr double min_effect = 10.0;  ///< of perspective on the pixels, in residuals
 constexpr double least_before = 0.9; ///< of the points lie before a camera that is one

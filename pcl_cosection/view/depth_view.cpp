@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "pcl_cosection/view/camera_resection.h"
 #include "pcl_cosection/view/range_image.h"
 #include <pcl/cosection/common/camera.h>

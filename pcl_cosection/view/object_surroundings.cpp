@@ -1,6 +1,7 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "object_surroundings.h"
+
+#include "pcl_cosection/common/trimmed_box.h"
 
 #include <algorithm>
 
@@ -13,25 +14,6 @@ namespace
 constexpr double outermost_share = 0.02; // of an object's points on each side, which may be wrong
 constexpr float nearness = 1.0f;         // to an object, of its longest side
 
-/** \brief Without the outermost points on each side, which may be on something else. \a points are not empty. */
-Eigen::AlignedBox3f
-boxOfMost (const std::vector<Eigen::Vector3f>& points)
-{
-  Eigen::AlignedBox3f box;
-  const auto cut = static_cast<std::ptrdiff_t> (outermost_share * static_cast<double> (points.size ()));
-  std::vector<float> along (points.size ());
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    std::transform (points.begin (), points.end (), along.begin (),
-                    [axis] (const Eigen::Vector3f& p) { return p[axis]; });
-    std::nth_element (along.begin (), along.begin () + cut, along.end ());
-    box.min ()[axis] = along[cut];
-    std::nth_element (along.begin (), along.end () - 1 - cut, along.end ());
-    box.max ()[axis] = *(along.end () - 1 - cut);
-  }
-  return box;
-}
-
 } // namespace
 
 Surroundings
@@ -41,7 +23,8 @@ surroundingsOf (const Members& members, const SensorCloud& cloud)
   for (const auto& [label, indices] : members)
     if (label != 0)
     {
-      const Eigen::AlignedBox3f box = boxOfMost (pick (cloud.positions, indices));
+      const Eigen::AlignedBox3f box = trimmedBox<float> (indices, outermost_share,
+                                                         [&] (std::size_t i) { return cloud.positions[i]; });
       const Eigen::Vector3f reach = Eigen::Vector3f::Constant (nearness * box.sizes ().maxCoeff ());
       boxes[label] = Eigen::AlignedBox3f (box.min () - reach, box.max () + reach);
     }

@@ -1,6 +1,7 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "sensor_location.h"
+
+#include "pcl_cosection/common/quantile.h"
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
@@ -21,8 +22,8 @@ namespace
 constexpr int window = 8;              // steps before and after one, whose median is the spacing of the points there
 constexpr double jump_spacings = 20.0; // length of a jump, at least
 constexpr float longest_step = 5.0f;   // in spacings, of one that is no jump
-constexpr double
-    loose = 2.0; // tolerance of the angle between neighbours, in such angles, to find the lines that meet ...
+// Tolerance of the angle between neighbours, in such angles, to find the lines that meet ...
+constexpr double loose = 2.0;
 constexpr double strict = 0.25; // ... and to adjust where: a missing reading between both ends is told then
 constexpr std::size_t most_jumps = 2000;
 constexpr int samples = 1000;
@@ -76,8 +77,7 @@ findJumps (const std::vector<Eigen::Vector3f>& points)
                                                  [&] (float step) { return jump_spacings * step < *here; }) <= window)
       continue;
     about.assign (here - window, here + window + 1);
-    std::nth_element (about.begin (), about.begin () + window, about.end ());
-    const float longest = longest_step * about[window];
+    const float longest = longest_step * upperMedian (about);
     jumps.push_back ({finite[i].cast<double> (), finite[i + 1].cast<double> (),
                       meanStep (finite, i - window, i, longest), meanStep (finite, i + 1, i + 1 + window, longest)});
   }

@@ -1,7 +1,7 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "sensor_view.h"
 
+#include "pcl_cosection/common/quantile.h"
 #include "pcl_cosection/io/place_text.h"
 #include "pcl_cosection/view/normals/estimated_normals.h"
 
@@ -20,8 +20,8 @@ namespace
 {
 
 constexpr double max_default_slope = 1.7321; // of points before a camera whose pose was left at the default: 60 degrees
-constexpr double
-    max_hidden_from_guess = 0.02; // of all points, from where the header does not say that they were seen ...
+// A share of all points, from where the header does not say that they were seen ...
+constexpr double max_hidden_from_guess = 0.02;
 constexpr double max_hidden_of_label_from_guess = 0.1; // ... and of those of a label
 constexpr double same_place = 0.1;                     // of the distance to the points
 constexpr int lonely_neighbours = 6;                   // of which the farthest ...
@@ -74,10 +74,9 @@ withoutLonely (const PcdViewOptions& options, const Members& members, const Sens
     const std::vector<float> reach = neighbourDistances (pick (cloud.positions, indices), lonely_neighbours,
                                                          options.threads);
     std::vector<float> sorted = reach;
-    const auto middle = sorted.begin () + static_cast<std::ptrdiff_t> (sorted.size () / 2);
-    std::nth_element (sorted.begin (), middle, sorted.end ());
+    const float usual = upperMedian (sorted);
     for (std::size_t k = 0; k < indices.size (); ++k)
-      if (reach[k] <= lonely_factor * *middle)
+      if (reach[k] <= lonely_factor * usual)
         core.positions[indices[k]] = cloud.positions[indices[k]];
   }
   return core;

@@ -1,7 +1,7 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "virtual_viewpoint.h"
 
+#include "pcl_cosection/common/quantile.h"
 #include "pcl_cosection/common/sphere_directions.h"
 
 #include "pcl_cosection/view/range_image.h"
@@ -40,12 +40,9 @@ virtualViewpoint (const std::vector<OrientedPoint>& points)
         cosines.push_back (d.dot (points[p].normal));
     if (cosines.empty ())
       return std::nullopt;
-    const auto low = cosines.begin () +
-                     static_cast<std::ptrdiff_t> (unsure_share * static_cast<double> (cosines.size ()));
-    std::nth_element (cosines.begin (), low, cosines.end ());
-    if (*low > best)
+    if (const float low = trimmedMin (cosines, unsure_share); low > best)
     {
-      best = *low;
+      best = low;
       facing = d;
     }
   }

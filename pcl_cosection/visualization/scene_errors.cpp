@@ -1,6 +1,6 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 
+#include "pcl_cosection/common/quantile.h"
 #include "pcl_cosection/evaluation/pictures/error_picture.h"
 #include "pcl_cosection/evaluation/surface_distance.h"
 #include <pcl/cosection/evaluation/mesh_comparison.h>
@@ -52,9 +52,7 @@ measureErrors (RunScene& scene, const SceneRecord& truth, const RunEvaluation& e
     all = scene.errors[RunScene::background].completed;
   if (all.empty ())
     return;
-  const auto place = all.begin () + static_cast<std::ptrdiff_t> (usual_share * static_cast<double> (all.size () - 1));
-  std::nth_element (all.begin (), place, all.end ());
-  scene.error_max_m = roundErrorUp (*place);
+  scene.error_max_m = roundErrorUp (quantile (all, usual_share));
 }
 
 std::vector<std::string>

@@ -1,8 +1,8 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include <pcl/cosection/visualization/scene_picture.h>
 
 #include "pcl_cosection/common/atomic_file.h"
+#include "pcl_cosection/common/quantile.h"
 #include "pcl_cosection/view/look_at.h"
 #include <pcl/cosection/common/error.h>
 
@@ -67,14 +67,8 @@ boxOfMost (const TriangleMesh& mesh)
   {
     std::transform (mesh.vertices.begin (), mesh.vertices.end (), values.begin (),
                     [axis] (const auto& v) { return v[axis]; });
-    const auto at = [&values] (double share) {
-      const auto place = values.begin () +
-                         static_cast<std::ptrdiff_t> (share * static_cast<double> (values.size () - 1));
-      std::nth_element (values.begin (), place, values.end ());
-      return static_cast<double> (*place);
-    };
-    low[axis] = at (deepest_share);
-    high[axis] = at (1.0 - deepest_share);
+    low[axis] = quantile (values, deepest_share);
+    high[axis] = quantile (values, 1.0 - deepest_share);
   }
   box.extend (low);
   box.extend (high);

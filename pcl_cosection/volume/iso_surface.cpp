@@ -1,5 +1,7 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
+
+// Written by hand, because pcl::MarchingCubes gives every triangle its own three vertices, and neither it nor VTK's
+// marching cubes promise a manifold.
 
 #include "marching_cubes_cases.h"
 

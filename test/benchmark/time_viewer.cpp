@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 
 // time_viewer OUTPUT [WIDTH HEIGHT]: plays what pcl_cosection_fusion wrote to OUTPUT in a window, as fast as that is
 // drawn, and prints frames per second for each colour mode. Without a screen: xvfb-run -s "-screen 0 1400x900x24"

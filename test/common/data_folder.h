@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 #include <filesystem>
@@ -8,9 +7,8 @@
 namespace pcl::cosection::test
 {
 
-/** \brief A folder of the shared data, which need not be there: of $PCL_COSECTION_DATA, else of ../shared/data beside
- * the checkout. */
-std::filesystem::path
-dataFolder (const std::string& name);
+/** \brief A folder of the shared data in $PCL_COSECTION_DATA, or by default in ../shared/data beside the checkout. It
+ * need not exist. */
+std::filesystem::path dataFolder (const std::string& name);
 
 } // namespace pcl::cosection::test

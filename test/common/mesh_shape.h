@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 #include <pcl/cosection/common/triangle_mesh.h>
@@ -16,7 +15,7 @@
 namespace pcl::cosection::test
 {
 
-/** \brief Columns: the corners. */
+/** \brief The corners of a triangle as columns. */
 inline Eigen::Matrix3d
 cornersOf (const TriangleMesh& mesh, const TriangleMesh::Triangle& triangle)
 {
@@ -26,7 +25,7 @@ cornersOf (const TriangleMesh& mesh, const TriangleMesh::Triangle& triangle)
   return corners;
 }
 
-/** \brief Outward normal, twice the area long. */
+/** \brief Outward normal of a triangle, with twice its area as length. */
 inline Eigen::Vector3d
 areaVectorOf (const TriangleMesh& mesh, const TriangleMesh::Triangle& triangle)
 {
@@ -34,7 +33,7 @@ areaVectorOf (const TriangleMesh& mesh, const TriangleMesh::Triangle& triangle)
   return (corners.col (1) - corners.col (0)).cross (corners.col (2) - corners.col (0));
 }
 
-/** \brief 1: equilateral, 0: degenerate. */
+/** \brief Quality of a triangle; 1: equilateral, 0: degenerate. */
 inline double
 qualityOf (const TriangleMesh& mesh, const TriangleMesh::Triangle& triangle)
 {
@@ -44,7 +43,7 @@ qualityOf (const TriangleMesh& mesh, const TriangleMesh::Triangle& triangle)
   return sides > 0.0 ? 2.0 * std::sqrt (3.0) * areaVectorOf (mesh, triangle).norm () / sides : 0.0;
 }
 
-/** \brief Every triangle split into four, \a times times. */
+/** \brief The mesh with every triangle split into four, repeated \a times. */
 inline TriangleMesh
 subdivided (TriangleMesh mesh, int times)
 {
@@ -89,8 +88,7 @@ eulerOfComponents (const TriangleMesh& mesh)
   return euler;
 }
 
-/** \brief Both are manifolds, both closed or both not, of homeomorphic components as far as Euler characteristics
- * can tell. */
+/** \brief Expect two manifolds, both closed or both open, whose components have the same Euler characteristics. */
 inline void
 expectSameTopology (const TriangleMesh& a, const TriangleMesh& b)
 {

@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 #include <pcl/cosection/common/triangle_mesh.h>
@@ -78,8 +77,8 @@ sphereMesh (double radius, std::uint32_t n)
   return mesh;
 }
 
-/** \brief The square [0, 1] x [0, 1] of n x n cells in the plane z = 0; \a inside (x, y) says which cells, by their
- * middles, there are. */
+/** \brief The square [0, 1] x [0, 1] of n x n cells in the plane z = 0; only cells with \a inside (x, y) at their
+ * centres exist. */
 template <typename Inside>
 TriangleMesh
 sheetMesh (std::uint32_t n, Inside&& inside)

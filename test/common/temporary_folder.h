@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 #include <gtest/gtest.h>
@@ -49,7 +48,7 @@ private:
   std::filesystem::path path_;
 };
 
-/** \brief While it lives, files of this process cannot grow beyond a size, as on a full disk. */
+/** \brief Limits the size of files that this process writes, for its lifetime, to simulate a full disk. */
 class FileSizeLimit
 {
 public:
@@ -84,7 +83,7 @@ readFile (const std::string& path)
 inline void
 writeFile (const std::string& path, const std::string& bytes)
 {
-  std::filesystem::remove (path); // some file systems wait for the disk where a file is written over
+  std::filesystem::remove (path); // some file systems wait for the disk when a file is overwritten
   std::ofstream (path, std::ios::binary) << bytes;
 }
 

@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 #include "volume/analytic_fields.h"
@@ -28,16 +27,16 @@ smallCamera ()
 Distance placed (const Distance& shape, const Eigen::Isometry3d& T_world_shape);
 Distance placed (const Distance& shape, const Eigen::Vector3d& position);
 
-/** \brief Vertical, open at the top, standing on z = 0. */
+/** \brief A cup that stands on z = 0, open at the top. */
 Distance cup (double outer_radius, double height, double wall);
 
-/** \brief Everything where n.x + d < 0; unit n. */
+/** \brief The half-space n.x + d < 0; unit n. */
 Distance halfSpace (const Eigen::Vector4d& plane);
 
 /** \brief Direction of steepest ascent of a distance, by central differences. */
 Eigen::Vector3d gradient (const Distance& distance, const Eigen::Vector3d& p);
 
-/** \brief A depth view, and what was seen in it. */
+/** \brief A depth view with its labels and points. */
 struct RenderedView
 {
   DepthView view;
@@ -57,7 +56,7 @@ public:
   RenderedView render (const PinholeCamera& camera, const Eigen::Isometry3d& T_world_sensor,
                        double max_range_m = 3.0) const;
 
-  /** \brief The same scene elsewhere. */
+  /** \brief This scene moved by \a T. */
   AnalyticScene moved (const Eigen::Isometry3d& T) const;
 
 private:

@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 #include "analytic_scene.h"
@@ -13,14 +12,14 @@
 #include <random>
 #include <vector>
 
-// What the tests of FreeSpaceFilter share: a table with a ball and a box, seen from three sides.
+// Shared by the tests of FreeSpaceFilter: a table with a ball and a box, seen from three sides.
 
 namespace pcl::cosection::test
 {
 
 using Points = pcl::PointCloud<pcl::PointXYZ>;
 
-/** \brief The table is z = 0. */
+/** \brief The scene; the table is z = 0. */
 inline AnalyticScene
 tableScene ()
 {
@@ -39,7 +38,7 @@ tablePoses ()
   return {lookAt ({0.0, -0.6, 0.45}, middle), lookAt ({0.6, 0.2, 0.4}, middle), lookAt ({-0.5, 0.4, 0.5}, middle)};
 }
 
-/** \brief One view per pose. \param[in] noise standard deviation of depth, in those of depthNoiseSigma () */
+/** \brief One view per pose. \param[in] noise standard deviation of depth, in multiples of depthNoiseSigma () */
 inline std::vector<DepthView>
 renderTable (const AnalyticScene& scene, double noise = 0.0,
              const std::vector<Eigen::Isometry3d>& poses = tablePoses ())
@@ -56,7 +55,7 @@ renderTable (const AnalyticScene& scene, double noise = 0.0,
   return views;
 }
 
-/** \brief The organised cloud that a depth image is, in its sensor's frame or in the world's. */
+/** \brief The organised cloud of a depth image, in its sensor's frame or in the world's. */
 inline Points
 toCloud (const DepthView& view, bool world)
 {
@@ -83,7 +82,7 @@ merged (const std::vector<DepthView>& views)
   return cloud;
 }
 
-/** \brief Points of a ball that floats above the table: nothing is there. */
+/** \brief Points of a ball above the table that does not exist. */
 inline Points
 ghosts (int count = 500)
 {

@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 #include <pcl/cosection/common/triangle_mesh.h>
@@ -14,7 +13,7 @@
 #include <cmath>
 #include <vector>
 
-// What the tests of HessianIMLS share: a sphere of points, and what is asked of its mesh.
+// Shared by the tests of HessianIMLS: points of a sphere, and expectations on its mesh.
 
 namespace pcl::cosection::test
 {
@@ -78,7 +77,7 @@ reconstruct (Imls& imls)
   return mesh;
 }
 
-/** \brief As after a failure: nothing at all. */
+/** \brief Expect empty outputs, as after a failure. */
 inline void
 expectNothing (Imls& imls)
 {

@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 #include <pcl/cosection/common/triangle_mesh.h>
@@ -10,7 +9,7 @@
 namespace pcl::cosection::test
 {
 
-/** \brief Least coordinate of any vertex; along z unless told. */
+/** \brief Least coordinate of any vertex, by default along z. */
 inline float
 lowest (const TriangleMesh& mesh, int axis = 2)
 {

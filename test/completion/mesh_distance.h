@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 #include <pcl/cosection/common/triangle_mesh.h>
@@ -19,7 +18,7 @@ class MeshDistance
 public:
   MeshDistance (const TriangleMesh& mesh, double reach_m);
 
-  /** \brief Never more than the reach. */
+  /** \brief The distance, clamped to the reach. */
   double operator() (const Eigen::Vector3d& p) const;
 
 private:

@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 #include <pcl/cosection/surface/solver.h>
@@ -9,7 +8,7 @@
 namespace pcl::cosection::test
 {
 
-/** \brief Problems as reconstruction poses them, and one that it does not. */
+/** \brief Problems like those of a reconstruction, and a random one. */
 enum class ProblemKind
 {
   HalfSphere, ///< data on one side of a sphere, nothing else

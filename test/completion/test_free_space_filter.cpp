@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "common/not_a_number.h"
 #include "free_space_scene.h"
 
@@ -9,7 +8,7 @@
 
 #include <algorithm>
 
-// What FreeSpaceFilter removes, and what it keeps.
+// The points that FreeSpaceFilter removes and keeps.
 
 using namespace pcl::cosection;
 using namespace pcl::cosection::test;
@@ -56,7 +55,7 @@ TEST_P (FreeSpaceFilterTest, RemovesGhostsAndNothingElse)
   EXPECT_GT (surface, 50000u);
 }
 
-/** \brief Without its own view's vote a surface stays as well: the others do not look through it. */
+/** \brief A surface stays also without the vote of its own view, as the others do not look through it. */
 TEST_P (FreeSpaceFilterTest, OtherViewsDoNotContradictASurface)
 {
   std::size_t kept = 0, all = 0;
@@ -98,7 +97,7 @@ TEST_P (FreeSpaceFilterTest, AGrazingViewDoesNotContradictNoise)
   EXPECT_GE (static_cast<double> (kept), (GetParam () > 0.0 ? 0.999 : 1.0) * cloud->size ());
 }
 
-/** \brief Random points: what goes is in the open, and what is in the open and seen by all goes. */
+/** \brief Random points: removed points are in free space, and points in free space in all views are removed. */
 TEST_P (FreeSpaceFilterTest, RemovesWhatIsInTheOpen)
 {
   const AnalyticScene scene = tableScene ();
@@ -128,7 +127,7 @@ TEST_P (FreeSpaceFilterTest, RemovesWhatIsInTheOpen)
 
 INSTANTIATE_TEST_SUITE_P (Noise, FreeSpaceFilterTest, testing::Values (0.0, 1.0));
 
-/** \brief Depths between those of an object and of what is behind it, as sensors report at silhouettes. */
+/** \brief Mixed pixels, with depths between those of an object and of the surface behind it. */
 TEST (FreeSpaceFilter, RemovesFlyingPixelsThatOtherViewsSeeThrough)
 {
   const AnalyticScene scene = tableScene ();
@@ -154,7 +153,7 @@ TEST (FreeSpaceFilter, RemovesFlyingPixelsThatOtherViewsSeeThrough)
   Filter filter;
   addViews (views, filter);
   const std::size_t left = passing (filter, flying).size ();
-  EXPECT_LE (left, flying->size () / 20) << "of " << flying->size (); // which are beside edges in all other views
+  EXPECT_LE (left, flying->size () / 20) << "of " << flying->size (); // those beside depth edges in all other views
   const Points::Ptr surface = merged (renderTable (scene));
   EXPECT_EQ (passing (filter, surface).size (), surface->size ());
 }
@@ -172,7 +171,7 @@ TEST (FreeSpaceFilter, AViewWithAWrongPoseLosesToTwoRightOnes)
   const std::size_t right_kept = passing (filter, right_points).size ();
   EXPECT_GT (static_cast<double> (right_kept), 0.99 * right_points->size ());
 
-  // Where both right views see the table, the floating one goes.
+  // Where both correct views see the table, the floating one is removed.
   std::size_t near_middle = 0, near_middle_kept = 0;
   const auto in_the_open = [&] (const pcl::PointXYZ& p) {
     return std::abs (p.z - 0.03f) < 0.01f && p.x < 0.0f && p.y < -0.12f && std::hypot (p.x, p.y) < 0.2f;

@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "common/not_a_number.h"
 #include "free_space_scene.h"
 
@@ -18,7 +17,7 @@
 #include <algorithm>
 #include <numeric>
 
-// FreeSpaceFilter as one of PCL's filters.
+// FreeSpaceFilter as a PCL filter.
 
 using namespace pcl::cosection;
 using namespace pcl::cosection::test;
@@ -28,7 +27,7 @@ namespace
 
 using Filter = FreeSpaceFilter<pcl::PointXYZ>;
 
-/** \brief Three views, and their points with a ghost, with a point that is not finite in every hundred. */
+/** \brief Three views, and their points with those of a ghost ball; every hundredth point is not finite. */
 class FreeSpaceFilterPclTest : public testing::Test
 {
 protected:
@@ -106,7 +105,7 @@ TEST_F (FreeSpaceFilterPclTest, RemovedIndicesAreKeptOnlyOnDemand)
   EXPECT_TRUE (filter.getRemovedIndices ()->empty ());
 }
 
-/** \brief In their order, which need not be ascending. */
+/** \brief Indices keep their order, which need not be ascending. */
 TEST_F (FreeSpaceFilterPclTest, HonoursIndices)
 {
   const pcl::Indices of_all = filtered (false);
@@ -297,7 +296,7 @@ TEST (FreeSpaceFilterBadInput, GivesNothing)
   EXPECT_TRUE (passing (filter, pcl::make_shared<Points> (ghosts ())).empty ());
 }
 
-/** \brief In the frame of the filtered cloud, as after pcl::transformPointCloud. */
+/** \brief Views in the frame of the filtered cloud, as after pcl::transformPointCloud. */
 TEST_F (FreeSpaceFilterPclTest, ViewsMayBeInTheFrameOfTheCloud)
 {
   Filter same;

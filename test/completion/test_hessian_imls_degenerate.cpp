@@ -1,11 +1,10 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "common/not_a_number.h"
 #include "imls_sphere.h"
 
 #include <vector>
 
-// HessianIMLS on input that determines no surface: a message and nothing, never a crash.
+// HessianIMLS on input that determines no surface gives a message and empty outputs, and does not crash.
 
 using namespace pcl::cosection;
 using namespace pcl::cosection::test;

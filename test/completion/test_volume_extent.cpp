@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "completion/scenes/completion_scene.h"
 
 #include <gtest/gtest.h>
@@ -38,7 +37,7 @@ class VolumeExtent : public testing::TestWithParam<Shape>
 
 } // namespace
 
-/** \brief Nothing bounds a shape that hangs in the air, but the volume's sides must not either. */
+/** \brief The volume must not bound a shape that hangs in the air without any other bound. */
 TEST_P (VolumeExtent, HoldsTheHiddenBackOfWhatHangsInTheAir)
 {
   AnalyticScene scene;

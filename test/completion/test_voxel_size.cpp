@@ -1,7 +1,6 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 
-// How large voxels are if nobody says.
+// Automatic voxel sizes.
 
 #include "completion/scenes/surrounding_views.h"
 
@@ -36,7 +35,7 @@ protected:
     CoSection task (options);
     task.addView (seen_.view);
     task.setBackground (seen_.points.at (0));
-    for (int id = 1; id <= rings; ++id) // at one place: they share it, but that is not what is asked here
+    for (int id = 1; id <= rings; ++id) // all at one place; their overlap does not matter here
       task.addObject ({id, seen_.points.at (1), {}});
     return task.reconstruct ();
   }
@@ -54,7 +53,7 @@ TEST_F (RingFromFarAway, IsNoThickerThanItIs)
   const ObjectResult object = completed (CoSectionOptions ());
   ASSERT_EQ (object.error, "");
   EXPECT_TRUE (computeTopology (object.mesh).closed_manifold);
-  EXPECT_LT (object.signed_distance->grid.voxel_size_m, 0.004); // two pixels; three points in each take 5 mm
+  EXPECT_LT (object.signed_distance->grid.voxel_size_m, 0.004); // two pixels; voxels of three points have 5 mm
   EXPECT_NEAR (computeMassProperties (object.mesh).volume_m3 / truth_m3, 1.0, 0.1);
   EXPECT_LT (meanError (object.mesh, scene_.shape (1)), 0.001);
 }
@@ -70,7 +69,7 @@ TEST_F (RingFromFarAway, TakesLargerVoxelsWhereMemoryAsksForThem)
   EXPECT_TRUE (computeTopology (coarse.mesh).closed_manifold);
   EXPECT_GT (coarse.signed_distance->grid.voxel_size_m, 1.4 * fine.signed_distance->grid.voxel_size_m);
   options.voxel_size_m = fine.signed_distance->grid.voxel_size_m;
-  EXPECT_NE (completed (options).error, ""); // as asked for, or not at all
+  EXPECT_NE (completed (options).error, ""); // a given voxel size is not changed
 }
 
 TEST_F (RingFromFarAway, TakesLargerVoxelsAsAllMustFit)
@@ -81,7 +80,7 @@ TEST_F (RingFromFarAway, TakesLargerVoxelsAsAllMustFit)
     EXPECT_EQ (object.error, "") << object.id;
 }
 
-// Across the surface, more than the spacing of the points: three of them in each voxel average it.
+// Noise larger than the spacing of the points, which voxels with three points average.
 TEST_F (RingFromFarAway, HasLargerVoxelsWherePointsScatter)
 {
   const double exact_m = completed (CoSectionOptions ()).signed_distance->grid.voxel_size_m;

@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "completion/hessian_definition.h"
 
 #include <pcl/cosection/surface/solver.h>
@@ -71,7 +70,7 @@ randomField (std::size_t size)
   return u;
 }
 
-/** \brief The energy as it is written down, term by term. */
+/** \brief The energy by its definition, term by term. */
 double
 energyByDefinition (const EnergyProblem& problem, const std::vector<double>& u)
 {
@@ -192,7 +191,7 @@ TEST (Coarsening, AveragesDistancesByWeight)
   EXPECT_EQ (coarse.exterior[0].weight (), 0.75f);
 }
 
-/** \brief A smooth field has the same energy on both grids, up to the border. */
+/** \brief A smooth field has the same energy on both grids, except near the border. */
 TEST (Coarsening, KeepsTheEnergyOfSmoothFields)
 {
   constexpr int size = 40;

@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "completion/solver_problems.h"
 
 #include <pcl/cosection/surface/solver.h>
@@ -19,8 +18,8 @@ class FastJacobiCycles : public testing::TestWithParam<int>
 
 } // namespace
 
-/** \brief Long cycles amplify what the constraints, switching on and off in mid-cycle, leave undamped. Whatever
- * happens then, the solver must not say that it converged elsewhere than at the minimum. */
+/** \brief In long cycles the active set changes, which leaves errors undamped or amplified. The solver must not report
+ * convergence away from the minimum. */
 TEST_P (FastJacobiCycles, ConvergeToTheMinimumOrDoNotClaimTo)
 {
   for (const ProblemKind kind : {ProblemKind::All, ProblemKind::Random})

@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "completion/analytic_scene.h"
 
 #include "pcl_cosection/energy/constraints/free_space_carving.h"
@@ -44,7 +43,7 @@ gridAboutBall ()
   return grid;
 }
 
-/** \brief Bounds from views all around the ball, of poses that are wrong by so many pixels. */
+/** \brief Bounds from views all around the ball, whose poses are wrong by some pixels. */
 std::vector<float>
 boundsOf (int views, double pose_error_px)
 {
@@ -66,7 +65,7 @@ boundsOf (int views, double pose_error_px)
   return carving.lowerBounds ();
 }
 
-/** \brief Mean of bound minus distance where the equator's voxels are near the ball, voxels: positive cuts too much. */
+/** \brief Mean of bound minus distance at voxels near the ball's equator, voxels; positive: the cut is too deep. */
 double
 meanExcess (const std::vector<float>& bounds)
 {

@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "completion/hessian_definition.h"
 
 #include "pcl_cosection/energy/solver/hessian_operator.h"
@@ -32,7 +31,7 @@ randomField (const Eigen::Vector3i& dims, unsigned seed)
   return u;
 }
 
-/** \brief f (i, j, k) at every voxel. */
+/** \brief Samples of f (i, j, k) at every voxel. */
 template <typename Real, typename Function>
 std::vector<Real>
 sampledField (const Eigen::Vector3i& dims, Function&& f)

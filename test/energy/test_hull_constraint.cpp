@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "common/not_a_number.h"
 #include "completion/analytic_scene.h"
 
@@ -66,12 +65,12 @@ freeSpace (const VoxelGrid& grid, const std::vector<DepthView>& views, bool revi
   return hull.freeSpace (revise);
 }
 
-/** \brief Range of the readings within a number of pixels of where a point is seen. */
+/** \brief Range of the readings within some pixels of a point's projection. */
 struct Footprint
 {
   double nearest = std::numeric_limits<double>::infinity ();
   double farthest = 0.0;
-  bool complete = true; ///< no reading missing, none beyond the image, none at a depth edge
+  bool complete = true; ///< inside the image, without missing readings and depth edges
 };
 
 Footprint
@@ -110,7 +109,7 @@ protected:
 
 } // namespace
 
-/** \brief The margin is three voxels or three standard deviations, whichever is more. */
+/** \brief The margin is three voxels or three standard deviations, whichever is larger. */
 TEST_P (HullConstraintTest, EndsAtTheMarginBeforeAWall)
 {
   const VoxelGrid grid = gridAbout ({0.0, 0.0, wall_m}, 41, GetParam ());
@@ -144,7 +143,7 @@ TEST_P (HullConstraintTest, NeverFreesABody)
   EXPECT_GT (hidden, 1000u);
 }
 
-/** \brief All readings in the footprint must be farther; and where all around are, the voxel is free. */
+/** \brief A voxel is free only if all readings in its footprint are farther, and always if all around are. */
 TEST_P (HullConstraintTest, FollowsTheFootprint)
 {
   const FreeSpaceView view (rendered (ballBeforeWall ()));

@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "common/not_a_number.h"
 
 #include "pcl_cosection/energy/data/imls_data_term.h"
@@ -28,7 +27,7 @@ testGrid ()
   return grid;
 }
 
-/** \brief f (squared distance in voxels, offset of the voxel from the point in voxels, its index). */
+/** \brief Call f (squared distance in voxels, offset of the voxel from the point in voxels, its index). */
 template <typename Function>
 void
 forEachOffset (const VoxelGrid& grid, const Eigen::Vector3d& point_vox, Function&& f)
@@ -39,7 +38,7 @@ forEachOffset (const VoxelGrid& grid, const Eigen::Vector3d& point_vox, Function
         f (Eigen::Vector3d (Eigen::Vector3d (i, j, k) - point_vox), grid.index (i, j, k));
 }
 
-/** \brief Points in and around the grid; none with a voxel so close to its cut-off that rounding decides. */
+/** \brief Points in and around the grid, without any voxel so close to the cutoff that rounding decides. */
 std::vector<OrientedPoint>
 randomPoints (const VoxelGrid& grid, double sigma_vox, int number)
 {

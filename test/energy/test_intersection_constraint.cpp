@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "completion/analytic_scene.h"
 
 #include "pcl_cosection/energy/constraints/intersection_constraint.h"
@@ -73,7 +72,7 @@ TEST_P (IntersectionConstraintTest, IsTheDepthInsideTheBody)
 
 TEST_P (IntersectionConstraintTest, IsThatOfEachVoxelByItself)
 {
-  // Two small bodies in a large volume, of which a corner says nothing.
+  // Two small bodies in a large volume, one corner of which is not supported.
   SignedDistanceField bodies = sampleField (sphere (0.02), 0.12, 0.0025);
   for (std::size_t n = 0; n < bodies.values.size (); ++n)
     bodies.values[n] = std::min (bodies.values[n],
@@ -158,7 +157,7 @@ INSTANTIATE_TEST_SUITE_P (VoxelSizes, IntersectionConstraintTest, testing::Value
 
 TEST (IntersectionBodies, OutsideTheirVolumeSayNothing)
 {
-  // A body that fills its volume, and goes on beyond it as far as anyone knows.
+  // A body that fills its volume; beyond the volume nothing is known.
   SignedDistanceField body = sampleField ([] (const Eigen::Vector3d&) { return -0.1; }, 0.02, 0.005);
   const VoxelGrid grid = testGrid (0.004);
   IntersectionConstraint constraint (grid, cap_vox);

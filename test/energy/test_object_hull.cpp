@@ -1,7 +1,6 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 
-// The hull of an object: everything that may be it, as no view saw it free.
+// The hull of an object: all space that may belong to it, as no view saw it free.
 
 #include "completion/scenes/surrounding_views.h"
 
@@ -134,7 +133,7 @@ TEST (ObjectHull, WhatIsPutLowerIsNotCutByTheTable)
   CoSection task (hullOptions ());
   task.addView (seen.view);
   const Eigen::Isometry3d lower (Eigen::Translation3d (0.0, 0.0, -0.5));
-  seen.view.T_world_sensor = lower * seen.view.T_world_sensor; // the same sight of it, on the floor
+  seen.view.T_world_sensor = lower * seen.view.T_world_sensor; // the same view of the object, on the floor
   task.addView (seen.view);
   task.setBackground (seen.points.at (0));
   task.addObject ({1, seen.points.at (1), {Eigen::Isometry3d::Identity (), lower}});

@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "priors/moved_points.h"
 
 #include "pcl_cosection/energy/constraints/support_plane.h"
@@ -143,7 +142,7 @@ TEST (SupportPlaneInliers, MustBeNear)
   EXPECT_TRUE (findSupportPlanes ({}, boxOn ({0.0, 0.0, 0.0})).empty ());
 }
 
-/** \brief Which side is free is a matter of the points' normals, not of where the object happens to be. */
+/** \brief The normals of the points determine the free side, not the place of the object. */
 TEST (SupportPlaneNormals, PointToFreeSpace)
 {
   std::vector<OrientedPoint> ceiling = table ();

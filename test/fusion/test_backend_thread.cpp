@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 
 // The back end in a thread of its own: what it has in the end does not depend on how the threads run.
 
@@ -116,7 +115,7 @@ TEST_F (BackendThreadTest, CanBeGivenUpAtAnyTime)
         thread.addKeyframe (stamped (n), atRest ());
       thread.wait (0, wait * moment);
     }
-    backend.addKeyframe (stamped (5), atRest ()); // it is nobody else's any more
+    backend.addKeyframe (stamped (5), atRest ()); // the thread is gone
     EXPECT_EQ (backend.update (UpdateOutput::Fields).objects.at (0).error, "");
   }
 }

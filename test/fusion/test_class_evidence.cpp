@@ -1,7 +1,6 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 
-// What an object is, by many detections that may contradict each other.
+// The class of an object, by many detections that may contradict each other.
 
 #include "pcl_cosection/fusion/mapping/class_evidence.h"
 #include <pcl/cosection/common/error.h>

@@ -1,7 +1,6 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 
-// What the back end keeps is bounded, and its result is that of what it keeps.
+// The number of views that the back end keeps is bounded, and its result is that of the views that it keeps.
 
 #include "backend_fixture.h"
 
@@ -64,7 +63,7 @@ TEST_F (BackendTest, AMovedObjectIsInItsFrame)
   EXPECT_LT (computeMassProperties (result.objects[0].mesh).centroid_m.norm (), 0.02);
 }
 
-/** \brief What was background until it moved away, as the front end took it for. */
+/** \brief A thing that the front end took for background until it moved away. */
 TEST_F (BackendTest, WhatMovedAwayIsNoBackground)
 {
   for (const bool leave_out : {false, true})
@@ -93,7 +92,7 @@ TEST_F (BackendTest, WhatMovedAwayIsNoBackground)
   }
 }
 
-/** \brief What was background until it began to move, but stays about where it was: no view looks through it. */
+/** \brief A thing that was background until it began to move, but stays nearby: no view looks through it. */
 TEST_F (BackendTest, WhatTurnsOutToBeAnObjectIsNoBackground)
 {
   for (const bool leave_out : {false, true})
@@ -131,7 +130,7 @@ TEST_F (BackendTest, PointsWithoutPoseAreLeftOut)
 
 TEST_F (BackendTest, TheNearestAreGivenUp)
 {
-  // Of 0, 1, 20 and 50 cm, that at 1 goes, then that at 20: it is as near to 0 as 0 to it, and later.
+  // The views are at 0, 1, 20 and 50 cm: that at 1 is removed, then that at 20, which is as near to 0 and later.
   CoSectionBackend backend (options (100, 4));
   for (const double x : {0.0, 0.01, 0.2, 0.5})
     EXPECT_TRUE (backend.addKeyframe (keyframe (x), atRest ()));

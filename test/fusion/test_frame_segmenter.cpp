@@ -1,7 +1,6 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 
-// What the front end does with what a segmenter finds while it tracks.
+// The front end with a segmenter that finds objects while it tracks.
 
 #include "tracked_scene.h"
 
@@ -121,14 +120,14 @@ TEST (FrameSegmenter, WhatItCannotTellIsToldOnce)
 
 TEST (FrameSegmenter, WhatIsToBeIgnoredIsNeitherTrackedWithNorMapped)
 {
-  // It rests at first, so that nothing but the segmenter tells it from the background.
+  // It rests at first, so that only the segmenter distinguishes it from the background.
   TrackedScene scene (30);
   scene.addPerson (1, along ({0.0, 0.5, 1.0}, {{0.15, 0.0, 0.0}, {0.15, 0.0, 0.0}, {-0.2, 0.1, 0.0}}));
   const TrackedRun run = scene.run (noMask, {}, std::make_shared<MiddleOfFloor> (FrameSegmenter::ignored));
   EXPECT_EQ (run.framesWithCamera (), 30);
   EXPECT_LT (run.cameraError (), segmented_camera_limit_m);
   EXPECT_TRUE (run.found.empty ());
-  // What is mapped of it is its outline, where readings fray.
+  // Only its outline is mapped, where pixels are mixed.
   EXPECT_LT (run.shareOfBackgroundInside (scene, 1, 0.03),
              0.25 * scene.run (noMask).shareOfBackgroundInside (scene, 1, 0.03));
   for (int n = 0; n < 30; ++n)

@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 
 // Objects that the front end finds by their motion alone.
 
@@ -17,9 +16,9 @@ using namespace pcl::cosection::test;
 namespace
 {
 
-constexpr double misled_limit_m = 0.03; // before bare walls, by what moves and is not yet found
-// Of the background: what an object left before it was found goes as fast as free space is averaged in; what was where
-// it is then, at once.
+constexpr double misled_limit_m = 0.03; // before bare walls, by a thing that moves and is not found yet
+// Shares of the background: the surface that an object left before it was found vanishes as free space is averaged in;
+// the surface at its place when it is found vanishes at once.
 constexpr double left_behind_share = 0.03, inside_share = 0.004;
 
 TrackedRun

@@ -1,7 +1,6 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 
-// What the front end says objects are, of segmenters that name the classes of instances.
+// Classes of objects, with segmenters that name the classes of instances.
 
 #include "tracked_scene.h"
 
@@ -77,7 +76,7 @@ TEST (ObjectClasses, DetectionsAreCountedForTheObjectsThatTheyShow)
   TrackedScene scene (4 * frames_per_mask);
   scene.addThing (1, along ({0.0}, {{-0.3, 0.0, 0.0}}));
   scene.addThing (2, along ({0.0}, {{0.3, 0.0, 0.0}}));
-  // Instances have other numbers in each mask. The last one tells nothing of the left thing.
+  // Instances have other numbers in each mask. The last one has no class for the left thing.
   const auto left = [] (int frame) { return 1 + frame % 2; };
   const TrackedRun run = runWith (
       scene, true,
@@ -153,8 +152,8 @@ TEST (ObjectClasses, UnitedPartsHaveTheDetectionsOfBoth)
   ASSERT_TRUE (run.said (" is a part of object "));
   ASSERT_EQ (run.classes.size (), 1u);
   const ClassScore& united = run.classes.begin ()->second;
-  // The upper part is most of the thing in the image, so that it is what remains; the detections of the lower one said
-  // something else.
+  // The upper part is most of the thing in the image, so that it remains; the detections of the lower one name another
+  // class.
   EXPECT_EQ (united.class_name, "part");
   EXPECT_LT (united.score, 0.6 - score_rounding);
   EXPECT_GT (united.score, 0.3);

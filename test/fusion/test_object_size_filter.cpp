@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 
 // Something as large as a stool is seen over its corner, where it is too long for an object, and from its front.
 
@@ -19,10 +18,13 @@ namespace
 
 const char* const stool =
     R"({"frames": 2, "camera": {"width": 320, "height": 240, "fx": 262, "fy": 262, "cx": 159.5, "cy": 119.5, "keys": [
-    {"time": 0, "position": [-1.2, -1.1, 1.1], "look_at": [0, 0, 0.2]}, {"time": 1, "position": [0, -1.7, 0.7], "look_at": [0, 0, 0.2]}]},
+    {"time": 0, "position": [-1.2, -1.1, 1.1], "look_at": [0, 0, 0.2]}, {"time": 1, "position": [0, -1.7, 0.7],
+      "look_at": [0, 0, 0.2]}]},
   "background": {"parts": [{"type": "plane", "extent": 12, "position": [0, 0, 0]}]},
-  "objects": [{"name": "stool", "id": 1, "shape": {"type": "box", "size": [0.42, 0.3, 0.36]}, "keys": [{"position": [0, 0, 0.18]}]},
-    {"name": "ball", "id": 2, "shape": {"type": "sphere", "radius": 0.08}, "keys": [{"position": [0.4, -0.3, 0.08]}]}]})";
+  "objects": [{"name": "stool", "id": 1, "shape": {"type": "box", "size": [0.42, 0.3, 0.36]},
+    "keys": [{"position": [0, 0, 0.18]}]},
+    {"name": "ball", "id": 2, "shape": {"type": "sphere", "radius": 0.08}, "keys": [{"position": [0.4, -0.3,
+      0.08]}]}]})";
 
 /** \brief Views of the stool, and which things a segmenter finds in them. */
 class Views

@@ -1,8 +1,6 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 
-// What the front end does where it is difficult: things that no mask shows, that touch, that are cut off, hidden, fast,
-// gone.
+// The front end in difficult scenes: things that no mask shows, that touch, that are cut off, hidden, fast or gone.
 
 #include "tracked_scene.h"
 
@@ -46,7 +44,7 @@ TEST (RobustTracking, APersonWhomNoMaskShowsMovesFromTheStart)
   scene.addThing (2, along ({0.0}, {{-0.25, 0.0, 0.0}}));
   const TrackedRun run = scene.run (only ({2}, 10));
   EXPECT_EQ (run.framesWithCamera (), 30);
-  EXPECT_LT (run.cameraError (), 0.01); // walls without texture: most of what tells is the person
+  EXPECT_LT (run.cameraError (), 0.01); // walls without texture: most readings that observe motion are the person's
   EXPECT_LT (run.frames.back ().T_world_camera->translation ().x () - run.T_world_camera.back ().translation ().x (),
              camera_limit_m);
   EXPECT_EQ (run.found.size (), 1u);

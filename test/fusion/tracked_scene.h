@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 #include <pcl/cosection/fusion/dynamic_fusion.h>
@@ -33,7 +32,7 @@ constexpr double wrong_m = 0.04;
 /** \brief Whether a point of the world is of a thing, see TrackedScene::addThing (), that stands at (\a x, 0, 0). */
 bool isThing (const Eigen::Vector3d& p, double x);
 
-/** \brief The same instances with other numbers, which differ from frame to frame. */
+/** \brief A mask whose instances have other numbers, which differ from frame to frame. */
 Image<std::uint16_t> reshuffled (const Image<std::uint16_t>& mask, int frame);
 
 /** \brief From one place to another in a second, turning about z by \a turn_rad. */
@@ -42,7 +41,7 @@ KeyedMotion movingThing (const Eigen::Vector3d& from, const Eigen::Vector3d& to,
 /** \brief Through places at times, of a second, without turning. */
 KeyedMotion along (const std::vector<double>& times, const std::vector<Eigen::Vector3d>& places);
 
-/** \brief What the front end made of a scene, and the truth. */
+/** \brief The results of the front end for a scene, and the truth. */
 struct TrackedRun
 {
   std::vector<TrackedFrame> frames;
@@ -50,26 +49,26 @@ struct TrackedRun
   std::vector<double> times;                     ///< s
   std::vector<Image<std::uint16_t>> masks;       ///< true
   std::set<int> found;
-  std::map<int, ClassScore> classes; ///< of any object of a number up to 100, as far as they are known
+  std::map<int, ClassScore> classes; ///< by object up to number 100, where they are known
   std::vector<std::string> events;
   TriangleMesh background;
 
   int framesWithCamera () const;
 
-  /** \brief In how many an object of the front end was tracked. */
+  /** \brief Number of frames in which an object of the front end was tracked. */
   int framesOf (int id) const;
 
-  /** \brief Largest distance of the camera from where it was, metres. */
+  /** \brief Largest error of the camera's position, metres. */
   double cameraError () const;
 
-  /** \brief Distances of the object's origin from where it was, metres, relative to its first pose; of the frames in
-   * which it was tracked. */
+  /** \brief Errors of the object's position relative to its first pose, metres, in the frames in which it was tracked.
+   */
   std::vector<double> objectErrors (int id, const SceneBody& body) const;
 
-  /** \brief The largest of them. */
+  /** \brief The largest of objectErrors (). */
   double objectError (int id, const SceneBody& body) const;
 
-  /** \brief The last of them, if there is one. */
+  /** \brief The last of objectErrors (), if there is one. */
   double lastObjectError (int id, const SceneBody& body) const;
 
   /** \brief The object of the front end that most pixels of a body belong to in the last frame. */

@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 
 // Bytes as class names and as the outputs of a network: a list of names, a line "%%", a line for each output (its name
 // and its shape), an empty line, and the values as they stand in memory.

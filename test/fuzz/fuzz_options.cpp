@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 
 // Bytes as a command line: an argument per line (or, if there is a zero byte, between zero bytes).
 // What follows a line "%%" is the configuration file that the argument @config@ names.

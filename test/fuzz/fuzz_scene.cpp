@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 
 // Bytes as the description of a scene.
 
@@ -36,11 +35,18 @@ fuzz::seeds ()
 {
   std::vector<std::string> seeds{
       std::string ("{\"frames\": 3, \"rate\": 2.5, ") + camera +
-          R"(, "objects": [{"name": "a", "shape": {"type": "sphere", "radius": 0.1}, "keys": [{"position": [0, 0, 0.1]}, {"time": 1, "position": [1, 0, 0], "rpy_deg": [0, 10, 170]}]}]})",
+          R"(, "objects": [{"name": "a", "shape": {"type": "sphere", "radius": 0.1}, "keys": [{"position": [0, 0,
+            0.1]}, {"time": 1, "position": [1, 0, 0], "rpy_deg": [0, 10, 170]}]}]})",
       std::string ("{") + camera +
-          R"(, "depth": {"format": "exr", "noise": {"dropout": 0.1, "range": [0.2, 3]}}, "background": {"parts": [{"type": "room", "size": [4, 4, 3]}]}, "objects": [{"id": 3, "colour": [1, 2, 3], "parts": [{"type": "box", "size": [1, 1, 1], "rounding": 0.1}, {"type": "cone", "bottom_radius": 0, "top_radius": 1, "height": 1, "quaternion": [0, 0, 0, 1]}], "keys": [{"position": [0, 0, 0]}]}]})",
+          R"(, "depth": {"format": "exr", "noise": {"dropout": 0.1, "range": [0.2, 3]}},
+            "background": {"parts": [{"type": "room", "size": [4, 4, 3]}]}, "objects": [{"id": 3, "colour": [1, 2,
+            3], "parts": [{"type": "box", "size": [1, 1, 1], "rounding": 0.1}, {"type": "cone", "bottom_radius": 0,
+            "top_radius": 1, "height": 1, "quaternion": [0, 0, 0, 1]}], "keys": [{"position": [0, 0, 0]}]}]})",
       std::string ("// a comment\n{") + camera +
-          R"(, "views": {"every": 2}, "seed": 7, "objects": [{"shape": {"type": "revolution", "profile": [[0, 0], [1, 0], [1, 1], [0, 1]]}, "keys": [{"position": [0, 0, 0]}]}, {"shape": {"type": "extrusion", "outline": [[0, 0], [1, 0], [0, 1]], "height": 1}, "keys": [{"position": [0, 0, 5]}]}, {"shape": {"type": "torus", "radius": 1, "tube_radius": 0.5}, "keys": [{"position": [0, 0, 9]}]}]})"};
+          R"(, "views": {"every": 2}, "seed": 7, "objects": [{"shape": {"type": "revolution", "profile": [[0, 0],
+            [1, 0], [1, 1], [0, 1]]}, "keys": [{"position": [0, 0, 0]}]}, {"shape": {"type": "extrusion",
+            "outline": [[0, 0], [1, 0], [0, 1]], "height": 1}, "keys": [{"position": [0, 0, 5]}]},
+            {"shape": {"type": "torus", "radius": 1, "tube_radius": 0.5}, "keys": [{"position": [0, 0, 9]}]}]})"};
   return seeds;
 }
 

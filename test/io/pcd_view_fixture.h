@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 #include <pcl/cosection/common/camera.h>
@@ -61,7 +60,7 @@ protected:
   std::filesystem::path folder_;
 };
 
-/** \brief A header of float fields x y z and what else is given. */
+/** \brief A header with the float fields x y z and further given fields. */
 inline std::string
 header (int width, int height, const std::string& data = "ascii", const std::string& fields = "x y z",
         const std::string& size = "4 4 4", const std::string& type = "F F F",
@@ -94,7 +93,7 @@ organizedPlane ()
   return (cloud);
 }
 
-/** \brief The same with a step, so that its pixels tell where it was seen from. */
+/** \brief organizedPlane () with a step in depth, so that its pixels determine the sensor's pose. */
 inline pcl::PointCloud<pcl::PointXYZRGBL>
 organizedStep ()
 {

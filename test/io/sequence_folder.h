@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 #include "common/temporary_folder.h"
@@ -25,7 +24,7 @@ public:
     return name.empty () ? folder_.file ("sequence") : folder_.file ("sequence/" + name);
   }
 
-  /** \brief A path whose folders are there. */
+  /** \brief A path in the folder, whose parent folders are created. */
   std::string newPath (const std::string& name) const
   {
     std::filesystem::create_directories (std::filesystem::path (path (name)).parent_path ());
@@ -34,13 +33,13 @@ public:
 
   void text (const std::string& name, const std::string& content) const { writeFile (newPath (name), content); }
 
-  /** \brief Depth that tells its frame: depthOf (frame, width, height). */
+  /** \brief Write depth that identifies its frame: depthOf (frame, width, height). */
   void depth (const std::string& name, int frame, double scale = 1000.0, int width = 8, int height = 6) const
   {
     saveDepthImage (depthOf (frame, width, height), newPath (name), scale);
   }
 
-  /** \brief Colour that tells its frame: red is the frame, green the column, blue the row. */
+  /** \brief Write colour that identifies its frame: red is the frame, green the column, blue the row. */
   void colour (const std::string& name, int frame, int width = 8, int height = 6) const
   {
     saveColourImage (colourOf (frame, width, height), newPath (name));
@@ -65,7 +64,7 @@ public:
     return picture;
   }
 
-  /** \brief Frames \a numbers in the Co-Fusion layout, with calibration and colour. */
+  /** \brief Write the frames \a numbers in the Co-Fusion layout, with calibration and colour. */
   void coFusion (const std::vector<int>& numbers) const
   {
     text ("calibration.txt", "10 11 3.5 2.5 8 6\n");
@@ -86,7 +85,7 @@ private:
   TemporaryFolder folder_;
 };
 
-/** \brief Depths are equal within half a unit, and missing in the same pixels. */
+/** \brief Expect depths equal within half a unit, and missing in the same pixels. */
 inline void
 expectSameDepth (const Image<float>& expected, const Image<float>& actual, double unit_m)
 {

@@ -1,7 +1,6 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 
-// PCD files that are not as they should be, or unusual: read right or refused. See also test/fuzz.
+// Damaged or unusual PCD files are read correctly or refused. See also test/fuzz.
 
 #include "common/temporary_folder.h"
 
@@ -55,7 +54,7 @@ protected:
     return (messageOf<IoError> ([&] { read (content); }));
   }
 
-  /** \brief Holds (1, 2, 3) and (4, 5, 6) of label 7. */
+  /** \brief Expect the points (1, 2, 3) and (4, 5, 6) of label 7. */
   static void expectTwoPoints (const LabelledView& view)
   {
     ASSERT_EQ (view.objects.count (7), 1u);
@@ -114,7 +113,7 @@ TEST_F (HostilePcd, PointsThatLookLikeAHeader)
     SCOPED_TRACE (body);
     body.resize (56, '\1');
     const LabelledView view = read (header ("binary") + body);
-    std::uint32_t label = 0; // what the bytes are as one
+    std::uint32_t label = 0; // the bytes as a label
     std::memcpy (&label, &body[24], sizeof (label));
     EXPECT_EQ (view.objects.count (label), 1u);
   }
@@ -140,7 +139,7 @@ TEST_F (HostilePcd, PaddingInACompressedFile)
   put (file, size);
   put (file, raw_size);
   expectTwoPoints (read (file + packed.substr (0, size)));
-  for (unsigned int cut = 0; cut < size; ++cut) // too short, or what it refers to is missing
+  for (unsigned int cut = 0; cut < size; ++cut) // too short, or data that the header announces is missing
     EXPECT_THROW (read (file + packed.substr (0, cut)), IoError) << cut;
   EXPECT_THROW (read (file + std::string (size, '\xff')), IoError);
 }

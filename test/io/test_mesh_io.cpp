@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 
 #include "common/temporary_folder.h"
 
@@ -177,7 +176,7 @@ TEST (MeshIo, DamagedPlyNeverCrashes)
     writeFile (path, bytes);
     try
     {
-      computeTopology (loadPlyMesh (path)); // whatever is read is at least consistent
+      computeTopology (loadPlyMesh (path)); // a mesh that is read is consistent
     }
     catch (const IoError&)
     {}

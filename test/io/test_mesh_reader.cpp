@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 
 #include "common/small_meshes.h"
 #include "common/temporary_folder.h"
@@ -29,7 +28,7 @@ namespace
 
 using Corner = std::array<float, 3>;
 
-/** \brief The triangles by their coordinates, wherever they begin. */
+/** \brief The triangles by their coordinates, independent of their first corner. */
 std::multiset<std::array<Corner, 3>>
 trianglesOf (const TriangleMesh& mesh)
 {
@@ -113,7 +112,7 @@ TEST (MeshReader, PolygonsAreTriangulated)
   for (const VtkFile file : test::vtkFiles ())
   {
     if (test::extensionOf (file) == ".stl")
-      continue; // its writer makes triangles of them
+      continue; // its writer converts them to triangles
     const std::string path = folder.file ("prism" + test::extensionOf (file));
     test::writeWithVtk (prism, file, path);
     const TriangleMesh mesh = loadMesh (path);

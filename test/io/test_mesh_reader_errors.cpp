@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 
 #include "common/temporary_folder.h"
 #include "vtk_mesh_files.h"
@@ -41,7 +40,7 @@ smallFiles (const TemporaryFolder& folder)
   return paths;
 }
 
-/** \brief Whatever comes of it is a mesh without flaws, or an error of one line. */
+/** \brief The result is a valid mesh, or an error of one line. */
 bool
 loads (const std::string& path)
 {
@@ -109,7 +108,7 @@ TEST (MeshReaderErrors, SaysWhatIsWrong)
   EXPECT_EQ (reasonFor ("words.stl", "solid a\nfacet normal 0 0 1\nouter circle\n"),
              "'circle' is no word of an STL file");
 
-  // Numbers that are none matter where a face uses them.
+  // Coordinates that are not finite are errors if a face uses them.
   for (const char* number : {"nan", "inf", "-inf", "1e39", "1e999"})
     EXPECT_EQ (reasonFor ("number.obj", std::string ("v 0 0 0\nv 1 0 0\nv 0 1 ") + number + "\nf 1 2 3\n"),
                "vertex 2 (from 0) is not finite")

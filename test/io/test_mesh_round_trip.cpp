@@ -1,7 +1,6 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 
-// Closed meshes, simplified too, are closed as VTK and PCL read them from every format.
+// Closed meshes, also simplified ones, are closed when VTK and PCL read them from any format.
 
 #include "common/temporary_folder.h"
 #include "volume/analytic_fields.h"
@@ -32,7 +31,7 @@ using namespace pcl::cosection::test;
 namespace
 {
 
-/** \brief One vertex for each place; STL has three for each triangle. */
+/** \brief The mesh with merged vertices; STL has three vertices for each triangle. */
 TriangleMesh
 welded (const TriangleMesh& mesh)
 {

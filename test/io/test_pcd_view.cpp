@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "common/not_a_number.h"
 #include "pcd_view_fixture.h"
 
@@ -183,7 +182,7 @@ TEST_F (PcdView, NormalsOfTheFileAreKept)
       "1 2 3 0 0 2\n4 5 6 nan nan nan\n7 8 9 0 0 0\n");
   const LabelledView view = readPcdView (file);
   EXPECT_EQ (view.objects.at (1).readings, 3u);
-  ASSERT_EQ (view.objects.at (1).points.size (), 1u); // normals of no length are none
+  ASSERT_EQ (view.objects.at (1).points.size (), 1u); // a point with a zero normal has no normal
   EXPECT_TRUE (view.objects.at (1).points[0].normal.isApprox (-Eigen::Vector3f::UnitZ (), 1e-6f));
   EXPECT_TRUE (view.objects.at (1).points[0].position.isApprox (Eigen::Vector3f (1, -2, 2), 1e-6f));
 }

@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 
 #include "common/temporary_folder.h"
 
@@ -34,7 +33,7 @@ ramp ()
   return field;
 }
 
-/** \brief The value of an XML attribute, from the element that has \a mark on. */
+/** \brief The value of an XML attribute, after the first element that contains \a mark. */
 std::string
 attribute (const std::string& xml, const std::string& mark, const std::string& name)
 {
@@ -46,7 +45,7 @@ attribute (const std::string& xml, const std::string& mark, const std::string& n
   return xml.substr (begin, xml.find ('"', begin) - begin);
 }
 
-/** \brief An array of the raw data at the end of the file: its size in bytes, then its values. */
+/** \brief An array of the raw data at the end of the file, stored as its size in bytes and its values. */
 template <typename T>
 std::vector<T>
 appendedArray (const std::string& file, const std::string& name)

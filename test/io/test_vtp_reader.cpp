@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 
 #include "common/temporary_folder.h"
 
@@ -60,7 +59,7 @@ const char* const cells = "</DataArray></Points>\n<Lines/><Polys>\n<DataArray ty
                           "format=\"ascii\">0 1 2</DataArray>\n"
                           "<DataArray type='UInt8' Name='offsets' format='ascii'>3</DataArray></Polys></Piece>\n";
 
-/** \brief While it lives, the address space grows by no more than that many bytes. */
+/** \brief Limits the growth of the address space to some bytes, for its lifetime. */
 class MemoryLimit
 {
 public:
@@ -120,7 +119,7 @@ TEST (VtpReader, ReadsWhateverVtkWrites)
         check ();
         writer->EncodeAppendedDataOn ();
         check ();
-        writer->SetDataModeToBinary (); // behind base 64: else the writer goes on raw, which is no XML
+        writer->SetDataModeToBinary (); // base 64: otherwise the writer continues with raw data, which is no XML
         check ();
       }
   writer->SetCompressorTypeToLZMA ();
@@ -169,7 +168,7 @@ TEST (VtpReader, SizesThatCannotBeTakeNoMemory)
         const MemoryLimit limit (most_growth);
         try
         {
-          loadMesh (path); // a size that decides on nothing may be anything
+          loadMesh (path); // a size that is not used may have any value
         }
         catch (const IoError&)
         {}

@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 #include <pcl/cosection/common/triangle_mesh.h>
@@ -36,10 +35,10 @@ enum class VtkFile
   XmlRaw, ///< appended, neither compressed nor in base 64
 };
 
-/** \brief All of them. */
+/** \brief All kinds of VtkFile. */
 std::vector<VtkFile> vtkFiles ();
 
-/** \brief ".ply" ... */
+/** \brief The file name extension, such as ".ply". */
 std::string extensionOf (VtkFile file);
 
 /** \brief An OFF file, which VTK does not write. */

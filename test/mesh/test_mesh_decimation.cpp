@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 
 #include "common/mesh_shape.h"
 #include "common/small_meshes.h"
@@ -18,7 +17,7 @@ using namespace pcl::cosection;
 namespace
 {
 
-/** \brief Largest distance of points on the triangles, not only their corners, from the sphere about the origin. */
+/** \brief Largest distance of points on the triangles, not only of vertices, from the sphere about the origin. */
 double
 distanceFromSphere (const TriangleMesh& mesh, double radius)
 {
@@ -58,7 +57,7 @@ struct Solid
 {
   const char* name;
   TriangleMesh mesh;
-  std::size_t reachable; ///< triangles, at most
+  std::size_t reachable; ///< upper limit of the smallest number of triangles
 };
 
 } // namespace
@@ -204,7 +203,7 @@ TEST (MeshDecimation, LeavesEmptyArraysEmpty)
 {
   TriangleMesh mesh = test::sphereMesh (1.0, 8);
   mesh.normals.clear ();
-  mesh.vertices.push_back (Eigen::Vector3f::Constant (std::numeric_limits<float>::quiet_NaN ())); // used by nothing
+  mesh.vertices.push_back (Eigen::Vector3f::Constant (std::numeric_limits<float>::quiet_NaN ())); // not used
   const TriangleMesh result = decimate (mesh, 100);
   EXPECT_EQ (result.triangles.size (), 100u);
   EXPECT_EQ (result.vertices.size (), 52u);
@@ -286,7 +285,7 @@ TEST (MeshDecimation, RemovesTrianglesWithoutArea)
 
 TEST (MeshDecimation, LetsNormalsTurnNoFurtherThanAllowed)
 {
-  // A subdivided box cannot lose its corners if nothing may turn.
+  // A subdivided box cannot lose its corners if no normal may turn.
   DecimationOptions options;
   options.max_triangles = 1;
   options.max_normal_turn_deg = 1.0;

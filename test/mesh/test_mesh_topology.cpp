@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 
 #include "common/small_meshes.h"
 
@@ -84,7 +83,7 @@ TEST (MeshTopology, OfNothing)
 TEST (MeshTopology, CountsComponentsOfReferencedVertices)
 {
   auto mesh = test::boxMesh ({0, 0, 0}, {1, 1, 1});
-  mesh.vertices.emplace_back (9, 9, 9); // referred to by nothing
+  mesh.vertices.emplace_back (9, 9, 9); // not used
   appendMesh (mesh, test::boxMesh ({4, 0, 0}, {5, 1, 1}));
   const auto topology = computeTopology (mesh);
   EXPECT_TRUE (topology.closed_manifold);

@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 #include <pcl/cosection/common/oriented_point.h>
@@ -11,7 +10,7 @@
 namespace pcl::cosection::test
 {
 
-/** \brief What something stands on: the plane z = 0. */
+/** \brief The support plane z = 0. */
 inline const Eigen::Vector4d ground (0.0, 0.0, 1.0, 0.0);
 
 /** \brief Points every \a spacing_m on those faces of a box about the origin that a camera in the direction \a

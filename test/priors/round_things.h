@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 // Points of things that are round about an axis, as a camera sees them.
@@ -36,8 +35,8 @@ pointAt (const Eigen::Vector3d& position, const Eigen::Vector3d& normal)
   return point;
 }
 
-/** \brief What a distant camera in direction \a view sees of a surface of revolution about z; hidden parts of itself
- * included. */
+/** \brief Points of a surface of revolution about z that face a distant camera in direction \a view, whether or not
+ * other parts hide them. */
 inline std::vector<OrientedPoint>
 observedRound (const Profile& profile, double bottom, double top, const Eigen::Vector3d& view, double side = 1.0)
 {
@@ -56,7 +55,7 @@ observedRound (const Profile& profile, double bottom, double top, const Eigen::V
   return points;
 }
 
-/** \brief As depth images have them: positions off by a millimetre, normals by some degrees. */
+/** \brief The points with the noise of depth images: a millimetre in position, some degrees in normals. */
 inline std::vector<OrientedPoint>
 noisy (std::vector<OrientedPoint> points)
 {
@@ -77,7 +76,7 @@ anyPose ()
          Eigen::AngleAxisd (1.1, Eigen::Vector3d (1.0, 2.0, -1.0).normalized ());
 }
 
-/** \brief Of the directions around z, in a frame, how many of 36 have a point at some height? */
+/** \brief In how many of 36 directions around a frame's z axis there is a point at some height. */
 inline int
 sectorsOf (const std::vector<OrientedPoint>& points, const Eigen::Isometry3d& T, double lowest, double highest)
 {

@@ -1,7 +1,6 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 
-// What stood on something that was cropped away ends where it stood, and where views looked past it there is nothing.
+// Cropped objects end at their inferred support plane, and rays without return bound them.
 
 #include "completion/lowest_vertex.h"
 #include "completion/scenes/surrounding_views.h"
@@ -22,7 +21,7 @@ namespace
 
 constexpr double radius_m = 0.06;
 
-/** \brief A ball on the table, of which only what is higher than \a cut of its radius over its middle is left. */
+/** \brief A ball cut off \a cut radii above its centre, with the cut on the table. */
 Distance
 ballAbove (double cut)
 {
@@ -162,6 +161,6 @@ TEST (RaysWithoutReturn, NothingIsExpectedWhereViewsLookedPast)
     std::printf ("T, views: %zu: mean error %.2f mm with the table, %.2f with its plane, %.2f alone\n", sensors.size (),
                  1e3 * with_table_m, 1e3 * with_plane_m, 1e3 * alone_m);
     EXPECT_LE (with_plane_m, with_table_m + 0.001);
-    EXPECT_LE (alone_m, sensors.size () == 2 ? 0.0025 : 0.0014); // nothing tells where it stands
+    EXPECT_LE (alone_m, sensors.size () == 2 ? 0.0025 : 0.0014); // its support is unknown
   }
 }

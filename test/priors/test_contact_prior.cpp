@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "observed_box.h"
 
 #include "pcl_cosection/priors/contact_prior.h"
@@ -83,7 +82,7 @@ TEST (ContactPrior, CartRestsOnItsRollersIfLightIsSeenBetweenThem)
   append (points, observedBox ({0.02, 0.06, 0.02}, {-1.0, -1.0, 1.0}), {-0.05, 0.0, 0.02});
   EXPECT_TRUE (rests (points, -0.06, -0.05));
   EXPECT_TRUE (rests (points, 0.0, 0.0)); // as if it were a box
-  // From the near side, down to where the floor hides what is below.
+  // Free space on the near side, down to the margin above the floor.
   const Eigen::AlignedBox3d light (Eigen::Vector3d (-0.025, -0.07, 0.01), Eigen::Vector3d (0.025, 0.0, 0.04));
   EXPECT_TRUE (rests (points, -0.06, -0.05, light));
   EXPECT_FALSE (rests (points, 0.0, 0.0, light));

@@ -1,8 +1,6 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 
-// What SymmetricExtent makes of plates and dishes, which show nothing but their inside, and of what is open at the
-// other end.
+// SymmetricExtent of plates and dishes, which show only their inside, and of things that are open at the bottom.
 
 #include "completion/scenes/surrounding_views.h"
 #include "moved_points.h"
@@ -23,8 +21,7 @@ namespace
 
 constexpr double floor_radius = 0.06, rim_radius = 0.1;
 
-/** \brief What is seen from above of a plate: a level floor, and around it a straight wall that rises to \a depth above
- * it. */
+/** \brief A plate as seen from above: a horizontal floor, and around it a straight wall that rises by \a depth. */
 std::vector<OrientedPoint>
 observedPlate (double floor, double depth)
 {
@@ -38,7 +35,7 @@ observedPlate (double floor, double depth)
   return points;
 }
 
-/** \brief A square tray of the same floor and walls. */
+/** \brief A square tray with the floor and the walls of the plate. */
 std::vector<OrientedPoint>
 observedTray (double floor, double depth)
 {
@@ -81,8 +78,7 @@ wholeCup (double inner_end)
   return points;
 }
 
-/** \brief How many of the points that are expected are in a disc about the axis at a height, if the thing is at \a
- * pose. */
+/** \brief Number of expected points in a disc about the axis at a height, for a thing at \a pose. */
 std::ptrdiff_t
 discAt (double height, const SymmetricExtent& extent, const std::vector<OrientedPoint>& points,
         const Eigen::Isometry3d& pose = Eigen::Isometry3d::Identity ())
@@ -145,7 +141,7 @@ TEST (Dish, AloneItIsNoLid)
   EXPECT_EQ (SymmetricExtent (tin).wallThickness (), 0.0);
 }
 
-// Rings of equally many points on profiles with steps: in some, as far out and up as each other are places far apart.
+// Rings of equally many points on profiles with steps: some distant places have equal sums of radius and height.
 TEST (Dish, AnyStepsWillDo)
 {
   std::mt19937 random (1);
@@ -188,7 +184,7 @@ TEST (Dish, OnNothingThatIsKnownItsWallIsAsUsual)
   }
 }
 
-// As those of dinner plates: nothing of it faces sideways.
+// Like that of a dinner plate: no part of it faces sideways.
 TEST (Dish, ARimMayBeLevel)
 {
   const double floor = 0.004, depth = 0.015, end = 0.14;
@@ -233,7 +229,7 @@ TEST (Vessel, UpsideDownItIsOpenBelow)
 {
   const Eigen::Isometry3d over (Eigen::Translation3d (0.0, 0.0, 0.09) *
                                 Eigen::AngleAxisd (M_PI, Eigen::Vector3d::UnitX ()));
-  for (const double inner_end : {0.087, 0.0899}) // whether the last of the inside was seen or not
+  for (const double inner_end : {0.087, 0.0899}) // without and with the end of the inside
   {
     const std::vector<OrientedPoint> vertical = wholeCup (inner_end);
     const std::vector<OrientedPoint> points = moved (vertical, over);
@@ -289,7 +285,7 @@ TEST (Vessel, PointsWithoutANormalSayNothing)
   EXPECT_FALSE (extent.hiddenSide (points, 0.0).empty ()); // and ends
 }
 
-// Walls of a cone: the same across, however steep.
+// Walls of a cone have the same thickness whatever their slope.
 TEST (Vessel, SlopesDoNotMakeWallsThicker)
 {
   for (const double slope : {0.5, 1.0, 2.0})

@@ -1,7 +1,6 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 
-// What stands behind something goes on behind it, down to what it stands on.
+// Walls of things behind others continue down to the support plane.
 
 #include "completion/lowest_vertex.h"
 #include "completion/scenes/completion_scene.h"
@@ -106,7 +105,7 @@ TEST_F (HiddenWalls, OfAWedgeAreNoCopies)
   EXPECT_NEAR (litres (), truth, 0.15 * truth);
 }
 
-/** \brief What walls enclose is as far from anything seen as a can is high, and full. */
+/** \brief The enclosed space is solid, although it is as far from observed surface as the can is high. */
 TEST_F (HiddenWalls, OfACanAreNoTube)
 {
   constexpr double radius = 0.05, height = 0.11;
@@ -117,7 +116,7 @@ TEST_F (HiddenWalls, OfACanAreNoTube)
   EXPECT_NEAR (litres (), truth, 0.1 * truth);
 }
 
-/** \brief Below the free space beside a top that was seen there is nothing. */
+/** \brief The space below the free space beside a top is empty. */
 TEST_F (HiddenWalls, OfAnLFollowItsNotch)
 {
   const Distance along = placed (box ({0.08, 0.03, 0.04}), Eigen::Vector3d (0.0, -0.05, 0.04));
@@ -146,7 +145,7 @@ TEST_F (HiddenWalls, LeanAsTheyLeanWhereTheyWereSeen)
   EXPECT_NEAR (litres (), truth, 0.12 * truth);
 }
 
-/** \brief Behind the board is a shelf's edge, not a thing that stands: below it one sees the table. */
+/** \brief Behind the board is the edge of a shelf, not a standing thing: the table is visible below it. */
 TEST_F (HiddenWalls, EndWhereTheTableIsSeenBelow)
 {
   see (placed (box ({0.06, 0.045, 0.03}), Eigen::Vector3d (0.0, 0.0, 0.2)), {-0.15, 0.155}, {0.15, 0.175});

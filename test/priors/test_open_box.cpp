@@ -1,7 +1,6 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 
-// What is hollow and has a rectangle as its outline: trays, bins, and what is not quite one.
+// Open boxes: trays, bins, and similar things that are not open boxes.
 
 #include "completion/scenes/surrounding_views.h"
 #include "moved_points.h"
@@ -24,7 +23,7 @@ using namespace pcl::cosection::test;
 namespace
 {
 
-/** \brief An vertical box without a lid, standing on z = 0. */
+/** \brief A box without a lid that stands on z = 0. */
 struct Tray
 {
   Eigen::Vector3d size;
@@ -38,7 +37,7 @@ operator<< (std::ostream& out, const Tray& tray)
   return out << tray.size.transpose () << ", wall " << tray.wall << ", corners " << tray.corner;
 }
 
-/** \brief With a rounded rectangle as its outline, from one height to another. */
+/** \brief A prism with a rounded rectangle as its outline, from one height to another. */
 Distance
 block (const Eigen::Vector2d& size, double corner, double bottom, double top)
 {

@@ -1,8 +1,6 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 
-// What SymmetricExtent makes of things that are round about an axis, and which others it takes to look alike from
-// behind.
+// SymmetricExtent of surfaces of revolution, and of other things whose copies are reliable.
 
 #include "moved_points.h"
 #include "observed_box.h"

@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "moved_points.h"
 #include "observed_box.h"
 
@@ -19,7 +18,7 @@ const Eigen::Vector3d half_size (0.08, 0.05, 0.06);
 const Eigen::Vector3d corner_view (-1.0, -1.0, 1.0);
 const Eigen::Vector4d under_box (0.0, 0.0, 1.0, half_size.z ());
 
-/** \brief What a distant camera in direction \a view sees of a ball. */
+/** \brief Points of a ball that face a distant camera in direction \a view. */
 std::vector<OrientedPoint>
 observedBall (const Eigen::Vector3d& middle, double radius, const Eigen::Vector3d& view)
 {
@@ -40,7 +39,7 @@ observedBall (const Eigen::Vector3d& middle, double radius, const Eigen::Vector3
   return points;
 }
 
-/** \brief Around the hidden faces (x, y > 0) the region ends where the box does. */
+/** \brief Expect that the region ends with the box around the hidden faces (x, y > 0). */
 void
 expectRegionOfBox (const SymmetricExtent& extent)
 {

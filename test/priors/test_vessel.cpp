@@ -1,7 +1,6 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 
-// What SymmetricExtent makes of what is round and hollow.
+// SymmetricExtent of round vessels.
 
 #include "completion/scenes/surrounding_views.h"
 #include "moved_points.h"
@@ -18,8 +17,8 @@ using namespace pcl::cosection::test;
 namespace
 {
 
-/** \brief A cup 9 cm high with a wall of 4 mm: all of its outer side that faces the camera, and its inner side down to
- * some height. */
+/** \brief A cup 9 cm high with a wall of 4 mm: its outer side that faces the camera, and its inner side down to some
+ * height. */
 std::vector<OrientedPoint>
 observedCup (double seen_inside_from)
 {
@@ -85,7 +84,7 @@ TEST (Vessel, TubesAndWhatIsSolidAreNoVessels)
   EXPECT_EQ (SymmetricExtent (tube).wallThickness (), 0.0);
   const std::vector<OrientedPoint> solid = observedRound (can, 0.0, 0.09, {0.0, -0.8, 0.6});
   EXPECT_EQ (SymmetricExtent (solid, ground).wallThickness (), 0.0);
-  // A ring: what faces its axis and what faces away come together at both its ends.
+  // A ring: its inner and outer sides meet at both ends.
   constexpr double ring_radius = 0.05, radius = 0.015;
   const Eigen::Vector3d view (0.0, -0.8, 0.6);
   std::vector<OrientedPoint> ring;
@@ -102,7 +101,7 @@ TEST (Vessel, TubesAndWhatIsSolidAreNoVessels)
   EXPECT_EQ (SymmetricExtent (ring, {0.0, 0.0, 1.0, radius}).wallThickness (), 0.0);
 }
 
-// What one view shows of it: its hole has no floor, and its inner side no wall that the outer one is parallel to.
+// One view of a ring: the hole has no floor, and its inner and outer sides are not parallel.
 TEST (Vessel, ARingIsNone)
 {
   for (const double tube : {0.025, 0.03})
@@ -133,7 +132,7 @@ TEST (Vessel, AFloorThatWasSeenIsWhereItWasSeen)
   EXPECT_NEAR (extent.depthInCavity ({0.0, 0.0, 0.022}), 0.01, 0.0005);
 }
 
-// A wall of 4 mm, and voxels that the points' spacing makes larger than that if nothing is known of it.
+// A wall of 4 mm, thinner than the voxels that the points' spacing supports.
 TEST (Vessel, ThinWallsComeOutAsThickAsTheyAre)
 {
   AnalyticScene scene;

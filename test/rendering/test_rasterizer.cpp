@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 
 #include "common/small_meshes.h"
 
@@ -226,7 +225,7 @@ TEST (Rasterizer, NothingIsNearerThanTheNearPlane)
 
 TEST (Rasterizer, NormalsFaceTheCameraFromBothSides)
 {
-  auto mesh = parallelogram ({-9, -9, 2}, {18, 0, 0}, {0, 18, 0}); // its outer side looks away
+  auto mesh = parallelogram ({-9, -9, 2}, {18, 0, 0}, {0, 18, 0}); // its outer side faces away
   for (const bool smooth : {false, true})
   {
     if (smooth)

@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 #include <algorithm>
@@ -12,12 +11,12 @@
 namespace pcl::cosection::test
 {
 
-/** \brief How well labels agree with the true ones. */
+/** \brief Agreement of labels with the true ones. */
 struct LabelComparison
 {
-  std::map<std::uint32_t, double> best_iou; ///< by true object: largest intersection over union with one that was found
-  double mean_iou = 0.0;                    ///< of these
-  std::size_t background_pixels = 0;        ///< of the largest object that is found mostly on the background
+  std::map<std::uint32_t, double> best_iou; ///< by true object: largest intersection over union with a found object
+  double mean_iou = 0.0;                    ///< mean of these
+  std::size_t background_pixels = 0;        ///< of the largest found object that is mostly background
 };
 
 /** \brief \param[in] valid one per pixel: whether it has a reading; others do not count */

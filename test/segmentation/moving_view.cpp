@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "moving_view.h"
 
 #include <pcl/cosection/simulation/scene_renderer.h>
@@ -14,10 +13,10 @@ namespace pcl::cosection::test
 MovingTable::MovingTable (const std::string& objects, const std::string& camera_keys)
 {
   std::ostringstream spec;
-  spec
-      << R"({"frames": 200, "camera": {"width": 320, "height": 240, "fx": 262, "fy": 262, "cx": 159.5, "cy": 119.5, "keys": [)"
-      << (camera_keys.empty () ? R"({"position": [-0.3, -0.95, 0.7], "look_at": [0, 0.05, 0.05]})" : camera_keys)
-      << R"(]},
+  spec << R"({"frames": 200, "camera": {"width": 320, "height": 240, "fx": 262, "fy": 262, "cx": 159.5, "cy": 119.5,
+        "keys": [)"
+       << (camera_keys.empty () ? R"({"position": [-0.3, -0.95, 0.7], "look_at": [0, 0.05, 0.05]})" : camera_keys)
+       << R"(]},
     "background": {"parts": [
       {"type": "box", "size": [1.6, 1.0, 0.04], "position": [0, 0.1, -0.02]},
       {"type": "box", "size": [1.6, 0.04, 1.0], "position": [0, 0.62, 0.46]},

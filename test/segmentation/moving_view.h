@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 #include <pcl/cosection/segmentation/motion_segmentation.h>
@@ -12,7 +11,7 @@
 namespace pcl::cosection::test
 {
 
-/** \brief A frame of a scene in which things move, and the truth. */
+/** \brief A frame of a scene with moving objects, and the truth. */
 struct MovingView
 {
   MotionFrame frame;
@@ -21,8 +20,7 @@ struct MovingView
   std::vector<float> room_depth; ///< without the objects
 };
 
-/** \brief Things that move on a table with a wall behind, as a noisy camera of 320 x 240 sees them at times in seconds.
- */
+/** \brief Objects that move on a table in front of a wall, seen by a noisy camera of 320 x 240 pixels. */
 class MovingTable
 {
 public:
@@ -30,7 +28,7 @@ public:
    * \param[in] camera_keys contents of the camera's "keys"; empty: it rests */
   explicit MovingTable (const std::string& objects, const std::string& camera_keys = "");
 
-  /** \brief The n-th of frames that are a thirtieth of a second apart. */
+  /** \brief Frame n, at n thirtieths of a second. */
   MovingView at (int n) const;
 
 private:

@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "spot_network.h"
 
 namespace pcl::cosection::test
@@ -18,7 +17,7 @@ constantOutput (const std::string& name, const std::vector<std::int64_t>& shape,
   return {name, shape, Eigen::MatrixXf::Zero (values, inputs), Eigen::VectorXf::Zero (values)};
 }
 
-/** \brief Let a value be an edge of the spot's box: the centre of its colour, and so far beside. */
+/** \brief Make a value an edge of the spot's box: the centroid of its colour plus an offset. */
 void
 setEdge (AffineOutput& output, Eigen::Index value, bool horizontal, float beside, float unit, float brightest)
 {
@@ -29,7 +28,7 @@ setEdge (AffineOutput& output, Eigen::Index value, bool horizontal, float beside
   output.bias[value] = beside / unit;
 }
 
-/** \brief left, top, right, bottom in units of so many pixels. */
+/** \brief Make four values the box's left, top, right and bottom, in units of some pixels. */
 void
 setCorners (AffineOutput& output, Eigen::Index value, float unit_x, float unit_y, float brightest)
 {
@@ -47,7 +46,7 @@ detectionOut (float brightest)
   detections.bias[1] = 2.0f;
   detections.bias[2] = 0.9f;
   setCorners (detections, 3, SpotNetwork::width, SpotNetwork::height, brightest);
-  detections.bias[7 + 2] = 0.3f; // something that is not believed
+  detections.bias[7 + 2] = 0.3f; // a detection with a low score
   detections.bias.segment (7 + 5, 2).setOnes ();
   AffineOutput masks = constantOutput ("detection_masks", {2, 3, 2, 2});
   masks.bias[2 * 4] = masks.bias[2 * 4 + 2] = 1.0f; // left half, in the channel of class 2
@@ -71,7 +70,7 @@ prototypes (float brightest)
 {
   constexpr int candidates = 10;
   AffineOutput proposals = constantOutput ("output0", {1, 4 + 3 + 2, candidates}); // box, classes, coefficients
-  for (const int candidate : {0, 1})                                               // the second tells of the same
+  for (const int candidate : {0, 1})                                               // the second one is a duplicate
   {
     setEdge (proposals, candidate, true, 0.5f * candidate, 1.0f, brightest);
     setEdge (proposals, candidates + candidate, false, 0.0f, 1.0f, brightest);

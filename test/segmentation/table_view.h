@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 #include <pcl/cosection/common/camera.h>
@@ -13,7 +12,7 @@
 namespace pcl::cosection::test
 {
 
-/** \brief What a noisy camera sees of a scene, and the truth. */
+/** \brief A noisy camera's view of a scene, and the truth. */
 struct SceneView
 {
   int width = 0;
@@ -23,17 +22,17 @@ struct SceneView
   std::vector<char> valid;
 };
 
-/** \brief Objects on a table with a wall behind and a floor below.
- * \param[in] objects description of the objects, the contents of "objects" of a scene's
- * \param[in] eye where the camera is; it looks at the middle of the table, which is at the origin */
+/** \brief A view of objects on a table with a wall behind and a floor below.
+ * \param[in] objects contents of "objects" of a scene's description
+ * \param[in] eye place of the camera, which looks at the middle of the table, the origin */
 SceneView viewOfTable (const std::string& objects, const Eigen::Vector3d& eye = {-0.3, -0.85, 0.65});
 
-/** \brief What a noisy camera sees of a scene.
- * \param[in] background, objects descriptions of their shapes, the contents of "parts" and of "objects" of a scene's */
+/** \brief A noisy camera's view of a scene.
+ * \param[in] background, objects contents of "parts" and of "objects" of a scene's description */
 SceneView viewOfScene (const std::string& background, const std::string& objects, const Eigen::Vector3d& eye,
                        const Eigen::Vector3d& look_at);
 
-/** \brief A box on the table, vertical. */
+/** \brief A box that stands on the table. */
 std::string boxOnTable (int id, const Eigen::Vector3d& size, const Eigen::Vector3d& foot, double yaw_deg);
 
 } // namespace pcl::cosection::test

@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include <pcl/cosection/segmentation/motion_segmentation.h>
 
 #include "common/not_a_number.h"
@@ -23,7 +22,7 @@ using namespace pcl::cosection::test;
 namespace
 {
 
-/** \brief What is found in the last of some frames. */
+/** \brief The segmentation of the last of some frames. */
 struct Found
 {
   MovingView last;
@@ -38,7 +37,7 @@ struct Found
     return numbers;
   }
 
-  /** \brief Pixels that are at rest and are found to move. */
+  /** \brief Number of resting pixels that are labelled as moving. */
   long wrong () const
   {
     long count = 0;
@@ -79,7 +78,7 @@ const std::string resting = movingBox (1, carton, R"({"position": [0.2, 0.1, 0.0
 
 TEST (MotionSegmentation, SlidesAlongATable)
 {
-  // Its top slides in itself, and so does the table: only its outline and the sides show it.
+  // Its top slides along itself, in front of the table: only its outline and the sides show the motion.
   const MovingTable table (resting + movingBox (2, carton, R"({"time": 0.3, "position": [-0.2, 0, 0.051]},
                                                               {"time": 1.3, "position": [0, -0.1, 0.051]})"));
   EXPECT_TRUE (segmented (table, upTo (9)).bodies ().empty ());
@@ -142,7 +141,8 @@ TEST (MotionSegmentation, TheCameraMovesToo)
 TEST (MotionSegmentation, Turns)
 {
   const MovingTable table (resting + movingBox (2, carton, R"({"time": 0.3, "position": [-0.2, 0, 0.051]},
-                                                              {"time": 1.3, "position": [-0.2, 0, 0.051], "rpy_deg": [0, 0, 60]})"));
+                                                              {"time": 1.3, "position": [-0.2, 0, 0.051],
+                                                                "rpy_deg": [0, 0, 60]})"));
   const Found moved = segmented (table, upTo (24));
   EXPECT_GE (moved.comparison.best_iou.at (2), 0.8);
   EXPECT_EQ (moved.bodies ().size (), 1u);
@@ -151,7 +151,8 @@ TEST (MotionSegmentation, Turns)
 TEST (MotionSegmentation, TwoMotionsAreTwoBodies)
 {
   const MovingTable table (movingBox (1, carton, R"({"time": 0.3, "position": [0.2, 0.1, 0.051]},
-                                                    {"time": 1.3, "position": [0.3, 0.1, 0.051], "rpy_deg": [0, 0, 30]})") +
+                                                    {"time": 1.3, "position": [0.3, 0.1, 0.051], "rpy_deg": [0, 0,
+                                                      30]})") +
                            movingBox (2, carton, R"({"time": 0.3, "position": [-0.2, 0, 0.051]},
                                                     {"time": 1.3, "position": [0, -0.1, 0.051]})"));
   const Found moved = segmented (table, upTo (28));
@@ -163,8 +164,10 @@ TEST (MotionSegmentation, TwoMotionsAreTwoBodies)
 TEST (MotionSegmentation, WhatComesInSightBehindIsAtRest)
 {
   // Something as wide as a person passes: the table and the box behind it appear again.
-  const MovingTable table (resting + movingBox (2, {0.3, 0.1, 0.5}, R"({"time": 0.2, "position": [-0.1, -0.25, 0.251]},
-                                                                       {"time": 1.2, "position": [0.5, -0.25, 0.251]})"));
+  const MovingTable table (resting + movingBox (2, {0.3, 0.1, 0.5}, R"({"time": 0.2, "position": [-0.1, -0.25,
+    0.251]},
+                                                                       {"time": 1.2, "position": [0.5, -0.25,
+                                                                         0.251]})"));
   for (const int last : {18, 24, 30})
   {
     const Found found = segmented (table, upTo (last));
@@ -179,7 +182,8 @@ TEST (MotionSegmentation, WhatComesInSightBehindIsAtRest)
 TEST (MotionSegmentation, ABodyKeepsItsNumber)
 {
   const MovingTable table (movingBox (1, carton, R"({"time": 0.3, "position": [0.2, 0.1, 0.051]},
-                                                    {"time": 1.3, "position": [0.3, 0.1, 0.051], "rpy_deg": [0, 0, 30]})") +
+                                                    {"time": 1.3, "position": [0.3, 0.1, 0.051], "rpy_deg": [0, 0,
+                                                      30]})") +
                            movingBox (2, carton, R"({"time": 0.3, "position": [-0.2, 0, 0.051]},
                                                     {"time": 1.3, "position": [0, -0.1, 0.051]})"));
   MovingBodyFinder finder;

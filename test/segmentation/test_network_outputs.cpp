@@ -1,7 +1,6 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 
-// What the arrays of a network tell, without a network.
+// Decoding of the output arrays of networks, without a network.
 
 #include <pcl/cosection/segmentation/instance_detector.h>
 
@@ -30,7 +29,7 @@ output (const std::string& name, const std::vector<int>& shape, float value = 0.
   return {name, shape, std::vector<float> (static_cast<std::size_t> (count), value)};
 }
 
-/** \brief One-stage outputs: 3 classes, 2 prototypes of which the first is everything and the second nothing. */
+/** \brief One-stage outputs: 3 classes, and 2 prototypes: a full mask and an empty one. */
 std::vector<NetworkOutput>
 oneStage (int candidates)
 {

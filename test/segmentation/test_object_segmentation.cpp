@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include <pcl/cosection/segmentation/geometric_segmentation.h>
 
 #include "common/not_a_number.h"
@@ -18,7 +17,7 @@ using namespace pcl::cosection::test;
 namespace
 {
 
-/** \brief Each true object is found, and nothing else. */
+/** \brief Expect each true object, and no others. */
 void
 expectFound (const SceneView& view, double least_iou)
 {
@@ -75,7 +74,7 @@ TEST (ObjectSegmentation, InsideOfACup)
 
 TEST (ObjectSegmentation, ADifferentVertical)
 {
-  // Nothing is said about where is up: the same view, turned by half a revolution.
+  // No direction of gravity is assumed: the same view, turned by half a revolution.
   SceneView view = viewOfTable (boxOnTable (1, {0.10, 0.10, 0.12}, {-0.2, 0, 0}, 20) +
                                 boxOnTable (2, {0.2, 0.12, 0.05}, {0.1, 0, 0}, -15));
   std::reverse (view.points.begin (), view.points.end ());

@@ -1,7 +1,6 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 
-// Shelves, whose boards, sides and backs are parallel to the faces of what stands in them.
+// Shelves, whose boards, sides and backs are parallel to the faces of the objects in them.
 
 #include <pcl/cosection/segmentation/geometric_segmentation.h>
 
@@ -28,7 +27,7 @@ boxAt (const Eigen::Vector3d& size, const Eigen::Vector3d& position)
   return text.str ();
 }
 
-/** \brief A room, and in it boards of 2 cm between sides and a back; the front is at y = -0.15. */
+/** \brief A room with boards of 2 cm between sides and a back; the front is at y = -0.15. */
 std::string
 shelf (const std::vector<double>& boards, double width = 1.2)
 {
@@ -51,7 +50,7 @@ cylinder (int id, double radius, double height, const Eigen::Vector3d& foot)
   return text.str ();
 }
 
-/** \brief Each true object is found as it is, and no more than a few small pieces of the room. */
+/** \brief Expect each true object, and at most a few small pieces of the room. */
 void
 expectFoundOnShelf (const SceneView& view, double least_iou, std::size_t background_pixels = 0)
 {
@@ -77,7 +76,7 @@ TEST (ShelfSegmentation, FacesAlongTheShelf)
 
 TEST (ShelfSegmentation, FlushWithTheFrontOfTheBoard)
 {
-  // Their fronts go on in that of the board, without any edge.
+  // Their fronts continue that of the board, without any edge.
   const std::string objects = boxOnTable (1, {0.14, 0.3, 0.18}, {-0.35, 0, 0.41}, 0) +
                               boxOnTable (2, {0.2, 0.15, 0.1}, {-0.1, -0.075, 0.41}, 0) +
                               boxOnTable (3, {0.12, 0.2, 0.25}, {0.3, -0.05, 0.41}, 0);
@@ -114,7 +113,7 @@ TEST (ShelfSegmentation, EmptyShelvesHoldNothing)
 
 TEST (ShelfSegmentation, ALegThatTheBorderCutsIsNoObject)
 {
-  // Less of it is in view than an object may be long, but it goes on to the floor.
+  // Its visible part is shorter than an object may be, but it extends to the floor.
   const std::string desk = R"({"type": "room", "size": [3, 2, 2.5], "position": [0, -0.4, 1.25]}, )" +
                            boxAt ({1.4, 0.7, 0.03}, {0, 0.25, 0.735}) + ", " +
                            boxAt ({0.05, 0.05, 0.72}, {-0.65, -0.05, 0.36}) + ", " +

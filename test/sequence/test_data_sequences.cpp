@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 
 // Sequences of real and simulated cameras.
 
@@ -35,8 +34,8 @@ worldPoints (const RgbdSequence& sequence, std::size_t index, const Eigen::Isome
   return points;
 }
 
-/** \brief The share of the points of one frame that another sees at the depth where they are, of those that it could
- * see: near 1 only if the intrinsics, the depth's scale and the poses belong together. */
+/** \brief The share of the points of one frame, of those in view of another, that the other sees at their depth. It is
+ * near 1 only if intrinsics, depth scale and poses fit together. */
 double
 agreement (const RgbdSequence& sequence, const std::vector<std::optional<Eigen::Isometry3d>>& poses, std::size_t first,
            std::size_t second)

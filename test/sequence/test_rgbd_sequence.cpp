@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "io/sequence_folder.h"
 
 #include <pcl/cosection/common/error.h>
@@ -13,7 +12,7 @@ using namespace pcl::cosection::test;
 namespace
 {
 
-/** \brief Frame \a index is what SequenceFolder wrote as frame \a written. */
+/** \brief Expect that frame \a index is the one that SequenceFolder wrote as frame \a written. */
 void
 expectFrame (const RgbdSequence& sequence, std::size_t index, int written, double unit_m)
 {
@@ -82,7 +81,7 @@ TEST (RgbdSequence, NoisyDepthComesBeforeExactUnlessAskedFor)
   source.depth_scale = 200.0;
   EXPECT_NEAR (RgbdSequence (folder.path (), source).read (0, warnings).depth.pixels[0], 1.5, 3e-3);
   EXPECT_EQ (RgbdSequence (folder.path (), source).depthScale (), 200.0);
-  std::filesystem::remove (folder.path ("depth_noise/Depth0000.png")); // a folder of nothing does not count
+  std::filesystem::remove (folder.path ("depth_noise/Depth0000.png")); // an empty folder does not count
   EXPECT_NEAR (RgbdSequence (folder.path ()).read (0, warnings).depth.pixels[0], 1.0, 1e-3);
 }
 

@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "io/sequence_folder.h"
 
 #include <pcl/cosection/common/error.h>
@@ -25,7 +24,7 @@ failure (const std::string& path, const SequenceSource& source = {})
   return messageOf<IoError> ([&] { RgbdSequence (path, source); });
 }
 
-/** \brief The failure names the file, and has the words. */
+/** \brief Expect that the message names the file and has the words. */
 void
 expectFailure (const std::string& path, const std::string& file, const std::string& words,
                const SequenceSource& source = {})
@@ -222,7 +221,7 @@ TEST (RgbdSequenceErrors, DamagedFramesAreErrorsOfTheirOwn)
   fs::remove (folder.path ("depth/Depth0004.png"));
   fs::remove (folder.path ("depth/Depth0005.png"));
   ASSERT_EQ (mkfifo (folder.path ("depth/Depth0005.png").c_str (), 0600), 0); // reading it would wait forever
-  EXPECT_NE (readFailure (sequence, 1).find ("Depth0001.png: is damaged"), std::string::npos);
+  EXPECT_NE (readFailure (sequence, 1).find ("Depth0001.png: is not an image that can be read"), std::string::npos);
   EXPECT_NE (readFailure (sequence, 2).find ("Depth0002.png: has 4 x 6 pixels, but"), std::string::npos);
   EXPECT_NE (readFailure (sequence, 2).find ("calibration.txt has 8 x 6 pixels"), std::string::npos);
   EXPECT_NE (readFailure (sequence, 3).find ("Depth0003.png: is not a depth image"), std::string::npos);

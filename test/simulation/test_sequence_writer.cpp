@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "common/temporary_folder.h"
 
 #include "pcl_cosection/io/image_io.h"
@@ -31,12 +30,15 @@ smallScene ()
   return parseSceneSpec (R"({
     "frames": 7, "rate": 5,
     "camera": {"width": 96, "height": 72,
-               "keys": [{"position": [0, -1, 0.5], "look_at": [0, 0, 0]}, {"time": 1, "position": [0.2, -1, 0.5], "look_at": [0, 0, 0]}]},
+               "keys": [{"position": [0, -1, 0.5], "look_at": [0, 0, 0]}, {"time": 1, "position": [0.2, -1, 0.5],
+                 "look_at": [0, 0, 0]}]},
     "views": {"every": 3},
     "background": {"parts": [{"type": "plane"}]},
     "objects": [
-      {"name": "ball", "shape": {"type": "sphere", "radius": 0.1}, "keys": [{"position": [0, 0, 0.1]}, {"time": 1, "position": [0.1, 0, 0.1]}]},
-      {"name": "box", "id": 9, "shape": {"type": "box", "size": [0.1, 0.1, 0.1]}, "keys": [{"position": [-0.2, 0.1, 0.05]}]}
+      {"name": "ball", "shape": {"type": "sphere", "radius": 0.1}, "keys": [{"position": [0, 0, 0.1]}, {"time": 1,
+        "position": [0.1, 0, 0.1]}]},
+      {"name": "box", "id": 9, "shape": {"type": "box", "size": [0.1, 0.1, 0.1]}, "keys": [{"position": [-0.2, 0.1,
+        0.05]}]}
     ]
   })",
                          "small");

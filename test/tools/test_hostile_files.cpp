@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 
 // The program among files that are not what it hopes for: whatever fails, it says so in one line, and
 // nothing that was there is lost and nothing is left half written.

@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 
 // The program with what a camera sees that is hardly higher than the things: their tops at grazing angles, with half of
 // the readings missing.
@@ -32,9 +31,11 @@ TEST (LowCameras, BoxesAreNoPlates)
         << R"({"name": "box", "frames": 1, "seed": 3, "views": {"every": 1},
       "camera": {"keys": [{"time": 0, "position": [0, -0.9, )"
         << 0.2 + 0.9 * std::tan (degrees * M_PI / 180.0) << R"(], "look_at": [0, 0, 0.1]}]},
-      "objects": [{"name": "box", "id": 1, "parts": [{"type": "box", "size": [0.12, 0.3, 0.2], "position": [0, 0, 0.1]}],
+      "objects": [{"name": "box", "id": 1, "parts": [{"type": "box", "size": [0.12, 0.3, 0.2], "position": [0, 0,
+        0.1]}],
         "keys": [{"position": [0, 0, 0], "rpy_deg": [0, 0, 15]}]}],
-      "background": {"name": "background", "parts": [{"type": "box", "size": [1.4, 1.1, 0.04], "position": [0, 0, -0.02]}]}})";
+      "background": {"name": "background", "parts": [{"type": "box", "size": [1.4, 1.1, 0.04], "position": [0, 0,
+        -0.02]}]}})";
     ToolRun simulate ({"box.json", scene}, folder.file (""), {}, PCL_COSECTION_SIMULATE);
     ASSERT_EQ (simulate.wait (), 0) << simulate.errors ();
     ToolRun tool ({scene + "/views/View0000.pcd", "mesh.ply"}, folder.file (""));

@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 
 // The program with what others made of a view before: thinned by pcl::VoxelGrid, with normals of pcl::NormalEstimation,
 // one cluster alone. Readings between things and what is behind them, which a camera has few of, are as many there as

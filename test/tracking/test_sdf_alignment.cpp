@@ -1,7 +1,6 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 
-// Views of objects find their pose in a volume of them, from poses nearby.
+// Alignment of an object's views with its volume, from poses nearby.
 
 #include "tracking_scene.h"
 
@@ -35,7 +34,7 @@ struct Outcome
   int converged = 0;
 };
 
-/** \brief From poses up to 10 degrees and 5 cm away. */
+/** \brief Align from guesses that are wrong by up to 10 degrees and 5 cm. */
 Outcome
 alignPerturbed (const SdfTarget& target, const Eigen::Vector3d& center, const std::vector<BodyView>& views,
                 const Bounds& bounds)
@@ -80,9 +79,9 @@ TEST_P (SdfAlignmentOfToys, ConvergesWithTheNoiseOfStructuredLight)
   EXPECT_GE (outcome.good, trials * 95 / 100);
 }
 
-/** \brief What a camera that goes around the object has averaged, and views between those. Averages of projective
- * distances seen at different angles are not zero on the surface: a quarter of a voxel is asked for, at the centre and
- * at the ends. */
+/** \brief A TSDF from views around the object, and other views between those. Averages of projective distances at
+ * different angles are not zero on the surface, so the tolerance is a quarter of a voxel at the centre and at the ends.
+ */
 TEST_P (SdfAlignmentOfToys, ConvergesInTheTsdfOfASequence)
 {
   std::vector<Eigen::Isometry3d> integrated, between;
@@ -127,7 +126,7 @@ TEST_P (SdfAlignmentOfToys, IsTheSameForAnyNumberOfThreads)
   }
 }
 
-/** \brief By central differences of trilinear samples, at the pose found. */
+/** \brief The information matrix by central differences of trilinear samples, at the aligned pose. */
 TEST_P (SdfAlignmentOfToys, InformationIsThatOfFiniteDifferences)
 {
   const BodyView view = renderBody (body_, body_camera, {poseOnCircle (center_, body_distance_m, 1.0)}, false).front ();

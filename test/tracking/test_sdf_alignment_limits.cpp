@@ -1,7 +1,6 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 
-// Geometry that does not determine a pose, points that say nothing, and wrong arguments.
+// Geometry that does not determine a pose, points without a distance, and wrong arguments.
 
 #include "common/not_a_number.h"
 #include "tracking_scene.h"
@@ -50,7 +49,7 @@ ballField ()
   return fieldOf ([] (const Eigen::Vector3d& p) { return p.norm () - ball_radius_m; });
 }
 
-/** \brief Three faces of a corner: what determines a pose. */
+/** \brief Three faces of a corner, which determine a pose. */
 SignedDistanceField
 cornerField ()
 {
@@ -198,7 +197,7 @@ TEST (SdfAlignmentLimits, NoPoseIsNoError)
     EXPECT_LE (result.observed_directions, points.size () == 5 ? 3 : 0); // five points in one place have no lever
   }
   EXPECT_EQ (SdfAlignment ().align ({100, Eigen::Vector3f::Zero ()}, {}, TsdfVolume (field.grid)).stop,
-             SdfAlignmentStop::TooFewPoints); // an empty volume knows nothing
+             SdfAlignmentStop::TooFewPoints); // an empty volume has no distances
   const SignedDistanceField constant = fieldOf ([] (const Eigen::Vector3d&) { return 0.1; });
   const SdfAlignmentResult flat = SdfAlignment ().align ({100, Eigen::Vector3f::Zero ()}, {}, constant, guess);
   EXPECT_EQ (flat.stop, SdfAlignmentStop::NoGradient);

@@ -1,7 +1,6 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 
-// PCL's classes do what the alignment does, and behave as PCL's own.
+// The PCL classes give the result of SdfAlignment, and behave like PCL's own.
 
 #include "tracking_scene.h"
 
@@ -78,7 +77,7 @@ TEST_F (SdfRegistrationTest, EqualsTheAlignment)
   const SdfAlignmentResult expected = SdfAlignment ().align (points_, {}, *field (), T_guess_);
   SdfRegistration<pcl::PointXYZ>::Ptr registration (new SdfRegistration<pcl::PointXYZ>);
   registration->setSignedDistance (field ());
-  pcl::Registration<pcl::PointXYZ, pcl::PointXYZ>::Ptr base = registration; // as a program for any registration would
+  pcl::Registration<pcl::PointXYZ, pcl::PointXYZ>::Ptr base = registration; // as in code for any registration
   base->setInputSource (cloudOf (points_));
   Cloud aligned;
   base->align (aligned, guess_);
@@ -158,7 +157,7 @@ TEST_F (SdfRegistrationTest, SaysWhatIsMissing)
   registration.align (aligned, guess_); // no volume
   EXPECT_FALSE (registration.hasConverged ());
   EXPECT_EQ (registration.getFinalTransformation (), guess_);
-  registration.setInputTarget (cloudOf (points_)); // a cloud is none
+  registration.setInputTarget (cloudOf (points_)); // a target cloud does not replace the volume
   registration.align (aligned, guess_);
   EXPECT_FALSE (registration.hasConverged ());
 
@@ -178,7 +177,7 @@ TEST_F (SdfRegistrationTest, TrackerFollowsAndSaysWhenTheObjectIsLost)
 {
   SdfTracker<pcl::PointXYZ> tracker;
   tracker.setSignedDistance (field ());
-  const auto T_body_sensor = [&] (int frame) { // the sensor goes around the object, and nearer
+  const auto T_body_sensor = [&] (int frame) { // the sensor moves around the object, and nearer
     return poseOnCircle (center_, body_distance_m - 0.01 * frame, radians (20.0 + 4.0 * frame));
   };
   tracker.setTrans (Eigen::Affine3f (T_body_sensor (0).inverse ().matrix ().cast<float> ()));

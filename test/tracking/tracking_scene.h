@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 #include <pcl/cosection/common/camera.h>
@@ -21,7 +20,7 @@ namespace pcl::cosection::test
 inline const PinholeCamera body_camera{320, 240, 262.5, 262.5, 159.5, 119.5};
 constexpr double body_distance_m = 0.7;
 
-/** \brief Depth image of one body, whose frame is that of the pose. */
+/** \brief Depth image of one body; the pose is relative to the body's frame. */
 struct BodyView
 {
   Eigen::Isometry3d T_body_sensor;
@@ -37,10 +36,10 @@ SceneBody presetBody (const std::string& preset, const std::string& name);
 std::vector<Eigen::Isometry3d> posesAroundBody (const Eigen::Vector3d& center, double distance_m, int count,
                                                 double turn_rad = 0.0);
 
-/** \brief A sensor on a circle about \a center, which it sees from above, and the same \a turn_rad on. */
+/** \brief A sensor pose on a circle above \a center, at the angle \a turn_rad. */
 Eigen::Isometry3d poseOnCircle (const Eigen::Vector3d& center, double distance_m, double turn_rad);
 
-/** \brief What a camera sees of a body alone. \param[in] noise of structured light */
+/** \brief Depth images of a body alone. \param[in] noise of structured light */
 std::vector<BodyView> renderBody (const SceneBody& body, const PinholeCamera& camera,
                                   const std::vector<Eigen::Isometry3d>& poses, bool noise);
 
@@ -61,8 +60,7 @@ Eigen::Vector3d bodyCenter (const SceneBody& body);
 Eigen::Isometry3d randomMotion (std::mt19937& random, const Eigen::Vector3d& center, double max_angle_rad,
                                 double max_shift_m);
 
-/** \brief How far a pose of the sensor is from the true one, as seen from the body: where the body's \a center comes to
- * lie. */
+/** \brief Error of a sensor pose, in terms of the body: the displacement of the body's \a center, and the angle. */
 struct PoseError
 {
   PoseError (const Eigen::Isometry3d& estimate, const Eigen::Isometry3d& truth, const Eigen::Vector3d& center)

@@ -1,8 +1,7 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "table_views.h"
 
-#include "tools/demo/shapes.h"
+#include "doc/demo/shapes.h"
 
 #include "pcl_cosection/rendering/picture.h"
 #include "pcl_cosection/view/look_at.h"

@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 
 #include <pcl/cosection/common/camera.h>
 #include <pcl/cosection/common/error.h>
@@ -15,7 +14,7 @@ namespace
 {
 
 PinholeCamera
-smallCamera ()
+tinyCamera ()
 {
   PinholeCamera camera;
   camera.width = 80;
@@ -27,7 +26,7 @@ smallCamera ()
   return camera;
 }
 
-/** \brief The camera's image of a bumpy scene, each pixel off by Gaussian noise of \a noise_px. */
+/** \brief The camera's image of a bumpy scene, with Gaussian noise of \a noise_px on the pixels. */
 std::vector<Eigen::Vector3f>
 organizedCloud (const PinholeCamera& camera, double noise_px, double missing)
 {
@@ -52,32 +51,32 @@ organizedCloud (const PinholeCamera& camera, double noise_px, double missing)
 
 TEST (PinholeCamera, ProjectInvertsUnproject)
 {
-  const auto camera = smallCamera ();
+  const auto camera = tinyCamera ();
   EXPECT_TRUE (camera.project (camera.unproject (12.5, 40.0, 0.7)).isApprox (Eigen::Vector2d (12.5, 40.0)));
 }
 
 TEST (PinholeCamera, ValidateRefusesImpossibleParameters)
 {
-  EXPECT_NO_THROW (smallCamera ().validate ());
+  EXPECT_NO_THROW (tinyCamera ().validate ());
   EXPECT_THROW (PinholeCamera ().validate (), InvalidArgument);
   for (const double bad :
        {0.0, -1.0, std::numeric_limits<double>::quiet_NaN (), std::numeric_limits<double>::infinity ()})
   {
-    auto camera = smallCamera ();
+    auto camera = tinyCamera ();
     camera.fy = bad;
     EXPECT_THROW (camera.validate (), InvalidArgument);
   }
-  auto camera = smallCamera ();
+  auto camera = tinyCamera ();
   camera.height = 0;
   EXPECT_THROW (camera.validate (), InvalidArgument);
-  camera = smallCamera ();
+  camera = tinyCamera ();
   camera.cx = std::numeric_limits<double>::quiet_NaN ();
   EXPECT_THROW (camera.validate (), InvalidArgument);
 }
 
 TEST (FitPinholeCamera, FindsTheCameraDespiteMissingReadings)
 {
-  const auto truth = smallCamera ();
+  const auto truth = tinyCamera ();
   for (const double missing : {0.0, 0.5, 0.97})
   {
     const auto fitted = fitPinholeCamera (organizedCloud (truth, 0.0, missing), truth.width, truth.height);
@@ -93,7 +92,7 @@ TEST (FitPinholeCamera, FindsTheCameraDespiteMissingReadings)
 
 TEST (FitPinholeCamera, AcceptsResidualsUpToHalfAPixel)
 {
-  const auto truth = smallCamera ();
+  const auto truth = tinyCamera ();
   const auto fitted = fitPinholeCamera (organizedCloud (truth, 0.3, 0.1), truth.width, truth.height);
   ASSERT_TRUE (fitted.has_value ());
   EXPECT_NEAR (fitted->fx, truth.fx, 0.2);
@@ -103,7 +102,7 @@ TEST (FitPinholeCamera, AcceptsResidualsUpToHalfAPixel)
 
 TEST (FitPinholeCamera, RefusesWhatIsNoPinholeImage)
 {
-  const auto camera = smallCamera ();
+  const auto camera = tinyCamera ();
   EXPECT_FALSE (fitPinholeCamera (organizedCloud (camera, 0.0, 0.995), 80, 60).has_value ()); // too few
   EXPECT_FALSE (fitPinholeCamera (std::vector<Eigen::Vector3f> (4800, {0.1f, 0.2f, 1.0f}), 80, 60).has_value ());
   EXPECT_FALSE (fitPinholeCamera (std::vector<Eigen::Vector3f> (4800, {0.0f, 0.0f, 0.0f}), 80, 60).has_value ());

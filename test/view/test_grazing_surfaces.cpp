@@ -1,7 +1,6 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 
-// Surfaces that organised views see at grazing angles, and flying pixels, which lie along the rays too.
+// Surfaces that organised views see at grazing angles, and mixed pixels, which also lie along the rays.
 
 #include "common/temporary_folder.h"
 
@@ -36,9 +35,8 @@ constexpr float depth_m = 0.3f;
 class GrazingSurfaces : public testing::Test
 {
 protected:
-  /** \brief An organised view; \a depthOf tells the depth along a ray (x, y, 1) of the object, NaN where it is not; the
-   * background is so far away, or as
-   * \a backgroundOf tells. */
+  /** \brief An organised view. \a depthOf gives the object's depth along a ray (x, y, 1), NaN beside it; the depth of
+   * the background is constant or given by \a backgroundOf. */
   LabelledView see (
       const std::function<float (float, float)>& depthOf, float sigma_m, double missing,
       const std::function<float (float, float)>& backgroundOf = [] (float, float) { return background_m; }) const

@@ -1,7 +1,6 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 
-// Where a sensor that looks at something is, and how it is turned.
+// Poses of sensors that look at a point.
 
 #include "pcl_cosection/view/look_at.h"
 #include <pcl/cosection/common/error.h>

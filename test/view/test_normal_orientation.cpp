@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "completion/scenes/completion_scene.h"
 
 #include <pcl/cosection/surface/normals.h>
@@ -27,7 +26,7 @@ struct Oriented
     return all;
   }
 
-  /** \brief Each normal at random of either sign. */
+  /** \brief The normals with random signs. */
   std::vector<Eigen::Vector3f> shuffled () const
   {
     std::mt19937 random (7);

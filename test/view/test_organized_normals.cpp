@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "common/not_a_number.h"
 #include "completion/analytic_scene.h"
 
@@ -21,7 +20,7 @@ using namespace pcl::cosection::test;
 namespace
 {
 
-/** \brief Depth at the ray (x, y, 1), NaN for none. */
+/** \brief Depth along the ray (x, y, 1); NaN: no reading. */
 using DepthFunction = std::function<double (double x, double y)>;
 
 std::vector<Eigen::Vector3f>
@@ -162,7 +161,7 @@ TEST (OrganizedNormals, FlyingPixelsHaveNone)
 {
   const PinholeCamera camera = smallCamera ();
   auto points = render (camera, [] (double x, double) { return (x < 0.0 ? 1.0 : 1.3); });
-  for (int v = 0; v < camera.height; ++v) // column 80 hangs in the air between the two planes
+  for (int v = 0; v < camera.height; ++v) // column 80 lies between the two planes
     points[v * camera.width + 80] = camera.unproject (80, v, 1.15).cast<float> ();
   const auto normals = computeOrganizedNormals (points, camera.width, camera.height);
   for (int v = 0; v < camera.height; ++v)

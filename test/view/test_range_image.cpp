@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "completion/scenes/completion_scene.h"
 
 #include "pcl_cosection/view/range_image.h"
@@ -58,7 +57,7 @@ TEST_P (RangeImageOf, AViewShowsItsPoints)
   for (const float z : image->view.depth)
     readings += std::isfinite (z);
   EXPECT_GE (points.size (), 2 * readings);                 // some points in each pixel that has any
-  EXPECT_GE (readings * 10, image->view.depth.size () * 2); // and not all in a few
+  EXPECT_GE (readings * 10, image->view.depth.size () * 2); // and not all points in a few pixels
   const PinholeCamera& camera = image->view.camera;
   for (const Eigen::Vector3f& point : points)
   {

@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "completion/scenes/completion_scene.h"
 
 #include "pcl_cosection/view/sensor_location.h"
@@ -17,7 +16,7 @@ namespace
 
 const Eigen::Isometry3d elsewhere = motion (2.0, {1.0, -2.0, 0.5}, {3.0, -1.0, 2.0});
 
-/** \brief What a camera sees of a scene, row by row, in another frame, with noise of depth and without a share of the
+/** \brief The points of a camera image, row by row, in another frame, with depth noise and without a share of the
  * readings. */
 std::vector<Eigen::Vector3f>
 imageOf (Shape shape, double missing)

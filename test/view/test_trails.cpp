@@ -1,7 +1,6 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 
-// Readings between a thing and what is behind it, in unorganised clouds.
+// Mixed pixels in unorganised clouds: readings between an object and what is behind it.
 
 #include "common/temporary_folder.h"
 
@@ -37,8 +36,8 @@ private:
   pcl::cosection::test::TemporaryFolder folder_;
 };
 
-/** \brief A plate of so many points each way before the sensor, not quite on a grid, and beside every fourth row points
- * along a ray that just misses the right edge, so many in depth. */
+/** \brief A plate of columns x rows points in front of the sensor, not quite on a grid. Beside every fourth row, some
+ * points lie along a ray that just misses the right edge. */
 pcl::PointCloud<pcl::PointXYZ>
 plateWithTrail (int columns, int rows, int layers)
 {
@@ -75,7 +74,7 @@ facingTheSensor (const pcl::PointCloud<pcl::PointXYZ>& bare)
 TEST_F (Trails, BehindEdgesAreLeftOut)
 {
   for (const int layers :
-       {8, 20}) // 20: so many are hidden from the sensor that it would not be believed to have stood there
+       {8, 20}) // with 20, so many points are hidden from the sensor that this place would be refused
   {
     SCOPED_TRACE (layers);
     const pcl::PointCloud<pcl::PointXYZ> cloud = plateWithTrail (41, 41, layers);
@@ -101,8 +100,8 @@ TEST_F (Trails, WhatWouldLeaveTooLittleIsKept)
   EXPECT_EQ (view.objects.at (1).points.size (), cloud.size ());
 }
 
-/** \brief Thinned, and seen 5 degrees from its plane, as the top of a box: each row of points lies far behind the one
- * before, and just beside it. */
+/** \brief A thinned surface seen 5 degrees from its plane, such as the top of a box: each row of points lies far behind
+ * the one before, and just beside it in the image. */
 TEST_F (Trails, ASurfaceSeenAtAGrazingAngleIsNone)
 {
   pcl::PointCloud<pcl::PointXYZ> cloud = plateWithTrail (121, 121, 0); // its front
@@ -113,7 +112,7 @@ TEST_F (Trails, ASurfaceSeenAtAGrazingAngleIsNone)
   EXPECT_EQ (view.objects.at (1).points.size (), cloud.size ());
 }
 
-/** \brief Of an image, one point per pixel, few are nowhere, and a step is as good as the rest. */
+/** \brief Images with one point per pixel have few mixed pixels, and a step is a surface. */
 TEST_F (Trails, ImagesHaveNone)
 {
   pcl::PointCloud<pcl::PointXYZ> cloud;
@@ -128,7 +127,7 @@ TEST_F (Trails, ImagesHaveNone)
   EXPECT_EQ (view.objects.at (1).points.size (), cloud.size ());
 }
 
-/** \brief As of damaged files: single precision says nothing about what is beside what. */
+/** \brief Absurd coordinates, as in damaged files, at which single precision determines no neighbourhood. */
 TEST_F (Trails, AbsurdPointsAndPlacesHarmNothing)
 {
   std::mt19937 random (5);

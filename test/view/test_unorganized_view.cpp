@@ -1,7 +1,6 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 
-// What is made of unorganised clouds: where they were seen from, and which way their normals point.
+// Reading of unorganised clouds: the place of their sensor, and the signs of their normals.
 
 #include "common/temporary_folder.h"
 
@@ -27,7 +26,7 @@ namespace
 constexpr float radius_m = 0.1f;
 const Eigen::Vector3f middle (0.02f, -0.01f, 0.8f);
 
-/** \brief Random points of a ball: of its near side only, as a sensor at the origin sees it, or of all of it. */
+/** \brief Random points of a ball, either of its side near to a sensor at the origin, or of all of it. */
 pcl::PointCloud<pcl::PointNormal>
 ball (int count, bool near_side_only, float noise_m = 0.0f)
 {
@@ -135,7 +134,7 @@ TEST_F (UnorganizedView, WrongViewpointIsSaid)
   EXPECT_GT (view.objects.at (1).points.size (), 3900u);
 }
 
-/** \brief As PCL has it: the viewpoint is a place among the points. */
+/** \brief PCL's convention: the viewpoint is in the frame of the points. */
 TEST_F (UnorganizedView, PointsInTheWorldFrameAreFound)
 {
   const Eigen::Isometry3f T = Eigen::Translation3f (0.8f, -0.6f, 0.5f) *
@@ -204,7 +203,7 @@ TEST_F (UnorganizedView, NormalsThatNobodyFilledAreEstimated)
   }
 }
 
-/** \brief What was left of a table that was cut away says nothing of sides. */
+/** \brief A few remaining points of a table that was cut away do not determine signs. */
 TEST_F (UnorganizedView, AFewPointsOfTheBackgroundTurnNothing)
 {
   pcl::PointCloud<pcl::PointXYZL> cloud;
@@ -246,7 +245,7 @@ TEST_F (UnorganizedView, NormalsAwayFromTheViewpointAreTurned)
   EXPECT_GT (outward (view), 0.95); // a few at the rim are not clearly away
 }
 
-/** \brief Those at grazing angles too, of which each alone could be noise. */
+/** \brief Also normals at grazing angles, each of which alone could be noise. */
 TEST_F (UnorganizedView, AllNormalsAreTurnedIfMostPointAway)
 {
   auto cloud = ball (4000, true);
@@ -292,7 +291,7 @@ TEST_F (UnorganizedView, TheBackgroundFacesTheObjects)
     ASSERT_GT (p.normal.z (), 0.9f);
 }
 
-/** \brief In no order, among a room's walls, with flying pixels about it: the inside of a bowl on a table. */
+/** \brief The inside of a bowl on a table, in random order, with a room's walls and mixed pixels. */
 TEST_F (UnorganizedView, WhatWasSeenOfObjectsFacesAwayFromTheirSupport)
 {
   std::mt19937 random (7);
@@ -317,7 +316,7 @@ TEST_F (UnorganizedView, WhatWasSeenOfObjectsFacesAwayFromTheirSupport)
     add (center +
              Eigen::Vector3f (0.15f * uniform (random), 0.15f * uniform (random), 0.05f + 0.05f * uniform (random)),
          0);
-  for (int i = 0; i < 60000; ++i) // a wall, farther away than all else is large
+  for (int i = 0; i < 60000; ++i) // a wall, farther away than the size of everything else
     add (Eigen::Vector3f (-4.0f, 3.0f * uniform (random), 3.0f * uniform (random)), 0);
   std::shuffle (cloud.begin (), cloud.end (), random);
   const LabelledView view = read (cloud);
@@ -340,7 +339,7 @@ TEST_F (UnorganizedView, WhatWasSeenOfObjectsFacesAwayFromTheirSupport)
   EXPECT_EQ (floating, 0);
 }
 
-/** \brief Nearest neighbours would show noise alone. */
+/** \brief The nearest neighbours alone would show noise. */
 TEST_F (UnorganizedView, DenseAndNoisyCloudsGetGoodNormals)
 {
   const LabelledView view = read (withoutNormals (ball (300000, true, 0.001f)));
@@ -360,7 +359,7 @@ TEST_F (UnorganizedView, IntensityIsRead)
   const LabelledView view = read (cloud);
   EXPECT_TRUE (view.has_intensity);
   EXPECT_EQ (view.objects.at (1).points[100].intensity, 100.0f);
-  EXPECT_TRUE (std::isnan (view.objects.at (1).points[7].intensity)); // as a reading that is missing
+  EXPECT_TRUE (std::isnan (view.objects.at (1).points[7].intensity)); // like a missing reading
 }
 
 TEST_F (UnorganizedView, MemoryIsLimited)

@@ -1,12 +1,11 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 
-// Views that contradict each other are noticed.
+// Warnings about views that contradict each other.
 
 #include "completion/scenes/surrounding_views.h"
 #include "priors/moved_points.h"
 
-#include "pcl_cosection/energy/constraints/free_space_votes.h"
+#include "pcl_cosection/view/visibility/free_space_votes.h"
 #include <pcl/cosection/common/error.h>
 
 #include <gtest/gtest.h>
@@ -27,7 +26,7 @@ isSaid (const SceneResult& result)
                       [] (const std::string& warning) { return warning.find ("looks through") != std::string::npos; });
 }
 
-/** \brief The shape on its table from several sides; of the second view it is said to be elsewhere by \a error. */
+/** \brief The shape on its table from several sides; the pose of the second view is wrong by \a error. */
 class ViewAgreement : public testing::TestWithParam<Shape>
 {
 protected:
@@ -77,11 +76,11 @@ TEST_P (ViewAgreement, AWrongPoseIsSaid)
     EXPECT_TRUE (isSaid (result)) << views;
   }
   CoSectionOptions options = optionsFor (voxel_m);
-  options.use_hull = false; // seen free space tells nothing
+  options.use_hull = false; // without votes on free space
   EXPECT_FALSE (isSaid (completeWith (aside, 2, options)));
 }
 
-/** \brief The shape is moved between two views, at whose poses nothing is wrong. */
+/** \brief The shape moves between two views with correct poses. */
 TEST_P (ViewAgreement, WhatMovesNeedsPoses)
 {
   const Eigen::Isometry3d motion (Eigen::Translation3d (0.1, 0.06, 0.0));

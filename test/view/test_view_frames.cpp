@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 
 // Organised views whose points are in another frame than their sensor's.
 
@@ -37,7 +36,7 @@ TEST_F (ViewFrames, WorldPointsMoveToTheSensor)
   EXPECT_LT ((p.normal - T.linear () * q.normal).norm (), 1e-3f);
 }
 
-/** \brief As after pcl::transformPointCloud, which keeps the order of the points and leaves the VIEWPOINT as it is. */
+/** \brief Clouds after pcl::transformPointCloud, which keeps the order of the points and does not change VIEWPOINT. */
 TEST_F (ViewFrames, SensorIsFoundInAnyFrame)
 {
   auto cloud = organizedStep ();
@@ -71,7 +70,8 @@ TEST_F (ViewFrames, SensorIsFoundInAnyFrame)
   }
 }
 
-/** \brief In the frame of the sensor's body, x forward and z up: the VIEWPOINT is right, wherever it turns. */
+/** \brief Points in the frame of the sensor's body, x forward and z up: the VIEWPOINT is correct, whatever its
+ * rotation. */
 TEST_F (ViewFrames, AxesOfABodyAreNotAnotherPlace)
 {
   auto cloud = organizedStep ();
@@ -96,7 +96,7 @@ TEST_F (ViewFrames, AxesOfABodyAreNotAnotherPlace)
   }
 }
 
-/** \brief Also if they are not in the sensor's frame, in which they would not be zero. */
+/** \brief Zeros are missing readings also in another frame than the sensor's. */
 TEST_F (ViewFrames, ZerosOfTheFileAreNoReadings)
 {
   auto cloud = organizedPlane ();

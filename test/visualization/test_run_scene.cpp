@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 
 #include "run_folder.h"
 
@@ -128,9 +127,9 @@ TEST_F (RunSceneFolder, WhatIsMissingIsReported)
 TEST_F (RunSceneFolder, ClassesAreThoseOfTheSummary)
 {
   EXPECT_TRUE (load ().classes.empty ());
-  writeFile (
-      run_ + "/summary.json",
-      R"({"objects": [{"id": 1, "class": "cup", "class_id": 41, "score": 0.9}, {"id": 2, "class": "45", "class_id": 45}]})");
+  writeFile (run_ + "/summary.json",
+             R"({"objects": [{"id": 1, "class": "cup", "class_id": 41, "score": 0.9}, {"id": 2, "class": "45",
+        "class_id": 45}]})");
   EXPECT_EQ (load ().classes, (std::map<int, std::string>{{1, "cup"}}));
 }
 
@@ -138,7 +137,8 @@ TEST_F (RunSceneFolder, AnySummaryIsBorne)
 {
   for (const char* const text :
        {"", "[1, 2]", "{", R"({"camera": 3, "parameters": [], "error": {}, "objects": {"id": 1}})",
-        R"({"objects": [5, null, {"id": "1", "class": "cup"}, {"id": 1, "class": 7}, {"id": 1e300, "class": "cup"}]})",
+        R"({"objects": [5, null, {"id": "1", "class": "cup"}, {"id": 1, "class": 7}, {"id": 1e300,
+          "class": "cup"}]})",
         R"({"camera": {"width": -3, "height": 1e300, "fx": "a"}, "parameters": {"dataset": 7, "images": "x"}})"})
   {
     writeFile (run_ + "/summary.json", text);

@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 #include <pcl/cosection/volume/signed_distance_field.h>
@@ -36,7 +35,7 @@ box (const Eigen::Vector3d& half)
   };
 }
 
-/** \brief f (index of a voxel, its centre), of all voxels. */
+/** \brief Call f (index of a voxel, its centre) for all voxels. */
 template <typename Function>
 void
 forEachVoxel (const VoxelGrid& grid, Function&& f)

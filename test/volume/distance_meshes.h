@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 #include "analytic_fields.h"
@@ -40,7 +39,7 @@ forEachVoxel (const SignedDistanceField& field, Visit&& visit)
         visit (field.grid.center (i, j, k), field.grid.index (i, j, k));
 }
 
-/** \brief Every value agrees with \a truth, clamped to the band, and every voxel is supported. */
+/** \brief Expect that every value agrees with \a truth, clamped to the band, and that every voxel is supported. */
 inline void
 expectField (const SignedDistanceField& field, const Distance& truth, double band_m, double tolerance_m)
 {
@@ -98,7 +97,7 @@ united (TriangleMesh mesh, const TriangleMesh& other)
   return mesh;
 }
 
-/** \brief Three vertices of its own for every triangle. */
+/** \brief The mesh with three own vertices for every triangle. */
 inline TriangleMesh
 soup (const TriangleMesh& mesh)
 {
@@ -113,8 +112,8 @@ soup (const TriangleMesh& mesh)
   return result;
 }
 
-/** \brief The same surface with \a count points along a side of a triangle, which it and its neighbour are
- * divided to. */
+/** \brief The mesh with \a count new vertices on one side of a triangle; this triangle and its neighbour are divided
+ * accordingly. */
 inline TriangleMesh
 withDividedEdge (TriangleMesh mesh, std::size_t triangle, std::uint32_t count)
 {
@@ -176,8 +175,7 @@ bin (const Eigen::Vector3f& half)
   return extractTriangles (mesh, keep);
 }
 
-/** \brief A bent bar whose two ends are sharp and meet in a point, the origin: around it the nearest point is
- * one where the surface is no manifold. */
+/** \brief A bent bar whose two sharp ends meet in the origin, where the surface is not a manifold. */
 inline TriangleMesh
 horseshoe ()
 {

@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 
 #include "analytic_fields.h"
 
@@ -50,7 +49,7 @@ faceNormal (const TriangleMesh& mesh, const TriangleMesh::Triangle& t)
   return (mesh.vertices[t[1]].cast<double> () - a).cross (mesh.vertices[t[2]].cast<double> () - a);
 }
 
-/** \brief A field of uniform noise with exact zeros and values that are no numbers. */
+/** \brief A field of uniform noise with exact zeros and NaN values. */
 SignedDistanceField
 noiseField (const Eigen::Vector3i& dims, unsigned seed, double share_inside)
 {

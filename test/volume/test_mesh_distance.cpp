@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 
 #include "distance_meshes.h"
 
@@ -219,7 +218,7 @@ TEST (MeshDistance, RefusesWhatHasNoDistance)
   broken.vertices[1].x () = std::numeric_limits<float>::quiet_NaN ();
   EXPECT_THROW (sampleSignedDistance (broken, grid, 0.1), InvalidArgument);
   broken = mesh;
-  broken.vertices.emplace_back (std::numeric_limits<float>::quiet_NaN (), 0.0f, 0.0f); // of no triangle
+  broken.vertices.emplace_back (std::numeric_limits<float>::quiet_NaN (), 0.0f, 0.0f); // not used
   EXPECT_NO_THROW (sampleSignedDistance (broken, grid, 0.1));
   for (const double band : {0.0, -1.0, std::numeric_limits<double>::infinity (), std::nan ("")})
     EXPECT_THROW (sampleSignedDistance (mesh, grid, band), InvalidArgument);

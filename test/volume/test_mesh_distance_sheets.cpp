@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 
 #include "distance_meshes.h"
 
@@ -31,7 +30,7 @@ TEST (MeshDistanceSheets, AnOpenSheetSpeaksInFrontAndBehindOnly)
     supported += field.supported[n];
   });
   EXPECT_GT (supported, 20 * 20 * 6);
-  // Interpolation at the rim of what is supported invents nothing.
+  // Interpolation at the rim of the supported region invents no values.
   std::mt19937 random (1);
   std::uniform_real_distribution<double> uniform (-0.15, 0.15);
   for (int trial = 0; trial < 20000; ++trial)

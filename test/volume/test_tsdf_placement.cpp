@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 
 #include "tsdf_views.h"
 
@@ -54,7 +53,7 @@ sameBits (float a, float b)
   return std::memcmp (&a, &b, sizeof (float)) == 0;
 }
 
-/** \brief Voxel v of \a before is voxel v + offset of \a after, and what else there is, is empty. */
+/** \brief Expect voxel v of \a before as voxel v + offset of \a after, and all other voxels of \a after empty. */
 void
 expectMoved (const TsdfVolume& before, const TsdfVolume& after, const Eigen::Vector3i& offset)
 {

@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 
 #include "tsdf_views.h"
 
@@ -20,8 +19,7 @@ namespace
 
 constexpr double voxel_size_m = 0.005;
 
-/** \brief Leave out what is seen at a small angle: there a truncated distance along a ray is not that to the surface.
- */
+/** \brief Remove readings at grazing angles, where a distance along the ray differs from that to the surface. */
 Image<float>
 frontal (const Image<float>& depth, const PinholeCamera& camera)
 {
@@ -59,7 +57,7 @@ searchedDepth (const TsdfVolume& volume, const PinholeCamera& camera, const Eige
   return std::numeric_limits<double>::quiet_NaN ();
 }
 
-/** \brief What is seen of a scene from some sensors, surfaces at less than 45 degrees. */
+/** \brief The TSDF of a scene from some sensors, with surfaces seen at less than 45 degrees. */
 TsdfVolume
 fused (const test::RayLength& scene, const std::vector<Eigen::Isometry3d>& poses, int dim = 60)
 {
@@ -88,7 +86,8 @@ countHits (const RaycastImage& image)
                         [] (float z) { return !std::isnan (z); });
 }
 
-/** \brief Pixels of a hit agree with the scene where that is seen at less than 60 degrees; its normals are given. */
+/** \brief Expect that hit pixels agree with the scene where it is seen at less than 60 degrees; its normals are given.
+ */
 template <typename Normal>
 void
 expectScene (const RaycastImage& image, const test::RayLength& scene, const Eigen::Isometry3d& pose,
@@ -186,7 +185,7 @@ TEST (TsdfRaycast, FindsWhatSmallStepsFind)
     const auto pose = test::lookAtOrigin (eye);
     const auto image = raycast (volume, camera, pose);
     int found = 0;
-    int different = 0; // at the rim of what is known, where a step may be longer than what is known of a ray
+    int different = 0; // at the rim of the known region, where a step may be longer than the known part of a ray
     for (int v = 0; v < camera.height; ++v)
       for (int u = 0; u < camera.width; ++u)
       {

@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 #include <pcl/cosection/common/camera.h>
@@ -102,7 +101,7 @@ frontPose ()
   return pose;
 }
 
-/** \brief The same depth everywhere, of smallCamera (). */
+/** \brief A constant depth image of smallCamera (). */
 inline Image<float>
 wallDepth (float depth_m)
 {

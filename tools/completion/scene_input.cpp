@@ -1,8 +1,9 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "scene_input.h"
 
 #include "object_poses.h"
+
+#include "pcl_cosection/common/trimmed_box.h"
 
 #include <pcl/cosection/common/error.h>
 #include <pcl/cosection/io/mesh_io.h>
@@ -57,19 +58,7 @@ isWholeImage (const LabelledView& view)
 Eigen::Vector3d
 extentOf (const std::vector<OrientedPoint>& points)
 {
-  Eigen::Vector3d extent;
-  std::vector<float> along (points.size ());
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    std::transform (points.begin (), points.end (), along.begin (),
-                    [axis] (const OrientedPoint& p) { return p.position[axis]; });
-    const auto cut = static_cast<std::ptrdiff_t> (outlier_share * static_cast<double> (along.size ()));
-    std::nth_element (along.begin (), along.begin () + cut, along.end ());
-    const double least = along[cut];
-    std::nth_element (along.begin (), along.end () - 1 - cut, along.end ());
-    extent[axis] = *(along.end () - 1 - cut) - least;
-  }
-  return extent;
+  return trimmedBox<double> (points, outlier_share, [] (const OrientedPoint& p) { return p.position; }).sizes ();
 }
 
 /** \brief A warning of an object that is too long to be one, if it is: without labels it may be a whole scene, or its

@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 #include <pcl/cosection/common/image.h>
@@ -18,5 +17,5 @@ std::string toBase64 (const void* bytes, std::size_t size);
 /** \brief "data:image/webp;base64,...": the picture in the place of its address. */
 std::string dataUri (const TransparentPicture& picture);
 
-/** \brief The same of a picture that fills its rectangle. */
+/** \brief A picture that fills its rectangle, in the place of its address. */
 std::string dataUri (const pcl::cosection::Picture& picture);

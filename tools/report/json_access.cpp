@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "json_access.h"
 
 #include <cmath>
@@ -7,11 +6,11 @@
 const Json&
 member (const Json& json, const std::string& key)
 {
-  static const Json none;
+  static const Json missing;
   if (!json.is_object ())
-    return (none);
+    return (missing);
   const auto found = json.find (key);
-  return (found == json.end () ? none : *found);
+  return (found == json.end () ? missing : *found);
 }
 
 std::optional<double>

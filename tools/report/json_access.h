@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -8,10 +7,10 @@
 #include <string>
 #include <vector>
 
-/** \brief What a file of others holds: fields may be missing, or be of another type. */
+/** \brief The content of a file, in which fields may be missing or of another type. */
 using Json = nlohmann::ordered_json;
 
-/** \brief A member; null if there is none. */
+/** \brief A member; null if it is missing. */
 const Json& member (const Json& json, const std::string& key);
 
 /** \brief A member that is a finite number. */

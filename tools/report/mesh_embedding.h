@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 #include "json_access.h"
@@ -18,7 +17,7 @@ pcl::cosection::TriangleMesh forDisplay (const pcl::cosection::TriangleMesh& mes
  * `error` (0 to 255 of \a error_max_m), where they are known.
  *
  * A position is off by at most half a 65535th of the box, as are confidence and error by half a 255th.
- * \param[in] errors_m one for each vertex, or none
+ * \param[in] errors_m one for each vertex, or empty
  * \throws std::invalid_argument if the mesh has triangles of vertices that are not there, or arrays of other lengths */
 Json embedMesh (const pcl::cosection::TriangleMesh& mesh, const std::vector<double>& errors_m = {},
                 double error_max_m = 1.0);

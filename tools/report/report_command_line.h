@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 #include "arguments.h"
@@ -13,7 +12,7 @@
 struct ReportSettings
 {
   std::string run;                 ///< folder
-  std::string truth;               ///< dataset; empty: none
+  std::string truth;               ///< dataset; empty: not given
   std::vector<std::string> others; ///< folders of other runs
   std::string output = "report.html";
   int threads = 0; ///< 0: all

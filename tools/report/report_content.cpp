@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "report_content.h"
 
 #include <pcl/cosection/visualization/scene_picture.h>
@@ -7,13 +6,6 @@
 #include <filesystem>
 
 using namespace pcl::cosection;
-
-namespace
-{
-
-constexpr std::size_t colours = 10; ///< of instanceColour (), after which they repeat
-
-} // namespace
 
 std::string
 nameOf (const RunObject& object, const ReportContent& content)
@@ -51,12 +43,6 @@ titleOf (const ReportContent& content)
 {
   const std::string dataset = textIn (member (content.run.summary, "parameters"), "dataset");
   return (lastPartOf (dataset.empty () ? content.run.path : dataset));
-}
-
-std::string
-styleOf (int id)
-{
-  return ("s" + std::to_string (static_cast<std::size_t> (id - 1) % colours + 1));
 }
 
 std::string

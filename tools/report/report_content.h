@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 #include "run_folder.h"
@@ -17,7 +16,7 @@ struct ReportContent
   RunFolder run;
   pcl::cosection::RunScene scene; ///< of the run, to draw; with the errors of its vertices, if there is a truth
   std::optional<RunTruth> truth;
-  std::string truth_folder; ///< empty: none was given
+  std::string truth_folder; ///< empty: not given
   std::vector<ComparedRun> others;
   std::vector<std::string> warnings; ///< about what was read
   int threads = 0;                   ///< 0: all
@@ -26,14 +25,11 @@ struct ReportContent
 /** \brief "truck" if the truth has a name for it; else "cup 1" if the run has found out its class; else "object 1". */
 std::string nameOf (const RunObject& object, const ReportContent& content);
 
-/** \brief What is above in the world of the run; z if nothing tells. Unit. */
+/** \brief The upward direction in the world of the run, unit; z if it is not known. */
 Eigen::Vector3d upOf (const ReportContent& content);
 
 /** \brief What the run was made from: the last part of the dataset's name, or of the run's. */
 std::string titleOf (const ReportContent& content);
-
-/** \brief The class in the style sheet of instanceColour (id). */
-std::string styleOf (int id);
 
 /** \brief The last part of a path, whatever slashes it ends in. */
 std::string lastPartOf (const std::string& path);

@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "run_folder.h"
 
 #include "pcl_cosection/evaluation/surface_samples.h"
@@ -21,7 +20,7 @@ using namespace pcl::cosection;
 namespace
 {
 
-/** \brief Names of the files in a folder, sorted; none if there is no such folder. */
+/** \brief Names of the files in a folder, sorted; empty if there is no such folder. */
 std::vector<std::string>
 namesIn (const fs::path& folder)
 {
@@ -145,7 +144,7 @@ readMesh (const fs::path& path)
   return (mesh);
 }
 
-/** \brief The entry of an object, made if there is none. */
+/** \brief The entry of an object, which is made if it is missing. */
 RunObject&
 objectOf (std::map<int, RunObject>& objects, const std::string& number)
 {

@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 #include "json_access.h"
@@ -29,7 +28,7 @@ struct RunFolder
 {
   std::string path;
   std::string date;    ///< when the run ended, by the time of its summary: "2026-01-31 12:00 UTC"
-  Json summary;        ///< null: none
+  Json summary;        ///< null: the run has no summary
   std::string failure; ///< why the run as a whole failed; empty: it did not
   std::vector<pcl::cosection::StampedPose> camera; ///< T_world_camera
   std::optional<pcl::cosection::PinholeCamera> intrinsics;
@@ -40,8 +39,8 @@ struct RunFolder
 
 /** \brief Read what is there of a run, be it incomplete.
  * \throws pcl::cosection::IoError if there is no such folder, or nothing of a run in it; the message says what it is
- * instead, where that can be told */
+ * instead, where that can be found out */
 RunFolder readRunFolder (const std::string& path);
 
-/** \brief What of a run is compared with a truth, and drawn: what has poses. */
+/** \brief The part of a run that is compared with a truth, and drawn: what has poses. */
 pcl::cosection::RunScene sceneOf (const RunFolder& run);

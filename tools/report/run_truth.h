@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 #include "run_folder.h"
@@ -35,7 +34,7 @@ struct ComparedRun
   std::optional<pcl::cosection::RunEvaluation> evaluation; ///< against the same truth
 };
 
-/** \brief The evaluation of the object \a id of the estimate; null if there is none. */
+/** \brief The evaluation of the object \a id of the estimate; null if it has no counterpart. */
 const pcl::cosection::ObjectEvaluation* evaluationOf (const pcl::cosection::RunEvaluation& run, int id);
 
 /** \brief The distance of every vertex of a mesh in the frame of the estimated object to the true surface, metres;

@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "scene_directions.h"
 
 #include <opencv2/core.hpp>
@@ -40,15 +39,15 @@ standingSize (const TriangleMesh& mesh, const Eigen::Vector3d& up)
   if (mesh.vertices.empty ())
     return (Eigen::Vector3d::Zero ());
   const Eigen::Vector3d x = up.unitOrthogonal (), y = up.cross (x);
-  std::vector<cv::Point2f> level;
+  std::vector<cv::Point2f> horizontal;
   Eigen::AlignedBox1d heights;
   for (const Eigen::Vector3f& vertex : mesh.vertices)
   {
     const Eigen::Vector3d v = vertex.cast<double> ();
-    level.emplace_back (static_cast<float> (v.dot (x)), static_cast<float> (v.dot (y)));
+    horizontal.emplace_back (static_cast<float> (v.dot (x)), static_cast<float> (v.dot (y)));
     heights.extend (Eigen::AlignedBox1d::VectorType (v.dot (up)));
   }
-  const cv::Size2f area = cv::minAreaRect (level).size;
+  const cv::Size2f area = cv::minAreaRect (horizontal).size;
   return {std::max (area.width, area.height), std::min (area.width, area.height), heights.sizes ()[0]};
 }
 

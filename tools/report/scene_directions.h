@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 #include "run_folder.h"
@@ -16,7 +15,7 @@ struct ObjectDirections
 /** \brief Unit vectors, not along each other; the defaults where poses are missing. */
 ObjectDirections directionsOf (const RunObject& object, const RunFolder& run, const Eigen::Vector3d& up);
 
-/** \brief The pose at a stamp, give or take a millionth; null if there is none. */
+/** \brief The pose at a stamp, to a millionth; null if there is no such pose. */
 const Eigen::Isometry3d* poseAt (const std::vector<pcl::cosection::StampedPose>& poses, double stamp);
 
 /** \brief Length, width and height (metres) of the smallest box around a mesh that stands vertical; zero without

@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 #include "arguments.h"
@@ -22,7 +21,7 @@ struct GivenIgnoredArea
 struct IgnoredArea
 {
   std::vector<std::array<int, 4>> regions; ///< left, top, width, height in pixels
-  std::string mask;                        ///< file; empty: none
+  std::string mask;                        ///< file; empty: not given
 
   bool empty () const { return (regions.empty () && mask.empty ()); }
 };

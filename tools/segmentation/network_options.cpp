@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "network_options.h"
 
 #include "option_values.h"
@@ -67,7 +66,7 @@ declareNetworkOptions (CLI::App& app, GivenNetwork& given)
       ->check (numberRange (0.0, 1.0))
       ->group (group);
   addList (app, "--input-size", given.input_size,
-           "Pixels that the network takes (default: what an ONNX file fixes; else YOLO: 640,640, others: the image's)")
+           "Pixels that the network takes (default: YOLO: 640,640, others: the image's)")
       ->option_text ("W,H")
       ->group (group);
   app.add_option ("--input-fit", given.input_fit, "How an image fills them (default: stretch; YOLO: letterbox)")

@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 #include "arguments.h"
@@ -31,7 +30,7 @@ struct NetworkSettings
 /** \brief Declare them in the group "Network". */
 void declareNetworkOptions (CLI::App& app, GivenNetwork& given);
 
-/** \brief An option that was given; empty if there is none. */
+/** \brief The name of an option that was given; empty if no option was. */
 std::string anyNetworkOption (const GivenNetwork& given);
 
 /** \throws UsageError */

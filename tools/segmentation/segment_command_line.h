@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 #include "arguments.h"
@@ -18,7 +17,7 @@ struct SegmentSettings
 {
   std::string input, output;
   std::string json;
-  std::optional<NetworkSettings> network; ///< none: by geometry
+  std::optional<NetworkSettings> network; ///< not set: by geometry
   pcl::cosection::ObjectSegmentationOptions segmentation;
   IgnoredArea ignored;
   double scale = 1.0;

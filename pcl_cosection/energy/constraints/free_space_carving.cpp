@@ -1,8 +1,7 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "free_space_carving.h"
 
-#include "pcl_cosection/view/projected_voxels.h"
+#include "pcl_cosection/view/visibility/projected_voxels.h"
 
 #include "pcl_cosection/common/parallel.h"
 
@@ -17,10 +16,10 @@ namespace
 {
 
 constexpr int window = 4;        // pixels around a projection in which the boundary is looked for
-constexpr double inset_px = 1.0; // the cut is made so far inside the silhouette: pixels at an edge say nothing
-constexpr float far_vox = 3.0f;  // distances are of no interest beyond
-constexpr float
-    single_view_doubt_vox = 0.6f; // a cut by one view of several is made so much farther out than one by four
+constexpr double inset_px = 1.0; // the cut lies so far inside the silhouette, as pixels at a depth edge say nothing
+constexpr float far_vox = 3.0f;  // distances are clamped to this
+// A cut by one view of several is made so much farther out than one that four views support.
+constexpr float single_view_offset_vox = 0.6f;
 
 } // namespace
 
@@ -43,12 +42,12 @@ FreeSpaceCarving::Supported::add (float value)
 }
 
 float
-FreeSpaceCarving::Supported::value (float doubt_vox) const
+FreeSpaceCarving::Supported::value (float offset_vox) const
 {
   float best = nothing;
   for (int views = 1; views <= full_support; ++views)
     best = std::max (best,
-                     largest[views - 1] - doubt_vox * static_cast<float> (full_support - views) / (full_support - 1));
+                     largest[views - 1] - offset_vox * static_cast<float> (full_support - views) / (full_support - 1));
   return best;
 }
 
@@ -104,20 +103,20 @@ FreeSpaceCarving::add (const FreeSpaceView& view, const Eigen::Isometry3d& T_gri
 }
 
 std::vector<float>
-FreeSpaceCarving::lowerBounds (bool doubt_any) const
+FreeSpaceCarving::lowerBounds (bool offset_any) const
 {
-  const float doubt_vox = doubt_any || views_ > 1 ? single_view_doubt_vox : 0.0f; // a single one is as good as any
+  const float offset_vox = offset_any || views_ > 1 ? single_view_offset_vox : 0.0f;
   std::vector<float> bounds (bound_vox_.size ());
   for (std::size_t n = 0; n < bounds.size (); ++n)
   {
     // One or two views cannot outvote each other.
     const int needed = revise_ && votes_for_[n] + votes_against_[n] > 2 ? votes_against_[n] : 0;
-    const float bound = votes_for_[n] > needed ? bound_vox_[n].value (doubt_vox)
-                                               : std::min (inside_vox_[n], bound_vox_[n].value (doubt_vox));
+    const float bound = votes_for_[n] > needed ? bound_vox_[n].value (offset_vox)
+                                               : std::min (inside_vox_[n], bound_vox_[n].value (offset_vox));
     bounds[n] = std::clamp (bound, -far_vox, far_vox);
   }
 
-  // Pixels make stairs; a binomial filter takes them off.
+  // A binomial filter removes the staircase of the pixels.
   std::vector<float> smooth (bounds.size ());
   parallelFor (0, grid_.dims.z (), threads_, [&] (int k) {
     for (int j = 0; j < grid_.dims.y (); ++j)

@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 #include "pcl_cosection/energy/constraints/hull_constraint.h"
@@ -19,8 +18,8 @@ namespace pcl::cosection
  * Per view the distance is measured in the image, from a voxel's projection to the nearest pixel that is
  * free at the voxel's depth (or, from within free space, to the nearest that is not), up to a few pixels.
  * Readings count as for HullConstraint, but free patches of less than 3 x 3 pixels are ignored. A voxel is
- * cut only where more views see it free than see a surface there. Of several views, what one says alone is believed
- * less than what they say together, as poses and silhouettes are not exact. */
+ * cut only where more views see it free than see a surface there. As poses and silhouettes are not exact, a cut that
+ * only one of several views supports is made farther out than one that several support. */
 class FreeSpaceCarving
 {
 public:
@@ -31,22 +30,23 @@ public:
 
   /** \brief Distances in voxels within [-3, 3], positive in free space: near the boundary, lower bounds of a
    * field that keeps out of it.
-   * \param[in] doubt_any doubt the only view as one of several, so that no bound is less for one more view */
-  std::vector<float> lowerBounds (bool doubt_any = false) const;
+   * \param[in] offset_any apply the offset of weakly supported cuts also if there is one view only, so that no bound
+   * decreases when a view is added */
+  std::vector<float> lowerBounds (bool offset_any = false) const;
 
 private:
   static constexpr float nothing = -1e6f;
   static constexpr int full_support = 4; // views
 
-  /** \brief What several views say together: the largest of many noisy values would be too large. Never less for one
-   * more of several views. */
+  /** \brief A robust maximum over views, as the maximum of many noisy values would be too large: the largest value
+   * less an offset that shrinks with the number of views that support it. It never decreases with another view. */
   struct Supported
   {
     std::array<float, full_support> largest{nothing, nothing, nothing, nothing};
 
     void add (float value);
 
-    float value (float doubt_vox) const;
+    float value (float offset_vox) const;
   };
 
   VoxelGrid grid_;

@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "intersection_constraint.h"
 
 #include "pcl_cosection/volume/mesh_distance/inside_bricks.h"
@@ -84,7 +83,7 @@ IntersectionConstraint::addBody (const SignedDistanceField& body, const InsideBr
         const Eigen::Vector3d v = start + i * step;
         const int empty = inside.emptyVoxels (v);
         if (empty > 0)
-          i += static_cast<int> (empty * steps_per_voxel - 0.01); // those are empty as well; less what rounding may do
+          i += static_cast<int> (empty * steps_per_voxel - 0.01); // skip empty voxels, with a margin for rounding
         if (empty >= 0)
           continue;
         const auto u = body.sampleInside (v);

@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 #include <pcl/cosection/surface/solver.h>
@@ -23,19 +22,19 @@ public:
   /** \param[in] max_bound_vox cap of the distance */
   IntersectionConstraint (const VoxelGrid& grid, double max_bound_vox, int threads = 0);
 
-  /** \brief Another body. Where it says nothing (outside its volume, or not supported) nothing is added.
+  /** \brief Add another body at one pose. It has no effect outside its volume and where it is not supported.
    * \param[in] T_body_grid takes this grid's frame to the body's
    * \param[in] beta weight of the constraint where this body's distance is the largest */
   void addBody (const SignedDistanceField& body, const Eigen::Isometry3d& T_body_grid, double beta);
 
-  /** \brief The same at many poses, with less work for each. */
+  /** \brief Add another body at many poses, with less work per pose. */
   void addBody (const SignedDistanceField& body, const std::vector<Eigen::Isometry3d>& T_body_grid, double beta);
 
-  /** \brief The half space n.x + d < 0 of \a plane (unit normal, this grid's frame), save for voxels seen
+  /** \brief Add the half-space n.x + d < 0 of \a plane (unit normal, this grid's frame), except for voxels seen
    * free. */
   void addHalfSpace (const Eigen::Vector4d& plane, const std::vector<std::uint8_t>& free_space, double beta);
 
-  /** \brief Multiply the weights of all that was added so far. */
+  /** \brief Multiply the weights of everything added so far. */
   void scaleWeights (double factor);
 
   /** \brief One bound per voxel; empty if no body reaches the volume. */

@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "object_hull.h"
 
 #include "pcl_cosection/common/parallel.h"
@@ -17,17 +16,17 @@ namespace pcl::cosection
 namespace
 {
 
-constexpr float least_free_vox = 0.25f;    // of a voxel seen free, from the surface of the hull
-constexpr float below_plane_vox = 1.0f;    // a plane is not known better
-constexpr float seed_reach_vox = 3.0f;     // voxels so near points are the hull's ...
-constexpr float low_seed_reach_vox = 1.0f; // ... and in the layer on a plane
-constexpr float core_depth_vox = 2.0f;     // what is no farther inside is no way to elsewhere: single pixels without a
-                                           // reading leave rays
-constexpr float around_core_vox = 4.0f;    // what is so near the core is the hull's: corners of its cubes are
-constexpr float layer_reach = 1.25f;       // of its thickness: as far the layer on a plane belongs to the hull above it
-constexpr float far_vox = 3.0f;            // distances are of no interest beyond
-constexpr float border_vox = 2.0f;         // a closed surface stays so far inside its volume
-constexpr float beside_vox = 1.5f;         // what bounds a place of the surface is so near
+constexpr float least_free_vox = 0.25f;    // least distance of a voxel seen free from the surface of the hull
+constexpr float below_plane_vox = 1.0f;    // the uncertainty of a plane
+constexpr float seed_reach_vox = 3.0f;     // voxels so near to points are seeds of the hull ...
+constexpr float low_seed_reach_vox = 1.0f; // ... in the layer on a plane, voxels so near
+// Connected components pass only through voxels so deep: the thin rays of single pixels without a reading do not count.
+constexpr float core_depth_vox = 2.0f;
+constexpr float around_core_vox = 4.0f; // voxels so near to the core belong to the hull: the corners of its cubes do
+constexpr float layer_reach = 1.25f;    // of its thickness: how far the layer on a plane belongs to the hull above it
+constexpr float far_vox = 3.0f;         // distances are clamped to this
+constexpr float border_vox = 2.0f;      // distance of a closed surface from the border of its volume
+constexpr float beside_vox = 1.5f;      // distance within which free space or a plane counts as bounding the surface
 
 /** \brief Height above the lowest of the planes, voxels. */
 float
@@ -39,7 +38,7 @@ heightAbove (const std::vector<Eigen::Vector4d>& planes, const VoxelGrid& grid, 
   return static_cast<float> (lowest_m / grid.voxel_size_m);
 }
 
-/** \brief f (n, i, j, k) for every voxel, planes of them on several threads. */
+/** \brief Call f (n, i, j, k) for every voxel; threads divide the planes of the grid. */
 template <typename Function>
 void
 forEachVoxel (const VoxelGrid& grid, int threads, Function&& f)
@@ -52,7 +51,7 @@ forEachVoxel (const VoxelGrid& grid, int threads, Function&& f)
   });
 }
 
-/** \brief Those of the wanted voxels (not 0) that hang together with a seed by faces; all seeds are among them. */
+/** \brief The wanted voxels (not 0) that are connected with a seed by faces; all seeds are among them. */
 std::vector<std::uint8_t>
 connectedWith (const std::vector<std::uint8_t>& seeds, const std::vector<std::uint8_t>& wanted,
                const Eigen::Vector3i& dims)

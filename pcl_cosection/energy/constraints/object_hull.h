@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 #include "free_space_carving.h"
@@ -18,12 +17,12 @@
 namespace pcl::cosection
 {
 
-/** \brief All places that may be an object's: no view saw them free, they are above the planes on which things stand,
- * and they hang together with the object's points.
+/** \brief The hull of one object: all space that may belong to it. No view saw it free, it is above the support planes,
+ * and it is connected with the object's points.
  *
- * Points only say which unseen space is the object's, so that the hull shrinks as views are added, up to the margin
- * around surfaces within which space is not seen free. Of a table such a layer remains; the hull does not follow it
- * away from the object.
+ * Points only select the component of unseen space, so the hull shrinks as views are added, up to the margin around
+ * surfaces within which space is not seen free. On a table a layer of that thickness remains unseen; the hull does not
+ * extend along it away from the object.
  *
  * Use: add () every view; then finish (); then mesh () or meshWith (). Everything is in the object's frame. */
 class ObjectHull
@@ -34,17 +33,17 @@ public:
   void add (const FreeSpaceView& view, const Eigen::Isometry3d& T_object_sensor);
 
   /** \param[in] planes unit normals to the object's side
-   * \param[in] layer_m thickness of the layer on planes that is not followed */
+   * \param[in] layer_m thickness of the layer on planes along which the hull does not extend */
   void finish (const std::vector<OrientedPoint>& points, const std::vector<Eigen::Vector4d>& planes, double layer_m);
 
-  /** \brief Closed, with provenance and confidence. */
+  /** \brief The hull as a closed mesh with provenance and confidence. */
   TriangleMesh mesh () const { return meshOf (hull_); }
 
-  /** \brief The same of the hull and a body together. */
+  /** \brief The union of the hull and a body as a closed mesh with provenance and confidence. */
   TriangleMesh meshWith (const SignedDistanceField& body) const;
 
 private:
-  /** \brief Signed distance to the space that was seen free, positive in it, within some voxels; voxels. */
+  /** \brief Signed distance to the space that was seen free, positive in it, clamped; voxels. */
   std::vector<float> distanceToFree () const;
   TriangleMesh meshOf (SignedDistanceField field) const;
   void attachEvidence (TriangleMesh& mesh) const;

@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 #include <Eigen/Core>
@@ -12,11 +11,11 @@
 namespace pcl::cosection
 {
 
-/** \brief A bitmap on a plane. */
+/** \brief A bitmap on a plane, whose cells are set by points. */
 class PlaneMap
 {
 public:
-  /** \param[in] margin cells beyond \a low and \a high, at least as many as close () is asked for */
+  /** \param[in] margin cells beyond \a low and \a high, at least the radius of close () */
   PlaneMap (const Eigen::Vector2d& low, const Eigen::Vector2d& high, double cell, int margin)
       : low_ (low - Eigen::Vector2d::Constant (margin * cell))
       , cell_ (cell)
@@ -40,7 +39,7 @@ public:
     spread (radius, 0);
   }
 
-  /** \brief Middles of the cells of each connected part. */
+  /** \brief Centres of the cells of each connected component. */
   std::vector<std::vector<Eigen::Vector2d>> parts () const
   {
     std::vector<std::vector<Eigen::Vector2d>> parts;
@@ -80,7 +79,7 @@ private:
     return static_cast<std::size_t> (q.y ()) * width_ + static_cast<std::size_t> (q.x ());
   }
 
-  /** \brief Give cells within \a radius (square) of one of \a value that value. */
+  /** \brief Dilation of the cells that have \a value, with a square of \a radius cells. */
   void spread (int radius, std::uint8_t value)
   {
     for (const bool along_x : {true, false})

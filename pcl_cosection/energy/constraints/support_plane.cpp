@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "support_plane.h"
 
 #include <pcl/point_cloud.h>
@@ -22,10 +21,10 @@ namespace
 constexpr double min_reach_m = 0.05;
 constexpr double line_sigma_m = 5e-4; // standard deviation of points on one line
 constexpr int max_ransac_iterations = 500;
-constexpr std::size_t max_points = 20000; // RANSAC sees an even subset of no more
+constexpr std::size_t max_points = 20000; // RANSAC uses an even subset of no more
 
-/** \brief PCL's model, whose samples of points that are almost on a line are drawn again without a word: among points
- * that are some millimetres apart they are frequent, and no error. */
+/** \brief PCL's plane model that redraws samples of nearly collinear points without an error message: such samples are
+ * frequent among points some millimetres apart. */
 class PlaneModel : public pcl::SampleConsensusModelPlane<pcl::PointXYZ>
 {
 public:
@@ -41,7 +40,7 @@ protected:
   }
 };
 
-/** \brief Whether there are planes through some points, which are not on one line. */
+/** \brief Whether points are not collinear, so that they determine a plane. */
 bool
 spanPlane (const pcl::PointCloud<pcl::PointXYZ>& cloud, const pcl::Indices& indices)
 {

@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 #include <pcl/cosection/common/oriented_point.h>
@@ -23,8 +22,8 @@ struct SupportPlaneOptions
 };
 
 /** \brief Planes of the background that an object stands on or leans against: fitted by RANSAC (PCL) to
- * the background points near the object, with all of the object on their free side, which the normals of
- * the background points tell.
+ * the background points near the object, with all of the object on their free side. The normals of the background
+ * points determine that side.
  * \return (n, d) with unit n towards free space and n.x + d = 0 on the plane; best supported first. The
  * result is the same every time. */
 std::vector<Eigen::Vector4d> findSupportPlanes (const std::vector<OrientedPoint>& background,

@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "imls_data_term.h"
 
 #include "pcl_cosection/common/multiversion.h"
@@ -46,7 +45,7 @@ constexpr int lanes = 8; // a row at the usual sigma of one voxel, padded
 using Lanes = float __attribute__ ((vector_size (lanes * sizeof (float)), aligned (4), may_alias));
 using IntegerLanes = std::int32_t __attribute__ ((vector_size (lanes * sizeof (std::int32_t)), aligned (4), may_alias));
 
-/** \brief Replace x by exp (x), to about float precision; |x| is cut off at 87. With n the whole number next
+/** \brief Replace x by exp (x), to about float precision; |x| is clamped to 87. With n the whole number next
  * to x / log 2, exp (x) = 2^n exp (x - n log 2), the latter by its Taylor series. */
 PCL_COSECTION_INLINE void
 exponentiate (Lanes& x)
@@ -72,7 +71,7 @@ exponentiate (Lanes& x)
   x = sum * reinterpret_cast<const Lanes&> (power);
 }
 
-/** \brief The part of an axis that a point reaches. */
+/** \brief The voxels of one axis within the cutoff of a point, and the factors of its Gaussian there. */
 struct Reach
 {
   float position = 0.0f;
@@ -83,7 +82,7 @@ struct Reach
   std::array<float, max_reach> distance;
   std::array<float, max_reach> gaussian;
 
-  /** \brief The voxels reached on an axis that is not cut off. */
+  /** \brief Find the voxels within the cutoff, on an unbounded axis. */
   PCL_COSECTION_INLINE void find (float at, float radius)
   {
     position = at;
@@ -91,7 +90,7 @@ struct Reach
     last = static_cast<int> (std::floor (position + radius));
   }
 
-  /** \brief Fill in the part in [low, high). With s = 1 / sigma,
+  /** \brief Compute the factors of the voxels in [low, high). With s = 1 / sigma,
    *     exp (-s^2 (d + n)^2) = exp (-s^2 d^2) exp (-2 s^2 d)^n exp (-s^2 n^2);
    * \a g and \a ratio are the first two exponentials for the first voxel. */
   PCL_COSECTION_INLINE void set (float g, float ratio, const GaussianTable& table, int low, int high)
@@ -102,7 +101,7 @@ struct Reach
     const float d = static_cast<float> (first) - position;
     for (int n = 0; n < end - first; ++n)
     {
-      // Also through the part that is cut off, so that the values do not depend on where the cut is.
+      // The recursion includes clipped voxels, so that the values do not depend on the clipping.
       if (n >= begin - first)
       {
         distance[n - (begin - first)] = d + static_cast<float> (n);
@@ -112,7 +111,7 @@ struct Reach
     }
   }
 
-  /** \brief Make it \a count long with entries that nothing reaches. */
+  /** \brief Pad it to \a count entries, with factors of 0. */
   PCL_COSECTION_INLINE void pad (int count)
   {
     for (int i = size; i < count; ++i)
@@ -232,8 +231,8 @@ ImlsDataTerm::add (const VoxelGrid& grid, const std::vector<OrientedPoint>& poin
   weighted_target.resize (grid.size (), 0.0f);
   count.resize (grid.size (), 0.0f);
 
-  // Points sorted by strip, plane and row, stably: each voxel then sees them in one order whoever adds them, and
-  // points that touch the same voxels follow each other.
+  // Points are sorted stably by strip, plane and row: each voxel then sees them in the same order whichever thread adds
+  // them, and points that touch the same voxels follow each other.
   const double radius = cutoff_sigmas * sigma_vox;
   const int reach = static_cast<int> (std::ceil (radius));
   const int planes = grid.dims.z () + 2 * reach;

@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 #include <pcl/cosection/common/oriented_point.h>
@@ -17,7 +16,7 @@ struct ImlsDataTerm
 {
   std::vector<float> weight;          ///< sum w_i
   std::vector<float> weighted_target; ///< sum w_i f_i, voxels
-  std::vector<float> count;           ///< points in reach
+  std::vector<float> count;           ///< points within 3 sigma
 
   /** \brief Accumulate \a points (metres, the grid's frame; those without finite coordinates are left
    * out). The sums do not depend on the number of threads.
@@ -25,10 +24,11 @@ struct ImlsDataTerm
    * \param[in] threads 0: all */
   void add (const VoxelGrid& grid, const std::vector<OrientedPoint>& points, double sigma_vox, int threads = 0);
 
-  /** \brief Divide by the count (Weighting::Mean) or leave as it is, in place. The count is given up. */
+  /** \brief Divide the sums by the count in place (Weighting::Mean), or keep them (Weighting::Sum). Frees the count. */
   void finish (Weighting weighting);
 
-  /** \brief The same, leaving the sums for more to be added. */
+  /** \brief Write the sums divided by the count (Weighting::Mean), or the sums, to other fields; points can still be
+   * added afterwards. */
   void average (Weighting weighting, std::vector<float>& averaged_weight, std::vector<float>& averaged_target,
                 int threads = 0) const;
 };

@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "measured_surface.h"
 
 #include "pcl_cosection/common/cell_key.h"
@@ -42,7 +41,7 @@ MeasuredSurface::has (const OrientedPoint& point, double depth_vox) const
   };
   for (int k = 0; k < 27; ++k)
   {
-    const auto cell = cells_.find (keyOf (*place + CellIndex (k % 3 - 1, k / 3 % 3 - 1, k / 9 - 1)));
+    const auto cell = cells_.find (keyOf (neighbourOf (*place, k)));
     if (cell != cells_.end () && std::any_of (cell->second.begin (), cell->second.end (), isBeside))
       return true;
   }

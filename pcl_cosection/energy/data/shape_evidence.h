@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 #include "imls_data_term.h"
@@ -17,22 +16,26 @@
 namespace pcl::cosection
 {
 
-/** \brief What was measured of one body, gathered on its grid: sums over points and votes of views, to which more can
- * be added at any time. Everything is in the grid's frame. */
+/** \brief The measurements of one body on its grid: sums over points and votes of views, to which more can be added at
+ * any time. Everything is in the grid's frame. */
 class ShapeEvidence
 {
 public:
-  /** \param[in] carve also gather what FreeSpaceCarving needs */
+  /** \param[in] carve also gather FreeSpaceCarving */
   ShapeEvidence (const VoxelGrid& grid, const CoSectionOptions& options, bool carve);
 
   void addPoints (const std::vector<OrientedPoint>& points);
 
   void clearPoints ();
 
-  /** \param[in] silhouettes false: only votes on voxels, not finer, which costs a third */
+  /** \param[in] silhouettes false: only votes on voxels, without carving, in a third of the time */
   void addView (const FreeSpaceView& view, const Eigen::Isometry3d& T_grid_sensor, bool silhouettes = true);
 
   bool carves () const { return carving_.has_value (); }
+
+  const VoxelGrid& grid () const { return grid_; }
+
+  const CoSectionOptions& options () const { return options_; }
 
   /** \brief Sums over the points, not yet averaged; empty if there are no points. */
   const ImlsDataTerm& data () const { return data_; }
@@ -40,7 +43,7 @@ public:
   /** \brief 1 where seen free. */
   std::vector<std::uint8_t> freeSpace () const { return hull_.freeSpace (options_.revise_votes); }
 
-  /** \brief Lower bounds of FreeSpaceCarving in voxels; empty if none were gathered. */
+  /** \brief Lower bounds of FreeSpaceCarving in voxels; empty if it was not gathered. */
   std::vector<float> carvedBounds () const;
 
 private:

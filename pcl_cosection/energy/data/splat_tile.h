@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 #include <algorithm>
@@ -10,7 +9,7 @@
 namespace pcl::cosection
 {
 
-/** \brief Where the sums of the data term go, and the planes that the calling thread may touch. */
+/** \brief The sums of the data term, and the planes that the calling thread may write. */
 struct SplatTarget
 {
   float* weight;
@@ -20,20 +19,20 @@ struct SplatTarget
   int first_plane, last_plane;
 };
 
-/** \brief The planes of a strip of a volume that points are just being added to.
+/** \brief A buffer of the planes of a strip of the volume to which points are being added.
  *
- * A point reaches some fifty rows of three arrays, which in a large volume lie on as many pages of memory. Here they
- * are close together. Planes that are complete are added to the volume. */
+ * A point changes some fifty rows of three arrays, which in a large volume lie on as many pages of memory. In the
+ * buffer they are close together. Complete planes are added to the volume. */
 class SplatTile
 {
 public:
-  static constexpr int width = 32; // along x, of the voxels that points are in
+  static constexpr int width = 32; // of a strip along x, voxels
 
-  /** \param[in] reach voxels between a point and the farthest that it reaches */
+  /** \param[in] reach cutoff of a point's Gaussian, voxels */
   SplatTile (const SplatTarget& to, int reach)
       : to_ (to)
       , reach_ (reach)
-      , stride_ ((width + 2 * reach) / block * block + 2 * block) // whole blocks, and what is read behind a row
+      , stride_ ((width + 2 * reach) / block * block + 2 * block) // whole blocks, and those read behind a row
   {
     while (slots_ < static_cast<std::size_t> (2 * reach + 1))
       slots_ *= 2;
@@ -41,22 +40,22 @@ public:
     touched_.assign (slots_ * to.ny, 0);
   }
 
-  /** \brief Go to the points whose voxels are the \a n th strip; all planes must be finished. */
+  /** \brief Begin the \a n th strip; all planes must be finished. */
   void start (int n)
   {
     x_ = n * width - 2 * reach_;
     next_ = to_.first_plane;
   }
 
-  /** \brief The weights of plane \a k from voxel \a i on; those of row j begin rowStride () * j behind them, the
-   * weighted targets and counts arrayStride () behind each other. */
+  /** \brief The weights of plane \a k from voxel \a i on. Row j begins rowStride () * j values later; weighted targets
+   * and counts follow arrayStride () and 2 arrayStride () values later. */
   float* plane (int i, int k) { return values_.data () + slot (k) * to_.ny * rowStride () + (i - x_); }
 
   std::size_t rowStride () const { return 3 * stride_; }
 
   std::size_t arrayStride () const { return stride_; }
 
-  /** \brief The blocks of a row that n voxels from \a i on are in, for touch (). */
+  /** \brief The blocks of a row that hold the n voxels from \a i on, as bits for touch (). */
   std::uint16_t blocks (int i, int n) const
   {
     const int first = (i - x_) / block;
@@ -64,7 +63,7 @@ public:
     return static_cast<std::uint16_t> ((2u << last) - (1u << first));
   }
 
-  /** \brief What was not said to be touched is not added to the volume. */
+  /** \brief Mark blocks as changed: only those are added to the volume. */
   void touch (int k, int first_row, int rows, std::uint16_t blocks)
   {
     std::uint16_t* touched = touched_.data () + slot (k) * to_.ny + first_row;
@@ -72,7 +71,7 @@ public:
       touched[j] |= blocks;
   }
 
-  /** \brief Add the planes before \a plane, which no point to come reaches, to the volume. */
+  /** \brief Add the planes before \a plane to the volume; no later point may change them. */
   void finishBefore (int plane)
   {
     for (; next_ < std::min (plane, to_.last_plane); ++next_)

@@ -1,11 +1,10 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 namespace pcl::cosection
 {
 
-/** \brief An estimated largest eigenvalue is taken larger by this. */
+/** \brief Safety factor for an estimated largest eigenvalue. */
 constexpr double chebyshev_safety = 1.08;
 
 /** \brief Coefficients of a Chebyshev iteration of the fourth kind, which needs only the largest

@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "energy.h"
 
 #include "hessian_rows.h"
@@ -26,7 +25,7 @@ evaluate (const EnergyProblem& problem, const HessianOperator<Real>& hessian, co
 {
   const int nx = problem.dims.x ();
   const int ny = problem.dims.y ();
-  std::vector<double> planes (problem.dims.z (), 0.0); // a plane is one thread's, row after row
+  std::vector<double> planes (problem.dims.z (), 0.0); // each plane is summed by one thread, row after row
   hessian.forEachRow (u, [&] (int j, int k, const Real* product) {
     const std::size_t at = (static_cast<std::size_t> (k) * ny + j) * nx;
     planes[k] += kernels::evaluateRow (energyRow (problem, at), product, u + at, static_cast<Real> (problem.alpha), nx,

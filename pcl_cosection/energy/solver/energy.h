@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 #include "row_kernels.h"
@@ -13,7 +12,7 @@
 namespace pcl::cosection
 {
 
-/** \brief The terms of a problem from voxel \a at on. */
+/** \brief The terms of a problem along a row that begins at voxel \a at. */
 inline kernels::EnergyRow
 energyRow (const EnergyProblem& problem, std::size_t at)
 {

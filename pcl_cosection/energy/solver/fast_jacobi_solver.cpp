@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "energy.h"
 #include "hessian_rows.h"
 #include "solver_detail.h"
@@ -85,7 +84,7 @@ solveLevelFastJacobi (const EnergyProblem& problem, const SolverOptions& options
     const double previous = summary.energies.back ();
     if (!(energy <= previous + energy_rounding * std::abs (previous)) && cycle_length > 1)
     {
-      // Long cycles amplify rounding, and the active set changes half way: go back, and take shorter ones.
+      // Long cycles amplify rounding errors, and the active set changes within them: undo it, and shorten the cycles.
       u = before;
       cycle_length /= 2;
       factors = relaxationFactors (cycle_length);

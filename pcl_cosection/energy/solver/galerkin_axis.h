@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 #include "grid_transfer.h"
@@ -26,14 +25,14 @@ struct GalerkinAxis
 {
   int size = 0;
   Pentadiagonal mass, first, second;
-  /** \brief The finest level. */
+  /** \brief The factors of an axis of \a size voxels on the finest level. */
   static GalerkinAxis finest (int size);
 
-  /** \brief The next coarser level. */
+  /** \brief The factors on the next coarser level. */
   GalerkinAxis coarsen (const AxisTransfer& transfer) const;
 
-  /** \brief The same axis with rows taken out of its middle, where they are all alike, so that no
-   * more than \a size are left: what an axis so short looks like to a local quantity. */
+  /** \brief An axis of at most \a size voxels with the same rows near its borders; rows in the middle, which are all
+   * alike, are removed. For local quantities. */
   GalerkinAxis shortened (int size) const;
 };
 

@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "galerkin_level.h"
 
 #include "chebyshev.h"
@@ -10,7 +9,7 @@ namespace pcl::cosection
 namespace
 {
 
-constexpr std::size_t work_per_voxel = 8; // of a pass, compared with one on the finest level
+constexpr std::size_t work_per_voxel = 8; // of a pass, relative to one on the finest level
 
 template <typename Real>
 void
@@ -70,7 +69,7 @@ GalerkinLevel<Real>::estimateLargestEigenvalue () const
   constexpr int iterations = 30;
   GuardedField<Real> v (size ());
   std::vector<Real> next (size ());
-  for (std::size_t n = 0; n < v.size (); ++n) // rough, and the same every time
+  for (std::size_t n = 0; n < v.size (); ++n) // a rough start vector, always the same
     v[n] = static_cast<Real> ((n * 2654435761u >> 16) % 1024) - Real (511.5);
   double eigenvalue = 0.0;
   for (int i = 0; i < iterations; ++i)
@@ -132,7 +131,7 @@ GalerkinLevel<Real>::smooth (const Real* rhs, Real* z, Real* d, int degree, bool
       continue;
     }
     if (s == 0)
-      std::fill_n (d, size (), Real (0)); // what it holds need not be a number
+      std::fill_n (d, size (), Real (0)); // it may hold NaN
     forEachRow (z, [&] (int j, int k, const Real* product) {
       const std::size_t offset = (static_cast<std::size_t> (k) * dims_.y () + j) * dims_.x ();
       kernels::chebyshevStepRow (rhs + offset, product, inverse_diagonal_.data () + offset, momentum, step, dims_.x (),

@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 #include "galerkin_axis.h"
@@ -27,11 +26,11 @@ public:
 
   void setLargestEigenvalue (double value) { largest_eigenvalue_ = value; }
 
-  /** \brief The weights' part; after changing it call updateDiagonal (). */
+  /** \brief P^T diag (w) P; after changing it call updateDiagonal (). */
   GalerkinWeights<Real> weights;
 
-  /** \brief Recompute the smoother's diagonal: the regulariser's diagonal plus the weights' row sums,
-   * which bound that part's eigenvalues by one. */
+  /** \brief Recompute the smoother's diagonal D: the regulariser's diagonal plus the absolute row sums of
+   * P^T diag (w) P, so that D^-1 times that part has no eigenvalue above one. */
   void updateDiagonal ();
 
   /** \brief Call \a row (j, k, values) with every row of the operator times \a v, the values of a

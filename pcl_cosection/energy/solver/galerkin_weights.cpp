@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "galerkin_weights.h"
 
 #include "row_kernels.h"
@@ -206,7 +205,7 @@ GalerkinWeights<Real>::addRowProduct (const Real* v, int j, int k, Real* out) co
   forEachCoupledRow (j, k, [&] (std::size_t from, std::size_t base, int b, int c) {
     const auto values = [&] (int a) { return a <= span[0] ? entry (a, b, c) + base * nx : nullptr; };
     const kernels::SymmetricRun<Real> row{v + from * nx, values (0), values (1), values (2), 0, 0};
-    int done = 0; // an entry reaches the next values of the row, and the next run may begin there
+    int done = 0; // end of the last run: an entry couples to the next values of the row, where a new run may begin
     const Run* of_row = runs_.data () + base * runCapacity ();
     for (const Run* run = of_row; run != of_row + run_count_[base]; ++run)
     {

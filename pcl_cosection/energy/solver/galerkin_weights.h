@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 #include "grid_transfer.h"
@@ -24,18 +23,18 @@ template <typename Real> struct GalerkinWeights
   Eigen::Vector3i dims = Eigen::Vector3i::Zero ();
   std::array<int, 3> span{}; ///< largest |I - J| per axis
 
-  /** \brief By voxel of min (I, J). */
+  /** \brief The entries between voxels with |I - J| = (a, b, c), by the voxel min (I, J). */
   const Real* entry (int a, int b, int c) const { return entry ((c * (span[1] + 1) + b) * (span[0] + 1) + a); }
 
   const Real* entry (int index) const { return entries_[index].data (); }
 
-  /** \brief Allocate for the level below one with \a fine_span. */
+  /** \brief Allocate for the level that is coarser than one with \a fine_span. */
   void allocate (const GridTransfer& transfer, const std::array<int, 3>& fine_span);
 
-  /** \brief From a diagonal matrix (packed weights) on the finest level. */
+  /** \brief Compute P^T diag (w) P from packed weights w on the finest level. */
   void coarsen (const GridTransfer& transfer, const std::uint16_t* diagonal, int threads);
 
-  /** \brief From the level above. */
+  /** \brief Compute P^T W P from the matrix W of the next finer level. */
   void coarsen (const GridTransfer& transfer, const GalerkinWeights& fine, int threads);
 
   /** \brief out += row (j, k) of the matrix times v.
@@ -48,7 +47,7 @@ template <typename Real> struct GalerkinWeights
   void addAbsoluteRowSums (int j, int k, Real* out) const;
 
 private:
-  /** \brief A stretch of a row in which there are entries that are not zero. */
+  /** \brief A part of a row with entries that are not zero. */
   struct Run
   {
     int begin;

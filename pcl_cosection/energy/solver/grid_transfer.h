@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 #include <Eigen/Core>
@@ -11,7 +10,7 @@ namespace pcl::cosection
 {
 
 /** \brief Linear interpolation along one axis between cell-centred grids, a coarse voxel covering
- * two fine ones; linear extrapolation at the border, so that affine functions are carried exactly.
+ * two fine ones; linear extrapolation at the border, so that affine functions are reproduced exactly.
  *
  * The same weights are the refinement rule of quadratic B-splines: a coarse value is the coefficient
  * of a basis function of bounded second derivative, which a Galerkin operator of fourth order needs. */

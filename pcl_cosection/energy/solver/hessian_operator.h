@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 #include <Eigen/Core>
@@ -51,8 +50,8 @@ public:
    * are divided among the threads. Used with operations that are fused to the product. */
   template <typename RowFunction> void forEachRow (const Real* u, RowFunction&& row) const;
 
-  /** \brief The same, and \a finished (k) once for every plane k as soon as no row to come depends on u
-   * there: u may then be overwritten in that plane, while it is still in the cache. */
+  /** \brief Also call \a finished (k) once for every plane k, as soon as no later row depends on u there: u may then
+   * be overwritten in that plane, while it is still in the cache. */
   template <typename RowFunction, typename PlaneFunction>
   void forEachRow (const Real* u, RowFunction&& row, PlaneFunction&& finished) const;
 

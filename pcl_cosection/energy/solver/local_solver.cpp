@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "local_solver.h"
 
 #include "energy.h"
@@ -22,10 +21,10 @@ namespace
 {
 
 constexpr int brick_edge = 16;             // voxels
-constexpr int fixed_layers = 2;            // as far as the Hessian's stencil reaches
-constexpr int margin = 8;                  // voxels of a box beyond its bricks, with the fixed layers
-constexpr double fixed_weight = 50.0;      // of a voxel that is held, in diagonal elements of the regulariser
-constexpr double interior_diagonal = 42.0; // of the regulariser without its weight
+constexpr int fixed_layers = 2;            // radius of the Hessian's stencil
+constexpr int margin = 8;                  // voxels of a box beyond its bricks, including the fixed layers
+constexpr double fixed_weight = 50.0;      // of a fixed voxel, in diagonal elements of the regulariser
+constexpr double interior_diagonal = 42.0; // of H^T H
 // Steps of Jacobi's method that count, in tolerances of the solver:
 constexpr double changed_step = 1.0;              // where the energy has changed
 constexpr double disagreeing_step = 4.0;          // after boxes were solved
@@ -42,7 +41,7 @@ volume (const Box& box)
   return static_cast<std::size_t> (dims.x ()) * dims.y () * dims.z ();
 }
 
-/** \brief A field that is improved box by box. */
+/** \brief Improves a field box by box. */
 class LocalSolver
 {
 public:
@@ -78,7 +77,7 @@ public:
     return boxes;
   }
 
-  /** \brief Of the field when findBoxes () was last called. */
+  /** \brief Energy of the field when findBoxes () was last called. */
   double energy () const { return energy_; }
 
   std::size_t voxelsToSolve (const std::vector<Box>& boxes) const
@@ -87,7 +86,7 @@ public:
                             [this] (std::size_t sum, const Box& box) { return sum + volume (grown (box)); });
   }
 
-  /** \brief Solve all of them; the most iterations that one took go to the summary. */
+  /** \brief Solve all boxes; the summary gets the largest number of iterations. */
   void solve (const std::vector<Box>& boxes, SolverSummary& summary)
   {
     std::vector<SolverSummary> parts (boxes.size ());
@@ -120,7 +119,7 @@ private:
             Eigen::Vector3i ((box.max ().array () + margin).min (problem_.dims.array () - 1))};
   }
 
-  /** \brief f (index of the first voxel, how many) for every row of a box. */
+  /** \brief Call f (index of the first voxel, number of voxels) for every row of a box. */
   template <typename Function> void forEachRow (const Box& box, Function&& f) const
   {
     for (int k = box.min ().z (); k <= box.max ().z (); ++k)
@@ -129,14 +128,14 @@ private:
            box.max ().x () - box.min ().x () + 1);
   }
 
-  /** \brief The longest step of Jacobi's method of a voxel near data, per brick; refreshes the energy. */
+  /** \brief Per brick, the longest step of Jacobi's method at a voxel near data. Also updates the energy. */
   std::vector<float> largestSteps ()
   {
     const Eigen::Vector3i& dims = problem_.dims;
     const int nx = dims.x ();
     std::vector<double> energies (dims.z (), 0.0);
     const std::size_t per_plane = static_cast<std::size_t> (bricks_.x ()) * bricks_.y ();
-    std::vector<float> by_plane (per_plane * dims.z (), 0.0f); // a plane is one thread's
+    std::vector<float> by_plane (per_plane * dims.z (), 0.0f); // each plane is written by one thread
     hessian_.forEachRow (u_.data (), [&] (int j, int k, const float* product) {
       const std::size_t at = (static_cast<std::size_t> (k) * dims.y () + j) * nx;
       std::vector<float> residual (nx);
@@ -159,7 +158,7 @@ private:
     return steps;
   }
 
-  /** \brief Two boxes become one where that makes fewer voxels, with the margins. */
+  /** \brief Unite two boxes where that gives fewer voxels, margins included. */
   void unite (std::vector<Box>& boxes) const
   {
     for (std::size_t i = 0; i < boxes.size (); ++i)
@@ -223,10 +222,10 @@ private:
     return inner;
   }
 
-  /** \brief Hold the outermost layers of a domain, except where they are those of the whole grid. */
+  /** \brief Fix the outermost layers of a domain, except at the border of the whole grid. */
   void holdBorder (const Box& domain, const std::vector<float>& u, EnergyProblem& part) const
   {
-    Eigen::Vector3i first, last; // of those that are free
+    Eigen::Vector3i first, last; // of the voxels that are not fixed
     for (int a = 0; a < 3; ++a)
     {
       first[a] = domain.min ()[a] == 0 ? 0 : fixed_layers;

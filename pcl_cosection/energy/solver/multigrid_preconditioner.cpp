@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "multigrid_preconditioner.h"
 
 #include "chebyshev.h"
@@ -16,8 +15,8 @@ constexpr double largest_eigenvalue_finest = 144.0 / 42.0 * chebyshev_safety; //
 constexpr int coarsest_axis = 4; // axes are halved down to this many voxels
 constexpr std::size_t deep_levels = 6;
 
-/** \brief Largest eigenvalue of D^-1 R for the regulariser R of a coarse level. The border, where
- * interpolation extrapolates, decides it; a few voxels between the borders suffice. */
+/** \brief Largest eigenvalue of D^-1 R for the regulariser R of a coarse level. It depends on the border, where
+ * interpolation extrapolates; a few voxels between the borders suffice. */
 double
 largestEigenvalue (const std::array<GalerkinAxis, 3>& axes)
 {

@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 #include "galerkin_level.h"
@@ -19,9 +18,9 @@ namespace pcl::cosection
  * factorisation on the coarsest.
  *
  * It is a V-cycle on the finest level; below, each level visits the next two times (W-cycle), in deep
- * hierarchies three. A thin band of large w, which the data are, holds the coarse functions near it: a
- * coarse problem removes only part of what the level above cannot, the smaller the coarser it is, and
- * visiting it again where that is cheap makes up for it. */
+ * hierarchies three. The data are a thin band of large w, which fixes the coarse functions near it: a coarse problem
+ * then removes only a part of the smooth error of the next finer level, a smaller part the coarser it is. Further
+ * visits, where they are cheap, make up for it. */
 template <typename Real> class MultigridPreconditioner
 {
 public:
@@ -46,7 +45,7 @@ private:
 
   void smoothFinest (const Real* rhs, Real* z, Real* d, bool from_zero) const;
   void restrictResidual (const Real* rhs, const Real* z, Real* d);
-  /** \brief Improve z of a coarse level, which is taken as zero if \a from_zero. */
+  /** \brief One cycle on the z of a coarse level, which is taken as zero if \a from_zero. */
   void cycle (std::size_t level, bool from_zero);
   void factorizeCoarsest ();
 

@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "energy.h"
 #include "hessian_rows.h"
 #include "multigrid_preconditioner.h"
@@ -15,9 +14,9 @@ namespace pcl::cosection
 namespace
 {
 
-constexpr double blocked_step = 0.3;     // a direction good for less than this part of its length was blocked
+constexpr double blocked_step = 0.3;     // a direction whose best step is shorter ran into inactive bounds
 constexpr double slope_reduction = 1e-3; // of the line search
-constexpr double expected_rate = 0.5;    // of the changes from step to step, while there is one only
+constexpr double expected_rate = 0.5;    // assumed ratio of successive changes after the first step
 constexpr double largest_rate = 0.95;
 
 template <typename Real> class NewtonMultigrid
@@ -55,7 +54,7 @@ public:
     combine ();
     double t = lineSearch ();
     const bool was_predicted = predicted_;
-    const bool descends = descent_ > 0.0; // else u is the minimiser, to rounding
+    const bool descends = descent_ > 0.0; // otherwise u is the minimiser up to rounding
     predicted_ = descends && t < blocked_step && !was_predicted;
     if (predicted_)
       t = stepWithPredictedBounds ();
@@ -63,8 +62,8 @@ public:
   }
 
 private:
-  /** \brief The direction ran into bounds that were not active: find one that takes those as active which it
-   * would violate, as a primal-dual active set method does. Returns the step along it. */
+  /** \brief The direction ran into inactive bounds: find a new one with the bounds active that it would violate, as in
+   * a primal-dual active set method. Returns the step along it. */
   double stepWithPredictedBounds ()
   {
     predictActiveSet (problem_, u_.data (), direction_.data (), residual_.data (), weights_.data (), threads_);
@@ -83,7 +82,7 @@ private:
   {
     const int nx = problem_.dims.x ();
     const int ny = problem_.dims.y ();
-    std::vector<kernels::DirectionProducts> planes (problem_.dims.z ()); // a plane is one thread's, row after row
+    std::vector<kernels::DirectionProducts> planes (problem_.dims.z ()); // each plane is summed by one thread
     preconditioner_.hessian ().forEachRow (z_.data (), [&] (int j, int k, const Real* h) {
       const std::size_t at = (static_cast<std::size_t> (k) * ny + j) * nx;
       planes[k] += kernels::directionRow (problem_.weight.data () + at, weights_.data () + at, residual_.data () + at,
@@ -218,7 +217,7 @@ solveLevelMultigrid (const EnergyProblem& problem, const SolverOptions& options,
     summary.change_vox = step.change.rootMean ();
     summary.energies.push_back (energy);
     ++summary.iterations;
-    // The changes fall geometrically; the sum of those to come is what is still wrong.
+    // Changes fall geometrically; the sum of the remaining ones is the error.
     const double rate = i == 0 ? expected_rate
                                : std::min (largest_rate, summary.change_vox / std::max (last_change, 1e-30));
     if (!step.blocked && tolerance.met (step.change, std::max (1.0, rate / (1.0 - rate))))

@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "row_kernels.h"
 
 #include "pcl_cosection/common/multiversion.h"
@@ -368,7 +367,8 @@ DirectionProducts::operator+= (const DirectionProducts& other)
   PCL_COSECTION_MULTIVERSION void symmetricRuns (const SymmetricRun<Real>* runs, std::size_t count, Real* out)       \
   { symmetric<Real> (runs, count, out); }                                                                            \
   PCL_COSECTION_MULTIVERSION void contractRows (const Real* const* mass, const Real* const* first,                   \
-    const Real* const* second, const AxisCoefficients<Real>& c, int n, Real* out_mass, Real* out_first, Real* out_second)\
+    const Real* const* second, const AxisCoefficients<Real>& c, int n, Real* out_mass, Real* out_first,              \
+    Real* out_second)                                                                                                \
   { contractY<Real> (mass, first, second, c, n, out_mass, out_first, out_second); }                                  \
   PCL_COSECTION_MULTIVERSION void contractPlanes (const Real* const* mass, const Real* const* first,                 \
     const Real* const* second, const AxisCoefficients<Real>& c, int n, Real* out)                                    \

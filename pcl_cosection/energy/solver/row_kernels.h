@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 #include <pcl/cosection/surface/solver.h>
@@ -11,10 +10,10 @@
 namespace pcl::cosection::kernels
 {
 
-// Loops over one row of voxels. They carry all of the solver's arithmetic, and are compiled for
+// Loops over one row of voxels. They contain all of the solver's arithmetic and are compiled for
 // several instruction sets (see multiversion.h). Overloads for float and double.
 
-/** \brief The row, its four neighbours in y and z (the row itself where there is none). */
+/** \brief A row and its four neighbours in y and z; at the border, the row itself replaces a neighbour. */
 template <typename Real> struct RowNeighbours
 {
   const Real* center;
@@ -69,19 +68,19 @@ void addScaledRow (const double* a, double factor, int n, double* out);
 void scaleAddRow (const float* a, float factor, int n, float* out);
 void scaleAddRow (const double* a, double factor, int n, double* out);
 
-/** \brief Stretches of rows are taken in blocks of so many values. */
+/** \brief Runs are processed in blocks of so many values. */
 constexpr int run_block = 8;
 
-/** \brief A stretch of a symmetric matrix with diagonals T (i, i) = diagonal[i], T (i, i + 1) = first[i] and
+/** \brief A run of rows of a symmetric matrix with diagonals T (i, i) = diagonal[i], T (i, i + 1) = first[i] and
  * T (i, i + 2) = second[i] (\a first and \a second may be null), times a row v. Two values before and
- * behind the stretch must be readable everywhere; what would couple beyond the matrix must be zero. */
+ * behind the run must be readable; entries that would couple beyond the matrix must be zero. */
 template <typename Real> struct SymmetricRun
 {
   const Real* v;
   const Real* diagonal;
   const Real* first;
   const Real* second;
-  int begin;  ///< first row of T to take
+  int begin;  ///< first row of T
   int blocks; ///< of run_block rows
 };
 
@@ -159,7 +158,7 @@ struct LineDerivatives
   }
 };
 
-/** \brief At two places of a line. */
+/** \brief LineDerivatives at two points of a line. */
 struct LinePair
 {
   LineDerivatives first;
@@ -172,7 +171,7 @@ struct LinePair
   }
 };
 
-/** \brief The bounds of a row, at u + t_1 p and u + t_2 p. */
+/** \brief The derivatives of the bounds' energy of a row, at u + t_1 p and u + t_2 p. */
 LinePair boundsRow (const EnergyRow& row, const float* u, const float* p, float t_1, float t_2, int n);
 LinePair boundsRow (const EnergyRow& row, const double* u, const double* p, double t_1, double t_2, int n);
 
@@ -191,7 +190,7 @@ struct DirectionProducts
   void operator+= (const DirectionProducts& other);
 };
 
-/** \brief \a h is the row of H^T H z. */
+/** \brief The inner products of one row; \a h is the row of H^T H z. */
 DirectionProducts directionRow (const float* weight, const std::uint16_t* packed, const float* residual, const float* h,
                                 const float* z, const float* p, float alpha, int n);
 DirectionProducts directionRow (const float* weight, const std::uint16_t* packed, const double* residual,

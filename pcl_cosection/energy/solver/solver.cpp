@@ -1,7 +1,6 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "grid_transfer.h"
-#include "pcl_cosection/completion/quarter_resolution.h"
+#include "local_solver.h"
 #include "solver_detail.h"
 
 #include <chrono>
@@ -16,7 +15,7 @@ namespace
 constexpr int multigrid_coarsest = 8;    // longest axis of the first level
 constexpr int fast_jacobi_coarsest = 32; // as in the paper
 constexpr int coarse_extra_degree = 1;   // of the smoother: constraints are stiffer on coarse levels
-constexpr double coarse_tolerance = 0.1; // tighter: what coarse levels leave undone is slow to mend on finer ones
+constexpr double coarse_tolerance = 0.1; // factor: errors that coarse levels leave are slow to remove on finer ones
 
 template <typename Real>
 SolverSummary
@@ -60,7 +59,7 @@ coarserProblem (const EnergyProblem& problem, const SolverOptions& options)
   return coarsen (problem, options.type == SolverType::Multigrid, options.threads);
 }
 
-/** \brief Nested iteration: unless there is a start in \a u, get one from the next coarser problem.
+/** \brief Nested iteration: solve the problem; if \a u is no start, the solution of the next coarser problem is one.
  * \param[in] scale voxels of the problem, in those of the finest */
 template <typename Real>
 SolverSummary

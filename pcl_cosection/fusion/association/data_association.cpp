@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "data_association.h"
 
 #include "pcl_cosection/common/parallel.h"
@@ -27,7 +26,7 @@ check (bool good, const char* message)
     throw InvalidArgument (std::string ("data association: ") + message);
 }
 
-/** \brief A model in which many points are looked up. */
+/** \brief A model prepared for many points. */
 class ModelLookup
 {
 public:
@@ -49,7 +48,7 @@ public:
   {
     ModelEvidence result;
     const Eigen::Vector3f p = R_ * point + t_;
-    if (!box_.contains (p)) // of most points and objects
+    if (!box_.contains (p)) // most points of most objects
       return result;
     const auto cell = model_.volume->sample<float> (p);
     if (!cell)

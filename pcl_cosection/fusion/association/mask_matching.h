@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 #include <pcl/cosection/common/image.h>
@@ -11,18 +10,18 @@
 namespace pcl::cosection
 {
 
-/** \brief Which instances of a mask show which objects. */
+/** \brief Which instances of a mask match which objects. */
 struct MaskMatches
 {
   std::map<std::uint16_t, std::uint16_t> object_of;     ///< by instance, of those that match
-  std::map<std::uint16_t, std::size_t> instance_pixels; ///< of all instances, that have a reading
-  std::map<std::uint16_t, std::size_t> object_pixels;   ///< of all objects in the rendered image
+  std::map<std::uint16_t, std::size_t> instance_pixels; ///< by instance, those with a reading
+  std::map<std::uint16_t, std::size_t> object_pixels;   ///< by object, those in \a rendered with a reading
 };
 
-/** \brief Match instances and objects one to one, those of the largest intersection over union first; of equals, the
- * smallest numbers.
+/** \brief Match instances and objects one to one, those by descending intersection over union; smaller numbers
+ * first where it is equal.
  * \param[in] mask instances, 0: none
- * \param[in] rendered where objects are expected, 0: nowhere
+ * \param[in] rendered labels of objects, 0: none
  * \param[in] depth pixels without a reading do not count
  * \param[in] min_iou must be exceeded
  * \throws InvalidArgument if the images have not the same size */

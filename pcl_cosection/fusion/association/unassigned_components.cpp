@@ -1,9 +1,9 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "unassigned_components.h"
 
-#include "frame_segmentation.h"
 #include "pcl_cosection/common/disjoint_sets.h"
+
+#include <pcl/cosection/fusion/frame_segmenter.h>
 
 #include <algorithm>
 
@@ -13,14 +13,14 @@ namespace pcl::cosection
 namespace
 {
 
-constexpr double cut_share = 0.25;    // of the root of its pixels
-constexpr double widest_margin = 0.1; // without readings, of the image: sensors have one; what is wider is far away
+constexpr double cut_share = 0.25;    // pixels at the border, of the root of all pixels
+constexpr double widest_margin = 0.1; // without readings, of the image: the sensor's own; a wider one is free space
 constexpr double border_share = 0.25; // of a side, with readings
-constexpr int
-    cut_margin_px = 12; // from the border of what is seen, where surfaces have no normals and belong to no instance
+// From the border of the view, where surfaces have no normals and belong to no instance.
+constexpr int cut_margin_px = 12;
 
-/** \brief Call f (pixels from the border inwards) along the borders of what is seen: of the smallest rectangle with all
- * readings, the sides that are those of the sensor's view, not of things before a background without readings. */
+/** \brief Call f (pixels from the border inwards) along the borders of the view: sides of the smallest rectangle with
+ * all readings, unless a side is that of things before a background without readings. */
 template <typename Function>
 void
 forEnds (const FrameCloud& cloud, Function&& f)
@@ -85,52 +85,47 @@ findUnassignedComponents (const std::vector<bool>& unassigned, const FrameCloud&
     if (unassigned[a] && unassigned[b])
       sets.unite (a, b);
   });
-  UnassignedComponents regions;
-  regions.of_pixel.assign (unassigned.size (), UnassignedComponents::none);
-  for (std::size_t n = 0; n < unassigned.size (); ++n)
+  UnassignedComponents components;
+  components.of_pixel = sets.numbers ([&] (std::size_t n) { return unassigned[n]; });
+  for (const int component : components.of_pixel)
   {
-    if (!unassigned[n])
+    if (component == UnassignedComponents::none)
       continue;
-    const std::size_t root = sets.find (n); // the first of its region
-    if (root == n)
-    {
-      regions.of_pixel[n] = static_cast<int> (regions.pixels.size ());
-      regions.pixels.push_back (0);
-    }
-    regions.of_pixel[n] = regions.of_pixel[root];
-    ++regions.pixels[regions.of_pixel[n]];
+    if (component == static_cast<int> (components.pixels.size ())) // its first pixel
+      components.pixels.push_back (0);
+    ++components.pixels[component];
   }
-  std::vector<std::size_t> ends (regions.pixels.size (), 0);
+  std::vector<std::size_t> ends (components.pixels.size (), 0);
   forEnds (cloud, [&] (const std::vector<std::size_t>& end) {
     for (const std::size_t pixel : end)
-      if (regions.of_pixel[pixel] != UnassignedComponents::none)
+      if (components.of_pixel[pixel] != UnassignedComponents::none)
       {
-        ++ends[regions.of_pixel[pixel]];
+        ++ends[components.of_pixel[pixel]];
         return;
       }
   });
-  for (std::size_t region = 0; region < ends.size (); ++region)
-    regions.cut.push_back (isCut (ends[region], regions.pixels[region]));
-  return regions;
+  for (std::size_t component = 0; component < ends.size (); ++component)
+    components.cut.push_back (isCut (ends[component], components.pixels[component]));
+  return components;
 }
 
 std::set<std::uint16_t>
 cutInstances (const Image<std::uint16_t>& mask, const FrameCloud& cloud)
 {
-  std::vector<std::size_t> pixels (FrameSegmentation::unassigned + 1, 0);
+  std::vector<std::size_t> pixels (FrameSegmenter::ignored + 1, 0);
   for (const std::uint16_t instance : mask.pixels)
     ++pixels[instance];
   std::vector<std::size_t> ends (pixels.size (), 0);
   forEnds (cloud, [&] (const std::vector<std::size_t>& end) {
     for (const std::size_t pixel : end)
-      if (const std::uint16_t instance = mask.pixels[pixel]; instance != 0 && instance != FrameSegmentation::unassigned)
+      if (const std::uint16_t instance = mask.pixels[pixel]; instance != 0 && instance != FrameSegmenter::ignored)
       {
         ++ends[instance];
         return;
       }
   });
   std::set<std::uint16_t> cut;
-  for (std::size_t instance = 1; instance < FrameSegmentation::unassigned; ++instance)
+  for (std::size_t instance = 1; instance < FrameSegmenter::ignored; ++instance)
     if (isCut (ends[instance], pixels[instance]))
       cut.insert (static_cast<std::uint16_t> (instance));
   return cut;

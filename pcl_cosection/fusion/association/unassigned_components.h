@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 #include "pcl_cosection/fusion/tracking/frame_cloud.h"
@@ -16,7 +15,7 @@
 namespace pcl::cosection
 {
 
-/** \brief Call f (a, b) for pixels beside each other that show one surface. */
+/** \brief Call f (a, b) for all pixels beside each other that show one surface. */
 template <typename Function>
 void
 forNeighbours (const FrameCloud& cloud, Function&& f)
@@ -36,26 +35,26 @@ forNeighbours (const FrameCloud& cloud, Function&& f)
       }
 }
 
-/** \brief What is neither the background's nor an object's, connected in the image and in depth. */
+/** \brief Connected components of unassigned pixels, in the image and in depth. */
 struct UnassignedComponents
 {
   static constexpr int none = -1;
 
-  std::vector<int> of_pixel;       ///< number from 0
-  std::vector<std::size_t> pixels; ///< of a region
-  std::vector<bool> cut;           ///< the border of what is seen cuts it: how large it is is not known
+  std::vector<int> of_pixel;       ///< number of its component from 0, or none
+  std::vector<std::size_t> pixels; ///< by component
+  std::vector<bool> cut;           ///< by component: the border of the view cuts it, its size is not known
 
-  /** \brief Whether a region may be a part of an object of so many pixels; a hand that holds it is a part of more. */
-  bool mayBelongTo (int region, std::size_t object_pixels) const
+  /** \brief Whether a component may be a part of an object of so many pixels. A hand that holds it is larger or cut. */
+  bool mayBelongTo (int component, std::size_t object_pixels) const
   {
-    return !cut[region] && pixels[region] < object_pixels;
+    return !cut[component] && pixels[component] < object_pixels;
   }
 };
 
-/** \param[in] unassigned one per pixel */
+/** \brief Find the connected components. \param[in] unassigned one per pixel */
 UnassignedComponents findUnassignedComponents (const std::vector<bool>& unassigned, const FrameCloud& cloud);
 
-/** \brief Those of an image's numbers, other than 0 and the last one, that the border of what is seen cuts. */
+/** \brief Instances that the border of the view cuts, without 0 and FrameSegmenter::ignored. */
 std::set<std::uint16_t> cutInstances (const Image<std::uint16_t>& mask, const FrameCloud& cloud);
 
 } // namespace pcl::cosection

@@ -1,11 +1,8 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "unreliable_mask.h"
 
-#include "frame_segmentation.h"
-#include "unassigned_components.h"
-
 #include "mask_matching.h"
+#include "unassigned_components.h"
 
 #include <algorithm>
 #include <cmath>
@@ -18,15 +15,16 @@ namespace
 {
 
 constexpr double half = 0.5;
-constexpr double touching_share = 0.25; // of the root of a region's pixels
+constexpr double touching_share = 0.25; // of the root of a component's pixels
+constexpr std::uint16_t unassigned_label = TrackedFrame::unassigned;
 
 bool
 isObject (std::uint16_t label)
 {
-  return label != 0 && label != FrameSegmentation::unassigned;
+  return label != 0 && label != unassigned_label;
 }
 
-/** \brief Pixels that a mask and what is known have in common. */
+/** \brief Numbers of pixels of instances and objects, and of those that both have. */
 struct Counts
 {
   std::map<std::uint16_t, std::size_t> of_instance, of_object;
@@ -39,7 +37,7 @@ count (const Image<std::uint16_t>& mask, const Image<std::uint16_t>& labels, con
   Counts counts;
   for (std::size_t n = 0; n < mask.pixels.size (); ++n)
   {
-    if (!std::isfinite (cloud.depth.pixels[n]) || mask.pixels[n] == FrameSegmentation::unassigned)
+    if (!std::isfinite (cloud.depth.pixels[n]) || mask.pixels[n] == unassigned_label)
       continue;
     const std::uint16_t instance = mask.pixels[n];
     const std::uint16_t object = labels.pixels[n];
@@ -75,19 +73,19 @@ shownBy (std::uint16_t instance, const Counts& counts)
 } // namespace
 
 ReconciledMask
-reconcile (const Image<std::uint16_t>& mask, const Image<std::uint16_t>& labels, const Image<std::uint8_t>& moving,
+reconcile (const Image<std::uint16_t>& mask, const LabelImage& labels, const Image<std::uint8_t>& moving,
            const FrameCloud& cloud)
 {
   const Counts counts = count (mask, labels, cloud);
   ReconciledMask result;
-  std::map<std::uint16_t, std::uint16_t> number;                  // of instances; 0: it is divided
+  LabelMap number;                                                // of instances; 0: it is divided
   std::map<std::uint16_t, std::size_t> of_parts, of_parts_common; // by object
   result.last_object = counts.of_object.empty () ? 0 : counts.of_object.rbegin ()->first;
   auto next = static_cast<std::uint16_t> (result.last_object + 1);
   for (const auto& [instance, pixels] : counts.of_instance)
   {
     const std::vector<std::uint16_t> shown = shownBy (instance, counts);
-    if (shown.empty () && next < FrameSegmentation::unassigned)
+    if (shown.empty () && next < unassigned_label)
       number[instance] = next++;
     else
       number[instance] = shown.size () == 1 ? shown.front () : 0;
@@ -112,7 +110,7 @@ reconcile (const Image<std::uint16_t>& mask, const Image<std::uint16_t>& labels,
     const std::uint16_t instance = mask.pixels[n];
     const std::uint16_t object = labels.pixels[n];
     std::uint16_t& pixel = result.mask.pixels[n];
-    if (instance == FrameSegmentation::unassigned)
+    if (instance == unassigned_label)
       pixel = instance;
     else if (isObject (object) &&
              (instance == 0 || counts.of_object.count (number.at (instance)) > 0 || number.at (instance) == 0))
@@ -134,45 +132,46 @@ reconcile (const Image<std::uint16_t>& mask, const Image<std::uint16_t>& labels,
   return result;
 }
 
-void
-attach (const std::set<int>& moved, const Image<std::uint16_t>& labels, const FrameCloud& cloud,
-        ReconciledMask& reconciled)
+Image<std::uint16_t>
+attachToMoved (const ReconciledMask& reconciled, const std::set<int>& moved, const LabelImage& labels,
+               const FrameCloud& cloud)
 {
-  Image<std::uint16_t>& mask = reconciled.mask;
+  Image<std::uint16_t> mask = reconciled.mask;
   std::vector<bool> unassigned (mask.pixels.size ());
   std::map<std::uint16_t, std::size_t> object_pixels;
   for (std::size_t n = 0; n < unassigned.size (); ++n)
   {
     const bool of_object = isObject (mask.pixels[n]) && mask.pixels[n] <= reconciled.last_object;
-    unassigned[n] = labels.pixels[n] == FrameSegmentation::unassigned && !of_object;
+    unassigned[n] = labels.pixels[n] == unassigned_label && !of_object;
     if (of_object)
       ++object_pixels[mask.pixels[n]];
   }
-  const UnassignedComponents regions = findUnassignedComponents (unassigned, cloud);
-  std::map<std::pair<int, std::uint16_t>, std::size_t> borders; // pixels along which regions and objects touch
+  const UnassignedComponents components = findUnassignedComponents (unassigned, cloud);
+  std::map<std::pair<int, std::uint16_t>, std::size_t> borders; // pixels along which both touch
   forNeighbours (cloud, [&] (std::size_t a, std::size_t b) {
-    for (const auto& [region, object] : {std::pair (a, b), std::pair (b, a)})
-      if (unassigned[region] && !unassigned[object] && moved.count (mask.pixels[object]) > 0)
-        ++borders[{regions.of_pixel[region], mask.pixels[object]}];
+    for (const auto& [pixel, object] : {std::pair (a, b), std::pair (b, a)})
+      if (unassigned[pixel] && !unassigned[object] && moved.count (mask.pixels[object]) > 0)
+        ++borders[{components.of_pixel[pixel], mask.pixels[object]}];
   });
-  std::vector<std::uint16_t> taken_by (regions.pixels.size (), 0);
-  std::vector<std::size_t> longest (regions.pixels.size (), 0);
+  std::vector<std::uint16_t> attached_to (components.pixels.size (), 0);
+  std::vector<std::size_t> longest (components.pixels.size (), 0);
   for (const auto& [pair, border] : borders)
   {
-    const auto& [region, object] = pair;
-    if (border <= longest[region] || !regions.mayBelongTo (region, object_pixels[object]) ||
-        static_cast<double> (border) < touching_share * std::sqrt (static_cast<double> (regions.pixels[region])))
+    const auto& [component, object] = pair;
+    if (border <= longest[component] || !components.mayBelongTo (component, object_pixels[object]) ||
+        static_cast<double> (border) < touching_share * std::sqrt (static_cast<double> (components.pixels[component])))
       continue;
-    longest[region] = border;
-    taken_by[region] = object;
+    longest[component] = border;
+    attached_to[component] = object;
   }
   for (std::size_t n = 0; n < unassigned.size (); ++n)
-    if (unassigned[n] && mask.pixels[n] != 0 && taken_by[regions.of_pixel[n]] != 0)
-      mask.pixels[n] = taken_by[regions.of_pixel[n]];
+    if (unassigned[n] && mask.pixels[n] != 0 && attached_to[components.of_pixel[n]] != 0)
+      mask.pixels[n] = attached_to[components.of_pixel[n]];
+  return mask;
 }
 
 std::map<std::uint16_t, ClassScore>
-carryOver (const FrameInstances& found, const Image<std::uint16_t>& reconciled, const FrameCloud& cloud)
+carriedClasses (const FrameInstances& found, const Image<std::uint16_t>& reconciled, const FrameCloud& cloud)
 {
   std::map<std::uint16_t, ClassScore> classes;
   if (found.classes.empty ())
@@ -183,9 +182,8 @@ carryOver (const FrameInstances& found, const Image<std::uint16_t>& reconciled, 
   return classes;
 }
 
-void
-dropSmallComponents (const FrameCloud& cloud, const std::map<std::uint16_t, std::uint16_t>& object_of,
-                     Image<std::uint16_t>& mask)
+Image<std::uint16_t>
+dropIsolated (Image<std::uint16_t> mask, const LabelMap& object_of, const FrameCloud& cloud)
 {
   std::set<std::uint16_t> touching;
   forNeighbours (cloud, [&] (std::size_t a, std::size_t b) {
@@ -200,6 +198,7 @@ dropSmallComponents (const FrameCloud& cloud, const std::map<std::uint16_t, std:
   for (std::uint16_t& pixel : mask.pixels)
     if (isObject (pixel) && object_of.count (pixel) == 0 && touching.count (pixel) == 0)
       pixel = 0;
+  return mask;
 }
 
 } // namespace pcl::cosection

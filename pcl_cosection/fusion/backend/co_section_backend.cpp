@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include <pcl/cosection/fusion/co_section_backend.h>
 
 #include <pcl/cosection/common/error.h>
@@ -14,7 +13,7 @@ namespace pcl::cosection
 namespace
 {
 
-constexpr double turn_radius_m = 1.0; // a turn by 1 rad counts as so much of a way
+constexpr double turn_radius_m = 1.0; // a turn by 1 rad counts as a way of this length
 
 std::vector<OrientedPoint>
 transformed (const std::vector<OrientedPoint>& points, const Eigen::Isometry3d& T)
@@ -61,7 +60,7 @@ CoSectionBackend::gap (const KeptView& a, const KeptView& b)
   {
     const auto other = b.T_body_sensor.find (id);
     if (other == b.T_body_sensor.end ())
-      return std::numeric_limits<double>::infinity (); // of this object, only one of them tells
+      return std::numeric_limits<double>::infinity (); // only one of them observes this object
     const Eigen::Isometry3d motion = T_a.inverse () * other->second;
     largest = std::max (largest,
                         motion.translation ().norm () + turn_radius_m * Eigen::AngleAxisd (motion.linear ()).angle ());
@@ -80,9 +79,9 @@ CoSectionBackend::thin (bool keyframes)
     candidates += kept_[a].keyframe == keyframes;
     for (std::size_t b = 0; b < views; ++b)
       if (a != b)
-        gaps[a][b] = gap (kept_[a], kept_[b]); // what a tells and b does not
+        gaps[a][b] = gap (kept_[a], kept_[b]); // what a observes and b does not
   }
-  // One by one the view that another makes least missed; of equals the latest.
+  // One by one, the view nearest to another is removed; the latest of equals.
   std::vector<bool> remove (views, false);
   for (std::size_t n = 0; n < (candidates + 1) / 2; ++n)
   {

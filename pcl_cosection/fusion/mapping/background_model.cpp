@@ -1,6 +1,7 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "background_model.h"
+
+#include "pcl_cosection/common/trimmed_box.h"
 
 #include <algorithm>
 #include <cmath>
@@ -14,66 +15,63 @@ namespace
 
 constexpr double largest_voxel_m = 0.02;
 constexpr double smallest_voxel_m = 0.002;
-constexpr double first_share = 0.8;    // of the volume's side, what the first frame shows
+constexpr double first_share = 0.8;    // of the volume's side, the box of the first frame
 constexpr double outlier_share = 0.02; // of the points, at either end of each axis
 constexpr int points_of_box = 5000;
 constexpr std::size_t min_points = 50;
 constexpr int shift_step = 16;           // voxels
 constexpr double tolerated_share = 0.05; // of the volume's side that may be out of it before it is shifted
 
-/** \brief Of what is seen, without a few points. */
+/** \brief Box of a frame's points without outliers, world frame; empty: there are too few. */
 Eigen::AlignedBox3d
-seenBox (const FrameCloud& cloud, const Eigen::Isometry3d& T_world_camera)
+seenBox (const PosedFrame& frame)
 {
+  const FrameCloud& cloud = frame.cloud;
   const double pixels = static_cast<double> (cloud.camera.width) * cloud.camera.height;
   const std::vector<Eigen::Vector3f> points = cloud.sample (
       std::max (1, static_cast<int> (std::sqrt (pixels / points_of_box))));
-  Eigen::AlignedBox3d box;
   if (points.size () < min_points)
-    return box;
-  std::vector<double> values (points.size ());
+    return {};
+  return trimmedBox<double> (points, outlier_share, [&] (const Eigen::Vector3f& p) -> Eigen::Vector3d {
+    return frame.T_world_camera * p.cast<double> ();
+  });
+}
+
+/** \brief The volume's grid around the box that the first frame shows. */
+VoxelGrid
+placeGrid (const Eigen::AlignedBox3d& seen, const Eigen::Vector3d& camera, const DynamicFusionOptions& options)
+{
+  const int resolution = options.background_resolution;
+  VoxelGrid grid;
+  grid.dims.setConstant (resolution);
+  const double fitting = seen.sizes ().maxCoeff () / (first_share * resolution);
+  grid.voxel_size_m = options.background_voxel_size_m > 0.0
+                          ? options.background_voxel_size_m
+                          : std::min (largest_voxel_m, std::max (smallest_voxel_m, fitting));
+  const double half = 0.5 * grid.voxel_size_m * (resolution - 1);
+  Eigen::Vector3d centre = seen.center ();
+  // A scene that is too large is held from the camera on.
   for (int axis = 0; axis < 3; ++axis)
-  {
-    std::transform (points.begin (), points.end (), values.begin (),
-                    [&] (const Eigen::Vector3f& p) { return (T_world_camera * p.cast<double> ())[axis]; });
-    const auto cut = static_cast<std::ptrdiff_t> (outlier_share * static_cast<double> (values.size ()));
-    const auto low = values.begin () + cut;
-    const auto high = values.end () - 1 - cut;
-    std::nth_element (values.begin (), low, values.end ());
-    box.min ()[axis] = *low;
-    std::nth_element (low, high, values.end ());
-    box.max ()[axis] = *high;
-  }
-  return box;
+    if (seen.sizes ()[axis] > 2.0 * half)
+      centre[axis] = camera[axis] < centre[axis] ? seen.min ()[axis] + half : seen.max ()[axis] - half;
+  grid.origin_m = centre - Eigen::Vector3d::Constant (half);
+  return grid;
 }
 
 } // namespace
 
 void
-BackgroundModel::follow (const FrameCloud& cloud, const Eigen::Isometry3d& T_world_camera)
+followBackground (const PosedFrame& frame, const FusionSetup& setup, std::optional<TsdfVolume>& background)
 {
-  const Eigen::AlignedBox3d seen = seenBox (cloud, T_world_camera);
+  const Eigen::AlignedBox3d seen = seenBox (frame);
   if (seen.isEmpty ())
     return;
-  if (!volume_)
+  if (!background)
   {
-    VoxelGrid grid;
-    grid.dims.setConstant (options_.resolution);
-    const double fitting = seen.sizes ().maxCoeff () / (first_share * options_.resolution);
-    grid.voxel_size_m = options_.voxel_size_m > 0.0 ? options_.voxel_size_m
-                                                    : std::min (largest_voxel_m, std::max (smallest_voxel_m, fitting));
-    const double half = 0.5 * grid.voxel_size_m * (options_.resolution - 1);
-    Eigen::Vector3d centre = seen.center ();
-    // What is too large to be held is held from the camera on.
-    for (int axis = 0; axis < 3; ++axis)
-      if (seen.sizes ()[axis] > 2.0 * half)
-        centre[axis] = T_world_camera.translation ()[axis] < centre[axis] ? seen.min ()[axis] + half
-                                                                          : seen.max ()[axis] - half;
-    grid.origin_m = centre - Eigen::Vector3d::Constant (half);
-    volume_.emplace (grid, options_.tsdf);
+    background.emplace (placeGrid (seen, frame.T_world_camera.translation (), setup.options), setup.background_tsdf);
     return;
   }
-  const VoxelGrid& grid = volume_->grid ();
+  const VoxelGrid& grid = background->grid ();
   Eigen::Vector3i offset = Eigen::Vector3i::Zero ();
   for (int axis = 0; axis < 3; ++axis)
   {
@@ -89,10 +87,8 @@ BackgroundModel::follow (const FrameCloud& cloud, const Eigen::Isometry3d& T_wor
       shift = -std::min (above, below);
     offset[axis] = shift_step * static_cast<int> (std::round (shift / shift_step));
   }
-  if (offset.isZero ())
-    return;
-  volume_->reframe (offset, grid.dims);
-  ++shifts_;
+  if (!offset.isZero ())
+    background->reframe (offset, grid.dims);
 }
 
 } // namespace pcl::cosection

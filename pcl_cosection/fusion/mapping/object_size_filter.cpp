@@ -1,8 +1,8 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "object_size_filter.h"
 
-#include <cmath>
+#include "pcl_cosection/common/cell_key.h"
+
 #include <cstddef>
 
 namespace pcl::cosection
@@ -12,23 +12,12 @@ namespace
 {
 
 constexpr double voxel_m = 0.05; // poses are known better
-constexpr int key_bits = 21;     // of each coordinate: 100 km
-
-std::uint64_t
-keyOf (const Eigen::Vector3d& p)
-{
-  std::uint64_t key = 0;
-  for (int axis = 0; axis < 3; ++axis)
-    key = key << key_bits |
-          (static_cast<std::uint64_t> (std::llround (p[axis] / voxel_m)) & ((std::uint64_t (1) << key_bits) - 1));
-  return key;
-}
 
 } // namespace
 
 void
-ObjectSizeFilter::judge (const std::vector<Eigen::Vector3f>& points, const Eigen::Isometry3d& T_world_camera,
-                         ObjectSegmentation& found)
+ObjectSizeFilter::filter (const std::vector<Eigen::Vector3f>& points, const Eigen::Isometry3d& T_world_camera,
+                          ObjectSegmentation& found)
 {
   ++frame_;
   std::vector<std::size_t> pixels (found.objects + 1, 0), too_long (found.objects + 1, 0);
@@ -37,7 +26,9 @@ ObjectSizeFilter::judge (const std::vector<Eigen::Vector3f>& points, const Eigen
     const std::uint32_t label = found.labels[n];
     if (label == 0 && !found.too_long[n])
       continue;
-    Frames& frames = counts_[keyOf (T_world_camera * points[n].cast<double> ())];
+    const Eigen::Array3d place = (T_world_camera * points[n].cast<double> ()).array () / voxel_m;
+    const CellIndex voxel = place.round ().cast<std::int64_t> ();
+    Frames& frames = counts_[keyOf (voxel)];
     if (frames.counted != frame_)
       ++(label == 0 ? frames.too_long : frames.object);
     frames.counted = frame_;

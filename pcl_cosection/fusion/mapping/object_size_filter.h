@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 #include <pcl/cosection/segmentation/geometric_segmentation.h>
@@ -14,26 +13,25 @@
 namespace pcl::cosection
 {
 
-/** \brief Where frames have shown things that are too long for objects. A view of one of its faces shows less of a
- * cupboard than another view did: what most frames have seen to be too long is none, though a part of it would be one
- * by itself. */
+/** \brief Remembers where frames have shown things that are too long to be objects. One view shows less of a cupboard
+ * than another one: a thing that was too long in most frames is no object, though a part of it could be one. */
 class ObjectSizeFilter
 {
 public:
   void clear () { counts_.clear (); }
 
-  /** \brief Remember what a frame shows, and take out of it the objects that more frames have seen to be too long than
+  /** \brief Remember the segmentation of a frame, and remove objects from it that were too long in more frames than
    * not.
    * \param[in] points sensor frame, metres */
-  void judge (const std::vector<Eigen::Vector3f>& points, const Eigen::Isometry3d& T_world_camera,
-              ObjectSegmentation& found);
+  void filter (const std::vector<Eigen::Vector3f>& points, const Eigen::Isometry3d& T_world_camera,
+               ObjectSegmentation& found);
 
 private:
   struct Frames
   {
-    int too_long = 0; ///< that showed it to be so there
-    int object = 0;   ///< an object
-    int counted = 0;  ///< the last one, in which it counts once
+    int too_long = 0; ///< in which a thing there was too long
+    int object = 0;   ///< in which it was an object
+    int counted = 0;  ///< number of the last one: each counts once
   };
 
   std::unordered_map<std::uint64_t, Frames> counts_; ///< by voxel of the world

@@ -1,6 +1,7 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "object_tsdf.h"
+
+#include "pcl_cosection/common/trimmed_box.h"
 
 #include <pcl/cosection/common/error.h>
 
@@ -16,28 +17,14 @@ namespace
 {
 
 constexpr double outlier_share = 0.01; // of the points, at either end of each axis
-constexpr double core_share = 0.1;     // without these, outlier parts of a mask count no more
+constexpr double core_share = 0.1;     // of the points; without these, outliers of a mask do not count
 constexpr std::size_t min_points = 20;
 
-/** \brief Of the points without a share of them at either end of each axis. */
+/** \brief Bounding box of points without a share of them at either end of each axis. */
 Eigen::AlignedBox3d
 boxWithout (double share, const std::vector<OrientedPoint>& points)
 {
-  Eigen::AlignedBox3d box;
-  std::vector<float> values (points.size ());
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    std::transform (points.begin (), points.end (), values.begin (),
-                    [axis] (const OrientedPoint& point) { return point.position[axis]; });
-    const auto cut = static_cast<std::ptrdiff_t> (share * static_cast<double> (values.size ()));
-    const auto low = values.begin () + cut;
-    const auto high = values.end () - 1 - cut;
-    std::nth_element (values.begin (), low, values.end ());
-    box.min ()[axis] = *low;
-    std::nth_element (values.begin (), high, values.end ());
-    box.max ()[axis] = *high;
-  }
-  return box;
+  return trimmedBox<double> (points, share, [] (const OrientedPoint& point) { return point.position; });
 }
 
 } // namespace
@@ -97,7 +84,7 @@ ObjectTsdf::makeRoom (const std::vector<OrientedPoint>& points)
   }
   const VoxelGrid& grid = volume_->grid ();
   const Eigen::Array3i dims = grid.dims.array ();
-  // Not more than allowed, whatever is asked for.
+  // Clamped before the conversion to int.
   const Eigen::Array3d most = Eigen::Array3d::Constant (options_.max_resolution);
   const Eigen::Array3i low = grid.toVoxel (wanted.min ()).array ().floor ().max (-most).cast<int> ().min (0);
   const Eigen::Array3i

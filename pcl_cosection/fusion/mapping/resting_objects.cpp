@@ -1,7 +1,8 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "resting_objects.h"
 
+#include "pcl_cosection/common/quantile.h"
+#include "pcl_cosection/common/robust_weights.h"
 #include "pcl_cosection/fusion/tracking/frame_cloud.h"
 
 #include <pcl/cosection/common/camera.h>
@@ -27,24 +28,24 @@ constexpr int steps = 6;  // in each
 constexpr std::size_t min_points = 30;
 constexpr SampleOptions background_samples{5000, 0.0, true};
 constexpr SampleOptions object_samples{300, 1.5};
-constexpr double huber_share = 0.2;     // of the truncation distance
-constexpr double least_share = 0.01;    // of the samples' weight, from which on a direction is told
-constexpr double told_by_objects = 0.5; // of their weight: what the background tells by less, and badly, they are asked
-constexpr double bad_fit = 0.5;         // of a voxel of the background
-constexpr double least_error = 0.1;     // the same
-constexpr double short_step = 0.02;     // voxels
+constexpr double huber_share = 0.2;  // of the truncation distance
+constexpr double least_share = 0.01; // of the samples' weight, from which on a direction is observed
+// A share of the objects' weight: where the background observes a direction by less, and fits badly, objects are used.
+constexpr double share_of_objects = 0.5;
+constexpr double bad_fit = 0.5;     // of a voxel of the background
+constexpr double least_error = 0.1; // the same
+constexpr double short_step = 0.02; // voxels
 
 using Directions = Eigen::Matrix<double, 6, Eigen::Dynamic, 0, 6, 6>;
 using VectorXd = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 6, 1>;
 using MatrixXd = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 6, 6>;
 
-/** \brief An object that is thought to rest, or the part of the background that tells a little, and what belongs to it.
- */
+/** \brief An object that is believed to rest, or a part of the background, with its points. */
 struct Piece
 {
   const TsdfVolume* volume;
   Eigen::Isometry3d T_world_object;
-  double tolerance_m = 0.0; // by which it may err
+  double tolerance_m = 0.0; // largest error that is expected
   std::vector<Eigen::Vector3f> points = {};
   std::vector<float> weights = {};
   double votes = 0.0;
@@ -52,7 +53,7 @@ struct Piece
 
 using Pieces = std::vector<const Piece*>;
 
-/** \brief In the world. */
+/** \brief Samples of all pieces, world frame. */
 std::vector<SurfaceSample>
 samplesOf (const Pieces& pieces, const Eigen::Isometry3d& T_world_camera)
 {
@@ -65,8 +66,7 @@ samplesOf (const Pieces& pieces, const Eigen::Isometry3d& T_world_camera)
     {
       sample.position = piece->T_world_object * sample.position;
       sample.normal = piece->T_world_object.linear () * sample.normal;
-      sample.weight *= std::min (1.0, huber / std::max (1e-12, std::abs (sample.distance))) /
-                       (piece->tolerance_m * piece->tolerance_m);
+      sample.weight *= huberWeight (std::abs (sample.distance), huber) / (piece->tolerance_m * piece->tolerance_m);
       all.push_back (sample);
     }
   }
@@ -79,16 +79,13 @@ spread (std::vector<double> distances)
 {
   for (double& distance : distances)
     distance = std::abs (distance);
-  const auto middle = distances.begin () + static_cast<std::ptrdiff_t> (distances.size () / 2);
-  std::nth_element (distances.begin (), middle, distances.end ());
-  return 1.4826 * *middle;
+  return sigmaOfSizes (distances);
 }
 
-/** \brief Whether the readings that tell of a direction do not fit the background: borders are frayed, walls are not.
- */
+/** \brief Whether the readings that observe a direction do not fit the background: depth edges are noisy, walls not. */
 bool
-isFrayed (const std::vector<SurfaceSample>& samples, const MotionChart& chart, const Vector6d& direction,
-          double largest_spread_m)
+isNoisy (const std::vector<SurfaceSample>& samples, const MotionChart& chart, const Vector6d& direction,
+         double largest_spread_m)
 {
   std::vector<double> distances;
   for (const SurfaceSample& sample : samples)
@@ -97,8 +94,7 @@ isFrayed (const std::vector<SurfaceSample>& samples, const MotionChart& chart, c
   return !distances.empty () && spread (distances) > largest_spread_m;
 }
 
-/** \brief The motions of which the background does not tell, or tells by less than \a enough weight of what is frayed.
- */
+/** \brief The motions that the background does not observe, or by less than \a enough weight of noisy readings. */
 Directions
 openDirections (const std::vector<SurfaceSample>& samples, const MotionChart& chart, double enough,
                 double largest_spread_m)
@@ -116,8 +112,8 @@ openDirections (const std::vector<SurfaceSample>& samples, const MotionChart& ch
   for (int k = 0; k < 6; ++k)
   {
     const Vector6d direction = solver.eigenvectors ().col (k);
-    const Telling told = tellingOf (samples, chart, direction);
-    if (told.isEnough (total) && (told.all >= enough || !isFrayed (samples, chart, direction, largest_spread_m)))
+    const DirectionSupport support = directionSupport (samples, chart, direction);
+    if (support.isEnough (total) && (support.all >= enough || !isNoisy (samples, chart, direction, largest_spread_m)))
       continue;
     open.conservativeResize (Eigen::NoChange, open.cols () + 1);
     open.rightCols<1> () = direction;
@@ -125,7 +121,7 @@ openDirections (const std::vector<SurfaceSample>& samples, const MotionChart& ch
   return open;
 }
 
-/** \brief Motions along certain directions as certain samples are moved by them. */
+/** \brief Coordinates of motions along open directions, by which certain samples move. */
 class OpenMotions
 {
 public:
@@ -156,7 +152,7 @@ private:
   Directions basis_;
 };
 
-/** \brief A Gauss-Newton step. Directions of which hardly any sample tells are left out. */
+/** \brief A Gauss-Newton step. Directions that hardly any sample observes are left out. */
 struct OpenStep
 {
   OpenStep (const std::vector<SurfaceSample>& samples, const OpenMotions& open)
@@ -173,33 +169,33 @@ struct OpenStep
       total += sample.weight;
     }
     const Eigen::SelfAdjointEigenSolver<MatrixXd> solver (curvature);
-    told = MatrixXd::Zero (k, k);
+    observed = MatrixXd::Zero (k, k);
     step = VectorXd::Zero (k);
     for (int n = 0; n < k; ++n)
     {
       const VectorXd direction = solver.eigenvectors ().col (n);
-      if (!(tellingOf (samples, open.chart (), open.basis () * direction).all > least_share * total))
+      if (!(directionSupport (samples, open.chart (), open.basis () * direction).all > least_share * total))
         continue;
       step -= direction.dot (gradient) / solver.eigenvalues ()[n] * direction;
-      told += direction * direction.transpose ();
+      observed += direction * direction.transpose ();
       ++directions;
     }
   }
 
   VectorXd step;
-  MatrixXd told; // projection
+  MatrixXd observed; // projection
   int directions = 0;
 };
 
-/** \brief Finds poses along the directions that the background leaves open. */
+/** \brief Finds poses along the open directions of the background by pieces. */
 class PoseByPieces
 {
 public:
   PoseByPieces (const MotionChart& chart, Directions open) : chart_ (chart), open_ (std::move (open)) {}
 
-  /** \brief What these pieces call for, from a pose nearby. \param[in] untold where the camera is along directions of
-   * which they do not tell */
-  HeldPose solve (const Pieces& pieces, const Eigen::Isometry3d& start, const Eigen::Isometry3d& untold) const
+  /** \brief The pose by these pieces, from a pose nearby. \param[in] default_pose along directions that they do not
+   * observe */
+  HeldPose solve (const Pieces& pieces, const Eigen::Isometry3d& start, const Eigen::Isometry3d& default_pose) const
   {
     HeldPose result;
     result.T_world_camera = start;
@@ -208,8 +204,8 @@ public:
       const std::vector<SurfaceSample> samples = samplesOf (pieces, result.T_world_camera);
       const OpenMotions open (samples, open_, chart_);
       const OpenStep next (samples, open);
-      const VectorXd x = open.coordinates (result.T_world_camera * untold.inverse ());
-      result.T_world_camera = open.motion (next.step) * open.motion (next.told * x) * untold;
+      const VectorXd x = open.coordinates (result.T_world_camera * default_pose.inverse ());
+      result.T_world_camera = open.motion (next.step) * open.motion (next.observed * x) * default_pose;
       result.directions = next.directions;
       if (next.step.norm () < short_step * pieces[0]->volume->grid ().voxel_size_m)
         break;
@@ -239,8 +235,8 @@ private:
   Directions open_;
 };
 
-/** \brief The pieces that agree with the pose that most agree with. \param[in] steady where the camera goes on as
- * before */
+/** \brief The pieces that agree with the pose that most agree with. \param[in] steady T_world_camera if the camera goes
+ * on as before */
 Pieces
 mostThatAgree (const std::vector<Piece>& pieces, const PoseByPieces& poses, const Eigen::Isometry3d& steady)
 {
@@ -276,15 +272,18 @@ mostThatAgree (const std::vector<Piece>& pieces, const PoseByPieces& poses, cons
   return best;
 }
 
-/** \brief What belongs to the objects that rest, of those of a scene seen from \a T_world_camera. */
+/** \brief The objects that rest, with their points. \param[in] T_world_expected camera of \a scene
+ * \param[in] T_world_camera from where they are seen */
 std::vector<Piece>
-restingPieces (const ExpectedScene& scene, const DataAssociation& association, const Eigen::Isometry3d& T_world_camera)
+restingPieces (const std::vector<Eigen::Vector3f>& points, const SceneModels& scene,
+               const Eigen::Isometry3d& T_world_expected, const DataAssociation& association,
+               const Eigen::Isometry3d& T_world_camera)
 {
   std::vector<AssociatedModel> models = scene.models;
   for (std::size_t m = 0; m < models.size (); ++m)
     models[m].T_model_sensor = m > 0 && scene.objects[m - 1]->rests ()
                                    ? Eigen::Isometry3d (scene.objects[m - 1]->T_world_rest.inverse () * T_world_camera)
-                                   : Eigen::Isometry3d (models[m].T_model_sensor * scene.T_world_camera.inverse () *
+                                   : Eigen::Isometry3d (models[m].T_model_sensor * T_world_expected.inverse () *
                                                         T_world_camera);
   std::vector<Piece> pieces;
   for (std::size_t m = 1; m < models.size (); ++m)
@@ -292,13 +291,13 @@ restingPieces (const ExpectedScene& scene, const DataAssociation& association, c
     if (!scene.objects[m - 1]->rests ())
       continue;
     Piece piece{models[m].volume, scene.objects[m - 1]->T_world_rest};
-    const std::vector<float> probabilities = association.probabilities (scene.points, models, m);
+    const std::vector<float> probabilities = association.probabilities (points, models, m);
     double depths = 0.0;
-    for (std::size_t n = 0; n < scene.points.size (); ++n)
+    for (std::size_t n = 0; n < points.size (); ++n)
       if (probabilities[n] > 0.0f)
       {
-        const float z = scene.points[n].z ();
-        piece.points.push_back (scene.points[n]);
+        const float z = points[n].z ();
+        piece.points.push_back (points[n]);
         piece.weights.push_back (probabilities[n] * readingWeight (z, models[0].volume->grid ().voxel_size_m));
         piece.votes += piece.weights.back ();
         depths += z;
@@ -312,11 +311,11 @@ restingPieces (const ExpectedScene& scene, const DataAssociation& association, c
   return pieces;
 }
 
-/** \brief What of the background tells of open directions. It errs as its readings scatter; what scatters little
- * certainly rests. */
+/** \brief The part of the background that observes open directions. Its error is the spread of its readings, so that a
+ * part that fits well certainly rests. */
 Piece
-tellingPart (const TsdfVolume& room, const std::vector<SurfaceSample>& samples, const MotionChart& chart,
-             const Directions& open, const Eigen::Isometry3d& T_world_camera)
+observingPart (const TsdfVolume& room, const std::vector<SurfaceSample>& samples, const MotionChart& chart,
+               const Directions& open, const Eigen::Isometry3d& T_world_camera)
 {
   const double voxel_m = room.grid ().voxel_size_m;
   Piece piece{&room, Eigen::Isometry3d::Identity (), voxel_m};
@@ -339,33 +338,33 @@ tellingPart (const TsdfVolume& room, const std::vector<SurfaceSample>& samples, 
 } // namespace
 
 HeldPose
-holdByRestingObjects (const ExpectedScene& scene, const DataAssociation& association,
-                      const Eigen::Isometry3d& background)
+holdByRestingObjects (const std::vector<Eigen::Vector3f>& points, const std::vector<float>& weights,
+                      const SceneModels& scene, const Eigen::Isometry3d& T_world_camera,
+                      const DataAssociation& association, const Eigen::Isometry3d& by_background)
 {
   HeldPose result;
-  result.T_world_camera = background;
+  result.T_world_camera = by_background;
   if (std::none_of (scene.objects.begin (), scene.objects.end (),
                     [] (const TrackedObject* object) { return object->rests (); }))
     return result;
   const TsdfVolume& room = *scene.models[0].volume;
-  const std::vector<SurfaceSample> samples = sampleSurface (scene.points, scene.of_background, room, background,
-                                                            background_samples);
+  const std::vector<SurfaceSample> samples = sampleSurface (points, weights, room, by_background, background_samples);
   const MotionChart chart (samples);
   double weight = 0.0;
-  for (const Piece& piece : restingPieces (scene, association, background))
+  for (const Piece& piece : restingPieces (points, scene, T_world_camera, association, by_background))
     weight += piece.votes;
-  const Directions open = openDirections (samples, chart, told_by_objects * weight,
+  const Directions open = openDirections (samples, chart, share_of_objects * weight,
                                           bad_fit * room.grid ().voxel_size_m);
   if (!(weight > 0.0) || open.cols () == 0)
     return result;
   const PoseByPieces poses (chart, open);
-  const VectorXd expected = open.transpose () * chart.coordinates (scene.T_world_camera * background.inverse ());
-  const Eigen::Isometry3d steady = chart.motion (open * expected) * background;
-  const Piece part = tellingPart (room, samples, chart, open, background);
+  const VectorXd expected = open.transpose () * chart.coordinates (T_world_camera * by_background.inverse ());
+  const Eigen::Isometry3d steady = chart.motion (open * expected) * by_background;
+  const Piece part = observingPart (room, samples, chart, open, by_background);
   Eigen::Isometry3d pose = steady;
   for (int round = 0; round < rounds; ++round)
   {
-    std::vector<Piece> pieces = restingPieces (scene, association, pose);
+    std::vector<Piece> pieces = restingPieces (points, scene, T_world_camera, association, pose);
     if (pieces.empty ())
       return result;
     if (part.points.size () >= min_points)
@@ -373,7 +372,7 @@ holdByRestingObjects (const ExpectedScene& scene, const DataAssociation& associa
     const Pieces agreeing = mostThatAgree (pieces, poses, steady);
     if (agreeing.empty ())
       return result;
-    result = poses.solve (agreeing, pose, background);
+    result = poses.solve (agreeing, pose, by_background);
     pose = result.T_world_camera;
   }
   result.directions += 6 - static_cast<int> (open.cols ());

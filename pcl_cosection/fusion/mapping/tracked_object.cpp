@@ -1,6 +1,7 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "tracked_object.h"
+
+#include "pcl_cosection/common/trimmed_box.h"
 
 #include <pcl/cosection/common/camera.h>
 
@@ -16,7 +17,7 @@ namespace
 constexpr double placing_share = 0.1; // of the points, at either end of each axis
 constexpr double edge_factor = 2.0;
 constexpr double growing_share = 0.02;
-constexpr double margin_share = 0.1; // of a volume's side, around what is seen
+constexpr double margin_share = 0.1; // of a volume's side, around its points
 constexpr int growth_step = 8;       // voxels
 constexpr std::size_t min_points = 20;
 constexpr double surface_share = 0.2; // of a volume's side: how far an object's surface is from its centre
@@ -24,18 +25,7 @@ constexpr double surface_share = 0.2; // of a volume's side: how far an object's
 Eigen::AlignedBox3d
 boxWithout (double share, const std::vector<Eigen::Vector3f>& points)
 {
-  Eigen::AlignedBox3d box;
-  std::vector<float> values (points.size ());
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    std::transform (points.begin (), points.end (), values.begin (),
-                    [axis] (const Eigen::Vector3f& p) { return p[axis]; });
-    std::sort (values.begin (), values.end ());
-    const auto cut = static_cast<std::size_t> (share * static_cast<double> (values.size ()));
-    box.min ()[axis] = values[cut];
-    box.max ()[axis] = values[values.size () - 1 - cut];
-  }
-  return box;
+  return trimmedBox<double> (points, share, [] (const Eigen::Vector3f& p) { return p; });
 }
 
 } // namespace
@@ -43,7 +33,7 @@ boxWithout (double share, const std::vector<Eigen::Vector3f>& points)
 void
 TrackedObject::moveTo (const Eigen::Isometry3d& T_world)
 {
-  const VoxelGrid& grid = volume.grid ();
+  const VoxelGrid& grid = volume->grid ();
   const Eigen::Vector3d centre = grid.origin_m + 0.5 * grid.voxel_size_m * grid.dims.cast<double> ();
   const double radius = surface_share * grid.voxel_size_m * grid.dims.maxCoeff ();
   const double turn = Eigen::AngleAxisd (T_world.linear ().transpose () * T_world_rest.linear ()).angle ();
@@ -56,6 +46,14 @@ TrackedObject::moveTo (const Eigen::Isometry3d& T_world)
     frames_at_rest = 0;
   }
   T_world_object = T_world;
+}
+
+void
+TrackedObject::retire ()
+{
+  surface = volume->surfaceMesh ();
+  volume.reset ();
+  state = ObjectState::Retired;
 }
 
 std::optional<VoxelGrid>

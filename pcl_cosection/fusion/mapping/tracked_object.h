@@ -1,16 +1,15 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 #include "pcl_cosection/fusion/tracking/brightness_tracking.h"
 
-#include "pcl_cosection/fusion/mapping/class_evidence.h"
+#include "class_evidence.h"
+#include <pcl/cosection/common/triangle_mesh.h>
 #include <pcl/cosection/volume/tsdf_volume.h>
 
 #include <Eigen/Geometry>
 
 #include <cstddef>
-#include <cstdint>
 #include <optional>
 #include <vector>
 
@@ -19,77 +18,91 @@ namespace pcl::cosection
 
 enum class ObjectState
 {
-  Tracked,
-  Hidden, ///< out of view, or behind something else
-  Lost,   ///< it should be seen, but is not found
+  Tracked, ///< its pose is known in this frame
+  Hidden,  ///< out of view or occluded
+  Lost,    ///< it should be in view, but is not found
+  Dormant, ///< not seen for long; it is looked for only in masks
+  Retired, ///< dormant for long: only its surface is kept
 };
 
-/** \brief An object that is tracked: its volume and what is known of its motion. */
+/** \brief All that is known of one object. */
 struct TrackedObject
 {
   TrackedObject (int id, const VoxelGrid& grid, const TsdfOptions& tsdf, const Eigen::Isometry3d& T_world_object)
       : id (id)
-      , volume (grid, tsdf)
+      , volume (TsdfVolume (grid, tsdf))
       , T_world_object (T_world_object)
       , first_place (T_world_object.translation ())
       , T_world_rest (T_world_object)
   {}
 
-  /** \brief It was tracked to here. */
+  /** \brief Take over a pose that tracking found. */
   void moveTo (const Eigen::Isometry3d& T_world);
 
-  /** \brief Whether it has not been seen to move of late. */
-  bool rests () const { return state == ObjectState::Tracked && frames_at_rest >= frames_of_rest; }
+  /** \brief Keep the surface and free the volume. */
+  void retire ();
+
+  bool isTracked () const { return state == ObjectState::Tracked; }
+
+  /** \brief Whether it is looked for in every frame. */
+  bool isActive () const { return state < ObjectState::Dormant; }
+
+  /** \brief Whether it has not been seen to move lately. */
+  bool rests () const { return isTracked () && frames_at_rest >= frames_of_rest; }
 
   /** \brief Share of the masks in which it should have been seen and was. */
   double existence () const { return seen + missed > 0 ? static_cast<double> (seen) / (seen + missed) : 1.0; }
 
-  /** \brief Where it is next, if it goes on as it did. */
+  /** \brief Its pose in the next frame if it moves on as before. */
   Eigen::Isometry3d predicted () const
   {
-    return state == ObjectState::Tracked ? last_motion * T_world_object : T_world_object;
+    return isTracked () ? Eigen::Isometry3d (last_motion * T_world_object) : T_world_object;
   }
 
-  /** \brief Whether it is not where it began, for certain. */
+  /** \brief Whether it is certainly not at its first place. */
   bool hasMoved () const
   {
-    return (T_world_object.translation () - first_place).norm () > certain_voxels * volume.grid ().voxel_size_m;
+    return (T_world_object.translation () - first_place).norm () > certain_voxels * volume->grid ().voxel_size_m;
   }
 
-  static constexpr double certain_voxels = 4.0; ///< of its volume: twice as far as its pose may be wrong
-  static constexpr int frames_of_rest = 10;     ///< after which what moved is believed to rest
-  static constexpr int
-      frames_of_motion = 3; ///< after which what is elsewhere is believed to have moved: the camera may have erred
+  static constexpr double certain_voxels = 4.0; ///< of its volume: twice the largest error of its pose
+  static constexpr int frames_of_rest = 10;     ///< after which an object that moved is believed to rest
+  static constexpr int frames_of_motion = 3;    ///< away from its place, that are no error of the camera's pose
 
   int id;
-  TsdfVolume volume;                                              ///< object frame
-  BrightnessTracking brightness;                                  ///< of its surface
-  Eigen::Isometry3d T_world_object;                               ///< the last good one
-  Eigen::Vector3d first_place;                                    ///< world frame
-  Eigen::Isometry3d last_motion = Eigen::Isometry3d::Identity (); ///< T_now_before, world frame
-  Eigen::Isometry3d T_world_rest;                                 ///< where it has been since, within noise
-  int frames_away = 0;                                            ///< from there, in a row
-  int frames_at_rest = frames_of_rest;                            ///< a new object rests until it is seen to move
   ObjectState state = ObjectState::Tracked;
-  bool confirmed = true; ///< else one mask showed it that may be wrong: it is tracked, and told to nobody
-  int unshown = 0;       ///< masks since then that did not
-  int mask_id = 0;       ///< in the masks, if ids persist
-  int seen = 0;          ///< in masks
-  int missed = 0;
-  ClassEvidence classes;      ///< by what masks showed of it, where that is of known class
-  int frames_not_tracked = 0; ///< since it was
-  std::size_t pixels = 0;     ///< assigned to it when it was last tracked
-  double range_m = 0.0;       ///< mean depth of those
+  bool confirmed = true; ///< else only one unreliable mask has shown it: it is tracked, but not reported
+
+  std::optional<TsdfVolume> volume; ///< object frame; nothing once it is retired
+  TriangleMesh surface;             ///< object frame; only once it is retired
+  BrightnessReference brightness;   ///< of its surface
+  bool reached_max_size = false;    ///< its volume cannot grow any more
+  ClassEvidence classes;            ///< by masks whose instances have classes
+
+  Eigen::Isometry3d T_world_object;                               ///< the last accepted one
+  Eigen::Isometry3d last_motion = Eigen::Isometry3d::Identity (); ///< T_now_before, world frame
+  Eigen::Vector3d first_place;                                    ///< world frame
+  Eigen::Isometry3d T_world_rest;                                 ///< its pose since it rests, within noise
+  int frames_at_rest = frames_of_rest;                            ///< a new object rests until it is seen to move
+  int frames_away = 0;                                            ///< in a row, from T_world_rest
+  int frames_not_tracked = 0;                                     ///< in a row
+  int dormant_since = 0;                                          ///< ascending number, from 1
+  double range_m = 0.0;                                           ///< mean depth when it was first seen
+
+  int mask_id = 0; ///< its number in the masks, if numbers persist
+  int seen = 0;    ///< in masks
+  int missed = 0;  ///< masks in which it should have been seen
+  int unshown = 0; ///< masks that did not show it while it was not confirmed
 };
 
-/** \brief Where the volume of a new object lies: centred on the box of its points without a tenth of them at either end
- * of each axis, its edge twice the longest side of that. Nothing for too few points or none of extent.
+/** \brief Place the volume of a new object: centred on the box of its points without a tenth of them at either end of
+ * each axis, with an edge twice the longest side of the box. Nothing for too few points or points without extent.
  * \param[in] points world frame */
 std::optional<VoxelGrid> placeObjectVolume (const std::vector<Eigen::Vector3f>& points, int resolution);
 
-/** \brief Make room for points that have come near the volume's sides or beyond; its voxels stay.
+/** \brief Make room for points near the volume's sides or beyond; its voxels stay.
  * \param[in] points object frame
- * \return whether the volume holds them, but for outliers */
+ * \return whether the volume holds them, without outliers */
 bool growObjectVolume (TsdfVolume& volume, const std::vector<Eigen::Vector3f>& points, int max_resolution);
 
 /** \brief Intersection over union of two volumes' boxes, by sampling the first. */

@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include <pcl/cosection/fusion/frame_segmenter.h>
 
 #include "pcl_cosection/fusion/mapping/object_size_filter.h"
@@ -15,7 +14,7 @@ namespace pcl::cosection
 namespace
 {
 
-/** \brief Readings as they are: the segmentation knows their noise. */
+/** \brief Points of the unfiltered depth: the segmentation models its noise. */
 std::vector<Eigen::Vector3f>
 rawPoints (const ObservedFrame& frame)
 {
@@ -50,7 +49,7 @@ try
 {
   const std::vector<Eigen::Vector3f> points = rawPoints (frame);
   ObjectSegmentation found = segmentObjects (points, frame.camera.width, frame.camera.height, options_);
-  too_long_->judge (points, frame.T_world_camera, found);
+  too_long_->filter (points, frame.T_world_camera, found);
   FrameInstances instances;
   instances.mask = Image<std::uint16_t> (frame.camera.width, frame.camera.height, 0);
   std::transform (found.labels.begin (), found.labels.end (), instances.mask->pixels.begin (),

@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "brightness_image.h"
 
 #include <opencv2/imgproc.hpp>
@@ -38,7 +37,7 @@ brightnessLevels (const Picture& picture, std::size_t levels)
     Image<float>& last = result.back ();
     Image<float> next (last.width / 2, last.height / 2);
     cv::Mat half = viewOf (next);
-    // Of 2 x 2 pixels each, so that the middle of a pixel stays the middle of a pixel.
+    // Means of 2 x 2 pixels, so that the middle of a pixel stays the middle of a pixel.
     cv::Mat whole = viewOf (last) (cv::Rect (0, 0, 2 * next.width, 2 * next.height));
     cv::resize (whole, half, half.size (), 0.0, 0.0, cv::INTER_AREA);
     cv::GaussianBlur (half, half, cv::Size (3, 3), 0.7);

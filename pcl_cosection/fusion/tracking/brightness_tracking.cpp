@@ -1,6 +1,8 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "brightness_tracking.h"
+
+#include "pcl_cosection/common/quantile.h"
+#include "pcl_cosection/common/robust_weights.h"
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
@@ -29,20 +31,20 @@ constexpr double short_step_m = 2e-5;
 constexpr double least_sigma = 2.0; // of 256
 constexpr double as_bright = 8.0;   // the same: what differs by more is something else, or in another light
 constexpr double huber_sigmas = 1.345;
-constexpr double
-    correlated = 48.0; // points that err together, as pixels are smoothed and brightness is not quite constant
-constexpr double factor_unit = 64.0;        // of 256, so that the factor changes brightness about as much as the offset
-constexpr double remembered_sigma_m = 3e-4; // of the pose of the frame that is remembered, and of depth against colour
-constexpr double shape_sigma_m = 1e-4;      // of the model's shape, by which many readings err together
-constexpr double hidden_sigmas = 4.0;       // of depth
-constexpr double hidden_share = 0.01;       // of depth: shapes and poses err, too
-constexpr double least_agreeing = 0.5;      // of the points, for brightness to be believed
-constexpr int least_directions = 3; // of which a pattern tells; shading that is not even may seem to tell of one or two
-constexpr double worn = 0.8;        // below which another frame is remembered
-constexpr double largest_turn_rad = 0.35; // from the frame that is remembered: light falls otherwise then
-constexpr double known_sigma_m = 2e-3;    // of what counts as told
+// Points whose errors are correlated: pixels are smoothed, and brightness is not quite constant.
+constexpr double correlated = 48.0;
+constexpr double factor_unit = 64.0;       // of 256, so that the factor changes brightness about as much as the offset
+constexpr double reference_sigma_m = 3e-4; // of the reference's pose, and of depth against colour
+constexpr double shape_sigma_m = 1e-4;     // of the model's shape, by which many readings err together
+constexpr double hidden_sigmas = 4.0;      // of depth
+constexpr double hidden_share = 0.01;      // of depth: shapes and poses err, too
+constexpr double least_agreeing = 0.5;     // of the points, for brightness to be believed
+constexpr int least_directions = 3;        // that a texture observes; uneven shading may seem to observe one or two
+constexpr double worn = 0.8;               // agreement below which another frame becomes the reference
+constexpr double largest_turn_rad = 0.35;  // from the reference: light falls differently then
+constexpr double known_sigma_m = 2e-3;     // of a direction that counts as observed
 
-/** \brief The same place in an image of half the size, level by level. */
+/** \brief A place of the first level in another level, each half the size of the one before. */
 Eigen::Vector2d
 atLevel (const Eigen::Vector2d& pixel, std::size_t level)
 {
@@ -56,34 +58,26 @@ isWithin (const Image<float>& image, const Eigen::Vector2d& pixel)
   return pixel.x () >= 0.0 && pixel.y () >= 0.0 && pixel.x () <= image.width - 1.0 && pixel.y () <= image.height - 1.0;
 }
 
-double
-median (std::vector<double>& values)
-{
-  const auto middle = values.begin () + static_cast<std::ptrdiff_t> (values.size () / 2);
-  std::nth_element (values.begin (), middle, values.end ());
-  return *middle;
-}
-
-/** \brief Projection onto the directions that are told. */
+/** \brief Projection onto the directions that are observed. */
 Matrix6d
-toldBy (const Matrix6d& precision)
+observedBy (const Matrix6d& precision)
 {
   const Eigen::SelfAdjointEigenSolver<Matrix6d> solver (precision);
-  Matrix6d told = Matrix6d::Zero ();
+  Matrix6d observed = Matrix6d::Zero ();
   for (int k = 0; k < 6; ++k)
     if (solver.eigenvalues ()[k] * known_sigma_m * known_sigma_m > 1.0)
-      told += solver.eigenvectors ().col (k) * solver.eigenvectors ().col (k).transpose ();
-  return told;
+      observed += solver.eigenvectors ().col (k) * solver.eigenvectors ().col (k).transpose ();
+  return observed;
 }
 
 int
 directionsOf (const Matrix6d& precision)
 {
-  return static_cast<int> (std::lround (toldBy (precision).trace ()));
+  return static_cast<int> (std::lround (observedBy (precision).trace ()));
 }
 
-/** \brief A shape's precision with the errors of the model itself: the fewer readings tell of a direction, relative to
- * the best told, the more likely it is that they are a misplaced edge and wrong together. */
+/** \brief A shape's precision with the errors of the model itself: the fewer readings observe a direction, relative to
+ * the best observed one, the more likely they are a misplaced edge and wrong together. */
 Matrix6d
 withErrorsOfModel (const Matrix6d& precision)
 {
@@ -99,7 +93,7 @@ withErrorsOfModel (const Matrix6d& precision)
   return solver.eigenvectors () * result.asDiagonal () * solver.eigenvectors ().transpose ();
 }
 
-/** \brief A point as it is seen: how bright it is and was, and how that changes with the model's motion. */
+/** \brief A point's brightness in the frame and in the reference, and how it changes with the model's motion. */
 struct Comparison
 {
   Vector6d slope;
@@ -108,42 +102,35 @@ struct Comparison
   double then;
 };
 
-} // namespace
-
-int
-UncertainPose::directions () const
+/** \brief The normal equations of the points at a pose. */
+struct Sums
 {
-  return directionsOf (precision);
-}
+  explicit Sums (const std::vector<Comparison>& points);
 
-struct BrightnessTracking::Sums
-{
-  explicit Sums (const std::vector<Comparison>& seen);
-
-  /** \brief Of the pose, whatever the light is. */
+  /** \brief Eliminate the light: precision and slope of the pose, whatever the light is. */
   void leaveOutLight ();
 
   MatrixXd squares = MatrixXd::Zero (); // six of the pose, and the lights
   VectorXd gradient = VectorXd::Zero ();
-  Matrix6d precision = Matrix6d::Zero (); // as the frame that is remembered is known only so well
-  Vector6d slope = Vector6d::Zero ();     // of half the square of what differs, in standard deviations
+  Matrix6d precision = Matrix6d::Zero (); // with the errors of the reference
+  Vector6d slope = Vector6d::Zero ();     // of half the square of the differences, in standard deviations
   double cost = 0.0;                      // Huber's, mean, of 256
   double sigma = 0.0;                     // of 256
   std::size_t seen;
   std::size_t agreeing = 0;
 };
 
-BrightnessTracking::Sums::Sums (const std::vector<Comparison>& points) : seen (points.size ())
+Sums::Sums (const std::vector<Comparison>& points) : seen (points.size ())
 {
   if (seen < least_points)
     return;
   std::vector<double> differences (seen);
   std::transform (points.begin (), points.end (), differences.begin (),
                   [] (const Comparison& point) { return point.now - point.then; });
-  const double offset = median (differences);
+  const double offset = upperMedian (differences);
   for (double& difference : differences)
     difference = std::abs (difference - offset);
-  sigma = std::max (least_sigma, 1.4826 * median (differences));
+  sigma = std::max (least_sigma, sigmaOfSizes (differences));
   double mean = 0.0;
   for (const Comparison& point : points)
     mean += point.then / static_cast<double> (seen);
@@ -152,12 +139,12 @@ BrightnessTracking::Sums::Sums (const std::vector<Comparison>& points) : seen (p
   for (const Comparison& point : points)
   {
     const double difference = point.now - point.then - offset, size = std::abs (difference);
-    const double weight = size <= huber ? 1.0 : huber / size;
+    const double weight = huberWeight (size, huber);
     VectorXd change;
     change << point.slope, (point.then - mean) / factor_unit, 1.0, point.place;
     squares += weight * change * change.transpose ();
     gradient += weight * difference * change;
-    cost += size <= huber ? 0.5 * difference * difference : huber * (size - 0.5 * huber);
+    cost += huberCost (size, huber);
     agreeing += size <= as_bright;
   }
   cost /= static_cast<double> (seen);
@@ -165,7 +152,7 @@ BrightnessTracking::Sums::Sums (const std::vector<Comparison>& points) : seen (p
 }
 
 void
-BrightnessTracking::Sums::leaveOutLight ()
+Sums::leaveOutLight ()
 {
   constexpr double least_contrast = 1e-6;
   const double scale = 1.0 / (sigma * sigma * correlated);
@@ -174,23 +161,23 @@ BrightnessTracking::Sums::leaveOutLight ()
                                                              Eigen::Matrix<double, lights, lights>::Identity ();
   const Eigen::Matrix<double, 6, lights> mixed = squares.topRightCorner<6, lights> () * of_light.inverse ();
   const Matrix6d of_pixels = scale * (squares.topLeftCorner<6, 6> () - mixed * squares.bottomLeftCorner<lights, 6> ());
-  const Matrix6d told = toldBy (of_pixels); // what is told of other directions is doubtful, too
-  const Matrix6d share = (Matrix6d::Identity () + remembered_sigma_m * remembered_sigma_m * of_pixels).inverse ();
-  precision = share * told * of_pixels;
-  slope = scale * share * told * (gradient.head<6> () - mixed * gradient.tail<lights> ());
+  const Matrix6d observed = observedBy (of_pixels); // along other directions the pixels say little of worth
+  const Matrix6d share = (Matrix6d::Identity () + reference_sigma_m * reference_sigma_m * of_pixels).inverse ();
+  precision = share * observed * of_pixels;
+  slope = scale * share * observed * (gradient.head<6> () - mixed * gradient.tail<lights> ());
 }
 
-BrightnessTracking::Sums
-BrightnessTracking::compare (const FrameCloud& cloud, std::size_t level, const MotionChart& chart,
-                             const Eigen::Isometry3d& T_model_camera) const
+Sums
+compare (const BrightnessReference& reference, const FrameCloud& cloud, std::size_t level, const MotionChart& chart,
+         const Eigen::Isometry3d& T_model_camera)
 {
   const PinholeCamera& camera = cloud.camera;
   const Image<float>& image = cloud.brightness[level];
   const double per_pixel = 1.0 / static_cast<double> (1 << level);
   const Eigen::Isometry3d T_camera_model = T_model_camera.inverse ();
   std::vector<Comparison> seen;
-  seen.reserve (points_.size ());
-  for (const Point& point : points_)
+  seen.reserve (reference.points.size ());
+  for (const BrightnessReference::Point& point : reference.points)
   {
     const Eigen::Vector3d p = T_camera_model * point.position;
     if (!(p.z () > 0.0))
@@ -213,15 +200,23 @@ BrightnessTracking::compare (const FrameCloud& cloud, std::size_t level, const M
   return Sums (seen);
 }
 
-std::optional<UncertainPose>
-BrightnessTracking::track (const FrameCloud& cloud, const MotionChart& chart, const UncertainPose& shape,
-                           const Eigen::Isometry3d& guess)
+} // namespace
+
+int
+UncertainPose::directions () const
 {
-  agreeing_ = 0.0;
-  if (points_.size () < least_points || cloud.brightness.size () < brightness_levels || shape.precision.isZero ())
-    return std::nullopt;
-  const Sums of_guess = compare (cloud, brightness_levels - 1, chart, guess),
-             of_shape = compare (cloud, brightness_levels - 1, chart, shape.T_model_camera);
+  return directionsOf (precision);
+}
+
+BrightnessFit
+trackBrightness (const BrightnessReference& reference, const FrameCloud& cloud, const MotionChart& chart,
+                 const UncertainPose& shape, const Eigen::Isometry3d& guess)
+{
+  if (reference.points.size () < least_points || cloud.brightness.size () < brightness_levels ||
+      shape.precision.isZero ())
+    return {};
+  const Sums of_guess = compare (reference, cloud, brightness_levels - 1, chart, guess),
+             of_shape = compare (reference, cloud, brightness_levels - 1, chart, shape.T_model_camera);
   const bool begin_there = of_guess.seen >= least_points &&
                            (of_shape.seen < least_points || of_guess.cost < of_shape.cost);
   const Matrix6d by_shape = withErrorsOfModel (shape.precision);
@@ -230,60 +225,64 @@ BrightnessTracking::track (const FrameCloud& cloud, const MotionChart& chart, co
   for (std::size_t level = brightness_levels; level-- > 0;)
     for (int step = 0; step < steps; ++step)
     {
-      const Sums sums = compare (cloud, level, chart, result.T_model_camera);
+      const Sums sums = compare (reference, cloud, level, chart, result.T_model_camera);
       if (sums.seen < least_points)
-        return std::nullopt;
+        return {};
       result.precision = sums.precision + by_shape;
       const Vector6d from_shape = chart.coordinates (result.T_model_camera * shape.T_model_camera.inverse ());
-      const double ridge = 1e-9 * result.precision.diagonal ().maxCoeff (); // along what neither tells, it stays
+      const double ridge = 1e-9 *
+                           result.precision.diagonal ().maxCoeff (); // where neither observes a direction, it stays
       const Vector6d
           move = -(result.precision + ridge * Matrix6d::Identity ()).ldlt ().solve (sums.slope + by_shape * from_shape);
       if (!move.allFinite ())
-        return std::nullopt;
+        return {};
       result.T_model_camera = chart.motion (move) * result.T_model_camera;
       if (move.norm () < short_step_m)
         break;
     }
-  // Coarse images may have moved it along directions of which nothing tells in the end.
+  // Coarse images may have moved it along directions that are not observed in the end.
   const Vector6d moved = chart.coordinates (result.T_model_camera * shape.T_model_camera.inverse ());
-  result.T_model_camera = chart.motion (toldBy (result.precision) * moved) * shape.T_model_camera;
+  result.T_model_camera = chart.motion (observedBy (result.precision) * moved) * shape.T_model_camera;
   // Small errors of rotations would grow from frame to frame.
   result.T_model_camera
       .linear () = Eigen::Quaterniond (result.T_model_camera.linear ()).normalized ().toRotationMatrix ();
-  const Sums sums = compare (cloud, 0, chart, result.T_model_camera);
-  agreeing_ = static_cast<double> (sums.agreeing) / static_cast<double> (points_.size ());
-  if (directionsOf (sums.precision) < least_directions || agreeing_ < least_agreeing)
-    return std::nullopt;
-  return result;
+  const Sums sums = compare (reference, cloud, 0, chart, result.T_model_camera);
+  BrightnessFit fit;
+  fit.agreement = static_cast<double> (sums.agreeing) / static_cast<double> (reference.points.size ());
+  if (directionsOf (sums.precision) >= least_directions && fit.agreement >= least_agreeing)
+    fit.pose = result;
+  return fit;
 }
 
-void
-BrightnessTracking::keep (const FrameCloud& cloud, const std::vector<Eigen::Vector3f>& points,
-                          const std::vector<float>& probabilities, const Eigen::Isometry3d& T_model_camera)
+BrightnessReference
+nextReference (BrightnessReference reference, const FrameCloud& cloud, const TrackedPoints& tracked,
+               const Eigen::Isometry3d& T_model_camera)
 {
-  const double turn = Eigen::AngleAxisd (T_model_camera_.linear ().transpose () * T_model_camera.linear ()).angle ();
-  if (cloud.brightness.size () < brightness_levels || (agreeing_ >= worn && turn < largest_turn_rad))
-    return;
+  const std::vector<Eigen::Vector3f>& points = tracked.points;
+  const double turn = Eigen::AngleAxisd (reference.T_model_camera.linear ().transpose () * T_model_camera.linear ())
+                          .angle ();
+  if (cloud.brightness.size () < brightness_levels || (tracked.brightness_agreement >= worn && turn < largest_turn_rad))
+    return reference;
+  reference.points.clear ();
+  reference.T_model_camera = T_model_camera;
   const std::size_t step = std::max<std::size_t> (1, points.size () / most_points);
-  points_.clear ();
   for (std::size_t n = 0; n < points.size (); n += step)
   {
     const Eigen::Vector3d p = points[n].cast<double> ();
     const Eigen::Vector2d pixel = cloud.camera.project (p);
-    if (!(probabilities[n] >= least_probability) ||
+    if (!(tracked.probabilities[n] >= least_probability) ||
         !isWithin (cloud.brightness[brightness_levels - 1], atLevel (pixel, brightness_levels - 1)) ||
         !cloud.unmixed.at (static_cast<int> (std::lround (pixel.x ())), static_cast<int> (std::lround (pixel.y ()))))
       continue;
-    Point point{T_model_camera * p, {}};
+    BrightnessReference::Point point{T_model_camera * p, {}};
     for (std::size_t level = 0; level < brightness_levels; ++level)
     {
       const Eigen::Vector2d place = atLevel (pixel, level);
       point.brightness[level] = readBrightness (cloud.brightness[level], place.x (), place.y ()).value;
     }
-    points_.push_back (point);
+    reference.points.push_back (point);
   }
-  T_model_camera_ = T_model_camera;
-  agreeing_ = 1.0;
+  return reference;
 }
 
 } // namespace pcl::cosection

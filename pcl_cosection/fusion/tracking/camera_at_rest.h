@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 #include "frame_cloud.h"
@@ -9,70 +8,46 @@
 
 #include <Eigen/Geometry>
 
-#include <vector>
-
 namespace pcl::cosection
 {
 
-/** \brief Tells a camera that moves from one before which something moves, by pictures.
- *
- * A frame is compared with one before it, brightness and depth, twice: pixel by pixel, as if the camera had not moved,
- * and by where an estimate of its motion puts them. A block of the image tells where one of them explains it up to the
- * noise and the other plainly does not; a sector of the image has such blocks or not. For rest, brightness tells: depth
- * is the same where one slides along smooth surfaces. What rests as the camera does is in no sector while the camera
- * moves, or in one by chance; what moves by itself may be in many. So a camera that rested goes on resting unless
- * motion is in some times more sectors than rest, or where no sectors tell and motion explains the image worse; it
- * begins to move when rest is hardly anywhere. One that moved rests only if that explains the image up to what is
- * usual: of two wrong answers, the better one is wrong, too. */
-class CameraAtRest
+/** \brief The frame with which later ones are compared to find out whether the camera has moved. */
+struct RestReference
 {
-public:
-  /** \brief Begin to look at a frame. */
-  void begin (const FrameCloud& cloud);
-
-  /** \brief Whether the camera is still at T_world_camera (), rather than at \a T_world_camera.
-   * \param[in] moving what does not say that it moved */
-  bool isPreferredTo (const Eigen::Isometry3d& T_world_camera, const FrameCloud& cloud, const MovingParts& moving);
-
-  /** \brief Compare what follows with this frame, unless the camera is still about where it was when the present one
-   * was seen. */
-  void keep (const FrameCloud& cloud, const Eigen::Isometry3d& T_world_camera);
-
-  /** \brief Where the camera was in the frame that others are compared with. */
-  const Eigen::Isometry3d& T_world_camera () const { return T_world_camera_; }
-
-private:
-  /** \brief Sums of squares of differences, in standard deviations, if the camera has not moved and if it has. */
-  struct Comparison
-  {
-    double at_rest = 0.0;
-    double moved = 0.0;
-
-    void add (float rest_sigmas, float motion_sigmas);
-  };
-
-  /** \brief What a block of the image says. */
-  struct Ballot
-  {
-    Comparison brightness, depth;
-    int of_background = 0; // pixels, less those of what moves by itself
-  };
-
-  bool coloured () const { return !brightness_.pixels.empty () && !now_.pixels.empty (); }
-
-  /** \brief Row by row. \param[out] mean_shift_px from where pixels were to where the motion puts them */
-  std::vector<Ballot> compareBlocks (const FrameCloud& cloud, const Eigen::Isometry3d& T_now_then,
-                                     const MovingParts& moving, double& mean_shift_px) const;
-
-  Image<float> depth_;      // of the frame that others are compared with
-  Image<float> brightness_; // smoothed; empty without colours
-  Image<float> now_;        // brightness of the frame that is looked at
-  Eigen::Isometry3d T_world_camera_ = Eigen::Isometry3d::Identity ();
-  double unexplained_ = 0.0;     // sum of squares of the frames before, as they were believed: about that of noise
-  double unexplained_now_ = 0.0; // of the one that is looked at
-  bool rested_ = true;           // in the frame before
-  bool rests_ = true;            // in the one that is looked at
-  bool moved_ = true;            // since the one that others are compared with
+  Image<float> depth;      ///< metres; empty: there is no frame yet
+  Image<float> brightness; ///< smoothed; empty without colour
+  Eigen::Isometry3d T_world_camera = Eigen::Isometry3d::Identity ();
+  double unexplained = 0.0; ///< usual sum of squares of the differences that a pose leaves, in standard deviations
+  bool rested = true;       ///< the camera, in the frame before
 };
+
+/** \brief Whether the camera has moved since the reference. */
+struct RestDecision
+{
+  bool at_rest = false;     ///< it is still at the reference's pose
+  bool rests = true;        ///< what is believed from now on; it stays as it was where nothing is certain
+  bool moved = true;        ///< enough for another reference
+  double unexplained = 0.0; ///< sum of squares of the differences, of the pose that is believed
+};
+
+/** \brief Tell a camera that moves from one before which something moves, by pictures.
+ *
+ * A frame is compared with the reference, brightness and depth, twice: pixel by pixel, as if the camera had not moved,
+ * and where an estimate of its motion puts the pixels. A block of the image votes for one of the two if that one
+ * explains the block up to noise and the other clearly does not; a sector of the image has such blocks or not. Only
+ * brightness votes for rest: depth stays the same where the camera slides along smooth surfaces. While the camera
+ * moves, no sector votes for rest, or one by chance; things that move by themselves may be in many sectors. So a camera
+ * that rested is believed to rest unless several times more sectors vote for motion than for rest, or unless no sector
+ * votes and motion explains the image better; it begins to move when hardly any sector votes for rest. A camera that
+ * moved is believed to rest only if that explains the image as well as usual: the better of two wrong answers is still
+ * wrong.
+ * \param[in] T_world_camera by which the camera would have moved
+ * \param[in] moving pixels that do not vote for motion */
+RestDecision decideRest (const RestReference& reference, const Eigen::Isometry3d& T_world_camera,
+                         const FrameCloud& cloud, const MovingParts& moving);
+
+/** \brief The reference for the next frame: this one, if the camera has moved. */
+RestReference nextReference (RestReference reference, const RestDecision& decision, const FrameCloud& cloud,
+                             const Eigen::Isometry3d& T_world_camera);
 
 } // namespace pcl::cosection

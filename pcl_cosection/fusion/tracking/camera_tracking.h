@@ -1,66 +1,54 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 #include "brightness_tracking.h"
 #include "camera_at_rest.h"
+#include "pcl_cosection/fusion/event_log.h"
+#include "pcl_cosection/fusion/fusion_setup.h"
 #include "pcl_cosection/fusion/mapping/moving_parts.h"
-#include "pcl_cosection/fusion/mapping/tracked_object.h"
-#include "pose_tracking.h"
+#include "pcl_cosection/fusion/mapping/object_map.h"
 
-#include <pcl/cosection/common/image.h>
+#include <pcl/cosection/io/rgbd_sequence.h>
+#include <pcl/cosection/tracking/sdf_alignment.h>
 
 #include <Eigen/Geometry>
 
-#include <vector>
+#include <cstddef>
+#include <optional>
 
 namespace pcl::cosection
 {
 
-/** \brief Tracks the camera against the background: frame to model, weighted by association, without what moves.
- *
- * Of the motion that is found, only what is observed and significant is believed (see observedMotion ()); and none
- * where pictures say plainly that the camera rests (see CameraAtRest). What the background's shape leaves open, its
- * brightness tells (see BrightnessTracking); and what that leaves open, objects at rest may tell (see
- * holdByRestingObjects ()). */
-class CameraTracking
+/** \brief What is known of the camera after a frame. */
+struct CameraState
 {
-public:
-  CameraTracking (int max_points, const AssociationOptions& association, int threads);
-
-  /** \brief Begin to look at a frame. */
-  void begin (const FrameCloud& cloud);
-
-  /** \brief Where the camera is in that frame.
-   * \param[in] models the background first, objects where they are expected relative to the camera at \a guess
-   * \param[in] objects of those models
-   * \param[in] guess T_world_camera */
-  PoseEstimate track (const FrameCloud& cloud, const std::vector<AssociatedModel>& models,
-                      const std::vector<TrackedObject*>& objects, const Eigen::Isometry3d& guess, double frames_passed);
-
-  /** \brief Believe where the camera is in that frame: the next ones are compared with it. */
-  void keep (const FrameCloud& cloud, const Eigen::Isometry3d& T_world_camera);
-
-  /** \brief Do not track with what a mask of that frame labels as \a ignored. */
-  void ignore (const FrameCloud& cloud, const Image<std::uint16_t>& mask, std::uint16_t ignored,
-               const Eigen::Isometry3d& T_world_camera)
-  {
-    moving_.ignore (cloud, mask, ignored, T_world_camera);
-  }
-
-  /** \brief Of the frame that was tracked last. */
-  const MovingParts& moving () const { return moving_; }
-
-private:
-  SdfAlignment alignment_;
-  DataAssociation association_;
-  MovingParts moving_;
-  CameraAtRest at_rest_;
-  BrightnessTracking brightness_;
-  std::vector<Eigen::Vector3f> points_;                       // that were tracked last
-  std::vector<float> of_background_;                          // their probabilities to be of the background and at rest
-  Eigen::Isometry3d before_ = Eigen::Isometry3d::Identity (); // T_world_camera
-  int max_points_;
+  Eigen::Isometry3d T_world_camera = Eigen::Isometry3d::Identity (); ///< the last accepted one
+  Eigen::Isometry3d last_motion = Eigen::Isometry3d::Identity ();    ///< T_before_now of a frame
+  std::size_t last_frame = 0;                                        ///< of the last accepted pose
+  int frames_lost = 0;                                               ///< in a row
+  MovingParts moving;                                                ///< of the frame of that pose
+  RestReference rest;
+  BrightnessReference brightness; ///< of the background
 };
+
+/** \brief The camera in one frame. */
+struct CameraStep
+{
+  CameraState camera;
+  bool tracked = false;
+  double inlier_share = 0.0; ///< of the points that were aligned
+};
+
+/** \brief Track the camera against the background: points weighted by association, without moving parts, are aligned
+ * with its volume.
+ *
+ * Only the part of the motion that is observed and significant is accepted (observedMotion ()), and none where pictures
+ * show that the camera rests (decideRest ()). Brightness determines what the background's shape leaves open
+ * (trackBrightness ()), and objects at rest what that leaves open (holdByRestingObjects ()). The camera begins from
+ * where its last motion leads, then from where it was.
+ * \param[in] background nothing: this is the first frame, which defines the world */
+CameraStep trackCamera (const RgbdFrame& frame, const FrameCloud& cloud, const std::optional<TsdfVolume>& background,
+                        const ObjectMap& objects, CameraState before, const FusionSetup& setup, SdfAlignment& alignment,
+                        EventLog& log);
 
 } // namespace pcl::cosection

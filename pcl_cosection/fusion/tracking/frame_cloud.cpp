@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "frame_cloud.h"
 
 #include "bilateral_filter.h"
@@ -34,6 +33,19 @@ isEdge (const Image<float>& depth, int u, int v)
   return jumps (u - 1, v) || jumps (u + 1, v) || jumps (u, v - 1) || jumps (u, v + 1);
 }
 
+/** \brief 1 where all pixels that the first level's brightness is a mean of have a reliable reading, else 0. */
+Image<std::uint8_t>
+unmixedPixels (const Image<float>& reliable)
+{
+  constexpr int reach = brightness_reach_px;
+  Image<std::uint8_t> unmixed (reliable.width, reliable.height);
+  std::transform (reliable.pixels.begin (), reliable.pixels.end (), unmixed.pixels.begin (),
+                  [] (float z) { return static_cast<std::uint8_t> (std::isfinite (z)); });
+  cv::Mat view (unmixed.height, unmixed.width, CV_8U, unmixed.pixels.data ());
+  cv::erode (view, view, cv::Mat::ones (2 * reach + 1, 2 * reach + 1, CV_8U));
+  return unmixed;
+}
+
 } // namespace
 
 std::vector<Eigen::Vector3f>
@@ -49,12 +61,14 @@ FrameCloud::sample (int step) const
 }
 
 FrameCloud
-makeFrameCloud (const Image<float>& depth, const PinholeCamera& camera, double max_depth_m, bool smooth, int threads)
+makeFrameCloud (const RgbdFrame& frame, const PinholeCamera& camera, const DynamicFusionOptions& options)
 {
+  const Image<float>& depth = frame.depth;
+  const bool smooth = options.smooth_depth;
   if (depth.width != camera.width || depth.height != camera.height)
     throw InvalidArgument ("the depth image must be of the camera's size");
   BilateralFilterOptions filter;
-  filter.threads = threads;
+  filter.threads = options.threads;
   const Image<float> smoothed = smooth ? bilateralFilter (depth, filter) : Image<float> ();
   FrameCloud cloud;
   cloud.camera = camera;
@@ -62,11 +76,11 @@ makeFrameCloud (const Image<float>& depth, const PinholeCamera& camera, double m
   cloud.reliable = Image<float> (camera.width, camera.height, none);
   cloud.points.assign (depth.pixels.size (), Eigen::Vector3f::Constant (none));
   std::vector<std::size_t> readings (camera.height, 0);
-  parallelFor (0, camera.height, threadsForVoxels (threads, depth.pixels.size ()), [&] (int v) {
+  parallelFor (0, camera.height, threadsForVoxels (options.threads, depth.pixels.size ()), [&] (int v) {
     for (int u = 0; u < camera.width; ++u)
     {
       float& z = cloud.depth.at (u, v);
-      if (!(z > 0.0f && z <= max_depth_m))
+      if (!(z > 0.0f && z <= options.max_depth_m))
       {
         z = none;
         continue;
@@ -79,20 +93,12 @@ makeFrameCloud (const Image<float>& depth, const PinholeCamera& camera, double m
     }
   });
   cloud.readings = std::accumulate (readings.begin (), readings.end (), std::size_t (0));
+  if (frame.colour.pixels.size () == depth.pixels.size ())
+  {
+    cloud.brightness = brightnessLevels (frame.colour, brightness_levels);
+    cloud.unmixed = unmixedPixels (cloud.reliable);
+  }
   return cloud;
-}
-
-void
-addBrightness (const Picture& colour, FrameCloud& cloud)
-{
-  constexpr int reach = brightness_reach_px;
-  cloud.brightness = brightnessLevels (colour, brightness_levels);
-  const int width = cloud.camera.width, height = cloud.camera.height;
-  cloud.unmixed = Image<std::uint8_t> (width, height);
-  std::transform (cloud.reliable.pixels.begin (), cloud.reliable.pixels.end (), cloud.unmixed.pixels.begin (),
-                  [] (float z) { return static_cast<std::uint8_t> (std::isfinite (z)); });
-  cv::Mat view (height, width, CV_8U, cloud.unmixed.pixels.data ());
-  cv::erode (view, view, cv::Mat::ones (2 * reach + 1, 2 * reach + 1, CV_8U));
 }
 
 float

@@ -1,13 +1,14 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 #include "brightness_image.h"
 
 #include <pcl/cosection/common/camera.h>
 #include <pcl/cosection/common/image.h>
+#include <pcl/cosection/fusion/dynamic_fusion.h>
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 
 #include <cstddef>
 #include <cstdint>
@@ -20,27 +21,32 @@ namespace pcl::cosection
 struct FrameCloud
 {
   PinholeCamera camera;
-  Image<float> depth;                  ///< metres; NaN: no reading, beyond the largest depth
-  Image<float> reliable;               ///< the same without pixels at depth edges, where readings are frayed
-  std::vector<Eigen::Vector3f> points; ///< sensor frame, of all readings, smoothed if asked for; NaN: none
+  Image<float> depth;                  ///< metres; NaN: no reading, or beyond the largest depth
+  Image<float> reliable;               ///< the same without pixels at depth edges, where pixels are mixed
+  std::vector<Eigen::Vector3f> points; ///< sensor frame, one per pixel, from filtered depth if asked for; NaN: no point
   std::size_t readings = 0;
-  BrightnessLevels brightness; ///< of the same pixels; none without colours
-  Image<std::uint8_t>
-      unmixed; ///< not 0 where the first level's brightness is of one surface alone, by the depth; none without colours
+  BrightnessLevels brightness; ///< of the same pixels; empty without colour
+  /** \brief Not 0: the first level's brightness is that of one surface alone, by the depth. Empty without colour. */
+  Image<std::uint8_t> unmixed;
 
   /** \brief Every \a step-th reliable point along rows and columns. */
   std::vector<Eigen::Vector3f> sample (int step) const;
 };
 
-/** \param[in] smooth filter the points' depth bilaterally */
-FrameCloud makeFrameCloud (const Image<float>& depth, const PinholeCamera& camera, double max_depth_m, bool smooth,
-                           int threads);
+/** \brief A frame whose camera is known. */
+struct PosedFrame
+{
+  double stamp;
+  const FrameCloud& cloud;
+  Eigen::Isometry3d T_world_camera;
+};
 
-/** \brief Look at the colours, too. \param[in] colour of the depth's size */
-void addBrightness (const Picture& colour, FrameCloud& cloud);
+/** \brief Turn a depth image into points, after a bilateral filter if asked for; depth and reliable stay as read.
+ * \throws InvalidArgument if the depth image has not the camera's size */
+FrameCloud makeFrameCloud (const RgbdFrame& frame, const PinholeCamera& camera, const DynamicFusionOptions& options);
 
-/** \brief How much a reading at depth \a z counts for a pose: the inverse of its variance, with that of a model whose
- * voxels are so large; 1 without noise. */
+/** \brief Weight of a reading at depth \a z in a pose: the inverse of the variance of its distance to a model with
+ * voxels of this size, in units of the model's own; 1 without noise. */
 float readingWeight (double z, double voxel_size_m);
 
 } // namespace pcl::cosection

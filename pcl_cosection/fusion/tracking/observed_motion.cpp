@@ -1,6 +1,7 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "observed_motion.h"
+
+#include "pcl_cosection/common/quantile.h"
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/QR>
@@ -28,9 +29,7 @@ spread (const std::vector<SurfaceSample>& samples)
   std::transform (samples.begin (), samples.end (), sizes.begin (), [] (const SurfaceSample& sample) {
     return std::abs (sample.distance) * std::sqrt (sample.weight / sample.points);
   });
-  const auto middle = sizes.begin () + static_cast<std::ptrdiff_t> (sizes.size () / 2);
-  std::nth_element (sizes.begin (), middle, sizes.end ());
-  return 1.4826 * *middle;
+  return sigmaOfSizes (sizes);
 }
 
 } // namespace
@@ -62,11 +61,10 @@ observedMotion (const std::vector<SurfaceSample>& samples, const Eigen::Isometry
   {
     const Vector6d direction = solver.eigenvectors ().col (k);
     const double along = direction.dot (moved);
-    const bool observed = tellingOf (samples, chart, direction).isEnough (total);
+    const bool observed = directionSupport (samples, chart, direction).isEnough (total);
     const double variance = sigma * sigma * prior.correlated / solver.eigenvalues ()[k];
     const bool significant = along * along >= significance * significance * variance;
     result.directions += observed;
-    result.held += observed && !significant;
     if (observed)
       result.precision += solver.eigenvalues ()[k] / std::max (sigma * sigma, least_sigma * least_sigma) * direction *
                           direction.transpose ();

@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "surface_samples.h"
 
 #include <pcl/cosection/common/camera.h>
@@ -15,14 +14,14 @@ namespace
 {
 
 constexpr double least_slope = 0.3;    // of the distance: smaller ones are where it is truncated
-constexpr double least_facing = 0.5;   // of the slope along a direction, from which on a sample tells of it
-constexpr double plain = 2.5;          // standard deviations of a slope: few by chance
+constexpr double least_facing = 0.5;   // of the slope, along a direction that a sample observes
+constexpr double significant = 2.5;    // standard deviations of a slope: rare by chance
 constexpr float settled_weight = 4.0f; // of voxels
 constexpr double slope_error = 0.2;    // standard deviation
 constexpr double cell_reach_vox = 0.5; // of a cell's own slope
 constexpr double largest_reach_vox = 4.0;
 
-/** \brief Differences of the distance along the axes; nothing where one of them is not known. */
+/** \brief Gradient of the distance by central differences; nothing where one of them is not known. */
 std::optional<Eigen::Vector3d>
 slopeAround (const TsdfVolume& volume, const Eigen::Vector3d& p, double reach_vox)
 {
@@ -67,15 +66,15 @@ sampleSurface (const std::vector<Eigen::Vector3f>& points, const std::vector<flo
     {
       reach = std::clamp (slopeError (points[n].z (), seen, 1.0, voxel_m) / slope_error, cell_reach_vox,
                           largest_reach_vox);
-      facing = std::max (least_facing, plain * slopeError (points[n].z (), seen, reach, voxel_m));
+      facing = std::max (least_facing, significant * slopeError (points[n].z (), seen, reach, voxel_m));
     }
     const auto slope = reach <= cell_reach_vox ? std::optional<Eigen::Vector3d> (cell->gradient ())
                                                : slopeAround (volume, p, reach);
     if (!slope || slope->norm () < least_slope)
       continue;
-    const double stands_for = static_cast<double> (step);
-    samples.push_back (
-        {p, slope->normalized (), stands_for, stands_for * weights[n], cell->value (), facing, seen >= settled_weight});
+    const double represented = static_cast<double> (step);
+    samples.push_back ({p, slope->normalized (), represented, represented * weights[n], cell->value (), facing,
+                        seen >= settled_weight});
   }
   return samples;
 }
@@ -117,19 +116,20 @@ MotionChart::motion (const Vector6d& coordinates) const
   return result;
 }
 
-Telling
-tellingOf (const std::vector<SurfaceSample>& samples, const MotionChart& chart, const MotionChart::Vector6d& direction)
+DirectionSupport
+directionSupport (const std::vector<SurfaceSample>& samples, const MotionChart& chart,
+                  const MotionChart::Vector6d& direction)
 {
-  Telling telling;
+  DirectionSupport support;
   for (const SurfaceSample& sample : samples)
   {
     const double along = chart.slope (sample).dot (direction);
     if (std::abs (along) < sample.facing)
       continue;
-    telling.all += sample.weight * along * along;
-    telling.settled += sample.settled ? sample.weight * along * along : 0.0;
+    support.all += sample.weight * along * along;
+    support.settled += sample.settled ? sample.weight * along * along : 0.0;
   }
-  return telling;
+  return support;
 }
 
 } // namespace pcl::cosection

@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 #include <pcl/cosection/volume/tsdf_volume.h>
@@ -18,32 +17,33 @@ struct SurfaceSample
 {
   Eigen::Vector3d position;
   Eigen::Vector3d normal;
-  double points;   ///< that it stands for
+  double points;   ///< how many it represents
   double weight;   ///< of all of them
   double distance; ///< signed, metres
-  double facing;   ///< share of its slope along a direction from which on it tells of it: more than noise makes
-  bool settled;    ///< the model was seen there often
+  double facing;   ///< least share of its slope along a direction that it observes: more than noise makes
+  bool settled;    ///< the model was often seen there
 };
 
 /** \brief How readings are compared with a model. */
 struct SampleOptions
 {
-  std::size_t most_points = 5000; ///< that are asked
-  double reach_vox = 0.0; ///< to either side, over which the slope of distances is taken; 0: that of the cell. Young
-                          ///< models are rough
-  /** \brief Take slopes as far as noise in the model's distances asks for, and no sample to tell of a direction by
-   * noise alone. Otherwise what is far away, and rough in the model, tells of motion along itself. */
+  std::size_t most_points = 5000;
+  // Half length of the differences that give slopes, as young models are rough; 0: of the cell.
+  double reach_vox = 0.0;
+  /** \brief Take differences as long as noise in the model's distances calls for, so that no sample observes a
+   * direction by noise alone. Otherwise surfaces that are far away, and rough in the model, observe motion along
+   * themselves. */
   bool smooth_noise = false;
 };
 
-/** \brief The points at which a model knows a distance and where it grows, model frame.
- * \param[in] points sensor frame, with \a weights; those without weight are left out */
+/** \brief The points at which a model knows a distance and its slope, model frame.
+ * \param[in] points sensor frame, with \a weights; those of weight 0 are left out */
 std::vector<SurfaceSample> sampleSurface (const std::vector<Eigen::Vector3f>& points, const std::vector<float>& weights,
                                           const TsdfVolume& volume, const Eigen::Isometry3d& T_model_sensor,
                                           const SampleOptions& options);
 
-/** \brief Small motions as vectors: a shift, and a turn about the samples' centre in units of their root mean square
- * distance from it, so that all six numbers say how far samples move. */
+/** \brief Small motions as vectors in metres: a shift, and a turn about the samples' centre times their root mean
+ * square distance from it, so that all six numbers say how far samples move. */
 class MotionChart
 {
 public:
@@ -54,7 +54,7 @@ public:
   /** \brief Derivative of the sample's distance by the motion. */
   Vector6d slope (const SurfaceSample& sample) const { return slope (sample.position, sample.normal); }
 
-  /** \brief Derivative by the motion of what has a \a gradient at \a position. */
+  /** \brief Derivative by the motion of a quantity with a \a gradient at \a position. */
   Vector6d slope (const Eigen::Vector3d& position, const Eigen::Vector3d& gradient) const
   {
     Vector6d slope;
@@ -62,8 +62,7 @@ public:
     return slope;
   }
 
-  /** \brief Where a position is among the samples: from their centre, in units of their root mean square distance from
-   * it. */
+  /** \brief A position relative to the samples' centre, in units of their root mean square distance from it. */
   Eigen::Vector3d place (const Eigen::Vector3d& position) const { return (position - centre_) / radius_; }
 
   Vector6d coordinates (const Eigen::Isometry3d& motion) const;
@@ -75,20 +74,20 @@ private:
   double radius_ = 1e-6;
 };
 
-/** \brief How much of the samples' weight tells of motion along a direction: of those that face it. */
-struct Telling
+/** \brief How much of the samples' weight observes motion along a direction: of the samples that face it. */
+struct DirectionSupport
 {
-  double all = 0.0;     ///< weight times the square of that change
-  double settled = 0.0; ///< the same where the model has settled
+  double all = 0.0;     ///< weight times the square of the distance's change
+  double settled = 0.0; ///< the part of settled samples
 
-  /** \brief Whether the direction counts as told. \param[in] total weight of all samples */
+  /** \brief Whether the direction counts as observed. \param[in] total weight of all samples */
   bool isEnough (double total) const { return all >= least_share * total || settled >= least_settled_share * total; }
 
   static constexpr double least_share = 0.005;
-  static constexpr double least_settled_share = 0.001; ///< less noise there, which bends distances
+  static constexpr double least_settled_share = 0.001; ///< distances are less noisy there
 };
 
-Telling tellingOf (const std::vector<SurfaceSample>& samples, const MotionChart& chart,
-                   const MotionChart::Vector6d& direction);
+DirectionSupport directionSupport (const std::vector<SurfaceSample>& samples, const MotionChart& chart,
+                                   const MotionChart::Vector6d& direction);
 
 } // namespace pcl::cosection

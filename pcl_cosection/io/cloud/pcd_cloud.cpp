@@ -1,5 +1,8 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
+
+// PCD files are read by hand, because pcl::PCDReader takes as much memory as a header claims and prints what is wrong
+// with a file instead of throwing it.
+
 #include "pcd_cloud.h"
 
 #include "pcd_header.h"
@@ -109,7 +112,7 @@ readVectors (const std::string& path, const PcdHeader& header, const PCLPointClo
   return (vectors);
 }
 
-/** \brief The file, its points as they stand in it, and as they are handed on. */
+/** \brief A file: its points as it has them, and as they are returned. */
 void
 checkMemory (const std::string& path, const PcdHeader& header, std::size_t limit_bytes)
 {

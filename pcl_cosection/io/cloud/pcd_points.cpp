@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "pcd_points.h"
 
 #include <pcl/cosection/common/error.h>
@@ -103,7 +102,7 @@ store (double value, std::uint8_t* target)
 
 using Store = bool (*) (double, std::uint8_t*);
 
-/** \brief What writes a number as an element of \a field; it tells whether the number fits. */
+/** \brief A function that writes a number as an element of \a field and returns whether the number fits. */
 Store
 storeFor (const PcdField& field)
 {

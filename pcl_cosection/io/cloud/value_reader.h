@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 #include "pcl_cosection/io/text_scanner.h"
@@ -50,14 +49,14 @@ public:
       , what_ (std::move (what))
   {}
 
-  /** \brief Checks that there can be \a count times as many bytes (binary) or values (text) to come; call it
+  /** \brief Checks that \a count times as many bytes (binary) or values (text) can follow; call it
    * before memory for them is taken. */
   void require (std::uint64_t count, std::size_t bytes, std::size_t values) const;
 
   /** \brief The next value. */
   double next (ScalarType type);
 
-  /** \brief The next value as an index; -1 if it can be none. */
+  /** \brief The next value as an index; -1 if it cannot be an index. */
   std::int64_t nextIndex (ScalarType type);
 
 private:

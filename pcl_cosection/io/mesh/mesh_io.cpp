@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 
 #include "pcl_cosection/common/file_bytes.h"
 #include "pcl_cosection/io/file_extension.h"
@@ -23,7 +22,7 @@ namespace
 {
 
 /** \brief Binary STL: 80 bytes of title, the number of triangles, and for each one its normal, its
- * corners and two bytes of nothing. */
+ * corners and two unused bytes. */
 std::string
 encodeStl (const TriangleMesh& mesh)
 {

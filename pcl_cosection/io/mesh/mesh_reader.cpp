@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 
 #include "mesh_decoders.h"
 #include "pcl_cosection/common/file_bytes.h"
@@ -16,7 +15,7 @@ namespace
 
 using Decoder = PolygonSoup (*) (const std::string& bytes);
 
-/** \brief By how the file begins, where a format says so; nothing else. */
+/** \brief The decoder of the format that a file begins as. \return nullptr if its beginning does not show the format */
 Decoder
 decoderForContents (const std::string& bytes)
 {
@@ -56,7 +55,7 @@ decode (const std::string& bytes, const std::string& extension)
 {
   if (bytes.empty ())
     throw IoError ("it is empty");
-  // A binary STL file may begin with anything, and only its name tells.
+  // A binary STL file may begin with anything: only its name shows the format.
   if (const Decoder decoder = (extension == ".stl" ? nullptr : decoderForContents (bytes)))
     return decoder (bytes);
   if (const Decoder decoder = decoderForExtension (extension))

@@ -1,5 +1,6 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
+
+// OBJ files are read by hand, because faces are a small part of the format and vtkOBJReader reads no bytes from memory.
 
 #include "mesh_decoders.h"
 #include "pcl_cosection/io/text_scanner.h"

@@ -1,5 +1,6 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
+
+// OFF files are read by hand, because VTK 9.1 has no reader for them.
 
 #include "mesh_decoders.h"
 #include "pcl_cosection/io/text_scanner.h"
@@ -11,7 +12,7 @@ namespace pcl::cosection
 namespace
 {
 
-/** \brief The lines of an OFF file that hold anything, without comments. */
+/** \brief The lines of an OFF file that are not empty, without comments. */
 class OffLines
 {
 public:

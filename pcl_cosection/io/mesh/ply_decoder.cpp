@@ -1,5 +1,7 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
+
+// PLY files are read by hand, because vtkPLYReader drops properties that it does not know, such as the provenance, and
+// takes as much memory as a header claims.
 
 #include "mesh_decoders.h"
 #include "ply_header.h"

@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 
 #include "polygon_soup.h"
 
@@ -37,7 +36,7 @@ check (const PolygonSoup& soup)
   }
 }
 
-/** \brief Divides polygons into triangles, concave ones too. */
+/** \brief Divides polygons into triangles; polygons may be concave. */
 class Triangulator
 {
 public:

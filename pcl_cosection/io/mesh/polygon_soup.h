@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 #include <pcl/cosection/common/triangle_mesh.h>
@@ -15,12 +14,12 @@ struct PolygonSoup
 {
   std::vector<Eigen::Vector3f> points;
   std::vector<std::int64_t> corners; ///< indices of points, those of one polygon behind those of another
-  std::vector<std::size_t> ends;     ///< of each polygon in \a corners
+  std::vector<std::size_t> ends;     ///< where each polygon ends in \a corners
 
-  /** \brief The corners that were added since the last polygon are one. */
+  /** \brief End a polygon: its corners are those that were added since the last one. */
   void endPolygon () { ends.push_back (corners.size ()); }
 
-  /** \brief Add the triangles of a strip: of three consecutive indices each, every other one turned. */
+  /** \brief Add the triangles of a strip: each has three consecutive indices, and every other one is turned. */
   void addStrip (const std::vector<std::int64_t>& strip);
 };
 

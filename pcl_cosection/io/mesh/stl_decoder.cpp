@@ -1,5 +1,6 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
+
+// STL files are read by hand, because the format is smaller than the checks that vtkSTLReader would need around it.
 
 #include "mesh_decoders.h"
 #include "pcl_cosection/io/text_scanner.h"
@@ -17,7 +18,7 @@ namespace
 
 constexpr std::size_t header_size = 84; // title and number of triangles
 constexpr std::size_t title_size = 80;
-constexpr std::size_t triangle_size = 50; // normal, corners, two bytes of nothing
+constexpr std::size_t triangle_size = 50; // normal, corners, two unused bytes
 
 std::string
 lowerCase (std::string_view word)

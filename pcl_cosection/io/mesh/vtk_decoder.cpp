@@ -1,5 +1,7 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
+
+// Legacy VTK files are read by hand, because vtkPolyDataReader of VTK 9.1 follows lengths of cells beyond its buffers,
+// and null pointers where a type or a number is not what it expects: what would make it safe is a reader.
 
 #include "mesh_decoders.h"
 #include "pcl_cosection/io/cloud/value_reader.h"
@@ -202,7 +204,7 @@ private:
     }
   }
 
-  /** \brief Ends with an empty line. */
+  /** \brief Skips lines up to an empty one. */
   void skipMetadata ()
   {
     scanner_.line ();
@@ -225,7 +227,7 @@ PolygonSoup
 decodeVtk (const std::string& bytes)
 {
   TextScanner scanner (bytes);
-  scanner.line (); // the version: what differs between versions is told by keywords
+  scanner.line (); // the version: keywords show what differs between versions
   scanner.line (); // the title
   const std::string encoding = upperCase (scanner.word ());
   if (encoding != "ASCII" && encoding != "BINARY")

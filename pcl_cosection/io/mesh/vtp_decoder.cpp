@@ -1,168 +1,320 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 
-// VTK's own reader believes every size in a file and takes as much memory, so only its decompression is used.
+// VTK parses the XML and decodes the arrays. They are put together by hand, because vtkXMLPolyDataReader takes as much
+// memory as counts, offsets of cells and sizes of blocks say and writes beyond it where they overflow or disagree.
 
 #include "mesh_decoders.h"
-#include "vtp_bytes.h"
-#include "vtp_document.h"
+#include "pcl_cosection/io/cloud/value_reader.h"
+#include "vtk_errors.h"
 
-#include <pcl/cosection/common/error.h>
+#include <vtkBase64Utilities.h>
+#include <vtkDataArray.h>
+#include <vtkLZ4DataCompressor.h>
+#include <vtkLZMADataCompressor.h>
+#include <vtkNew.h>
+#include <vtkXMLDataElement.h>
+#include <vtkXMLDataParser.h>
+#include <vtkZLibDataCompressor.h>
 
 #include <limits>
+#include <sstream>
 
 namespace pcl::cosection
 {
 namespace
 {
 
-ScalarType
-scalarType (std::string_view word)
+constexpr const char* cut_off = "an array of the VTK file is shorter than its header says";
+
+/** \brief Builds no more than a few levels of elements, as VTK destroys them by recursion. */
+class ShallowParser : public vtkXMLDataParser
+{
+public:
+  vtkTypeMacro (ShallowParser, vtkXMLDataParser);
+
+  static ShallowParser* New () { return new ShallowParser; }
+
+  bool tooDeep () const { return too_deep_; }
+
+protected:
+  void StartElement (const char* name, const char** attributes) override
+  {
+    constexpr int deepest = 20; // VTK writes six
+    too_deep_ = too_deep_ || ++depth_ > deepest;
+    if (!too_deep_)
+      Superclass::StartElement (name, attributes);
+  }
+
+  void EndElement (const char* name) override
+  {
+    --depth_;
+    if (!too_deep_)
+      Superclass::EndElement (name);
+  }
+
+private:
+  int depth_ = 0;
+  bool too_deep_ = false;
+};
+
+std::string_view
+attribute (vtkXMLDataElement& element, const char* key)
+{
+  const char* const value = element.GetAttribute (key);
+  return value == nullptr ? std::string_view () : value;
+}
+
+/** \brief How many there are of something. \return 0 if the file does not say */
+std::uint64_t
+countOf (vtkXMLDataElement& element, const char* what)
+{
+  if (attribute (element, what).empty ())
+    return 0;
+  const std::int64_t count = toInteger (TextScanner (attribute (element, what)).word ()); // it may be padded
+  if (count < 0 || count > std::numeric_limits<std::uint32_t>::max ())
+    throw IoError (std::string ("the VTK file has an impossible ") + what);
+  return static_cast<std::uint64_t> (count);
+}
+
+int
+typeOf (std::string_view word)
 {
   struct Name
   {
     const char* name;
-    ScalarType type;
+    int type;
   };
-  static constexpr Name names[] = {{"Int8", ScalarType::Int8},       {"UInt8", ScalarType::UInt8},
-                                   {"Int16", ScalarType::Int16},     {"UInt16", ScalarType::UInt16},
-                                   {"Int32", ScalarType::Int32},     {"UInt32", ScalarType::UInt32},
-                                   {"Int64", ScalarType::Int64},     {"UInt64", ScalarType::UInt64},
-                                   {"Float32", ScalarType::Float32}, {"Float64", ScalarType::Float64}};
+  static constexpr Name names[] = {{"Int8", VTK_TYPE_INT8},       {"UInt8", VTK_TYPE_UINT8},
+                                   {"Int16", VTK_TYPE_INT16},     {"UInt16", VTK_TYPE_UINT16},
+                                   {"Int32", VTK_TYPE_INT32},     {"UInt32", VTK_TYPE_UINT32},
+                                   {"Int64", VTK_TYPE_INT64},     {"UInt64", VTK_TYPE_UINT64},
+                                   {"Float32", VTK_TYPE_FLOAT32}, {"Float64", VTK_TYPE_FLOAT64}};
   for (const Name& known : names)
     if (word == known.name)
       return known.type;
   throw IoError ("values of type " + quoted (word) + " in VTK files are not supported");
 }
 
-/** \brief How many there are of something; none if the file does not say. */
-std::uint64_t
-countOf (const XmlTag& tag, const char* what)
+vtkSmartPointer<vtkDataCompressor>
+compressorOf (std::string_view name)
 {
-  const std::string_view word = tag.attribute (what);
-  if (word.empty ())
-    return 0;
-  TextScanner scanner (word); // numbers may be padded with spaces
-  const std::int64_t count = toInteger (scanner.word ());
-  if (count < 0 || count > std::numeric_limits<std::uint32_t>::max ())
-    throw IoError (std::string ("the VTK file has an impossible ") + what);
-  return static_cast<std::uint64_t> (count);
+  if (name == "vtkZLibDataCompressor")
+    return vtkSmartPointer<vtkZLibDataCompressor>::New ();
+  if (name == "vtkLZ4DataCompressor")
+    return vtkSmartPointer<vtkLZ4DataCompressor>::New ();
+  if (name == "vtkLZMADataCompressor")
+    return vtkSmartPointer<vtkLZMADataCompressor>::New ();
+  throw IoError ("the compressor " + quoted (name) + " of the VTK file is not known");
 }
 
-class PieceReader
+/** \brief What stands before binary data: its size, or those of its compressed blocks. */
+struct DataHeader
 {
-public:
-  explicit PieceReader (const VtpDocument& document) : document_ (document), storage_ (document) {}
+  Encoding order;
+  ScalarType type;
+  bool compressed;
 
-  void add (const VtpPiece& piece, PolygonSoup& soup) const
+  /** \brief The size of the data that \a stored begins with. \throws IoError if what is stored cannot have it */
+  std::uint64_t dataSize (std::string_view stored, bool base64) const
   {
-    const auto first = static_cast<std::int64_t> (soup.points.size ());
-    if (const std::uint64_t count = countOf (piece.tag, "NumberOfPoints"))
+    stored.remove_prefix (base64 ? std::min (stored.find_first_not_of (" \t\r\n"), stored.size ()) : 0);
+    const std::uint64_t most = (base64 ? stored.size () / 4 * 3 : stored.size ());
+    if (!compressed)
     {
-      if (piece.points.empty ())
-        throw IoError ("the VTK file has points without their array");
-      forEachValue (piece.points.front (), 3 * count, [&soup, n = 0] (ValueReader& values, ScalarType type) mutable {
-        if (n == 0)
-          soup.points.emplace_back ();
-        soup.points.back ()[n] = static_cast<float> (values.next (type));
-        n = (n + 1) % 3;
-      });
+      const std::uint64_t size = firstSizes (1, stored, base64)[0];
+      if (size > most)
+        throw IoError (cut_off);
+      return size;
     }
-    const auto count = static_cast<std::int64_t> (soup.points.size ()) - first;
-    const auto shift = [&] (std::vector<std::int64_t> corners) {
-      for (std::int64_t& corner : corners)
-        corner = (corner >= 0 && corner < count ? first + corner : -1); // not of another piece
-      return corners;
-    };
-    forEachCell (piece.polys, countOf (piece.tag, "NumberOfPolys"), [&] (const std::vector<std::int64_t>& cell) {
-      const auto corners = shift (cell);
-      soup.corners.insert (soup.corners.end (), corners.begin (), corners.end ());
-      soup.endPolygon ();
-    });
-    forEachCell (piece.strips, countOf (piece.tag, "NumberOfStrips"),
-                 [&] (const std::vector<std::int64_t>& cell) { soup.addStrip (shift (cell)); });
+    const auto layout = firstSizes (3, stored, base64); // number of blocks, size of each, of the last if it differs
+    if (layout[0] > most || layout[2] > layout[1])
+      throw IoError (cut_off);
+    const auto sizes = firstSizes (3 + layout[0], stored, base64);
+    std::uint64_t left = most;
+    for (std::size_t n = 3; n < sizes.size (); left -= sizes[n++])
+    {
+      constexpr std::uint64_t best_ratio = 10000, slack = 1024; // of LZMA; zlib and LZ4 compress less
+      if (sizes[n] > left || layout[1] == 0 || layout[1] > best_ratio * sizes[n] + slack)
+        throw IoError (cut_off);
+    }
+    return layout[0] * layout[1];
   }
 
 private:
-  /** \brief Calls \a take \a count times, each of which takes a value. */
-  template <typename Take> void forEachValue (const VtpArray& array, std::uint64_t count, Take&& take) const
+  std::vector<std::uint64_t> firstSizes (std::uint64_t count, std::string_view stored, bool base64) const
   {
-    const ScalarType type = scalarType (array.tag.attribute ("type"));
-    const std::string_view format = array.tag.attribute ("format");
-    std::string decoded;
-    std::string_view text = array.content;
-    if (format == "binary" || format == "appended")
+    std::string bytes (stored.substr (0, count * sizeOf (type) * (base64 ? 4 : 3) / 3 + 3));
+    if (base64)
+      bytes.resize (vtkBase64Utilities::DecodeSafely (reinterpret_cast<const unsigned char*> (bytes.data ()),
+                                                      bytes.size () / 4 * 4,
+                                                      reinterpret_cast<unsigned char*> (bytes.data ()), bytes.size ()));
+    TextScanner scanner (bytes);
+    ValueReader reader (scanner, order, "VTK");
+    std::vector<std::uint64_t> sizes;
+    for (std::uint64_t n = 0; n < count; ++n)
+      sizes.push_back (static_cast<std::uint64_t> (reader.nextIndex (type))); // -1 is more than there can be
+    return sizes;
+  }
+};
+
+/** \brief Reads the arrays of a file. */
+class ArrayReader
+{
+public:
+  ArrayReader (std::string_view bytes, vtkXMLDataParser& parser)
+      : bytes_ (bytes)
+      , parser_ (parser)
+      , header_ (
+            {attribute (*parser.GetRootElement (), "byte_order") == "BigEndian" ? Encoding::BigEndian
+                                                                                : Encoding::LittleEndian,
+             attribute (*parser.GetRootElement (), "header_type") == "UInt64" ? ScalarType::UInt64 : ScalarType::UInt32,
+             !attribute (*parser.GetRootElement (), "compressor").empty ()})
+  {
+    if (header_.compressed)
     {
-      const bool base64 = format == "binary" || document_.appended_tag.attribute ("encoding") == "base64";
-      decoded = decodeVtpBytes (storage_, format == "binary" ? text : appended (array), base64, count * sizeOf (type));
-      text = decoded;
+      const auto compressor = compressorOf (attribute (*parser.GetRootElement (), "compressor"));
+      errors_ = VtkErrors::observe (*compressor);
+      parser.SetCompressor (compressor);
     }
+    const auto begin = static_cast<std::size_t> (std::max<vtkTypeInt64> (0, parser.GetAppendedDataPosition ()));
+    if (begin == 0 || begin > bytes.size ())
+      return;
+    appended_ = bytes.substr (begin, std::max (begin, bytes.rfind ("</AppendedData")) - begin);
+    const auto element = parser.GetRootElement ()->FindNestedElementWithName ("AppendedData");
+    base64_ = element == nullptr || attribute (*element, "encoding") != "raw";
+  }
+
+  /** \brief The first \a count values of an array. */
+  vtkSmartPointer<vtkDataArray> read (vtkXMLDataElement& array, std::uint64_t count) const
+  {
+    const auto values = vtkSmartPointer<vtkDataArray>::Take (
+        vtkDataArray::CreateDataArray (typeOf (attribute (array, "type"))));
+    const std::string_view format = attribute (array, "format");
+    const std::uint64_t offset = countOf (array, "offset");
+    const std::string_view content = bytes_.substr (
+        std::min (bytes_.find ('>', static_cast<std::size_t> (array.GetXMLByteIndex ())), bytes_.size () - 1) + 1);
+    const std::string_view stored = content.substr (0, content.find ('<'));
+    std::uint64_t most = stored.size () / 2 + 1; // a value and a space
+    if (format == "appended")
+      most = offset > appended_.size () ? 0 : header_.dataSize (appended_.substr (offset), base64_);
+    else if (format == "binary")
+      most = header_.dataSize (stored, true);
     else if (format != "ascii")
       throw IoError ("the format " + quoted (format) + " of an array of the VTK file is not known");
-    TextScanner scanner (text);
-    ValueReader values (scanner, format == "ascii" ? Encoding::Ascii : storage_.order, "VTK");
-    values.require (count, sizeOf (type), 1);
-    for (std::uint64_t n = 0; n < count; ++n)
-      take (values, type);
+    const std::uint64_t word = (format == "ascii" ? 1 : static_cast<std::uint64_t> (values->GetDataTypeSize ()));
+    if (count > most / word)
+      throw IoError (cut_off);
+    values->SetNumberOfValues (static_cast<vtkIdType> (count));
+    void* const to = values->GetVoidPointer (0);
+    const std::size_t taken = format == "appended" ? parser_.ReadAppendedData (static_cast<vtkTypeInt64> (offset), to,
+                                                                               0, count, values->GetDataType ())
+                                                   : parser_.ReadInlineData (&array, format == "ascii", to, 0, count,
+                                                                             values->GetDataType ());
+    if (taken != count || (errors_ != nullptr && errors_->failed ()))
+      throw IoError (cut_off);
+    return values;
   }
 
-  std::string_view appended (const VtpArray& array) const
-  {
-    const std::uint64_t offset = countOf (array.tag, "offset");
-    if (offset > document_.appended.size ())
-      throw IoError ("an array of the VTK file begins behind its end");
-    return document_.appended.substr (offset);
-  }
-
-  std::vector<std::int64_t> indices (const std::vector<VtpArray>& arrays, const char* name, std::uint64_t count) const
-  {
-    std::vector<std::int64_t> result;
-    if (count == 0)
-      return result;
-    for (const VtpArray& array : arrays)
-      if (array.tag.attribute ("Name") == name)
-      {
-        forEachValue (array, count,
-                      [&result] (ValueReader& values, ScalarType type) { result.push_back (values.nextIndex (type)); });
-        return result;
-      }
-    throw IoError (std::string ("the VTK file has cells without their ") + name);
-  }
-
-  /** \brief Calls \a add with the indices of each cell; offsets are where each cell ends. */
-  template <typename Add> void forEachCell (const std::vector<VtpArray>& arrays, std::uint64_t count, Add&& add) const
-  {
-    const auto ends = indices (arrays, "offsets", count);
-    std::int64_t begin = 0;
-    for (const std::int64_t end : ends)
-    {
-      if (end < begin || end > std::numeric_limits<std::uint32_t>::max ())
-        throw IoError ("the offsets of the VTK file's cells do not fit their connectivity");
-      begin = end;
-    }
-    const auto corners = indices (arrays, "connectivity", static_cast<std::uint64_t> (begin));
-    begin = 0;
-    for (const std::int64_t end : ends)
-    {
-      add (std::vector<std::int64_t> (corners.begin () + begin, corners.begin () + end));
-      begin = end;
-    }
-  }
-
-  const VtpDocument& document_;
-  const VtpStorage storage_;
+private:
+  std::string_view bytes_, appended_;
+  bool base64_ = true; ///< what is appended
+  vtkXMLDataParser& parser_;
+  DataHeader header_;
+  vtkSmartPointer<VtkErrors> errors_;
 };
+
+/** \brief The \a count indices in the array of a \a name. */
+std::vector<std::int64_t>
+indices (const ArrayReader& reader, vtkXMLDataElement* section, const char* name, std::uint64_t count)
+{
+  if (count == 0)
+    return {};
+  vtkXMLDataElement* const array = section == nullptr
+                                       ? nullptr
+                                       : section->FindNestedElementWithNameAndAttribute ("DataArray", "Name", name);
+  if (array == nullptr)
+    throw IoError (std::string ("the VTK file has cells without their ") + name);
+  const auto values = reader.read (*array, count);
+  std::vector<std::int64_t> result;
+  for (vtkIdType n = 0; n < values->GetNumberOfValues (); ++n)
+  {
+    constexpr double most = std::numeric_limits<std::uint32_t>::max ();
+    const double value = values->GetTuple1 (n);
+    result.push_back (value >= 0.0 && value <= most ? static_cast<std::int64_t> (value) : -1);
+  }
+  return result;
+}
+
+/** \brief Calls \a add with the indices of each cell; offsets are where each cell ends. */
+template <typename Add>
+void
+forEachCell (const ArrayReader& reader, vtkXMLDataElement* section, std::uint64_t count, Add&& add)
+{
+  const auto ends = indices (reader, section, "offsets", count);
+  std::int64_t begin = 0;
+  for (const std::int64_t end : ends)
+    if (end < std::exchange (begin, end))
+      throw IoError ("the offsets of the VTK file's cells do not fit their connectivity");
+  const auto corners = indices (reader, section, "connectivity", static_cast<std::uint64_t> (begin));
+  begin = 0;
+  for (const std::int64_t end : ends)
+  {
+    add (std::vector<std::int64_t> (corners.begin () + begin, corners.begin () + end));
+    begin = end;
+  }
+}
+
+void
+addPiece (const ArrayReader& reader, vtkXMLDataElement& piece, PolygonSoup& soup)
+{
+  const auto first = static_cast<std::int64_t> (soup.points.size ());
+  const auto count = static_cast<std::int64_t> (countOf (piece, "NumberOfPoints"));
+  if (count > 0)
+  {
+    vtkXMLDataElement* const points = piece.FindNestedElementWithName ("Points");
+    if (points == nullptr || points->GetNumberOfNestedElements () == 0)
+      throw IoError ("the VTK file has points without their array");
+    const auto values = reader.read (*points->GetNestedElement (0), static_cast<std::uint64_t> (3 * count));
+    for (vtkIdType n = 0; n < 3 * count; n += 3)
+      soup.points.push_back (
+          Eigen::Vector3d (values->GetTuple1 (n), values->GetTuple1 (n + 1), values->GetTuple1 (n + 2)).cast<float> ());
+  }
+  const auto shift = [&] (std::vector<std::int64_t> corners) {
+    for (std::int64_t& corner : corners)
+      corner = (corner >= 0 && corner < count ? first + corner : -1); // not of another piece
+    return corners;
+  };
+  forEachCell (reader, piece.FindNestedElementWithName ("Polys"), countOf (piece, "NumberOfPolys"),
+               [&] (const std::vector<std::int64_t>& cell) {
+                 const auto corners = shift (cell);
+                 soup.corners.insert (soup.corners.end (), corners.begin (), corners.end ());
+                 soup.endPolygon ();
+               });
+  forEachCell (reader, piece.FindNestedElementWithName ("Strips"), countOf (piece, "NumberOfStrips"),
+               [&] (const std::vector<std::int64_t>& cell) { soup.addStrip (shift (cell)); });
+}
 
 } // namespace
 
 PolygonSoup
 decodeVtp (const std::string& bytes)
 {
-  const VtpDocument document = parseVtp (bytes);
-  const PieceReader reader (document);
+  std::istringstream stream (bytes);
+  vtkNew<ShallowParser> parser;
+  const auto errors = VtkErrors::observe (*parser);
+  parser->SetStream (&stream);
+  const bool parsed = parser->Parse () != 0 && !parser->tooDeep ();
+  vtkXMLDataElement* const file = parser->GetRootElement ();
+  if (!parsed || errors->failed () || file == nullptr)
+    throw IoError ("the VTK file is not proper XML, or cut short");
+  vtkXMLDataElement* const data = file->FindNestedElementWithName ("PolyData");
+  if (attribute (*file, "type") != "PolyData" || data == nullptr)
+    throw IoError ("the VTK file does not hold PolyData");
+  const ArrayReader reader (bytes, *parser);
   PolygonSoup soup;
-  for (const VtpPiece& piece : document.pieces)
-    reader.add (piece, soup);
+  for (int n = 0; n < data->GetNumberOfNestedElements (); ++n)
+    if (std::string_view (data->GetNestedElement (n)->GetName ()) == "Piece")
+      addPiece (reader, *data->GetNestedElement (n), soup);
   return soup;
 }
 

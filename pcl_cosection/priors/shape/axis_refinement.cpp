@@ -1,6 +1,8 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "axis_refinement.h"
+
+#include "pcl_cosection/common/quantile.h"
+#include "pcl_cosection/common/robust_weights.h"
 
 #include <Eigen/Cholesky>
 #include <Eigen/Geometry>
@@ -17,22 +19,23 @@ namespace
 {
 
 constexpr int steps = 8;
-constexpr double band = 0.05;            // of the size
-constexpr double wall = 0.4;             // component of a normal away from the axis, or towards it, of a wall
-constexpr double least_radius = 0.02;    // of the size: nearer to the axis directions from it are noise
+// "Of the size" is relative to NormalLines::size.
+constexpr double band = 0.05;            // height of a band, of the size
+constexpr double wall = 0.4;             // least radial component of a wall's normal, outward or inward
+constexpr double least_radius = 0.02;    // of the size: nearer to the axis, radial directions are noise
 constexpr std::size_t least_points = 10; // of a side in a band
 constexpr double outlier_scale = 2.0;    // of the median residual
-constexpr double ridge = 1e-6;           // what the points do not tell stays
-constexpr double farthest = 0.1;         // of the size, that the axis may be moved
+constexpr double ridge = 1e-6;           // keeps directions that the points do not determine
+constexpr double farthest = 0.1;         // of the size: largest move of the axis
 
 struct Sample
 {
   double height, radius;
-  Eigen::Vector2d change; // of the radius with a move of the axis along x and y
+  Eigen::Vector2d change; // derivative of the radius by the axis' position along x and y
 };
 
-/** \brief Replace the radii of one band by their deviations from a straight line over the heights, and their changes by
- * those of the deviations. */
+/** \brief Replace the radii of one band by their residuals from a line fit over height, and their derivatives
+ * accordingly. */
 void
 straighten (std::vector<Sample>& band)
 {
@@ -71,7 +74,7 @@ refineAxis (const Axis& first, const std::vector<NormalLine>& lines)
   Axis axis = first;
   const Eigen::Vector3d x = axis.direction.unitOrthogonal ();
   const Eigen::Vector3d y = axis.direction.cross (x);
-  double scale = 0.0; // of a residual that counts half
+  double scale = 0.0; // residual with half weight
   for (int step = 0; step < steps; ++step)
   {
     std::map<std::pair<int, bool>, std::vector<Sample>> bands; // by height and side
@@ -97,21 +100,18 @@ refineAxis (const Axis& first, const std::vector<NormalLine>& lines)
       for (const Sample& s : samples)
       {
         residuals.push_back (std::abs (s.radius));
-        const double relative = scale > 0.0 ? s.radius / scale : 0.0;
-        const double weight = 1.0 / (1.0 + relative * relative);
+        const double weight = cauchyWeight (scale > 0.0 ? s.radius / scale : 0.0);
         left += weight * s.change * s.change.transpose ();
         right -= weight * s.change * s.radius;
       }
     }
     if (residuals.empty ())
       return first;
-    const auto half = residuals.begin () + static_cast<std::ptrdiff_t> (residuals.size () / 2);
-    std::nth_element (residuals.begin (), half, residuals.end ());
-    scale = outlier_scale * *half;
+    scale = outlier_scale * upperMedian (residuals);
     left.diagonal ().array () += ridge * left.trace ();
     const Eigen::Vector2d change = left.ldlt ().solve (right);
     axis.point += change[0] * x + change[1] * y;
-    if (!((axis.point - first.point).norm () < farthest)) // nor if that is no number
+    if (!((axis.point - first.point).norm () < farthest)) // also for NaN
       return first;
   }
   return axis;

@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 #include "normal_axis.h"
@@ -9,12 +8,12 @@
 namespace pcl::cosection
 {
 
-/** \brief The axis of a given direction about which points lie on circles: normals find it, positions tell more
- * precisely where it is.
+/** \brief Refine the position of an axis of revolution by the positions of points, which are more precise than the
+ * normals that found it.
  *
- * Least squares of the points' distances from their profiles, which are straight in each of some bands of height, one
- * of the outer and one of the inner side; Gauss-Newton with Cauchy weights, as what sticks out is no part of the
- * profile. The direction stays: of a ring, whose profile is curved, positions tell it worse than normals. */
+ * Least squares of the points' distances from their profile, which is straight in each of some bands of height, with
+ * one line for the outer and one for the inner side. Gauss-Newton with Cauchy weights, as protruding parts do not
+ * belong to the profile. The direction is kept: for a ring, with its curved profile, normals determine it better. */
 Axis refineAxis (const Axis& axis, const std::vector<NormalLine>& lines);
 
 } // namespace pcl::cosection

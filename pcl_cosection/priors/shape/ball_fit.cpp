@@ -1,6 +1,7 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "ball_fit.h"
+
+#include "pcl_cosection/common/robust_weights.h"
 
 #include <Eigen/Cholesky>
 #include <Eigen/Geometry>
@@ -16,16 +17,16 @@ namespace
 {
 
 constexpr int rounds = 12;             // of reweighting
-constexpr double outlier_scale = 0.04; // of the size: a distance from the surface that counts half
-constexpr double facing_sine = 0.2;    // between a normal and the way from the centre
-constexpr double facing_reach = 0.02;  // of the size, more than that
+constexpr double outlier_scale = 0.04; // of NormalLines::size: a distance from the surface with half weight
+constexpr double facing_sine = 0.2;    // largest sine between a normal and the radial direction ...
+constexpr double facing_reach = 0.02;  // ... plus this distance of the normal from the centre, of the size
 constexpr double facing_share = 0.8;   // of the points
-constexpr double inward_share = 0.05;  // of the points: more than that is of the inside of a bowl
+constexpr double inward_share = 0.05;  // of the points: with more facing inward, it is the inside of a bowl
 constexpr double max_deviation = 0.05; // of the radius, root mean square, without noise
 constexpr double max_noise = 0.15;     // of the radius, root mean square, of all points
-constexpr double max_radius = 1.0;     // of the size: of a larger ball too little was seen
-constexpr int
-    cells = 4; // along the edge of a cube around the ball; noise averages out in the cells of its faces, shape does not
+constexpr double max_radius = 1.0;     // of the size: too small a part of a larger ball was seen
+// Cells along the edge of a cube around the ball. Noise averages out in the cells of its faces, shape does not.
+constexpr int cells = 4;
 
 /** \brief Distances of points from a ball's surface. */
 class BallDeviation
@@ -39,7 +40,7 @@ public:
     ++cell.points;
   }
 
-  /** \brief Root mean square of all. */
+  /** \brief Root mean square over all points: noise and shape. */
   double ofPoints () const
   {
     double squares = 0.0, points = 0.0;
@@ -51,8 +52,7 @@ public:
     return std::sqrt (squares / points);
   }
 
-  /** \brief Root mean square of the means of those that lie in about the same direction: what of it is shape, not
-   * noise. */
+  /** \brief Root mean square of the means over small ranges of directions: the deviation of the shape without noise. */
   double ofShape () const
   {
     double squares = 0.0, points = 0.0;
@@ -87,7 +87,7 @@ private:
   std::array<Cell, 6 * cells * cells> cells_;
 };
 
-/** \brief The ball nearest to the points: noisy normals alone make it too small. */
+/** \brief Fit a ball to positions, as noisy normals alone make it too small. */
 Ball
 fittedBall (Ball ball, const std::vector<NormalLine>& lines)
 {
@@ -100,7 +100,7 @@ fittedBall (Ball ball, const std::vector<NormalLine>& lines)
       const Eigen::Vector3d from_center = line.position - ball.center;
       const double residual = from_center.norm () - ball.radius;
       const Eigen::Vector4d slope = from_center.normalized ().homogeneous ();
-      const double weight = 1.0 / (1.0 + std::pow (residual / outlier_scale, 2));
+      const double weight = cauchyWeight (residual / outlier_scale);
       left += weight * slope * slope.transpose ();
       right += weight * residual * slope;
     }

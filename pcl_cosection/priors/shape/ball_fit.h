@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 #include "normal_axis.h"
@@ -18,11 +17,11 @@ struct Ball
   double radius;
 };
 
-/** \brief The ball whose surface the points are on.
- * \return nothing if they are not on a ball, inside it, or on too small a part of one */
+/** \brief Fit a ball to points.
+ * \return nothing if they do not lie on a ball, face its inside, or cover too small a part of it */
 std::optional<Ball> findBall (const std::vector<NormalLine>& lines);
 
-/** \brief Of all axes of a ball one about which its seen side turns to the hidden one. */
+/** \brief An axis of a ball about which a half turn takes its seen side to the hidden one. */
 Axis axisOf (const Ball& ball, const std::vector<NormalLine>& lines);
 
 } // namespace pcl::cosection

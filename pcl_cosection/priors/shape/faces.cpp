@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "faces.h"
 
 #include <algorithm>
@@ -12,12 +11,12 @@ namespace pcl::cosection
 namespace
 {
 
-constexpr double face_share = 0.03;         // of the points: normals of so many make a direction
+constexpr double face_share = 0.03;         // of the points: smaller faces do not count
 constexpr double face_cosine = 0.966;       // 15 degrees
 constexpr std::size_t few_faces = 3;        // the largest
 constexpr double few_faces_share = 0.7;     // of the points
 constexpr double right_angle_cosine = 0.15; // between faces
-constexpr double cuboid_cosine = 0.92;      // between a normal on a face and the face's
+constexpr double cuboid_cosine = 0.92;      // between the normal of a point on a face and the face's mean normal
 constexpr double cuboid_share = 0.85;       // of the points, on faces at right angles
 
 } // namespace

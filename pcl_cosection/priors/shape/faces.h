@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 #include <pcl/cosection/common/oriented_point.h>
@@ -11,19 +10,19 @@
 namespace pcl::cosection
 {
 
-/** \brief Directions evenly over the sphere, the same for either sense of each axis: those of a Fibonacci lattice in
- * one octant, and their mirror images. \param[in] axes columns */
+/** \brief Directions evenly distributed over the sphere, symmetric with respect to the senses of the axes: those of a
+ * Fibonacci lattice in one octant, and their mirror images. \param[in] axes columns */
 std::vector<Eigen::Vector3d> evenDirections (int count, const Eigen::Matrix3d& axes);
 
-/** \brief Mean normals of all large patches that face one way, the largest first. \param[in] bins unit directions,
- * evenly over the sphere */
+/** \brief Mean normals of all large flat faces, the largest first.
+ * \param[in] bins unit directions, evenly distributed over the sphere */
 std::vector<Eigen::Vector3d> faceNormals (const std::vector<OrientedPoint>& points,
                                           const std::vector<Eigen::Vector3d>& bins);
 
-/** \brief Do the largest few faces make up most of the points? */
+/** \brief Whether most points belong to the three largest faces. */
 bool prevail (const std::vector<OrientedPoint>& points, const std::vector<Eigen::Vector3d>& faces);
 
-/** \brief Do nearly all points belong to faces at right angles, of two directions at least? */
+/** \brief Whether nearly all points belong to faces at right angles, of at least two directions. */
 bool isCuboid (const std::vector<OrientedPoint>& points, const std::vector<Eigen::Vector3d>& faces);
 
 } // namespace pcl::cosection

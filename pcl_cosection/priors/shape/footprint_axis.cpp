@@ -1,6 +1,9 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "footprint_axis.h"
+
+#include "pcl_cosection/common/quantile.h"
+#include "pcl_cosection/common/robust_weights.h"
+#include "pcl_cosection/common/sectors.h"
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
@@ -16,29 +19,19 @@ namespace pcl::cosection
 namespace
 {
 
-constexpr int directions = 72; // in which the farthest points are sought
+constexpr int directions = 72; // in each of which the outermost point is found
 constexpr int sectors = 36;
-constexpr double outlier_share = 0.002;  // of all points, may lie farther out
+constexpr double outlier_share = 0.002;  // of all points: outliers that lie farther out
 constexpr double sector_outliers = 0.05; // of the points of a sector
-constexpr double round_reach = 0.065;    // of the radius: sectors whose points reach so far more or less are round
-constexpr int round_sectors = 22;        // noise turns some that are round away
-constexpr double least_facing = 0.2;     // length of the mean normal of what mostly faces one way
+constexpr double round_reach = 0.065;    // of the radius: largest deviation in a sector of a round thing
+constexpr int round_sectors = 22;        // least number of such sectors; noise spoils some
+constexpr double least_facing = 0.2;     // least length of the mean normal, if points mostly face one way
 constexpr int rim_rounds = 5;
 constexpr int plane_rounds = 20;
-constexpr double plane_reach = 0.02; // of the size: points so far from the level plane count little
+constexpr double plane_reach = 0.02; // of NormalLines::size: distance from the plane with a low weight
 
 using Points = std::vector<Eigen::Vector2d>;
 using Points3 = std::vector<Eigen::Vector3d>;
-
-/** \brief The value that so many are above. */
-double
-quantile (std::vector<double>& values, double share_above)
-{
-  const auto rank = values.end () - 1 -
-                    static_cast<std::ptrdiff_t> (share_above * static_cast<double> (values.size ()));
-  std::nth_element (values.begin (), rank, values.end ());
-  return *rank;
-}
 
 /** \brief Points as seen from above. */
 struct Footprint
@@ -56,7 +49,7 @@ struct Footprint
   Points points;
 };
 
-/** \brief Indices of points that are farthest in some direction each. */
+/** \brief Indices of the points that are farthest along each of some directions. */
 std::vector<std::size_t>
 farthestOf (const Points& points)
 {
@@ -79,7 +72,7 @@ farthestOf (const Points& points)
   return ends;
 }
 
-/** \brief The middle of the circle that is nearest to the points; algebraically. */
+/** \brief The centre of the algebraically fitted circle. */
 Eigen::Vector2d
 circleCenter (const Points& points)
 {
@@ -94,7 +87,7 @@ circleCenter (const Points& points)
   return left.ldlt ().solve (right).head<2> ();
 }
 
-/** \brief Do the points reach equally far from a place in nearly all directions? */
+/** \brief Whether the points extend equally far from a place in nearly all directions. */
 bool
 isRound (const Points& points, const Eigen::Vector2d& center)
 {
@@ -102,14 +95,12 @@ isRound (const Points& points, const Eigen::Vector2d& center)
   for (const Eigen::Vector2d& p : points)
   {
     const Eigen::Vector2d q = p - center;
-    const double turn = std::atan2 (q.y (), q.x ()) / (2.0 * M_PI) + 0.5;
-    radii[static_cast<std::size_t> (std::clamp (static_cast<int> (turn * sectors), 0, sectors - 1))].push_back (
-        q.norm ());
+    radii[sectorOf (q.x (), q.y (), sectors)].push_back (q.norm ());
   }
   std::vector<double> reaches;
   for (std::vector<double>& sector : radii)
     if (!sector.empty ())
-      reaches.push_back (quantile (sector, sector_outliers));
+      reaches.push_back (trimmedMax (sector, sector_outliers));
   std::vector<double> sorted = reaches;
   const double radius = quantile (sorted, 0.5);
   const auto alike = std::count_if (reaches.begin (), reaches.end (),
@@ -154,7 +145,7 @@ planeNormal (const Points3& points, Eigen::Vector3d normal)
     for (const Eigen::Vector3d& p : points)
     {
       const double off = normal.dot (p - center) / plane_reach;
-      const double weight = 1.0 / (1.0 + off * off);
+      const double weight = cauchyWeight (off);
       sum += weight * (p - center);
       products += weight * (p - center) * (p - center).transpose ();
       weights += weight;

@@ -1,8 +1,9 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "normal_axis.h"
 
 #include "principal_axes.h"
+
+#include "pcl_cosection/common/robust_weights.h"
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
@@ -18,23 +19,23 @@ namespace
 {
 
 constexpr int rounds = 12;             // of reweighting
-constexpr double outlier_scale = 0.04; // of the size: a normal's distance from the axis that counts half
-constexpr double ridge = 1e-3;         // of the weights: where normals say nothing of the axis, it stays near
-constexpr double meeting_sine = 0.2;   // between a normal and the way to the axis
-constexpr double meeting_reach = 0.02; // of the size, more than that
-constexpr double sideways = 0.4;       // sine between the axis and a normal
-constexpr double least_sideways = 0.2; // of all normals
+constexpr double outlier_scale = 0.04; // of the size: distance between normal and axis with half weight
+constexpr double ridge = 1e-3;         // of the weights: keeps the axis where normals do not determine it
+constexpr double meeting_sine = 0.2;   // largest sine between a normal and the direction to the axis ...
+constexpr double meeting_reach = 0.02; // ... plus this distance from the axis, of the size
+constexpr double sideways = 0.4;       // least sine between the axis and a normal that faces sideways
+constexpr double least_sideways = 0.2; // share of all normals
 constexpr double meeting_share = 0.75; // of those that face sideways
-constexpr double vertical_share = 0.1; // less than that of the best axis: an vertical one is as good
+constexpr double vertical_share = 0.1; // a vertical axis is preferred if its share is less than this much lower
 
-/** \brief Between axis and line, times the sine of the angle between them. */
+/** \brief Distance between axis and line, times the sine of the angle between them. */
 double
 distanceFrom (const Axis& axis, const NormalLine& line)
 {
   return axis.direction.dot ((line.position - axis.point).cross (line.normal));
 }
 
-/** \brief Of those lines that tell, how many meet the axis? 0 if few tell. */
+/** \brief The share of sideways normals that meet the axis; 0 if few normals face sideways. */
 double
 meetingShare (const Axis& axis, const std::vector<NormalLine>& lines)
 {
@@ -66,7 +67,7 @@ public:
     return {direction, direction.cross (momentsOfDirections () * direction)};
   }
 
-  /** \brief The best axis, and the best of those across it. */
+  /** \brief The best axis, and the two best orthogonal to it. */
   std::array<Axis, 3> best () const
   {
     const Eigen::Matrix3d left = moments_ + mixed_.transpose () * momentsOfDirections ();
@@ -93,7 +94,7 @@ weighted (const std::vector<NormalLine>& lines, const Axis& axis)
   for (const NormalLine& line : lines)
   {
     const double distance = distanceFrom (axis, line) / outlier_scale;
-    equations.add (line, 1.0 / (1.0 + distance * distance));
+    equations.add (line, cauchyWeight (distance));
   }
   return equations;
 }

@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 #include <pcl/cosection/common/oriented_point.h>
@@ -12,7 +11,7 @@
 namespace pcl::cosection
 {
 
-/** \brief A normal as a line. */
+/** \brief The line of a point's normal, in Pluecker coordinates (normal, moment). */
 struct NormalLine
 {
   Eigen::Vector3d position;
@@ -20,13 +19,13 @@ struct NormalLine
   Eigen::Vector3d moment; // position x normal
 };
 
-/** \brief The normals of points as lines; lengths are from the mean of all points and in units of their size, twice the
- * root mean square of their distances from it. */
+/** \brief The normals of points as lines. Positions are relative to the mean of all points, in units of their size:
+ * twice the root mean square distance from the mean. */
 struct NormalLines
 {
   std::vector<NormalLine> lines;
-  Eigen::Vector3d origin; // of their frame, that of the points
-  double size;            // metres; 0 if all points are one
+  Eigen::Vector3d origin; // of the lines' frame, in the points' frame
+  double size;            // metres; 0 if all points coincide
 };
 
 NormalLines normalLinesOf (const std::vector<OrientedPoint>& points);
@@ -37,20 +36,20 @@ struct Axis
   Eigen::Vector3d point;
 };
 
-/** \brief Does a normal meet an axis, but for noise? */
+/** \brief Whether a normal meets an axis within noise. */
 bool meets (const Axis& axis, const NormalLine& line);
 
-/** \brief Is a normal so far from the direction of an axis that it tells of what is round about it? */
+/** \brief Whether the angle between a normal and an axis is large enough for the normal to determine the axis. */
 bool facesSideways (const Eigen::Vector3d& direction, const Eigen::Vector3d& normal);
 
 /** \brief The axis that most normals meet.
  *
  * All normals of a surface of revolution meet its axis (H. Pottmann, T. Randrup: Rotational and helical surface
  * approximation for reverse engineering, Computing 60, 1998): with the axis' direction d and moment m = a x d, d.(p x
- * n) + m.n = 0 for each point p with normal n. Reweighted least squares, begun at the three axes across each other that
+ * n) + m.n = 0 for each point p with normal n. Reweighted least squares, started from the three orthogonal axes that
  * are best without weights.
  * \param[in] up a direction that is preferred if nearly as many normals meet an axis along it
- * \return nothing if less than three quarters of the normals that face sideways meet any, or if few face sideways */
+ * \return nothing if few normals face sideways, or less than three quarters of those meet an axis */
 std::optional<Axis> findAxis (const std::vector<NormalLine>& lines, const std::optional<Eigen::Vector3d>& up);
 
 } // namespace pcl::cosection

@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "principal_axes.h"
 
 #include <Eigen/Eigenvalues>
@@ -11,7 +10,7 @@ namespace pcl::cosection
 Scatter
 scatterOf (const std::vector<OrientedPoint>& points)
 {
-  // In one pass, about a place among the points, so that no digits are lost.
+  // One pass, relative to a point near the mean, so that no digits are lost.
   const Eigen::Vector3d about = points.empty () ? Eigen::Vector3d::Zero ()
                                                 : points.front ().position.cast<double> ().eval ();
   Eigen::Vector3d sum = Eigen::Vector3d::Zero ();
@@ -46,7 +45,7 @@ principalAxes (const std::vector<OrientedPoint>& points, const std::optional<Eig
   const Eigen::Vector3d
       vertical = up ? *up : Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> (covariance).eigenvectors ().col (0);
   longest = (longest - vertical.dot (longest) * vertical).normalized ();
-  if (!(longest.norm () > 0.5)) // all points are in one line along up
+  if (!(longest.norm () > 0.5)) // all points lie on one line along up
     longest = vertical.unitOrthogonal ();
   Eigen::Matrix3d axes;
   axes << longest, vertical.cross (longest), vertical;

@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 #include <pcl/cosection/common/oriented_point.h>
@@ -12,7 +11,7 @@
 namespace pcl::cosection
 {
 
-/** \brief Mean of positions, and the sum of the products of what they differ by from it. */
+/** \brief Mean of positions, and their scatter matrix, the sum of (p - mean) (p - mean)^T. */
 struct Scatter
 {
   Eigen::Vector3d mean;
@@ -21,9 +20,9 @@ struct Scatter
 
 Scatter scatterOf (const std::vector<OrientedPoint>& points);
 
-/** \brief Axes, as columns, that turn with the points whatever frame they are in; either sense of each is as good. The
- * last is \a up, if given, else the direction in which the points extend least; the first that, across it, in which
- * they extend most. */
+/** \brief Principal axes of points as columns, independent of the points' frame; their senses are arbitrary. The last
+ * axis is \a up, if given, otherwise the direction of least extent; the first one, orthogonal to it, is that of the
+ * largest extent. */
 Eigen::Matrix3d principalAxes (const std::vector<OrientedPoint>& points, const std::optional<Eigen::Vector3d>& up);
 
 } // namespace pcl::cosection

@@ -1,8 +1,9 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "profile_surface.h"
 
 #include "normal_axis.h"
+#include "pcl_cosection/common/quantile.h"
+#include "pcl_cosection/common/sectors.h"
 #include "pcl_cosection/priors/vessels/dish_profile.h"
 #include "pcl_cosection/priors/vessels/vessel_profile.h"
 
@@ -19,12 +20,12 @@ namespace pcl::cosection
 namespace
 {
 
-constexpr double max_radius = 1.5;      // of the size
-constexpr double cell_size = 0.05;      // of the size, of the profile
+constexpr double max_radius = 1.5;      // of NormalLines::size
+constexpr double cell_size = 0.05;      // of the profile, of NormalLines::size
 constexpr int sectors = 36;             // around the axis
-constexpr int round_sectors = 5;        // in a row: what is seen in so many is no handle
-constexpr double least_step = 0.05;     // of a cell: between points of what is deep inside a vessel
-constexpr double outlier_share = 0.002; // of the points, may lie farther out
+constexpr int round_sectors = 5;        // next to each other: a handle is not seen in so many
+constexpr double least_step = 0.05;     // of a cell: between points of the inside of a vessel
+constexpr double outlier_share = 0.002; // of the points: outliers that lie farther out
 
 int
 longestRun (const std::array<bool, sectors>& seen)
@@ -78,13 +79,10 @@ ProfileSurface::findProfile (const std::vector<OrientedPoint>& points, double si
   cells_ = (box.sizes () / cell_m_).array ().floor ().cast<int> () + 1;
   std::vector<std::array<bool, sectors>> seen (static_cast<std::size_t> (cells_.prod ()), std::array<bool, sectors>{});
   std::array<bool, sectors> seen_anywhere{};
-  const Eigen::Vector3d x = direction_.unitOrthogonal ();
-  const Eigen::Vector3d y = direction_.cross (x);
+  const Sectors around (direction_, sectors);
   for (std::size_t n = 0; n < points.size (); ++n)
   {
-    const Eigen::Vector3d q = points[n].position.cast<double> () - center_;
-    const double angle = std::atan2 (y.dot (q), x.dot (q)) / (2.0 * M_PI) + 0.5;
-    const int sector = std::min (static_cast<int> (angle * sectors), sectors - 1);
+    const std::size_t sector = around.of (points[n].position.cast<double> () - center_);
     const Eigen::Vector2i cell = cellOf (profile[n].position);
     for (int j = std::max (0, cell.y () - 1); j <= std::min (cells_.y () - 1, cell.y () + 1); ++j)
       for (int i = std::max (0, cell.x () - 1); i <= std::min (cells_.x () - 1, cell.x () + 1); ++i)
@@ -162,10 +160,7 @@ ProfileSurface::extent (const Eigen::Vector3d& n) const
   extents.reserve (profile_.size ());
   for (const ProfilePoint& p : profile_)
     extents.push_back (rise * p.position.x () + reachOf (across, p.position.y ()));
-  const auto end = extents.end () - 1 -
-                   static_cast<std::ptrdiff_t> (outlier_share * static_cast<double> (extents.size ()));
-  std::nth_element (extents.begin (), end, extents.end ());
-  return *end;
+  return trimmedMax (extents, outlier_share);
 }
 
 VesselPart

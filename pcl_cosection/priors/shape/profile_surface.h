@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 #include "pcl_cosection/priors/vessels/wall_profile.h"
@@ -16,64 +15,65 @@
 namespace pcl::cosection
 {
 
-/** \brief Cosine between an axis and a plane's normal, from which on it is vertical. */
+/** \brief Least cosine between a vertical axis and a plane's normal. */
 constexpr double vertical = 0.97;
 
-/** \brief A surface that has the same profile on all sides of an axis: a surface of revolution, or a box. */
+/** \brief A surface with the same profile on all sides of an axis: a surface of revolution, or an open box. */
 class ProfileSurface
 {
 public:
   virtual ~ProfileSurface () = default;
 
-  /** \brief A point of the axis, in the middle of what was seen along it. */
+  /** \brief A point of the axis, in the middle of the observed heights. */
   const Eigen::Vector3d& center () const { return center_; }
 
   /** \brief Unit direction of the axis. */
   const Eigen::Vector3d& direction () const { return direction_; }
 
-  /** \brief Is it the same about any other axis through its center? */
+  /** \brief Whether it is the same about any other axis through its centre. */
   virtual bool isBall () const { return false; }
 
-  /** \brief Does a point lie where the profile was seen on many sides? Else it is of a handle. */
+  /** \brief Whether the profile was seen on many sides at this height and distance. Other points belong to a handle. */
   bool holds (const Eigen::Vector3d& position) const;
 
-  /** \brief Farthest along \a n of the surface, but for its handles, from the point \a center () on; metres. */
+  /** \brief Support function of the surface without handles, max n.(p - center ()); metres. */
   double extent (const Eigen::Vector3d& n) const;
 
-  /** \brief Copies of those of the points that the surface holds, on other sides of the axis. */
+  /** \brief Copies, on other sides of the axis, of the points for which holds () is true. */
   std::vector<OrientedPoint> copies (const std::vector<OrientedPoint>& points) const;
 
-  /** \brief Copies of any points on other sides of the axis. */
+  /** \brief Copies of all points on other sides of the axis. */
   virtual std::vector<OrientedPoint> onOtherSides (const std::vector<OrientedPoint>& points) const = 0;
 
-  /** \brief Flat faces at those ends of the axis to which a straight wall leads: the bottom of a can that stood on a
-   * table. */
+  /** \brief Points of flat faces at those ends of the axis to which a straight wall leads, such as the hidden bottom of
+   * a can. */
   virtual std::vector<OrientedPoint> flatEnds () const { return {}; }
 
-  /** \brief What is known of its wall, if it is a vessel. */
+  /** \brief The profile of its wall; null if it is no vessel. */
   const WallProfile* vessel () const { return vessel_.get (); }
 
-  /** \brief The same; a vessel open at both ends. */
+  /** \brief This surface as a tube: a vessel open at both ends. */
   virtual std::shared_ptr<const ProfileSurface> withoutFloor () const = 0;
 
-  /** \brief To which part of a vessel a point belongs; outer side if it is none. */
+  /** \brief The part of a vessel to which a point belongs; the outer side for other shapes. */
   VesselPart partOf (const OrientedPoint& point) const;
 
-  /** \brief How far a place in the cavity of a vessel is from the wall, across the axis, and over the floor, the less
-   * of both; metres, 0 elsewhere. */
+  /** \brief Distance of a place in the cavity of a vessel from the wall (across the axis) or above the floor, the
+   * smaller one; metres, 0 elsewhere. */
   double depthInCavity (const Eigen::Vector3d& position) const;
 
-  /** \brief How far a place under a dish is from its wall and foot, metres; 0 elsewhere, and for other vessels. */
+  /** \brief Distance of a place under a dish from its wall and foot, metres; 0 elsewhere, and for other vessels. */
   double depthUnder (const Eigen::Vector3d& position) const;
 
-  /** \brief The depths of a vessel: lower parts of both sides, floor and bottom. \param[in] step_m between points */
+  /** \brief Points of the parts of a vessel that views see least: lower parts of both sides, floor and bottom.
+   * \param[in] step_m between points */
   std::vector<OrientedPoint> depths (double step_m) const;
 
 protected:
   enum class Hollow // what a surface may be
   {
     None,
-    Vessel, // with a wall of which both sides were seen
+    Vessel, // both sides of its wall were seen
     Dish,
     Any
   };
@@ -85,39 +85,41 @@ protected:
     Eigen::Vector3d away;   // unit, across the axis
   };
 
-  /** \brief Distance from the axis of a place \a q of the plane across it; of a box's walls, the same for all. */
+  /** \brief Distance from the axis of a place \a q in the plane across it; for a box, constant along outlines parallel
+   * to the walls. */
   virtual double distanceOf (const Eigen::Vector3d& q) const = 0;
 
-  /** \brief Its gradient. */
+  /** \brief The gradient of distanceOf (). */
   virtual Eigen::Vector3d awayOf (const Eigen::Vector3d& q) const = 0;
 
-  /** \brief Farthest along \a n, across the axis, of all that is so far away. */
+  /** \brief Support function of the outline at that distance, along \a n across the axis. */
   virtual double reachOf (const Eigen::Vector3d& n, double distance) const = 0;
 
-  /** \brief All around the axis. */
+  /** \brief Places of the outline at that distance, all around the axis. */
   virtual std::vector<Place> around (double distance, double step_m) const = 0;
 
   Eigen::Vector2d profileOf (const Eigen::Vector3d& position) const;  // height along the axis, distance from it
   Eigen::Vector2d profileNormalOf (const OrientedPoint& point) const; // component along the axis, away from it
-  /** \brief Where does the profile of some points hold? \param[in] size_m theirs \param[in] least_sectors around the
-   * axis in a row, in which they face sideways */
+  /** \brief Find the part of the profile that was seen on many sides.
+   * \param[in] size_m NormalLines::size of the points
+   * \param[in] least_sectors around the axis, next to each other, in which points must face sideways */
   bool findProfile (const std::vector<OrientedPoint>& points, double size_m, int least_sectors);
   void findVessel (const std::optional<Eigen::Vector4d>& plane, Hollow hollow);
-  /** \brief Is a point of the surface, and not of a handle? */
+  /** \brief Whether a point belongs to the surface, and not to a handle. */
   bool isOfProfile (const OrientedPoint& point) const;
 
   Eigen::Vector3d center_ = Eigen::Vector3d::Zero ();
   Eigen::Vector3d direction_ = Eigen::Vector3d::UnitZ ();
   double cell_m_ = 0.0;                       // edge of the cells of the profile
   std::vector<ProfilePoint> profile_;         // of the points that it holds
-  std::shared_ptr<const WallProfile> vessel_; // none if it is not hollow
+  std::shared_ptr<const WallProfile> vessel_; // null if it is not hollow
 
 private:
   Eigen::Vector2i cellOf (const Eigen::Vector2d& profile) const;
   std::size_t indexOf (const Eigen::Vector2i& cell) const;
 
   Eigen::Vector2i cells_ = Eigen::Vector2i::Zero ();
-  Eigen::Vector2d first_ = Eigen::Vector2d::Zero (); // of all cells, height and distance
+  Eigen::Vector2d first_ = Eigen::Vector2d::Zero (); // origin of the cells, height and distance
   std::vector<std::uint8_t> held_;                   // by cell
 };
 

@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "surface_of_revolution.h"
 
 #include "axis_refinement.h"
@@ -21,16 +20,16 @@ namespace
 
 constexpr std::size_t least_points = 50;
 constexpr double round_share = 0.75;    // of all points
-constexpr double sunk = 0.1;            // of the radius: no ball lies deeper in what it stands on
-constexpr int seen_sectors = 8;         // in a row: a thing of which less was seen may be anything
-constexpr double straight_length = 0.5; // of the radius: a wall so long and so straight ends in a flat face
+constexpr double sunk = 0.1;            // of the radius: largest depth of a ball in its support plane
+constexpr int seen_sectors = 8;         // next to each other: if fewer were seen, the thing may have any shape
+constexpr double straight_length = 0.5; // of the radius: a straight wall of this length ends in a flat face
 constexpr double straight_sine = 0.2;   // between the wall and the axis
 constexpr double straight_share = 0.8;  // of the wall's points
 constexpr double outer_wall = 0.9;      // of the radius
 constexpr int disc_rings = 24;
 constexpr double slender_wall = 0.2; // of the radius
 constexpr double thick_wall = 0.3;
-constexpr double better = 1.02; // of the points: so many more must an axis hold to be told by the rim
+constexpr double better = 1.02; // an axis by the rim must hold so many times the points of another axis
 constexpr int turns = 12;       // all around
 
 } // namespace
@@ -71,7 +70,7 @@ SurfaceOfRevolution::fit (const std::vector<OrientedPoint>& points, const std::o
   if (plane)
     up = plane->head<3> ();
   std::optional<SurfaceOfRevolution> surface = withAxisAlong (up, plane || alone ? Hollow::Any : Hollow::Vessel);
-  // About an axis that is a little wrong, rings look like vessels with thick walls.
+  // With a slightly wrong axis, a ring looks like a vessel with thick walls.
   const auto is_thicker = [] (const SurfaceOfRevolution& s, double wall) {
     return s.vessel_->wallThickness () >= wall * s.radius ();
   };
@@ -80,7 +79,7 @@ SurfaceOfRevolution::fit (const std::vector<OrientedPoint>& points, const std::o
   if ((surface && (plane || surface->vessel_)) || (!plane && !alone))
     return surface;
 
-  // Curved like a ball, or too shallow for an axis: which way is up must be known.
+  // Normals of a ball or of a shallow dish determine no axis: the upward direction must be known.
   if (!plane)
   {
     up = rimNormal (normals.lines);

@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "symmetric_extent.h"
 
 #include "faces.h"
@@ -23,14 +22,14 @@ namespace pcl::cosection
 namespace
 {
 
-constexpr int even_directions = 162;     // about
-constexpr std::size_t max_points = 4000; // an even subset of no more
-constexpr double outlier_share = 0.002;  // of the points, may lie beyond a half space
-constexpr double tie = 0.97;             // of the largest distance: pairs as far apart count as farthest too
-constexpr double rounding = 1e-6;        // relative: more than that of a row's values
-constexpr double least_flat = 0.5;       // length of a unit vector along the plane, else it is no direction there
+constexpr int even_directions = 162;     // approximate number
+constexpr std::size_t max_points = 4000; // an even subset of no more points is used
+constexpr double outlier_share = 0.002;  // of the points: outliers beyond a half-space
+constexpr double tie = 0.97;             // of the largest distance: pairs so far apart count as farthest too
+constexpr double rounding = 1e-6;        // relative bound of the rounding errors of a row's values
+constexpr double least_flat = 0.5;       // least length of a unit vector's projection onto the plane
 
-/** \brief The point that is farthest along a direction, but for outliers. */
+/** \brief The farthest point along a direction, without outliers. */
 class Farthest
 {
 public:
@@ -46,11 +45,11 @@ public:
   {
     along_ = direction.x () * positions_.col (0) +
              (direction.y () * positions_.col (1) + direction.z () * positions_.col (2));
-    // The first of equals is the farther one.
+    // Among equal values the first one is the farther.
     const auto farther = [this] (Eigen::Index a, Eigen::Index b) {
       return along_[a] > along_[b] || (along_[a] == along_[b] && a < b);
     };
-    farthest_.clear (); // a heap, the nearest of them in front
+    farthest_.clear (); // a heap with the nearest of them in front
     for (Eigen::Index n = 0; n < along_.size (); ++n)
     {
       if (farthest_.size () == rank_ + 1)
@@ -73,7 +72,7 @@ private:
   std::vector<Eigen::Index> farthest_;
 };
 
-/** \brief The middle between the two that are farthest apart; of all such pairs, if there are several. */
+/** \brief The mean of the two points that are farthest apart, over all such pairs. */
 Eigen::Vector3d
 middleOfFarthest (const std::vector<Eigen::Vector3d>& ends)
 {
@@ -147,7 +146,7 @@ SymmetricExtent::build (const std::vector<OrientedPoint>& all, const std::option
   }
   else
   {
-    std::vector<Eigen::Vector3d> ends; // points that are farthest apart are farthest along some direction
+    std::vector<Eigen::Vector3d> ends; // the farthest points of all directions, which include the farthest pair
     for (const Eigen::Vector3d& direction : even)
       if ((flatten * direction).norm () > least_flat)
         ends.push_back (flatten * farthest.along ((flatten * direction).normalized ()));
@@ -341,7 +340,7 @@ SymmetricExtent::within (const Eigen::AlignedBox3d& box) const
 {
   const Eigen::Vector3d middle = box.center ();
   const Eigen::Vector3d half_sizes = 0.5 * box.sizes ();
-  double least = -std::numeric_limits<double>::infinity (); // of the largest, anywhere in the box
+  double least = -std::numeric_limits<double>::infinity (); // lower bound of the maximum over k in the box
   for (const auto& [n, s] : half_spaces_)
     least = std::max (least, n.dot (middle) - s - n.cwiseAbs ().dot (half_sizes));
   const double tolerance = rounding * (middle.norm () + half_sizes.norm ());

@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "box_walls.h"
 
 #include "pcl_cosection/common/quantile.h"
@@ -15,23 +14,22 @@ namespace pcl::cosection
 namespace
 {
 
-constexpr double facing = 0.8;            // component of the normal of a wall along its way out
-constexpr double wall_reach = 0.5;        // of half sizes: walls are farther out
-constexpr double side_reach = 0.9;        // of half sizes: no corners there
-constexpr double floor_reach = 0.7;       // of half sizes
-constexpr double border_reach = 0.8;      // of half sizes: a floor that is seen farther out has no wall there
+constexpr double facing = 0.8;            // least component of a wall's normal along its outward direction
+constexpr double wall_reach = 0.5;        // of the half sizes: walls are farther out
+constexpr double side_reach = 0.9;        // of the half sizes: corners are farther along a wall
+constexpr double floor_reach = 0.7;       // of the half sizes: points of the floor are nearer
+constexpr double border_reach = 0.8;      // of the half sizes: floor points farther out show that a wall is missing
 constexpr double level = 0.9;             // component of a floor's normal upwards
 constexpr std::size_t least_points = 10;  // of a side or of the floor
 constexpr std::size_t parts = 8;          // of the length of a side
-constexpr std::ptrdiff_t least_parts = 3; // in which it is seen
-constexpr double
-    least_rise = 0.2; // of the height of the walls or the width between them, the less: so high must it be seen
+constexpr std::ptrdiff_t least_parts = 3; // in which it must be seen
+constexpr double least_rise = 0.2;        // least observed height of a side, relative to the walls' height or the width
 constexpr double outlier_share = 0.01;
 constexpr std::size_t least_walls = 3;
 constexpr std::size_t least_inner = 2; // walls seen from inside
-constexpr double thinnest = 0.01;      // of the smaller half size: a wall
-constexpr double near_spreads = 1.5;   // median distances of its points from a side: those nearer are on it
-constexpr double lowest_share = 0.02;  // of those of outer sides
+constexpr double thinnest = 0.01;      // least wall thickness, of the smaller half size
+constexpr double near_spreads = 1.5;   // in median distances from a side: nearer points are on it
+constexpr double lowest_share = 0.02;  // of the points of outer sides: outliers below the bottom
 
 struct Range
 {
@@ -39,12 +37,12 @@ struct Range
   double high = -std::numeric_limits<double>::infinity ();
 };
 
-/** \brief One of both sides of a wall. */
+/** \brief The inner or the outer side of a wall. */
 struct Side
 {
-  std::vector<double> places;    // of its points, on the way out, where they would be at height 0
-  std::vector<double> heights;   // of the same
-  std::array<Range, parts> seen; // heights
+  std::vector<double> places;    // outward positions of its points, moved along the wall to height 0
+  std::vector<double> heights;   // of its points
+  std::array<Range, parts> seen; // range of heights, by part of the length
 
   double place () const
   {
@@ -52,7 +50,7 @@ struct Side
     return quantile (values, 0.5);
   }
 
-  /** \brief As more than the edge of something else? */
+  /** \brief Whether enough of the side was seen; otherwise it may be the edge of something else. */
   bool isSeen (double least_rise_m) const
   {
     return places.size () >= least_points && std::count_if (seen.begin (), seen.end (), [&] (const Range& part) {
@@ -64,8 +62,8 @@ struct Side
 struct Wall
 {
   Side outer, inner;
-  std::size_t border = 0; // points of the floor, where it should be
-  std::size_t rim = 0;    // points of its rim
+  std::size_t border = 0; // number of floor points at the place of the wall
+  std::size_t rim = 0;    // number of points of its rim
 };
 
 class BoxWalls
@@ -96,7 +94,7 @@ public:
       return std::nullopt;
     std::array<double, 4> ends{};
     std::size_t known = 0, inner = 0;
-    double excess = 0.0; // of the half sizes, where walls are seen
+    double excess = 0.0; // of the half sizes over the positions of seen walls
     for (std::size_t w = 0; w < walls_.size (); ++w)
     {
       const Wall& wall = walls_[w];
@@ -114,7 +112,7 @@ public:
       excess += half_sizes_[w % 2] - ends[w];
       ++known;
     }
-    const bool may_lack_one = bottom || floor_.size () >= least_points; // else it may be open to that side
+    const bool may_lack_one = bottom || floor_.size () >= least_points; // otherwise that side may be open
     if (known < (may_lack_one ? least_walls : walls_.size ()) || inner < least_inner)
       return std::nullopt;
     for (std::size_t w = 0; w < walls_.size (); ++w)
@@ -153,7 +151,7 @@ private:
     part.high = std::max (part.high, p.position.z ());
   }
 
-  /** \brief Of points that are on the outer sides rather than beside them. */
+  /** \brief Heights of points that lie on the outer sides, not beside them. */
   std::vector<double> outerHeights () const
   {
     std::vector<double> heights;
@@ -174,8 +172,8 @@ private:
     return heights;
   }
 
-  /** \brief Of the widths, what walls seen from one side leave; of both, as outliers add to them and coarse pixels take
-   * away, the mean. */
+  /** \brief The wall thickness that remains of the widths where walls were seen from one side only: the mean of both
+   * widths, as outliers enlarge and coarse pixels shrink them. */
   double leftByWidths () const
   {
     double sum = 0.0, walls = 0.0;
@@ -199,7 +197,7 @@ private:
     return walls > 0.0 ? std::max (0.0, sum / walls) : 0.0;
   }
 
-  /** \brief As where both sides are seen; else as the floor, but no more than remains of the widths. */
+  /** \brief The wall thickness where both sides were seen; otherwise that of the floor, limited by leftByWidths (). */
   double wallThickness (const std::optional<double>& bottom)
   {
     double sum = 0.0, weights = 0.0;
@@ -218,7 +216,7 @@ private:
     const double by_floor = std::max (0.0,
                                       quantile (floor_, 0.5) - (bottom ? *bottom : quantile (heights, lowest_share)));
     const double left = leftByWidths ();
-    if (!bottom && by_floor < thinnest * half_sizes_.minCoeff ()) // seen from above, outer sides show little
+    if (!bottom && by_floor < thinnest * half_sizes_.minCoeff ()) // from above, little of outer sides is visible
       return left;
     return left > 0.0 ? std::min (by_floor, left) : by_floor;
   }
@@ -226,8 +224,8 @@ private:
   Eigen::Array2d half_sizes_;
   std::array<Wall, 4> walls_; // along x, y, -x and -y
   std::vector<double> floor_; // heights
-  double height_ = 0.0;       // of the walls over it
-  double least_rise_m_ = 0.0; // of what is seen of one of their sides
+  double height_ = 0.0;       // of the walls above the floor
+  double least_rise_m_ = 0.0; // least observed height of a side
 };
 
 } // namespace

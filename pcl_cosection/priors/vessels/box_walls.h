@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 #include <Eigen/Core>
@@ -11,7 +10,7 @@
 namespace pcl::cosection
 {
 
-/** \brief A point in the frame of an open box: along its walls, and upwards. */
+/** \brief A point in the frame of an open box: x and y along its walls, z upwards. */
 struct BoxPoint
 {
   Eigen::Vector3d position;
@@ -22,13 +21,15 @@ struct BoxOutline
 {
   Eigen::Array2d middle;
   Eigen::Array2d half_sizes;
-  std::size_t walls; // of which something was seen
+  std::size_t walls; // number of walls that were seen
 };
 
-/** \brief Where the outer sides of its walls are, halfway up: as they were seen, or else as far from their inner sides
- * as walls are thick, or its floor. \param[in] half_sizes about; the middle is near the origin, and heights are from
- * the middle of the walls \param[in] bottom height, if known
- * \return nothing if it lacks a wall, or but one was seen from inside */
+/** \brief The outline of an open box: the outer sides of its walls, at half height. An unseen outer side is as far from
+ * the inner side as other walls, or the floor, are thick.
+ * \param[in] points relative to a middle near the origin, heights from the middle of the walls
+ * \param[in] half_sizes approximate
+ * \param[in] bottom height, if known
+ * \return nothing if a wall is missing, or less than two were seen from inside */
 std::optional<BoxOutline> outlineByWalls (const std::vector<BoxPoint>& points, const Eigen::Array2d& half_sizes,
                                           const std::optional<double>& bottom);
 

@@ -1,6 +1,7 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "dish_profile.h"
+
+#include "pcl_cosection/common/quantile.h"
 
 #include <algorithm>
 #include <array>
@@ -15,38 +16,28 @@ namespace pcl::cosection
 namespace
 {
 
-constexpr double leaning = 0.5;         // a normal that leans so towards the opening is of the inside
+constexpr double leaning = 0.5;         // least component of a normal of the inside towards the opening
 constexpr double level = 0.8;           // component of a floor's or bottom's normal along the axis
 constexpr std::size_t least_points = 3; // in a part of the profile
 constexpr std::size_t least_parts = 4;
 constexpr std::size_t least_floor = 10; // points of a floor
-constexpr double floor_share = 0.05;    // of the points, nearest to the axis, are on the floor
+constexpr double floor_share = 0.05;    // of the points: those nearest to the axis are on the floor
 constexpr double outliers = 0.01;
-constexpr double edge_outliers = 0.1; // of the points near the edge, beyond it
+constexpr double edge_outliers = 0.1; // of the points near the edge: outliers beyond it
 constexpr double least_reach = 0.1;   // of a part's length
-constexpr double usual_wall = 0.04;   // of the radius: of crockery
+constexpr double usual_wall = 0.04;   // wall thickness of crockery, of the radius
 constexpr double thickest = 0.065;
-constexpr double least_rise = 1.0; // of the wall's thickness: what rises less is a disc
-constexpr double
-    lid_rise = 0.12;          // of the radius: where a border rises less, but steeply, a lid of something is as likely
-constexpr double steep = 2.0; // rise of a border, of its breadth
-constexpr std::array<double, 2> border = {0.2, 0.8}; // of the rise, between these
-constexpr double
-    highest_floor = 0.35; // of the radius, over what it stands on: else it stands on something, or is solid
-constexpr double thinnest_cells = 0.25; // a wall, as planes are not known better
-constexpr double noise_cells = 0.4;     // how far points may be from a side, at least; of the wall, half
-constexpr double noise_spreads = 3.0;   // and of the median distance of points from the inside
-constexpr double beyond_share = 0.1;    // of all points, may be farther from the inside than the wall reaches
+constexpr double least_rise = 1.0; // of the wall's thickness: a flatter thing is a disc
+constexpr double lid_rise = 0.12;  // of the radius: a thing with a lower but steep border may be a lid
+constexpr double steep = 2.0;      // rise of a steep border, of its breadth
+constexpr std::array<double, 2> border = {0.2, 0.8}; // part of the rise that counts as border
+constexpr double highest_floor = 0.35;  // of the radius: a dish with a higher floor stands on something, or is solid
+constexpr double thinnest_cells = 0.25; // least wall thickness, the accuracy of planes
+constexpr double noise_cells = 0.4;     // lower limit of noise_m_; at most half of the wall
+constexpr double noise_spreads = 3.0;   // noise_m_ in median distances of points from the inside
+constexpr double beyond_share = 0.1;    // of all points: those that may be farther from the inside than the wall
 
-double
-quantile (std::vector<double> values, double share)
-{
-  const auto rank = values.begin () + static_cast<std::ptrdiff_t> (share * static_cast<double> (values.size () - 1));
-  std::nth_element (values.begin (), rank, values.end ());
-  return *rank;
-}
-
-/** \brief From a straight piece. */
+/** \brief Distance from a line segment. */
 double
 distanceFrom (const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Vector2d& p)
 {
@@ -122,7 +113,7 @@ DishProfile::find (const std::vector<ProfilePoint>& points, double cell_m, const
 bool
 DishProfile::findInside (const std::vector<ProfilePoint>& points, double step_m)
 {
-  // The inside goes outwards and upwards, so it is divided by the sum of radius and height.
+  // The inside rises outwards, so it is divided into parts by the sum of radius and height.
   struct Part
   {
     std::vector<double> outwards,
@@ -140,7 +131,7 @@ DishProfile::findInside (const std::vector<ProfilePoint>& points, double step_m)
     part.upwards.push_back (position.x () - position.y ());
     part.normal += normal;
   }
-  for (const auto& [number, part] : parts)
+  for (auto& [number, part] : parts)
     if (part.outwards.size () >= least_points && part.normal.norm () > 0.0)
     {
       const double outwards = quantile (part.outwards, 0.5), upwards = quantile (part.upwards, 0.5);
@@ -149,7 +140,7 @@ DishProfile::findInside (const std::vector<ProfilePoint>& points, double step_m)
   if (inside_.size () < least_parts)
     return false;
 
-  // The last part reaches out to the edge.
+  // The last part extends to the edge.
   const Place last = inside_.back ();
   outwards_ = {-last.normal.y (), last.normal.x ()};
   std::vector<double> along;
@@ -196,7 +187,7 @@ DishProfile::heightOver (const Eigen::Vector2d& position) const
     nearest = distance;
     sense = (inside_[n].normal + inside_[n + 1].normal).dot (position - inside_[n].position) < 0.0 ? -1.0 : 1.0;
   }
-  if (position.y () < inside_.front ().position.y ()) // the floor goes on to the axis
+  if (position.y () < inside_.front ().position.y ()) // the floor continues to the axis
   {
     const double over = position.x () - inside_.front ().position.x ();
     return std::abs (over) < nearest ? over : sense * nearest;

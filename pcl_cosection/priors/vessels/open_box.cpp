@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "open_box.h"
 
 #include "pcl_cosection/common/quantile.h"
@@ -24,30 +23,29 @@ namespace
 
 constexpr std::size_t least_points = 50;
 constexpr double box_share = 0.75;        // of all points
-constexpr double sideways = 0.5;          // component of a wall's normal across the axis
+constexpr double sideways = 0.5;          // least component of a wall's normal across the axis
 constexpr double least_sideways = 0.05;   // of all points
-constexpr double least_rectangular = 0.4; // length of the mean of four times the walls' angles; of a round wall 0
-constexpr double outlier_share = 0.004;   // of the points, may lie farther out
+constexpr double least_rectangular = 0.4; // length of the mean of exp (4 i angle) over walls; 0 for a round wall
+constexpr double outlier_share = 0.004;   // of the points: outliers that lie farther out
 constexpr double turn_step = 0.0044;      // radians, a quarter of a degree
-constexpr int turn_steps = 24;            // that normals may be wrong by
+constexpr int turn_steps = 24;            // in either sense, the largest error of normals
 constexpr int wall_rounds = 2;
 constexpr double level = 0.9;               // component of a floor's normal upwards
 constexpr double same_axis = 0.98;          // cosine
 constexpr double right_angle_cosine = 0.15; // between walls
-constexpr double least_inner = 0.05;        // of the points of walls: that face inwards
-constexpr double floor_reach = 0.08; // of the size: heights of a floor differ by no more, if normals tell a little
-                                     // wrong which way is up
-constexpr double same_floor = 0.97;  // cosine between mean normal and plane
+constexpr double least_inner = 0.05;        // share of the wall points that face inwards
+constexpr double floor_reach = 0.08; // of the size: range of heights of a floor, with an axis by inaccurate normals
+constexpr double same_floor = 0.97;  // least cosine between the mean normal and that of the fitted plane
 constexpr std::size_t least_floor = 10;
-constexpr double blurred = 0.15;   // less across the axis than most normals of walls are: where wall and floor meet
-constexpr double along_wall = 0.4; // component of a normal along the wall, at most
-constexpr double narrowest = 0.1;  // of its length
+constexpr double blurred = 0.15;   // so much less sideways than other wall normals are those where wall and floor meet
+constexpr double along_wall = 0.4; // largest component of a normal along the wall
+constexpr double narrowest = 0.1;  // least width, of the length
 constexpr std::array<double, 5> corners = {0.0, 0.15, 0.3, 0.5, 0.75}; // of the half width
 
-/** \brief Normals tell about which way a floor faces; its points, more precisely. Nothing if they are of no plane
- * across that.
+/** \brief The normal of the floor from a plane fit to its points, which is more precise than their normals; nothing if
+ * the points lie on no plane with about that normal.
  *
- * What faces the same way is the rim, too; of the two the one with more points is taken. */
+ * The rim faces the same way; the larger one of the two is used. */
 std::optional<Eigen::Vector3d>
 acrossFloor (const std::vector<NormalLine>& lines, const Eigen::Vector3d& up)
 {
@@ -79,7 +77,7 @@ acrossFloor (const std::vector<NormalLine>& lines, const Eigen::Vector3d& up)
   return normal.dot (up) > same_floor ? std::optional<Eigen::Vector3d> (normal) : std::nullopt;
 }
 
-/** \brief Which way may be up, if some of its faces are walls. */
+/** \brief Directions that may be upwards, if some of the faces are walls. */
 std::vector<Eigen::Vector3d>
 acrossWalls (const std::vector<Eigen::Vector3d>& faces)
 {
@@ -104,8 +102,8 @@ struct Rectangle
   Eigen::Array2d half_sizes;
 };
 
-/** \brief The smallest around all points but outliers. \param[in] angle about, between the first axis and its first
- * sides; normals tell no more */
+/** \brief The smallest rectangle around all points without outliers.
+ * \param[in] angle between the first axis and a side, by normals: approximate */
 Rectangle
 leastRectangle (const std::vector<Eigen::Vector2d>& points, double angle)
 {
@@ -151,7 +149,7 @@ OpenBox::fit (const std::vector<OrientedPoint>& points, const std::vector<Eigen:
         best = std::move (box);
     return best;
   };
-  std::optional<OpenBox> best = bestOf (faces); // one of which is the floor, unless it is too deep to be seen
+  std::optional<OpenBox> best = bestOf (faces); // the floor is one of them, unless it is too deep to be seen
   if (!best)
     best = bestOf (acrossWalls (faces));
   return best;
@@ -220,7 +218,7 @@ OpenBox::findOutline (const std::vector<OrientedPoint>& points, const std::optio
       walls += 1.0;
       inner += f.normal.dot (f.position - mean) < 0.0;
     }
-  if (inner < least_inner * walls) // nothing is hollow, or known to be
+  if (inner < least_inner * walls) // no inside was seen
     return false;
   if (walls < least_sideways * static_cast<double> (points.size ()) || std::abs (sum) < least_rectangular * walls)
     return false;

@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 #include "pcl_cosection/priors/shape/profile_surface.h"
@@ -17,29 +16,27 @@
 namespace pcl::cosection
 {
 
-/** \brief What is hollow and has a rectangle as its outline, perhaps with rounded corners: a tray, a box without its
- * lid, a bin.
- *
- * Its walls are alike on all four sides. */
+/** \brief An open box: a hollow thing with a rectangular outline, perhaps with rounded corners, such as a tray, a box
+ * without lid or a bin. Its walls are equal on all four sides. */
 class OpenBox : public ProfileSurface
 {
 public:
-  /** \brief Of the points of one body. \param[in] faces directions in which large parts of it face: without a plane,
-   * its floor is one
-   * \param[in] plane what it stands on, (n, d) with n.x + d = 0, unit n towards it
+  /** \brief Fit to the points of one body.
+   * \param[in] faces normals of its large faces: without a plane, the floor is one of them
+   * \param[in] plane support plane (n, d) with n.x + d = 0, unit n towards the body
    * \return nothing if it is not hollow, or less than three quarters of the points belong to such walls and their floor
    */
   static std::optional<OpenBox> fit (const std::vector<OrientedPoint>& points,
                                      const std::vector<Eigen::Vector3d>& faces,
                                      const std::optional<Eigen::Vector4d>& plane);
 
-  /** \brief Mirrored to the opposite sides. */
+  /** \brief Reflections of the points in the middle planes. */
   std::vector<OrientedPoint> onOtherSides (const std::vector<OrientedPoint>& points) const override;
 
   std::shared_ptr<const ProfileSurface> withoutFloor () const override;
 
 private:
-  /** \brief As seen along its axis. */
+  /** \brief A point projected along the axis. */
   struct FlatPoint
   {
     Eigen::Vector2d position;
@@ -49,9 +46,9 @@ private:
   OpenBox () = default;
   static std::optional<OpenBox> along (const Eigen::Vector3d& up, const std::vector<OrientedPoint>& points,
                                        const std::optional<Eigen::Vector4d>& plane);
-  /** \brief About another axis, does it fit the same points better? */
+  /** \brief Whether it fits the same points better than a box about another axis. */
   bool isBetter (const OpenBox& other) const;
-  /** \brief Turns the axes along the walls and finds the outline. */
+  /** \brief Align the axes with the walls and find the outline. */
   bool findOutline (const std::vector<OrientedPoint>& points, const std::optional<Eigen::Vector4d>& plane);
   bool findCorners (const std::vector<OrientedPoint>& points, const Eigen::Array2d& half_sizes);
   FlatPoint flat (const OrientedPoint& point) const;
@@ -64,7 +61,7 @@ private:
 
   Eigen::Vector3d x_ = Eigen::Vector3d::UnitX (), y_ = Eigen::Vector3d::UnitY (); // along its walls
   RoundedRectangle outline_;
-  std::size_t walls_ = 0; // of which something was seen
+  std::size_t walls_ = 0; // number of walls that were seen
 };
 
 } // namespace pcl::cosection

@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "prism_walls.h"
 
 #include "pcl_cosection/common/quantile.h"
@@ -17,23 +16,23 @@ namespace pcl::cosection
 namespace
 {
 
-constexpr double vertical = 0.17;     // component of the normal of a wall along the axis, at most
-constexpr double level = 0.97;        // that of a top, at least
+constexpr double vertical = 0.17;     // largest component of a wall's normal upwards
+constexpr double level = 0.97;        // least component of a top's normal upwards
 constexpr std::size_t few_faces = 3;  // the largest
 constexpr double face_cosine = 0.966; // 15 degrees
 constexpr int directions = 72;        // of the outline
-constexpr double outliers = 0.002;    // of the points, may lie beyond the outline
-constexpr double near_wall = 0.15;    // of the width across it: what is so near tells how high it is
+constexpr double outliers = 0.002;    // of the points: those that may lie beyond the outline
+constexpr double near_wall = 0.15;    // of the width across a wall: points so near show its height
 constexpr double top_outliers = 0.02;
 constexpr double least_top = 0.1;     // of the points
-constexpr double lowest_top = 0.1;    // of those of the top: fewer are outliers
-constexpr double level_rise = 0.1;    // of the height: what rises no more is one level
-constexpr int edge_cells = 3;         // around a cell of the top: what tells whether it ends there
-constexpr std::size_t least_near = 8; // cells; fewer are outliers
-constexpr double least_side = 0.8;    // cells, of the mean of those: the middle of a half disc is farther off
+constexpr double lowest_top = 0.1;    // of the points of the top: outliers below it
+constexpr double level_rise = 0.1;    // of the height: largest range of heights of one top
+constexpr int edge_cells = 3;         // neighbourhood of a cell of the top that shows whether the top ends there
+constexpr std::size_t least_near = 8; // cells in it; a cell with fewer is an outlier
+constexpr double least_side = 0.8;    // cells: offset of their mean at an edge; that of a half disc is larger
 constexpr double parallel = 1e-9;     // sine between walls
 
-/** \brief The largest component along a direction, but for outliers. */
+/** \brief The largest component along a direction, without outliers. */
 double
 reach (const std::vector<Eigen::Vector2d>& places, const Eigen::Vector2d& direction)
 {
@@ -74,7 +73,7 @@ PrismWalls::PrismWalls (const std::vector<OrientedPoint>& points, const std::vec
   struct Face
   {
     Eigen::Vector2d normal;
-    double margin; // by which noise widens the outline there
+    double margin; // by which noise widens the outline
   };
   std::vector<Face> vertical_faces;
   for (const Eigen::Vector3d& face : faces)
@@ -93,7 +92,7 @@ PrismWalls::PrismWalls (const std::vector<OrientedPoint>& points, const std::vec
     return;
   const double margin = std::min_element (vertical_faces.begin (), vertical_faces.end (),
                                           [] (const Face& a, const Face& b) { return a.margin < b.margin; })
-                            ->margin; // others have corners before them
+                            ->margin; // other directions have corners in front of them
   const auto marginOf = [&] (const Eigen::Vector2d& n) {
     const auto faces_it = [&] (const Face& face) { return face.normal.dot (n) > face_cosine; };
     return std::any_of (vertical_faces.begin (), vertical_faces.end (), faces_it) ? margin : 0.0;
@@ -199,7 +198,7 @@ PrismWalls::belowEdges (double step_m) const
   std::vector<WallColumn> columns;
   for (const auto& [cell, top] : heights)
   {
-    // Where the top ends, most of what is near is to one side.
+    // Where the top ends, most cells nearby are on one side.
     const double height = top;
     Eigen::Vector2d side = Eigen::Vector2d::Zero ();
     std::size_t near = 0;
@@ -213,7 +212,7 @@ PrismWalls::belowEdges (double step_m) const
       continue;
     const Eigen::Vector2d out = -side.normalized ();
     bool goes_on = false;
-    double bottom = 0.0; // of the wall: on the level beside it, if there is one
+    double bottom = 0.0; // of the wall: a lower top beside it, if there is one
     around (cell, edge_cells, [&] (const Eigen::Vector2d& to, double other) {
       if (to.dot (out) < 0.9)
         return;

@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "rounded_rectangle.h"
 
 #include <algorithm>
@@ -11,7 +10,7 @@ namespace pcl::cosection
 double
 RoundedRectangle::distance (const Eigen::Vector2d& q) const
 {
-  const Eigen::Array2d beyond = q.array ().abs () - half_sizes_ + corner_; // where the corner's circle begins
+  const Eigen::Array2d beyond = q.array ().abs () - half_sizes_ + corner_; // relative to the centre of the corner
   return beyond.max (0.0).matrix ().norm () + std::min (beyond.maxCoeff (), 0.0) - corner_ + halfWidth ();
 }
 
@@ -44,7 +43,7 @@ RoundedRectangle::outline (double distance, double step) const
   {
     const Eigen::Vector2d out (side == 0 ? 1.0 : side == 2 ? -1.0 : 0.0, side == 1 ? 1.0 : side == 3 ? -1.0 : 0.0);
     const Eigen::Vector2d along (-out.y (), out.x ());
-    const double from = half[side % 2], length = half[1 - side % 2]; // of the side, from the middle
+    const double from = half[side % 2], length = half[1 - side % 2]; // distance and half length of the side
     const int steps = std::max (1, static_cast<int> (std::ceil (2.0 * length / step)));
     for (int i = 0; i < steps; ++i)
       points.push_back ((from + std::max (radius, 0.0)) * out + (2.0 * i / steps - 1.0) * length * along);

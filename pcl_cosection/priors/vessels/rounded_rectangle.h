@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 #include <Eigen/Core>
@@ -19,19 +18,19 @@ public:
   /** \param[in] half_sizes positive \param[in] corner radius of the corners, at most the smaller of them */
   RoundedRectangle (const Eigen::Array2d& half_sizes, double corner) : half_sizes_ (half_sizes), corner_ (corner) {}
 
-  /** \brief Its smaller half size: the distance () of its outline. */
+  /** \brief Its smaller half size, which is distance () on its outline. */
   double halfWidth () const { return half_sizes_.minCoeff (); }
 
-  /** \brief From its middle line: of parallel outlines the same, and on the middle line 0. */
+  /** \brief Distance from its middle line: constant along parallel outlines, 0 on the middle line. */
   double distance (const Eigen::Vector2d& q) const;
 
-  /** \brief The gradient of that, unit. */
+  /** \brief The gradient of distance (), unit. */
   Eigen::Vector2d away (const Eigen::Vector2d& q) const;
 
-  /** \brief Farthest along \a n of the outline that is so distant. */
+  /** \brief Support function of the parallel outline at a distance, along \a n. */
   double reach (const Eigen::Vector2d& n, double distance) const;
 
-  /** \brief Points of the outline that is so distant. */
+  /** \brief Points of the parallel outline at a distance. */
   std::vector<Eigen::Vector2d> outline (double distance, double step) const;
 
 private:

@@ -1,6 +1,7 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "vessel_profile.h"
+
+#include "pcl_cosection/common/quantile.h"
 
 #include <algorithm>
 #include <cmath>
@@ -14,35 +15,35 @@ namespace pcl::cosection
 namespace
 {
 
-constexpr double sideways = 0.4;        // component of a wall's normal across the axis
-constexpr double level = 0.8;           // component of a floor's normal along the axis
-constexpr double leaning = 0.5;         // a normal that leans so towards the opening is of a floor or rim
+constexpr double sideways = 0.4;        // least component of a wall's normal across the axis
+constexpr double level = 0.8;           // least component of a floor's normal along the axis
+constexpr double leaning = 0.5;         // component towards the opening: normals with more belong to floor or rim
 constexpr std::size_t least_points = 3; // of a side in a band
 constexpr std::size_t least_bands = 2;  // in which both sides are seen
 constexpr std::size_t least_floor = 10; // points of a floor
-constexpr double thickest = 0.35;       // of the outer radius: a wall
-constexpr double even = 0.5;            // of the thickness: how much that of a band may differ
-constexpr double noise_cells = 0.4;     // or so much
-constexpr double even_share = 0.7;      // of the bands
-constexpr double end_cells = 2.0;       // a side that ends nearer to the end of the other ends with it
-constexpr double open_wall = 0.5;       // of the thickness: an inner side that comes nearer to the bottom than that ...
-constexpr double open_cells = 0.25;     // ... and that is of a tube, as long as no floor is seen
-constexpr double
-    narrow = 0.9; // of the opening's radius: a bottom so narrow is that of a bowl, as there are few funnels
-constexpr double outer_outliers = 0.002; // of the points of a side, may lie lower
+constexpr double thickest = 0.35;       // largest wall thickness, of the outer radius
+constexpr double even = 0.5;            // tolerance of a band's thickness, of the wall's thickness ...
+constexpr double noise_cells = 0.4;     // ... or this, if it is larger
+constexpr double even_share = 0.7;      // share of bands within that tolerance
+constexpr double end_cells = 2.0;       // sides whose ends are nearer to each other end together
+// An inner side that comes nearer to the bottom than both of these belongs to a tube, if no floor was seen.
+constexpr double open_wall = 0.5; // of the thickness
+constexpr double open_cells = 0.25;
+constexpr double narrow = 0.9; // of the opening's radius: with a narrower bottom it is a bowl, as funnels are rare
+constexpr double outer_outliers = 0.002; // of the points of a side: outliers that lie lower
 constexpr double inner_outliers = 0.01;
-constexpr double least_floor_steps = 3.0; // of thickness: less would vanish
-constexpr double least_side = 0.1;        // of the points of a band, on a side
-constexpr double hardly_sideways = 0.2;   // as sideways, once it is known how thick the wall is
-constexpr double narrowest = 0.5;         // of the lowest radius that is known: the bottom
+constexpr double least_floor_steps = 3.0; // thickness of the floor: a thinner one would vanish
+constexpr double least_side = 0.1;        // share of a band's points that a side must have
+constexpr double hardly_sideways = 0.2;   // replaces sideways when the thickness of the wall is known
+constexpr double narrowest = 0.5;         // least radius of the bottom, of the lowest known radius
 
-/** \brief What was seen in a band of heights. */
+/** \brief The points of a band of heights. */
 struct Sides
 {
   std::vector<double> outer, inner; // radii
-  std::vector<double> through;      // of the inner side, and through the wall
-  std::size_t points = 0;           // of both sides and of neither
-  double across = 0.0;              // sum of the normals' components
+  std::vector<double> through;      // inner radii plus the thickness of the wall
+  std::size_t points = 0;           // number of all points, on a side or not
+  double across = 0.0;              // sum of the normals' components across the axis
 
   double meanAcross () const
   {
@@ -50,29 +51,12 @@ struct Sides
   }
 };
 
-/** \brief But for some share of them. */
-double
-lowest (std::vector<double>& heights, double outliers)
-{
-  const auto rank = heights.begin () + static_cast<std::ptrdiff_t> (outliers * static_cast<double> (heights.size ()));
-  std::nth_element (heights.begin (), rank, heights.end ());
-  return *rank;
-}
-
-/** \brief Radius at the middle of the band of heights in which a point is, along the surface. */
+/** \brief Radius of a point, moved along its tangent to the middle of its band of heights. */
 double
 radiusInBand (const ProfilePoint& p, double band_m)
 {
   const double up = (std::floor (p.position.x () / band_m) + 0.5) * band_m - p.position.x ();
   return p.position.y () - p.normal.x () / p.normal.y () * up;
-}
-
-double
-middle (std::vector<double>& values)
-{
-  const auto half = values.begin () + static_cast<std::ptrdiff_t> (values.size () / 2);
-  std::nth_element (values.begin (), half, values.end ());
-  return *half;
 }
 
 } // namespace
@@ -120,17 +104,17 @@ VesselProfile::findWall (const std::vector<ProfilePoint>& points, double cell_m)
   for (auto& [number, band] : sides)
     if (band.outer.size () >= least_points && band.inner.size () >= least_points)
     {
-      radii.push_back (middle (band.outer));
-      thickness.push_back ((radii.back () - middle (band.inner)) * band.meanAcross ());
+      radii.push_back (upperMedian (band.outer));
+      thickness.push_back ((radii.back () - upperMedian (band.inner)) * band.meanAcross ());
     }
   if (thickness.size () < least_bands)
     return false;
   std::vector<double> sorted = thickness;
-  wall_m_ = middle (sorted);
+  wall_m_ = upperMedian (sorted);
   noise_m_ = rim_band_m_ = std::max (even * wall_m_, noise_cells * cell_m);
   const std::ptrdiff_t similar = std::count_if (thickness.begin (), thickness.end (),
                                                 [&] (double t) { return std::abs (t - wall_m_) <= noise_m_; });
-  if (!(wall_m_ > 0.0) || wall_m_ > thickest * middle (radii) ||
+  if (!(wall_m_ > 0.0) || wall_m_ > thickest * upperMedian (radii) ||
       static_cast<double> (similar) < even_share * static_cast<double> (thickness.size ()))
     return false;
   findBands (points, cell_m);
@@ -163,18 +147,18 @@ VesselProfile::findBands (const std::vector<ProfilePoint>& points, double band_m
     const double wall_m = wall_m_ / band.meanAcross ();
     const std::size_t least = std::max (
         least_points,
-        static_cast<std::size_t> (least_side * static_cast<double> (band.points))); // others are noise of a floor
+        static_cast<std::size_t> (least_side * static_cast<double> (band.points))); // fewer are noise of a floor
     const bool has_inner = band.inner.size () >= least;
     const auto add = [&] (double outer, double wall) { bands_.push_back ({height, std::max (0.0, outer), wall}); };
     if (band.outer.size () >= least)
-      add (middle (band.outer), wall_m);
+      add (upperMedian (band.outer), wall_m);
     else if (band.through.size () >= least)
     {
-      const double outer = middle (band.through);
-      add (outer, has_inner ? outer - middle (band.inner) : wall_m);
+      const double outer = upperMedian (band.through);
+      add (outer, has_inner ? outer - upperMedian (band.inner) : wall_m);
     }
     else if (has_inner)
-      add (middle (band.inner) + wall_m, wall_m);
+      add (upperMedian (band.inner) + wall_m, wall_m);
   }
 }
 
@@ -182,7 +166,7 @@ bool
 VesselProfile::findBottom (const std::vector<ProfilePoint>& points, double cell_m,
                            const std::optional<StandingPlane>& plane)
 {
-  // The same for both senses of the axis, until it is known where the opening is.
+  // Both ends of the axis are analysed, as the opening is not known yet.
   struct End
   {
     std::vector<double> outer, inner, floor; // heights, upwards from this end
@@ -195,8 +179,8 @@ VesselProfile::findBottom (const std::vector<ProfilePoint>& points, double cell_
         end.outer.push_back (up * p.position.x ());
       else if (p.normal.y () < -sideways)
         end.inner.push_back (up * p.position.x ());
-    end.lowest_outer = lowest (end.outer, outer_outliers);
-    end.lowest_inner = lowest (end.inner, inner_outliers);
+    end.lowest_outer = trimmedMin (end.outer, outer_outliers);
+    end.lowest_inner = trimmedMin (end.inner, inner_outliers);
     const double within = up > 0.0 ? bands_.front ().outer - bands_.front ().wall
                                    : bands_.back ().outer - bands_.back ().wall;
     for (const ProfilePoint& p : points)
@@ -222,7 +206,7 @@ VesselProfile::findBottom (const std::vector<ProfilePoint>& points, double cell_
     std::reverse (bands_.begin (), bands_.end ());
 
   End end = opening_ > 0.0 ? first : second;
-  const bool is_standing = plane && plane->up == opening_; // and not upside down
+  const bool is_standing = plane && plane->up == opening_; // not upside down
   double bottom = is_standing ? plane->up * plane->height : end.lowest_outer;
   const bool has_floor = end.floor.size () >= least_floor;
   const double lower_end = end.lowest_outer - bottom < end_cells * cell_m ? std::max (bottom, end.lowest_outer)
@@ -230,7 +214,7 @@ VesselProfile::findBottom (const std::vector<ProfilePoint>& points, double cell_
   if (!has_floor && end.lowest_inner - lower_end < std::max (open_wall * wall_m_, open_cells * cell_m) &&
       bands_.front ().outer > narrow * bands_.back ().outer)
     return false;
-  const double floor = has_floor ? middle (end.floor) : end.lowest_inner;
+  const double floor = has_floor ? upperMedian (end.floor) : end.lowest_inner;
   if (!is_standing)
     bottom = std::min (bottom, floor - wall_m_);
   bottom_m_ = opening_ * bottom;

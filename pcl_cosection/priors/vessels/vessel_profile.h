@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 #include "wall_profile.h"
@@ -12,15 +11,16 @@ namespace pcl::cosection
 {
 
 /** \brief The profile of a vessel: a wall of even thickness between an outer and an inner side, round about an axis and
- * open at one of its ends.
+ * open at one end.
  *
- * Of what is deep inside a vessel views see little, and of its bottom nothing. What is hidden is taken to go on as it
- * was seen: the wall is as thick as where both its sides were seen, down to the floor, which is level; and that is
- * where it was seen, or as far above the bottom as the wall is thick. */
+ * Views see little of the deep inside of a vessel and nothing of its bottom. The hidden wall is as thick as where both
+ * sides were seen, down to the horizontal floor. An unseen floor is as far above the bottom as the wall is thick. */
 class VesselProfile : public WallProfile
 {
 public:
-  /** \param[in] points of the whole surface \param[in] cell_m height of the bands in which the sides are compared
+  /** \brief Fit to profile points.
+   * \param[in] points of the whole surface
+   * \param[in] cell_m height of the bands in which the sides are compared
    * \return nothing if it is not hollow, its walls differ in thickness, or both its ends are open */
   static std::shared_ptr<const VesselProfile> find (const std::vector<ProfilePoint>& points, double cell_m,
                                                     const std::optional<StandingPlane>& plane);
@@ -31,7 +31,7 @@ public:
 
   VesselPart partOf (const ProfilePoint& point) const override;
 
-  /** \brief The lower parts of both sides, floor and bottom. */
+  /** \brief Points of the lower parts of both sides, floor and bottom. */
   std::vector<ProfilePoint> depths (double step_m) const override;
 
   bool holds (const ProfilePoint& point) const override;
@@ -47,24 +47,24 @@ private:
   };
 
   bool findWall (const std::vector<ProfilePoint>& points, double cell_m);
-  /** \brief Once it is known how thick the wall is. */
+  /** \brief Find the bands, when wall_m_ is known. */
   void findBands (const std::vector<ProfilePoint>& points, double band_m);
   bool findBottom (const std::vector<ProfilePoint>& points, double cell_m, const std::optional<StandingPlane>& plane);
-  /** \brief Between the bands that are known, and beyond. */
+  /** \brief Interpolation and extrapolation of the bands. */
   Band bandAt (double height) const;
   double outerAt (double height) const;
   double innerAt (double height) const;
 
-  double opening_ = 1.0;    // sense along the axis, in which heights count up
-  std::vector<Band> bands_; // upwards, where one of the sides at least was seen
-  double noise_m_ = 0.0;    // how far points may be from a side, and how much walls may differ
-  double rim_band_m_ = 0.0; // how far below its height the rim may be
+  double opening_ = 1.0;    // 1 or -1: the sense of the axis towards the opening, which is upwards
+  std::vector<Band> bands_; // upwards; bands in which at least one side was seen
+  double noise_m_ = 0.0;    // largest distance of points from a side, and tolerance of the wall's thickness
+  double rim_band_m_ = 0.0; // points of the rim lie at most so far below its height
   double wall_m_ = 0.0;     // from side to side
   double rim_m_ = 0.0;      // heights
   double bottom_m_ = 0.0;
   double floor_m_ = 0.0;
   bool has_floor_ = true;
-  double lowest_outer_m_ = 0.0; // of what was seen
+  double lowest_outer_m_ = 0.0; // lowest observed heights
   double lowest_inner_m_ = 0.0;
 };
 

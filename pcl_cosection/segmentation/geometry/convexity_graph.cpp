@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "convexity_graph.h"
 
 #include "pcl_cosection/common/disjoint_sets.h"
@@ -54,7 +53,7 @@ PatchEvidence
 convexityEvidence (const DepthGrid& grid, const PatchImage& image, float concave_angle_rad)
 {
   std::map<std::pair<int, int>, int> border; // pixels
-  const auto follow = [&] (int first, int stride, int steps) {
+  const auto follow = [&] (int first, int stride, int steps, int) {
     int last = -1, last_step = 0, gap = 0;
     for (int k = 0; k < steps; ++k)
     {
@@ -71,10 +70,7 @@ convexityEvidence (const DepthGrid& grid, const PatchImage& image, float concave
       gap = 0;
     }
   };
-  for (int v = 0; v < grid.height; ++v)
-    follow (v * grid.width, 1, grid.width);
-  for (int u = 0; u < grid.width; ++u)
-    follow (u, grid.width, grid.height);
+  forEachLine (grid, follow);
 
   PatchEvidence evidence;
   for (const auto& [pair, pixels] : border)
@@ -127,14 +123,7 @@ contractEdges (std::size_t patches, const PatchEvidence& evidence)
     }
     neighbours[gone].clear ();
   }
-  std::vector<int> set_of (patches);
-  int next = 0;
-  for (std::size_t i = 0; i < patches; ++i)
-  {
-    const std::size_t root = sets.find (i);
-    set_of[i] = root == i ? next++ : set_of[root];
-  }
-  return (set_of);
+  return sets.numbers ();
 }
 
 } // namespace pcl::cosection

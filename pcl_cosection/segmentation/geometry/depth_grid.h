@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 #include <pcl/cosection/common/camera.h>
@@ -38,5 +37,16 @@ struct DepthGrid
     return (std::abs (points[i].z () - points[j].z ()) <= noise + 3.7f * pitch * z * static_cast<float> (steps));
   }
 };
+
+/** \brief Call \a follow (first pixel, stride, number of pixels, axis) for all rows (axis 0) and columns (axis 1). */
+template <typename Follow>
+void
+forEachLine (const DepthGrid& grid, Follow&& follow)
+{
+  for (int v = 0; v < grid.height; ++v)
+    follow (v * grid.width, 1, grid.width, 0);
+  for (int u = 0; u < grid.width; ++u)
+    follow (u, grid.width, grid.height, 1);
+}
 
 } // namespace pcl::cosection

@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "object_assembly.h"
 
 #include "divided_pieces.h"
@@ -146,10 +145,7 @@ private:
 
   void join (DisjointSets& sets)
   {
-    std::vector<int> number (pieces_.size ());
-    int next = 0;
-    for (std::size_t k = 0; k < pieces_.size (); ++k)
-      number[k] = sets.find (k) == k ? next++ : number[sets.find (k)];
+    const std::vector<int> number = sets.numbers ();
     for (int& piece : piece_of_patch_)
       piece = number[piece];
     measure ();

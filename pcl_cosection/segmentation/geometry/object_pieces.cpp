@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "object_pieces.h"
 
 #include <Eigen/Eigenvalues>
@@ -139,7 +138,7 @@ Borders
 findBorders (const DepthGrid& grid, const std::vector<SupportSurface>& surfaces, const std::vector<int>& piece_of)
 {
   Borders borders;
-  const auto follow = [&] (int first, int stride, int steps) {
+  const auto follow = [&] (int first, int stride, int steps, int) {
     int last = -1, last_step = 0, last_other = -1;
     for (int k = 0; k < steps; ++k)
     {
@@ -168,10 +167,7 @@ findBorders (const DepthGrid& grid, const std::vector<SupportSurface>& surfaces,
       last_step = k;
     }
   };
-  for (int v = 0; v < grid.height; ++v)
-    follow (v * grid.width, 1, grid.width);
-  for (int u = 0; u < grid.width; ++u)
-    follow (u, grid.width, grid.height);
+  forEachLine (grid, follow);
   return (borders);
 }
 

@@ -1,10 +1,10 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include <pcl/cosection/segmentation/geometric_segmentation.h>
 
 #include "convexity_graph.h"
 #include "depth_grid.h"
 #include "object_assembly.h"
+#include "pcl_cosection/common/quantile.h"
 #include "pcl_cosection/segmentation/planes/room_edges.h"
 #include "pcl_cosection/segmentation/planes/room_regions.h"
 #include "surface_patches.h"
@@ -42,9 +42,7 @@ columnPitch (const std::vector<Eigen::Vector3f>& points, int width, int height)
     }
   if (pitches.empty ())
     return (0.0f);
-  const auto middle = pitches.begin () + static_cast<std::ptrdiff_t> (pitches.size () / 2);
-  std::nth_element (pitches.begin (), middle, pitches.end ());
-  return (*middle);
+  return upperMedian (pitches);
 }
 
 /** \brief One per pixel: whether it is above the seen part of a support surface, on none of them, and not too high. */

@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "piece_outline.h"
 
 #include <utility>
@@ -43,7 +42,7 @@ outlinePieces (const DepthGrid& grid, const Room& room, const std::vector<int>& 
     }
   };
   const auto sideOf = [&] (int i) { return (std::make_pair (piece_of[i], piece_of[i] < 0 ? room.surface_of[i] : -1)); };
-  const auto follow = [&] (int first, int stride, int steps) {
+  const auto follow = [&] (int first, int stride, int steps, int) {
     int begin = -1, last = -1, length = 0, before = -1; // of the run; last of the run before, if it is long enough
     for (int k = 0; k < steps; ++k)
     {
@@ -64,10 +63,7 @@ outlinePieces (const DepthGrid& grid, const Room& room, const std::vector<int>& 
       }
     }
   };
-  for (int v = 0; v < grid.height; ++v)
-    follow (v * grid.width, 1, grid.width);
-  for (int u = 0; u < grid.width; ++u)
-    follow (u, grid.width, grid.height);
+  forEachLine (grid, follow);
   return (outlines);
 }
 

@@ -1,7 +1,7 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "support_surfaces.h"
 
+#include "pcl_cosection/common/convex_hull.h"
 #include "pcl_cosection/common/parallel.h"
 
 #include <Eigen/LU>
@@ -13,12 +13,6 @@ namespace
 {
 
 constexpr float unseen_reach_m = 0.25f; ///< how far a plane goes on beyond the border of the image
-
-float
-cross (const Eigen::Vector2f& a, const Eigen::Vector2f& b)
-{
-  return (a.x () * b.y () - a.y () * b.x ());
-}
 
 Eigen::Matrix<float, 6, 1>
 quadricTerms (const DepthGrid& grid, float column, float row)
@@ -53,28 +47,6 @@ fitDistortion (const DepthGrid& grid, const BlockImage& image, const PlanePropos
 
 } // namespace
 
-std::vector<Eigen::Vector2f>
-convexHull (std::vector<Eigen::Vector2f> points)
-{
-  std::sort (points.begin (), points.end (), [] (const Eigen::Vector2f& a, const Eigen::Vector2f& b) {
-    return (a.x () < b.x () || (a.x () == b.x () && a.y () < b.y ()));
-  });
-  std::vector<Eigen::Vector2f> hull;
-  for (int pass = 0; pass < 2; ++pass)
-  {
-    const std::size_t first = hull.size ();
-    for (const Eigen::Vector2f& p : points)
-    {
-      while (hull.size () >= first + 2 && cross (hull.back () - hull[hull.size () - 2], p - hull.back ()) <= 0.0f)
-        hull.pop_back ();
-      hull.push_back (p);
-    }
-    hull.pop_back ();
-    std::reverse (points.begin (), points.end ());
-  }
-  return (hull);
-}
-
 float
 SupportSurface::height (const DepthGrid& grid, int u, int v) const
 {
@@ -103,7 +75,7 @@ SupportSurface::carries (const DepthGrid& grid, int pixel, float margin_m) const
   for (std::size_t k = 0; k < outline.size (); ++k)
   {
     const Eigen::Vector2f edge = outline[(k + 1) % outline.size ()] - outline[k];
-    outside_m = std::max (outside_m, -cross (edge, at - outline[k]) / std::max (1e-6f, edge.norm ()));
+    outside_m = std::max (outside_m, -cross<float> (edge, at - outline[k]) / std::max (1e-6f, edge.norm ()));
   }
   if (outside_m <= margin_m || outside_m >= unseen_reach_m)
     return (outside_m <= margin_m);

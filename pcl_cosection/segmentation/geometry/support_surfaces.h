@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 #include "depth_grid.h"
@@ -40,9 +39,6 @@ struct SupportSurface
    * reach of it where the camera does not look. */
   bool carries (const DepthGrid& grid, int pixel, float margin_m) const;
 };
-
-/** \brief Convex hull, counter-clockwise (A. M. Andrew's monotone chain, 1979). */
-std::vector<Eigen::Vector2f> convexHull (std::vector<Eigen::Vector2f> points);
 
 /** \brief A plane as far as its blocks reach. */
 SupportSurface makeSurface (const DepthGrid& grid, const BlockImage& image, const PlaneProposal& plane);

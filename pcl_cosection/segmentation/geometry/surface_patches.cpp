@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "surface_patches.h"
 
 #include "pcl_cosection/common/disjoint_sets.h"
@@ -180,18 +179,13 @@ computeSurfacePatches (const DepthGrid& grid, const std::vector<char>& used, int
       if (v > 0 && nearest[i - grid.width] == nearest[i] && grid.continuous (i, i - grid.width))
         sets.unite (i - grid.width, i);
     }
-  PatchImage image{std::vector<int> (nearest.size (), -1), {}};
+  PatchImage image{sets.numbers ([&] (std::size_t i) { return nearest[i] >= 0; }), {}};
   for (int i = 0; i < static_cast<int> (nearest.size ()); ++i)
   {
-    if (nearest[i] < 0)
+    if (image.patch_of[i] < 0)
       continue;
-    const int root = static_cast<int> (sets.find (i)); // the first pixel of its set
-    if (root == i)
-    {
-      image.patch_of[i] = static_cast<int> (image.patches.size ());
+    if (image.patch_of[i] == static_cast<int> (image.patches.size ())) // its first pixel
       image.patches.emplace_back ();
-    }
-    image.patch_of[i] = image.patch_of[root];
     SurfacePatch& patch = image.patches[image.patch_of[i]];
     patch.centre += grid.points[i];
     if (grid.hasNormal (i))

@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "motion_labelling.h"
 
 #include "pcl_cosection/common/disjoint_sets.h"
@@ -76,21 +75,17 @@ connectedParts (const DepthGrid& grid, const std::vector<char>& set, int min_pix
           sets.unite (i, i - gap * grid.width);
       }
     }
-  std::vector<int> sizes (set.size (), 0);
-  for (std::size_t i = 0; i < set.size (); ++i)
-    if (set[i])
-      ++sizes[sets.find (i)];
-  std::vector<int> numbers (set.size (), 0), parts (set.size (), 0);
+  std::vector<int> parts = sets.numbers ([&] (std::size_t i) { return set[i]; });
+  std::vector<int> sizes (set.size (), 0), numbers (set.size (), 0);
+  for (const int part : parts)
+    if (part >= 0)
+      ++sizes[part];
   int next = 0;
-  for (std::size_t i = 0; i < set.size (); ++i)
-  {
-    if (!set[i])
-      continue;
-    const std::size_t root = sets.find (i);
-    if (sizes[root] >= min_pixels && numbers[root] == 0)
-      numbers[root] = ++next;
-    parts[i] = numbers[root];
-  }
+  for (std::size_t k = 0; k < sizes.size (); ++k)
+    if (sizes[k] >= std::max (1, min_pixels))
+      numbers[k] = ++next;
+  for (int& part : parts)
+    part = part < 0 ? 0 : numbers[part];
   return parts;
 }
 

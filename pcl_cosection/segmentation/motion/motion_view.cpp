@@ -1,7 +1,7 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "motion_view.h"
 
+#include "pcl_cosection/common/quantile.h"
 #include "pcl_cosection/segmentation/geometry/support_surfaces.h"
 
 #include "pcl_cosection/common/parallel.h"
@@ -117,9 +117,7 @@ noiseScale (const MotionView& view, const std::vector<Sighting>& sightings)
     }
   if (sizes.empty ())
     return 1.0f;
-  const auto quartile = sizes.begin () + static_cast<std::ptrdiff_t> (3 * sizes.size () / 4);
-  std::nth_element (sizes.begin (), quartile, sizes.end ());
-  return std::max (1.0f, *quartile / quartile_sigmas);
+  return std::max (1.0f, valueOfRank (sizes, 3 * sizes.size () / 4) / quartile_sigmas);
 }
 
 std::vector<std::uint32_t>

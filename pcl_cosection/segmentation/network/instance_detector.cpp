@@ -1,8 +1,5 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include <pcl/cosection/segmentation/instance_detector.h>
-
-#include "onnx_input.h"
 
 #include "pcl_cosection/common/file_bytes.h"
 
@@ -27,8 +24,7 @@ constexpr std::size_t longest_reason = 200;
 const char* const tensorflow_detections = "detection_out_final";
 const char* const tensorflow_masks = "detection_masks";
 
-/** \brief While it lives, OpenCV says nothing on the console and has so many threads. Both are settings of the process.
- */
+/** \brief While it lives, OpenCV prints nothing and uses so many threads. Both are settings of the process. */
 class OpenCvSettings
 {
 public:
@@ -93,7 +89,7 @@ readNetwork (const std::string& model, const InstanceDetectorOptions& options)
   return (net);
 }
 
-/** \brief Those that matter; in OpenCV, a layer that another one uses is not an output by itself. */
+/** \brief The outputs to compute; in OpenCV, a layer that another one uses is not an output by itself. */
 std::vector<std::string>
 outputNames (const cv::dnn::Net& net)
 {
@@ -102,7 +98,7 @@ outputNames (const cv::dnn::Net& net)
   return (net.getUnconnectedOutLayersNames ());
 }
 
-/** \brief What its outputs will be, as their names and their number tell. */
+/** \brief The form of the outputs, by their names and their number. */
 NetworkOutputForm
 expectedForm (const std::vector<std::string>& output_names)
 {
@@ -155,7 +151,6 @@ struct InstanceDetector::Network
   InstanceDetectorOptions options;
   cv::dnn::Net net;
   std::vector<std::string> output_names;
-  std::optional<InputSize> input_size; ///< of the options, else of the file
 };
 
 void
@@ -185,12 +180,7 @@ InstanceDetector::InstanceDetector (const InstanceDetectorOptions& options)
   options.validate ();
   network_ = std::make_unique<Network> ();
   network_->options = options;
-  const std::string model = readBytes (options.model);
-  network_->net = readNetwork (model, options);
-  if (options.input_width > 0)
-    network_->input_size = InputSize{options.input_width, options.input_height};
-  else if (endsIn (options.model, ".onnx"))
-    network_->input_size = onnxInputSize (model);
+  network_->net = readNetwork (readBytes (options.model), options);
   network_->output_names = outputNames (network_->net);
   if (network_->output_names.empty ())
     throw IoError (options.model + ": the network has no outputs");
@@ -216,11 +206,11 @@ InstanceDetector::detect (const Picture& picture)
   const InstanceDetectorOptions& options = network_->options;
   const NetworkOutputForm form = expectedForm (network_->output_names);
   const bool one_stage = form == NetworkOutputForm::Prototypes;
-  const InputSize usual = one_stage ? InputSize{one_stage_input, one_stage_input}
-                                    : InputSize{picture.width, picture.height};
-  const InputSize size = network_->input_size.value_or (usual);
-  const ImagePlacement placement (picture.width, picture.height, size.width, size.height,
-                                  options.letterbox.value_or (one_stage));
+  const bool has_size = options.input_width > 0;
+  const int width = has_size ? options.input_width : one_stage ? one_stage_input : picture.width;
+  const int height = has_size ? options.input_height : one_stage ? one_stage_input : picture.height;
+  const ImagePlacement placement (picture.width, picture.height, width, height, options.letterbox.value_or (one_stage));
+  const char* const hint = has_size ? "" : "; if it is made for another size, give --input-size W,H";
   const double scale = options.scale.value_or (form == NetworkOutputForm::DetectionOut ? 1.0 : 1.0 / 255.0);
 
   const OpenCvSettings settings (options.threads);
@@ -237,7 +227,7 @@ InstanceDetector::detect (const Picture& picture)
   {
     throw IoError (options.model + ": the network cannot be run on an input of " +
                    std::to_string (placement.input_width) + " x " + std::to_string (placement.input_height) +
-                   " pixels: " + reason (error));
+                   " pixels: " + reason (error) + hint);
   }
   try
   {
@@ -245,7 +235,7 @@ InstanceDetector::detect (const Picture& picture)
   }
   catch (const InvalidArgument& error)
   {
-    throw IoError (options.model + ": " + error.what ());
+    throw IoError (options.model + ": " + error.what () + hint);
   }
 }
 

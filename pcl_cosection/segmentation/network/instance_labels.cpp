@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include <pcl/cosection/segmentation/instance_detector.h>
 
 #include "pcl_cosection/common/file_bytes.h"
@@ -120,7 +119,7 @@ labelInstances (const std::vector<DetectedInstance>& instances, int width, int h
 
   const auto ignored = static_cast<std::uint32_t> (instances.size () + 1);
   const std::uint32_t no_reading = ignored + 1;
-  Image<std::uint32_t> owners (width, height, 0); // 0 none, 1 + instance, ignored or no_reading
+  Image<std::uint32_t> owners (width, height, 0); // 0: nobody's; 1 + instance; ignored; no_reading
   for (std::size_t i = 0; i < readings.pixels.size (); ++i)
     if (readings.pixels[i] == 0)
       owners.pixels[i] = no_reading;

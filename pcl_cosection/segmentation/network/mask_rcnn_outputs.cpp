@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "output_reader.h"
 
 #include <algorithm>
@@ -101,7 +100,7 @@ private:
 };
 
 bool
-tells (const NetworkOutput& output, const std::string& what)
+isNamed (const NetworkOutput& output, const std::string& what)
 {
   return (output.name.find (what) != std::string::npos);
 }
@@ -144,7 +143,7 @@ readBoxList (const std::vector<NetworkOutput>& outputs, const ImagePlacement& pl
       numbers.push_back (&output);
   if (boxes == outputs.end () || numbers.size () != 2)
     return (nullptr);
-  if (tells (*numbers[0], "score") || tells (*numbers[1], "label") || tells (*numbers[1], "class"))
+  if (isNamed (*numbers[0], "score") || isNamed (*numbers[1], "label") || isNamed (*numbers[1], "class"))
     std::swap (numbers[0], numbers[1]);
   return (std::make_unique<BoxList> (*boxes, *numbers[0], *numbers[1], *masks, placement));
 }

@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include <pcl/cosection/segmentation/instance_detector.h>
 
 #include "output_reader.h"
@@ -16,7 +15,7 @@ namespace pcl::cosection
 namespace
 {
 
-constexpr std::size_t most_candidates = 1000; ///< that are compared with each other
+constexpr std::size_t most_candidates = 1000; ///< most that are compared with each other
 constexpr float most_classes = 1e6f;
 
 /** \brief "scores [100], masks [100 x 1 x 28 x 28]" */
@@ -44,7 +43,7 @@ hasItsValues (const NetworkOutput& output)
           std::none_of (output.shape.begin (), output.shape.end (), [] (int size) { return (size < 0); }));
 }
 
-/** \brief Non-maximum suppression: of boxes of a class that overlap, the first. */
+/** \brief Non-maximum suppression: keeps the first of overlapping boxes of a class. */
 std::vector<Candidate>
 withoutDuplicates (const std::vector<Candidate>& sorted, double overlap_threshold)
 {

@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 #include "soft_mask.h"
@@ -14,10 +13,10 @@
 namespace pcl::cosection
 {
 
-/** \brief What a network takes for a thing. */
+/** \brief A detection before non-maximum suppression. */
 struct Candidate
 {
-  std::size_t index; ///< where the outputs tell of it
+  std::size_t index; ///< of its values in the outputs
   int class_id;
   float score;
   Rectangle box; ///< in the image
@@ -29,20 +28,20 @@ class OutputReader
 public:
   virtual ~OutputReader () = default;
 
-  /** \brief Those of a sufficient score, with proper boxes, in any order. */
+  /** \brief The candidates with a sufficient score and a proper box, in any order. */
   virtual std::vector<Candidate> candidates (const InstanceDecodingOptions& options) const = 0;
 
   virtual SoftMask mask (const Candidate& candidate) const = 0;
 
-  /** \brief Whether several candidates may tell of one thing. */
+  /** \brief Whether several candidates may be of one thing. */
   virtual bool hasDuplicates () const { return (false); }
 };
 
-/** \brief A candidate of these numbers, if they are of a thing that is believed. \param[in] box in the input */
+/** \brief A candidate with these values, if its score is sufficient and its box proper. \param[in] box in the input */
 std::optional<Candidate> makeCandidate (std::size_t index, float class_id, float score, const Rectangle& box,
                                         const ImagePlacement& placement, const InstanceDecodingOptions& options);
 
-/** \brief A reader if the outputs are of its form, else none. */
+/** \brief A reader if the outputs are of its form, else null. */
 std::unique_ptr<OutputReader> readDetectionOut (const std::vector<NetworkOutput>& outputs,
                                                 const ImagePlacement& placement);
 

@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "output_reader.h"
 
 #include <pcl/cosection/common/error.h>
@@ -30,7 +29,7 @@ public:
     first_class_ = box_values + (in_rows_ ? 1 : 0);
   }
 
-  /** \brief The shapes leave room for a class. */
+  /** \brief Whether the shapes leave room for a class. */
   bool hasClasses () const { return (length_ > first_class_ + coefficients_); }
 
   std::vector<Candidate> candidates (const InstanceDecodingOptions& options) const override
@@ -86,7 +85,7 @@ private:
   const NetworkOutput& proposals_;
   const NetworkOutput& prototypes_;
   const ImagePlacement placement_;
-  const bool in_rows_; ///< a candidate's values stand together, after YOLOv5, and one tells whether it is anything
+  const bool in_rows_; ///< YOLOv5: a candidate's values stand together, and one of them says whether it is a thing
   std::size_t coefficients_, length_, count_, first_class_;
 };
 

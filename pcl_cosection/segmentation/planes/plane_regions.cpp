@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "plane_regions.h"
 
 #include "region_extents.h"
@@ -48,7 +47,7 @@ public:
 
   PlaneRegions run (float max_object_size_m)
   {
-    alongLines ([&] (int first, int stride, int steps, int axis) { markStrips (first, stride, steps, axis); });
+    forEachLine (grid_, [&] (int first, int stride, int steps, int axis) { markStrips (first, stride, steps, axis); });
     DisjointSets sets (surface_of_.size ());
     connect (sets);
     number (sets);
@@ -61,15 +60,6 @@ public:
   }
 
 private:
-  /** \brief Call \a follow (first pixel, stride, number of pixels, axis) for all rows (axis 0) and columns (axis 1). */
-  template <typename Follow> void alongLines (Follow&& follow)
-  {
-    for (int v = 0; v < grid_.height; ++v)
-      follow (v * grid_.width, 1, grid_.width, 0);
-    for (int u = 0; u < grid_.width; ++u)
-      follow (u, grid_.width, grid_.height, 1);
-  }
-
   /** \brief Steps along a row and a column on the plane of a pixel, metres. */
   std::array<Eigen::Vector3f, 2> pixelSteps (int i) const
   {
@@ -128,7 +118,7 @@ private:
     const auto unite = [&sets] (int i, int j) {
       sets.unite (static_cast<std::size_t> (i), static_cast<std::size_t> (j));
     };
-    alongLines ([&] (int first, int stride, int steps, int axis) {
+    forEachLine (grid_, [&] (int first, int stride, int steps, int axis) {
       std::vector<int> last (surfaces_.size (), -1), last_strip (surfaces_.size (), -1);
       for (int k = 0; k < steps; ++k)
       {
@@ -183,21 +173,18 @@ private:
   void number (DisjointSets& sets)
   {
     regions_.clear ();
-    region_of_.assign (surface_of_.size (), -1);
+    region_of_ = sets.numbers ([&] (std::size_t i) { return surface_of_[i] >= 0; });
     std::vector<RegionExtents> extents;
     for (int i = 0; i < static_cast<int> (surface_of_.size ()); ++i)
     {
-      if (surface_of_[i] < 0)
+      if (region_of_[i] < 0)
         continue;
-      const int root = static_cast<int> (sets.find (static_cast<std::size_t> (i))); // the first pixel of its set
-      if (root == i)
+      if (region_of_[i] == static_cast<int> (regions_.size ())) // its first pixel
       {
-        region_of_[i] = static_cast<int> (regions_.size ());
         regions_.emplace_back ();
         regions_.back ().surface = surface_of_[i];
         extents.emplace_back ();
       }
-      region_of_[i] = region_of_[root];
       PlaneRegion& region = regions_[region_of_[i]];
       ++region.pixels;
       const auto [along_row, along_column] = pixelSteps (i);
@@ -221,7 +208,7 @@ private:
 
   void measureBorders (bool specks)
   {
-    alongLines ([&] (int first, int stride, int steps, int axis) {
+    forEachLine (grid_, [&] (int first, int stride, int steps, int axis) {
       int last = -1;
       for (int k = 0; k < steps; ++k)
       {
@@ -251,7 +238,7 @@ private:
   /** \brief The convex edges at which two planes meet. */
   void measureEdges ()
   {
-    alongLines ([&] (int first, int stride, int steps, int axis) {
+    forEachLine (grid_, [&] (int first, int stride, int steps, int axis) {
       int last = -1, seam = 0;
       for (int k = 0; k < steps; ++k)
       {

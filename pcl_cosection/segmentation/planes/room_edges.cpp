@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "room_edges.h"
 
 #include <cmath>
@@ -44,7 +43,7 @@ findRoomEdges (const DepthGrid& grid, const Room& room, const PatchImage& image)
     const bool edge = patch.normal.squaredNorm () > 0.0f && patch.normal.dot (surface.normal) < edge_cosine;
     ++(edge && height < -behind_sigmas * grid.sigma (i) ? behind : before)[image.patch_of[i]];
   };
-  const auto follow = [&] (int first, int stride, int steps) {
+  const auto follow = [&] (int first, int stride, int steps, int) {
     int last = -1;
     for (int k = 0; k < steps; ++k)
     {
@@ -66,10 +65,7 @@ findRoomEdges (const DepthGrid& grid, const Room& room, const PatchImage& image)
       last = k;
     }
   };
-  for (int v = 0; v < grid.height; ++v)
-    follow (v * grid.width, 1, grid.width);
-  for (int u = 0; u < grid.width; ++u)
-    follow (u, grid.width, grid.height);
+  forEachLine (grid, follow);
 
   std::vector<char> edges (image.patches.size (), 0);
   for (std::size_t k = 0; k < edges.size (); ++k)

@@ -1,9 +1,10 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "room_regions.h"
 
 #include "plane_labelling.h"
 #include "plane_regions.h"
+
+#include "pcl_cosection/common/convex_hull.h"
 
 #include <algorithm>
 
@@ -13,9 +14,9 @@ namespace pcl::cosection
 namespace
 {
 
-constexpr float
-    enclosed_share = 0.25f;           ///< of the border of an enclosed region is free, relative to where it meets room
-constexpr float hidden_share = 0.15f; ///< or relative to all that is before it
+// Largest free share of the border of an enclosed region, relative to where it meets room.
+constexpr float enclosed_share = 0.25f;
+constexpr float hidden_share = 0.15f;    ///< or relative to all that is before it
 constexpr float continued_share = 0.25f; ///< of the border of a remainder of the room, on the same plane
 constexpr float edge_share = 0.25f;      ///< of the border of what begins at an edge of the room
 constexpr int min_enclosed_px = 60;      ///< less does not tell how it ends

@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "grazing_surfaces.h"
 
 #include "pcl_cosection/common/parallel.h"
@@ -19,8 +18,8 @@ namespace
 {
 
 constexpr float nan_value = std::numeric_limits<float>::quiet_NaN ();
-constexpr float
-    steepest_cosine = 0.02f;         // of the angle between normal and ray: 89 degrees; beyond, noise decides the side
+// Cosine of 89 degrees between normal and ray; beyond, noise decides the side.
+constexpr float steepest_cosine = 0.02f;
 constexpr float steep_cosine = 0.3f; // 73 degrees: flatter surfaces have normals from their pixels
 constexpr int radius_px = 7;         // half of the window on which a plane is fitted and in which others must be alike
 constexpr std::size_t least_support = 12; // pixels on that plane

@@ -1,10 +1,10 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include <pcl/cosection/surface/normals.h>
 
 #include "pcl_cosection/common/multiversion.h"
 
 #include "pcl_cosection/common/parallel.h"
+#include "pcl_cosection/common/quantile.h"
 #include <pcl/cosection/common/camera.h>
 #include <pcl/cosection/common/error.h>
 
@@ -113,9 +113,7 @@ estimatePitch (const std::vector<Eigen::Vector3f>& points, const std::vector<flo
     }
   if (angles.empty ())
     return (0.0);
-  const auto middle = angles.begin () + static_cast<std::ptrdiff_t> (angles.size () / 2);
-  std::nth_element (angles.begin (), middle, angles.end ());
-  return (*middle);
+  return upperMedian (angles);
 }
 
 class NormalEstimator

@@ -1,8 +1,9 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "mixed_pixels.h"
 
-#include "pcl_cosection/energy/constraints/hull_constraint.h"
+#include "pcl_cosection/view/visibility/visibility.h"
+
+#include "pcl_cosection/view/visibility/free_space_view.h"
 
 #include <limits>
 
@@ -18,10 +19,9 @@ leaveOutFlyingPixels (const DepthView& view, SensorCloud& cloud)
   {
     if (cloud.labels[i] != 0 || !cloud.positions[i].allFinite ())
       continue;
-    const Eigen::Vector2d pixel = view.camera.project (T_view_points * cloud.positions[i].cast<double> ());
-    const Eigen::Vector2i at = (pixel.array () + 0.5).floor ().cast<int> ();
-    if (at.x () >= 0 && at.x () < view.camera.width && at.y () >= 0 && at.y () < view.camera.height &&
-        seen.atEdge (at.x (), at.y ()))
+    const std::optional<Eigen::Array2i> pixel = pixelOf (view.camera,
+                                                         T_view_points * cloud.positions[i].cast<double> ());
+    if (pixel && seen.atEdge (pixel->x (), pixel->y ()))
       cloud.normals[i].setConstant (std::numeric_limits<float>::quiet_NaN ());
   }
 }

@@ -1,15 +1,12 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "outlier_points.h"
 
-#include "pcl_cosection/common/cell_key.h"
 #include "pcl_cosection/common/disjoint_sets.h"
+#include "pcl_cosection/common/occupied_cells.h"
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 #include <limits>
-#include <unordered_map>
 
 namespace pcl::cosection
 {
@@ -19,13 +16,13 @@ namespace
 
 constexpr double patch_share = 0.01;     // of the points: as many, or ...
 constexpr std::size_t patch_points = 50; // ... so many are no outliers
+
 } // namespace
 
 std::vector<bool>
 findOutlierPoints (const std::vector<OrientedPoint>& points, const Eigen::Vector3d& middle, double reach_m)
 {
-  std::unordered_map<std::uint64_t, std::size_t> cells; // number of each that has points
-  std::vector<CellIndex> places;
+  OccupiedCells cells;
   constexpr std::size_t nowhere = ~std::size_t (0);
   std::vector<std::size_t> cell_of (points.size (), nowhere);
   std::size_t last = nowhere; // points come in rows: most are in the cell of the one before
@@ -39,33 +36,25 @@ findOutlierPoints (const std::vector<OrientedPoint>& points, const Eigen::Vector
       const auto place = cellOf (at.matrix ());
       if (!place)
         continue;
-      const auto [entry, fresh] = cells.emplace (keyOf (*place), places.size ());
-      if (fresh)
-        places.push_back (*place);
-      last = entry->second;
+      last = cells.add (*place);
       corner = place->cast<double> ().array ();
     }
     cell_of[p] = last;
   }
-  DisjointSets patches (places.size ());
-  for (std::size_t c = 0; c < places.size (); ++c)
-    for (int n = 0; n < 27; ++n)
-    {
-      const auto neighbour = cells.find (keyOf (places[c] + CellIndex (n % 3 - 1, n / 3 % 3 - 1, n / 9 - 1)));
-      if (neighbour != cells.end ())
-        patches.unite (c, neighbour->second);
-    }
-  std::vector<std::size_t> count (places.size (), 0); // of points, by cell
+  DisjointSets patches (cells.size ());
+  for (std::size_t c = 0; c < cells.size (); ++c)
+    cells.forNeighbours (c, [&] (std::size_t neighbour) { patches.unite (c, neighbour); });
+  std::vector<std::size_t> count (cells.size (), 0); // of points, by cell
   for (const std::size_t c : cell_of)
     if (c != nowhere)
       ++count[c];
-  std::vector<std::size_t> size (places.size (), 0); // by patch
-  for (std::size_t c = 0; c < places.size (); ++c)
+  std::vector<std::size_t> size (cells.size (), 0); // by patch
+  for (std::size_t c = 0; c < cells.size (); ++c)
     size[patches.find (c)] += count[c];
   const std::size_t enough = std::min (
       patch_points, static_cast<std::size_t> (std::ceil (patch_share * static_cast<double> (points.size ()))));
-  std::vector<bool> lonely (places.size ());
-  for (std::size_t c = 0; c < places.size (); ++c)
+  std::vector<bool> lonely (cells.size ());
+  for (std::size_t c = 0; c < cells.size (); ++c)
     lonely[c] = size[patches.find (c)] < enough;
   std::vector<bool> outlier (points.size ());
   for (std::size_t p = 0; p < points.size (); ++p)

@@ -1,8 +1,8 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "point_groups.h"
 
 #include "pcl_cosection/common/disjoint_sets.h"
+#include "pcl_cosection/common/occupied_cells.h"
 
 #include <algorithm>
 
@@ -35,33 +35,24 @@ gapBetweenGroups (const std::vector<OrientedPoint>& points, const Eigen::Aligned
   if (points.empty () || !(box.sizes ().maxCoeff () > 0.0))
     return 0.0;
   const double per_metre = cells / box.sizes ().maxCoeff ();
-  std::vector<Group> groups (cells * cells * cells); // by cell, later by the first cell of each
-  const auto indexOf = [] (const Eigen::Vector3i& at) {
-    return static_cast<std::size_t> ((at.z () * cells + at.y ()) * cells + at.x ());
-  };
+  OccupiedCells occupied;
+  std::vector<Group> groups; // by cell, later by the first cell of each
   for (const OrientedPoint& point : points)
   {
     const Eigen::Vector3d p = point.position.cast<double> ();
     if (!box.contains (p))
       continue;
-    Group& cell = groups[indexOf (((p - box.min ()) * per_metre).cast<int> ().cwiseMin (cells - 1))];
-    cell.box.extend (p);
-    ++cell.points;
+    const Eigen::Vector3i at = ((p - box.min ()) * per_metre).cast<int> ().cwiseMin (cells - 1);
+    const std::size_t cell = occupied.add (at.cast<std::int64_t> ());
+    groups.resize (occupied.size ());
+    groups[cell].box.extend (p);
+    ++groups[cell].points;
   }
   DisjointSets sets (groups.size ());
-  for (int z = 0; z < cells; ++z)
-    for (int y = 0; y < cells; ++y)
-      for (int x = 0; x < cells; ++x)
-        for (int n = 0; n < 27; ++n)
-        {
-          const Eigen::Vector3i a (x, y, z);
-          const Eigen::Vector3i b = a + Eigen::Vector3i (n % 3 - 1, n / 3 % 3 - 1, n / 9 - 1);
-          if ((b.array () >= 0).all () && (b.array () < cells).all () && groups[indexOf (a)].points > 0 &&
-              groups[indexOf (b)].points > 0)
-            sets.unite (indexOf (a), indexOf (b));
-        }
   for (std::size_t c = 0; c < groups.size (); ++c)
-    if (const std::size_t first = sets.find (c); first != c && groups[c].points > 0)
+    occupied.forNeighbours (c, [&] (std::size_t neighbour) { sets.unite (c, neighbour); });
+  for (std::size_t c = 0; c < groups.size (); ++c)
+    if (const std::size_t first = sets.find (c); first != c)
     {
       groups[first].box.extend (groups[c].box);
       groups[first].points += groups[c].points;

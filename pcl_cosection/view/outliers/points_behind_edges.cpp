@@ -1,7 +1,7 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "points_behind_edges.h"
 
+#include "pcl_cosection/common/quantile.h"
 #include "pcl_cosection/view/normals/estimated_normals.h"
 
 #include <pcl/cosection/common/camera.h>
@@ -28,8 +28,8 @@ constexpr float behind_spacings = 6.0f;   // a surface of up to 78 degrees to th
 constexpr double edge_sigmas = 6.0;       // ... but for noise, ...
 constexpr double edge_slope = 0.03;       // ... and never by so small a fraction of the depth
 constexpr float lonely_factor = 3.0f;     // of the usual spacing: trails have fewer points than surfaces
-constexpr float
-    regular = 0.93f; // of the usual distance in the image, that of the nearest pixels; of means in cells, 0.5 to 0.8
+// A share of the usual distance in the image, that of the nearest pixels; means in cells have 0.5 to 0.8.
+constexpr float regular = 0.93f;
 constexpr float pixels_per_spacing = 1.5f; // of the most dense points
 constexpr double most_dense = 0.1;         // share of all points
 constexpr float most_pixels = 2048.0f;     // along a side
@@ -52,12 +52,7 @@ valuesOf (std::vector<float> values, const std::array<double, N>& shares)
 {
   std::array<float, N> result;
   for (std::size_t n = 0; n < N; ++n)
-  {
-    const auto rank = values.begin () +
-                      static_cast<std::ptrdiff_t> (shares[n] * static_cast<double> (values.size () - 1));
-    std::nth_element (values.begin (), rank, values.end ());
-    result[n] = *rank;
-  }
+    result[n] = quantile (values, shares[n]);
   return result;
 }
 

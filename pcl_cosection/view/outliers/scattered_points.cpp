@@ -1,7 +1,7 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "scattered_points.h"
 
+#include "pcl_cosection/common/quantile.h"
 #include "pcl_cosection/view/normals/estimated_normals.h"
 
 #include <algorithm>
@@ -38,10 +38,9 @@ leaveOutScattered (const PcdViewOptions& options, const Surroundings& objects,
       }
     if (near.empty ())
       continue;
-    const auto middle = sorted.begin () + static_cast<std::ptrdiff_t> (sorted.size () / 2);
-    std::nth_element (sorted.begin (), middle, sorted.end ());
+    const float usual = upperMedian (sorted);
     for (const std::size_t k : near)
-      if (reach[k] <= scattered_factor * *middle)
+      if (reach[k] <= scattered_factor * usual)
         scattered[k] = false;
   }
   for (std::size_t k = 0; k < background.size (); ++k)

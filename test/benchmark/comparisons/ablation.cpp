@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 
 // ablation OUTPUT [DATASET|PRESET|SPEC.json ...]: what each constraint is worth, on sequences with known poses and
 // masks: folders with their truth, or simulated (all presets). Completes their objects without constraints, with each,

@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 
 // compare_hidden_sides [SCENES [FIRST_SEED]]: how well things on random tables, some of which hide others in part, are
 // completed from one view and from two; by kind.

@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 
 // compare_masks OUTPUT SEGMENTATIONS [DATASET|PRESET|SPEC.json ...]: what is lost where there are no masks, on
 // sequences with their truth: folders, or simulated (all presets). Tracks and completes their objects with the true

@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 
 // compare_poisson CLOUD.pcd POISSON.ply [MESH.ply ...]: surface of one object by pcl::Poisson (depth 6, its defaults)
 // from the same oriented points that pcl_cosection reads, and a row of a table for it and for each mesh given.

@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 
 // compare_poses OUTPUT [DATASET|PRESET|SPEC.json ...]: what is lost where poses are not known, on sequences with their
 // truth: folders, or simulated (all presets). Completes their objects with the true poses and masks of all frames, and

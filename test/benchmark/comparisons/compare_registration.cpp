@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 
 // compare_registration [TRIALS]: views of toys are registered from poses up to 10 degrees and 5 cm away, with a model
 // of the object: by SdfRegistration with its signed distance, by PCL's ICP and GICP with points and normals on the zero

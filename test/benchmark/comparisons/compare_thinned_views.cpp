@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 
 // compare_thinned_views [SCENES [FIRST_SEED]]: how well things on random tables are completed from one view that was
 // thinned by pcl::VoxelGrid, with normals or without, together with their background or alone.

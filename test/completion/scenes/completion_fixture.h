@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 #include "completion_scene.h"
@@ -32,7 +31,8 @@ protected:
 
   const ObjectResult& object () const { return result_.objects.front (); }
 
-  /** \brief Largest distance to the true surface, in voxels, of the vertices of a provenance that lie where asked. */
+  /** \brief Largest distance to the true surface, in voxels, over the vertices of a provenance for which \a where
+   * holds. */
   template <typename Where> double largestError (Provenance provenance, Where&& where) const
   {
     double largest = 0.0;

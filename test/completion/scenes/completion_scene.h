@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 #include "completion/analytic_scene.h"
@@ -21,7 +20,7 @@ enum class Shape
 
 std::string nameOf (Shape shape);
 
-/** \brief What most tests complete tableScene () with. */
+/** \brief The voxel size of most tests on tableScene (). */
 constexpr double voxel_m = 0.005;
 
 /** \brief The shape on the table z = 0, about 12 cm large. */
@@ -33,12 +32,12 @@ AnalyticScene tableScene (Shape shape);
 /** \brief The table of tableScene (). */
 inline const Eigen::Vector4d table_plane (0.0, 0.0, 1.0, 0.0);
 
-/** \brief A camera that fits tableScene ()'s object, and poses from which it sees it. */
+/** \brief A camera for the object of tableScene (), and poses from which it sees the object. */
 PinholeCamera tableCamera ();
 Eigen::Isometry3d fromAbove ();
 Eigen::Isometry3d fromTheFront ();
 
-/** \brief Options of one thread and the given voxel size. */
+/** \brief Options with one thread and the given voxel size. */
 CoSectionOptions optionsFor (double voxel_size_m);
 
 Eigen::Isometry3d motion (double angle_rad, const Eigen::Vector3d& axis, const Eigen::Vector3d& translation_m);

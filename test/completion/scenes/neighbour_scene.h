@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 #include "completion_scene.h"
@@ -13,8 +12,8 @@ namespace pcl::cosection::test
 constexpr double neighbour_voxel_m = 0.005;
 constexpr double about_a_voxel = 1.5;
 
-/** \brief A low box (1) and a tall one (2) behind it that touch, on a table; the data of the latter pushed into the
- * former by a number of voxels. */
+/** \brief A low box (1) and a tall one (2) behind it that touch, on a table. The data of the tall one are moved into
+ * the low one by a number of voxels. */
 inline RenderedView
 touchingBoxes (double overlap_vox)
 {
@@ -28,7 +27,7 @@ touchingBoxes (double overlap_vox)
   return seen;
 }
 
-/** \brief Deepest vertex of one of two objects inside the other, voxels. */
+/** \brief Largest depth of a vertex of either object inside the other, voxels. */
 inline double
 deepestPenetration (const SceneResult& result)
 {

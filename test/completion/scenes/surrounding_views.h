@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 #include "completion/mesh_distance.h"
@@ -23,7 +22,7 @@ around (int n)
   return lookAt ({0.45 * std::sin (angle), -0.45 * std::cos (angle), 0.28 + 0.03 * n}, {0.0, 0.0, 0.04});
 }
 
-/** \brief Complete object 1 of a scene from what several sensors see of it. */
+/** \brief Complete object 1 of a scene from the views of several sensors. */
 inline ObjectResult
 completeFrom (const AnalyticScene& scene, const std::vector<int>& sensors, const CoSectionOptions& options)
 {

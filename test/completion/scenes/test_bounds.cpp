@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 
 // Hull, inner and outer bound of a completed object.
 
@@ -15,7 +14,7 @@ using namespace pcl::cosection::test;
 namespace
 {
 
-/** \brief Deepest that vertices of \a inner lie outside \a outer, voxels. */
+/** \brief Largest distance of vertices of \a inner outside \a outer, voxels. */
 double
 protrusion (const TriangleMesh& inner, const TriangleMesh& outer, const VoxelGrid& grid)
 {
@@ -46,11 +45,11 @@ TEST_P (Bounds, EncloseTheEstimate)
   EXPECT_LE (protrusion (object.inner_bound, object.mesh, grid), 0.25);
   EXPECT_LE (protrusion (object.mesh, object.outer_bound, grid), 0.25);
   EXPECT_LE (protrusion (object.hull, object.outer_bound, grid), 0.25);
-  double outside = 0.0; // what is sure is true
+  double outside = 0.0; // the inner bound is inside the true shape
   for (const Eigen::Vector3f& v : object.inner_bound.vertices)
     outside = std::max (outside, scene.shape (1) (v.cast<double> ()));
   EXPECT_LE (outside, 1.5 * voxel_m);
-  // What may be the object holds all of it, where the object's volume reaches.
+  // The outer bound holds all of the object within the object's volume.
   const TriangleMesh truth = extractIsoSurface (sampleField (scene.shape (1), 0.15, 0.004));
   EXPECT_LE (protrusion (truth, object.outer_bound, grid), 1.5);
 }

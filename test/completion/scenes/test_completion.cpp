@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "completion/mesh_distance.h"
 #include "completion_fixture.h"
 
@@ -83,7 +82,7 @@ TEST_P (Completion, AttributesMatchTheMesh)
 
 INSTANTIATE_TEST_SUITE_P (Table, Completion, completionCases (), completionCaseName);
 
-/** \brief The hole of a ring and the hollow of a cup are seen, and stay. */
+/** \brief The visible hole of a ring and the hollow of a cup stay open. */
 TEST (CompletionTopology, KeepsWhatIsSeenHollow)
 {
   for (const auto& [shape, euler] : {std::make_pair (Shape::Sphere, 2), std::make_pair (Shape::Torus, 0)})

@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "completion/mesh_distance.h"
 #include "completion_scene.h"
 
@@ -15,15 +14,14 @@ using namespace pcl::cosection::test;
 namespace
 {
 
-/** \brief Shares of an object's surface where it cannot be. */
+/** \brief Shares of an object's surface at impossible places. */
 struct Violations
 {
   double in_free_space = 0.0;
   double below_table = 0.0; ///< by more than a voxel
 };
 
-/** \brief The figures of the paper: what each constraint keeps an object from. The remedy for swelling is off, as in
- * the paper. */
+/** \brief The effects of each constraint, as in the figures of the paper. As there, the extent bound is off. */
 class Constraints : public testing::TestWithParam<std::tuple<Shape, bool>> // shape, from above
 {
 protected:
@@ -62,7 +60,7 @@ TEST_P (Constraints, KeepOutOfFreeSpaceAndOutOfTheTable)
   const Violations intersection = violations (false, true);
   const Violations all = violations (true, true);
 
-  // Without constraints there is something to keep out.
+  // Without constraints the surface enters free space.
   EXPECT_GT (none.in_free_space, 0.02);
   EXPECT_GT (none.below_table, 0.02);
 
@@ -84,7 +82,7 @@ INSTANTIATE_TEST_SUITE_P (Table, Constraints,
                                    (std::get<1> (info.param) ? "FromAbove" : "FromTheFront");
                           });
 
-/** \brief Intersection alone does not keep out of free space: what the table takes, swells elsewhere. */
+/** \brief The intersection constraint alone does not keep a surface out of free space: it swells beside the table. */
 TEST (ConstraintsAlone, AreNotEnough)
 {
   const RenderedView seen = tableScene (Shape::Box).render (tableCamera (), fromAbove ());
@@ -109,7 +107,7 @@ TEST (ConstraintsAlone, AreNotEnough)
   EXPECT_LT (all, intersection);
 }
 
-/** \brief A plane given by the user does what a found one does. */
+/** \brief A plane given by the user has the effect of a found one. */
 TEST (ConstraintsGiven, PlanesAndBodiesBound)
 {
   const RenderedView seen = tableScene (Shape::Box).render (tableCamera (), fromAbove ());

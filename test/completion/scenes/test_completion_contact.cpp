@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "completion_fixture.h"
 
 using namespace pcl::cosection;
@@ -18,7 +17,7 @@ TEST_P (CompletionContact, IsRightWhereTheTableBoundsIt)
   EXPECT_LE (largestError (Provenance::Intersection, [] (const Eigen::Vector3d&) { return true; }), 2.25);
 }
 
-/** \brief What counts as observed faces as the observed surface does. */
+/** \brief Vertices marked as observed have the normals of the observed surface. */
 TEST_P (CompletionContact, ObservedSurfaceFacesOutwards)
 {
   const TriangleMesh& mesh = object ().mesh;

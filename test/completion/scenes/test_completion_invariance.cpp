@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "completion/mesh_distance.h"
 #include "completion_scene.h"
 
@@ -15,7 +14,7 @@ using namespace pcl::cosection::test;
 namespace
 {
 
-constexpr double reach_m = 4.0 * voxel_m; // distances beyond count as this
+constexpr double reach_m = 4.0 * voxel_m; // distances are clamped to this
 
 template <typename T>
 bool
@@ -39,7 +38,7 @@ class Invariance : public testing::TestWithParam<Shape>
 
 TEST_P (Invariance, UnderMotionsOfTheGrid)
 {
-  // Where a ring touches the table is found on cells of a voxel, of which one more or less may count after a motion.
+  // The contact of a ring is found on cells of a voxel, whose number may change by one after a motion.
   const double allowed_vox = GetParam () == Shape::Torus ? 0.16 : 0.02;
   EXPECT_LE (effectOfMotion (GetParam (), voxel_m, motion (M_PI / 2.0, Eigen::Vector3d::UnitX (), {0.3, -0.2, 0.1})),
              allowed_vox);
@@ -63,7 +62,7 @@ TEST_P (Invariance, UnderTheNumberOfThreads)
 INSTANTIATE_TEST_SUITE_P (Table, Invariance, testing::Values (Shape::Sphere, Shape::Box, Shape::Torus, Shape::Cup),
                           [] (const auto& info) { return nameOf (info.param); });
 
-/** \brief Poses of the objects and of the world: one scene told in two ways. */
+/** \brief One scene with object poses, and without. */
 TEST (InvarianceOfFrames, ObjectAndWorld)
 {
   const RenderedView seen = tableScene (Shape::Box).render (tableCamera (), fromAbove ());

@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "neighbour_scene.h"
 
 #include <gtest/gtest.h>
@@ -62,7 +61,7 @@ TEST (NeighboursReport, TheirPenetration)
   }
 }
 
-/** \brief What both hide of their contact is divided between them, near where it is seen. */
+/** \brief The hidden contact of two objects is divided between them without a gap, near its visible part. */
 TEST (NeighboursContact, LeavesNoGap)
 {
   const SceneResult result = complete (touchingBoxes (0), optionsFor (neighbour_voxel_m));

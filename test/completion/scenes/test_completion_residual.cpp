@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "neighbour_scene.h"
 
 #include <gtest/gtest.h>
@@ -20,7 +19,7 @@ class BackgroundResidual : public testing::TestWithParam<Shape>
 
 } // namespace
 
-/** \brief The passes over all objects end without penetration however the data and the other terms pull. */
+/** \brief The passes over all objects end without penetration whatever the data and the other terms. */
 TEST_P (NeighbourResidual, IsResolvedByGrowingWeights)
 {
   CoSectionOptions options = optionsFor (neighbour_voxel_m);

@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "completion_scene.h"
 
 #include <gtest/gtest.h>
@@ -15,7 +14,7 @@ class Rotation : public testing::TestWithParam<Shape>
 
 } // namespace
 
-/** \brief The grid is aligned with the axes; what it cannot resolve is all that may depend on that. */
+/** \brief A rotation with respect to the grid changes results only by discretisation errors. */
 TEST_P (Rotation, ChangesNoMoreThanDiscretisation)
 {
   EXPECT_LE (effectOfMotion (GetParam (), 0.005, motion (1.1, {1.0, 2.0, -1.0}, {-0.3, 0.5, 1.1})), 0.3);

@@ -1,7 +1,6 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 
-// Objects whose table was cropped away before: a plane says where it was, or nothing does.
+// Objects whose table was cropped away, with the plane of the table given or not.
 
 #include "completion/lowest_vertex.h"
 #include "surrounding_views.h"
@@ -22,7 +21,7 @@ using namespace pcl::cosection::test;
 namespace
 {
 
-/** \brief What is left of a view when all but the object is set to no reading. */
+/** \brief A view with all readings removed except those of the object. */
 DepthView
 cropped (const RenderedView& seen)
 {
@@ -33,7 +32,7 @@ cropped (const RenderedView& seen)
   return view;
 }
 
-/** \brief The points alone, as an unorganised cloud with a viewpoint has them. */
+/** \brief The view of the points alone, as of an unorganised cloud with a viewpoint. */
 DepthView
 redrawn (const RenderedView& seen)
 {
@@ -62,7 +61,7 @@ meanDifference (const TriangleMesh& a, const TriangleMesh& b)
   return std::max (meanDistance (a, b, reach_m), meanDistance (b, a, reach_m));
 }
 
-/** \brief Of a mesh's vertices, from the true shape, metres. */
+/** \brief Largest distance of a mesh's vertices outside the true shape, metres. */
 double
 farthestOutside (const TriangleMesh& mesh, const Distance& truth)
 {
@@ -102,8 +101,7 @@ TEST_P (CroppedObject, WithAPlaneIsAsWithTheTable)
   }
 }
 
-// What one view hides stays unknown, with a table or without: it is the difference that tells what the table's absence
-// does.
+// The hidden side is unknown with and without a table; the difference shows the effect of the missing table.
 TEST_P (CroppedObject, AloneClosesWithoutSwelling)
 {
   const double volume_with_table_m3 = computeMassProperties (with_table_).volume_m3;
@@ -115,7 +113,7 @@ TEST_P (CroppedObject, AloneClosesWithoutSwelling)
   // With a table their hidden sides are expected; alone they come out small.
   const bool ball = GetParam () == Shape::Sphere;
   const bool torus = GetParam () == Shape::Torus;
-  const bool box = GetParam () == Shape::Box; // nothing tells of its walls, which with a table go straight down
+  const bool box = GetParam () == Shape::Box; // with a table, its walls continue straight down
   const DepthView unorganized = redrawn (seen_);
   const DepthView* const views[] = {&unorganized, nullptr};
   for (const DepthView* view : views)
@@ -136,7 +134,7 @@ TEST_P (CroppedObject, AloneClosesWithoutSwelling)
   }
 }
 
-// Of what is open little more than the inside is seen. Without its table nothing says how far below its floor it ends.
+// An open thing shows little more than its inside. Without a table, its thickness below the floor is unknown.
 TEST (OpenObject, AloneClosesWithoutSwelling)
 {
   using Corner = Eigen::Vector2d;

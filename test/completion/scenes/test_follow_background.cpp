@@ -1,7 +1,6 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 
-// CoSection::update (): of a whole background only what has changed is solved, and it is what a fresh run gives.
+// CoSection::update () solves only the changed parts of a whole background, with the result of a fresh run.
 
 #include "completion/analytic_scene.h"
 
@@ -83,14 +82,14 @@ protected:
     return options;
   }
 
-  /** \brief From high above the whole floor is seen, and no side of a block. */
+  /** \brief A view from high above of the whole floor, without the sides of the blocks. */
   RenderedView fromAbove () const
   {
     return scene_.render ({320, 80, 250.0, 250.0, 159.5, 39.5},
                           lookAt ({0.0, 0.0, 2.5}, {0.0, 0.0, 0.0}, Eigen::Vector3d::UnitY ()));
   }
 
-  /** \brief A small part of it, from nearby. */
+  /** \brief A view of a small part of the floor, from nearby. */
   RenderedView closeUp (double x, double azimuth) const
   {
     const Eigen::Vector3d target (x, 0.0, 0.1);
@@ -180,7 +179,7 @@ TEST_F (FollowBackground, GrowsNotWithEveryView)
   expectSameBackground (followed, task.reconstruct ());
 }
 
-/** \brief What never was there is taken away by a view without points. */
+/** \brief A view without points removes the surface of a ghost that it looks through. */
 TEST_F (FollowBackground, FreeSpaceChangesAndNoPoints)
 {
   CoSection task (options ());

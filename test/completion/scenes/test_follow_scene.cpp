@@ -1,7 +1,6 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 
-// CoSection::update (): a scene that grows gives what a fresh run on all of it gives.
+// CoSection::update () on a growing scene gives the result of a fresh run on all of it.
 
 #include "surrounding_views.h"
 
@@ -43,7 +42,7 @@ differenceNearSurface (const SignedDistanceField& a, const SignedDistanceField& 
 
 using Poses = std::map<int, Eigen::Isometry3d>;
 
-/** \brief Take what a sensor sees into a scene; objects with a pose are measured in their own frames. */
+/** \brief Add a rendered view to a scene; points of objects with a pose are in the objects' frames. */
 void
 show (const AnalyticScene& scene, int sensor, const Poses& T_world_object, CoSection& task, double farthest_x = 1.0)
 {
@@ -121,8 +120,7 @@ TEST_P (FollowScene, UpdatesGiveWhatAFreshRunGives)
              0.1);
 }
 
-/** \brief With voxels as points ask for them: of a vessel they are finer, and its points' Gaussians wider as long as
- * points are few. */
+/** \brief With automatic voxel sizes: those of a vessel are finer, and its Gaussians wider while points are few. */
 TEST (FollowScene, VoxelsAndGaussiansFollowThePoints)
 {
   AnalyticScene scene;
@@ -140,7 +138,7 @@ TEST (FollowScene, VoxelsAndGaussiansFollowThePoints)
   }
 }
 
-/** \brief At first only the left part of it is there. */
+/** \brief The first view has only the left part of the object. */
 TEST_P (FollowScene, AnObjectOutgrowsItsVolume)
 {
   CoSection task (options ());
@@ -177,7 +175,7 @@ TEST_P (FollowScene, AnObjectThatIsGivenUpLeavesNothing)
   task.addPoints (7, wrong);
   EXPECT_EQ (task.update (UpdateOutput::Fields).objects.size (), 2u);
   task.removeObject (7);
-  task.removeObject (8); // there is none
+  task.removeObject (8); // no such object
   expectSameObjects (task.update (), fresh);
 }
 
@@ -209,7 +207,7 @@ TEST_P (FollowScene, ViewsAreGivenUpBetweenUpdates)
   expectSameObjects (followed, task.reconstruct ());
 }
 
-/** \brief A few points over the object, left out until there are more of them; then they are given up. */
+/** \brief A few points above the object are outliers until there are more of them. */
 TEST_P (FollowScene, OutlierPointsAreNoLongerOnesWhenThereAreMany)
 {
   const auto patch = [] (int side) {

@@ -1,7 +1,6 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 
-// What several views of one scene say together.
+// Completion from several views of one scene.
 
 #include "surrounding_views.h"
 
@@ -53,12 +52,12 @@ TEST_P (SeveralViews, AreTogetherAtLeastAsAccurateAsEachAlone)
   }
 }
 
-/** \brief The same points, ever more views of the space around them. */
+/** \brief The hull of constant points with an increasing number of views. */
 TEST_P (SeveralViews, ShrinkTheHull)
 {
   CoSectionOptions options = optionsFor (voxel_m);
   options.use_intersection = false;
-  options.use_extent_prior = false; // it trusts in more when more is seen, so that shapes may grow to their true size
+  options.use_extent_prior = false; // its bounds grow with the observed surface, so shapes may grow
   options.compute_hull = true;
   options.padding = 0.5; // the same volume for all
   const RenderedView first = scene_.render (tableCamera (), around (0));

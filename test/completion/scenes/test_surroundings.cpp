@@ -1,7 +1,6 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 
-// What stands around objects, given as planes and meshes: a table, a wall, a shelf, a bin.
+// Surroundings of objects given as planes and meshes: a table, a wall, a shelf, a bin.
 
 #include "completion/lowest_vertex.h"
 #include "surrounding_views.h"
@@ -60,7 +59,7 @@ tableTop ()
       {Eigen::Vector3f (-1, -1, 0), Eigen::Vector3f (1, -1, 0), Eigen::Vector3f (1, 1, 0), Eigen::Vector3f (-1, 1, 0)});
 }
 
-/** \brief The object's points and the view of it alone. */
+/** \brief The object's points and a view that shows only the object. */
 struct Cropped
 {
   explicit Cropped (Shape shape) : seen (tableScene (shape).render (tableCamera (), fromAbove ())), view (seen.view)

@@ -1,6 +1,7 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "report_scene.h"
+
+#include "browser.h"
 
 #include <memory>
 #include <regex>
@@ -17,6 +18,13 @@ std::string
 withoutMarkup (const std::string& html)
 {
   return (std::regex_replace (html, std::regex ("<[^>]*>"), ""));
+}
+
+std::string
+nameOfPage (const std::vector<std::string>& arguments)
+{
+  const auto named = std::find (arguments.begin (), arguments.end (), "-o");
+  return (named == arguments.end () ? "report.html" : *(named + 1));
 }
 
 } // namespace
@@ -78,10 +86,26 @@ std::string
 ReportScene::page (const Words& arguments)
 {
   EXPECT_EQ (report (arguments), 0) << errors_;
-  const auto named = std::find (arguments.begin (), arguments.end (), "-o");
-  const std::string name = named == arguments.end () ? "report.html" : *(named + 1);
+  const std::string name = nameOfPage (arguments);
   EXPECT_EQ (output_.rfind ("wrote " + name + ": ", 0), 0u) << output_;
   return (readFile (file (name)));
+}
+
+std::string
+ReportScene::shown (const Words& arguments)
+{
+  page (arguments);
+  const BrowsedPage browsed = browse (file (""), nameOfPage (arguments),
+                                      {"--disable-3d-apis", "--disable-gpu", "--dump-dom"});
+  return (withoutScripts (browsed.document));
+}
+
+nlohmann::json
+ReportScene::data (const std::string& page)
+{
+  const std::string begin = "id=\"report-data\">";
+  const std::size_t at = page.find (begin) + begin.size ();
+  return (nlohmann::json::parse (page.substr (at, page.find ("</script>", at) - at)));
 }
 
 std::string

@@ -1,8 +1,9 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 #include "fusion_scene.h"
+
+#include <nlohmann/json.hpp>
 
 #include <string>
 
@@ -27,7 +28,14 @@ protected:
   /** \brief The page that it writes; fails unless the program succeeds. */
   std::string page (const Words& arguments);
 
+  /** \brief What a browser without WebGL shows of that page, as HTML. */
+  std::string shown (const Words& arguments);
+
+  /** \brief The data that a page is made from. */
+  static nlohmann::json data (const std::string& page);
+
   /** \brief What the cell of a table in \a page shows, without markup; "none" if there is no such cell.
+   * \param[in] page as shown () gives it
    * \param[in] section the id of the part of the page
    * \param[in] row, column what is in the first cell, and the name of the column */
   static std::string cell (const std::string& page, const std::string& section, const std::string& row,

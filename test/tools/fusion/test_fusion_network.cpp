@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 
 // pcl_cosection_fusion with a network that finds red and blue things.
 
@@ -27,8 +26,9 @@ protected:
 
   static Words withNetwork (Words more = {})
   {
-    Words words = {"sim",           "out",   "--segmentation",          "mask-rcnn", "--model", "net.onnx",
-                   "--class-names", "names", "--background-voxel-size", "0.03"};
+    Words words = {"sim",          "out",      "--segmentation",          "mask-rcnn",
+                   "--model",      "net.onnx", "--class-names",           "names",
+                   "--input-size", "24,18",    "--background-voxel-size", "0.03"};
     words.insert (words.end (), more.begin (), more.end ());
     return (words);
   }

@@ -1,10 +1,10 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 
 // The report in a browser: it draws, complains of nothing, asks nobody for anything, and lets nobody else's script run.
 
 #ifdef PCL_COSECTION_CHROMIUM
 
+#include "browser.h"
 #include "report_scene.h"
 
 #include "pcl_cosection/io/image_io.h"
@@ -22,32 +22,12 @@ namespace
 class ReportBrowser : public ReportScene
 {
 protected:
-  /** \brief Open a page in a browser without network, and without a display. \return the document after its scripts
-   * have run */
+  /** \brief Open a page. \return the document after its scripts have run */
   std::string open (const std::string& name, const Words& more = {"--dump-dom"})
   {
-    Words words = {"--headless",
-                   "--no-sandbox",
-                   "--disable-dev-shm-usage",
-                   "--use-angle=swiftshader",
-                   "--enable-unsafe-swiftshader",
-                   "--hide-scrollbars",
-                   "--no-first-run",
-                   "--user-data-dir=" + file ("profile"),
-                   "--host-resolver-rules=MAP * ~NOTFOUND",
-                   "--enable-logging=stderr",
-                   "--log-net-log=" + file ("net.json"),
-                   "--virtual-time-budget=8000"};
-    words.insert (words.end (), more.begin (), more.end ());
-    words.push_back ("file://" + file (name));
-    ToolRun browser (words, file (""), {}, PCL_COSECTION_CHROMIUM);
-    EXPECT_EQ (browser.wait (), 0) << browser.errors ();
-    console_.clear ();
-    std::istringstream lines (browser.errors ());
-    for (std::string line; std::getline (lines, line);)
-      if (line.find ("CONSOLE") != std::string::npos)
-        console_ += line + '\n';
-    return (browser.output ());
+    const BrowsedPage page = browse (file (""), name, more);
+    console_ = page.console;
+    return (page.document);
   }
 
   /** \brief What the page asked for, as the browser has noted it; its own requests are not those of a page. */
@@ -95,7 +75,7 @@ TEST_F (ReportBrowser, ThePageIsWholeAndDraws)
   EXPECT_EQ (console_, "");
   EXPECT_GT (drawnPixels (document), 5000);
   EXPECT_NE (document.find ("<canvas"), std::string::npos);
-  EXPECT_EQ (document.find ("needs a browser with scripts"), std::string::npos); // the sentence made room for the view
+  EXPECT_EQ (withoutScripts (document).find ("needs a browser with scripts and"), std::string::npos); // it made room
   for (const char* section :
        {"pictures", "scene", "objects", "accuracy", "comparison", "trajectories", "times", "warnings", "parameters"})
     EXPECT_NE (document.find ("<section id=\"" + std::string (section) + "\">"), std::string::npos) << section;
@@ -115,7 +95,7 @@ TEST_F (ReportBrowser, NothingIsAskedOfAnybody)
   EXPECT_EQ (requests ()[0], "http://elsewhere.test/x.png");
   // Nor does the page allow any: not even to what somebody writes into it.
   std::string html = readFile (file ("report.html"));
-  html.insert (html.find ("<main>"),
+  html.insert (html.find ("<noscript>"),
                "<img src=\"http://elsewhere.test/x.png\"><script>document.title = 'changed'</script>"
                "<link rel=\"stylesheet\" href=\"http://elsewhere.test/x.css\"><p onclick=\"1\" style=\"color: red\">");
   writeFile (file ("changed.html"), html);
@@ -130,8 +110,10 @@ TEST_F (ReportBrowser, ColoursAreThoseAskedFor)
 {
   std::string html = page ({"out"});
   // The view alone, where a picture of the page shows it.
-  const std::size_t begin = html.find ("<section id=\"pictures\">"), end = html.find ("<section id=\"scene\">");
-  html.erase (begin, end - begin);
+  const std::string rule = ".panels.scene {";
+  const std::size_t policy = html.find ("<meta http-equiv=\"Content-Security-Policy\"");
+  html.erase (policy, html.find ('>', policy) - policy + 1);
+  html.insert (html.find (rule), "#pictures { display: none }\n");
   writeFile (file ("view.html"), html);
   const auto isRed = [] (const std::array<std::uint8_t, 3>& c) {
     return (c[0] > 90 && c[0] > 2 * c[1] && c[0] > 2 * c[2]);
@@ -240,7 +222,7 @@ TEST_F (ReportBrowser, WithoutWebGlThereIsASentence)
   page ({"out"});
   const std::string document = open ("report.html", {"--disable-3d-apis", "--disable-gpu", "--dump-dom"});
   EXPECT_LT (drawnPixels (document), 1);
-  EXPECT_NE (document.find ("needs a browser with scripts and WebGL"), std::string::npos);
+  EXPECT_NE (withoutScripts (document).find ("needs a browser with scripts and WebGL"), std::string::npos);
   EXPECT_NE (cell (document, "objects", "object 1", "Volume (ml)"), "none");
 }
 

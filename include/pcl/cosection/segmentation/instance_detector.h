@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 #include <pcl/cosection/common/export.h>
@@ -139,8 +138,7 @@ PCL_COSECTION_EXPORT InstanceLabels labelInstances (const std::vector<DetectedIn
  * | input size | the image's | the image's | 640 x 640, letterbox |
  * | values | 0 to 255 | 0 to 1 | 0 to 1 |
  *
- * The first has layers detection_out_final and detection_masks, the second four outputs. An ONNX file that fixes the
- * size of its input has that one. */
+ * The first has layers detection_out_final and detection_masks, the second four outputs. */
 struct PCL_COSECTION_EXPORT InstanceDetectorOptions
 {
   std::string model;                 ///< file: .onnx, or a frozen graph of TensorFlow, .pb

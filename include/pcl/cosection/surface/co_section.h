@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 #include <pcl/cosection/common/camera.h>
@@ -65,8 +64,8 @@ struct PCL_COSECTION_EXPORT BackgroundResult
 {
   SignedDistanceField::Ptr signed_distance; ///< world frame
   SolverSummary solver;                     ///< what the solver did
-  double
-      solved_share = 1.0; ///< of its voxels that were solved; less where an update found the others as they have to be
+  /** \brief Share of its voxels that were solved: less than 1 where an update left the others as they were. */
+  double solved_share = 1.0;
 };
 
 /** \brief Everything CoSection::reconstruct () computes. */
@@ -174,9 +173,9 @@ public:
   void addObstacle (TriangleMesh body,
                     const std::vector<Eigen::Isometry3d>& T_body_world = {Eigen::Isometry3d::Identity ()});
 
-  /** \brief Complete everything from the start; if there were updates, with voxels at the places that they have given
-   * them. One failing object (degenerate, too large for the memory allowed ...) does not lose the others: see
-   * ObjectResult::error; a background that fails is a warning.
+  /** \brief Complete everything from the start, whatever update () has left. An object that fails (degenerate, too
+   * large for the memory allowed ...) does not lose the others: see ObjectResult::error. A background that fails is a
+   * warning.
    * \return meshes and signed distances of all objects, and of the background
    * \throws Cancelled if \a progress asks for it */
   SceneResult reconstruct (const ProgressCallback& progress = {}) const;
@@ -192,7 +191,6 @@ public:
   void forgetUpdates ();
 
 private:
-  friend class CoSectionRun;
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };

@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 #include <pcl/cosection/common/export.h>
@@ -36,8 +35,8 @@ struct PCL_COSECTION_EXPORT RunWindowOptions
   std::size_t first_frame = 0;                   ///< that is shown, from 0
   std::string dataset;                           ///< of the input points; empty: the one that the run names
   std::string viewpoint_file = "viewpoint.json"; ///< that the key v writes; empty: it refuses to
-  std::string
-      picture_prefix = "window_";  ///< of the pictures that the key p writes, beside a number and .png; empty: likewise
+  /** \brief Begin of the names of pictures that the key p writes, before a number and .png; empty: no pictures. */
+  std::string picture_prefix = "window_";
   double frames_per_second = 30.0; ///< when playing
   /** \brief Called some five times a second: a scene that is new, or nothing. */
   std::function<std::optional<SceneUpdate> ()> newScene;

@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 #include <pcl/cosection/common/camera.h>
@@ -34,9 +33,9 @@ struct PCL_COSECTION_EXPORT RaycastOptions
 struct PCL_COSECTION_EXPORT RaycastBody
 {
   const TsdfVolume* volume = nullptr; ///< must be set, and live as long as this is used
-  Eigen::Isometry3d
-      T_grid_sensor = Eigen::Isometry3d::Identity (); ///< the sensor's pose in the frame of the volume's grid
-  std::uint16_t id = 0;                               ///< by custom, 0 is the background
+  // The sensor's pose in the frame of the volume's grid.
+  Eigen::Isometry3d T_grid_sensor = Eigen::Isometry3d::Identity ();
+  std::uint16_t id = 0;         ///< by custom, 0 is the background
   bool foreground_only = false; ///< rays pass surfaces whose foreground probability is not known to be above 1/2
 };
 

@@ -1,0 +1,43 @@
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "background.h"
+#include "hulls.h"
+#include "surroundings.h"
+
+#include <cstddef>
+#include <vector>
+
+namespace pcl::cosection
+{
+
+/** \brief The results of one object, in its frame. */
+struct FinishedObject
+{
+  SignedDistanceField::Ptr field; // metres
+  TriangleMesh mesh;              // closed
+  TriangleMesh inner_bound;
+  HullMeshes hulls;
+  double penetration_m = 0.0; // largest depth in any other body
+};
+
+/** \brief Fields, meshes with provenance and confidence, and bounds of all objects that were solved.
+ * \param[in] used_bytes memory in use, without obstacles and fields */
+std::vector<FinishedObject> finishObjects (const Scene& scene, const std::vector<SceneObject>& objects,
+                                           const std::vector<BodyEnergy>& energies,
+                                           const std::vector<SignedDistanceField::ConstPtr>& background,
+                                           const std::vector<Obstacle>& obstacles, UpdateOutput output,
+                                           std::size_t used_bytes, CompletionLog& log);
+
+/** \brief Remove the states of objects that failed. */
+void dropFailed (const Scene& scene, const CompletionLog& log, SceneState& state);
+
+/** \brief The results of all stages, in the form that users get. \a solvers and \a finished have a value per element of
+ * \a objects, the others a value per object of the scene. */
+SceneResult sceneResult (const Scene& scene, const std::vector<Observation>& observations,
+                         const std::vector<SupportPlanes>& support, const std::vector<SceneObject>& objects,
+                         const std::vector<double>& contradicted, Background background,
+                         const std::vector<SolverSummary>& solvers, std::vector<FinishedObject> finished,
+                         const CompletionLog& log);
+
+} // namespace pcl::cosection

@@ -1,0 +1,68 @@
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "pcl_cosection/completion/scene/completion_log.h"
+#include "pcl_cosection/completion/scene/scene.h"
+#include "pcl_cosection/completion/scene/scene_state.h"
+#include "pcl_cosection/energy/constraints/intersection_constraint.h"
+#include "pcl_cosection/priors/observation.h"
+
+#include <vector>
+
+namespace pcl::cosection
+{
+
+/** \brief The planes that bound an object, given or found in the background: n.x + d = 0, unit n towards the object,
+ * world frame. */
+struct SupportPlanes
+{
+  std::vector<Eigen::Vector4d> planes;
+  bool inferred = false; // the only plane is that of inferSupportPlane (): it bounds the mesh, but not the hull
+};
+
+/** \brief One object of the scene with a grid. */
+struct SceneObject
+{
+  std::size_t index = 0; // in the scene
+  const ObjectInput* input = nullptr;
+  const Observation* observation = nullptr;
+  const SupportPlanes* support = nullptr;
+  BodyState* body = nullptr;
+  std::vector<Eigen::Isometry3d> T_world_object; // relativePoses () with respect to the world
+
+  const std::vector<OrientedPoint>& points () const { return observation->points (); }
+
+  const VoxelGrid& grid () const { return *body->grid; }
+
+  /** \brief The planes in the object's frame, at all of its poses. */
+  std::vector<Eigen::Vector4d> planes () const;
+};
+
+/** \brief The surroundings of an object, as priors need them. */
+ObjectSetting settingOf (const Scene& scene, const ObjectInput& object, const BodyState& body);
+
+/** \brief The given planes, oriented towards the object, and its support planes found in the background. */
+std::vector<Eigen::Vector4d> boundingPlanes (const Scene& scene, const ObjectInput& object,
+                                             const Observation& observation);
+
+/** \brief boundingPlanes () of each object; inferSupportPlane () for an object without known surroundings. Warns if
+ * given planes cut off many points. */
+std::vector<SupportPlanes> findObjectPlanes (const Scene& scene, const std::vector<Observation>& observations,
+                                             SceneState& state, CompletionLog& log);
+
+/** \brief The planes of all objects, without duplicates. */
+std::vector<Eigen::Vector4d> differentPlanes (const Scene& scene, const std::vector<Observation>& observations,
+                                              const std::vector<SupportPlanes>& support);
+
+/** \brief The obstacles as fields; meshes are sampled where objects may be. Warns if an obstacle contains many points
+ * of an object, and if a mesh has to be left out.
+ * \param[in] used_bytes memory in use, without obstacles */
+std::vector<Obstacle> sampleObstacles (const Scene& scene, const std::vector<SceneObject>& objects,
+                                       std::size_t used_bytes, CompletionLog& log);
+
+/** \brief Equation (5) for everything that is not an object: planes, the background, obstacles. */
+IntersectionConstraint surroundingsConstraint (const SceneObject& object, const BodyEnergy& energy,
+                                               const std::vector<SignedDistanceField::ConstPtr>& background,
+                                               const std::vector<Obstacle>& obstacles, const CoSectionOptions& options);
+
+} // namespace pcl::cosection

@@ -1,0 +1,66 @@
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
+#include "pose_estimate.h"
+
+#include "pcl_cosection/fusion/event_log.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace pcl::cosection
+{
+
+namespace
+{
+
+constexpr double standard_pixels = 640.0 * 480.0;
+constexpr double correlated_pixels = 49.0; // the depth filter's window, in an image of so many
+
+} // namespace
+
+double
+Visibility::inViewShare () const
+{
+  const std::size_t all = facing ();
+  return all > 0 ? static_cast<double> (confirmed + contradicted) / static_cast<double> (all) : 0.0;
+}
+
+double
+Visibility::confirmedShare () const
+{
+  const std::size_t seen = confirmed + contradicted;
+  return seen > 0 ? static_cast<double> (confirmed) / static_cast<double> (seen) : 1.0;
+}
+
+std::string
+rejectionReason (const SdfAlignmentResult& result, const Eigen::Isometry3d& pose, const Eigen::Isometry3d& guess,
+                 const Eigen::Vector3d& centre, std::size_t points, const PoseLimits& limits, double frames_passed)
+{
+  if (result.stop == SdfAlignmentStop::TooFewPoints || result.stop == SdfAlignmentStop::NoGradient)
+    return describe (result.stop);
+  if (static_cast<double> (result.points_with_distance) < limits.min_points_share * static_cast<double> (points))
+    return toText ("only ", result.points_with_distance, " of ", points, " points are where the model knows a surface");
+  if (result.inlier_share < limits.min_inlier_share)
+    return toText ("only ", 100.0 * result.inlier_share, " % of the points fit");
+  const double shift = (pose * centre - guess * centre).norm ();
+  const double turn = Eigen::AngleAxisd (guess.linear ().transpose () * pose.linear ()).angle ();
+  if (shift > limits.max_shift_m * frames_passed || turn > limits.max_turn_rad * frames_passed)
+    return toText ("it would have jumped by ", shift, " m and ", turn * 180.0 / M_PI, " degrees");
+  return "";
+}
+
+double
+correlatedReadings (const PinholeCamera& camera)
+{
+  return std::max (1.0, correlated_pixels * camera.width * camera.height / standard_pixels);
+}
+
+std::vector<float>
+readingWeights (const std::vector<Eigen::Vector3f>& points, double voxel_size_m, std::vector<float> weights)
+{
+  for (std::size_t n = 0; n < points.size (); ++n)
+    weights[n] *= readingWeight (points[n].z (), voxel_size_m);
+  return weights;
+}
+
+} // namespace pcl::cosection

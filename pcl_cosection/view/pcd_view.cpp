@@ -1,0 +1,121 @@
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
+#include <pcl/cosection/io/pcd_view.h>
+
+#include "organized_view.h"
+#include "pcl_cosection/io/cloud/pcd_cloud.h"
+#include "unorganized_view.h"
+
+#include <pcl/cosection/common/error.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <sstream>
+#include <utility>
+
+namespace pcl::cosection
+{
+
+namespace
+{
+
+constexpr double farthest_viewpoint = 1e15; // metres; as of the header
+constexpr double millimetre_extent = 100.0; ///< metres; a scene this large is probably not in metres
+
+/** \brief Sort the points by label, in the world frame. */
+void
+collectObjects (const SensorCloud& cloud, LabelledView& result)
+{
+  const Eigen::Isometry3d& T = cloud.T_world_sensor;
+  std::map<std::uint32_t, std::size_t> readings;
+  for (std::size_t i = 0; i < cloud.positions.size (); ++i)
+    if (cloud.positions[i].allFinite ())
+      ++readings[cloud.labels[i]];
+  for (const auto& [label, count] : readings)
+    result.objects[label].points.reserve (count);
+  for (std::size_t i = 0; i < cloud.positions.size (); ++i)
+  {
+    if (!cloud.positions[i].allFinite ())
+      continue;
+    LabelledView::Points& object = result.objects[cloud.labels[i]];
+    ++object.readings;
+    const Eigen::Vector3d normal = cloud.normals[i].cast<double> ();
+    const double length = normal.norm ();
+    if (!(length > 1e-3) || !std::isfinite (length)) // no normal; infinite where points are absurdly far apart
+      continue;
+    OrientedPoint point;
+    point.position = (T * cloud.positions[i].cast<double> ()).cast<float> ();
+    point.normal = (T.linear () * (normal / length)).cast<float> ();
+    if (result.has_colour)
+      point.colour = cloud.colours[i];
+    if (result.has_intensity)
+      point.intensity = cloud.intensities[i];
+    object.points.push_back (point);
+  }
+}
+
+void
+checkExtent (const std::string& path, const PcdViewOptions& options, const SensorCloud& cloud, LabelledView& result)
+{
+  Eigen::AlignedBox3f box;
+  for (const Eigen::Vector3f& p : cloud.positions)
+    if (p.allFinite ())
+      box.extend (p);
+  if (box.isEmpty ())
+    throw DegenerateInput (path + ": none of its " + std::to_string (cloud.positions.size ()) + " points is finite" +
+                           (cloud.has_labels ? " and has a label that counts" : ""));
+  const double extent = box.sizes ().maxCoeff ();
+  if (extent > millimetre_extent)
+  {
+    std::ostringstream text;
+    text.precision (3);
+    text << path << ": extends over " << extent << " m";
+    if (options.scale == 1.0)
+      text << "; if its unit is the millimetre, give --scale 0.001";
+    else
+      text << " with --scale " << options.scale;
+    result.warnings.push_back (text.str ());
+  }
+}
+
+} // namespace
+
+void
+PcdViewOptions::validate () const
+{
+  if (!(std::isfinite (scale) && scale > 0.0))
+    throw InvalidArgument ("scale must be positive and finite");
+  if (viewpoint && !std::all_of (viewpoint->begin (), viewpoint->end (),
+                                 [] (double x) { return std::abs (x) <= farthest_viewpoint; }))
+    throw InvalidArgument ("viewpoint must be at most 1e15 m away along each axis");
+  if (normal_neighbours < 3 || normal_neighbours > 1000)
+    throw InvalidArgument ("normal_neighbours must be between 3 and 1000");
+  if (intrinsics)
+    PinholeCamera{1, 1, (*intrinsics)[0], (*intrinsics)[1], (*intrinsics)[2], (*intrinsics)[3]}.validate ();
+}
+
+LabelledView
+readPcdView (const std::string& path, const PcdViewOptions& options)
+{
+  options.validate ();
+  SensorCloud cloud = readSensorCloud (path, options);
+  LabelledView result;
+  checkExtent (path, options, cloud, result);
+  result.organized = cloud.height > 1;
+  result.has_labels = cloud.has_labels;
+  result.has_colour = !cloud.colours.empty ();
+  result.has_intensity = !cloud.intensities.empty ();
+  if (cloud.ignored > 0)
+    result.warnings.push_back (path + ": " + std::to_string (cloud.ignored) +
+                               " points of a negative label, or of 65535, are ignored");
+  if (cloud.height > 1)
+    completeOrganized (path, options, cloud, result);
+  else
+    completeUnorganized (path, options, cloud, result);
+  if (result.view)
+    result.view->name = path;
+  collectObjects (cloud, result);
+  return (result);
+}
+
+} // namespace pcl::cosection

@@ -1,0 +1,123 @@
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
+#include "free_space_view.h"
+
+#include "visibility.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace pcl::cosection
+{
+
+namespace
+{
+
+constexpr double margin_voxels = 3.0;
+constexpr double margin_sigmas = 3.0;
+constexpr double edge_sigmas = 6.0; // neighbouring depths that differ by more are different surfaces ...
+constexpr double edge_slope = 0.03; // ... unless a steep surface explains it: fraction of the depth
+
+/** \brief filterDepth () row by row, so that the compiler vectorises it. */
+template <typename Best>
+std::vector<float>
+filterWindows (const std::vector<float>& image, const PinholeCamera& camera, int radius, const PixelRegion& region,
+               Best&& best)
+{
+  const auto width = static_cast<std::size_t> (camera.width);
+  std::vector<float> columns (image.size ()); // best of each window's column
+  const int first = std::max (0, region.left - radius);
+  const int last = std::min (camera.width, region.right + radius);
+  for (int v = region.top; v < region.bottom; ++v)
+  {
+    float* out = columns.data () + v * width;
+    const float* row = image.data () + v * width;
+    std::copy (row + first, row + std::max (first, last), out + first);
+    for (int w = std::max (0, v - radius); w <= std::min (camera.height - 1, v + radius); ++w)
+    {
+      const float* other = image.data () + w * width;
+      for (int u = first; u < last; ++u)
+        out[u] = best (out[u], other[u]);
+    }
+  }
+  std::vector<float> filtered (image.size ());
+  for (int v = region.top; v < region.bottom; ++v)
+  {
+    float* out = filtered.data () + v * width;
+    const float* row = columns.data () + v * width;
+    std::copy (row + region.left, row + std::max (region.left, region.right), out + region.left);
+    for (int shift = -radius; shift <= radius; ++shift)
+      for (int u = std::max (region.left, -shift); u < std::min (region.right, camera.width - shift); ++u)
+        out[u] = best (out[u], row[u + shift]);
+  }
+  return filtered;
+}
+
+} // namespace
+
+double
+freeSpaceMargin (double depth_m, double voxel_size_m)
+{
+  return std::max (margin_voxels * voxel_size_m, margin_sigmas * depthNoiseSigma (depth_m));
+}
+
+std::vector<float>
+filterDepth (const std::vector<float>& image, const PinholeCamera& camera, int radius, bool maximum,
+             const PixelRegion& region)
+{
+  return maximum ? filterWindows (image, camera, radius, region, [] (float a, float b) { return a < b ? b : a; })
+                 : filterWindows (image, camera, radius, region, [] (float a, float b) { return b < a ? b : a; });
+}
+
+FreeSpaceView::FreeSpaceView (DepthView view) : view_ (std::move (view)), edge_ (view_.depth.size (), 0)
+{
+  const int width = view_.camera.width;
+  const int height = view_.camera.height;
+  const auto compare = [&] (int u, int v, int u2, int v2) {
+    const float a = view_.at (u, v);
+    const float b = view_.at (u2, v2);
+    if (!std::isfinite (a) || !std::isfinite (b))
+      return;
+    const double near = std::min (a, b);
+    if (std::abs (a - b) > edge_sigmas * depthNoiseSigma (near) + edge_slope * near)
+    {
+      edge_[static_cast<std::size_t> (v) * width + u] = 1;
+      edge_[static_cast<std::size_t> (v2) * width + u2] = 1;
+    }
+  };
+  for (int v = 0; v < height; ++v)
+    for (int u = 0; u < width; ++u)
+    {
+      if (u + 1 < width)
+        compare (u, v, u + 1, v);
+      if (v + 1 < height)
+        compare (u, v, u, v + 1);
+    }
+
+  std::vector<float> depth (view_.depth);
+  for (float& z : depth)
+    if (!isReading (z))
+      z = 0.0f;
+  const PixelRegion all = wholeImage (view_.camera);
+  opened_ = filterDepth (filterDepth (depth, view_.camera, 1, false, all), view_.camera, 1, true, all);
+}
+
+std::vector<float>
+FreeSpaceView::nearestDepth (int radius, const PixelRegion& region) const
+{
+  std::vector<float> depth (view_.depth.size ());
+  const int left = std::max (0, region.left - radius);
+  const int right = std::min (view_.camera.width, region.right + radius);
+  for (int v = std::max (0, region.top - radius); v < std::min (view_.camera.height, region.bottom + radius); ++v)
+    for (int u = left; u < right; ++u)
+    {
+      const float z = view_.at (u, v);
+      depth[static_cast<std::size_t> (v) * view_.camera.width + u] = isReading (z)
+                                                                         ? z
+                                                                         : std::numeric_limits<float>::infinity ();
+    }
+  return filterDepth (depth, view_.camera, radius, false, region);
+}
+
+} // namespace pcl::cosection

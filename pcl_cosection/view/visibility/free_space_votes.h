@@ -1,0 +1,49 @@
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "free_space_view.h"
+
+#include <Eigen/Geometry>
+
+#include <vector>
+
+namespace pcl::cosection
+{
+
+/** \brief How much the depth along a ray must exceed that of a point for the point to be free where there are no
+ * voxels, metres: max (5 mm, 3 sigma_z) of depthNoiseSigma (). */
+double pointMargin (double depth_m);
+
+/** \brief What depth views say about one point. */
+struct FreeSpaceVotes
+{
+  int free = 0;    ///< views that look through the point
+  int surface = 0; ///< views that see a surface there
+};
+
+/** \brief Ask depth views about points, as HullConstraint does about voxels.
+ *
+ * A view looks through a point when every reading around the point's pixel is farther than the point by more than the
+ * margin. Around it means as far as the margin reaches sideways, so that a point a little off a surface that a view
+ * grazes is not taken for free. A view sees a surface at a point when its reading there is within the margin. Missing
+ * readings say nothing; a reading at a depth edge says at most that there is a surface, and that only if at least three
+ * of its eight neighbours are of the same depth: a flying pixel does not vouch for itself.
+ *
+ * \param[in] points world frame, metres; not finite: no votes
+ * \param[in] margin_m 0: pointMargin ()
+ * \param[in] threads 0: all; the result does not depend on it
+ * \return one per point. O (points * views), times the pixels that the margin covers where a point is in front */
+std::vector<FreeSpaceVotes> voteOnPoints (const std::vector<Eigen::Vector3f>& points,
+                                          const std::vector<FreeSpaceView>& views, double margin_m = 0.0,
+                                          int threads = 0);
+
+/** \brief The same of one more view.
+ * \param[in] points any frame
+ * \param[in] T_points_sensor pose of the sensor in that frame, whatever that of the view
+ * \param[in,out] votes one per point, to which those of the view are added
+ * \throws InvalidArgument if there are not as many votes as points */
+void addVotes (const std::vector<Eigen::Vector3f>& points, const FreeSpaceView& view,
+               const Eigen::Isometry3d& T_points_sensor, std::vector<FreeSpaceVotes>& votes, double margin_m = 0.0,
+               int threads = 0);
+
+} // namespace pcl::cosection
