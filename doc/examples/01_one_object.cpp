@@ -27,7 +27,7 @@ main ()
 
   pcl::cosection::HessianIMLS<pcl::PointNormal> imls;
   imls.setInputCloud (points);
-  imls.setSupportPlane (table);
+  imls.addSupportPlane (table);
   pcl::PolygonMesh mesh;
   imls.reconstruct (mesh);
   if (mesh.polygons.empty ())

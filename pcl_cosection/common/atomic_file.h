@@ -11,7 +11,7 @@ namespace pcl::cosection
 
 /** \brief The file that \a path stands for: behind symbolic links, also behind one to a file that does
  * not exist yet. \throws IoError if the links go round in circles */
-PCL_COSECTION_EXPORT std::string followLinks (const std::string& path);
+std::string followLinks (const std::string& path);
 
 /** \brief Let \a write fill a file of a temporary name beside \a path, then rename it to \a path.
  * If \a write throws, or anything fails, the temporary file is removed and \a path is untouched.

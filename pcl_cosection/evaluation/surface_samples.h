@@ -1,7 +1,6 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <pcl/cosection/common/export.h>
 #include <pcl/cosection/common/triangle_mesh.h>
 
 #include <Eigen/Core>
@@ -16,17 +15,16 @@ namespace pcl::cosection
 /** \brief \throws InvalidArgument if a triangle refers to a vertex that does not exist, or to one that is not finite.
  * \throws DegenerateInput if the mesh has no triangles, or none of any area
  * \param[in] name what the message calls the mesh */
-PCL_COSECTION_EXPORT void requireSurface (const TriangleMesh& mesh, const char* name = "mesh");
+void requireSurface (const TriangleMesh& mesh, const char* name = "mesh");
 
 /** \brief The area of a mesh, square metres. */
-PCL_COSECTION_EXPORT double surfaceArea (const TriangleMesh& mesh);
+double surfaceArea (const TriangleMesh& mesh);
 
 /** \brief Points on a mesh, uniform by area and independent of each other: the same for the same \a seed everywhere.
  *
  * Triangles by their share of the area, points in them by R. Osada et al., "Shape Distributions", TOG 2002.
  * \return \a count points, metres, in the frame of the mesh
  * \throws InvalidArgument, DegenerateInput as requireSurface () */
-PCL_COSECTION_EXPORT std::vector<Eigen::Vector3d> sampleSurface (const TriangleMesh& mesh, std::size_t count,
-                                                                 std::uint64_t seed = 0);
+std::vector<Eigen::Vector3d> sampleSurface (const TriangleMesh& mesh, std::size_t count, std::uint64_t seed = 0);
 
 } // namespace pcl::cosection

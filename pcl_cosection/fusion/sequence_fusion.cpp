@@ -7,6 +7,7 @@
 
 #include <pcl/cosection/common/error.h>
 #include <pcl/cosection/fusion/co_section_backend.h>
+#include <pcl/cosection/fusion/frame_segmenter.h>
 
 #include <algorithm>
 #include <array>

@@ -23,15 +23,14 @@ struct MeshPart
 /** \brief Divide a mesh, in the order of the parts' first triangles. Triangles belong together across an edge
  * of two; across edges of more only where they would be open without each other, and then those that have
  * matter between them. So bodies that merely touch, along an edge or with faces, are parts of their own. */
-PCL_COSECTION_EXPORT std::vector<MeshPart> divideMesh (const TriangleMesh& mesh);
+std::vector<MeshPart> divideMesh (const TriangleMesh& mesh);
 
 /** \brief Some triangles of a mesh, in the given order, with the vertices they use. */
-PCL_COSECTION_EXPORT TriangleMesh selectTriangles (const TriangleMesh& mesh,
-                                                   const std::vector<std::uint32_t>& triangles);
+TriangleMesh selectTriangles (const TriangleMesh& mesh, const std::vector<std::uint32_t>& triangles);
 
 /** \brief The smallest closed part of positive volume around part \a inner; none if it lies in no other. */
-PCL_COSECTION_EXPORT std::optional<std::size_t> enclosingPart (const TriangleMesh& mesh,
-                                                               const std::vector<MeshPart>& parts, std::size_t inner);
+std::optional<std::size_t> enclosingPart (const TriangleMesh& mesh, const std::vector<MeshPart>& parts,
+                                          std::size_t inner);
 
 /** \brief The generalised winding number of some triangles about \a p, as a sum of solid angles: 1 inside
  * and 0 outside of a closed outward surface (A. Jacobson, L. Kavan, O. Sorkine-Hornung, "Robust Inside-Outside

@@ -1,7 +1,6 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <pcl/cosection/common/export.h>
 #include <pcl/cosection/common/oriented_point.h>
 #include <pcl/cosection/volume/signed_distance_field.h>
 
@@ -23,7 +22,7 @@ namespace pcl::cosection
  * taken to lie on the plane below the convex hull of K and K' (otherwise of K alone), where observed surface or its
  * copy is above. The result is the set of voxels next to the plane that should have u = -height, with a weight far
  * below that of data. */
-struct PCL_COSECTION_EXPORT ContactPrior
+struct ContactPrior
 {
   double contact_height_vox = 2.5; ///< largest distance of a contact point from the plane
   double max_slope = 0.7;          ///< largest |n.plane| of the normal n of a contact point

@@ -3,7 +3,6 @@
 
 #include "pcl_cosection/priors/shape/symmetric_extent.h"
 #include <pcl/cosection/common/camera.h>
-#include <pcl/cosection/common/export.h>
 #include <pcl/cosection/common/oriented_point.h>
 #include <pcl/cosection/volume/signed_distance_field.h>
 
@@ -15,7 +14,7 @@ namespace pcl::cosection
 
 /** \brief Extents of an object's points (1st to 99th percentile) along their principal axes, metres, largest first.
  * Zero for no points. */
-PCL_COSECTION_EXPORT Eigen::Vector3d observedExtents (const std::vector<OrientedPoint>& points, int threads = 0);
+Eigen::Vector3d observedExtents (const std::vector<OrientedPoint>& points, int threads = 0);
 
 /** \brief The extent bound, which prevents swelling: a lower bound of the distance between a voxel and the object.
  *
@@ -34,7 +33,7 @@ PCL_COSECTION_EXPORT Eigen::Vector3d observedExtents (const std::vector<Oriented
  * max (\a symmetric_margin e2, \a least_depth e2 - e3), with e2 and e3 the middle and the smallest observed extent:
  * the region of a thing that showed one flat face is that face. It does not apply to voxels that something else hides.
  * The larger bound counts. */
-struct PCL_COSECTION_EXPORT ExtentPrior
+struct ExtentPrior
 {
   double depth_factor = 0.75;     ///< of the middle observed extent
   double occluded_factor = 0.5;   ///< of the middle observed extent

@@ -22,7 +22,7 @@ PCL_COSECTION_EXPORT Picture shade (const RasterImage& image, const PinholeCamer
 PCL_COSECTION_EXPORT std::vector<std::array<std::uint8_t, 3>> provenanceColours (const TriangleMesh& mesh);
 
 /** \brief Set pictures of equal height beside each other, with \a gap_px white pixels between. */
-PCL_COSECTION_EXPORT Picture beside (const std::vector<Picture>& pictures, int gap_px = 8);
+Picture beside (const std::vector<Picture>& pictures, int gap_px = 8);
 
 /** \brief Write a PNG, through a temporary name. \throws IoError */
 PCL_COSECTION_EXPORT void writePng (const Picture& picture, const std::string& path);

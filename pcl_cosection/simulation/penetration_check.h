@@ -2,7 +2,6 @@
 #pragma once
 
 #include <pcl/cosection/common/error.h>
-#include <pcl/cosection/common/export.h>
 #include <pcl/cosection/simulation/simulated_scene.h>
 
 #include <string>
@@ -12,7 +11,7 @@ namespace pcl::cosection
 {
 
 /** \brief Two bodies of a scene that are inside each other at some time. */
-struct PCL_COSECTION_EXPORT ScenePenetration
+struct ScenePenetration
 {
   std::string first, second;
   double depth_m = 0.0; ///< deepest found
@@ -21,7 +20,7 @@ struct PCL_COSECTION_EXPORT ScenePenetration
 };
 
 /** \brief How to look for bodies that penetrate each other. */
-struct PCL_COSECTION_EXPORT PenetrationCheckOptions
+struct PenetrationCheckOptions
 {
   double tolerance_m = 0.001; ///< what is still a contact; for meshes, whose distance is interpolated, at least a voxel
                               ///< of that
@@ -35,8 +34,8 @@ struct PCL_COSECTION_EXPORT PenetrationCheckOptions
  * thinner than the points are apart (a fiftieth of the size of a large flat body) may pass through a round one
  * unnoticed.
  * \throws Cancelled */
-PCL_COSECTION_EXPORT std::vector<ScenePenetration> findPenetrations (const SimulatedScene& scene,
-                                                                     const PenetrationCheckOptions& options = {},
-                                                                     const ProgressCallback& progress = {});
+std::vector<ScenePenetration> findPenetrations (const SimulatedScene& scene,
+                                                const PenetrationCheckOptions& options = {},
+                                                const ProgressCallback& progress = {});
 
 } // namespace pcl::cosection

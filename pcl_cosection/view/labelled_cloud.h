@@ -2,7 +2,6 @@
 #pragma once
 
 #include <pcl/cosection/common/camera.h>
-#include <pcl/cosection/common/export.h>
 #include <pcl/cosection/common/image.h>
 
 #include <cstdint>
@@ -15,7 +14,7 @@ namespace pcl::cosection
  * where there is no reading, and the sensor's pose as VIEWPOINT. readPcdView () reads it.
  * \param[in] labels one per pixel \param[in] colours one per pixel
  * \throws IoError, InvalidArgument if the sizes differ */
-PCL_COSECTION_EXPORT void saveLabelledCloud (const DepthView& view, const Image<std::uint16_t>& labels,
-                                             const Picture& colours, const std::string& path);
+void saveLabelledCloud (const DepthView& view, const Image<std::uint16_t>& labels, const Picture& colours,
+                        const std::string& path);
 
 } // namespace pcl::cosection

@@ -1,8 +1,6 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <pcl/cosection/common/export.h>
-
 #include <Eigen/Core>
 
 #include <vector>
@@ -24,6 +22,6 @@ namespace pcl::cosection
  * width at the distance of the points
  *
  * O (points); deterministic. */
-PCL_COSECTION_EXPORT std::vector<Eigen::Vector3d> locateSensor (const std::vector<Eigen::Vector3f>& points);
+std::vector<Eigen::Vector3d> locateSensor (const std::vector<Eigen::Vector3f>& points);
 
 } // namespace pcl::cosection

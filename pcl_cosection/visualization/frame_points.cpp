@@ -23,7 +23,7 @@ openImages (const RunScene& scene, const std::string& dataset)
   if (folder.empty ())
     throw IoError (
         scene.folder +
-        ": does not tell which images the run has read, so there are no points to show; name them with --dataset");
+        ": does not name the images that the run has read, so there are no points to show; name them with --dataset");
   std::error_code ignored;
   if (dataset.empty () && !std::filesystem::is_directory (folder, ignored))
     throw IoError (folder +

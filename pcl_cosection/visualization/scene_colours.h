@@ -1,6 +1,7 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <pcl/cosection/common/export.h>
 #include <pcl/cosection/visualization/run_scene.h>
 #include <pcl/cosection/visualization/scene_picture.h>
 
@@ -15,8 +16,8 @@ TriangleMesh::Colour instanceColour (int id);
 
 /** \brief The colour of each vertex of an object's surface, or the background's. Grey where it is not known, such as
  * the provenance of a TSDF. */
-std::vector<TriangleMesh::Colour> surfaceColours (const RunScene& scene, int id, SurfaceMode surface,
-                                                  ColourMode colour);
+PCL_COSECTION_EXPORT std::vector<TriangleMesh::Colour> surfaceColours (const RunScene& scene, int id,
+                                                                       SurfaceMode surface, ColourMode colour);
 
 /** \brief A colour and what it means. */
 struct LegendEntry
@@ -38,6 +39,6 @@ struct ColourLegend
 };
 
 /** \brief What the colours mean; empty for real ones. */
-ColourLegend legendOf (const RunScene& scene, ColourMode colour);
+PCL_COSECTION_EXPORT ColourLegend legendOf (const RunScene& scene, ColourMode colour);
 
 } // namespace pcl::cosection

@@ -32,8 +32,8 @@ PCL_COSECTION_EXPORT std::vector<SceneLine> boxLines (const RunScene& scene, con
                                                       SurfaceMode surface, double stamp);
 
 /** \brief Points of lines, so near each other that they touch in the picture of a camera. */
-PCL_COSECTION_EXPORT void samplePoints (const std::vector<SceneLine>& lines, const PinholeCamera& camera,
-                                        const Eigen::Isometry3d& T_world_camera, std::vector<Eigen::Vector3f>& points,
-                                        std::vector<TriangleMesh::Colour>& colours);
+void samplePoints (const std::vector<SceneLine>& lines, const PinholeCamera& camera,
+                   const Eigen::Isometry3d& T_world_camera, std::vector<Eigen::Vector3f>& points,
+                   std::vector<TriangleMesh::Colour>& colours);
 
 } // namespace pcl::cosection

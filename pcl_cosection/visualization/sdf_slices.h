@@ -14,7 +14,7 @@ namespace pcl::cosection
 {
 
 /** \brief The colour of a signed distance: blue inside, white at the surface, red outside from \a limit_m on. */
-PCL_COSECTION_EXPORT TriangleMesh::Colour distanceColour (double distance_m, double limit_m);
+TriangleMesh::Colour distanceColour (double distance_m, double limit_m);
 
 /** \brief A cut through the signed distance of a body. */
 struct PCL_COSECTION_EXPORT SdfSlice

@@ -1,7 +1,6 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <pcl/cosection/common/export.h>
 #include <pcl/cosection/volume/signed_distance_field.h>
 
 #include <cstdint>
@@ -15,7 +14,7 @@ namespace pcl::cosection
  * Theory of Computing 2012). Infinity everywhere if there is none. O (voxels).
  * \param[in] mask one value per voxel
  * \param[in] threads 0: all */
-PCL_COSECTION_EXPORT std::vector<float> distanceTransform (const Eigen::Vector3i& dims,
-                                                           const std::vector<std::uint8_t>& mask, int threads = 0);
+std::vector<float> distanceTransform (const Eigen::Vector3i& dims, const std::vector<std::uint8_t>& mask,
+                                      int threads = 0);
 
 } // namespace pcl::cosection

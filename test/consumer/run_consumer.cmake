@@ -1,6 +1,6 @@
 # Installs the build in BUILD_DIR below WORK_DIR, builds the project in this folder against what was
 # installed, and runs it. Started by CTest with -D for each of
-#   BUILD_DIR  WORK_DIR  GENERATOR  CXX_COMPILER  CXX_LAUNCHER  BUILD_TYPE  VERSION  TOOL  VIEWER
+#   SOURCE_DIR  BUILD_DIR  WORK_DIR  GENERATOR  CXX_COMPILER  CXX_LAUNCHER  BUILD_TYPE  VERSION  TOOL  VIEWER
 
 # Fails with what the command said unless it succeeds.
 function(run)
@@ -16,6 +16,16 @@ file(REMOVE_RECURSE "${WORK_DIR}")
 # The package must not depend on where it was meant to be installed.
 run("${CMAKE_COMMAND}" --install "${BUILD_DIR}" --prefix "${WORK_DIR}/staged")
 file(RENAME "${WORK_DIR}/staged" "${WORK_DIR}/prefix")
+
+# What is installed is the public headers, and no other.
+file(GLOB_RECURSE public_headers RELATIVE "${SOURCE_DIR}/include" "${SOURCE_DIR}/include/*")
+list(APPEND public_headers pcl/cosection/version.h)
+file(GLOB_RECURSE installed_headers RELATIVE "${WORK_DIR}/prefix/include" "${WORK_DIR}/prefix/include/*")
+list(SORT public_headers)
+list(SORT installed_headers)
+if(NOT installed_headers STREQUAL public_headers)
+  message(FATAL_ERROR "installed:\n${installed_headers}\ninstead of\n${public_headers}")
+endif()
 
 run("${CMAKE_COMMAND}"
   -G "${GENERATOR}" -S "${CMAKE_CURRENT_LIST_DIR}" -B "${WORK_DIR}/build"

@@ -298,7 +298,7 @@ TEST_F (AnyCloud, LabelsThatBeginAtZeroAreToldOf)
     }
   pcl::io::savePCDFileBinary (path ("two.pcd"), both);
   ASSERT_EQ (run ({"two.pcd", "out"}), 0) << errors_;
-  EXPECT_NE (errors_.find ("reaches no farther than object 1: if labels count the objects from 0, add 1"),
+  EXPECT_NE (errors_.find ("extends no farther than object 1: if labels count the objects from 0, add 1"),
              std::string::npos)
       << errors_;
   writeTableScene (path ("scene.pcd"));

@@ -218,7 +218,7 @@ TEST_F (FreeSpaceViews, BadOnesAreRefused)
   EXPECT_NE (errors_.find ("none.pcd"), std::string::npos) << errors_;
   writeSphere (folder_->file ("ball.pcd"), 1000); // from all sides
   EXPECT_EQ (run ({"--free-space", "ball.pcd", view (0), "no"}), 1);
-  EXPECT_NE (errors_.find ("ball.pcd: tells of no free space"), std::string::npos) << errors_;
+  EXPECT_NE (errors_.find ("ball.pcd: shows no free space"), std::string::npos) << errors_;
   EXPECT_FALSE (fs::exists (folder_->file ("no")));
   EXPECT_EQ (run ({"--free-space", view (2), "--json", view (2), view (0), "no"}), 2) << errors_;
   EXPECT_EQ (run ({"--free-space"}), 2);

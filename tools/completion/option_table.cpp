@@ -16,7 +16,7 @@ declareInput (CLI::App& app, Given& given)
   app.add_option ("paths", given.paths)->group ("")->configurable (false);
   app.add_flag ("--world-points", given.world_points, "Points are in the world frame already")->group (group);
   app.add_option ("--viewpoint", given.viewpoints,
-                  "Where the sensor stood, for points in the world frame whose header does not tell; once for all "
+                  "Where the sensor stood, for points in the world frame whose header does not say it; once for all "
                   "views, or once for each")
       ->option_text ("X,Y,Z")
       ->allow_extra_args (false)
@@ -36,7 +36,7 @@ declareInput (CLI::App& app, Given& given)
       ->allow_extra_args (false)
       ->group (group);
   app.add_option ("--free-space", given.free_space,
-                  "View that tells which space is free and nothing else: its labels and points are not used; "
+                  "View that shows which space is free and nothing else: its labels and points are not used; "
                   "numbered after the INPUTs; repeatable")
       ->option_text ("VIEW.pcd")
       ->allow_extra_args (false)

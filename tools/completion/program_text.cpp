@@ -14,7 +14,7 @@ completionText ()
        "field "
        "\"label\" says which object a point belongs to, 0 is the background; without it, everything is object 1. "
        "Organised "
-       "clouds, and others that were seen from their viewpoint, also tell which space is free.",
+       "clouds, and others that were seen from their viewpoint, also show which space is free.",
        "OUTPUT ending in .ply, .stl or .obj is one file with the meshes of all objects, without the background; "
        "anything "
        "else is a folder for background.ply and object_LABEL.ply. Meshes are in metres, in the world frame, or in the "

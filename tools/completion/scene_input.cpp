@@ -87,7 +87,7 @@ smallBackground (const SceneInput& scene)
   const double extent_m = extentOf (scene.background).norm ();
   for (const auto& [id, object] : scene.objects)
     if (extent_m <= extentOf (object.points).norm ())
-      return "label 0 is the background, and reaches no farther than object " + std::to_string (id) +
+      return "label 0 is the background, and extends no farther than object " + std::to_string (id) +
              ": if labels count the objects from 0, add 1 to them";
   return std::nullopt;
 }
@@ -215,8 +215,8 @@ readScene (const Settings& settings, const ProgressCallback& progress)
     LabelledView view = readPcdView (path, optionsOf (settings.inputs.size () + i, settings, labels));
     std::move (view.warnings.begin (), view.warnings.end (), std::back_inserter (scene.warnings));
     if (!view.view)
-      throw DegenerateInput (
-          path + ": tells of no free space: it is no image of a pinhole camera, nor seen from its VIEWPOINT");
+      throw DegenerateInput (path +
+                             ": shows no free space: it is no image of a pinhole camera, nor seen from its VIEWPOINT");
     scene.free_space.push_back (std::move (*view.view));
   }
 

@@ -55,7 +55,7 @@ measureFreeSpace (const MeshSettings& settings, const TriangleMesh& reconstructi
     warnings.insert (warnings.end (), view.warnings.begin (), view.warnings.end ());
     if (!view.view)
       throw DegenerateInput (
-          file + ": has no depth image to tell free space by; it must be an organised cloud of a pinhole camera");
+          file + ": has no depth image that shows free space; it must be an organised cloud of a pinhole camera");
     views.push_back (std::move (*view.view));
   }
   const auto points = sampleSurface (reconstruction, static_cast<std::size_t> (settings.samples), settings.seed);

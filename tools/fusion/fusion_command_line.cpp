@@ -173,7 +173,7 @@ toSettings (const GivenFusion& given)
   settings.object_trajectories = parseObjectFiles ("--object-trajectory", given.object_trajectories);
   settings.masks = given.masks;
   if (!settings.object_trajectories.empty () && settings.masks.empty ())
-    throw UsageError ("--object-trajectory needs --masks, which tell the objects' pixels");
+    throw UsageError ("--object-trajectory needs --masks, which show the objects' pixels");
   if (!given.mask_ids.empty () && settings.masks.empty ())
     throw UsageError ("--mask-ids needs --masks");
   if (!settings.object_trajectories.empty () && given.mask_ids == "per-frame")

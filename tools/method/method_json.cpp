@@ -69,7 +69,7 @@ objectJson (const ObjectResult& object)
       {toJson (mass.inertia.row (0)), toJson (mass.inertia.row (1)), toJson (mass.inertia.row (2))});
   result["provenance"] = provenanceShares (object.mesh);
   result["penetration_m"] = object.penetration_m;
-  result["stray_points"] = object.outlier_points;
+  result["outlier_points"] = object.outlier_points;
   result["contradicted_share"] = object.contradicted_share;
   if (object.guessed_plane)
     result["guessed_plane"] = std::vector<double> (object.guessed_plane->data (), object.guessed_plane->data () + 4);

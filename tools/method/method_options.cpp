@@ -25,7 +25,7 @@ declareVolumeOptions (CLI::App& app, GivenMethod& given, const std::string& back
       ->group (group);
   app.add_option ("--padding", given.padding,
                   "Volume beyond the observed box on each side, as a fraction of its longest side "
-                  "(default: 0, as far as the shape may reach)")
+                  "(default: 0, as far as the shape may extend)")
       ->option_text ("FRACTION")
       ->check (numberRange (0, 10))
       ->group (group);
@@ -71,7 +71,7 @@ declareMethodOptions (CLI::App& app, GivenMethod& given)
       ->option_text ("VOXELS")
       ->check (numberRange (0, 10, true))
       ->group (group);
-  app.add_option ("--weighting", given.weighting, "How points in reach of a voxel are combined" + byDefault ("mean"))
+  app.add_option ("--weighting", given.weighting, "How points near a voxel are combined" + byDefault ("mean"))
       ->option_text ("mean|sum")
       ->check (oneOf ({"mean", "sum"}))
       ->group (group);

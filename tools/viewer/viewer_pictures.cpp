@@ -122,7 +122,7 @@ loadScene (const ViewerSettings& settings, Terminal& terminal)
                    [] (const auto& object) { return (object.mesh.empty ()); }))
     terminal.warning (settings.run + ": has no meshes; there is only the path of the camera to show");
   if (!scene.run.intrinsics)
-    terminal.warning (settings.run + ": its summary.json does not tell the camera; one of 640 x 480 pixels is assumed");
+    terminal.warning (settings.run + ": its summary.json does not give the camera; one of 640 x 480 pixels is assumed");
   return (scene);
 }
 

@@ -2,7 +2,6 @@
 #pragma once
 
 #include "pcl_cosection/energy/constraints/hull_constraint.h"
-#include <pcl/cosection/common/export.h>
 #include <pcl/cosection/volume/signed_distance_field.h>
 
 #include <array>
@@ -21,7 +20,7 @@ namespace pcl::cosection
  * Readings count as for HullConstraint, but free patches of less than 3 x 3 pixels are ignored. A voxel is
  * cut only where more views see it free than see a surface there. As poses and silhouettes are not exact, a cut that
  * only one of several views supports is made farther out than one that several support. */
-class PCL_COSECTION_EXPORT FreeSpaceCarving
+class FreeSpaceCarving
 {
 public:
   /** \param[in] revise false: one view that sees a voxel free suffices */

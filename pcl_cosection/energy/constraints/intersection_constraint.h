@@ -1,7 +1,6 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <pcl/cosection/common/export.h>
 #include <pcl/cosection/surface/solver.h>
 #include <pcl/cosection/volume/signed_distance_field.h>
 
@@ -17,7 +16,7 @@ class InsideBricks;
 
 /** \brief d_inter of equation (4) on an object's grid: how deep each voxel lies inside other bodies, the
  * maximum over bodies and relative poses, in voxels of this grid. */
-class PCL_COSECTION_EXPORT IntersectionConstraint
+class IntersectionConstraint
 {
 public:
   /** \param[in] max_bound_vox cap of the distance */

@@ -1,7 +1,6 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <pcl/cosection/common/export.h>
 #include <pcl/cosection/common/oriented_point.h>
 
 #include <Eigen/Core>
@@ -12,7 +11,7 @@ namespace pcl::cosection
 {
 
 /** \brief Parameters of the search for support planes. */
-struct PCL_COSECTION_EXPORT SupportPlaneOptions
+struct SupportPlaneOptions
 {
   double inlier_distance_m = 0.006;
   double reach = 0.5; ///< background within this fraction of the object's longest side (at least 5 cm) of it counts
@@ -27,8 +26,8 @@ struct PCL_COSECTION_EXPORT SupportPlaneOptions
  * points determine that side.
  * \return (n, d) with unit n towards free space and n.x + d = 0 on the plane; best supported first. The
  * result is the same every time. */
-PCL_COSECTION_EXPORT std::vector<Eigen::Vector4d> findSupportPlanes (const std::vector<OrientedPoint>& background,
-                                                                     const std::vector<OrientedPoint>& object,
-                                                                     const SupportPlaneOptions& options = {});
+std::vector<Eigen::Vector4d> findSupportPlanes (const std::vector<OrientedPoint>& background,
+                                                const std::vector<OrientedPoint>& object,
+                                                const SupportPlaneOptions& options = {});
 
 } // namespace pcl::cosection

@@ -1,7 +1,6 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <pcl/cosection/common/export.h>
 #include <pcl/cosection/common/oriented_point.h>
 #include <pcl/cosection/surface/options.h>
 #include <pcl/cosection/volume/signed_distance_field.h>
@@ -13,7 +12,7 @@ namespace pcl::cosection
 
 /** \brief The data term of equation (2), gathered on a grid: per voxel x and over the points within
  * 3 sigma, with w_i (x) = a_i exp (-(|x - p_i| / sigma)^2) and f_i (x) = <x - p_i, n_i>. Lengths in voxels. */
-struct PCL_COSECTION_EXPORT ImlsDataTerm
+struct ImlsDataTerm
 {
   std::vector<float> weight;          ///< sum w_i
   std::vector<float> weighted_target; ///< sum w_i f_i, voxels

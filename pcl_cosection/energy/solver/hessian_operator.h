@@ -1,8 +1,6 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <pcl/cosection/common/export.h>
-
 #include <Eigen/Core>
 
 #include <array>
@@ -33,7 +31,7 @@ template <typename Real> struct HessianDiagonal;
  * Laplacian with natural boundary, less a correction in the two outermost layers. That is how it is
  * applied: two passes of seven points, fused over three planes. In the interior its row has 25 entries:
  * 42, -12 (faces), +2 (edges), +1 (distance two). Instantiated for float and double. */
-template <typename Real> class PCL_COSECTION_EXPORT HessianOperator
+template <typename Real> class HessianOperator
 {
 public:
   /** \param[in] threads 0: all */

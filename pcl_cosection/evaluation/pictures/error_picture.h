@@ -17,15 +17,14 @@ namespace pcl::cosection
 PCL_COSECTION_EXPORT TriangleMesh::Colour errorColour (double share);
 
 /** \brief errorColour () of each error over \a error_max_m, which is positive. */
-PCL_COSECTION_EXPORT std::vector<TriangleMesh::Colour> errorColours (const std::vector<double>& errors_m,
-                                                                     double error_max_m);
+std::vector<TriangleMesh::Colour> errorColours (const std::vector<double>& errors_m, double error_max_m);
 
 /** \brief A round number that is not less: 1, 2, 3, 4, 5, 6 or 8 times a power of ten, metres, at least a millimetre.
  */
-PCL_COSECTION_EXPORT double roundErrorUp (double error_m);
+double roundErrorUp (double error_m);
 
 /** \brief How to draw errors. */
-struct PCL_COSECTION_EXPORT ErrorPictureOptions
+struct ErrorPictureOptions
 {
   int panel_px = 560;                             ///< width and height of each of the four panels
   double error_max_m = 0.01;                      ///< at the red end of the scale
@@ -43,7 +42,7 @@ struct PCL_COSECTION_EXPORT ErrorPictureOptions
  * of its distance to the reconstruction below it; each from two sides, the second turned about \a up, with a scale in
  * millimetres. Distances are exact at each pixel.
  * \throws InvalidArgument, DegenerateInput as requireSurface (), and for options outside their domain */
-PCL_COSECTION_EXPORT Picture drawErrorPicture (const TriangleMesh& truth, const TriangleMesh& reconstruction,
-                                               const ErrorPictureOptions& options = {});
+Picture drawErrorPicture (const TriangleMesh& truth, const TriangleMesh& reconstruction,
+                          const ErrorPictureOptions& options = {});
 
 } // namespace pcl::cosection

@@ -1,7 +1,6 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <pcl/cosection/common/export.h>
 #include <pcl/cosection/common/oriented_point.h>
 
 #include <Eigen/Geometry>
@@ -45,7 +44,7 @@ using WallColumn = std::vector<OrientedPoint>;
  * The plausible region is the convex hull of S and its copies, as the intersection of half-spaces { x : n_k.x <= s_k }
  * of fixed directions n_k and of the normals of large faces; s_k is the largest n_k.p over all points p, except for
  * 0.2 % of outliers, and their copies. */
-class PCL_COSECTION_EXPORT SymmetricExtent
+class SymmetricExtent
 {
 public:
   /** \brief Without a support plane: copies by inversion in a point, unless there is a profile.

@@ -38,7 +38,7 @@ struct PCL_COSECTION_EXPORT PinholeCamera
   /** \brief Point of the sensor frame at depth \a z (metres along the optical axis). */
   Eigen::Vector3d unproject (double u, double v, double z) const { return {(u - cx) / fx * z, (v - cy) / fy * z, z}; }
 
-  /** \brief \throws InvalidArgument if the size or a focal length is not positive and finite. */
+  /** \brief Check all values. \throws InvalidArgument if the size or a focal length is not positive and finite. */
   void validate () const;
 };
 
@@ -53,8 +53,8 @@ struct PCL_COSECTION_EXPORT DepthView
   /** \brief Depth at column \a u and row \a v, metres; NaN: no reading. */
   float at (int u, int v) const { return depth[static_cast<std::size_t> (v) * camera.width + u]; }
 
-  /** \brief \throws InvalidArgument if the camera is not valid, there is not one depth per pixel, or the pose is not
-   * finite. */
+  /** \brief Check all values. \throws InvalidArgument if the camera is not valid, there is not one depth per pixel, or
+   * the pose is not finite. */
   void validate () const;
 };
 

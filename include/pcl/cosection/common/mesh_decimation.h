@@ -19,7 +19,7 @@ struct PCL_COSECTION_EXPORT DecimationOptions
   double min_quality = 0.1;
   double boundary_weight = 10.0; ///< weight of the distance to an open boundary, relative to that to the surface
 
-  /** \brief \throws InvalidArgument naming the first parameter outside its domain. */
+  /** \brief Check all values. \throws InvalidArgument naming the first one outside its domain. */
   void validate () const;
 };
 

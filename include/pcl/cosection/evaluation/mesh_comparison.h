@@ -23,7 +23,7 @@ struct PCL_COSECTION_EXPORT MeshComparisonOptions
   double f_threshold_m = 0.01; ///< of precision, recall and F-score
   int threads = 0;             ///< 0: all
 
-  /** \brief \throws InvalidArgument naming the first parameter outside its domain. */
+  /** \brief Check all values. \throws InvalidArgument naming the first one outside its domain. */
   void validate () const;
 };
 
@@ -61,7 +61,8 @@ struct PCL_COSECTION_EXPORT MeshComparison
  * \endcode
  *
  * Both meshes are in one frame; they may be open. The result is the same for any number of threads.
- * \throws InvalidArgument, DegenerateInput as requireSurface (), and for options outside their domain */
+ * \throws InvalidArgument if a triangle refers to no vertex, a vertex is not finite, or an option is outside its domain
+ * \throws DegenerateInput if a mesh has no area */
 PCL_COSECTION_EXPORT MeshComparison compareMeshes (const TriangleMesh& truth, const TriangleMesh& reconstruction,
                                                    const MeshComparisonOptions& options = {});
 
@@ -76,7 +77,7 @@ struct PCL_COSECTION_EXPORT MeshSummary
   Eigen::AlignedBox3d box;         ///< metres
 };
 
-/** \throws InvalidArgument, DegenerateInput as requireSurface () */
+/** \brief Describe a mesh. \throws InvalidArgument, DegenerateInput as compareMeshes () */
 PCL_COSECTION_EXPORT MeshSummary summarizeMesh (const TriangleMesh& mesh);
 
 /** \brief Lines that say why a comparison may mean nothing: the boxes do not overlap, or one mesh is about a thousand

@@ -26,7 +26,7 @@ struct PCL_COSECTION_EXPORT PenetrationOptions
   double band_m = 0.05;         ///< how far behind them
   int threads = 0;              ///< 0: all
 
-  /** \brief \throws InvalidArgument naming the first parameter outside its domain. */
+  /** \brief Check all values. \throws InvalidArgument naming the first one outside its domain. */
   void validate () const;
 };
 
@@ -44,7 +44,7 @@ class SolidDepth;
 class PCL_COSECTION_EXPORT PenetrationBody
 {
 public:
-  /** \throws InvalidArgument, DegenerateInput as requireSurface (), and for options outside their domain */
+  /** \brief Prepare a mesh. \throws InvalidArgument, DegenerateInput as compareMeshes () */
   explicit PenetrationBody (const TriangleMesh& mesh, const PenetrationOptions& options = {});
   ~PenetrationBody ();
   /** \brief Takes over what the other one has. */

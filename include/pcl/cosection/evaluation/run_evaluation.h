@@ -43,7 +43,7 @@ struct PCL_COSECTION_EXPORT RefinementOptions
   int max_iterations = 50;         ///< Gauss-Newton steps
   int threads = 0;                 ///< 0: all
 
-  /** \brief \throws InvalidArgument naming the first parameter outside its domain. */
+  /** \brief Check all values. \throws InvalidArgument naming the first one outside its domain. */
   void validate () const;
 };
 
@@ -70,7 +70,7 @@ struct PCL_COSECTION_EXPORT RunOptions
   int volume_frames = 5; ///< at most so many frames for the volume of each penetration
   int threads = 0;       ///< 0: all
 
-  /** \brief \throws InvalidArgument naming the first parameter outside its domain. */
+  /** \brief Check all values. \throws InvalidArgument naming the first one outside its domain. */
   void validate () const;
 };
 
@@ -128,8 +128,8 @@ struct PCL_COSECTION_EXPORT RunEvaluation
   std::vector<ObjectEvaluation> objects;     ///< in the order of the estimate
   std::optional<MeshEvaluation> background;  ///< nothing if one of the two has none
   std::vector<PairPenetration> penetrations; ///< of each pair of bodies that were measured
-  std::vector<int> unmatched;                ///< estimated objects without a true one
-  std::vector<int> missed;                   ///< true objects without an estimated one
+  std::vector<int> unmatched;                ///< ids of estimated objects that match no true one
+  std::vector<int> missed;                   ///< ids of true objects that match no estimated one
   std::vector<std::string> warnings;         ///< one line each
 };
 

@@ -30,7 +30,7 @@ struct PCL_COSECTION_EXPORT TrajectoryOptions
   TrajectoryAlignment alignment = TrajectoryAlignment::Se3; ///< of the estimate
   int delta = 1;                                            ///< of the relative pose error, in matched poses
 
-  /** \brief \throws InvalidArgument naming the first parameter outside its domain. */
+  /** \brief Check all values. \throws InvalidArgument naming the first one outside its domain. */
   void validate () const;
 };
 

@@ -28,7 +28,7 @@ struct PCL_COSECTION_EXPORT BackendOptions
   std::size_t max_views = 100;    ///< depth images that are kept, keyframes among them; at least 4
   std::size_t max_keyframes = 40; ///< at least 2
 
-  /** \brief \throws InvalidArgument naming the first parameter outside its domain. */
+  /** \brief Check all values. \throws InvalidArgument naming the first one outside its domain. */
   void validate () const;
 };
 
@@ -52,7 +52,7 @@ class PCL_COSECTION_EXPORT CoSectionBackend
 public:
   using Poses = std::map<int, Eigen::Isometry3d>; ///< T_world_object by id, of the objects whose pose is known
 
-  /** \brief \throws InvalidArgument */
+  /** \brief An empty back end. \throws InvalidArgument as BackendOptions::validate () */
   explicit CoSectionBackend (const BackendOptions& options = {});
 
   /** \brief Add the points and the free space of a keyframe. Points of objects without a pose in \a T_world_object are
@@ -64,7 +64,7 @@ public:
   /** \brief Add the free space of a frame. \return whether it was kept \throws InvalidArgument as addKeyframe () */
   bool addFrame (DepthView view, const Poses& T_world_object);
 
-  /** \brief Give up what turned out to be no object, or a part of another one, with its points. */
+  /** \brief Remove what turned out to be no object, or a part of another one, with its points. */
   void removeObject (int id);
 
   /** \brief Complete everything, from the last solution on: CoSection::update (). \throws Cancelled */
@@ -74,7 +74,7 @@ public:
    * \throws Cancelled */
   SceneResult solve (const ProgressCallback& progress = {}) const;
 
-  /** \brief As if there had been no update. */
+  /** \brief Forget the results of updates, and free their memory: CoSection::forgetUpdates (). */
   void forgetUpdates () { scene_.forgetUpdates (); }
 
   /** \brief Views that are kept, keyframes among them. */
@@ -136,7 +136,8 @@ struct PCL_COSECTION_EXPORT BackendUpdate
 class PCL_COSECTION_EXPORT BackendThread
 {
 public:
-  /** \param[in] backend not to be touched as long as the thread is there
+  /** \brief Start the thread.
+   * \param[in] backend not to be touched as long as the thread is there
    * \param[in] output of the updates
    * \throws Error if no thread can be started */
   explicit BackendThread (CoSectionBackend& backend, UpdateOutput output = UpdateOutput::Meshes);

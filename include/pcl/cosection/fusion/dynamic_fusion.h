@@ -41,7 +41,7 @@ struct PCL_COSECTION_EXPORT AssociationOptions
   double free_truncation = 0.9; ///< distances above this fraction of the truncation distance are seen free
   int threads = 0;              ///< 0: all; no result depends on it
 
-  /** \brief \throws InvalidArgument naming the first parameter outside its domain. */
+  /** \brief Check all values. \throws InvalidArgument naming the first one outside its domain. */
   void validate () const;
 };
 
@@ -72,7 +72,7 @@ struct PCL_COSECTION_EXPORT DynamicFusionOptions
   Eigen::Isometry3d first_pose = Eigen::Isometry3d::Identity (); ///< T_world_camera of the first frame
   int threads = 0;                                               ///< 0: all; no result depends on it
 
-  /** \brief \throws InvalidArgument naming the first parameter outside its domain. */
+  /** \brief Check all values. \throws InvalidArgument naming the first one outside its domain. */
   void validate () const;
 };
 
@@ -110,7 +110,8 @@ struct PCL_COSECTION_EXPORT TrackedFrame
 class PCL_COSECTION_EXPORT DynamicFusion
 {
 public:
-  /** \throws InvalidArgument as DynamicFusionOptions::validate () and PinholeCamera::validate () */
+  /** \brief Begin with an empty map. \throws InvalidArgument as DynamicFusionOptions::validate () and
+   * PinholeCamera::validate () */
   explicit DynamicFusion (const PinholeCamera& camera, const DynamicFusionOptions& options = {});
   ~DynamicFusion ();
   /** \brief Takes over what the other one has. */

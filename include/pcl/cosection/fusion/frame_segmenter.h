@@ -31,8 +31,8 @@ struct PCL_COSECTION_EXPORT ObservedFrame
   const std::vector<Eigen::Vector3f>& points;      ///< row by row, sensor frame, metres, smoothed; NaN: no reading
   const Eigen::Isometry3d& T_world_camera;         ///< metres
   std::map<int, Eigen::Isometry3d> T_world_object; ///< of the objects that are tracked
-  /** \brief What known models explain: id of the object, 0: background or no reading, TrackedFrame::unassigned: none of
-   * them. */
+  /** \brief What known models explain: id of the object, 0: background or no reading, TrackedFrame::unassigned:
+   * nothing that is known. */
   const Image<std::uint16_t>& labels;
   /** \brief 1: it was found to move against the background and belongs to no object that is known; else 0. */
   const Image<std::uint8_t>& moving;
@@ -41,8 +41,8 @@ struct PCL_COSECTION_EXPORT ObservedFrame
 /** \brief What a FrameSegmenter says of a frame. */
 struct PCL_COSECTION_EXPORT FrameInstances
 {
-  /** \brief Number of an instance, another one in each frame; 0: none, FrameSegmenter::ignored. Of the camera's size;
-   * nothing: the frame says nothing of objects. */
+  /** \brief Number of an instance, another one in each frame; 0: none, FrameSegmenter::ignored. It has the camera's
+   * size; nothing: the frame says nothing of objects. */
   std::optional<Image<std::uint16_t>> mask;
   std::string note; ///< what the user should know; repeated ones are shown once
   /** \brief What an instance is, by its number, where that is known. */
@@ -90,7 +90,7 @@ public:
 class PCL_COSECTION_EXPORT GeometricSegmenter : public FrameSegmenter
 {
 public:
-  /** \throws InvalidArgument as ObjectSegmentationOptions::validate () */
+  /** \brief No frames yet. \throws InvalidArgument as ObjectSegmentationOptions::validate () */
   explicit GeometricSegmenter (const ObjectSegmentationOptions& options = {});
 
   ~GeometricSegmenter () override;
@@ -118,7 +118,7 @@ private:
 class PCL_COSECTION_EXPORT MotionSegmenter : public FrameSegmenter
 {
 public:
-  /** \throws InvalidArgument as MotionSegmentationOptions::validate () */
+  /** \brief No frames yet. \throws InvalidArgument as MotionSegmentationOptions::validate () */
   explicit MotionSegmenter (const MotionSegmentationOptions& options = {});
 
   void begin () override;
@@ -146,7 +146,7 @@ private:
 class PCL_COSECTION_EXPORT NetworkSegmenter : public FrameSegmenter
 {
 public:
-  /** \throws InvalidArgument, IoError as InstanceDetector and ClassRoles::validate () */
+  /** \brief Read the network. \throws InvalidArgument, IoError as InstanceDetector and ClassRoles::validate () */
   explicit NetworkSegmenter (const InstanceDetectorOptions& options, const ClassRoles& roles = {});
 
   /** \brief Instances with their classes; no mask for a frame without colour. \throws IoError if the network cannot

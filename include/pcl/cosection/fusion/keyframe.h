@@ -21,7 +21,7 @@ struct PCL_COSECTION_EXPORT KeyframeOptions
   int background_step = 2;   ///< stride along rows and columns between the background's pixels that are used
   int threads = 0;           ///< 0: all
 
-  /** \brief \throws InvalidArgument naming the first parameter outside its domain. */
+  /** \brief Check all values. \throws InvalidArgument naming the first one outside its domain. */
   void validate () const;
 };
 

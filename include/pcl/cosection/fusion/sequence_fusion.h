@@ -35,7 +35,7 @@ struct PCL_COSECTION_EXPORT KnownSequence
 /** \brief A sequence of which poses are not known. */
 struct PCL_COSECTION_EXPORT TrackedSequence
 {
-  /** \param[in] images, masks must live as long as this is used */
+  /** \brief A sequence. \param[in] images, masks must live as long as this is used */
   explicit TrackedSequence (const RgbdSequence& images, const MaskSequence* masks = nullptr)
       : images (&images)
       , masks (masks)
@@ -65,7 +65,7 @@ struct PCL_COSECTION_EXPORT ObjectTsdfOptions
   int max_resolution = 256; ///< voxels along a side; what lies beyond is left out
   TsdfOptions tsdf;         ///< of the volume
 
-  /** \brief \throws InvalidArgument naming the first parameter outside its domain. */
+  /** \brief Check all values. \throws InvalidArgument naming the first one outside its domain. */
   void validate () const;
 };
 
@@ -84,7 +84,7 @@ struct PCL_COSECTION_EXPORT FusionOptions
 
   FusionOptions ();
 
-  /** \brief \throws InvalidArgument naming the first parameter outside its domain. */
+  /** \brief Check all values. \throws InvalidArgument naming the first one outside its domain. */
   void validate () const;
 };
 
@@ -156,8 +156,8 @@ public:
   /** \brief Takes what is known after a frame. */
   using FrameCallback = std::function<void (const FrameReport&)>;
 
-  /** \throws InvalidArgument if an option is outside its domain, there are no images, the ignored pixels are not of
-   * their size, or no pose of the camera is for any frame of the range */
+  /** \brief Use known poses. \throws InvalidArgument if an option is outside its domain, there are no images, the
+   * ignored pixels are not of their size, or no pose of the camera is for any frame of the range */
   explicit SequenceFusion (KnownSequence sequence, const FusionOptions& options = {});
 
   /** \brief Track the camera and the objects. \throws InvalidArgument if an option is outside its domain, the ignored

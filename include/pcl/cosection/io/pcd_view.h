@@ -28,7 +28,7 @@ struct PCL_COSECTION_EXPORT PcdViewOptions
   std::size_t max_memory_bytes = 0;                ///< refuse clouds that need more; 0: no limit
   int threads = 0;                                 ///< 0: all
 
-  /** \brief \throws InvalidArgument naming the first parameter outside its domain. */
+  /** \brief Check all values. \throws InvalidArgument naming the first one outside its domain. */
   void validate () const;
 };
 

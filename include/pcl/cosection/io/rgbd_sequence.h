@@ -41,7 +41,7 @@ struct PCL_COSECTION_EXPORT SequenceSource
   double depth_scale = 0.0;                        ///< units of a PNG per metre; 0: 5000 for TUM, 1000 for others
   std::optional<std::array<double, 4>> intrinsics; ///< fx, fy, cx, cy in pixels, instead of calibration.txt
 
-  /** \brief \throws InvalidArgument naming the first parameter outside its domain. */
+  /** \brief Check all values. \throws InvalidArgument naming the first one outside its domain. */
   void validate () const;
 };
 

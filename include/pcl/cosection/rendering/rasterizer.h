@@ -35,7 +35,7 @@ struct PCL_COSECTION_EXPORT RasterImage
 class PCL_COSECTION_EXPORT Rasterizer
 {
 public:
-  /** \throws InvalidArgument if the camera is not valid. */
+  /** \brief An empty image. \throws InvalidArgument if the camera is not valid. */
   Rasterizer (const PinholeCamera& camera, const Eigen::Isometry3d& T_world_camera, double near_m = 0.01);
 
   /** \brief Draw a mesh whose vertices are in the frame of \a T_world_mesh. Colours come from the

@@ -31,7 +31,7 @@ struct PCL_COSECTION_EXPORT ObjectSegmentationOptions
   double concave_angle_rad = 0.45;   ///< a crease that is concave by more than this separates two objects
   int threads = 0;                   ///< 0: all
 
-  /** \brief \throws InvalidArgument naming the first parameter outside its domain. */
+  /** \brief Check all values. \throws InvalidArgument naming the first one outside its domain. */
   void validate () const;
 };
 

@@ -47,7 +47,7 @@ struct PCL_COSECTION_EXPORT ImagePlacement
   int width = 0;        ///< columns of the input that show the image
   int height = 0;       ///< rows of it
 
-  /** \throws InvalidArgument if a size is not positive */
+  /** \brief Place the image. \throws InvalidArgument if a size is not positive */
   ImagePlacement (int image_width, int image_height, int input_width, int input_height, bool letterbox);
 };
 
@@ -61,7 +61,7 @@ struct PCL_COSECTION_EXPORT InstanceDecodingOptions
   int max_instances = 100;         ///< those of the highest scores
   std::vector<std::string> class_names; ///< by class_id; empty: not known
 
-  /** \brief \throws InvalidArgument naming the first parameter outside its domain. */
+  /** \brief Check all values. \throws InvalidArgument naming the first one outside its domain. */
   void validate () const;
 };
 
@@ -79,7 +79,7 @@ enum class NetworkOutputForm
   /** [1, 4 + C + K, A]: centre x, y, width and height in pixels of the input, C scores, K coefficients, for each of A
    * candidates; and [1, K, h, w]: prototypes, the weighted sums of which are the masks' logits (after D. Bolya et al.,
    * "YOLACT", ICCV 2019). YOLOv8, YOLO11. [1, A, 5 + C + K], with a score of any object before those of the classes:
-   * YOLOv5. Of D and A, A is the larger one. */
+   * YOLOv5. A is the larger of the two dimensions. */
   Prototypes
 };
 
@@ -108,8 +108,8 @@ struct PCL_COSECTION_EXPORT ClassRoles
   std::vector<std::string> statics; ///< belong to the background: tables, screens
   std::vector<std::string> ignored; ///< are neither objects nor background: people
 
-  /** \brief \throws InvalidArgument if a class is not among the names, in two roles, or given by a name where there are
-   * none */
+  /** \brief Check all values. \throws InvalidArgument if a class is not among the names, in two roles, or given by a
+   * name where there are none */
   void validate (const std::vector<std::string>& class_names) const;
 };
 
@@ -152,7 +152,7 @@ struct PCL_COSECTION_EXPORT InstanceDetectorOptions
   int threads = 1;                   ///< of the network; with more, its last digits depend on how many
   InstanceDecodingOptions detection; ///< how outputs become instances
 
-  /** \brief \throws InvalidArgument naming the first parameter outside its domain. */
+  /** \brief Check all values. \throws InvalidArgument naming the first one outside its domain. */
   void validate () const;
 };
 

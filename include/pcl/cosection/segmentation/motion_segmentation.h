@@ -35,7 +35,7 @@ struct PCL_COSECTION_EXPORT MotionSegmentationOptions
   double concave_angle_rad = 0.45; ///< a crease that is concave by more than this joins nothing
   int threads = 0;                 ///< 0: all; no result depends on it
 
-  /** \brief \throws InvalidArgument naming the first parameter outside its domain. */
+  /** \brief Check all values. \throws InvalidArgument naming the first one outside its domain. */
   void validate () const;
 };
 
@@ -55,8 +55,8 @@ struct PCL_COSECTION_EXPORT MotionFrame
    * that is too slow for the window shows against it, as long as the model does not follow. */
   std::vector<float> expected_depth;
 
-  /** \brief \throws InvalidArgument naming what does not fit: sizes, a pose that is not a finite rigid motion, no
-   * reading at all */
+  /** \brief Check all values. \throws InvalidArgument naming what does not fit: sizes, a pose that is not a finite
+   * rigid motion, no reading at all */
   void validate () const;
 };
 
@@ -102,7 +102,7 @@ struct PCL_COSECTION_EXPORT MotionSegments
 class PCL_COSECTION_EXPORT MovingBodyFinder
 {
 public:
-  /** \throws InvalidArgument as MotionSegmentationOptions::validate () */
+  /** \brief No frames yet. \throws InvalidArgument as MotionSegmentationOptions::validate () */
   explicit MovingBodyFinder (const MotionSegmentationOptions& options = {});
   ~MovingBodyFinder ();
   /** \brief Takes over what the other one has. */

@@ -30,7 +30,7 @@ struct PCL_COSECTION_EXPORT SimulatedFrame
 class PCL_COSECTION_EXPORT SceneRenderer
 {
 public:
-  /** \brief \throws InvalidArgument as SimulatedScene::validate () */
+  /** \brief Prepare the parts. \throws InvalidArgument as SimulatedScene::validate () */
   explicit SceneRenderer (const SimulatedScene& scene);
   SceneRenderer (const SceneRenderer&) = delete;
   SceneRenderer& operator= (const SceneRenderer&) = delete;

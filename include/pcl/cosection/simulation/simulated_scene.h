@@ -89,7 +89,8 @@ PCL_COSECTION_EXPORT Shape::ConstPtr makeMeshShape (TriangleMesh mesh, double sc
 class PCL_COSECTION_EXPORT KeyedVector
 {
 public:
-  /** \throws InvalidArgument if there is no key, a position is not within a million metres, a time not within a billion
+  /** \brief A curve through keys, seconds and metres.
+   * \throws InvalidArgument if there is no key, a position is not within a million metres, a time not within a billion
    * seconds, or the times do not grow by a microsecond at least. */
   KeyedVector (std::vector<double> times, std::vector<Eigen::Vector3d> values);
 
@@ -109,7 +110,8 @@ private:
 class PCL_COSECTION_EXPORT KeyedRotation
 {
 public:
-  /** \throws InvalidArgument as KeyedVector, or if a turn is half a revolution or nearly so: its axis is not defined.
+  /** \brief A turn through keys, seconds.
+   * \throws InvalidArgument as KeyedVector, or if a turn is half a revolution or nearly so: its axis is not defined.
    */
   KeyedRotation (std::vector<double> times, std::vector<Eigen::Quaterniond> values);
 
@@ -169,7 +171,7 @@ struct PCL_COSECTION_EXPORT DepthNoise
   double max_m = 8.0;               ///< farthest depth
   bool shadows = true;              ///< of the projector's light
 
-  /** \brief \throws InvalidArgument naming the first parameter outside its domain. */
+  /** \brief Check all values. \throws InvalidArgument naming the first one outside its domain. */
   void validate () const;
 };
 
@@ -240,7 +242,8 @@ struct PCL_COSECTION_EXPORT SimulatedScene
   /** \brief Time of a frame, seconds. */
   double timeOf (int frame) const { return frame / rate; }
 
-  /** \brief \throws InvalidArgument naming what is not right: no frames, two bodies with one id or name ... */
+  /** \brief Check all values. \throws InvalidArgument naming what is not right: no frames, two bodies with one id or
+   * name ... */
   void validate () const;
 };
 

@@ -84,7 +84,7 @@ struct PCL_COSECTION_EXPORT SceneResult
 enum class ViewUse
 {
   Full,      ///< free space, and where hidden parts of objects may be
-  FreeSpace, ///< free space only, in whole voxels: of a view between two similar ones, or one that nobody has labelled
+  FreeSpace, ///< free space only, in whole voxels: for a view between two similar ones, or one without labels
 };
 
 /** \brief What CoSection::update () computes. */
@@ -109,7 +109,7 @@ enum class UpdateOutput
 class PCL_COSECTION_EXPORT CoSection
 {
 public:
-  /** \throws InvalidArgument */
+  /** \brief An empty scene. \throws InvalidArgument as CoSectionOptions::validate () */
   explicit CoSection (const CoSectionOptions& options = {});
   ~CoSection ();
   /** \brief Takes over what the other one has. */
@@ -131,45 +131,44 @@ public:
    * \throws InvalidArgument if the view is not valid, or a pose not finite */
   int addView (DepthView view, const std::map<int, Eigen::Isometry3d>& T_world_object, ViewUse use = ViewUse::Full);
 
-  /** \brief Give up views, and the points that were added since each of them and before the next. Those that remain are
+  /** \brief Remove views, and the points that were added since each of them and before the next. Those that remain are
    * numbered anew, in their order.
    * \param[in] remove one per view
    * \throws InvalidArgument if there is not one per view */
   void removeViews (const std::vector<bool>& remove);
 
-  /** \brief Give up an object, with its points and poses, as if it had never been. Nothing happens if there is none of
-   * that number. */
+  /** \brief Remove an object with its points and poses, as if it had never been added. An unknown id changes nothing.
+   */
   void removeObject (int id);
 
-  /** \brief Points of everything that is not an object, world frame; replaces earlier ones. */
+  /** \brief Set the points of everything that is not an object, world frame, metres; replaces earlier ones. */
   void setBackground (std::vector<OrientedPoint> points);
 
-  /** \brief Add points of what is not an object to the earlier ones, world frame. */
+  /** \brief Add points of what is not an object to the earlier ones, world frame, metres. */
   void addBackground (const std::vector<OrientedPoint>& points);
 
-  /** \throws InvalidArgument if the id is not positive or already there */
+  /** \brief Add an object. \throws InvalidArgument if the id is not positive or already there */
   void addObject (ObjectInput object);
 
-  /** \brief More points of an object, object frame. An object that is not there yet is added; if views named its pose,
-   * it has those, else the object frame is the world frame.
+  /** \brief Add points of an object, object frame, metres. An object that is not there yet is added; if views named its
+   * pose, it has those, else the object frame is the world frame.
    * \throws InvalidArgument if the id is not positive */
   void addPoints (int id, const std::vector<OrientedPoint>& points);
 
-  /** \brief A plane a x + b y + c z + d = 0 that no object crosses, world frame; coefficients (a, b, c, d) of
+  /** \brief Add a plane a x + b y + c z + d = 0 that no object crosses, world frame. The coefficients (a, b, c, d) have
    * any scale and either sign: each object is on the side of most of its points.
    * \throws InvalidArgument if the normal is zero or a coefficient is not finite */
   void addSupportPlane (const Eigen::Vector4d& plane);
 
-  /** \brief Another body that objects cannot enter, at one or many poses relative to the world.
+  /** \brief Add a body that objects cannot enter, at one or many poses relative to the world.
    * \param[in] body signed distance in the frame of the body, one value per voxel
    * \param[in] T_body_world takes points of the world to the frame of the body: the inverse of the body's pose
    * \throws InvalidArgument if the field does not have one value per voxel, or a pose is not finite */
   void addObstacle (SignedDistanceField::ConstPtr body,
                     const std::vector<Eigen::Isometry3d>& T_body_world = {Eigen::Isometry3d::Identity ()});
 
-  /** \brief Add an obstacle that is given as a mesh: closed, or open as the boundary of what lies behind it
-   * (sampleSignedDistance
-   * ()).
+  /** \brief Add an obstacle that is given as a mesh: closed, or open as the boundary of what lies behind it:
+   * see sampleSignedDistance ().
    * \throws InvalidArgument if the mesh bounds nothing */
   void addObstacle (TriangleMesh body,
                     const std::vector<Eigen::Isometry3d>& T_body_world = {Eigen::Isometry3d::Identity ()});
@@ -181,14 +180,14 @@ public:
    * \throws Cancelled if \a progress asks for it */
   SceneResult reconstruct (const ProgressCallback& progress = {}) const;
 
-  /** \brief Run on what was added since the last time: measurements are gathered once, and every shape starts from the
-   * last one. The minimum is that of reconstruct () within the solver's tolerance, of a whole background near data.
-   * Volumes grow (or shrink) with what is observed; their voxels keep their places unless points ask for a size that
-   * differs by over a fifth.
+  /** \brief Complete what changed since the last update: measurements are gathered once, and every shape starts from
+   * the last one. The minimum is that of reconstruct () within the solver's tolerance; for a whole background, near
+   * data. Volumes grow (or shrink) with what is observed; their voxels keep their places unless points ask for a size
+   * that differs by over a fifth.
    * \throws Cancelled; the next call then goes on from what was gathered */
   SceneResult update (UpdateOutput output = UpdateOutput::Meshes, const ProgressCallback& progress = {});
 
-  /** \brief As if there had been no update: what was added stays. Gives the memory back that updates need. */
+  /** \brief Forget the results of updates, and free their memory. What was added stays. */
   void forgetUpdates ();
 
 private:

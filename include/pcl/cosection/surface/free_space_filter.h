@@ -115,7 +115,8 @@ public:
   /** \brief Cloud of the points. */
   using PointCloud = pcl::PointCloud<PointT>;
 
-  /** \param[in] extract_removed_indices keep the indices of what is removed, for getRemovedIndices () */
+  /** \brief A filter without views.
+   * \param[in] extract_removed_indices keep the indices of what is removed, for getRemovedIndices () */
   explicit FreeSpaceFilter (bool extract_removed_indices = false);
 
   ~FreeSpaceFilter () override; // not inline, so that programs need no libpcl_filters for the base's
@@ -129,7 +130,7 @@ protected:
   using Base::negative_;
   using Base::removed_indices_;
 
-  /** \brief \param[out] indices of the points that pass, in the order of the input's */
+  /** \brief Filter. \param[out] indices of the points that pass, in the order of the input's */
   void applyFilter (Indices& indices) override;
 };
 

@@ -22,7 +22,7 @@ struct PCL_COSECTION_EXPORT OrganizedNormalsOptions
   double max_incidence_rad = 1.45; ///< largest angle between the normal and the direction to the sensor
   int threads = 0;                 ///< 0: all
 
-  /** \brief \throws InvalidArgument naming the first parameter outside its domain. */
+  /** \brief Check all values. \throws InvalidArgument naming the first one outside its domain. */
   void validate () const;
 };
 

@@ -94,7 +94,7 @@ struct PCL_COSECTION_EXPORT CoSectionOptions
   /** \brief The parameters of the publication. */
   static CoSectionOptions paper ();
 
-  /** \brief \throws InvalidArgument naming the first parameter outside its domain. */
+  /** \brief Check all values. \throws InvalidArgument naming the first one outside its domain. */
   void validate () const;
 };
 

@@ -23,7 +23,8 @@ class PCL_COSECTION_EXPORT LowerBound
 public:
   LowerBound () = default;
 
-  /** \param[in] distance_vox d, clamped to [0, 255]
+  /** \brief A bound.
+   * \param[in] distance_vox d, clamped to [0, 255]
    * \param[in] weight beta >= 0 */
   LowerBound (float distance_vox, float weight);
 

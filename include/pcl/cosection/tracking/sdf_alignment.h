@@ -33,7 +33,7 @@ struct PCL_COSECTION_EXPORT SdfAlignmentOptions
   int min_points = 20; ///< with a distance; fewer determine no pose
   int threads = 0;     ///< 0: all; no result depends on it
 
-  /** \brief \throws InvalidArgument naming the first parameter outside its domain. */
+  /** \brief Check all values. \throws InvalidArgument naming the first one outside its domain. */
   void validate () const;
 };
 
@@ -140,7 +140,7 @@ private:
 class PCL_COSECTION_EXPORT SdfAlignment
 {
 public:
-  /** \throws InvalidArgument as SdfAlignmentOptions::validate () */
+  /** \brief Empty buffers. \throws InvalidArgument as SdfAlignmentOptions::validate () */
   explicit SdfAlignment (const SdfAlignmentOptions& options = {});
   ~SdfAlignment ();
   /** \brief Takes over what the other one has. */
@@ -151,7 +151,8 @@ public:
   /** \brief The options of the constructor. */
   const SdfAlignmentOptions& options () const;
 
-  /** \param[in] points metres, sensor frame; those that are not finite are left out
+  /** \brief Find the pose.
+   * \param[in] points metres, sensor frame; those that are not finite are left out
    * \param[in] weights one per point, or none: 1; what is not positive and finite counts as 0
    * \param[in] target the volume
    * \param[in] guess T_grid_sensor to begin with, metres

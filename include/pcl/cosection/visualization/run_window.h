@@ -45,7 +45,7 @@ struct PCL_COSECTION_EXPORT RunWindowOptions
       said;        ///< called with what changed, in a line: "frame 3 of 12", "wrote view.json"
   int threads = 0; ///< for signed distances; 0: all
 
-  /** \brief \throws InvalidArgument naming the first parameter outside its domain. */
+  /** \brief Check all values. \throws InvalidArgument naming the first one outside its domain. */
   void validate () const;
 };
 
@@ -62,7 +62,8 @@ struct PCL_COSECTION_EXPORT RunWindowOptions
 class PCL_COSECTION_EXPORT RunWindow
 {
 public:
-  /** \throws IoError as requireDisplay (), InvalidArgument for options outside their domain or a scene without frames
+  /** \brief Open the window. \throws IoError as requireDisplay (), InvalidArgument for options outside their domain or
+   * a scene without frames
    */
   explicit RunWindow (RunScene scene, const RunWindowOptions& options = {});
   ~RunWindow ();

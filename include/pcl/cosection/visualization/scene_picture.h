@@ -31,8 +31,8 @@ struct PCL_COSECTION_EXPORT Viewpoint
   /** \brief The camera of a picture of this size. */
   PinholeCamera camera (int width, int height) const;
 
-  /** \brief \throws InvalidArgument if something is not finite, there is no line of sight, \a up is along it, or the
-   * angle is outside (0, pi) */
+  /** \brief Check all values. \throws InvalidArgument if something is not finite, there is no line of sight, \a up is
+   * along it, or the angle is outside (0, pi) */
   void validate () const;
 };
 
@@ -67,7 +67,8 @@ struct PCL_COSECTION_EXPORT FramePoints
 class PCL_COSECTION_EXPORT FramePointReader
 {
 public:
-  /** \param[in] scene the run
+  /** \brief List the frames.
+   * \param[in] scene the run
    * \param[in] dataset empty: the one that the run's summary names
    * \throws IoError if there is none, or it cannot be read */
   explicit FramePointReader (const RunScene& scene, const std::string& dataset = "");
@@ -117,7 +118,7 @@ struct PCL_COSECTION_EXPORT SceneView
   bool caption = true;                          ///< stamp and numbers, in a corner
   int oversampling = 2;                         ///< for smooth edges; 1: none
 
-  /** \brief \throws InvalidArgument naming the first parameter outside its domain. */
+  /** \brief Check all values. \throws InvalidArgument naming the first one outside its domain. */
   void validate () const;
 };
 

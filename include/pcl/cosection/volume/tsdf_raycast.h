@@ -24,7 +24,8 @@ struct PCL_COSECTION_EXPORT RaycastOptions
   double max_depth_m = std::numeric_limits<double>::infinity (); ///< surfaces beyond are not seen
   int threads = 0;                                               ///< 0: all; no result depends on it
 
-  /** \brief \throws InvalidArgument if \a stride or the depth is not positive, or \a threads is negative. */
+  /** \brief Check all values. \throws InvalidArgument if \a stride or the depth is not positive, or \a threads is
+   * negative. */
   void validate () const;
 };
 
@@ -32,7 +33,7 @@ struct PCL_COSECTION_EXPORT RaycastOptions
 struct PCL_COSECTION_EXPORT RaycastBody
 {
   const TsdfVolume* volume = nullptr; ///< must be set, and live as long as this is used
-  // The sensor's pose in the frame of the volume's grid.
+  /** \brief The sensor's pose in the frame of the volume's grid, metres. */
   Eigen::Isometry3d T_grid_sensor = Eigen::Isometry3d::Identity ();
   std::uint16_t id = 0;         ///< by custom, 0 is the background
   bool foreground_only = false; ///< rays pass surfaces whose foreground probability is not known to be above 1/2

@@ -28,7 +28,8 @@ struct PCL_COSECTION_EXPORT TsdfOptions
   bool foreground = false;      ///< count how often a voxel's surface was seen in the object's mask and outside it
   int threads = 0;              ///< 0: all; no result depends on it
 
-  /** \brief \throws InvalidArgument if a number is not positive and finite, or \a threads is negative. */
+  /** \brief Check all values. \throws InvalidArgument if a number is not positive and finite, or \a threads is
+   * negative. */
   void validate () const;
 };
 
