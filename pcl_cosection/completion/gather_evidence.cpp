@@ -1,9 +1,9 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "gather_evidence.h"
 
-#include "pcl_cosection/view/visibility/free_space_votes.h"
 #include "pcl_cosection/energy/data/measured_surface.h"
 #include "pcl_cosection/view/outliers/residual_clusters.h"
+#include "pcl_cosection/view/visibility/free_space_votes.h"
 #include "pcl_cosection/view/visibility/view_agreement.h"
 
 #include <algorithm>

@@ -104,7 +104,7 @@ warnIfCoarse (const ObjectInput& input, const Observation& object, CompletionLog
   std::ostringstream text;
   text << std::fixed << std::setprecision (1);
   text << nameOf (input) << ": its points are so far apart that what is finer than " << 1e3 * h
-       << " mm cannot be told, and it is only " << 1e3 * object.extents_m[1]
+       << " mm does not show, and it is only " << 1e3 * object.extents_m[1]
        << " mm across (points nearer together tell more)";
   log.warn (text.str ());
 }

@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "sensor_location.h"
 
 #include "pcl_cosection/common/quantile.h"
@@ -23,8 +22,8 @@ namespace
 constexpr int window = 8;              // steps before and after one, whose median is the spacing of the points there
 constexpr double jump_spacings = 20.0; // length of a jump, at least
 constexpr float longest_step = 5.0f;   // in spacings, of one that is no jump
-constexpr double
-    loose = 2.0; // tolerance of the angle between neighbours, in such angles, to find the lines that meet ...
+// Tolerance of the angle between neighbours, in such angles, to find the lines that meet ...
+constexpr double loose = 2.0;
 constexpr double strict = 0.25; // ... and to adjust where: a missing reading between both ends is noticed then
 constexpr std::size_t most_jumps = 2000;
 constexpr int samples = 1000;

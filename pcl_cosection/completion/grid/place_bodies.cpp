@@ -1,8 +1,8 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "place_bodies.h"
 
-#include "pcl_cosection/view/visibility/free_space_view.h"
 #include "pcl_cosection/priors/object_priors.h"
+#include "pcl_cosection/view/visibility/free_space_view.h"
 #include "volume_layout.h"
 #include "voxel_size.h"
 

@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "motion_labelling.h"
 
 #include "pcl_cosection/common/disjoint_sets.h"

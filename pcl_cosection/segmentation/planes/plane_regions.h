@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 #include "pcl_cosection/segmentation/geometry/depth_grid.h"

@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: BSD-3-Clause
-// Copyright (c) 2026, the pcl_cosection authors
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "consistent_normals.h"
 
 #include "estimated_normals.h"
@@ -18,8 +17,8 @@ namespace pcl::cosection
 namespace
 {
 
-constexpr float
-    one_sided = 0.7f; // length of the mean normal of a background that has a side; of random ones to one side, 0.5
+// Length of the mean normal of a background that has a side; of random ones to one side, 0.5.
+constexpr float one_sided = 0.7f;
 constexpr std::size_t least_background = 100; // points, to decide on a side
 constexpr double decisive = 0.75;             // share of a piece that faces to one side
 

@@ -34,8 +34,8 @@ public:
     return distances_[index (i / edge, j / edge, k / edge)];
   }
 
-  /** \brief Corners of the smallest box around all bricks with both signs, voxel coordinates; turned around if there
-   * are none. */
+  /** \brief Corners of the smallest box around all bricks with both signs, voxel coordinates; turned around if no
+   * brick has both. */
   std::array<Eigen::Vector3d, 2> surfaceBox () const;
 
 private:

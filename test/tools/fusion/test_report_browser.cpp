@@ -140,7 +140,8 @@ TEST_F (ReportBrowser, ControlsWork)
   html.insert (html.find ("</body>"), R"(<script>(async function () {
     const notes = {}, view = document.getElementById ("view"), canvas = view.querySelector ("canvas");
     const wait = (ms) => new Promise ((done) => setTimeout (done, ms));
-    const find = (selector, words) => Array.from (view.querySelectorAll (selector)).find ((e) => e.textContent.includes (words));
+    const find = (selector, words) =>
+      Array.from (view.querySelectorAll (selector)).find ((e) => e.textContent.includes (words));
     const change = async (element, event) => { element.dispatchEvent (new Event (event)); await wait (100); };
     function picture () {
       const copy = document.createElement ("canvas");
@@ -165,12 +166,14 @@ TEST_F (ReportBrowser, ControlsWork)
     notes.hidden = covered () < all / 2 && covered () > 0;
     box.checked = true; await change (box, "change");
     notes.shown = covered () === all;
-    const colour = find ("label", "Colour").querySelector ("select"), show = find ("label", "Show").querySelector ("select");
+    const colour = find ("label", "Colour").querySelector ("select");
+    const show = find ("label", "Show").querySelector ("select");
     let before = sum ();
     notes.colours = [];
     for (const option of colour.options) {
       colour.value = option.value; await change (colour, "change");
-      notes.colours.push (option.value + " " + view.querySelectorAll (".legend li").length + (sum () !== before ? " new" : ""));
+      const entries = view.querySelectorAll (".legend li").length;
+      notes.colours.push (option.value + " " + entries + (sum () !== before ? " new" : ""));
       before = sum ();
     }
     show.value = "seen"; await change (show, "change");
