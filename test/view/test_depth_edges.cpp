@@ -1,5 +1,5 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
-#include "pcl_cosection/view/depth_edges.h"
+#include "pcl_cosection/view/visibility/depth_edges.h"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "pcl_cosection/view/depth_edges.h"
+#include "pcl_cosection/view/visibility/depth_edges.h"
 
 #include <pcl/cosection/common/camera.h>
 

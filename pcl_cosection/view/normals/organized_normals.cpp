@@ -5,7 +5,7 @@
 
 #include "pcl_cosection/common/parallel.h"
 #include "pcl_cosection/common/quantile.h"
-#include "pcl_cosection/view/depth_edges.h"
+#include "pcl_cosection/view/visibility/depth_edges.h"
 #include <pcl/cosection/common/camera.h>
 #include <pcl/cosection/common/error.h>
 

@@ -1,7 +1,7 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "points_behind_edges.h"
 
-#include "pcl_cosection/view/depth_edges.h"
+#include "pcl_cosection/view/visibility/depth_edges.h"
 
 #include "pcl_cosection/common/quantile.h"
 #include "pcl_cosection/view/normals/estimated_normals.h"

@@ -1,7 +1,7 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "free_space_view.h"
 
-#include "pcl_cosection/view/depth_edges.h"
+#include "depth_edges.h"
 #include "visibility.h"
 
 #include <algorithm>
