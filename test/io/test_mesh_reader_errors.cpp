@@ -106,7 +106,7 @@ TEST (MeshReaderErrors, SaysWhatIsWrong)
   EXPECT_EQ (reasonFor ("grid.vtp", "<?xml version=\"1.0\"?>\n<VTKFile type=\"ImageData\"/>\n"),
              "the VTK file does not hold PolyData");
   EXPECT_EQ (reasonFor ("words.stl", "solid a\nfacet normal 0 0 1\nouter circle\n"),
-             "'circle' is no word of an STL file");
+             "'circle' is not a word of an STL file");
 
   // Coordinates that are not finite are errors if a face uses them.
   for (const char* number : {"nan", "inf", "-inf", "1e39", "1e999"})

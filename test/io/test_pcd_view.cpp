@@ -228,7 +228,7 @@ TEST_F (PcdView, BadFilesAreRefusedInOneLine)
   EXPECT_NE (failure<IoError> (write (header (1, 1, "ascii", "x y z", "4 4 4", "I I I") + "1 2 3\n")).find ("TYPE F"),
              std::string::npos);
   EXPECT_NE (failure<IoError> (write (header (1, 1, "ascii", "x y z label", "4 4 4 4", "F F F F") + "1 2 3 4.5\n"))
-                 .find ("label 4.5, which is no integer"),
+                 .find ("label 4.5, which is not an integer"),
              std::string::npos);
   for (const char* large : {"4e9", "inf", "1e300"})
     EXPECT_NE (

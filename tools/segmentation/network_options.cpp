@@ -80,7 +80,7 @@ declareNetworkOptions (CLI::App& app, GivenNetwork& given)
   addList (app, "--input-mean", given.input_mean, "Subtracted from colours before (default: 0,0,0)")
       ->option_text ("R,G,B")
       ->group (group);
-  app.add_option ("--input-order", given.input_order, "Of colours (default: rgb)")
+  app.add_option ("--input-order", given.input_order, "Order of the colours (default: rgb)")
       ->option_text ("rgb|bgr")
       ->check (oneOf ({"rgb", "bgr"}))
       ->group (group);

@@ -49,7 +49,7 @@ declareSegmentationOptions (CLI::App& app, GivenSegmentation& given)
       ->check (numberRange (0.0, unlimited, true))
       ->group (objects);
   app.add_option ("--min-object-size", given.min_object_size,
-                  "What is shorter is no object, metres" + byDefault (defaults.min_object_size_m))
+                  "Anything shorter is not an object, metres" + byDefault (defaults.min_object_size_m))
       ->option_text ("METRES")
       ->check (numberRange (0.0, unlimited, true))
       ->group (objects);

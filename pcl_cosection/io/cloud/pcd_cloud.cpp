@@ -144,7 +144,7 @@ readLabels (const std::string& path, const PCLPointCloud2& cloud, const PcdField
     if (label != std::trunc (label))
     {
       std::ostringstream message;
-      message << path << ": point " << i << " has label " << label << ", which is no integer";
+      message << path << ": point " << i << " has label " << label << ", which is not an integer";
       throw IoError (message.str ());
     }
     constexpr double large = 1e15;

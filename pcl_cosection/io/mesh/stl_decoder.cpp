@@ -73,7 +73,7 @@ decodeText (const std::string& bytes)
     else if (word == "facet")
       scanner.line (); // its normal, which follows from the corners
     else if (word != "outer" && word != "loop" && word != "endfacet")
-      throw IoError (quoted (raw) + " is no word of an STL file");
+      throw IoError (quoted (raw) + " is not a word of an STL file");
   }
   if (in_solid)
     throw IoError ("the STL file ends before its 'endsolid'");

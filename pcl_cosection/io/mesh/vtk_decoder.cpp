@@ -88,7 +88,7 @@ public:
       else if (keyword == "METADATA")
         skipMetadata ();
       else
-        throw IoError (quoted (word) + " is no section of a VTK file of polygons");
+        throw IoError (quoted (word) + " is not a section of a VTK file of polygons");
     }
     return std::move (soup_);
   }

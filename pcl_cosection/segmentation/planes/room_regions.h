@@ -27,7 +27,8 @@ struct Room
  * - remainders of a surface of the room that something divides from it;
  * - what begins at a convex edge of the room: the end of a board. What stands on the room meets it at concave edges.
  *
- * No room is found unless a plane is seen well enough for normals: steep parts of a bowl are as flat as their noise lets.
+ * No room is found unless a plane is seen well enough for normals: steep parts of a bowl are as flat as their noise
+ * lets.
  *
  * Lengths in metres, areas in square metres. */
 Room findRoom (const DepthGrid& grid, float max_object_size_m, float min_area_m2, int threads);

@@ -214,7 +214,7 @@
       note("Accuracy: mean distance from the completed mesh to the true one; completeness: from the true one to it; F: F-score " +
            "at 10 mm. ATE and RPE: root mean squares of the absolute and the relative error of the trajectory, of objects in the " +
            "camera's frame. Volume: the error of it."),
-      ...data.accuracy.unmatched.map(function (id) { return note("Object " + id + " is none of the true objects."); }),
+      ...data.accuracy.unmatched.map(function (id) { return note("Object " + id + " matches none of the true objects."); }),
       ...data.accuracy.missed.map(function (name) { return note("The true object " + name + " was not found."); }));
   }
 
@@ -333,7 +333,7 @@
       make("div", {"class": "charts"}, chart(fromAbove(paths)), ...charts.slice(0, mostOpen)),
       more.length === 0 ? null : make("details", {}, make("summary", {}, "Charts of " + counted(more.length, "more object")),
                                       make("div", {"class": "charts"}, ...more)),
-      note("Rings are beginnings, dots are ends; where nothing was tracked the line is interrupted. Of objects, the middle of " +
+      note("Rings are beginnings, dots are ends; where nothing was tracked the line is interrupted. For objects, the middle of " +
            "the mesh is shown."));
   }
 
