@@ -2,6 +2,7 @@
 #include "frame_labels.h"
 
 #include "unassigned_components.h"
+#include <pcl/cosection/fusion/frame_segmenter.h>
 
 #include <algorithm>
 #include <cmath>

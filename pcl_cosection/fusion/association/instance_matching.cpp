@@ -6,6 +6,7 @@
 #include "unassigned_components.h"
 
 #include "pcl_cosection/tracking/surface_points.h"
+#include <pcl/cosection/fusion/frame_segmenter.h>
 
 #include <algorithm>
 #include <numeric>

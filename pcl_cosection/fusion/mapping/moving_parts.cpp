@@ -3,6 +3,7 @@
 
 #include "pcl_cosection/common/quantile.h"
 #include <pcl/cosection/fusion/dynamic_fusion.h>
+#include <pcl/cosection/fusion/frame_segmenter.h>
 
 #include <algorithm>
 #include <cmath>
