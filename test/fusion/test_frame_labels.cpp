@@ -3,6 +3,7 @@
 // Each stage of segmentation makes its own image of labels; the container of objects keeps what was seen of them.
 
 #include "pcl_cosection/fusion/association/frame_labels.h"
+#include <pcl/cosection/fusion/frame_segmenter.h>
 
 #include <gtest/gtest.h>
 

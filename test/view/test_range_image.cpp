@@ -3,6 +3,8 @@
 
 #include "pcl_cosection/view/range_image.h"
 #include <pcl/cosection/common/camera.h>
+#include <pcl/point_cloud.h>
+#include <pcl/point_types.h>
 
 #include <pcl/point_types.h>
 
