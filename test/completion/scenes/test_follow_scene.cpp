@@ -133,8 +133,10 @@ TEST (FollowScene, VoxelsAndGaussiansFollowThePoints)
     const SceneResult followed = task.update ();
     const SceneResult fresh = task.reconstruct ();
     expectSameObjects (followed, fresh);
-    EXPECT_EQ (followed.objects.at (0).signed_distance->grid.voxel_size_m,
-               fresh.objects.at (0).signed_distance->grid.voxel_size_m);
+    // An update keeps its voxels until the points ask for others by more than a fifth.
+    const double kept = followed.objects.at (0).signed_distance->grid.voxel_size_m;
+    const double wanted = fresh.objects.at (0).signed_distance->grid.voxel_size_m;
+    EXPECT_LT (std::max (kept / wanted, wanted / kept), 1.2);
   }
 }
 

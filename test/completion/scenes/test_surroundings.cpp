@@ -257,7 +257,7 @@ TEST (Surroundings, HessianImlsTakesPolygonMeshes)
   EXPECT_LT (lowest (imls.getTriangleMesh (), 2), -tolerance_m);
 
   table.polygons[0].vertices = {0, 1};
-  EXPECT_THROW (imls.addObstacle (table), InvalidArgument);
+  EXPECT_FALSE (imls.addObstacle (table));
   table.polygons[0].vertices = {0, 1, 9};
-  EXPECT_THROW (imls.addObstacle (table), InvalidArgument);
+  EXPECT_FALSE (imls.addObstacle (table));
 }
