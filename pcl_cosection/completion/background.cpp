@@ -208,13 +208,13 @@ placeBackground (const Scene& scene, const std::vector<SceneObject>& objects, Co
 
 Background
 solveBackground (const Scene& scene, const std::vector<SceneObject>& objects, CompletionMode mode, UpdateOutput output,
-                 BackgroundBodies bodies, CompletionLog& log)
+                 const std::vector<BodyState*>& bodies, CompletionLog& log)
 {
   Background background;
-  if (bodies.bodies.empty ())
+  if (bodies.empty ())
     return background;
   const std::vector<PlaneContinuation> planes = continuedPlanes (objects);
-  for (BodyState* body : bodies.bodies)
+  for (BodyState* body : bodies)
     guardBackground (log, [&] { solveBody (scene, mode, output, planes, *body, background, log); });
   return background;
 }

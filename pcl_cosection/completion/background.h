@@ -33,6 +33,6 @@ BackgroundBodies placeBackground (const Scene& scene, const std::vector<SceneObj
 /** \brief Minimise E_data + E_reg + E_hull of the background, its support planes continued under and behind the
  * objects. A failure is a warning. */
 Background solveBackground (const Scene& scene, const std::vector<SceneObject>& objects, CompletionMode mode,
-                            UpdateOutput output, BackgroundBodies bodies, CompletionLog& log);
+                            UpdateOutput output, const std::vector<BodyState*>& bodies, CompletionLog& log);
 
 } // namespace pcl::cosection

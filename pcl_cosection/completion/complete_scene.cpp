@@ -42,7 +42,8 @@ completeScene (const Scene& scene, CompletionMode mode, UpdateOutput output, con
   const std::vector<double> contradicted = gatherEvidence (scene, mode, objects, bodies.bodies, log);
 
   // The background first, E_data + E_reg + E_hull: it is a constraint for all objects.
-  Background background = solveBackground (scene, objects, mode, output, std::move (bodies), log);
+  Background background = solveBackground (scene, objects, mode, output, bodies.bodies, log);
+  bodies = {}; // a piece of the background is not needed once it is solved
 
   // The energy of each object, equations (1) to (3), and the priors on its hidden sides.
   std::vector<BodyEnergy> energies = objectEnergies (scene, mode, objects, log);

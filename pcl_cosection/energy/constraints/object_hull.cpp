@@ -166,11 +166,11 @@ ObjectHull::meshWith (const SignedDistanceField& body) const
     if (const auto value = body.sample (grid_.center (i, j, k)))
       both.values[n] = std::min (both.values[n], *value);
   });
-  return meshOf (std::move (both));
+  return meshOf (both);
 }
 
 TriangleMesh
-ObjectHull::meshOf (SignedDistanceField field) const
+ObjectHull::meshOf (const SignedDistanceField& field) const
 {
   IsoSurfaceOptions iso;
   iso.closed = true;

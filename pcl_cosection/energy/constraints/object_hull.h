@@ -45,7 +45,7 @@ public:
 private:
   /** \brief Signed distance to the space that was seen free, positive in it, clamped; voxels. */
   std::vector<float> distanceToFree () const;
-  TriangleMesh meshOf (SignedDistanceField field) const;
+  TriangleMesh meshOf (const SignedDistanceField& field) const;
   void attachEvidence (TriangleMesh& mesh) const;
 
   VoxelGrid grid_;

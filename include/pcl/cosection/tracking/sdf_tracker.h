@@ -142,7 +142,7 @@ template <typename PointInT, typename StateT>
 StateT
 SdfTracker<PointInT, StateT>::getResult () const
 {
-  StateT state = StateT::toState (Eigen::Affine3f (getPose ().matrix ().cast<float> ()));
+  StateT state = StateT::toState (Eigen::Affine3f (getPose ().matrix ().template cast<float> ()));
   state.weight = isLost () ? 0.0f : static_cast<float> (result_.inlier_share);
   return state;
 }
