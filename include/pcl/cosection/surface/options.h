@@ -65,7 +65,7 @@ struct PCL_COSECTION_EXPORT CoSectionOptions
   bool intersect_solved = true; ///< neighbours act through their optimised fields (false: through their data alone, the
                                 ///< paper)
 
-  double alpha = 0.005;                  ///< weight of the Hessian, per voxel units: metric value times h^4
+  double alpha = 0.005;                  ///< weight of the Hessian on the grid; the metric weight is alpha h^4
   double beta_hull = 0.01;               ///< weight of the hull constraint
   double beta_inter = 0.04;              ///< weight of the intersection constraint
   double beta_extent = 0.001;            ///< weight of the pull that prevents swelling
