@@ -19,7 +19,7 @@ namespace
 {
 
 constexpr float none = std::numeric_limits<float>::quiet_NaN ();
-// Of the depth: a larger step from a pixel to the next is an edge. Noise is not allowed for, unlike in
+// A share of the depth: a larger step between pixels is an edge. Noise is not allowed for, unlike in
 // smallestEdgeStep (): tracking can do without readings, and is more accurate without those that are only noisy.
 constexpr float edge_step = 0.03f;
 constexpr double model_sigma_voxels = 0.25; // how well a volume knows where a surface is
