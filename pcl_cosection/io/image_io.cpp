@@ -75,6 +75,8 @@ decode (const std::string& path, int flags)
     throw IoError (path + ": is too large for an image");
   if (isCutJpeg (bytes))
     throw IoError (path + ": is damaged: the file is cut short");
+  if (isDamagedPng (bytes)) // on which libpng prints lines of its own
+    throw IoError (path + ": is damaged: the file is cut short, or a checksum does not match");
   cv::Mat image;
   try
   {

@@ -67,13 +67,19 @@ isWholePng (std::string_view bytes)
 
 } // namespace
 
+bool
+isDamagedPng (std::string_view bytes)
+{
+  return bytes.substr (0, png_signature.size ()) == png_signature && !isWholePng (bytes);
+}
+
 Image<std::uint16_t>
 loadMaskImage (const std::string& path)
 {
   const std::string bytes = readBytes (path);
   if (bytes.compare (0, png_signature.size (), png_signature) != 0)
     throw IoError (path + (bytes.empty () ? ": is empty; it should be a PNG" : ": is not a PNG"));
-  if (!isWholePng (bytes))
+  if (isDamagedPng (bytes))
     throw IoError (path + ": is damaged: the file is cut short, or a checksum does not match");
   vtkNew<vtkPNGReader> reader;
   const auto errors = VtkErrors::observe (*reader);

@@ -6,9 +6,14 @@
 
 #include <cstdint>
 #include <string>
+#include <string_view>
 
 namespace pcl::cosection
 {
+
+/** \brief Whether bytes begin as a PNG does but its chunks are cut short, have wrong checksums, or claim an image of
+ * absurd size. Libraries print lines of their own about such files, or crash. */
+PCL_COSECTION_EXPORT bool isDamagedPng (std::string_view bytes);
 
 /** \brief Read ids of instances from a PNG of one channel of 8 or 16 bits. \throws IoError */
 PCL_COSECTION_EXPORT Image<std::uint16_t> loadMaskImage (const std::string& path);

@@ -123,9 +123,9 @@ TEST (ImageIo, DamageIsAnError)
   saveDepthImage (depth, folder.file ("whole.png"));
   saveDepthImage (depth, folder.file ("whole.exr"));
   saveColourImage (colour, folder.file ("whole.jpg"));
-  testing::internal::CaptureStderr (); // the libraries that decode images write to it
   for (const std::string extension : {".png", ".exr", ".jpg"})
   {
+    testing::internal::CaptureStderr (); // the libraries that decode images write to it
     const std::string bytes = test::readFile (folder.file ("whole" + extension));
     const std::string path = folder.file ("cut" + extension);
     const auto load = [&] {
@@ -141,7 +141,11 @@ TEST (ImageIo, DamageIsAnError)
     }
     test::writeFile (path, bytes.substr (0, bytes.size () - 1));
     EXPECT_THROW (load (), IoError) << path;
+    const std::string said = testing::internal::GetCapturedStderr ();
+    if (extension != ".exr") // OpenCV prints a line about an EXR file that is cut
+      EXPECT_EQ (said, "") << path;
   }
+  testing::internal::CaptureStderr ();
   std::string bytes = test::readFile (folder.file ("whole.png"));
   for (std::size_t at = 8; at < bytes.size (); at += 37)
   {
@@ -150,7 +154,7 @@ TEST (ImageIo, DamageIsAnError)
     test::writeFile (folder.file ("flipped.png"), damaged);
     EXPECT_THROW (loadDepthImage (folder.file ("flipped.png")), IoError) << at;
   }
-  testing::internal::GetCapturedStderr ();
+  EXPECT_EQ (testing::internal::GetCapturedStderr (), "");
 }
 
 TEST (ImageIo, DepthMayBeInThreeEqualChannels)

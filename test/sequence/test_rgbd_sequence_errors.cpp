@@ -221,7 +221,7 @@ TEST (RgbdSequenceErrors, DamagedFramesAreErrorsOfTheirOwn)
   fs::remove (folder.path ("depth/Depth0004.png"));
   fs::remove (folder.path ("depth/Depth0005.png"));
   ASSERT_EQ (mkfifo (folder.path ("depth/Depth0005.png").c_str (), 0600), 0); // reading it would wait forever
-  EXPECT_NE (readFailure (sequence, 1).find ("Depth0001.png: is not an image that can be read"), std::string::npos);
+  EXPECT_NE (readFailure (sequence, 1).find ("Depth0001.png: is damaged"), std::string::npos);
   EXPECT_NE (readFailure (sequence, 2).find ("Depth0002.png: has 4 x 6 pixels, but"), std::string::npos);
   EXPECT_NE (readFailure (sequence, 2).find ("calibration.txt has 8 x 6 pixels"), std::string::npos);
   EXPECT_NE (readFailure (sequence, 3).find ("Depth0003.png: is not a depth image"), std::string::npos);
@@ -230,8 +230,7 @@ TEST (RgbdSequenceErrors, DamagedFramesAreErrorsOfTheirOwn)
   std::vector<std::string> warnings;
   EXPECT_EQ (sequence.read (0, warnings).stamp, 0.0);
   EXPECT_THROW (sequence.read (6, warnings), InvalidArgument);
-  // libpng writes a line about the damaged image itself.
-  EXPECT_EQ (testing::internal::GetCapturedStderr (), "libpng error: PNG input buffer is incomplete\n");
+  EXPECT_EQ (testing::internal::GetCapturedStderr (), "");
 }
 
 TEST (RgbdSequenceErrors, DamagedColourLeavesTheDepth)
