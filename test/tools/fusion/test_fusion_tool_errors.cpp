@@ -193,9 +193,9 @@ TEST_F (FusionToolErrors, DamagedFramesAreSkippedAndTold)
   fs::remove (file ("sim/mask/Mask0002.png"));
   EXPECT_EQ (run (known ({"--keyframe-every", "4", "sim", "out"})), 0) << errors_;
   for (const char* part :
-       {"Depth0000.png: is not an image that can be read; the frame is skipped", "Depth0003.png: is empty",
-        "Depth0005.png: has 20 x 20 pixels, but sim/calibration.txt has 120 x 90 pixels", "frames are missing after",
-        "Mask0001.png: is damaged"})
+       {"Depth0000.png: is damaged: the file is cut short, or a checksum does not match; the frame is skipped",
+        "Depth0003.png: is empty", "Depth0005.png: has 20 x 20 pixels, but sim/calibration.txt has 120 x 90 pixels",
+        "frames are missing after", "Mask0001.png: is damaged"})
     EXPECT_NE (errors_.find (part), std::string::npos) << part << '\n' << errors_;
   const auto summary = nlohmann::json::parse (readFile (file ("out/summary.json")));
   EXPECT_EQ (summary["frames"], 8);
