@@ -21,8 +21,7 @@
 
 using namespace pcl::cosection;
 
-namespace
-{
+namespace {
 
 constexpr double read_share = 0.1; ///< of the progress bar
 const char* const out_of_memory = "out of memory; use larger voxels (--voxel-size, --background-voxel-size)";

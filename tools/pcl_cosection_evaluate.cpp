@@ -11,8 +11,7 @@
 
 #include <iostream>
 
-namespace
-{
+namespace {
 
 void
 run (int argc, const char* const* argv, Terminal& terminal)

@@ -21,8 +21,7 @@
 
 using namespace pcl::cosection;
 
-namespace
-{
+namespace {
 
 const char* const out_of_memory =
     "out of memory; use larger voxels (--voxel-size, --background-voxel-size) or fewer views (--max-views)";

@@ -15,8 +15,7 @@
 
 using namespace pcl::cosection;
 
-namespace
-{
+namespace {
 
 /** \brief Compare with the truth, if there is any; a run that cannot be compared is reported all the same. */
 void

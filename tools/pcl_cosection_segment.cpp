@@ -20,8 +20,7 @@
 
 using namespace pcl::cosection;
 
-namespace
-{
+namespace {
 
 constexpr float large_depth_m = 100.0f; ///< what is farther is probably not in metres
 

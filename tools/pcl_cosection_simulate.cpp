@@ -22,8 +22,7 @@
 
 using namespace pcl::cosection;
 
-namespace
-{
+namespace {
 
 const ScenePreset&
 presetOf (const std::string& name)

@@ -9,8 +9,7 @@
 #include "viewer_pictures.h"
 #include "viewer_window.h"
 
-namespace
-{
+namespace {
 
 void
 run (const ViewerSettings& settings, Terminal& terminal)

@@ -25,8 +25,7 @@
 
 using namespace pcl::cosection;
 
-namespace
-{
+namespace {
 
 constexpr int panel_px = 360;
 constexpr double turn_rad = 2.4; ///< between the rows

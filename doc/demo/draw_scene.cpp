@@ -26,8 +26,7 @@
 
 using namespace pcl::cosection;
 
-namespace
-{
+namespace {
 
 constexpr int width_px = 440;
 constexpr int height_px = 400;

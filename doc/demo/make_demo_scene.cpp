@@ -24,8 +24,7 @@
 
 using namespace pcl::cosection;
 
-namespace
-{
+namespace {
 
 constexpr double baseline_m = 0.075;     ///< between the projector and the camera
 constexpr double shadow_margin_m = 0.01; ///< a point this much behind what the projector sees is in shadow

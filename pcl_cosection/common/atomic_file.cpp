@@ -10,10 +10,8 @@
 #include <fcntl.h>
 #include <unistd.h>
 
-namespace pcl::cosection
-{
-namespace
-{
+namespace pcl::cosection {
+namespace {
 
 namespace fs = std::filesystem;
 

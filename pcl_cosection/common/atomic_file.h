@@ -6,8 +6,7 @@
 #include <functional>
 #include <string>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief The file that \a path stands for: behind symbolic links, also behind one to a file that does
  * not exist yet. \throws IoError if the links go round in circles */

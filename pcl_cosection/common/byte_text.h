@@ -4,8 +4,7 @@
 #include <cstddef>
 #include <string>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief A size of memory in words: whole MiB, or KiB or bytes if it is less than one. */
 inline std::string

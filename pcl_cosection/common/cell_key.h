@@ -6,8 +6,7 @@
 #include <cstdint>
 #include <optional>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief Cells of a lattice without borders, as keys of a hash table. */
 using CellIndex = Eigen::Matrix<std::int64_t, 3, 1>;

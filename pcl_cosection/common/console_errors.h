@@ -5,8 +5,7 @@
 
 #include <pcl/console/print.h>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief Does something on behalf of a PCL class, which throws nothing: errors go to PCL's console.
  * \param[in] where class and function, such as "cosection::HessianIMLS::setVoxelSize"

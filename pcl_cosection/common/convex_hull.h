@@ -8,8 +8,7 @@
 #include <utility>
 #include <vector>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief Twice the area of the triangle 0, a, b; positive if b is counter-clockwise of a. */
 template <typename Real>

@@ -6,8 +6,7 @@
 #include <utility>
 #include <vector>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief Union-find over 0 ... size - 1; the representative of a set is its smallest element. */
 class DisjointSets

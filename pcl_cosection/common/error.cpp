@@ -1,8 +1,7 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include <pcl/cosection/common/error.h>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 // Out-of-line destructors anchor the types' run-time information in this library, so that a
 // handler in another library recognises them.

@@ -10,10 +10,8 @@
 #include <memory>
 #include <system_error>
 
-namespace pcl::cosection
-{
-namespace
-{
+namespace pcl::cosection {
+namespace {
 
 struct CloseFile
 {

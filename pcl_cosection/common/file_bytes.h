@@ -5,8 +5,7 @@
 
 #include <string>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief Replace the contents of a file. \throws std::system_error with the system's reason, which
  * writeAtomically () turns into an IoError that names the final path. */

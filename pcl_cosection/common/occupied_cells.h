@@ -7,8 +7,7 @@
 #include <unordered_map>
 #include <vector>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief The cells of a lattice that something is in, numbered in the order in which they were added. */
 class OccupiedCells

@@ -7,8 +7,7 @@
 #include <cstddef>
 #include <exception>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief Number of threads to use: \a requested, or all processors when it is 0. */
 inline int

@@ -5,8 +5,7 @@
 #include <cstddef>
 #include <vector>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 // Every function here takes values that are finite and at least one, and is O (values). The values' order changes.
 

@@ -5,8 +5,7 @@
 
 #include <algorithm>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 // Weights of residuals in iteratively reweighted least squares, 1 for a residual of 0 (P. Huber, "Robust Statistics",
 // 1981). A ratio is a residual over the scale beyond which it counts less.

@@ -7,8 +7,7 @@
 #include <cmath>
 #include <cstddef>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief Number, below \a count, of the sector of the plane to which (x, y) points. */
 inline std::size_t

@@ -5,8 +5,7 @@
 
 #include <cmath>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief The n-th of \a count directions that are evenly spread over the sphere (Fibonacci lattice). */
 inline Eigen::Vector3f

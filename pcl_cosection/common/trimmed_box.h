@@ -10,8 +10,7 @@
 #include <type_traits>
 #include <vector>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief The box, along the axes of the frame, that contains the points without a share of outliers at each side.
  * \tparam Real of the box

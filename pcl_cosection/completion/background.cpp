@@ -12,11 +12,8 @@
 #include <cmath>
 #include <limits>
 
-namespace pcl::cosection
-{
-
-namespace
-{
+namespace pcl::cosection {
+namespace {
 
 constexpr double background_voxels_per_object_voxel = 2.0; // size ratio of background and smallest object voxels
 constexpr double background_only_resolution = 128.0;       // voxels along the longest side, if there is no object

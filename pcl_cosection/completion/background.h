@@ -6,8 +6,7 @@
 #include <memory>
 #include <vector>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief The bodies of the background: all of it, or a piece around objects that are near each other. */
 struct BackgroundBodies

@@ -10,8 +10,7 @@
 #include <limits>
 #include <string>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 struct CoSection::Impl
 {
@@ -19,8 +18,7 @@ struct CoSection::Impl
   SceneState state; // between calls of update ()
 };
 
-namespace
-{
+namespace {
 
 void
 checkPoses (const std::vector<Eigen::Isometry3d>& poses)

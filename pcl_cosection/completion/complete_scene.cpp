@@ -10,8 +10,7 @@
 #include "pcl_cosection/completion/grid/place_bodies.h"
 #include "surroundings.h"
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 SceneResult
 completeScene (const Scene& scene, CompletionMode mode, UpdateOutput output, const ProgressCallback& progress,

@@ -4,8 +4,7 @@
 #include "pcl_cosection/completion/scene/scene.h"
 #include "pcl_cosection/completion/scene/scene_state.h"
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief The method: complete all objects of a scene and the background they stand on.
  * \param[in,out] state incremental state: from the last update to the next, empty at first. It stays consistent with

@@ -10,11 +10,8 @@
 #include <cmath>
 #include <utility>
 
-namespace pcl::cosection
-{
-
-namespace
-{
+namespace pcl::cosection {
+namespace {
 
 constexpr double inferred_reach_voxels = 2.0; // vertices so near to an inferred plane are bounded by it
 

@@ -8,8 +8,7 @@
 #include <cstddef>
 #include <vector>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief The results of one object, in its frame. */
 struct FinishedObject

@@ -11,11 +11,8 @@
 #include <optional>
 #include <string>
 
-namespace pcl::cosection
-{
-
-namespace
-{
+namespace pcl::cosection {
+namespace {
 
 // A background point has moved if so many views look through it, and at least so large a share of all that see it.
 constexpr int least_free_views = 2;

@@ -5,8 +5,7 @@
 
 #include <vector>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief Add the points and views that are new in the scene to the evidence of all bodies: equation (2), and the votes
  * on free space of equation (3). Warns of views that contradict an object's points.

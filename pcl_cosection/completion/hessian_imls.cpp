@@ -6,8 +6,7 @@
 #include <pcl/impl/instantiate.hpp>
 #include <pcl/point_types.h>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 bool
 HessianIMLSBase::setOptions (const CoSectionOptions& options)

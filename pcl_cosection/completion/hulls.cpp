@@ -9,11 +9,8 @@
 #include <limits>
 #include <memory>
 
-namespace pcl::cosection
-{
-
-namespace
-{
+namespace pcl::cosection {
+namespace {
 
 constexpr double hull_reach = 1.0; // limit around the observed box, of its longest side, as unseen space is unbounded
 constexpr double layer_more_vox = 1.0; // of the layer on planes, in addition to the margin of free space

@@ -5,8 +5,7 @@
 
 #include <vector>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief Outer bounds of an object's shape as meshes in its frame; empty if not requested. */
 struct HullMeshes

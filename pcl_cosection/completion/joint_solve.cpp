@@ -8,11 +8,8 @@
 #include <optional>
 #include <string>
 
-namespace pcl::cosection
-{
-
-namespace
-{
+namespace pcl::cosection {
+namespace {
 
 constexpr double penetration_voxels = 0.5; // deeper penetration makes weights grow
 constexpr double coarse_voxels = 2.0;      // upper limit of the allowed depth in coarse surroundings, object voxels

@@ -5,8 +5,7 @@
 
 #include <vector>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief Minimise the energies of all objects with the intersection constraint: they penetrate neither each other nor
  * their surroundings, equations (4) and (5).

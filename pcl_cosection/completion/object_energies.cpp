@@ -7,11 +7,8 @@
 #include <functional>
 #include <utility>
 
-namespace pcl::cosection
-{
-
-namespace
-{
+namespace pcl::cosection {
+namespace {
 
 /** \brief A query whether a place (object frame) may belong to another object: it is in the box of that one's points.
  */

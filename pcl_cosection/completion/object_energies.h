@@ -5,8 +5,7 @@
 
 #include <vector>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief The energy of each object: data, hull and prior terms. An object without any measurement outside of seen free
  * space fails. */

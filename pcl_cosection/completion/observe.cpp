@@ -14,11 +14,8 @@
 #include <iomanip>
 #include <sstream>
 
-namespace pcl::cosection
-{
-
-namespace
-{
+namespace pcl::cosection {
+namespace {
 
 constexpr double outlier_reach_voxels = 3.0;  // cutoff of a point in the data term
 constexpr double max_outlier_share = 0.2;     // if more points seem to be outliers, all points are kept

@@ -8,8 +8,7 @@
 
 #include <vector>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief The observation of each object, in the order of the scene; default values for objects that fail. Also updates
  * outliers and occlusion maps in the state. */

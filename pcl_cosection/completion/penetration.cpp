@@ -5,11 +5,8 @@
 
 #include <algorithm>
 
-namespace pcl::cosection
-{
-
-namespace
-{
+namespace pcl::cosection {
+namespace {
 
 /** \brief Largest depthAt (place) over the places where a field's zero set crosses edges of its grid; 0 if all are
  * outside. */

@@ -5,8 +5,7 @@
 
 #include <vector>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief The largest depth of an object's surface in another body, metres; 0 if it is outside. Only the supported part
  * of the body counts.

@@ -13,11 +13,8 @@
 #include <limits>
 #include <string>
 
-namespace pcl::cosection
-{
-
-namespace
-{
+namespace pcl::cosection {
+namespace {
 
 constexpr double plane_inlier_voxels = 2.0;
 constexpr double min_plane_inlier_m = 0.004;

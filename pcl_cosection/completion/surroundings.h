@@ -9,8 +9,7 @@
 
 #include <vector>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief The planes that bound an object, given or found in the background: n.x + d = 0, unit n towards the object,
  * world frame. */

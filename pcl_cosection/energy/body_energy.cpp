@@ -9,11 +9,8 @@
 #include <algorithm>
 #include <cmath>
 
-namespace pcl::cosection
-{
-
-namespace
-{
+namespace pcl::cosection {
+namespace {
 
 constexpr float observed_weight = 0.3f; // sum of weights that makes a voxel one with data: a point within 1.1 sigma
 constexpr double continued_plane_weight = 0.5;  // of the data term on a continued plane: that of dense measurements

@@ -12,8 +12,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief A support plane that is continued where it was not seen, within a region. */
 struct PlaneContinuation

@@ -11,11 +11,8 @@
 #include <limits>
 #include <numeric>
 
-namespace pcl::cosection
-{
-
-namespace
-{
+namespace pcl::cosection {
+namespace {
 
 constexpr double observed_reach_vox = 1.0;
 constexpr double intersection_reach_vox = 1.0;

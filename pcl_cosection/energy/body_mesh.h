@@ -7,8 +7,7 @@
 
 #include <vector>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief Closed mesh of the minimiser with provenance and confidence, without components that have no data. */
 TriangleMesh closedMesh (const BodyEnergy& energy, const BodySolution& solution);

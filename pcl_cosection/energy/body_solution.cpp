@@ -9,11 +9,8 @@
 #include <optional>
 #include <utility>
 
-namespace pcl::cosection
-{
-
-namespace
-{
+namespace pcl::cosection {
+namespace {
 
 constexpr float carving_reach_vox = 1.5f; // from the boundary of free space into the hull
 // Local solutions after new evidence extend so far beyond the supported region.

@@ -9,8 +9,7 @@
 
 #include <vector>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief How finely a body is solved. */
 enum class Resolution

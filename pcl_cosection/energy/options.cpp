@@ -5,11 +5,8 @@
 #include <cmath>
 #include <sstream>
 
-namespace pcl::cosection
-{
-
-namespace
-{
+namespace pcl::cosection {
+namespace {
 
 void
 require (bool ok, const char* name, double value, const char* domain)

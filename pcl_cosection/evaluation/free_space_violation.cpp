@@ -7,11 +7,8 @@
 #include <cmath>
 #include <optional>
 
-namespace pcl::cosection
-{
-
-namespace
-{
+namespace pcl::cosection {
+namespace {
 
 /** \brief The nearest of the four readings around a pixel; nothing where one is missing. */
 std::optional<double>

@@ -8,8 +8,7 @@
 #include <cstddef>
 #include <vector>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief How much of a surface lies where a camera saw free space. */
 struct FreeSpaceViolation

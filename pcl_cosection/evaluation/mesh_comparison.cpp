@@ -10,11 +10,8 @@
 #include <limits>
 #include <sstream>
 
-namespace pcl::cosection
-{
-
-namespace
-{
+namespace pcl::cosection {
+namespace {
 
 double
 shareWithin (const std::vector<double>& distances_m, double threshold_m)

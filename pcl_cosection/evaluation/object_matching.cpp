@@ -6,11 +6,8 @@
 
 #include <algorithm>
 
-namespace pcl::cosection
-{
-
-namespace
-{
+namespace pcl::cosection {
+namespace {
 
 constexpr std::size_t match_samples = 500;
 constexpr std::size_t match_frames = 7;

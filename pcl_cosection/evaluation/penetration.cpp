@@ -13,11 +13,8 @@
 #include <cmath>
 #include <limits>
 
-namespace pcl::cosection
-{
-
-namespace
-{
+namespace pcl::cosection {
+namespace {
 
 constexpr double max_voxels = 2e8;
 constexpr double touching_m = 1e-7; ///< rounding of coordinates, no penetration

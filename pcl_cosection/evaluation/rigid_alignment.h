@@ -9,8 +9,7 @@
 
 #include <vector>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief A rigid motion, and whether the points determine it. */
 struct PointAlignment

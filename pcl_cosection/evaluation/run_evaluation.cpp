@@ -11,11 +11,8 @@
 
 #include <algorithm>
 
-namespace pcl::cosection
-{
-
-namespace
-{
+namespace pcl::cosection {
+namespace {
 
 constexpr std::size_t refinement_points = 5000;
 constexpr std::size_t median_frames = 400;

@@ -6,11 +6,8 @@
 #include <algorithm>
 #include <memory>
 
-namespace pcl::cosection
-{
-
-namespace
-{
+namespace pcl::cosection {
+namespace {
 
 /** \brief Where the second body is in the frame of the first, at a time. */
 using RelativePoses = std::vector<StampedPose>;

@@ -5,8 +5,7 @@
 
 #include <vector>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief The penetration of every object that has a mesh and poses with every other and with the background, over all
  * frames of both. */

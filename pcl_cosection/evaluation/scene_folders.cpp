@@ -13,11 +13,8 @@
 
 namespace fs = std::filesystem;
 
-namespace pcl::cosection
-{
-
-namespace
-{
+namespace pcl::cosection {
+namespace {
 
 constexpr int largest_image = 8192;
 

@@ -5,11 +5,8 @@
 
 #include <algorithm>
 
-namespace pcl::cosection
-{
-
-namespace
-{
+namespace pcl::cosection {
+namespace {
 
 constexpr double width_px = 160.0; ///< of the pictures that are drawn to find out
 constexpr double least_share = 0.001;

@@ -5,8 +5,7 @@
 
 #include <vector>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief The stamps at which each object of a scene is visible: it covers at least a thousandth of the picture, behind
  * others and the background. Without intrinsics, all stamps at which it and the camera have a pose. */

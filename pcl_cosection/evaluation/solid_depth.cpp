@@ -8,11 +8,8 @@
 #include <cmath>
 #include <numeric>
 
-namespace pcl::cosection
-{
-
-namespace
-{
+namespace pcl::cosection {
+namespace {
 
 constexpr double room_share = 0.5; // of the diagonal of everything
 

@@ -11,8 +11,7 @@
 #include <memory>
 #include <vector>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief How deep points lie in the matter that a mesh bounds, by the rules of sampleSignedDistance (); but a closed
  * part that faces inward and is less than half as long as the whole is a cavity in matter that something else bounds,

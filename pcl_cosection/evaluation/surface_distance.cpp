@@ -11,11 +11,8 @@
 #include <cmath>
 #include <utility>
 
-namespace pcl::cosection
-{
-
-namespace
-{
+namespace pcl::cosection {
+namespace {
 
 /** \brief The triangles that have an area, as TriangleTree wants them. */
 TriangleMesh

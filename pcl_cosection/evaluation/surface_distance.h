@@ -8,8 +8,7 @@
 #include <memory>
 #include <vector>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 class TriangleTree;
 

@@ -12,11 +12,8 @@
 #include <random>
 #include <string>
 
-namespace pcl::cosection
-{
-
-namespace
-{
+namespace pcl::cosection {
+namespace {
 
 /** \brief Uniform in [0, 1); std::uniform_real_distribution differs between standard libraries. */
 double

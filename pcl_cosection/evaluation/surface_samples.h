@@ -9,8 +9,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief \throws InvalidArgument if a triangle refers to a vertex that does not exist, or to one that is not finite.
  * \throws DegenerateInput if the mesh has no triangles, or none of any area

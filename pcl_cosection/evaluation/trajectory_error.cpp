@@ -13,11 +13,8 @@
 #include <sstream>
 #include <tuple>
 
-namespace pcl::cosection
-{
-
-namespace
-{
+namespace pcl::cosection {
+namespace {
 
 constexpr double rpe_span_share = 0.02; // by which the spans of pairs may differ
 constexpr double rounding = 1e-9;       ///< relative, of stamps in text files

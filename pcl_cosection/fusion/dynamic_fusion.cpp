@@ -9,11 +9,8 @@
 #include <cmath>
 #include <utility>
 
-namespace pcl::cosection
-{
-
-namespace
-{
+namespace pcl::cosection {
+namespace {
 
 void
 check (bool good, const char* message)

@@ -6,8 +6,7 @@
 #include <string>
 #include <vector>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief Words and numbers as one string, numbers with three digits. */
 template <typename... Parts>

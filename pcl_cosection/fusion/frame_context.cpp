@@ -5,8 +5,7 @@
 
 #include <algorithm>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 std::optional<Image<std::uint16_t>>
 MaskReader::read (const RgbdFrame& frame)

@@ -12,8 +12,7 @@
 #include <string>
 #include <vector>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief The camera and the instances of a frame. */
 struct FrameKnowns

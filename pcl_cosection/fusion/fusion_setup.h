@@ -7,8 +7,7 @@
 
 #include <cstddef>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief What is the same for all frames. */
 struct FusionSetup

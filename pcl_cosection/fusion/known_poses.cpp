@@ -7,11 +7,8 @@
 #include <algorithm>
 #include <map>
 
-namespace pcl::cosection
-{
-
-namespace
-{
+namespace pcl::cosection {
+namespace {
 
 using PosesByFrame = std::vector<std::optional<Eigen::Isometry3d>>;
 

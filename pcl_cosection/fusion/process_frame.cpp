@@ -11,11 +11,8 @@
 #include <chrono>
 #include <utility>
 
-namespace pcl::cosection
-{
-
-namespace
-{
+namespace pcl::cosection {
+namespace {
 
 /** \brief Adds the seconds of stages that follow each other. */
 class StageClock

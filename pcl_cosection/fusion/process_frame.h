@@ -11,8 +11,7 @@
 #include <optional>
 #include <string>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief What goes from frame to frame. */
 struct FusionState

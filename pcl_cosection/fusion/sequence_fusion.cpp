@@ -19,11 +19,8 @@
 #include <sstream>
 #include <utility>
 
-namespace pcl::cosection
-{
-
-namespace
-{
+namespace pcl::cosection {
+namespace {
 
 constexpr double frames_share = 0.5; // of the progress; the rest is the last solution
 constexpr std::size_t min_object_points = 100;

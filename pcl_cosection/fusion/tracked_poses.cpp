@@ -7,11 +7,8 @@
 #include <cmath>
 #include <iterator>
 
-namespace pcl::cosection
-{
-
-namespace
-{
+namespace pcl::cosection {
+namespace {
 
 bool
 hasObjects (const TrackedSequence& sequence)

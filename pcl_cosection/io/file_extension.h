@@ -6,8 +6,7 @@
 #include <filesystem>
 #include <string>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 inline std::string
 lowerCaseExtension (const std::string& path)

@@ -15,11 +15,8 @@
 #include <cstdlib>
 #include <limits>
 
-namespace pcl::cosection
-{
-
-namespace
-{
+namespace pcl::cosection {
+namespace {
 
 constexpr float largest_16_bit = 65535.0f;
 

@@ -7,8 +7,7 @@
 #include <cstdint>
 #include <string>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief Write colours as PNG, or what else the file's name ends in. \throws IoError */
 void saveColourImage (const Picture& picture, const std::string& path);

@@ -15,11 +15,8 @@
 #include <algorithm>
 #include <string_view>
 
-namespace pcl::cosection
-{
-
-namespace
-{
+namespace pcl::cosection {
+namespace {
 
 const std::string png_signature = "\x89PNG\r\n\x1a\n";
 

@@ -8,8 +8,7 @@
 #include <string>
 #include <string_view>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief Whether bytes begin as a PNG does but its chunks are cut short, have wrong checksums, or claim an image of
  * absurd size. Libraries print lines of their own about such files, or crash. */

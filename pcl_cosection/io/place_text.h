@@ -9,8 +9,7 @@
 #include <sstream>
 #include <string>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief "(0.5, -1.25, 2)"; micrometres are zero */
 inline std::string

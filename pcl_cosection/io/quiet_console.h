@@ -3,8 +3,7 @@
 
 #include <pcl/console/print.h>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief Keeps PCL's messages from the console while it lives: whatever fails is thrown instead. */
 class QuietConsole

@@ -14,10 +14,8 @@
 #include <vtkUnsignedCharArray.h>
 #include <vtkXMLImageDataWriter.h>
 
-namespace pcl::cosection
-{
-namespace
-{
+namespace pcl::cosection {
+namespace {
 
 /** \brief Lends \a values to the image, which only reads them. */
 template <typename Array, typename T>

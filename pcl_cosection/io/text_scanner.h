@@ -10,8 +10,7 @@
 #include <string>
 #include <string_view>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief Takes a text apart, word by word or line by line. */
 class TextScanner

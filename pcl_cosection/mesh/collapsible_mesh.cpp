@@ -4,8 +4,7 @@
 
 #include <utility>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 CollapsibleMesh::CollapsibleMesh (std::vector<Triangle> triangles, std::size_t vertices)
     : triangles_ (std::move (triangles))

@@ -7,8 +7,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief Connectivity of a manifold triangle mesh, with or without boundary, whose edges can collapse.
  *

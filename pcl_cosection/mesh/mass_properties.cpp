@@ -6,8 +6,7 @@
 
 #include <Eigen/LU>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 MassProperties
 computeMassProperties (const TriangleMesh& mesh)

@@ -5,11 +5,8 @@
 #include <cmath>
 #include <unordered_map>
 
-namespace pcl::cosection
-{
-
-namespace
-{
+namespace pcl::cosection {
+namespace {
 
 constexpr TriangleMesh::Colour unknown_colour = {128, 128, 128};
 

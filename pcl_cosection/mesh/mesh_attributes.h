@@ -7,8 +7,7 @@
 
 #include <vector>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief Give a mesh the colours and intensities of points: vertices near points take the mean of those in the
  * voxels around them, the others that of the nearest such vertex along the mesh. No colours if all points are

@@ -6,8 +6,7 @@
 
 #include <algorithm>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief \throws InvalidArgument if a triangle refers to a vertex that is not there, or a
  * per-vertex array has another length than the vertices. */

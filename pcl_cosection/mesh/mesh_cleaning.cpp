@@ -10,10 +10,8 @@
 #include <numeric>
 #include <unordered_map>
 
-namespace pcl::cosection
-{
-namespace
-{
+namespace pcl::cosection {
+namespace {
 
 using Triangle = TriangleMesh::Triangle;
 

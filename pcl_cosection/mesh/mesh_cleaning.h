@@ -4,8 +4,7 @@
 #include <pcl/cosection/common/export.h>
 #include <pcl/cosection/common/triangle_mesh.h>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief The surface with the connectivity that its coordinates imply: vertices of equal
  * coordinates are one, triangles of two equal corners are gone, repeated ones are there once, and those of

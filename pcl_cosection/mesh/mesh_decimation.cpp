@@ -21,10 +21,8 @@
 #include <string>
 #include <utility>
 
-namespace pcl::cosection
-{
-namespace
-{
+namespace pcl::cosection {
+namespace {
 
 using Vertex = CollapsibleMesh::Vertex;
 

@@ -4,8 +4,7 @@
 
 #include <sstream>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 void
 DecimationOptions::validate () const

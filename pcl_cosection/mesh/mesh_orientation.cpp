@@ -7,10 +7,8 @@
 #include <algorithm>
 #include <utility>
 
-namespace pcl::cosection
-{
-namespace
-{
+namespace pcl::cosection {
+namespace {
 
 struct Neighbour
 {

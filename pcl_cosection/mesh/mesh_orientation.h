@@ -3,8 +3,7 @@
 
 #include <pcl/cosection/common/triangle_mesh.h>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief Turn triangles so that neighbours across edges of two agree, the fewest that do, and so that closed
  * parts face outward: all of them if their volumes sum up to less than nothing, then each whose volume is

@@ -13,10 +13,8 @@
 #include <set>
 #include <utility>
 
-namespace pcl::cosection
-{
-namespace
-{
+namespace pcl::cosection {
+namespace {
 
 Eigen::Matrix3d
 cornersAbout (const TriangleMesh& mesh, std::uint32_t triangle, const Eigen::Vector3d& apex)

@@ -8,8 +8,7 @@
 
 #include <optional>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief Triangles that bound something together, and share edges with no others that they need for it. */
 struct MeshPart

@@ -4,8 +4,7 @@
 
 #include <algorithm>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 std::vector<Side>
 sortedSides (const TriangleMesh& mesh)

@@ -6,10 +6,8 @@
 
 #include <pcl/cosection/common/triangle_mesh.h>
 
-namespace pcl::cosection
-{
-namespace
-{
+namespace pcl::cosection {
+namespace {
 
 DisjointSets
 connectedVertices (const TriangleMesh& mesh)

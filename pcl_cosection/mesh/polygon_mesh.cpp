@@ -9,11 +9,8 @@
 #include <limits>
 #include <string>
 
-namespace pcl::cosection
-{
-
-namespace
-{
+namespace pcl::cosection {
+namespace {
 
 constexpr std::uint32_t no_field = ~std::uint32_t (0);
 

@@ -4,8 +4,7 @@
 #include <Eigen/Core>
 #include <Eigen/LU>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief Weighted sum of squared distances to planes as a function of position,
  * Q (x) = x^T A x + 2 b^T x + c (Garland and Heckbert 1997). */

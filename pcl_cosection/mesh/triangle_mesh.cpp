@@ -7,10 +7,8 @@
 
 #include <limits>
 
-namespace pcl::cosection
-{
-namespace
-{
+namespace pcl::cosection {
+namespace {
 
 constexpr std::uint32_t dropped = std::numeric_limits<std::uint32_t>::max ();
 

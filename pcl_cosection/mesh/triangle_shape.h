@@ -5,8 +5,7 @@
 
 #include <cmath>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief Normal, twice the area long, of the triangle at \a p, \a q, \a r. */
 inline Eigen::Vector3d

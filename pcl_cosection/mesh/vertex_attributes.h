@@ -8,8 +8,7 @@
 #include <tuple>
 #include <vector>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief The per-vertex arrays of \a mesh that belong to the material and not to the geometry. One to be added is
  * named here only. */

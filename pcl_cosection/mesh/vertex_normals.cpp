@@ -6,8 +6,7 @@
 
 #include <cmath>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 std::vector<Eigen::Vector3f>
 vertexNormals (const TriangleMesh& mesh)

@@ -5,8 +5,7 @@
 
 #include <vector>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief Unit normals of the vertices: the triangles' normals weighted by their angles at the vertex, so that it does
  * not matter how flat parts are triangulated. (0, 0, 1) where the triangles' normals cancel or there are none. */

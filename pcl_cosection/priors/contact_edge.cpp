@@ -21,11 +21,8 @@
 #include <optional>
 #include <tuple>
 
-namespace pcl::cosection
-{
-
-namespace
-{
+namespace pcl::cosection {
+namespace {
 
 // "Of the size" is relative to NormalLines::size.
 constexpr double cell_size = 0.06; // of the size

@@ -10,8 +10,7 @@
 #include <optional>
 #include <vector>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief The contact boundary plane: the plane at which the observed surface of an object ends although its sensors
  * would have seen it continue.

@@ -12,11 +12,8 @@
 #include <cmath>
 #include <limits>
 
-namespace pcl::cosection
-{
-
-namespace
-{
+namespace pcl::cosection {
+namespace {
 
 constexpr int least_part_cells = 4;     // of a part of the contact; smaller ones are outliers
 constexpr double lowest_free_vox = 3.0; // over the plane: lower free space cannot be distinguished from the plane

@@ -6,11 +6,8 @@
 #include <algorithm>
 #include <limits>
 
-namespace pcl::cosection
-{
-
-namespace
-{
+namespace pcl::cosection {
+namespace {
 
 /** \brief Distances of a tile's voxels from the union of all plausible regions, voxels; negative inside.
  * \return whether any voxel is outside */

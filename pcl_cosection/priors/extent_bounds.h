@@ -10,8 +10,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief Allowed distance of a voxel from the nearest data, as a fraction of the middle observed extent. */
 inline double

@@ -14,11 +14,8 @@
 #include <array>
 #include <functional>
 
-namespace pcl::cosection
-{
-
-namespace
-{
+namespace pcl::cosection {
+namespace {
 
 constexpr double low_percentile = 0.01;
 constexpr double high_percentile = 0.99;

@@ -9,8 +9,7 @@
 #include <utility>
 #include <vector>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief Extents of an object's points (1st to 99th percentile) along their principal axes, metres, largest first.
  * Zero for no points. */

@@ -11,11 +11,8 @@
 #include <iterator>
 #include <limits>
 
-namespace pcl::cosection
-{
-
-namespace
-{
+namespace pcl::cosection {
+namespace {
 
 constexpr float near_weight = 0.3f;      // sum of weights: a point within 1.1 sigma
 constexpr float far_weight = 0.01f;      // sum of weights: a point within 2.1 sigma

@@ -10,8 +10,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief Free space and data of an object's voxels. */
 struct SeenVoxels

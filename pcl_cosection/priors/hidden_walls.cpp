@@ -15,11 +15,8 @@
 #include <optional>
 #include <utility>
 
-namespace pcl::cosection
-{
-
-namespace
-{
+namespace pcl::cosection {
+namespace {
 
 constexpr double steep = 0.3;          // largest component of a wall's normal upwards
 constexpr double cell_steps = 1.5;     // width of a column

@@ -8,8 +8,7 @@
 #include <functional>
 #include <vector>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief Queries about places where the object was not observed, in its frame. */
 struct UnseenPlaces

@@ -13,11 +13,8 @@
 #include <cmath>
 #include <cstddef>
 
-namespace pcl::cosection
-{
-
-namespace
-{
+namespace pcl::cosection {
+namespace {
 
 constexpr std::size_t least_points = 50;
 constexpr double usual_wall = 0.04;  // of the radius

@@ -8,8 +8,7 @@
 #include <optional>
 #include <vector>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief The support plane of an open thing that showed hardly more than its inside: a tray, a crate, a bowl.
  *

@@ -5,11 +5,8 @@
 
 #include <algorithm>
 
-namespace pcl::cosection
-{
-
-namespace
-{
+namespace pcl::cosection {
+namespace {
 
 constexpr double rounding = 1e-9; // relative bound of the rounding errors of a box's depths
 constexpr double slack_px = 1.0;  // bound of the errors of its pixels

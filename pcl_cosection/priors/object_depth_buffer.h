@@ -11,8 +11,7 @@
 #include <limits>
 #include <vector>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief What hides a place from a view that does not see it free. */
 enum class Hidden : std::uint8_t

@@ -19,11 +19,8 @@
 #include <limits>
 #include <utility>
 
-namespace pcl::cosection
-{
-
-namespace
-{
+namespace pcl::cosection {
+namespace {
 
 constexpr std::size_t most_points = 10000; // even subset of the points for inferring a plane
 constexpr double along_axis = 0.9;         // cosine: a round object stands on a plane across its axis

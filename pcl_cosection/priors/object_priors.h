@@ -7,8 +7,7 @@
 #include <optional>
 #include <vector>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 // The priors of an object: what is expected where nothing was measured and no constraint decides. All effects of priors
 // on a completion go through these four functions. Planes are n.x + d = 0, unit n towards the object, in its frame.

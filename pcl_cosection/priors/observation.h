@@ -11,8 +11,7 @@
 #include <memory>
 #include <vector>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 class ShapeFits;
 

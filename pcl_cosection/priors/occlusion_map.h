@@ -12,8 +12,7 @@
 #include <utility>
 #include <vector>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief A block of voxels, at most size^3. */
 struct VoxelTile

@@ -8,11 +8,8 @@
 #include <algorithm>
 #include <cmath>
 
-namespace pcl::cosection
-{
-
-namespace
-{
+namespace pcl::cosection {
+namespace {
 
 constexpr int cell_px = 4;      // closes the gaps between points
 constexpr int margin_cells = 1; // around the object, as silhouettes are inaccurate

@@ -9,8 +9,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief Voxels on rays without return: beside an object that was cut out of its scene, in view, and without a reading
  * in front of them. The readings beside the object were cut away, so no part of the object is there.

@@ -9,8 +9,7 @@
 #include <map>
 #include <optional>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief The symmetric extents of one object's points, one per support plane, each fitted once. */
 class ShapeFits

@@ -2,8 +2,7 @@
 
 #include "frustum_clip.h"
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 FrustumClip::FrustumClip (const PinholeCamera& camera, double near_m)
 {

@@ -7,8 +7,7 @@
 
 #include <array>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief A convex polygon in the sensor frame: a triangle after clipping. */
 struct ClippedPolygon

@@ -15,10 +15,8 @@
 #include <algorithm>
 #include <cmath>
 
-namespace pcl::cosection
-{
-namespace
-{
+namespace pcl::cosection {
+namespace {
 
 constexpr double ambient_light = 0.25; ///< the rest comes from the head light
 

@@ -10,8 +10,7 @@
 #include <string>
 #include <vector>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief Light the surfaces of \a image with a head light and a little ambient light, on \a background. */
 PCL_COSECTION_EXPORT Picture shade (const RasterImage& image, const PinholeCamera& camera,

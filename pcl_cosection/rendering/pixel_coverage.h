@@ -8,8 +8,7 @@
 #include <cstdint>
 #include <utility>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief Pixel coordinates in 1/256 of a pixel: coverage is decided in exact integer arithmetic. */
 struct SubpixelPoint

@@ -16,10 +16,8 @@
 #include <cmath>
 #include <limits>
 
-namespace pcl::cosection
-{
-namespace
-{
+namespace pcl::cosection {
+namespace {
 
 using Colour = TriangleMesh::Colour;
 

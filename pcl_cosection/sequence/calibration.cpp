@@ -8,11 +8,8 @@
 #include <sstream>
 #include <vector>
 
-namespace pcl::cosection
-{
-
-namespace
-{
+namespace pcl::cosection {
+namespace {
 
 constexpr double largest_size_px = 32768.0;
 constexpr double largest_focal_length_px = 1e6;

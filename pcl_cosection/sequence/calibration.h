@@ -5,8 +5,7 @@
 
 #include <string>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief Read "fx fy cx cy [width height]", in pixels; lines that begin with # are skipped.
  * \return of size 0 x 0 if the file has none

@@ -7,11 +7,8 @@
 #include <exception>
 #include <system_error>
 
-namespace pcl::cosection
-{
-
-namespace
-{
+namespace pcl::cosection {
+namespace {
 
 constexpr std::size_t most_warnings = 20;
 

@@ -8,8 +8,7 @@
 #include "stamp_matching.h"
 #include <pcl/cosection/common/error.h>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 MaskSequence::MaskSequence (const std::string& folder, const RgbdSequence& sequence)
     : half_period_ (0.5 * sequence.period ())

@@ -13,11 +13,8 @@
 
 namespace fs = std::filesystem;
 
-namespace pcl::cosection
-{
-
-namespace
-{
+namespace pcl::cosection {
+namespace {
 
 constexpr double largest_number = 1e15; // whole numbers below are exact
 

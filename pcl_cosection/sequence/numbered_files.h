@@ -4,8 +4,7 @@
 #include <string>
 #include <vector>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief Which files of a folder belong to a series. Letters may be large or small. */
 struct NumberedNames

@@ -6,11 +6,8 @@
 
 #include <Eigen/SVD>
 
-namespace pcl::cosection
-{
-
-namespace
-{
+namespace pcl::cosection {
+namespace {
 
 constexpr double rigid_tolerance = 0.02; // of the entries of R R^T - I
 

@@ -5,8 +5,7 @@
 
 #include <string>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief Read a pose as 7-Scenes has it: the 16 numbers of a 4 x 4 matrix, row by row. What rounding took from the
  * rotation is given back. \throws IoError if it cannot be read, is not finite, or not rigid */

@@ -19,11 +19,8 @@
 
 namespace fs = std::filesystem;
 
-namespace pcl::cosection
-{
-
-namespace
-{
+namespace pcl::cosection {
+namespace {
 
 constexpr double tum_depth_scale = 5000.0;
 constexpr double millimetres = 1000.0;

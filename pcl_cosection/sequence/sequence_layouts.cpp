@@ -15,11 +15,8 @@
 
 namespace fs = std::filesystem;
 
-namespace pcl::cosection
-{
-
-namespace
-{
+namespace pcl::cosection {
+namespace {
 
 const NumberedNames co_fusion_depth = {{"depth", ""}, {".exr", ".png"}};
 const NumberedNames co_fusion_colour = {{"color", "colour", ""},

@@ -6,8 +6,7 @@
 #include <string>
 #include <vector>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief The frames that a folder holds. */
 struct SequenceListing

@@ -8,8 +8,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 double
 stampPeriod (const std::vector<double>& stamps)

@@ -10,8 +10,7 @@
 #include <optional>
 #include <vector>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief The median difference of successive stamps that ascend; 1 if there are fewer than two. */
 PCL_COSECTION_EXPORT double stampPeriod (const std::vector<double>& stamps);

@@ -4,8 +4,7 @@
 #include <sstream>
 #include <string>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief The range of stamps for messages: "0 to 59". */
 inline std::string

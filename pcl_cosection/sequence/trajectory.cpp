@@ -13,11 +13,8 @@
 #include <locale>
 #include <sstream>
 
-namespace pcl::cosection
-{
-
-namespace
-{
+namespace pcl::cosection {
+namespace {
 
 constexpr double min_quaternion_norm = 1e-3;
 constexpr double max_quaternion_norm = 1e100; // the square of more is infinite, and no rotation comes of it

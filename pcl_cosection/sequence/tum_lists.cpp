@@ -14,11 +14,8 @@
 
 namespace fs = std::filesystem;
 
-namespace pcl::cosection
-{
-
-namespace
-{
+namespace pcl::cosection {
+namespace {
 
 constexpr double max_difference_s = 0.02; // of depth and colour, as the tool of the TUM benchmark has it
 constexpr double largest_stamp_s = 1e15;

@@ -6,8 +6,7 @@
 #include <string>
 #include <vector>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief The frames of TUM's layout, in the order of the lists; depth may be without colour. \throws IoError */
 std::vector<FrameFiles> readTumLists (const std::string& folder, std::vector<std::string>& warnings);

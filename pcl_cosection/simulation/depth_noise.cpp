@@ -10,11 +10,8 @@
 #include <limits>
 #include <string>
 
-namespace pcl::cosection
-{
-
-namespace
-{
+namespace pcl::cosection {
+namespace {
 
 constexpr float missing = std::numeric_limits<float>::quiet_NaN ();
 // A share of the depth: what is so much farther than what the projector lights is in its shadow.

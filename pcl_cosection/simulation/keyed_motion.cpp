@@ -8,11 +8,8 @@
 #include <cmath>
 #include <string>
 
-namespace pcl::cosection
-{
-
-namespace
-{
+namespace pcl::cosection {
+namespace {
 
 constexpr double largest_turn_rad = 0.99 * M_PI;
 constexpr double farthest_m = 1e6;  // of a position, from the origin

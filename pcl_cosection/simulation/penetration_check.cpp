@@ -9,11 +9,8 @@
 #include <map>
 #include <utility>
 
-namespace pcl::cosection
-{
-
-namespace
-{
+namespace pcl::cosection {
+namespace {
 
 constexpr double chord_m = 5e-4;
 constexpr int surface_points = 2000;        // on each part, evenly

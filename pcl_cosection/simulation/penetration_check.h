@@ -7,8 +7,7 @@
 #include <string>
 #include <vector>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief Two bodies of a scene that are inside each other at some time. */
 struct ScenePenetration

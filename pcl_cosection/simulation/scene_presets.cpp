@@ -1,11 +1,8 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include <pcl/cosection/simulation/simulated_scene.h>
 
-namespace pcl::cosection
-{
-
-namespace
-{
+namespace pcl::cosection {
+namespace {
 
 const char* const table = R"json({
   "name": "table",

@@ -8,11 +8,8 @@
 #include <algorithm>
 #include <cmath>
 
-namespace pcl::cosection
-{
-
-namespace
-{
+namespace pcl::cosection {
+namespace {
 
 constexpr double chord_m = 2e-5;      // between triangles and an analytic surface
 constexpr double search_chords = 5.0; // a ray meets the surface where it meets the triangles, or so far from there

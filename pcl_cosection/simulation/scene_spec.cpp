@@ -13,11 +13,8 @@
 #include <optional>
 #include <set>
 
-namespace pcl::cosection
-{
-
-namespace
-{
+namespace pcl::cosection {
+namespace {
 
 constexpr int largest_image = 8192;
 constexpr int most_frames = 1000000;
@@ -229,8 +226,7 @@ parseScene (SpecNode node, const std::string& folder)
 
 } // namespace
 
-namespace
-{
+namespace {
 
 /** \brief Let the names of mesh files begin at the root, so that the description may be read from anywhere. */
 void

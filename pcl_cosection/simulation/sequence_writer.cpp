@@ -24,11 +24,8 @@
 
 namespace fs = std::filesystem;
 
-namespace pcl::cosection
-{
-
-namespace
-{
+namespace pcl::cosection {
+namespace {
 
 constexpr double truth_chord_m = 5e-5;
 constexpr double truth_share = 0.05; // of the progress

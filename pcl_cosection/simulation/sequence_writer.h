@@ -6,8 +6,7 @@
 
 #include <string>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief Which frames to write, and how. */
 struct SequenceOptions

@@ -11,11 +11,8 @@
 #include <limits>
 #include <set>
 
-namespace pcl::cosection
-{
-
-namespace
-{
+namespace pcl::cosection {
+namespace {
 
 constexpr int union_resolution = 200; // voxels along the longest side
 constexpr int union_margin = 3;       // voxels around it

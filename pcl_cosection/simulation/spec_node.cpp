@@ -6,8 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 void
 SpecNode::refuse (const std::string& why) const

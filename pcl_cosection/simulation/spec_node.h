@@ -13,8 +13,7 @@
 #include <string>
 #include <vector>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief A value of a description and where it is, for messages. Every field that is asked for is known from then on;
  * others are refused by finish (). All functions throw InvalidArgument, with the path of the field. */

@@ -7,11 +7,8 @@
 #include <cmath>
 #include <filesystem>
 
-namespace pcl::cosection
-{
-
-namespace
-{
+namespace pcl::cosection {
+namespace {
 
 constexpr double farthest_m = 1e6; // of a part, from the origin of its object
 

@@ -7,8 +7,7 @@
 
 #include <string>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief A rotation from the fields rpy_deg or quaternion; the identity without either. */
 Eigen::Quaterniond parseRotation (SpecNode& node);

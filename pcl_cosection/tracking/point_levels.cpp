@@ -6,11 +6,8 @@
 #include <cstdint>
 #include <limits>
 
-namespace pcl::cosection
-{
-
-namespace
-{
+namespace pcl::cosection {
+namespace {
 
 /** \brief Uniform in 32 bits: the finaliser of A. Appleby's MurmurHash3 (public domain). */
 std::uint32_t

@@ -7,8 +7,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief How many points the levels of a coarse-to-fine search may have. */
 struct LevelSizes

@@ -6,11 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
-namespace pcl::cosection
-{
-
-namespace
-{
+namespace pcl::cosection {
+namespace {
 
 Eigen::Matrix3d
 crossMatrix (const Eigen::Vector3d& v)

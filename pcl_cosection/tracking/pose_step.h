@@ -7,8 +7,7 @@
 
 #include <Eigen/Geometry>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief The normal equations of a pose, in coordinates in which its six directions are comparable: about the centroid
  * of the points, rotations in units of their root mean square distance from it. */

@@ -12,11 +12,8 @@
 #include <string>
 #include <utility>
 
-namespace pcl::cosection
-{
-
-namespace
-{
+namespace pcl::cosection {
+namespace {
 
 constexpr double tsdf_huber = 0.2; ///< of the truncation distance
 constexpr double field_huber_vox = 2.0;

@@ -7,11 +7,8 @@
 
 #include <pcl/console/print.h>
 
-namespace pcl::cosection
-{
-
-namespace
-{
+namespace pcl::cosection {
+namespace {
 
 void
 requireSurface (const SignedDistanceField& field, std::vector<Eigen::Vector3f>* surface)

@@ -11,11 +11,8 @@
 #include <cstring>
 #include <limits>
 
-namespace pcl::cosection
-{
-
-namespace
-{
+namespace pcl::cosection {
+namespace {
 
 constexpr int block_points = 128; ///< what is known of a block fits into the first cache
 constexpr int blocks_per_sum = 8; ///< sums of so many blocks are added up in order

@@ -9,8 +9,7 @@
 #include <cstddef>
 #include <vector>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief A volume as residuals see it. */
 struct SampledVolume

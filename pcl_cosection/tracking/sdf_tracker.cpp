@@ -4,8 +4,7 @@
 #include <pcl/impl/instantiate.hpp>
 #include <pcl/point_types.h>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 bool
 SdfTrackerBase::setTrans (const Eigen::Affine3f& T_sensor_object)

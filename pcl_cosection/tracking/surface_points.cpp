@@ -7,11 +7,8 @@
 #include <cmath>
 #include <cstdint>
 
-namespace pcl::cosection
-{
-
-namespace
-{
+namespace pcl::cosection {
+namespace {
 
 /** \brief Whether the sign changes from a voxel to the next of its row (1), of the next row (2) and of the next slice
  * (4). */

@@ -8,8 +8,7 @@
 
 #include <vector>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief Points on the zero level set, the field's frame: where edges between neighbouring voxels cross it, by linear
  * interpolation; about a voxel apart. Edges to voxels that are not finite or not supported have none. In the order of

@@ -7,10 +7,8 @@
 #include <cmath>
 #include <string>
 
-namespace pcl::cosection
-{
-namespace
-{
+namespace pcl::cosection {
+namespace {
 
 constexpr int min_fit_points = 50;
 constexpr double max_fit_residual_px = 0.5; ///< root mean square

@@ -11,11 +11,8 @@
 #include <cstddef>
 #include <limits>
 
-namespace pcl::cosection
-{
-
-namespace
-{
+namespace pcl::cosection {
+namespace {
 
 using Matrix34 = Eigen::Matrix<double, 3, 4>;
 using Matrix12 = Eigen::Matrix<double, 12, 12>;

@@ -5,8 +5,7 @@
 
 #include <utility>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 std::optional<DepthView>
 toDepthView (const std::vector<Eigen::Vector3f>& points, int width, int height, const Eigen::Isometry3d& T_world_points)

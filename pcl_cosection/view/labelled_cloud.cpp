@@ -11,8 +11,7 @@
 #include <cmath>
 #include <limits>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 void
 saveLabelledCloud (const DepthView& view, const Image<std::uint16_t>& labels, const Picture& colours,

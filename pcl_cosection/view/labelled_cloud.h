@@ -7,8 +7,7 @@
 #include <cstdint>
 #include <string>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief Write a depth view as an organised PCD file with the fields x y z rgb label: points in the sensor frame, NaN
  * where there is no reading, and the sensor's pose as VIEWPOINT. readPcdView () reads it.

@@ -3,8 +3,7 @@
 
 #include <pcl/cosection/common/error.h>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 Eigen::Isometry3d
 lookAt (const Eigen::Vector3d& eye, const Eigen::Vector3d& target, const Eigen::Vector3d& up)

@@ -5,8 +5,7 @@
 
 #include <Eigen/Geometry>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief Pose of a sensor at \a eye that looks at \a target: z forward, x right, y down, so that \a up points up in
  * its picture; where it looks along \a up, any such pose. \throws InvalidArgument if they are the same place, or \a up

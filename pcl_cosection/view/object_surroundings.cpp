@@ -5,11 +5,8 @@
 
 #include <algorithm>
 
-namespace pcl::cosection
-{
-
-namespace
-{
+namespace pcl::cosection {
+namespace {
 
 constexpr double outermost_share = 0.02; // of an object's points on each side, which may be wrong
 constexpr float nearness = 1.0f;         // to an object, of its longest side

@@ -10,8 +10,7 @@
 #include <map>
 #include <vector>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief A box about each object, by label, that has what is near it. */
 using Surroundings = std::map<std::uint32_t, Eigen::AlignedBox3f>;

@@ -16,11 +16,8 @@
 #include <algorithm>
 #include <cstring>
 
-namespace pcl::cosection
-{
-
-namespace
-{
+namespace pcl::cosection {
+namespace {
 
 constexpr std::size_t label_bytes = sizeof (std::uint32_t);
 

@@ -10,8 +10,7 @@
 #include <string>
 #include <vector>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief The points of an organised PCD file. */
 struct OrganizedCloud

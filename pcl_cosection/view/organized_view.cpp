@@ -16,11 +16,8 @@
 #include <sstream>
 #include <utility>
 
-namespace pcl::cosection
-{
-
-namespace
-{
+namespace pcl::cosection {
+namespace {
 
 constexpr float nan_value = std::numeric_limits<float>::quiet_NaN ();
 constexpr double intrinsics_tolerance_px = 2.0;

@@ -7,8 +7,7 @@
 
 #include <string>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief Give an organised cloud rays and normals, those of the file if any are not used.
  *

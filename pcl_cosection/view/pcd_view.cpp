@@ -13,11 +13,8 @@
 #include <sstream>
 #include <utility>
 
-namespace pcl::cosection
-{
-
-namespace
-{
+namespace pcl::cosection {
+namespace {
 
 constexpr double farthest_viewpoint = 1e15; // metres; as of the header
 constexpr double millimetre_extent = 100.0; ///< metres; a scene this large is probably not in metres

@@ -6,11 +6,8 @@
 #include <cstdint>
 #include <limits>
 
-namespace pcl::cosection
-{
-
-namespace
-{
+namespace pcl::cosection {
+namespace {
 
 constexpr double max_slope = 1.7321; // tangent of half of 120 degrees
 constexpr int finest_px = 1024;      // pixels along the longer side ...

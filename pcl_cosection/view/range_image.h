@@ -9,8 +9,7 @@
 #include <optional>
 #include <vector>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief An unorganised cloud as it looks from where its sensor stood. */
 struct RangeImage

@@ -13,11 +13,8 @@
 #include <optional>
 #include <random>
 
-namespace pcl::cosection
-{
-
-namespace
-{
+namespace pcl::cosection {
+namespace {
 
 constexpr int window = 8;              // steps before and after one, whose median is the spacing of the points there
 constexpr double jump_spacings = 20.0; // length of a jump, at least

@@ -5,8 +5,7 @@
 
 #include <vector>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief Where the sensor may have stood that measured an unorganised cloud, from the order of its points.
  *

@@ -13,11 +13,8 @@
 #include <limits>
 #include <utility>
 
-namespace pcl::cosection
-{
-
-namespace
-{
+namespace pcl::cosection {
+namespace {
 
 constexpr double max_default_slope = 1.7321; // of points before a camera whose pose was left at the default: 60 degrees
 // A share of all points, from where the header does not say that they were seen ...

@@ -12,8 +12,7 @@
 #include <string>
 #include <vector>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief Indices of points by label. */
 using Members = std::map<std::uint32_t, std::vector<std::size_t>>;

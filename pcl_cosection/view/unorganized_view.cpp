@@ -17,11 +17,8 @@
 #include <limits>
 #include <optional>
 
-namespace pcl::cosection
-{
-
-namespace
-{
+namespace pcl::cosection {
+namespace {
 
 constexpr float away_cosine = -0.2f;       // of a normal that clearly points away from the viewpoint
 constexpr double least_filled = 0.01;      // share of normals with a direction, of which fields have some

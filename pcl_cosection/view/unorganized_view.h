@@ -7,8 +7,7 @@
 
 #include <string>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief Give an unorganised cloud normals and, if the points show that the sensor stood at the viewpoint, rays.
  *

@@ -9,11 +9,8 @@
 #include <algorithm>
 #include <cmath>
 
-namespace pcl::cosection
-{
-
-namespace
-{
+namespace pcl::cosection {
+namespace {
 
 constexpr int directions = 400;
 constexpr std::size_t samples = 2000;

@@ -7,8 +7,7 @@
 #include <optional>
 #include <vector>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief Where the points of an object may have been seen from, if nothing is known of that: the direction to which
  * nearly all of them face, from far away. To judge how far hidden parts may reach, not to call space free.

@@ -8,11 +8,8 @@
 #include <cmath>
 #include <filesystem>
 
-namespace pcl::cosection
-{
-
-namespace
-{
+namespace pcl::cosection {
+namespace {
 
 constexpr TriangleMesh::Colour no_colour = {200, 200, 200};
 

@@ -13,11 +13,8 @@
 
 namespace fs = std::filesystem;
 
-namespace pcl::cosection
-{
-
-namespace
-{
+namespace pcl::cosection {
+namespace {
 
 /** \brief What the camera is taken for if it is not known. */
 constexpr PinholeCamera usual_camera = {640, 480, 525.0, 525.0, 319.5, 239.5};

@@ -9,8 +9,7 @@
 #include <optional>
 #include <string>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief What a run's summary.json says of its images. */
 struct RunSummary

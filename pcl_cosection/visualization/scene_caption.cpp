@@ -6,8 +6,7 @@
 #include <algorithm>
 #include <sstream>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 const std::vector<std::string>&
 surfaceNames ()

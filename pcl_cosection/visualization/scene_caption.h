@@ -8,8 +8,7 @@
 #include <string>
 #include <vector>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief What surfaces are called on the command line, in the order of SurfaceMode. */
 PCL_COSECTION_EXPORT const std::vector<std::string>& surfaceNames ();

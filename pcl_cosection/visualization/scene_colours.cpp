@@ -7,11 +7,8 @@
 #include <algorithm>
 #include <array>
 
-namespace pcl::cosection
-{
-
-namespace
-{
+namespace pcl::cosection {
+namespace {
 
 constexpr TriangleMesh::Colour plain = {200, 200, 200}; ///< where nothing is known
 constexpr TriangleMesh::Colour background_grey = {225, 222, 216};

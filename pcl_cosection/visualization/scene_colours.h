@@ -8,8 +8,7 @@
 #include <string>
 #include <vector>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief The colour of an object, the same in every run; of RunScene::background, grey. */
 TriangleMesh::Colour instanceColour (int id);

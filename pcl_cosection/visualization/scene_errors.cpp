@@ -8,11 +8,8 @@
 
 #include <algorithm>
 
-namespace pcl::cosection
-{
-
-namespace
-{
+namespace pcl::cosection {
+namespace {
 
 constexpr double usual_share = 0.95; ///< of the errors that the colours distinguish
 

@@ -6,11 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
-namespace pcl::cosection
-{
-
-namespace
-{
+namespace pcl::cosection {
+namespace {
 
 constexpr TriangleMesh::Colour path_colour = {30, 90, 200};
 constexpr TriangleMesh::Colour frustum_colour = {20, 40, 110};

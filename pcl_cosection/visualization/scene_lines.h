@@ -10,8 +10,7 @@
 
 #include <vector>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief A straight line in the world. */
 struct SceneLine

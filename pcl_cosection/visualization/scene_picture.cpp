@@ -14,11 +14,8 @@
 #include <cmath>
 #include <sstream>
 
-namespace pcl::cosection
-{
-
-namespace
-{
+namespace pcl::cosection {
+namespace {
 
 constexpr TriangleMesh::Colour paper = {246, 247, 249};
 constexpr double text_size = 0.5;

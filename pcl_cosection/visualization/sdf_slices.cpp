@@ -9,11 +9,8 @@
 #include <algorithm>
 #include <cmath>
 
-namespace pcl::cosection
-{
-
-namespace
-{
+namespace pcl::cosection {
+namespace {
 
 constexpr double margin = 0.25;     ///< of the longest side, at each side
 constexpr double limit_share = 0.2; ///< of the longest side

@@ -10,8 +10,7 @@
 
 #include <array>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief The colour of a signed distance: blue inside, white at the surface, red outside from \a limit_m on. */
 TriangleMesh::Colour distanceColour (double distance_m, double limit_m);

@@ -12,11 +12,8 @@
 #include <cmath>
 #include <fstream>
 
-namespace pcl::cosection
-{
-
-namespace
-{
+namespace pcl::cosection {
+namespace {
 
 using Json = nlohmann::ordered_json;
 

@@ -8,10 +8,8 @@
 #include <cmath>
 #include <limits>
 
-namespace pcl::cosection
-{
-namespace
-{
+namespace pcl::cosection {
+namespace {
 
 constexpr float infinity = std::numeric_limits<float>::infinity ();
 

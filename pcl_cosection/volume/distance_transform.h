@@ -6,8 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief Exact Euclidean distance, in voxels, from every voxel centre to the nearest voxel whose
  * \a mask is not 0 (P. Felzenszwalb, D. Huttenlocher, "Distance Transforms of Sampled Functions",

@@ -15,10 +15,8 @@
 #include <cmath>
 #include <limits>
 
-namespace pcl::cosection
-{
-namespace
-{
+namespace pcl::cosection {
+namespace {
 
 using marching_cubes::Case;
 using marching_cubes::caseTable;

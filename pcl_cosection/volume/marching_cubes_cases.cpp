@@ -8,10 +8,8 @@
 #include <limits>
 #include <vector>
 
-namespace pcl::cosection::marching_cubes
-{
-namespace
-{
+namespace pcl::cosection::marching_cubes {
+namespace {
 
 using Loop = std::vector<int>; // edges in cyclic order
 

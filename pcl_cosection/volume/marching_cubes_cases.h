@@ -4,8 +4,7 @@
 #include <array>
 #include <cstdint>
 
-namespace pcl::cosection::marching_cubes
-{
+namespace pcl::cosection::marching_cubes {
 
 /** \brief The surface inside a cell whose corners are inside or outside.
  *

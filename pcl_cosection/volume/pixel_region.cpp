@@ -3,8 +3,7 @@
 
 #include <limits>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 PixelRegion
 wholeImage (const PinholeCamera& camera)

@@ -6,8 +6,7 @@
 
 #include <Eigen/Geometry>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief Pixels of columns [left, right) and rows [top, bottom). */
 struct PixelRegion

@@ -3,8 +3,7 @@
 
 #include <Eigen/Geometry>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief Whether a pose, perhaps kept in single precision, is a finite rigid motion. */
 inline bool

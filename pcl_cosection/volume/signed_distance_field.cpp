@@ -6,8 +6,7 @@
 #include <array>
 #include <cmath>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 std::optional<float>
 SignedDistanceField::sample (const Eigen::Vector3d& p) const

@@ -8,8 +8,7 @@
 #include <cstdlib>
 #include <new>
 
-namespace
-{
+namespace {
 
 std::atomic<std::size_t> current_bytes{0};
 std::atomic<std::size_t> peak_bytes{0};
@@ -81,8 +80,7 @@ operator delete (void* memory, std::size_t, std::align_val_t) noexcept
   release (memory);
 }
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 std::size_t
 AllocationCounter::current ()

@@ -3,8 +3,7 @@
 
 #include <cstddef>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief What the program has allocated with operator new, in every library it uses. Only programs that
  * compile allocation_counter.cpp count. */

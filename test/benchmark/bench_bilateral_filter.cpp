@@ -11,8 +11,7 @@
 
 using namespace pcl::cosection;
 
-namespace
-{
+namespace {
 
 void
 filter (benchmark::State& state)

@@ -9,8 +9,7 @@
 
 using namespace pcl::cosection;
 
-namespace
-{
+namespace {
 
 void
 meshDistance (benchmark::State& state)

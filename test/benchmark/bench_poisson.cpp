@@ -20,8 +20,7 @@
 
 using namespace pcl::cosection;
 
-namespace
-{
+namespace {
 
 using Cloud = pcl::PointCloud<pcl::PointNormal>;
 

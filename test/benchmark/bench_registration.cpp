@@ -15,8 +15,7 @@
 
 using namespace pcl::cosection;
 
-namespace
-{
+namespace {
 
 PinholeCamera
 cameraOf (int width)

@@ -9,8 +9,7 @@
 
 using namespace pcl::cosection;
 
-namespace
-{
+namespace {
 
 test::RenderedView
 tableWithThreeObjects ()

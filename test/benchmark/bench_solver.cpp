@@ -13,8 +13,7 @@
 
 using namespace pcl::cosection;
 
-namespace
-{
+namespace {
 
 constexpr int resolution = 64;
 constexpr double near_vox = 1.5;     // where the error is measured: |u| below that

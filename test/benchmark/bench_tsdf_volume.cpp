@@ -13,8 +13,7 @@
 
 using namespace pcl::cosection;
 
-namespace
-{
+namespace {
 
 const PinholeCamera camera{640, 480, 525.0, 525.0, 319.5, 239.5};
 

@@ -13,8 +13,7 @@
 
 using namespace pcl::cosection;
 
-namespace
-{
+namespace {
 
 constexpr int usual_keyframes = 6;
 constexpr int most_keyframes = 40; // that a back end keeps

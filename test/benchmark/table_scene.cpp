@@ -9,11 +9,8 @@
 
 #include <algorithm>
 
-namespace pcl::cosection::benchmark_scenes
-{
-
-namespace
-{
+namespace pcl::cosection::benchmark_scenes {
+namespace {
 
 constexpr double volume_edge_m = 0.35;
 constexpr double observed_weight = 0.3;       // sum of weights that makes a voxel one with data

@@ -7,8 +7,7 @@
 #include <pcl/cosection/surface/solver.h>
 #include <pcl/cosection/volume/signed_distance_field.h>
 
-namespace pcl::cosection::benchmark_scenes
-{
+namespace pcl::cosection::benchmark_scenes {
 
 /** \brief A box with a ball on top, standing on a table, as one depth camera sees them: one side, the
  * table around them, and the free space in front. */

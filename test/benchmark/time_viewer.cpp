@@ -17,8 +17,7 @@
 
 using namespace pcl::cosection;
 
-namespace
-{
+namespace {
 
 constexpr std::size_t display_triangles = 30000; // as pcl_cosection_viewer
 constexpr int repetitions = 2;

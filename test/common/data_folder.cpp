@@ -3,8 +3,7 @@
 
 #include <cstdlib>
 
-namespace pcl::cosection::test
-{
+namespace pcl::cosection::test {
 
 std::filesystem::path
 dataFolder (const std::string& name)

@@ -4,8 +4,7 @@
 #include <filesystem>
 #include <string>
 
-namespace pcl::cosection::test
-{
+namespace pcl::cosection::test {
 
 /** \brief A folder of the shared data in $PCL_COSECTION_DATA, or by default in ../shared/data beside the checkout. It
  * need not exist. */

@@ -12,8 +12,7 @@
 #include <utility>
 #include <vector>
 
-namespace pcl::cosection::test
-{
+namespace pcl::cosection::test {
 
 /** \brief The corners of a triangle as columns. */
 inline Eigen::Matrix3d

@@ -3,8 +3,7 @@
 
 #include <limits>
 
-namespace pcl::cosection::test
-{
+namespace pcl::cosection::test {
 
 constexpr float not_a_number = std::numeric_limits<float>::quiet_NaN ();
 

@@ -9,8 +9,7 @@
 #include <utility>
 #include <vector>
 
-namespace pcl::cosection::test
-{
+namespace pcl::cosection::test {
 
 /** \brief The box from \a lower to \a upper as 12 triangles. */
 inline TriangleMesh

@@ -13,8 +13,7 @@
 
 #include <csignal>
 
-namespace pcl::cosection::test
-{
+namespace pcl::cosection::test {
 
 /** \brief A new folder that lives as long as the object. */
 class TemporaryFolder

@@ -3,11 +3,8 @@
 
 #include <limits>
 
-namespace pcl::cosection::test
-{
-
-namespace
-{
+namespace pcl::cosection::test {
+namespace {
 
 constexpr double hit_m = 1e-6;
 constexpr double difference_m = 1e-5;

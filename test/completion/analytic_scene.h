@@ -13,8 +13,7 @@
 #include <map>
 #include <vector>
 
-namespace pcl::cosection::test
-{
+namespace pcl::cosection::test {
 
 /** \brief A camera of few pixels, for tests of single views. */
 inline PinholeCamera

@@ -14,8 +14,7 @@
 
 // Shared by the tests of FreeSpaceFilter: a table with a ball and a box, seen from three sides.
 
-namespace pcl::cosection::test
-{
+namespace pcl::cosection::test {
 
 using Points = pcl::PointCloud<pcl::PointXYZ>;
 

@@ -6,8 +6,7 @@
 #include <cstddef>
 #include <vector>
 
-namespace pcl::cosection::test
-{
+namespace pcl::cosection::test {
 
 /** \brief One difference of the discrete Hessian as a linear functional of the field, and the weight of its
  * square in ||H u||_F^2. */

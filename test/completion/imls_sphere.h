@@ -15,8 +15,7 @@
 
 // Shared by the tests of HessianIMLS: points of a sphere, and expectations on its mesh.
 
-namespace pcl::cosection::test
-{
+namespace pcl::cosection::test {
 
 using Cloud = pcl::PointCloud<pcl::PointNormal>;
 using Imls = HessianIMLS<pcl::PointNormal>;

@@ -6,8 +6,7 @@
 #include <algorithm>
 #include <limits>
 
-namespace pcl::cosection::test
-{
+namespace pcl::cosection::test {
 
 /** \brief Least coordinate of any vertex, by default along z. */
 inline float

@@ -9,8 +9,7 @@
 #include <tuple>
 #include <vector>
 
-namespace pcl::cosection::test
-{
+namespace pcl::cosection::test {
 
 /** \brief Exact distance from points to a mesh, up to a reach. */
 class MeshDistance

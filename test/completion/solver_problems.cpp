@@ -5,11 +5,8 @@
 #include <cmath>
 #include <random>
 
-namespace pcl::cosection::test
-{
-
-namespace
-{
+namespace pcl::cosection::test {
+namespace {
 
 constexpr float bound_weight = 0.01f;
 

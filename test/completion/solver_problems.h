@@ -5,8 +5,7 @@
 
 #include <string>
 
-namespace pcl::cosection::test
-{
+namespace pcl::cosection::test {
 
 /** \brief Problems like those of a reconstruction, and a random one. */
 enum class ProblemKind

@@ -22,8 +22,7 @@
 using namespace pcl::cosection;
 using namespace pcl::cosection::test;
 
-namespace
-{
+namespace {
 
 using Filter = FreeSpaceFilter<pcl::PointXYZ>;
 

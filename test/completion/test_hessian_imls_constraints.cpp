@@ -12,8 +12,7 @@
 using namespace pcl::cosection;
 using namespace pcl::cosection::test;
 
-namespace
-{
+namespace {
 
 /** \brief A sphere about the origin in front of a wall, as seen along z from \a distance_m. */
 pcl::PointCloud<pcl::PointXYZ>

@@ -9,8 +9,7 @@
 using namespace pcl::cosection;
 using namespace pcl::cosection::test;
 
-namespace
-{
+namespace {
 
 /** \brief Box of the centres of an object's voxels. */
 Eigen::AlignedBox3d

@@ -11,8 +11,7 @@
 using namespace pcl::cosection;
 using namespace pcl::cosection::test;
 
-namespace
-{
+namespace {
 
 /** \brief A ring of 13 cm, 3 cm thick, on a table, as a camera with pixels of 2 mm sees it from a metre away. */
 class RingFromFarAway : public testing::Test

@@ -10,8 +10,7 @@
 using namespace pcl::cosection;
 using namespace pcl::cosection::test;
 
-namespace
-{
+namespace {
 
 class FastJacobiCycles : public testing::TestWithParam<int>
 {};

@@ -14,8 +14,7 @@
 using namespace pcl::cosection;
 using namespace pcl::cosection::test;
 
-namespace
-{
+namespace {
 
 constexpr double wall_m = 1.0;
 constexpr double ball_m = 0.6; // distance of the ball's centre

@@ -11,8 +11,7 @@
 
 using namespace pcl::cosection;
 
-namespace
-{
+namespace {
 
 /** \brief Distance to the nearest voxel, in or around the volume, that is not free. */
 std::vector<float>

@@ -11,8 +11,7 @@
 using namespace pcl::cosection;
 using namespace pcl::cosection::test;
 
-namespace
-{
+namespace {
 
 constexpr double cap_vox = 5.0;
 constexpr double quantum_vox = 1.0 / 512.0 + 1e-4; // of LowerBound, and rounding

@@ -14,8 +14,7 @@
 using namespace pcl::cosection;
 using namespace pcl::cosection::test;
 
-namespace
-{
+namespace {
 
 constexpr double hull_voxel_m = 0.004;
 constexpr int most_merged = 5;

@@ -13,8 +13,7 @@
 using namespace pcl::cosection;
 using namespace pcl::cosection::test;
 
-namespace
-{
+namespace {
 
 /** \brief Conjugate gradients without preconditioner would need nine times as many on a grid three times as long. */
 constexpr double largest_growth = 3.0;

@@ -12,8 +12,7 @@
 #include <limits>
 #include <vector>
 
-namespace pcl::cosection::test
-{
+namespace pcl::cosection::test {
 
 /** \brief A square of n x n cells of edge \a size from the origin, at height \a z, facing up. */
 inline TriangleMesh

@@ -7,8 +7,7 @@
 #include <pcl/cosection/evaluation/mesh_comparison.h>
 #include <pcl/cosection/evaluation/run_evaluation.h>
 
-namespace pcl::cosection::test
-{
+namespace pcl::cosection::test {
 
 /** \brief A torus and a box before a floor, both in motion, and a camera that circles around them; 24 frames. */
 inline SceneRecord

@@ -10,8 +10,7 @@
 using namespace pcl::cosection;
 using namespace pcl::cosection::test;
 
-namespace
-{
+namespace {
 
 /** \brief How many pixels of a part of a picture are clearly red, blue. */
 std::array<int, 2>

@@ -13,8 +13,7 @@
 using namespace pcl::cosection;
 using namespace pcl::cosection::test;
 
-namespace
-{
+namespace {
 
 PenetrationBody
 box (const Eigen::Vector3f& low, const Eigen::Vector3f& high, const PenetrationOptions& options = {})
@@ -146,8 +145,7 @@ TEST (Penetration, RefusesBadOptions)
   EXPECT_THROW (fine.sharedVolume (fine), InvalidArgument);
 }
 
-namespace
-{
+namespace {
 
 /** \brief A camera at the origin before a wall. */
 DepthView

@@ -10,8 +10,7 @@
 using namespace pcl::cosection;
 using namespace pcl::cosection::test;
 
-namespace
-{
+namespace {
 
 const ObjectEvaluation&
 objectOf (const RunEvaluation& run, const std::string& name)

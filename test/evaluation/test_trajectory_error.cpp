@@ -15,8 +15,7 @@
 using namespace pcl::cosection;
 using namespace pcl::cosection::test;
 
-namespace
-{
+namespace {
 
 using Trajectory = std::vector<StampedPose>;
 

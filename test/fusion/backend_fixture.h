@@ -9,8 +9,7 @@
 
 #include <cstddef>
 
-namespace pcl::cosection::test
-{
+namespace pcl::cosection::test {
 
 /** \brief A ball on a table, seen from places on a line: their distances are those of the views. */
 class BackendTest : public testing::Test

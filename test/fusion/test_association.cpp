@@ -11,8 +11,7 @@
 
 using namespace pcl::cosection;
 
-namespace
-{
+namespace {
 
 /** \brief A wall at z = \a depth_m, seen by the camera that looks along z. */
 TsdfVolume

@@ -12,8 +12,7 @@
 using namespace pcl::cosection;
 using namespace pcl::cosection::test;
 
-namespace
-{
+namespace {
 
 constexpr std::chrono::milliseconds moment (20);
 

@@ -12,8 +12,7 @@
 
 using namespace pcl::cosection;
 
-namespace
-{
+namespace {
 
 const float nan_depth = std::numeric_limits<float>::quiet_NaN ();
 

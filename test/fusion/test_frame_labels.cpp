@@ -12,8 +12,7 @@
 
 using namespace pcl::cosection;
 
-namespace
-{
+namespace {
 
 constexpr std::uint16_t unassigned = TrackedFrame::unassigned;
 constexpr float far_m = 1.2f, near_m = 0.8f;

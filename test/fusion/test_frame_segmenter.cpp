@@ -14,8 +14,7 @@
 using namespace pcl::cosection;
 using namespace pcl::cosection::test;
 
-namespace
-{
+namespace {
 
 /** \brief Labels what stands on the middle of the floor. */
 class MiddleOfFloor : public FrameSegmenter

@@ -15,8 +15,7 @@
 using namespace pcl::cosection;
 using namespace pcl::cosection::test;
 
-namespace
-{
+namespace {
 
 /** \brief Labels points of the world as a function says; it may be wrong. */
 class PointsOfTheWorld : public FrameSegmenter

@@ -18,8 +18,7 @@ using namespace pcl::cosection;
 using namespace pcl::cosection::test;
 namespace fs = std::filesystem;
 
-namespace
-{
+namespace {
 
 const char* const scene = R"({
   "frames": 12,

@@ -13,8 +13,7 @@
 using namespace pcl::cosection;
 using namespace pcl::cosection::test;
 
-namespace
-{
+namespace {
 
 constexpr double misled_limit_m = 0.03; // before bare walls, by a thing that moves and is not found yet
 // Shares of the background: the surface that an object left before it was found vanishes as free space is averaged in;

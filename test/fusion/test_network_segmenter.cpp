@@ -14,8 +14,7 @@
 using namespace pcl::cosection;
 using test::SpotNetwork;
 
-namespace
-{
+namespace {
 
 class Segmenter : public testing::Test
 {

@@ -16,8 +16,7 @@
 using namespace pcl::cosection;
 using namespace pcl::cosection::test;
 
-namespace
-{
+namespace {
 
 constexpr double score_rounding = 1e-9;
 constexpr int frames_per_mask = 5;

@@ -13,8 +13,7 @@
 
 using namespace pcl::cosection;
 
-namespace
-{
+namespace {
 
 const char* const stool =
     R"({"frames": 2, "camera": {"width": 320, "height": 240, "fx": 262, "fy": 262, "cx": 159.5, "cy": 119.5, "keys": [

@@ -18,8 +18,7 @@
 using namespace pcl::cosection;
 using namespace pcl::cosection::test;
 
-namespace
-{
+namespace {
 
 constexpr int frames = 8, ball = 1, block = 2;
 

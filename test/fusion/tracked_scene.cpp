@@ -8,11 +8,8 @@
 #include <cmath>
 #include <map>
 
-namespace pcl::cosection::test
-{
-
-namespace
-{
+namespace pcl::cosection::test {
+namespace {
 
 const Eigen::Vector3d middle (0.0, 0.0, 0.1);
 

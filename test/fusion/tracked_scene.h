@@ -13,8 +13,7 @@
 #include <string>
 #include <vector>
 
-namespace pcl::cosection::test
-{
+namespace pcl::cosection::test {
 
 /** \brief The mask that the front end gets for a frame, made of the true one; nothing: none. */
 using MaskPolicy = std::function<std::optional<Image<std::uint16_t>> (int frame, const Image<std::uint16_t>& truth)>;

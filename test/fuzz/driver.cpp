@@ -19,8 +19,7 @@
 
 namespace fs = std::filesystem;
 
-namespace
-{
+namespace {
 
 const char* const usage = R"(Usage: PROGRAM [--runs N] [--seconds S] [--seed K] [FILE_OR_FOLDER ...]
        PROGRAM FILE ...

@@ -15,8 +15,7 @@
 
 using namespace pcl::cosection;
 
-namespace
-{
+namespace {
 
 constexpr int width = 40, height = 30;
 constexpr std::size_t most_values = 1 << 16;

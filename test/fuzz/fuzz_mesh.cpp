@@ -14,8 +14,7 @@
 
 using namespace pcl::cosection;
 
-namespace
-{
+namespace {
 
 const std::array<std::string, 6> extensions = {".ply", ".stl", ".obj", ".off", ".vtk", ".vtp"};
 

@@ -16,8 +16,7 @@
 
 using namespace pcl::cosection;
 
-namespace
-{
+namespace {
 
 const std::string placeholder = "@config@";
 const std::string separator = "%%\n";

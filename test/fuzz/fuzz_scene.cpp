@@ -9,8 +9,7 @@
 
 using namespace pcl::cosection;
 
-namespace
-{
+namespace {
 
 const char* const
     camera = R"("camera": {"width": 8, "height": 6, "keys": [{"position": [0, -1, 0.5], "look_at": [0, 0, 0]}]})";

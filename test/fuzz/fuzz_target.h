@@ -9,8 +9,7 @@
 #include <vector>
 
 /** \brief What each fuzz_*.cpp defines; what the driver and LLVMFuzzerTestOneInput () need. */
-namespace fuzz
-{
+namespace fuzz {
 
 /** \brief Valid inputs of every kind. */
 std::vector<std::string> seeds ();

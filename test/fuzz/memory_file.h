@@ -9,8 +9,7 @@
 #include <stdexcept>
 #include <string>
 
-namespace fuzz
-{
+namespace fuzz {
 
 /** \brief A file without a place on a disk, gone when the process ends however it ends. */
 class MemoryFile

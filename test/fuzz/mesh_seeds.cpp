@@ -12,11 +12,8 @@
 
 using namespace pcl::cosection;
 
-namespace fuzz
-{
-
-namespace
-{
+namespace fuzz {
+namespace {
 
 template <typename T>
 void

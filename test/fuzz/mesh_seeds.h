@@ -4,8 +4,7 @@
 #include <string>
 #include <vector>
 
-namespace fuzz
-{
+namespace fuzz {
 
 struct MeshSeed
 {

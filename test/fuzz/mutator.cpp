@@ -7,11 +7,8 @@
 #include <cstring>
 #include <sstream>
 
-namespace fuzz
-{
-
-namespace
-{
+namespace fuzz {
+namespace {
 
 constexpr std::size_t header_bytes = 400;
 constexpr std::size_t max_bytes = 1 << 16;

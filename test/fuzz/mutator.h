@@ -7,8 +7,7 @@
 #include <string>
 #include <vector>
 
-namespace fuzz
-{
+namespace fuzz {
 
 /** \brief Spoils inputs: bits, bytes, numbers, words, lines and columns of a header, at random but
  * the same for the same seed. */

@@ -10,11 +10,8 @@
 #include <sstream>
 #include <stdexcept>
 
-namespace fuzz
-{
-
-namespace
-{
+namespace fuzz {
+namespace {
 
 struct Field
 {

@@ -4,8 +4,7 @@
 #include <string>
 #include <vector>
 
-namespace fuzz
-{
+namespace fuzz {
 
 /** \brief Small PCD files of every kind: organised or not, ASCII, binary and compressed, with colours,
  * labels, normals, doubles, fields of several elements, padding and comments; unorganised ones seen from a viewpoint,

@@ -36,11 +36,8 @@ __ubsan_default_options ()
 }
 #endif
 
-namespace fuzz
-{
-
-namespace
-{
+namespace fuzz {
+namespace {
 
 constexpr unsigned int max_seconds = 10; ///< for one input
 #ifndef FUZZ_SANITIZED

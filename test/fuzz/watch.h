@@ -3,8 +3,7 @@
 
 #include <string>
 
-namespace fuzz
-{
+namespace fuzz {
 
 /** \brief Make crashes, hangs and absurd allocations end the program with a message, after saving the
  * input that is being read. To be called once.

@@ -15,8 +15,7 @@
 #include <fstream>
 #include <string>
 
-namespace pcl::cosection::test
-{
+namespace pcl::cosection::test {
 
 class PcdView : public testing::Test
 {

@@ -17,8 +17,7 @@
 using namespace pcl::cosection;
 using test::messageOf;
 
-namespace
-{
+namespace {
 
 const std::string normals = " normal_x normal_y normal_z";
 

@@ -15,8 +15,7 @@
 
 using namespace pcl::cosection;
 
-namespace
-{
+namespace {
 
 const float none = std::numeric_limits<float>::quiet_NaN ();
 

@@ -17,8 +17,7 @@ using test::readFile;
 using test::TemporaryFolder;
 using test::writeFile;
 
-namespace
-{
+namespace {
 
 TriangleMesh
 tetrahedron ()

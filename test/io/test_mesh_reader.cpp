@@ -23,8 +23,7 @@ using test::TemporaryFolder;
 using test::VtkFile;
 using test::writeFile;
 
-namespace
-{
+namespace {
 
 using Corner = std::array<float, 3>;
 

@@ -19,8 +19,7 @@ using test::TemporaryFolder;
 using test::VtkFile;
 using test::writeFile;
 
-namespace
-{
+namespace {
 
 /** \brief Files of every format and encoding, by their paths. */
 std::vector<std::string>

@@ -28,8 +28,7 @@
 using namespace pcl::cosection;
 using namespace pcl::cosection::test;
 
-namespace
-{
+namespace {
 
 /** \brief The mesh with merged vertices; STL has three vertices for each triangle. */
 TriangleMesh

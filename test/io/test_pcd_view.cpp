@@ -16,8 +16,7 @@
 using namespace pcl::cosection;
 using namespace pcl::cosection::test;
 
-namespace
-{
+namespace {
 
 /** \brief Points on a sphere's lower half at (0, 0, 2), as a sensor at the origin sees it. */
 pcl::PointCloud<pcl::PointXYZ>

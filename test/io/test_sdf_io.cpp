@@ -15,8 +15,7 @@ using namespace pcl::cosection;
 using test::messageOf;
 using test::TemporaryFolder;
 
-namespace
-{
+namespace {
 
 SignedDistanceField
 ramp ()

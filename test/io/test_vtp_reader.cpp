@@ -24,8 +24,7 @@ using test::readFile;
 using test::TemporaryFolder;
 using test::writeFile;
 
-namespace
-{
+namespace {
 
 constexpr int columns = 40;
 

@@ -13,10 +13,8 @@
 #include <vtkSTLWriter.h>
 #include <vtkXMLPolyDataWriter.h>
 
-namespace pcl::cosection::test
-{
-namespace
-{
+namespace pcl::cosection::test {
+namespace {
 
 vtkNew<vtkCellArray>
 cells (const std::vector<std::vector<int>>& lists)

@@ -6,8 +6,7 @@
 #include <string>
 #include <vector>
 
-namespace pcl::cosection::test
-{
+namespace pcl::cosection::test {
 
 /** \brief Polygons and strips for VTK to write. */
 struct Polygons

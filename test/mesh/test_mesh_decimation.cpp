@@ -14,8 +14,7 @@
 
 using namespace pcl::cosection;
 
-namespace
-{
+namespace {
 
 /** \brief Largest distance of points on the triangles, not only of vertices, from the sphere about the origin. */
 double

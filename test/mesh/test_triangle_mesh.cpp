@@ -8,8 +8,7 @@
 
 using namespace pcl::cosection;
 
-namespace
-{
+namespace {
 
 TriangleMesh
 annotatedBox ()

@@ -7,8 +7,7 @@
 
 #include <vector>
 
-namespace pcl::cosection::test
-{
+namespace pcl::cosection::test {
 
 inline std::vector<OrientedPoint>
 moved (std::vector<OrientedPoint> points, const Eigen::Isometry3d& T)

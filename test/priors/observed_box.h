@@ -7,8 +7,7 @@
 
 #include <vector>
 
-namespace pcl::cosection::test
-{
+namespace pcl::cosection::test {
 
 /** \brief The support plane z = 0. */
 inline const Eigen::Vector4d ground (0.0, 0.0, 1.0, 0.0);

@@ -14,8 +14,7 @@
 #include <utility>
 #include <vector>
 
-namespace pcl::cosection::test
-{
+namespace pcl::cosection::test {
 
 /** \brief Distance from the axis, metres, and its derivative, at a height. */
 using Profile = std::function<std::pair<double, double> (double)>;

@@ -8,8 +8,7 @@
 using namespace pcl::cosection;
 using namespace pcl::cosection::test;
 
-namespace
-{
+namespace {
 
 const Eigen::Vector4d floor_plane (0.0, 0.0, 1.0, 0.0);
 const Eigen::Vector3d from_the_front (0.0, -1.0, 1.0);

@@ -16,8 +16,7 @@
 using namespace pcl::cosection;
 using namespace pcl::cosection::test;
 
-namespace
-{
+namespace {
 
 constexpr double floor_radius = 0.06, rim_radius = 0.1;
 

@@ -15,8 +15,7 @@
 using namespace pcl::cosection;
 using namespace pcl::cosection::test;
 
-namespace
-{
+namespace {
 
 constexpr int cell_px = 4; // of a silhouette
 

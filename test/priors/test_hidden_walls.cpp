@@ -13,8 +13,7 @@
 using namespace pcl::cosection;
 using namespace pcl::cosection::test;
 
-namespace
-{
+namespace {
 
 constexpr int thing = 1, screen = 2;
 constexpr double reaches_table_vox = 1.5;

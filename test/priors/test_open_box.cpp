@@ -20,8 +20,7 @@
 using namespace pcl::cosection;
 using namespace pcl::cosection::test;
 
-namespace
-{
+namespace {
 
 /** \brief A box without a lid that stands on z = 0. */
 struct Tray

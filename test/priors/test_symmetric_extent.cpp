@@ -11,8 +11,7 @@
 using namespace pcl::cosection;
 using namespace pcl::cosection::test;
 
-namespace
-{
+namespace {
 
 const Eigen::Vector3d half_size (0.08, 0.05, 0.06);
 const Eigen::Vector3d corner_view (-1.0, -1.0, 1.0);

@@ -17,8 +17,7 @@
 using namespace pcl::cosection;
 using namespace pcl::cosection::test;
 
-namespace
-{
+namespace {
 
 const Eigen::Vector3d block_half_size (0.08, 0.05, 0.06);
 const Eigen::Vector3d block_view (-1.0, -1.0, 1.0);

@@ -14,8 +14,7 @@
 using namespace pcl::cosection;
 using namespace pcl::cosection::test;
 
-namespace
-{
+namespace {
 
 /** \brief A cup 9 cm high with a wall of 4 mm: its outer side that faces the camera, and its inner side down to some
  * height. */

@@ -14,8 +14,7 @@
 
 using namespace pcl::cosection;
 
-namespace
-{
+namespace {
 
 using Colour = std::array<std::uint8_t, 3>;
 

@@ -3,11 +3,8 @@
 
 #include "protobuf_message.h"
 
-namespace pcl::cosection::test
-{
-
-namespace
-{
+namespace pcl::cosection::test {
+namespace {
 
 using TensorShape = std::vector<std::int64_t>;
 

@@ -7,8 +7,7 @@
 #include <string>
 #include <vector>
 
-namespace pcl::cosection::test
-{
+namespace pcl::cosection::test {
 
 /** \brief An output that is an affine function of a network's input of 1 x 3 x height x width values, row by row. */
 struct AffineOutput

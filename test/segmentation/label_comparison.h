@@ -8,8 +8,7 @@
 #include <utility>
 #include <vector>
 
-namespace pcl::cosection::test
-{
+namespace pcl::cosection::test {
 
 /** \brief Agreement of labels with the true ones. */
 struct LabelComparison

@@ -7,8 +7,7 @@
 #include <cmath>
 #include <sstream>
 
-namespace pcl::cosection::test
-{
+namespace pcl::cosection::test {
 
 MovingTable::MovingTable (const std::string& objects, const std::string& camera_keys)
 {

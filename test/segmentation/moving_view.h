@@ -8,8 +8,7 @@
 #include <string>
 #include <vector>
 
-namespace pcl::cosection::test
-{
+namespace pcl::cosection::test {
 
 /** \brief A frame of a scene with moving objects, and the truth. */
 struct MovingView

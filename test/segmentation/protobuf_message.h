@@ -5,8 +5,7 @@
 #include <cstring>
 #include <string>
 
-namespace pcl::cosection::test
-{
+namespace pcl::cosection::test {
 
 /** \brief A message in the encoding of Protocol Buffers, field by field. */
 class ProtobufMessage

@@ -1,11 +1,8 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "spot_network.h"
 
-namespace pcl::cosection::test
-{
-
-namespace
-{
+namespace pcl::cosection::test {
+namespace {
 
 AffineOutput
 constantOutput (const std::string& name, const std::vector<std::int64_t>& shape,

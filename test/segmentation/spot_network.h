@@ -10,8 +10,7 @@
 #include <string>
 #include <vector>
 
-namespace pcl::cosection::test
-{
+namespace pcl::cosection::test {
 
 /** \brief Networks that find a spot of one colour and known size in the first channel of an image of 24 x 16 pixels.
  * They give it class 2 of 3, with a score of 0.9. */

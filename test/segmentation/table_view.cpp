@@ -8,8 +8,7 @@
 #include <limits>
 #include <sstream>
 
-namespace pcl::cosection::test
-{
+namespace pcl::cosection::test {
 
 SceneView
 viewOfTable (const std::string& objects, const Eigen::Vector3d& eye)

@@ -9,8 +9,7 @@
 #include <string>
 #include <vector>
 
-namespace pcl::cosection::test
-{
+namespace pcl::cosection::test {
 
 /** \brief A noisy camera's view of a scene, and the truth. */
 struct SceneView

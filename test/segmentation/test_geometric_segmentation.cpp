@@ -11,8 +11,7 @@
 using namespace pcl::cosection;
 using namespace pcl::cosection::test;
 
-namespace
-{
+namespace {
 
 using Points = pcl::PointCloud<pcl::PointXYZ>;
 

@@ -22,8 +22,7 @@
 using namespace pcl::cosection;
 using test::SpotNetwork;
 
-namespace
-{
+namespace {
 
 using Colour = std::array<std::uint8_t, 3>;
 constexpr Colour red = {255, 0, 0}, blue = {0, 0, 255};

@@ -18,8 +18,7 @@
 using namespace pcl::cosection;
 using test::SpotNetwork;
 
-namespace
-{
+namespace {
 
 class Segmentation : public testing::Test
 {

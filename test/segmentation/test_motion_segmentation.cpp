@@ -19,8 +19,7 @@
 using namespace pcl::cosection;
 using namespace pcl::cosection::test;
 
-namespace
-{
+namespace {
 
 /** \brief The segmentation of the last of some frames. */
 struct Found

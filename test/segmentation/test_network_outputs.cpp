@@ -16,8 +16,7 @@
 
 using namespace pcl::cosection;
 
-namespace
-{
+namespace {
 
 constexpr int image_width = 64, image_height = 48;
 const ImagePlacement same_size (image_width, image_height, image_width, image_height, false);

@@ -15,8 +15,7 @@
 using namespace pcl::cosection;
 using namespace pcl::cosection::test;
 
-namespace
-{
+namespace {
 
 std::string
 boxAt (const Eigen::Vector3d& size, const Eigen::Vector3d& position)

@@ -17,8 +17,7 @@ namespace fs = std::filesystem;
 using namespace pcl::cosection;
 using namespace pcl::cosection::test;
 
-namespace
-{
+namespace {
 
 /** \brief Points of the world that a frame shows, every \a step pixels. */
 std::vector<Eigen::Vector3d>

@@ -12,8 +12,7 @@ namespace fs = std::filesystem;
 using namespace pcl::cosection;
 using namespace pcl::cosection::test;
 
-namespace
-{
+namespace {
 
 std::vector<int>
 firstNumbers (int count)

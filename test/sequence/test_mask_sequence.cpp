@@ -10,8 +10,7 @@ namespace fs = std::filesystem;
 using namespace pcl::cosection;
 using namespace pcl::cosection::test;
 
-namespace
-{
+namespace {
 
 void
 writeMask (const SequenceFolder& folder, const std::string& name, std::uint16_t id, bool wide = false, int width = 8)

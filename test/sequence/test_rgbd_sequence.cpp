@@ -9,8 +9,7 @@
 using namespace pcl::cosection;
 using namespace pcl::cosection::test;
 
-namespace
-{
+namespace {
 
 /** \brief Expect that frame \a index is the one that SequenceFolder wrote as frame \a written. */
 void

@@ -11,8 +11,7 @@
 using namespace pcl::cosection;
 using namespace pcl::cosection::test;
 
-namespace
-{
+namespace {
 
 class Trajectory : public testing::Test
 {

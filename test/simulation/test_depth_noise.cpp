@@ -11,8 +11,7 @@
 
 using namespace pcl::cosection;
 
-namespace
-{
+namespace {
 
 const PinholeCamera camera{200, 150, 250.0, 250.0, 99.5, 74.5};
 

@@ -8,8 +8,7 @@
 
 using namespace pcl::cosection;
 
-namespace
-{
+namespace {
 
 Eigen::Quaterniond
 turn (double degrees, const Eigen::Vector3d& axis)

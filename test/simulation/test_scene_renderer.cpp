@@ -10,8 +10,7 @@
 
 using namespace pcl::cosection;
 
-namespace
-{
+namespace {
 
 SceneBody
 bodyOf (int id, std::vector<BodyPart> parts, const Eigen::Isometry3d& T = Eigen::Isometry3d::Identity ())

@@ -11,8 +11,7 @@
 
 using namespace pcl::cosection;
 
-namespace
-{
+namespace {
 
 /** \brief A small good description, with something replaced. */
 std::string

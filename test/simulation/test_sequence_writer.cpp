@@ -21,8 +21,7 @@
 using namespace pcl::cosection;
 namespace fs = std::filesystem;
 
-namespace
-{
+namespace {
 
 SimulatedScene
 smallScene ()

@@ -10,8 +10,7 @@
 
 using namespace pcl::cosection;
 
-namespace
-{
+namespace {
 
 constexpr double chord_m = 2e-5;
 

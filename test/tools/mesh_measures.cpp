@@ -11,11 +11,8 @@
 #include <random>
 #include <sstream>
 
-namespace pcl::cosection::test
-{
-
-namespace
-{
+namespace pcl::cosection::test {
+namespace {
 
 constexpr std::uint32_t leaf_size = 4;
 

@@ -12,8 +12,7 @@
 #include <string>
 #include <vector>
 
-namespace pcl::cosection::test
-{
+namespace pcl::cosection::test {
 
 /** \brief Exact distance of a point to a triangle. */
 double distanceToTriangle (const Eigen::Vector3d& p, const Eigen::Vector3d& a, const Eigen::Vector3d& b,

@@ -10,8 +10,7 @@
 #include <cmath>
 #include <limits>
 
-namespace
-{
+namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity ();
 const Eigen::Vector3d ball_centre (-0.09, 0.0, 0.06);

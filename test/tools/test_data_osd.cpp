@@ -36,8 +36,7 @@ namespace fs = std::filesystem;
 using namespace pcl::cosection;
 using namespace pcl::cosection::test;
 
-namespace
-{
+namespace {
 
 constexpr std::size_t least_points = 500;
 constexpr double near_m = 0.01;

@@ -19,8 +19,7 @@
 using namespace pcl::cosection;
 using namespace pcl::cosection::test;
 
-namespace
-{
+namespace {
 
 using Words = std::vector<std::string>;
 

@@ -23,8 +23,7 @@
 namespace fs = std::filesystem;
 using namespace pcl::cosection;
 
-namespace
-{
+namespace {
 
 constexpr int views = 5;
 constexpr int objects = 3;

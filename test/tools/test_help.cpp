@@ -25,8 +25,7 @@
 #include <iterator>
 #include <sstream>
 
-namespace
-{
+namespace {
 
 class Help : public testing::Test
 {

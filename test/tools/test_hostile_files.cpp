@@ -24,8 +24,7 @@
 namespace fs = std::filesystem;
 using namespace pcl::cosection;
 
-namespace
-{
+namespace {
 
 /** \brief A user without rights: files of others that only they may write cannot be written. */
 void

@@ -17,8 +17,7 @@
 using namespace pcl::cosection;
 using namespace pcl::cosection::test;
 
-namespace
-{
+namespace {
 
 TEST (MeshMeasures, DistanceToTriangleInEveryRegion)
 {

@@ -25,8 +25,7 @@
 namespace fs = std::filesystem;
 using namespace pcl::cosection;
 
-namespace
-{
+namespace {
 
 class PclCosection : public testing::Test
 {

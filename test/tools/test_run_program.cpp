@@ -15,8 +15,7 @@
 
 using namespace pcl::cosection;
 
-namespace
-{
+namespace {
 
 /** \brief The exit status and what was said of it. */
 std::pair<int, std::string>

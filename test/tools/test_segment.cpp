@@ -20,8 +20,7 @@
 namespace fs = std::filesystem;
 using namespace pcl::cosection;
 
-namespace
-{
+namespace {
 
 constexpr int width = 160, height = 120;
 

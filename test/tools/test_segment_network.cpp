@@ -23,8 +23,7 @@ namespace fs = std::filesystem;
 using namespace pcl::cosection;
 using test::SpotNetwork;
 
-namespace
-{
+namespace {
 
 class SegmentNetwork : public testing::Test
 {

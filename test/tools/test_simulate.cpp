@@ -19,8 +19,7 @@
 namespace fs = std::filesystem;
 using namespace pcl::cosection;
 
-namespace
-{
+namespace {
 
 const char* const small = R"({
   "frames": 4,

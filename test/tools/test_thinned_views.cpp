@@ -25,8 +25,7 @@
 
 using namespace pcl::cosection;
 
-namespace
-{
+namespace {
 
 using Cloud = pcl::PointCloud<pcl::PointXYZL>;
 

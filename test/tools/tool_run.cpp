@@ -12,8 +12,7 @@
 #include <stdexcept>
 #include <thread>
 
-namespace
-{
+namespace {
 
 const char* const output_name = "tool_stdout.txt";
 const char* const error_name = "tool_stderr.txt";

@@ -16,8 +16,7 @@
 using namespace pcl::cosection;
 using namespace pcl::cosection::test;
 
-namespace
-{
+namespace {
 
 constexpr int resolution = 64;
 constexpr int trials = 200;

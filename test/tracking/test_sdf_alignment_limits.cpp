@@ -19,8 +19,7 @@
 using namespace pcl::cosection;
 using namespace pcl::cosection::test;
 
-namespace
-{
+namespace {
 
 SignedDistanceField
 fieldOf (const std::function<double (const Eigen::Vector3d&)>& distance, int resolution = 48)

@@ -8,11 +8,8 @@
 
 #include <algorithm>
 
-namespace pcl::cosection::test
-{
-
-namespace
-{
+namespace pcl::cosection::test {
+namespace {
 
 constexpr double chord_m = 1e-3;
 constexpr double volume_margin = 0.125;

@@ -13,8 +13,7 @@
 #include <string>
 #include <vector>
 
-namespace pcl::cosection::test
-{
+namespace pcl::cosection::test {
 
 /** \brief A camera that sees a body well from a distance. */
 inline const PinholeCamera body_camera{320, 240, 262.5, 262.5, 159.5, 119.5};

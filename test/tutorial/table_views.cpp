@@ -19,8 +19,7 @@
 
 using namespace pcl::cosection;
 
-namespace
-{
+namespace {
 
 constexpr double depth_edge_m = 0.05;  ///< across larger steps between pixels a reading may be a mixture
 constexpr double mixed_share = 0.3;    ///< of the pixels at such steps

@@ -11,8 +11,7 @@
 #include <cmath>
 #include <iostream>
 
-namespace
-{
+namespace {
 
 constexpr float radius = 0.05f;
 constexpr float ball_z = 0.6f;   // in front of the sensor

@@ -22,8 +22,7 @@
 #include <iostream>
 #include <stdexcept>
 
-namespace
-{
+namespace {
 
 using View = pcl::PointCloud<pcl::PointXYZRGB>;
 using Cloud = pcl::PointCloud<pcl::PointXYZRGBNormal>;

@@ -13,8 +13,7 @@
 #include <memory>
 #include <vector>
 
-namespace
-{
+namespace {
 
 using Cloud = pcl::PointCloud<pcl::PointXYZ>;
 

@@ -10,8 +10,7 @@
 
 using namespace pcl::cosection;
 
-namespace
-{
+namespace {
 
 PinholeCamera
 tinyCamera ()

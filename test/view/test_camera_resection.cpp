@@ -12,8 +12,7 @@
 using namespace pcl::cosection;
 using namespace pcl::cosection::test;
 
-namespace
-{
+namespace {
 
 constexpr int image_width = 80;
 constexpr int image_height = 60;

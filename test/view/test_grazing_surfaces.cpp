@@ -21,8 +21,7 @@
 
 using namespace pcl::cosection;
 
-namespace
-{
+namespace {
 
 constexpr int width = 640;
 constexpr int height = 480;

@@ -11,8 +11,7 @@
 
 using namespace pcl::cosection;
 
-namespace
-{
+namespace {
 
 constexpr double rounding = 1e-12;
 const Eigen::Vector3d eye (0.4, -1.2, 0.8), target (0.1, 0.3, -0.2);

@@ -17,8 +17,7 @@
 using namespace pcl::cosection;
 using namespace pcl::cosection::test;
 
-namespace
-{
+namespace {
 
 /** \brief Depth along the ray (x, y, 1); NaN: no reading. */
 using DepthFunction = std::function<double (double x, double y)>;

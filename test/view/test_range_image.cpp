@@ -16,8 +16,7 @@
 using namespace pcl::cosection;
 using namespace pcl::cosection::test;
 
-namespace
-{
+namespace {
 
 /** \brief Points of a shape on a table, and of the table, as one sensor sees them. */
 std::vector<Eigen::Vector3f>

@@ -11,8 +11,7 @@
 using namespace pcl::cosection;
 using namespace pcl::cosection::test;
 
-namespace
-{
+namespace {
 
 const Eigen::Isometry3d elsewhere = motion (2.0, {1.0, -2.0, 0.5}, {3.0, -1.0, 2.0});
 

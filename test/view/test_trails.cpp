@@ -18,8 +18,7 @@
 
 using namespace pcl::cosection;
 
-namespace
-{
+namespace {
 
 class Trails : public testing::Test
 {

@@ -20,8 +20,7 @@
 using namespace pcl::cosection;
 using namespace pcl::cosection::test;
 
-namespace
-{
+namespace {
 
 constexpr float radius_m = 0.1f;
 const Eigen::Vector3f middle (0.02f, -0.01f, 0.8f);

@@ -13,8 +13,7 @@
 using namespace pcl::cosection;
 using namespace pcl::cosection::test;
 
-namespace
-{
+namespace {
 
 constexpr double always_less = 0.02; // share of the points that noise and edges may contradict
 constexpr double warned_of = 0.1;

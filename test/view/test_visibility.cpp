@@ -7,8 +7,7 @@
 
 using namespace pcl::cosection;
 
-namespace
-{
+namespace {
 
 /** \brief 4 x 3 pixels that see a wall at 1 m, but for the last pixel. */
 DepthView

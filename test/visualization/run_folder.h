@@ -11,8 +11,7 @@
 #include <filesystem>
 #include <string>
 
-namespace pcl::cosection::test
-{
+namespace pcl::cosection::test {
 
 /** \brief Write a scene as pcl_cosection_fusion does; as TSDF, the upper part of each object. */
 inline void

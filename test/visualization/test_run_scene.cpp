@@ -10,8 +10,7 @@ namespace fs = std::filesystem;
 using namespace pcl::cosection;
 using namespace pcl::cosection::test;
 
-namespace
-{
+namespace {
 
 class RunSceneFolder : public testing::Test
 {

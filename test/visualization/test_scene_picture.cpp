@@ -15,8 +15,7 @@
 using namespace pcl::cosection;
 using namespace pcl::cosection::test;
 
-namespace
-{
+namespace {
 
 /** \brief Without anything that is written over it, and from the camera. */
 SceneView

@@ -9,8 +9,7 @@
 #include <cmath>
 #include <functional>
 
-namespace pcl::cosection::test
-{
+namespace pcl::cosection::test {
 
 using Distance = std::function<double (const Eigen::Vector3d&)>;
 

@@ -10,8 +10,7 @@
 #include <cmath>
 #include <limits>
 
-namespace pcl::cosection::test
-{
+namespace pcl::cosection::test {
 
 inline double
 segmentDistance (const Eigen::Vector3d& p, const Eigen::Vector3d& a, const Eigen::Vector3d& b)

@@ -16,8 +16,7 @@
 #include <utility>
 #include <vector>
 
-namespace pcl::cosection::test
-{
+namespace pcl::cosection::test {
 
 inline VoxelGrid
 cubicGrid (const Eigen::Vector3d& centre, int dim, double voxel_size_m)

@@ -14,8 +14,7 @@
 
 using namespace pcl::cosection;
 
-namespace
-{
+namespace {
 
 /** \brief Handles everywhere: a gyroid, cut by the box of the volume. */
 SignedDistanceField

@@ -11,8 +11,7 @@
 
 using namespace pcl::cosection;
 
-namespace
-{
+namespace {
 
 std::vector<std::uint8_t>
 randomMask (const Eigen::Vector3i& dims, unsigned seed, double share)

@@ -15,8 +15,7 @@
 
 using namespace pcl::cosection;
 
-namespace
-{
+namespace {
 
 struct Shape
 {

@@ -8,8 +8,7 @@
 
 using namespace pcl::cosection;
 
-namespace
-{
+namespace {
 
 double
 trilinear (const Eigen::Vector3d& p)

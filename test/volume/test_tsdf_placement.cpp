@@ -12,8 +12,7 @@
 
 using namespace pcl::cosection;
 
-namespace
-{
+namespace {
 
 /** \brief A volume with distances, weights, colours and counts that differ from voxel to voxel. */
 TsdfVolume

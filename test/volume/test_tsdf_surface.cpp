@@ -15,8 +15,7 @@
 
 using namespace pcl::cosection;
 
-namespace
-{
+namespace {
 
 /** \brief Keep the pixels that see a surface at less than 60 degrees: the others are for the caller to leave out. */
 Image<float>

@@ -14,8 +14,7 @@
 
 using namespace pcl::cosection;
 
-namespace
-{
+namespace {
 
 constexpr float nan_f = std::numeric_limits<float>::quiet_NaN ();
 constexpr float infinity_f = std::numeric_limits<float>::infinity ();

@@ -12,8 +12,7 @@
 #include <limits>
 #include <vector>
 
-namespace pcl::cosection::test
-{
+namespace pcl::cosection::test {
 
 /** \brief Length of a ray (unit direction) to a surface; NaN: it misses. */
 using RayLength = std::function<double (const Eigen::Vector3d& origin, const Eigen::Vector3d& direction)>;

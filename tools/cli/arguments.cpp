@@ -10,8 +10,7 @@
 #include <iostream>
 #include <memory>
 
-namespace
-{
+namespace {
 
 std::string
 unknownOption (const std::string& given, const std::vector<std::string>& names)

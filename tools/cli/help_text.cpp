@@ -7,8 +7,7 @@
 #include <cctype>
 #include <sstream>
 
-namespace
-{
+namespace {
 
 constexpr std::size_t text_width = 80;
 constexpr std::size_t name_width = 30; ///< of the column of option names

@@ -3,8 +3,7 @@
 
 #include <csignal>
 
-namespace
-{
+namespace {
 
 volatile std::sig_atomic_t signal_received = 0;
 

@@ -11,8 +11,7 @@
 #include <limits>
 #include <sstream>
 
-namespace
-{
+namespace {
 
 std::string
 format (double value)

@@ -4,8 +4,7 @@
 #include <algorithm>
 #include <numeric>
 
-namespace
-{
+namespace {
 
 /** \brief Levenshtein distance, where more letters at the end cost little: "--vox" is near "--voxel-size". */
 std::size_t

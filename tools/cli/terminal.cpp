@@ -9,8 +9,7 @@
 #include <cstdlib>
 #include <iostream>
 
-namespace
-{
+namespace {
 
 constexpr int bar_width = 30;
 constexpr std::size_t stage_width = 40; // so that the bar fits into a line of 80 characters

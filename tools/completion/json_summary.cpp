@@ -11,8 +11,7 @@
 using namespace pcl::cosection;
 using Json = nlohmann::ordered_json;
 
-namespace
-{
+namespace {
 
 Json
 parameters (const Settings& settings)

@@ -10,8 +10,7 @@
 
 using namespace pcl::cosection;
 
-namespace
-{
+namespace {
 
 constexpr double same_view = 0.5; ///< largest difference of a stamp from the number of its view
 

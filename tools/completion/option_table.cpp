@@ -6,8 +6,7 @@
 
 using namespace pcl::cosection;
 
-namespace
-{
+namespace {
 
 void
 declareInput (CLI::App& app, Given& given)

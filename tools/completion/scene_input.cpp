@@ -20,8 +20,7 @@
 
 using namespace pcl::cosection;
 
-namespace
-{
+namespace {
 
 constexpr std::size_t min_points = 100;
 constexpr double whole_image_share = 0.5;   ///< of the pixels; an object that was cut out has fewer ...

@@ -9,8 +9,7 @@
 #include <deque>
 #include <memory>
 
-namespace
-{
+namespace {
 
 /** \brief Settings that live as long as the process, for the options refer to them. */
 template <typename Settings>

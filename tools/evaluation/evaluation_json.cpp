@@ -3,8 +3,7 @@
 
 using namespace pcl::cosection;
 
-namespace
-{
+namespace {
 
 /** \brief NAME_m is the mean. */
 void

@@ -13,8 +13,7 @@
 
 using namespace pcl::cosection;
 
-namespace
-{
+namespace {
 
 std::vector<Surroundings::Obstacle>
 measureObstacles (const MeshSettings& settings, const TriangleMesh& reconstruction, std::vector<std::string>& warnings)

@@ -8,8 +8,7 @@
 
 using namespace pcl::cosection;
 
-namespace
-{
+namespace {
 
 std::string
 rpeText (const TrajectoryError& error, bool rotation)

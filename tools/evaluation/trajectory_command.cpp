@@ -17,8 +17,7 @@
 
 using namespace pcl::cosection;
 
-namespace
-{
+namespace {
 
 std::string
 spanText (std::size_t poses, double begin, double end)

@@ -11,8 +11,7 @@
 
 using namespace pcl::cosection;
 
-namespace
-{
+namespace {
 
 void
 declareInput (CLI::App& app, GivenFusion& given)

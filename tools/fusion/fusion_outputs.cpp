@@ -19,8 +19,7 @@ using namespace pcl::cosection;
 using Json = nlohmann::ordered_json;
 namespace fs = std::filesystem;
 
-namespace
-{
+namespace {
 
 void
 makeFolder (const fs::path& folder)

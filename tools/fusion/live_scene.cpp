@@ -13,8 +13,7 @@
 namespace fs = std::filesystem;
 using namespace pcl::cosection;
 
-namespace
-{
+namespace {
 
 constexpr int columns = 64;           ///< of the background's mesh
 constexpr double deepest_jump = 0.06; ///< between neighbours on one surface, of their depth

@@ -24,8 +24,7 @@
 namespace fs = std::filesystem;
 using namespace pcl::cosection;
 
-namespace
-{
+namespace {
 
 const char* const viewer = "pcl_cosection_viewer";
 constexpr std::size_t background_parts = 16;

@@ -10,8 +10,7 @@
 using namespace pcl::cosection;
 using Json = nlohmann::ordered_json;
 
-namespace
-{
+namespace {
 
 Json
 toJson (const Eigen::Vector3d& v)

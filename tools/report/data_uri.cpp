@@ -9,8 +9,7 @@
 
 using namespace pcl::cosection;
 
-namespace
-{
+namespace {
 
 constexpr int quality = 82; ///< of 100: differences cannot be seen
 

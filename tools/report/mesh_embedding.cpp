@@ -15,8 +15,7 @@
 
 using namespace pcl::cosection;
 
-namespace
-{
+namespace {
 
 constexpr double steps = 65535.0; ///< along each side of the box
 

@@ -17,8 +17,7 @@
 
 using namespace pcl::cosection;
 
-namespace
-{
+namespace {
 
 constexpr std::array<const char*, 4> provenance_keys = {"observed", "inferred", "hull", "intersection"};
 

@@ -8,8 +8,7 @@
 
 #include <pcl/cosection/version.h>
 
-namespace
-{
+namespace {
 
 /** \brief SHA-256 in the letters of a Content-Security-Policy. */
 std::string

@@ -11,8 +11,7 @@
 
 using namespace pcl::cosection;
 
-namespace
-{
+namespace {
 
 constexpr int scene_width_px = 720, scene_height_px = 430;
 constexpr int panel_px = 400;

@@ -17,8 +17,7 @@
 namespace fs = std::filesystem;
 using namespace pcl::cosection;
 
-namespace
-{
+namespace {
 
 /** \brief Names of the files in a folder, sorted; empty if there is no such folder. */
 std::vector<std::string>

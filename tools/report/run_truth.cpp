@@ -8,8 +8,7 @@
 
 using namespace pcl::cosection;
 
-namespace
-{
+namespace {
 
 const SceneRecord::Object*
 trueObject (const SceneRecord& truth, int id)

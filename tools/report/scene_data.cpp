@@ -13,8 +13,7 @@
 
 using namespace pcl::cosection;
 
-namespace
-{
+namespace {
 
 constexpr double nearer = 0.8;     ///< than a picture of everything: one may turn and move
 constexpr double pose_steps = 1e5; ///< per metre, and of quaternions

@@ -9,8 +9,7 @@
 
 using namespace pcl::cosection;
 
-namespace
-{
+namespace {
 
 constexpr double stamp_tolerance = 1e-6;
 

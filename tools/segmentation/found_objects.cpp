@@ -10,8 +10,7 @@
 
 using namespace pcl::cosection;
 
-namespace
-{
+namespace {
 
 FoundObjects
 findByGeometry (const SegmentSettings& settings, OrganizedCloud cloud, const Image<std::uint8_t>& ignored)

@@ -14,8 +14,7 @@
 
 using namespace pcl::cosection;
 
-namespace
-{
+namespace {
 
 CLI::Option*
 addList (CLI::App& app, const std::string& name, std::vector<std::string>& values, const std::string& description)

@@ -80,8 +80,7 @@ declareSegmentationOptions (CLI::App& app, GivenSegmentation& given)
   declareGeneralOptions (app, "pcl_cosection_segment", given.verbose, given.quiet);
 }
 
-namespace
-{
+namespace {
 
 /** \brief The method, and that no option is of the other one. */
 void

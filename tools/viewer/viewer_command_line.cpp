@@ -12,8 +12,7 @@
 
 using namespace pcl::cosection;
 
-namespace
-{
+namespace {
 
 const std::vector<std::string> view_names = {"overview", "behind", "camera"};
 const std::vector<std::string> parts = {"objects", "background", "path", "frustum", "legend", "caption"};

@@ -19,8 +19,7 @@
 namespace fs = std::filesystem;
 using namespace pcl::cosection;
 
-namespace
-{
+namespace {
 
 std::string
 nameOfFrame (std::size_t number)

@@ -21,8 +21,7 @@
 namespace fs = std::filesystem;
 using namespace pcl::cosection;
 
-namespace
-{
+namespace {
 
 /** \brief What is shown until there is a frame. */
 RunScene

@@ -10,11 +10,8 @@
 #include <array>
 #include <cstdint>
 
-namespace pcl::cosection
-{
-
-namespace
-{
+namespace pcl::cosection {
+namespace {
 
 constexpr double default_padding = 0.3; // of the longest side, where views and prior do not bound the shape
 // Factor of the solver's tolerance in incremental mode: each update starts from the errors of the last one.

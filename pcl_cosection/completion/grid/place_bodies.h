@@ -6,8 +6,7 @@
 #include <cstddef>
 #include <vector>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 std::size_t bytesOf (const SignedDistanceField& field);
 

@@ -17,11 +17,8 @@
 #include <cmath>
 #include <sstream>
 
-namespace pcl::cosection
-{
-
-namespace
-{
+namespace pcl::cosection {
+namespace {
 
 constexpr double outlier_share = 0.005; // of the points, at either end of each axis
 constexpr int min_axis = 8;             // voxels

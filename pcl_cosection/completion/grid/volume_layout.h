@@ -12,8 +12,7 @@
 #include <utility>
 #include <vector>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief Box of an object's points without outliers. \throws DegenerateInput */
 Eigen::AlignedBox3d observedBox (const std::vector<OrientedPoint>& points, int threads = 0);

@@ -13,11 +13,8 @@
 #include <sstream>
 #include <unordered_map>
 
-namespace pcl::cosection
-{
-
-namespace
-{
+namespace pcl::cosection {
+namespace {
 
 constexpr int default_resolution = 64;
 constexpr double points_per_voxel = 3.0;

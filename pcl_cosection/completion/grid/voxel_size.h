@@ -8,8 +8,7 @@
 
 #include <vector>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief The smallest voxel size that the points' spacing supports, of those that give at most 64 voxels along the
  * longest side: at least three points in each occupied voxel on average, or 1.5 if voxels were larger than a 16th of

@@ -11,8 +11,7 @@
 #include <type_traits>
 #include <vector>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief Messages of a completion: progress, times, warnings, and why objects failed. */
 class CompletionLog

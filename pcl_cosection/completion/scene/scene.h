@@ -7,8 +7,7 @@
 #include <map>
 #include <vector>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief An obstacle (a given body that objects cannot enter) as a field, at some poses. */
 struct Obstacle

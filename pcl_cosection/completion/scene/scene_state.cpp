@@ -3,8 +3,7 @@
 
 #include <utility>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 void
 BodyState::restart (const VoxelGrid& new_grid, const CoSectionOptions& new_options, bool carve)

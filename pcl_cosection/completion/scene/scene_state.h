@@ -10,8 +10,7 @@
 #include <optional>
 #include <vector>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief How a scene is completed. */
 enum class CompletionMode

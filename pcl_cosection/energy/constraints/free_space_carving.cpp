@@ -9,11 +9,8 @@
 #include <cmath>
 #include <limits>
 
-namespace pcl::cosection
-{
-
-namespace
-{
+namespace pcl::cosection {
+namespace {
 
 constexpr int window = 4;        // pixels around a projection in which the boundary is looked for
 constexpr double inset_px = 1.0; // the cut lies so far inside the silhouette, as pixels at a depth edge say nothing

@@ -8,8 +8,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief Signed distance to the boundary of the space that views saw free, finer than a voxel, for cutting
  * a shape along its silhouettes: the quadratic penalty of the hull constraint leaves a rim of about a

@@ -11,11 +11,8 @@
 #include <cmath>
 #include <limits>
 
-namespace pcl::cosection
-{
-
-namespace
-{
+namespace pcl::cosection {
+namespace {
 
 constexpr int max_footprint = 12; // pixels
 

@@ -8,8 +8,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 IntersectionConstraint::IntersectionConstraint (const VoxelGrid& grid, double max_bound_vox, int threads)
     : grid_ (grid)

@@ -10,11 +10,8 @@
 #include <cmath>
 #include <limits>
 
-namespace pcl::cosection
-{
-
-namespace
-{
+namespace pcl::cosection {
+namespace {
 
 constexpr float least_free_vox = 0.25f;    // least distance of a voxel seen free from the surface of the hull
 constexpr float below_plane_vox = 1.0f;    // the uncertainty of a plane

@@ -14,8 +14,7 @@
 #include <optional>
 #include <vector>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief The hull of one object: all space that may belong to it. No view saw it free, it is above the support planes,
  * and it is connected with the object's points.

@@ -8,8 +8,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief A bitmap on a plane, whose cells are set by points. */
 class PlaneMap

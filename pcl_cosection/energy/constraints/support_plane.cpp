@@ -12,11 +12,8 @@
 #include <algorithm>
 #include <cmath>
 
-namespace pcl::cosection
-{
-
-namespace
-{
+namespace pcl::cosection {
+namespace {
 
 constexpr double min_reach_m = 0.05;
 constexpr double line_sigma_m = 5e-4; // standard deviation of points on one line

@@ -12,11 +12,8 @@
 #include <cstdint>
 #include <numeric>
 
-namespace pcl::cosection
-{
-
-namespace
-{
+namespace pcl::cosection {
+namespace {
 
 constexpr double cutoff_sigmas = 3.0;
 constexpr int max_reach = 64; // values of the Gaussian along one axis: 2 * 3 sigma + 1, sigma <= 10

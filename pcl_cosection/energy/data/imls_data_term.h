@@ -7,8 +7,7 @@
 
 #include <vector>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief The data term of equation (2), gathered on a grid: per voxel x and over the points within
  * 3 sigma, with w_i (x) = a_i exp (-(|x - p_i| / sigma)^2) and f_i (x) = <x - p_i, n_i>. Lengths in voxels. */

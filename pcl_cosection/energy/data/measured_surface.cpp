@@ -5,11 +5,8 @@
 
 #include <algorithm>
 
-namespace pcl::cosection
-{
-
-namespace
-{
+namespace pcl::cosection {
+namespace {
 
 constexpr float same_side = 0.5f; // cosine between normals
 

@@ -7,8 +7,7 @@
 #include <unordered_map>
 #include <vector>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief Decides whether a point belongs to the surface of a body, by the body's measured points. */
 class MeasuredSurface

@@ -3,11 +3,8 @@
 
 #include <cmath>
 
-namespace pcl::cosection
-{
-
-namespace
-{
+namespace pcl::cosection {
+namespace {
 
 constexpr int reach = 3;           // voxels
 constexpr float along_axis = 0.5f; // least component of a point's normal along the axis of its bin

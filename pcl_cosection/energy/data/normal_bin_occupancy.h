@@ -9,8 +9,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief Directions of the normals of measured points, in six bins per voxel. Both sides of a thin wall are near the
  * points of either side; the normals show which of them was seen. */

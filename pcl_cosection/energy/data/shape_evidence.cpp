@@ -1,8 +1,7 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "shape_evidence.h"
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 ShapeEvidence::ShapeEvidence (const VoxelGrid& grid, const CoSectionOptions& options, bool carve)
     : grid_ (grid)

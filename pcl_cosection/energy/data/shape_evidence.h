@@ -13,8 +13,7 @@
 #include <optional>
 #include <vector>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief The measurements of one body on its grid: sums over points and votes of views, to which more can be added at
  * any time. Everything is in the grid's frame. */

@@ -6,8 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief The sums of the data term, and the planes that the calling thread may write. */
 struct SplatTarget

@@ -1,8 +1,7 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief Safety factor for an estimated largest eigenvalue. */
 constexpr double chebyshev_safety = 1.08;

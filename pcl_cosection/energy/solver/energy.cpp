@@ -8,8 +8,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 LowerBound::LowerBound (float distance_vox, float weight)
 {

@@ -9,8 +9,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief The terms of a problem along a row that begins at voxel \a at. */
 inline kernels::EnergyRow

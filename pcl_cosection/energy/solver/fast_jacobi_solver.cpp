@@ -7,11 +7,8 @@
 #include <cmath>
 #include <limits>
 
-namespace pcl::cosection
-{
-
-namespace
-{
+namespace pcl::cosection {
+namespace {
 
 constexpr double energy_rounding = 1e-6;   // relative
 constexpr double largest_eigenvalue = 3.5; // of D^-1 times half the Hessian of E, over any active set

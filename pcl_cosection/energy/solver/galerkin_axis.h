@@ -6,8 +6,7 @@
 #include <array>
 #include <vector>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief A symmetric matrix of half bandwidth two along one axis: entry [d][i] couples i and
  * i + d - 2; entries that would reach over the border are 0. */

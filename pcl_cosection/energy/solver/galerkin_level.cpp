@@ -3,11 +3,8 @@
 
 #include "chebyshev.h"
 
-namespace pcl::cosection
-{
-
-namespace
-{
+namespace pcl::cosection {
+namespace {
 
 constexpr std::size_t work_per_voxel = 8; // of a pass, relative to one on the finest level
 

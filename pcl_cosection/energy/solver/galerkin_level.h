@@ -11,8 +11,7 @@
 #include <array>
 #include <vector>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief The operator alpha P^T (H^T H) P + P^T diag (w) P of one coarse level, exact, and its
  * smoother. */

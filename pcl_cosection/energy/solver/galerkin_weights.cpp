@@ -8,11 +8,8 @@
 #include <algorithm>
 #include <cstdlib>
 
-namespace pcl::cosection
-{
-
-namespace
-{
+namespace pcl::cosection {
+namespace {
 
 /** \brief The symmetric pair (x, x + a) of the fine axis contributes \a weight times its value. */
 struct PairSource

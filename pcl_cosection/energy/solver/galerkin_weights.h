@@ -9,8 +9,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief Galerkin products of a diagonal matrix: P^T diag (w) P, level by level.
  *

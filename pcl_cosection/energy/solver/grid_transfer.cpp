@@ -7,8 +7,7 @@
 
 #include <algorithm>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 AxisTransfer
 AxisTransfer::make (int size, int keep)

@@ -6,8 +6,7 @@
 #include <array>
 #include <vector>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief Linear interpolation along one axis between cell-centred grids, a coarse voxel covering
  * two fine ones; linear extrapolation at the border, so that affine functions are reproduced exactly.

@@ -4,8 +4,7 @@
 #include <cstddef>
 #include <vector>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief Values, one per voxel, with zeros before and behind them: vectorised loops may read over the
  * ends of a row, also of the first and the last. */

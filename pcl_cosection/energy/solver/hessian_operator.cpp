@@ -3,8 +3,7 @@
 
 #include <algorithm>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 template <typename Real>
 HessianOperator<Real>::HessianOperator (const Eigen::Vector3i& dims, int threads)

@@ -6,11 +6,9 @@
 #include <array>
 #include <vector>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
-namespace kernels
-{
+namespace kernels {
 template <typename Real> struct HessianDiagonal;
 }
 

@@ -6,8 +6,7 @@
 #include "hessian_operator.h"
 #include "pcl_cosection/common/parallel.h"
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 template <typename Real>
 template <typename RowFunction>

@@ -14,11 +14,8 @@
 #include <limits>
 #include <numeric>
 
-namespace pcl::cosection
-{
-
-namespace
-{
+namespace pcl::cosection {
+namespace {
 
 constexpr int brick_edge = 16;             // voxels
 constexpr int fixed_layers = 2;            // radius of the Hessian's stencil

@@ -6,8 +6,7 @@
 #include <optional>
 #include <vector>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief The voxels at which a field is to minimise an energy: those no farther from data than reach_vox. */
 struct NearData

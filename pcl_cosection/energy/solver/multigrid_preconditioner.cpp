@@ -4,11 +4,8 @@
 #include "chebyshev.h"
 #include "hessian_rows.h"
 
-namespace pcl::cosection
-{
-
-namespace
-{
+namespace pcl::cosection {
+namespace {
 
 constexpr double largest_eigenvalue_finest = 144.0 / 42.0 * chebyshev_safety; // of D^-1 H^T H in the interior
 

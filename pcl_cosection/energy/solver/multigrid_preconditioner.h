@@ -10,8 +10,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief One symmetric multigrid cycle for (alpha H^T H + diag (w)) z = rhs: Chebyshev smoothing, linear
  * interpolation and its transpose, exact Galerkin operators on the coarse levels, a Cholesky

@@ -8,11 +8,8 @@
 #include <cmath>
 #include <limits>
 
-namespace pcl::cosection
-{
-
-namespace
-{
+namespace pcl::cosection {
+namespace {
 
 constexpr double blocked_step = 0.3;     // a direction whose best step is shorter ran into inactive bounds
 constexpr double slope_reduction = 1e-3; // of the line search

@@ -3,11 +3,8 @@
 
 #include "pcl_cosection/common/multiversion.h"
 
-namespace pcl::cosection::kernels
-{
-
-namespace
-{
+namespace pcl::cosection::kernels {
+namespace {
 
 template <typename Real>
 PCL_COSECTION_INLINE void

@@ -7,8 +7,7 @@
 #include <cmath>
 #include <cstdint>
 
-namespace pcl::cosection::kernels
-{
+namespace pcl::cosection::kernels {
 
 // Loops over one row of voxels. They contain all of the solver's arithmetic and are compiled for
 // several instruction sets (see multiversion.h). Overloads for float and double.

@@ -6,11 +6,8 @@
 #include <chrono>
 #include <limits>
 
-namespace pcl::cosection
-{
-
-namespace
-{
+namespace pcl::cosection {
+namespace {
 
 constexpr int multigrid_coarsest = 8;    // longest axis of the first level
 constexpr int fast_jacobi_coarsest = 32; // as in the paper

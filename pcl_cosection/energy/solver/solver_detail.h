@@ -8,8 +8,7 @@
 
 #include <cmath>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief Values within this many voxels of zero count as near the zero set. */
 constexpr double zero_band_vox = 1.5;

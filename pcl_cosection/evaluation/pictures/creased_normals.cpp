@@ -7,8 +7,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 TriangleMesh
 withCreasedNormals (const TriangleMesh& mesh)

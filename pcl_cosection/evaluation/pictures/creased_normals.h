@@ -3,8 +3,7 @@
 
 #include <pcl/cosection/common/triangle_mesh.h>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief Gives a surface normals that are smooth but for sharp edges, where vertices are repeated. */
 TriangleMesh withCreasedNormals (const TriangleMesh& mesh);

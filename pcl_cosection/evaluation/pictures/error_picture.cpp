@@ -18,11 +18,8 @@
 #include <limits>
 #include <string>
 
-namespace pcl::cosection
-{
-
-namespace
-{
+namespace pcl::cosection {
+namespace {
 
 constexpr int oversampling = 2;        ///< everything is drawn larger, for smooth edges and letters
 constexpr double distance_radii = 4.0; ///< of the camera

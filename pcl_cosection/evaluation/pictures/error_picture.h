@@ -10,8 +10,7 @@
 #include <string>
 #include <vector>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief The colour of an error: \a share 0 is blue, then green, yellow and, from 1 on, red. */
 PCL_COSECTION_EXPORT TriangleMesh::Colour errorColour (double share);

@@ -9,11 +9,8 @@
 #include <cmath>
 #include <cstdio>
 
-namespace pcl::cosection
-{
-
-namespace
-{
+namespace pcl::cosection {
+namespace {
 
 const cv::Scalar ink (45, 45, 45);
 constexpr double label_size = 0.5;

@@ -9,8 +9,7 @@
 #include <string>
 #include <vector>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief What a scale of errorColour () means. */
 struct CanvasScale

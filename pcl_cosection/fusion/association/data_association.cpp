@@ -11,11 +11,8 @@
 #include <cmath>
 #include <string>
 
-namespace pcl::cosection
-{
-
-namespace
-{
+namespace pcl::cosection {
+namespace {
 
 constexpr std::size_t max_models = 250;
 

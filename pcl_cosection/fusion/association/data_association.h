@@ -10,8 +10,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief A model that may explain points; it refers to the volume, which must live as long. */
 struct AssociatedModel

@@ -10,11 +10,8 @@
 #include <set>
 #include <utility>
 
-namespace pcl::cosection
-{
-
-namespace
-{
+namespace pcl::cosection {
+namespace {
 
 constexpr std::uint16_t unassigned = TrackedFrame::unassigned;
 constexpr double growth_m = 0.03;     // in one frame, beyond the space that an object's model knows

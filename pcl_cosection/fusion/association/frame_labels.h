@@ -14,8 +14,7 @@
 #include <map>
 #include <vector>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 // The images of labels that the stages of segmentation make, one from another.
 

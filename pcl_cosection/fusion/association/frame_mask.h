@@ -7,8 +7,7 @@
 #include <cstdint>
 #include <map>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief One label per pixel: the id of an object, 0: background or no reading, TrackedFrame::unassigned. */
 using LabelImage = Image<std::uint16_t>;

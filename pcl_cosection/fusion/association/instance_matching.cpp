@@ -15,11 +15,8 @@
 #include <utility>
 #include <vector>
 
-namespace pcl::cosection
-{
-
-namespace
-{
+namespace pcl::cosection {
+namespace {
 
 constexpr int last_id = TrackedFrame::unassigned - 1;
 

@@ -11,8 +11,7 @@
 #include <map>
 #include <vector>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief Which objects the instances of a mask show. */
 struct MatchedInstances

@@ -10,8 +10,7 @@
 #include <utility>
 #include <vector>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 MaskMatches
 matchMasks (const Image<std::uint16_t>& mask, const Image<std::uint16_t>& rendered, const Image<float>& depth,

@@ -7,8 +7,7 @@
 #include <cstdint>
 #include <map>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief Which instances of a mask match which objects. */
 struct MaskMatches

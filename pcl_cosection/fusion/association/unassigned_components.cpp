@@ -7,11 +7,8 @@
 
 #include <algorithm>
 
-namespace pcl::cosection
-{
-
-namespace
-{
+namespace pcl::cosection {
+namespace {
 
 constexpr double cut_share = 0.25;    // pixels at the border, of the root of all pixels
 constexpr double widest_margin = 0.1; // without readings, of the image: the sensor's own; a wider one is free space

@@ -12,8 +12,7 @@
 #include <utility>
 #include <vector>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief Call f (a, b) for all pixels beside each other that show one surface. */
 template <typename Function>

@@ -8,11 +8,8 @@
 #include <cmath>
 #include <vector>
 
-namespace pcl::cosection
-{
-
-namespace
-{
+namespace pcl::cosection {
+namespace {
 
 constexpr double half = 0.5;
 constexpr double touching_share = 0.25; // of the root of a component's pixels

@@ -12,8 +12,7 @@
 #include <set>
 #include <utility>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief An unreliable mask, whose instances may be parts of objects or several objects that touch, after it was
  * compared with the labels of its frame. */

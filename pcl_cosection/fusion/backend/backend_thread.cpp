@@ -7,8 +7,7 @@
 #include <system_error>
 #include <utility>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 BackendThread::BackendThread (CoSectionBackend& backend, UpdateOutput output) : backend_ (backend), output_ (output)
 {

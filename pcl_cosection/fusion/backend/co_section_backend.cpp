@@ -7,11 +7,8 @@
 #include <limits>
 #include <string>
 
-namespace pcl::cosection
-{
-
-namespace
-{
+namespace pcl::cosection {
+namespace {
 
 constexpr double turn_radius_m = 1.0; // a turn by 1 rad counts as a way of this length
 

@@ -8,11 +8,8 @@
 #include <limits>
 #include <string>
 
-namespace pcl::cosection
-{
-
-namespace
-{
+namespace pcl::cosection {
+namespace {
 
 void
 requireSize (int width, int height, const PinholeCamera& camera, const char* what)

@@ -7,11 +7,8 @@
 #include <cmath>
 #include <vector>
 
-namespace pcl::cosection
-{
-
-namespace
-{
+namespace pcl::cosection {
+namespace {
 
 constexpr double largest_voxel_m = 0.02;
 constexpr double smallest_voxel_m = 0.002;

@@ -8,8 +8,7 @@
 
 #include <optional>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief Place the volume of the background, world frame, around the points of the first frame; in later ones, shift
  * it to the points in view: what is far behind the camera is forgotten. A frame with hardly any point changes nothing.

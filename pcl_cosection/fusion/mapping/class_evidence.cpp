@@ -5,8 +5,7 @@
 
 #include <algorithm>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 void
 ClassEvidence::add (const ClassScore& detection)

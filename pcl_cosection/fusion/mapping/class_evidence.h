@@ -8,8 +8,7 @@
 #include <optional>
 #include <string>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief What an object is, by all detections of it.
  *

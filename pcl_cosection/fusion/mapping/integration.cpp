@@ -3,11 +3,8 @@
 
 #include <algorithm>
 
-namespace pcl::cosection
-{
-
-namespace
-{
+namespace pcl::cosection {
+namespace {
 
 constexpr int mask_border_px = 2; // beside an object, pixels are mixed with its own
 

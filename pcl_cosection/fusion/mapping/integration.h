@@ -6,8 +6,7 @@
 
 #include <pcl/cosection/io/rgbd_sequence.h>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief Count the pixels of objects that have absorbed others as their foreground: masks before counted the absorbed
  * parts against them. \param[in] whole_of labels by label of an absorbed part */

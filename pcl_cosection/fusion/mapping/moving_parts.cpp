@@ -9,11 +9,8 @@
 #include <cmath>
 #include <limits>
 
-namespace pcl::cosection
-{
-
-namespace
-{
+namespace pcl::cosection {
+namespace {
 
 constexpr float none = std::numeric_limits<float>::quiet_NaN ();
 constexpr int nodes_across = 160; // about, of a grid

@@ -11,8 +11,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief What moves in an image and belongs to no known object: hands, people, things that no mask has shown.
  *

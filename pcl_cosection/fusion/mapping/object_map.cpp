@@ -4,11 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-namespace pcl::cosection
-{
-
-namespace
-{
+namespace pcl::cosection {
+namespace {
 
 constexpr int frames_until_dormant = 60;
 constexpr std::ptrdiff_t max_dormant = 16;

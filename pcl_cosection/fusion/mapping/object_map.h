@@ -18,8 +18,7 @@
 #include <set>
 #include <vector>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief All objects, and what is known of pairs of them. */
 struct ObjectMap

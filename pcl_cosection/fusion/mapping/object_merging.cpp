@@ -8,11 +8,8 @@
 #include <iterator>
 #include <vector>
 
-namespace pcl::cosection
-{
-
-namespace
-{
+namespace pcl::cosection {
+namespace {
 
 constexpr double tolerance_voxels = 2.0; // of the coarser volume: how exactly a pose is known
 constexpr double least_tolerance_m = 0.01;

@@ -10,8 +10,7 @@
 #include <map>
 #include <utility>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 struct FusionSetup;
 struct ObjectMap;

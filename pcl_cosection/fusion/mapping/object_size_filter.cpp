@@ -5,11 +5,8 @@
 
 #include <cstddef>
 
-namespace pcl::cosection
-{
-
-namespace
-{
+namespace pcl::cosection {
+namespace {
 
 constexpr double voxel_m = 0.05; // poses are known better
 

@@ -10,8 +10,7 @@
 #include <unordered_map>
 #include <vector>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief Remembers where frames have shown things that are too long to be objects. One view shows less of a cupboard
  * than another one: a thing that was too long in most frames is no object, though a part of it could be one. */

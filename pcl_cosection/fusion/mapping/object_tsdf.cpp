@@ -10,11 +10,8 @@
 #include <algorithm>
 #include <cmath>
 
-namespace pcl::cosection
-{
-
-namespace
-{
+namespace pcl::cosection {
+namespace {
 
 constexpr double outlier_share = 0.01; // of the points, at either end of each axis
 constexpr double core_share = 0.1;     // of the points; without these, outliers of a mask do not count

@@ -10,8 +10,7 @@
 #include <optional>
 #include <vector>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief The TSDF volume of an object, which is placed by the first points that are seen of it and grows with more. */
 class ObjectTsdf

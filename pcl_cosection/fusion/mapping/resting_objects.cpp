@@ -14,11 +14,8 @@
 #include <cmath>
 #include <utility>
 
-namespace pcl::cosection
-{
-
-namespace
-{
+namespace pcl::cosection {
+namespace {
 
 using Vector6d = MotionChart::Vector6d;
 using Matrix6d = Eigen::Matrix<double, 6, 6>;

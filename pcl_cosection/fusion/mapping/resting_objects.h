@@ -9,8 +9,7 @@
 
 #include <vector>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief The camera's pose by the background and objects at rest. */
 struct HeldPose

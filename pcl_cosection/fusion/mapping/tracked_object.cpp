@@ -8,11 +8,8 @@
 #include <algorithm>
 #include <cmath>
 
-namespace pcl::cosection
-{
-
-namespace
-{
+namespace pcl::cosection {
+namespace {
 
 constexpr double placing_share = 0.1; // of the points, at either end of each axis
 constexpr double edge_factor = 2.0;

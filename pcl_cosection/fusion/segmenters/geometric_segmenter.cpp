@@ -8,11 +8,8 @@
 #include <algorithm>
 #include <cmath>
 
-namespace pcl::cosection
-{
-
-namespace
-{
+namespace pcl::cosection {
+namespace {
 
 /** \brief Points of the unfiltered depth: the segmentation models its noise. */
 std::vector<Eigen::Vector3f>

@@ -5,8 +5,7 @@
 
 #include <algorithm>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 MotionSegmenter::MotionSegmenter (const MotionSegmentationOptions& options) : finder_ (options) {}
 

@@ -5,8 +5,7 @@
 #include <utility>
 #include <vector>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 NetworkSegmenter::NetworkSegmenter (const InstanceDetectorOptions& options, const ClassRoles& roles)
     : detector_ (options)

@@ -14,8 +14,7 @@
 #include <set>
 #include <string>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief A segmenter, if there is one, and when it is asked for objects. */
 class ScheduledSegmenter

@@ -13,11 +13,8 @@
 #include <limits>
 #include <vector>
 
-namespace pcl::cosection
-{
-
-namespace
-{
+namespace pcl::cosection {
+namespace {
 
 constexpr float no_reading = -1e9f; ///< far from every reading
 constexpr float cut_off = 4.5f;     ///< half the square of three sigma

@@ -3,8 +3,7 @@
 
 #include <pcl/cosection/common/image.h>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 struct BilateralFilterOptions
 {

@@ -5,11 +5,8 @@
 
 #include <algorithm>
 
-namespace pcl::cosection
-{
-
-namespace
-{
+namespace pcl::cosection {
+namespace {
 
 constexpr int smallest_side = 16; // of a level
 

@@ -6,8 +6,7 @@
 #include <cstddef>
 #include <vector>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief Smoothed brightness of a picture, 0 to 255, to be read between pixels. The first level has the picture's
  * size, each other one half the size of the one before. */

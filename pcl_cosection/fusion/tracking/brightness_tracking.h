@@ -11,8 +11,7 @@
 #include <optional>
 #include <vector>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief A pose and how well it is known. */
 struct UncertainPose

@@ -5,11 +5,8 @@
 #include <cmath>
 #include <vector>
 
-namespace pcl::cosection
-{
-
-namespace
-{
+namespace pcl::cosection {
+namespace {
 
 constexpr int nodes_across = 160;
 constexpr int blocks_across = 16;

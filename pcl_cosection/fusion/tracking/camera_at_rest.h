@@ -8,8 +8,7 @@
 
 #include <Eigen/Geometry>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief The frame with which later ones are compared to find out whether the camera has moved. */
 struct RestReference

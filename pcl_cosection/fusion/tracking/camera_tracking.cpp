@@ -9,11 +9,8 @@
 #include <cmath>
 #include <utility>
 
-namespace pcl::cosection
-{
-
-namespace
-{
+namespace pcl::cosection {
+namespace {
 
 constexpr double min_readings_share = 500 / (640.0 * 480.0); // of the pixels
 constexpr std::size_t min_points = 200;

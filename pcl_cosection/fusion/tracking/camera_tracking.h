@@ -16,8 +16,7 @@
 #include <cstddef>
 #include <optional>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief What is known of the camera after a frame. */
 struct CameraState

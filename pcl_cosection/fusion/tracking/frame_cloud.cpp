@@ -12,11 +12,8 @@
 #include <limits>
 #include <numeric>
 
-namespace pcl::cosection
-{
-
-namespace
-{
+namespace pcl::cosection {
+namespace {
 
 constexpr float none = std::numeric_limits<float>::quiet_NaN ();
 // A share of the depth: a larger step between pixels is an edge. Noise is not allowed for, unlike in

@@ -14,8 +14,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief The readings of a depth image as points, row by row. */
 struct FrameCloud

@@ -11,11 +11,8 @@
 #include <optional>
 #include <utility>
 
-namespace pcl::cosection
-{
-
-namespace
-{
+namespace pcl::cosection {
+namespace {
 
 constexpr std::size_t min_object_points = 50;
 constexpr int object_rounds = 2;            // of association and alignment

@@ -5,8 +5,7 @@
 #include "pcl_cosection/fusion/mapping/object_map.h"
 #include "pose_estimate.h"
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief Track each active object relative to the camera. An object that is not found is hidden or lost.
  * \param[in] background volume of the same world */

@@ -7,11 +7,8 @@
 #include <cmath>
 #include <utility>
 
-namespace pcl::cosection
-{
-
-namespace
-{
+namespace pcl::cosection {
+namespace {
 
 constexpr double standard_pixels = 640.0 * 480.0;
 constexpr double correlated_pixels = 49.0; // the depth filter's window, in an image of so many

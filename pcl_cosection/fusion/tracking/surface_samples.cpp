@@ -7,11 +7,8 @@
 #include <cmath>
 #include <optional>
 
-namespace pcl::cosection
-{
-
-namespace
-{
+namespace pcl::cosection {
+namespace {
 
 constexpr double least_slope = 0.3;    // of the distance: smaller ones are where it is truncated
 constexpr double least_facing = 0.5;   // of the slope, along a direction that a sample observes

@@ -9,8 +9,7 @@
 #include <cstddef>
 #include <vector>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief A reading near a model's surface, in any one frame. */
 struct SurfaceSample

@@ -20,11 +20,8 @@
 #include <limits>
 #include <sstream>
 
-namespace pcl::cosection
-{
-
-namespace
-{
+namespace pcl::cosection {
+namespace {
 
 constexpr float nan_value = std::numeric_limits<float>::quiet_NaN ();
 

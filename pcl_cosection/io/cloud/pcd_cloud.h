@@ -11,8 +11,7 @@
 #include <string>
 #include <vector>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief The points of a file, in the sensor frame. */
 struct SensorCloud

@@ -13,11 +13,8 @@
 #include <set>
 #include <sstream>
 
-namespace pcl::cosection
-{
-
-namespace
-{
+namespace pcl::cosection {
+namespace {
 
 constexpr std::size_t max_header_bytes = 1 << 16;
 constexpr std::size_t max_elements = 1 << 12; ///< in one field; descriptors have some hundreds

@@ -7,8 +7,7 @@
 #include <string>
 #include <vector>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief One field of a PCD file. */
 struct PcdField

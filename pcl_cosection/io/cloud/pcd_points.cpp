@@ -12,11 +12,8 @@
 #include <fstream>
 #include <limits>
 
-namespace pcl::cosection
-{
-
-namespace
-{
+namespace pcl::cosection {
+namespace {
 
 [[noreturn]] void
 failDamaged (const std::string& path)

@@ -7,8 +7,7 @@
 
 #include <string>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief Read the points that \a header, from readPcdHeader (), describes.
  *

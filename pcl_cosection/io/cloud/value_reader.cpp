@@ -6,10 +6,8 @@
 #include <array>
 #include <cstring>
 
-namespace pcl::cosection
-{
-namespace
-{
+namespace pcl::cosection {
+namespace {
 
 template <typename T>
 double

@@ -9,8 +9,7 @@
 #include <cstdint>
 #include <string>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 enum class ScalarType
 {

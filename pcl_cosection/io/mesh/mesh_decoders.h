@@ -5,8 +5,7 @@
 
 #include <string>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief Faces of a PLY file, ASCII or binary of either byte order: polygons and triangle strips.
  * All decoders throw IoError, whose message is only the reason. */

@@ -16,10 +16,8 @@
 #include <cstring>
 #include <limits>
 
-namespace pcl::cosection
-{
-namespace
-{
+namespace pcl::cosection {
+namespace {
 
 /** \brief Binary STL: 80 bytes of title, the number of triangles, and for each one its normal, its
  * corners and two unused bytes. */

@@ -8,10 +8,8 @@
 #include <pcl/cosection/common/error.h>
 #include <pcl/cosection/io/mesh_io.h>
 
-namespace pcl::cosection
-{
-namespace
-{
+namespace pcl::cosection {
+namespace {
 
 using Decoder = PolygonSoup (*) (const std::string& bytes);
 

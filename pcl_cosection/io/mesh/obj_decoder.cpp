@@ -7,10 +7,8 @@
 
 #include <pcl/cosection/common/error.h>
 
-namespace pcl::cosection
-{
-namespace
-{
+namespace pcl::cosection {
+namespace {
 
 /** \brief A line; those that end with a backslash continue on the next one. */
 std::string

@@ -7,10 +7,8 @@
 
 #include <pcl/cosection/common/error.h>
 
-namespace pcl::cosection
-{
-namespace
-{
+namespace pcl::cosection {
+namespace {
 
 /** \brief The lines of an OFF file that are not empty, without comments. */
 class OffLines

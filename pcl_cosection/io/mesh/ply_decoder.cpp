@@ -13,10 +13,8 @@
 #include <array>
 #include <functional>
 
-namespace pcl::cosection
-{
-namespace
-{
+namespace pcl::cosection {
+namespace {
 
 /** \brief Where values of one vertex property go. */
 using Setter = std::function<void (TriangleMesh&, std::size_t, double)>;

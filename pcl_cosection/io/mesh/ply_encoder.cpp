@@ -7,10 +7,8 @@
 #include <sstream>
 #include <type_traits>
 
-namespace pcl::cosection
-{
-namespace
-{
+namespace pcl::cosection {
+namespace {
 
 template <typename T>
 void

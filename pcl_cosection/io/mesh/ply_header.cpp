@@ -4,10 +4,8 @@
 
 #include <sstream>
 
-namespace pcl::cosection
-{
-namespace
-{
+namespace pcl::cosection {
+namespace {
 
 ScalarType
 scalarType (const std::string& name)

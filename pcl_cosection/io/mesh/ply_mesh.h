@@ -5,8 +5,7 @@
 
 #include <string>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief The bytes of a binary little-endian PLY file with all vertex properties of \a mesh. */
 std::string encodePly (const TriangleMesh& mesh);

@@ -15,10 +15,8 @@
 #include <limits>
 #include <string>
 
-namespace pcl::cosection
-{
-namespace
-{
+namespace pcl::cosection {
+namespace {
 
 void
 check (const PolygonSoup& soup)

@@ -6,8 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief Polygons as files have them, unchecked: any number of corners, indices that may not exist. */
 struct PolygonSoup

@@ -11,10 +11,8 @@
 #include <cctype>
 #include <cstring>
 
-namespace pcl::cosection
-{
-namespace
-{
+namespace pcl::cosection {
+namespace {
 
 constexpr std::size_t header_size = 84; // title and number of triangles
 constexpr std::size_t title_size = 80;

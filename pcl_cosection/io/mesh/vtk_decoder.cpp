@@ -11,10 +11,8 @@
 #include <algorithm>
 #include <cctype>
 
-namespace pcl::cosection
-{
-namespace
-{
+namespace pcl::cosection {
+namespace {
 
 std::string
 upperCase (std::string_view word)

@@ -7,8 +7,7 @@
 
 #include <string>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief Takes the errors and warnings of a VTK object, which VTK would print otherwise. */
 class VtkErrors : public vtkCommand

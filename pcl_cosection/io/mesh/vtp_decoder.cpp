@@ -19,10 +19,8 @@
 #include <limits>
 #include <sstream>
 
-namespace pcl::cosection
-{
-namespace
-{
+namespace pcl::cosection {
+namespace {
 
 constexpr const char* cut_off = "an array of the VTK file is shorter than its header says";
 

@@ -12,11 +12,8 @@
 #include <map>
 #include <utility>
 
-namespace pcl::cosection
-{
-
-namespace
-{
+namespace pcl::cosection {
+namespace {
 
 constexpr int steps = 8;
 // "Of the size" is relative to NormalLines::size.

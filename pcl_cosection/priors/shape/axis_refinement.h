@@ -5,8 +5,7 @@
 
 #include <vector>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief Refine the position of an axis of revolution by the positions of points, which are more precise than the
  * normals that found it.

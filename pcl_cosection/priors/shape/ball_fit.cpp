@@ -10,11 +10,8 @@
 #include <array>
 #include <cmath>
 
-namespace pcl::cosection
-{
-
-namespace
-{
+namespace pcl::cosection {
+namespace {
 
 constexpr int rounds = 12;             // of reweighting
 constexpr double outlier_scale = 0.04; // of NormalLines::size: a distance from the surface with half weight

@@ -5,11 +5,8 @@
 #include <cmath>
 #include <cstddef>
 
-namespace pcl::cosection
-{
-
-namespace
-{
+namespace pcl::cosection {
+namespace {
 
 constexpr double face_share = 0.03;         // of the points: smaller faces do not count
 constexpr double face_cosine = 0.966;       // 15 degrees

@@ -7,8 +7,7 @@
 
 #include <vector>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief Directions evenly distributed over the sphere, symmetric with respect to the senses of the axes: those of a
  * Fibonacci lattice in one octant, and their mirror images. \param[in] axes columns */

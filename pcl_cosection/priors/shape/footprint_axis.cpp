@@ -13,11 +13,8 @@
 #include <array>
 #include <cmath>
 
-namespace pcl::cosection
-{
-
-namespace
-{
+namespace pcl::cosection {
+namespace {
 
 constexpr int directions = 72; // in each of which the outermost point is found
 constexpr int sectors = 36;

@@ -7,8 +7,7 @@
 #include <optional>
 #include <vector>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief The vertical axis of a thing that is round as seen from above, such as a plate, whose normals hardly face
  * sideways and so determine no axis.

@@ -12,11 +12,8 @@
 #include <array>
 #include <cmath>
 
-namespace pcl::cosection
-{
-
-namespace
-{
+namespace pcl::cosection {
+namespace {
 
 constexpr int rounds = 12;             // of reweighting
 constexpr double outlier_scale = 0.04; // of the size: distance between normal and axis with half weight

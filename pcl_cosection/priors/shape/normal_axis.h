@@ -8,8 +8,7 @@
 #include <optional>
 #include <vector>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief The line of a point's normal, in Pluecker coordinates (normal, moment). */
 struct NormalLine

@@ -4,8 +4,7 @@
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 Scatter
 scatterOf (const std::vector<OrientedPoint>& points)

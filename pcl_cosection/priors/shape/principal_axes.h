@@ -8,8 +8,7 @@
 #include <optional>
 #include <vector>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief Mean of positions, and their scatter matrix, the sum of (p - mean) (p - mean)^T. */
 struct Scatter

@@ -14,11 +14,8 @@
 #include <cmath>
 #include <iterator>
 
-namespace pcl::cosection
-{
-
-namespace
-{
+namespace pcl::cosection {
+namespace {
 
 constexpr double max_radius = 1.5;      // of NormalLines::size
 constexpr double cell_size = 0.05;      // of the profile, of NormalLines::size

@@ -12,8 +12,7 @@
 #include <optional>
 #include <vector>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief Least cosine between a vertical axis and a plane's normal. */
 constexpr double vertical = 0.97;

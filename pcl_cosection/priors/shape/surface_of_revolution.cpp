@@ -12,11 +12,8 @@
 #include <cmath>
 #include <iterator>
 
-namespace pcl::cosection
-{
-
-namespace
-{
+namespace pcl::cosection {
+namespace {
 
 constexpr std::size_t least_points = 50;
 constexpr double round_share = 0.75;    // of all points

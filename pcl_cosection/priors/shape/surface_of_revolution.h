@@ -12,8 +12,7 @@
 #include <optional>
 #include <vector>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief A surface of revolution: a bottle, a can, a bowl, a ball, a mug without its handle. */
 class SurfaceOfRevolution : public ProfileSurface

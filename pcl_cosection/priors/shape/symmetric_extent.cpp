@@ -16,11 +16,8 @@
 #include <limits>
 #include <utility>
 
-namespace pcl::cosection
-{
-
-namespace
-{
+namespace pcl::cosection {
+namespace {
 
 constexpr int even_directions = 162;     // approximate number
 constexpr std::size_t max_points = 4000; // an even subset of no more points is used

@@ -10,8 +10,7 @@
 #include <utility>
 #include <vector>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 class PrismWalls;
 class ProfileSurface;

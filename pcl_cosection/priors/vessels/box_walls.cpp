@@ -8,11 +8,8 @@
 #include <cmath>
 #include <limits>
 
-namespace pcl::cosection
-{
-
-namespace
-{
+namespace pcl::cosection {
+namespace {
 
 constexpr double facing = 0.8;            // least component of a wall's normal along its outward direction
 constexpr double wall_reach = 0.5;        // of the half sizes: walls are farther out

@@ -7,8 +7,7 @@
 #include <optional>
 #include <vector>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief A point in the frame of an open box: x and y along its walls, z upwards. */
 struct BoxPoint

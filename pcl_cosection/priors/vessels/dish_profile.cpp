@@ -10,11 +10,8 @@
 #include <limits>
 #include <map>
 
-namespace pcl::cosection
-{
-
-namespace
-{
+namespace pcl::cosection {
+namespace {
 
 constexpr double leaning = 0.5;         // least component of a normal of the inside towards the opening
 constexpr double level = 0.8;           // component of a floor's or bottom's normal along the axis

@@ -7,8 +7,7 @@
 #include <optional>
 #include <vector>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief The profile of a plate or bowl that showed only its inside, and perhaps the edge: a wall of even thickness
  * below the inside.

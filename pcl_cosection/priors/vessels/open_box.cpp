@@ -15,11 +15,8 @@
 #include <complex>
 #include <limits>
 
-namespace pcl::cosection
-{
-
-namespace
-{
+namespace pcl::cosection {
+namespace {
 
 constexpr std::size_t least_points = 50;
 constexpr double box_share = 0.75;        // of all points

@@ -13,8 +13,7 @@
 #include <optional>
 #include <vector>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief An open box: a hollow thing with a rectangular outline, perhaps with rounded corners, such as a tray, a box
  * without lid or a bin. Its walls are equal on all four sides. */

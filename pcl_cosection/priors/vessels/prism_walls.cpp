@@ -10,11 +10,8 @@
 #include <map>
 #include <utility>
 
-namespace pcl::cosection
-{
-
-namespace
-{
+namespace pcl::cosection {
+namespace {
 
 constexpr double vertical = 0.17;     // largest component of a wall's normal upwards
 constexpr double level = 0.97;        // least component of a top's normal upwards

@@ -11,8 +11,7 @@
 #include <optional>
 #include <vector>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief The vertical walls of a thing that stands on a plane: a box, a hexagonal tin, a wedge of cheese. */
 class PrismWalls

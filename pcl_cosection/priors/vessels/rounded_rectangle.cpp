@@ -4,8 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 double
 RoundedRectangle::distance (const Eigen::Vector2d& q) const

@@ -5,8 +5,7 @@
 
 #include <vector>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief A rectangle about the origin, along the axes, with rounded corners; and the outlines parallel to it, inside
  * and outside. */

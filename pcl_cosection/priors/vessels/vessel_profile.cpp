@@ -9,11 +9,8 @@
 #include <iterator>
 #include <map>
 
-namespace pcl::cosection
-{
-
-namespace
-{
+namespace pcl::cosection {
+namespace {
 
 constexpr double sideways = 0.4;        // least component of a wall's normal across the axis
 constexpr double level = 0.8;           // least component of a floor's normal along the axis

@@ -7,8 +7,7 @@
 #include <optional>
 #include <vector>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief The profile of a vessel: a wall of even thickness between an outer and an inner side, round about an axis and
  * open at one end.

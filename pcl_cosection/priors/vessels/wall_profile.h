@@ -8,8 +8,7 @@
 #include <memory>
 #include <vector>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief A point in the half plane of the profile, which is bounded by the axis; for a box, the half plane across the
  * nearest wall. */

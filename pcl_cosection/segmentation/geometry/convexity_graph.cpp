@@ -5,11 +5,8 @@
 
 #include <queue>
 
-namespace pcl::cosection
-{
-
-namespace
-{
+namespace pcl::cosection {
+namespace {
 
 constexpr int bridge_px = 5;           ///< pixels without a normal that may lie between two patches
 constexpr int gap_px = 1;              ///< pixels of these that may show something farther away

@@ -7,8 +7,7 @@
 #include <utility>
 #include <vector>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief What speaks for two patches being parts of one object, in pixels of their common border; negative: against
  * it. */

@@ -11,8 +11,7 @@
 #include <cmath>
 #include <vector>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief An organised cloud with its normals, and what its sensor's noise lets one conclude from it. */
 struct DepthGrid

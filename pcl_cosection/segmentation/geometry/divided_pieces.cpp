@@ -3,11 +3,8 @@
 
 #include <set>
 
-namespace pcl::cosection
-{
-
-namespace
-{
+namespace pcl::cosection {
+namespace {
 
 constexpr int min_border_px = 8;        ///< along which the nearer thing hides each of the two
 constexpr int min_patch_px = 20;        ///< smaller patches have no reliable normal

@@ -7,8 +7,7 @@
 #include <utility>
 #include <vector>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief Pairs of pieces that are one surface behind something nearer: most patches of the smaller one continue a
  * patch of the other one, as a plane or a round surface does, and all that is seen on the way between the two is in

@@ -7,8 +7,7 @@
 #include <pcl/impl/pcl_base.hpp>
 #include <pcl/point_types.h>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 bool
 GeometricSegmentationBase::setOptions (const ObjectSegmentationOptions& options)

@@ -6,11 +6,8 @@
 #include "pcl_cosection/common/disjoint_sets.h"
 #include "piece_outline.h"
 
-namespace pcl::cosection
-{
-
-namespace
-{
+namespace pcl::cosection {
+namespace {
 
 constexpr int min_pixels_vga = 150;        ///< of an object in an image of 640 x 480
 constexpr int edge_factor = 4;             ///< as many times more for what the image's border cuts

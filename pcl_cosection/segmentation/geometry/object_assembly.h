@@ -9,8 +9,7 @@
 
 #include <vector>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 constexpr int no_object = -1;
 constexpr int too_long_object = -2;

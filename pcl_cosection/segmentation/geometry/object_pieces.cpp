@@ -3,11 +3,8 @@
 
 #include <Eigen/Eigenvalues>
 
-namespace pcl::cosection
-{
-
-namespace
-{
+namespace pcl::cosection {
+namespace {
 
 constexpr int bridge_px = 4;              ///< pixels of no piece that may lie between two that touch
 constexpr int shadow_share = 16;          ///< share of the image's width that the shadow beside a thing may have

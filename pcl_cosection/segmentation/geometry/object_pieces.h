@@ -8,8 +8,7 @@
 #include <utility>
 #include <vector>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief What is known of a piece of the scene as a whole. */
 struct Piece

@@ -16,11 +16,8 @@
 #include <limits>
 #include <string>
 
-namespace pcl::cosection
-{
-
-namespace
-{
+namespace pcl::cosection {
+namespace {
 
 constexpr double seen_height = 1.5;       ///< in sizes of the largest object: what is too large must be seen to be
 constexpr float outline_margin_m = 0.05f; ///< how far beyond the seen part of its support something may reach

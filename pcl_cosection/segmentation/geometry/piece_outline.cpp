@@ -3,11 +3,8 @@
 
 #include <utility>
 
-namespace pcl::cosection
-{
-
-namespace
-{
+namespace pcl::cosection {
+namespace {
 
 constexpr int shadow_share = 16;       ///< share of the image's width that the shadow beside a thing may have
 constexpr float contact_sigmas = 3.0f; ///< height over a surface of what touches it ...

@@ -6,8 +6,7 @@
 
 #include <vector>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief How the outline of a piece goes on in the image, in pixels. */
 struct PieceOutline

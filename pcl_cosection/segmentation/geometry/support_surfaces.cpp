@@ -6,11 +6,8 @@
 
 #include <Eigen/LU>
 
-namespace pcl::cosection
-{
-
-namespace
-{
+namespace pcl::cosection {
+namespace {
 
 constexpr float unseen_reach_m = 0.25f; ///< how far a plane goes on beyond the border of the image
 

@@ -8,8 +8,7 @@
 
 #include <vector>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief A large plane of the room, as far as it is seen. */
 struct SupportSurface

@@ -7,11 +7,8 @@
 
 #include <limits>
 
-namespace pcl::cosection
-{
-
-namespace
-{
+namespace pcl::cosection {
+namespace {
 
 constexpr int cells_across = 64;      ///< of the grid over the image: 10 pixels of a VGA camera
 constexpr int rounds = 5;             ///< of k-means

@@ -7,8 +7,7 @@
 
 #include <vector>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief A part of a view that may move, and an earlier view of it. */
 struct BodySightings

@@ -9,11 +9,8 @@
 #include <cmath>
 #include <cstddef>
 
-namespace pcl::cosection
-{
-
-namespace
-{
+namespace pcl::cosection {
+namespace {
 
 constexpr double rest = 1e-3;         // strength of being at rest, per pixel, where nothing is said
 constexpr double undecided = 0.3;     // mean of a patch's votes: noise that its pixels share

@@ -6,8 +6,7 @@
 
 #include <vector>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief Patches that move, by what their pixels say and what they are joined to: the minimum of
  * sum_i a_i (x_i - y_i)^2 + sum_ij w_ij (x_i - x_j)^2, from which on x_i exceeds 1/2.

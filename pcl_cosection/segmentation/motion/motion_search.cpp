@@ -11,11 +11,8 @@
 #include <map>
 #include <utility>
 
-namespace pcl::cosection
-{
-
-namespace
-{
+namespace pcl::cosection {
+namespace {
 
 constexpr double standard_pixels = 640.0 * 480.0;
 constexpr int most_bodies = 16;

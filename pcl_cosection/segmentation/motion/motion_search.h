@@ -11,8 +11,7 @@
 #include <optional>
 #include <vector>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief Finds the bodies that were elsewhere in earlier views. */
 class MotionSearch

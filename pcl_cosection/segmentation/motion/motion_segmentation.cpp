@@ -9,8 +9,7 @@
 
 #include <string>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 bool
 MotionSegmentationBase::setOptions (const MotionSegmentationOptions& options)

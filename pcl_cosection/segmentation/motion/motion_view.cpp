@@ -10,11 +10,8 @@
 #include <cmath>
 #include <limits>
 
-namespace pcl::cosection
-{
-
-namespace
-{
+namespace pcl::cosection {
+namespace {
 
 constexpr int columns = 320;               // about
 constexpr float min_area_m2 = 0.1f;        // of the room's largest plane

@@ -9,8 +9,7 @@
 #include <map>
 #include <vector>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief A frame, reduced, as others are compared with it. */
 struct MotionView

@@ -15,11 +15,8 @@
 #include <string>
 #include <utility>
 
-namespace pcl::cosection
-{
-
-namespace
-{
+namespace pcl::cosection {
+namespace {
 
 void
 require (bool good, const std::string& message)

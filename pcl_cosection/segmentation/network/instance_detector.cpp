@@ -12,11 +12,8 @@
 #include <algorithm>
 #include <cmath>
 
-namespace pcl::cosection
-{
-
-namespace
-{
+namespace pcl::cosection {
+namespace {
 
 constexpr int one_stage_input = 640; ///< edge, pixels
 constexpr std::uint8_t margin = 114; ///< grey, as YOLO's are trained with

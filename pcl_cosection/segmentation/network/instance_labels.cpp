@@ -10,11 +10,8 @@
 #include <numeric>
 #include <optional>
 
-namespace pcl::cosection
-{
-
-namespace
-{
+namespace pcl::cosection {
+namespace {
 
 constexpr std::size_t longest_name = 200;
 constexpr std::size_t most_names = 100000;

@@ -10,8 +10,7 @@
 #include <algorithm>
 #include <thread>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 bool
 InstanceSegmentationBase::setNetwork (const InstanceDetectorOptions& options, const ClassRoles& roles)

@@ -3,11 +3,8 @@
 
 #include <algorithm>
 
-namespace pcl::cosection
-{
-
-namespace
-{
+namespace pcl::cosection {
+namespace {
 
 /** \brief One of many masks of the same size that stand one after the other. */
 Image<float>

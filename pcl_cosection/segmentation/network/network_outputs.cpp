@@ -9,11 +9,8 @@
 #include <cmath>
 #include <sstream>
 
-namespace pcl::cosection
-{
-
-namespace
-{
+namespace pcl::cosection {
+namespace {
 
 constexpr std::size_t most_candidates = 1000; ///< most that are compared with each other
 constexpr float most_classes = 1e6f;

@@ -10,8 +10,7 @@
 #include <optional>
 #include <vector>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief A detection before non-maximum suppression. */
 struct Candidate

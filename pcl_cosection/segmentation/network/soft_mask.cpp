@@ -4,11 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-namespace pcl::cosection
-{
-
-namespace
-{
+namespace pcl::cosection {
+namespace {
 
 /** \brief First pixel whose middle is at or beyond \a edge, from 0 to \a size. */
 int

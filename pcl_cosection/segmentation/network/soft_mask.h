@@ -5,8 +5,7 @@
 
 #include <vector>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief A rectangle; the pixel in column u covers [u, u + 1). */
 struct Rectangle

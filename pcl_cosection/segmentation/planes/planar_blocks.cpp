@@ -9,11 +9,8 @@
 #include <map>
 #include <optional>
 
-namespace pcl::cosection
-{
-
-namespace
-{
+namespace pcl::cosection {
+namespace {
 
 constexpr float flat_block = 0.985f; ///< length of the mean normal of a block that is flat
 constexpr float flat_sigmas = 1.5f;  ///< or the root mean square of its inverse depths about a plane

@@ -7,8 +7,7 @@
 
 #include <vector>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 constexpr int block_px = 8; ///< planes are sought among square blocks of so many pixels
 

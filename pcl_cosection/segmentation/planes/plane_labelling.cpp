@@ -7,11 +7,8 @@
 
 #include <array>
 
-namespace pcl::cosection
-{
-
-namespace
-{
+namespace pcl::cosection {
+namespace {
 
 constexpr float own_block = 0.25f;  ///< weight of the distance from the plane that a block was found on
 constexpr float far_sigmas = 7.0f;  ///< farther than any reading of a plane, with the sensor's distortion

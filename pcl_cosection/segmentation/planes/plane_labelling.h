@@ -6,8 +6,7 @@
 
 #include <vector>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief Which of the planes of a view each pixel lies on. */
 class PlaneLabelling

@@ -9,11 +9,8 @@
 #include <cmath>
 #include <set>
 
-namespace pcl::cosection
-{
-
-namespace
-{
+namespace pcl::cosection {
+namespace {
 
 constexpr float strip_m = 0.06f;      ///< what is narrower along a row or a column is a strip
 constexpr int gap_px = 6;             ///< without readings, that do not divide a region

@@ -7,8 +7,7 @@
 #include <map>
 #include <vector>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief A connected part of a plane, and how it ends. Lengths are measured on the plane. */
 struct PlaneRegion

@@ -5,8 +5,7 @@
 #include <array>
 #include <limits>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief Extents of a region in its plane, metres. */
 struct RegionExtents

@@ -5,11 +5,8 @@
 #include <set>
 #include <utility>
 
-namespace pcl::cosection
-{
-
-namespace
-{
+namespace pcl::cosection {
+namespace {
 
 constexpr int bridge_px = 4;           ///< from a patch to a surface that it touches
 constexpr float edge_cosine = 0.7f;    ///< between the normals on both sides of an edge

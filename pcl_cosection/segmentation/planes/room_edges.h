@@ -7,8 +7,7 @@
 
 #include <vector>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief One per patch: whether it is an edge of the room, as the front of a board or of a table top: it begins where
  * a surface of the room ends, and falls off behind it. What stands on a surface, or leans against it, is before it. */

@@ -8,11 +8,8 @@
 
 #include <algorithm>
 
-namespace pcl::cosection
-{
-
-namespace
-{
+namespace pcl::cosection {
+namespace {
 
 // Largest free share of the border of an enclosed region, relative to where it meets room.
 constexpr float enclosed_share = 0.25f;

@@ -6,8 +6,7 @@
 
 #include <vector>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief The parts of a view that show the room and its furniture. */
 struct Room

@@ -7,8 +7,7 @@
 #include <cmath>
 #include <string>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief A shape whose distance is a formula. */
 class AnalyticShape : public Shape

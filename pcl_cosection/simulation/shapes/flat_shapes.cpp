@@ -11,11 +11,8 @@
 
 // Shapes with flat sides.
 
-namespace pcl::cosection
-{
-
-namespace
-{
+namespace pcl::cosection {
+namespace {
 
 double
 boxDistance (const Eigen::Vector3d& p, const Eigen::Vector3d& half)

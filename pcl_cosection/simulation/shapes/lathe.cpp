@@ -4,11 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-namespace pcl::cosection
-{
-
-namespace
-{
+namespace pcl::cosection {
+namespace {
 
 constexpr int min_segments = 12;
 constexpr int max_segments = 4096;

@@ -4,8 +4,7 @@
 #include <pcl/cosection/common/triangle_mesh.h>
 #include <pcl/cosection/simulation/simulated_scene.h>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief The surface that a profile (distance from the axis, z) leaves when it is turned about z.
  * \param[in] profile counter-clockwise (matter on the left, seen with z up and the axis on the left); its edges on the

@@ -9,11 +9,8 @@
 #include <numeric>
 #include <string>
 
-namespace pcl::cosection
-{
-
-namespace
-{
+namespace pcl::cosection {
+namespace {
 
 constexpr double min_area_m2 = 1e-12;
 

@@ -7,8 +7,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief Counter-clockwise, checked. \throws InvalidArgument naming \a what if it is no simple polygon with an area.
  */

@@ -11,11 +11,8 @@
 #include <cmath>
 #include <limits>
 
-namespace pcl::cosection
-{
-
-namespace
-{
+namespace pcl::cosection {
+namespace {
 
 constexpr int grid_resolution = 96; // voxels along the longest side of a mesh
 constexpr int grid_margin = 4;      // voxels around it

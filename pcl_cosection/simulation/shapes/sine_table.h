@@ -5,8 +5,7 @@
 #include <cmath>
 #include <cstdint>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief Sine and cosine at 4096 angles, for pixels: noise and patterns need no more, and libm's take most of a frame.
  */

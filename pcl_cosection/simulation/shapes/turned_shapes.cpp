@@ -10,11 +10,8 @@
 
 // Shapes with an axis, z.
 
-namespace pcl::cosection
-{
-
-namespace
-{
+namespace pcl::cosection {
+namespace {
 
 class Sphere : public AnalyticShape
 {

@@ -11,11 +11,8 @@
 #include <cmath>
 #include <cstddef>
 
-namespace pcl::cosection
-{
-
-namespace
-{
+namespace pcl::cosection {
+namespace {
 
 // Length of the mean normal of a background that has a side; of random ones to one side, 0.5.
 constexpr float one_sided = 0.7f;

@@ -6,8 +6,7 @@
 
 #include <pcl/cosection/io/pcd_view.h>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief Estimate the normals of an unorganised cloud of which it is not known where it was seen from.
  *

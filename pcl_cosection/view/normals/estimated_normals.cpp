@@ -21,11 +21,8 @@
 #include <tuple>
 #include <unordered_map>
 
-namespace pcl::cosection
-{
-
-namespace
-{
+namespace pcl::cosection {
+namespace {
 
 constexpr float nan_value = std::numeric_limits<float>::quiet_NaN ();
 constexpr int least_neighbours = 8; // for a normal; more where there are many points:

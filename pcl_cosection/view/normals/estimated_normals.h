@@ -7,8 +7,7 @@
 
 #include <vector>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief Points and their normals, NaN where there is none. */
 struct EstimatedNormals

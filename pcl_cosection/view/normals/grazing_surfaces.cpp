@@ -11,11 +11,8 @@
 #include <iterator>
 #include <limits>
 
-namespace pcl::cosection
-{
-
-namespace
-{
+namespace pcl::cosection {
+namespace {
 
 constexpr float nan_value = std::numeric_limits<float>::quiet_NaN ();
 // Cosine of 89 degrees between normal and ray; beyond, noise decides the side.

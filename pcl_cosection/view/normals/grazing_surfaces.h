@@ -3,8 +3,7 @@
 
 #include "pcl_cosection/view/sensor_view.h"
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief Give points of objects on surfaces that an organised view sees at grazing angles normals, towards the sensor.
  *

@@ -15,11 +15,8 @@
 #include <string>
 #include <tuple>
 
-namespace pcl::cosection
-{
-
-namespace
-{
+namespace pcl::cosection {
+namespace {
 
 constexpr int directions = 64;
 constexpr float crease_cosine = 0.5f; // of normals that differ more

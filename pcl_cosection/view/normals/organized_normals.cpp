@@ -17,11 +17,8 @@
 #include <limits>
 #include <string>
 
-namespace pcl::cosection
-{
-
-namespace
-{
+namespace pcl::cosection {
+namespace {
 
 constexpr int max_radius = 15;
 constexpr double trim_sigmas = 3.5;   ///< points farther from the first plane are not of this surface

@@ -7,8 +7,7 @@
 
 #include <limits>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 void
 leaveOutMixedPixels (const DepthView& view, SensorCloud& cloud)

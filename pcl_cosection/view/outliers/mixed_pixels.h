@@ -3,8 +3,7 @@
 
 #include "pcl_cosection/io/cloud/pcd_cloud.h"
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief Take the normals of points of the background at depth edges, so that they are left out: between something and
  * what is behind it a sensor measures what is nowhere, and walls of such points would stand between things. Those of

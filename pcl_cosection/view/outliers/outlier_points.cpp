@@ -8,11 +8,8 @@
 #include <cmath>
 #include <limits>
 
-namespace pcl::cosection
-{
-
-namespace
-{
+namespace pcl::cosection {
+namespace {
 
 constexpr double patch_share = 0.01;     // of the points: as many, or ...
 constexpr std::size_t patch_points = 50; // ... so many are no outliers

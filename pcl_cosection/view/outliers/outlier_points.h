@@ -5,8 +5,7 @@
 
 #include <vector>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief Which points belong to no patch of some size: a few points far from all others, as wrong readings and wrong
  * labels leave, which would each become a body of its own. Points count as near if they are within about

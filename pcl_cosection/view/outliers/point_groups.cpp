@@ -6,11 +6,8 @@
 
 #include <algorithm>
 
-namespace pcl::cosection
-{
-
-namespace
-{
+namespace pcl::cosection {
+namespace {
 
 constexpr int cells = 16;            // along the longest side; points in neighbouring cells are of one group
 constexpr double least_share = 0.05; // of the points, in a group

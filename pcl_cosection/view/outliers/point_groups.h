@@ -7,8 +7,7 @@
 
 #include <vector>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief How far groups of points are apart that are each smaller than that: those of one thing at two places.
  * \param[in] box of the points

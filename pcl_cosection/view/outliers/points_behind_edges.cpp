@@ -17,11 +17,8 @@
 #include <limits>
 #include <utility>
 
-namespace pcl::cosection
-{
-
-namespace
-{
+namespace pcl::cosection {
+namespace {
 
 constexpr int spacing_neighbours = 6;
 constexpr float reach_to_spacing = 0.72f; // square root of pi / 6: as many neighbours, a point in each square

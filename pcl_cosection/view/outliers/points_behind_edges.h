@@ -5,8 +5,7 @@
 
 #include <vector>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief Which points of an object lie beside an edge of it, as seen from the sensor, far behind that, and far from
  * others.

@@ -7,11 +7,8 @@
 #include <cstddef>
 #include <optional>
 
-namespace pcl::cosection
-{
-
-namespace
-{
+namespace pcl::cosection {
+namespace {
 
 /** \brief Numbers of points in a cell. */
 struct Counts

@@ -5,8 +5,7 @@
 
 #include <vector>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief Where points were taken away, take what is left of the same thing as well: patches that are connected over
  * cells of \a cell_m, and have fewer points than were taken from their cells and those beside. O (points).

@@ -7,11 +7,8 @@
 #include <algorithm>
 #include <limits>
 
-namespace pcl::cosection
-{
-
-namespace
-{
+namespace pcl::cosection {
+namespace {
 
 constexpr float nan_value = std::numeric_limits<float>::quiet_NaN ();
 constexpr int scattered_neighbours = 20; // of which the farthest ...

@@ -6,8 +6,7 @@
 #include <cstddef>
 #include <vector>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief Take the normals of points of the background near objects that are so much farther from each other than
  * others there that they show no surface. \param[in] background indices of the points near objects */

@@ -3,8 +3,7 @@
 
 #include <pcl/cosection/common/camera.h>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 // A depth edge is where two neighbouring pixels see different surfaces. Noise and a tilted surface make depths differ,
 // too: from a pixel to the next by depthNoiseSigma () several times over, and by the tangent of the angle between the

@@ -11,8 +11,7 @@
 #include <cmath>
 #include <string>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 FreeSpaceFilterBase::FreeSpaceFilterBase () = default;
 FreeSpaceFilterBase::FreeSpaceFilterBase (const FreeSpaceFilterBase& other) = default;

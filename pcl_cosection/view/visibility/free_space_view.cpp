@@ -9,11 +9,8 @@
 #include <limits>
 #include <utility>
 
-namespace pcl::cosection
-{
-
-namespace
-{
+namespace pcl::cosection {
+namespace {
 
 constexpr double margin_voxels = 3.0;
 constexpr double margin_sigmas = 3.0;

@@ -8,8 +8,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief How much the depth along a ray must exceed that of a point for the point to be free, metres:
  * max (3 voxels, 3 sigma_z). */

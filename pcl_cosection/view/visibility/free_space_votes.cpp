@@ -9,11 +9,8 @@
 #include <cmath>
 #include <string>
 
-namespace pcl::cosection
-{
-
-namespace
-{
+namespace pcl::cosection {
+namespace {
 
 constexpr double min_margin_m = 0.005;
 constexpr int max_footprint = 12; ///< pixels

@@ -7,8 +7,7 @@
 
 #include <vector>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief How much the depth along a ray must exceed that of a point for the point to be free where there are no
  * voxels, metres: max (5 mm, 3 sigma_z) of depthNoiseSigma (). */

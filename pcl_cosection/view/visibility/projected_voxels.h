@@ -9,8 +9,7 @@
 
 #include <cstddef>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief A voxel whose centre a camera sees in its image. */
 struct ProjectedVoxel

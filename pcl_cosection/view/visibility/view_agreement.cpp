@@ -3,11 +3,8 @@
 
 #include <algorithm>
 
-namespace pcl::cosection
-{
-
-namespace
-{
+namespace pcl::cosection {
+namespace {
 
 constexpr std::size_t most_samples = 2000;
 constexpr double bad_views = 0.05;  // of all views, may contradict

@@ -8,8 +8,7 @@
 
 #include <vector>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief How well depth views agree with the points of a body, some of which are asked about: a view whose pose is
  * wrong looks through points that others have measured, and so does one of a thing that has moved. */

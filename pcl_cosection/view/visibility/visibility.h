@@ -8,8 +8,7 @@
 #include <cmath>
 #include <optional>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief What a depth view says of a point. */
 enum class PointVisibility

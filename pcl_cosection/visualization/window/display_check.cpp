@@ -7,8 +7,7 @@
 
 #include <cstdlib>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 // VTK ends the process where there is no display.
 std::shared_ptr<void>

@@ -3,8 +3,7 @@
 
 #include <map>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 std::optional<WindowAction>
 actionOf (const std::string& key)

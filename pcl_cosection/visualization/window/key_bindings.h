@@ -5,8 +5,7 @@
 #include <string>
 #include <vector>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief What a key can make a window do. */
 enum class WindowAction

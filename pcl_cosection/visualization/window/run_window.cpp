@@ -7,8 +7,7 @@
 
 #include <utility>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 void
 RunWindowOptions::validate () const

@@ -19,11 +19,8 @@
 #include <cmath>
 #include <functional>
 
-namespace pcl::cosection
-{
-
-namespace
-{
+namespace pcl::cosection {
+namespace {
 
 constexpr int timer_ms = 10;
 constexpr std::chrono::milliseconds look_every (200);

@@ -21,8 +21,7 @@
 #include <string>
 #include <vector>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief The window, and what keys, mouse, slider and time do with it. */
 struct RunWindow::Impl

@@ -15,11 +15,8 @@
 #include <cstdio>
 #include <filesystem>
 
-namespace pcl::cosection
-{
-
-namespace
-{
+namespace pcl::cosection {
+namespace {
 
 constexpr std::size_t far_frames = 10;
 constexpr double slice_step = 0.02; ///< of the box

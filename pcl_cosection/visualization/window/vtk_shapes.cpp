@@ -12,11 +12,8 @@
 
 #include <algorithm>
 
-namespace pcl::cosection
-{
-
-namespace
-{
+namespace pcl::cosection {
+namespace {
 
 vtkSmartPointer<vtkPoints>
 toPoints (const std::vector<Eigen::Vector3f>& points)

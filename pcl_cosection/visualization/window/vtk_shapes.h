@@ -19,8 +19,7 @@
 
 #include <vector>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief Triangles and normals, without colours. */
 vtkSmartPointer<vtkPolyData> toPolyData (const TriangleMesh& mesh);

@@ -19,11 +19,8 @@
 #include <array>
 #include <cmath>
 
-namespace pcl::cosection
-{
-
-namespace
-{
+namespace pcl::cosection {
+namespace {
 
 constexpr std::array<double, 3> ink = {0.15, 0.15, 0.15};
 constexpr std::array<double, 3> paper = {1.0, 1.0, 1.0};

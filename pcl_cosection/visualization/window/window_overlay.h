@@ -11,8 +11,7 @@
 
 #include <string>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief What is written over the scene: caption, what colours mean, the keys. */
 class WindowOverlay

@@ -12,11 +12,8 @@
 
 #include <algorithm>
 
-namespace pcl::cosection
-{
-
-namespace
-{
+namespace pcl::cosection {
+namespace {
 
 constexpr double ambient_light = 0.35; ///< the rest comes from the head light, as in drawScene ()
 constexpr double seen_through = 0.25;  ///< opacity of the object that is cut

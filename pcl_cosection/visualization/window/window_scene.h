@@ -14,8 +14,7 @@
 #include <memory>
 #include <optional>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief Cuts through the signed distance of an object. */
 struct SliceChoice

@@ -5,11 +5,8 @@
 
 #include <algorithm>
 
-namespace pcl::cosection
-{
-
-namespace
-{
+namespace pcl::cosection {
+namespace {
 
 /** \brief Each byte or that before or behind it by \a stride; \a count of them, in lines of \a length. */
 PCL_COSECTION_MULTIVERSION void

@@ -6,8 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief How far each brick of a block is from the nearest that is marked, in bricks, as a king moves: 0 for those, \a
  * max_distance at most.

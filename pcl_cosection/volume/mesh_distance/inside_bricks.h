@@ -9,8 +9,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief Tells how far one may go in a field without coming to where SignedDistanceField::sampleInside () has a value.
  */

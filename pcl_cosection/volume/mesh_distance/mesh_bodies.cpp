@@ -7,10 +7,8 @@
 #include <cmath>
 #include <utility>
 
-namespace pcl::cosection
-{
-namespace
-{
+namespace pcl::cosection {
+namespace {
 
 bool
 isFlat (const MeshPart& part)

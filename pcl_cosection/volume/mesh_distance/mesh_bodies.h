@@ -13,8 +13,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief The triangles of each closed body, cavities with what is around them, and those of all open parts. */
 struct PCL_COSECTION_EXPORT MeshBodies

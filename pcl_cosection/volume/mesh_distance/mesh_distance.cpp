@@ -15,10 +15,8 @@
 #include <string>
 #include <vector>
 
-namespace pcl::cosection
-{
-namespace
-{
+namespace pcl::cosection {
+namespace {
 
 // ---- Rows of voxels -----------------------------------------------------------------------------
 

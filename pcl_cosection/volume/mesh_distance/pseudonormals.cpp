@@ -8,10 +8,8 @@
 
 #include <cmath>
 
-namespace pcl::cosection
-{
-namespace
-{
+namespace pcl::cosection {
+namespace {
 
 Eigen::Vector3d
 cornerOf (const TriangleMesh& mesh, std::size_t triangle, int n)

@@ -9,8 +9,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief On which side of a mesh a point is, by its nearest point (Baerentzen, Aanaes, TVCG 2005). */
 class PCL_COSECTION_EXPORT Pseudonormals

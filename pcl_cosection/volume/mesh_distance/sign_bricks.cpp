@@ -9,11 +9,8 @@
 
 #include <algorithm>
 
-namespace pcl::cosection
-{
-
-namespace
-{
+namespace pcl::cosection {
+namespace {
 
 constexpr std::int32_t positive = 1;
 constexpr std::int32_t not_positive = 2;

@@ -10,8 +10,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief Which bricks of a field have a surface, perhaps, and how far it is from the others to those.
  *

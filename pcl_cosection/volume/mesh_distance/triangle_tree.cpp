@@ -8,10 +8,8 @@
 #include <algorithm>
 #include <array>
 
-namespace pcl::cosection
-{
-namespace
-{
+namespace pcl::cosection {
+namespace {
 
 constexpr std::uint32_t faces_of_leaf = 4;
 constexpr int max_depth = 64;     // halves of 2^32 triangles are deep enough by far

@@ -11,8 +11,7 @@
 #include <limits>
 #include <vector>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief The nearest point of a mesh. */
 struct NearestPoint

@@ -9,8 +9,7 @@
 #include <cstddef>
 #include <limits>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief origin + t direction for 0 <= t <= end; voxel coordinates, within the voxels' box whatever is rounded. */
 struct GridRay

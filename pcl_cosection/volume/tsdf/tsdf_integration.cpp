@@ -14,11 +14,8 @@
 #include <numeric>
 #include <string>
 
-namespace pcl::cosection
-{
-
-namespace
-{
+namespace pcl::cosection {
+namespace {
 
 /** \brief Voxels so near to a reading take its colour: those that the colour of a vertex is interpolated from, also
  * where the ray grazes the surface. */

@@ -13,11 +13,8 @@
 #include <cmath>
 #include <optional>
 
-namespace pcl::cosection
-{
-
-namespace
-{
+namespace pcl::cosection {
+namespace {
 
 constexpr float no_depth = std::numeric_limits<float>::quiet_NaN ();
 

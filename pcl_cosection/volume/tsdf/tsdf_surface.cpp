@@ -4,11 +4,8 @@
 #include <pcl/cosection/volume/iso_surface.h>
 #include <pcl/cosection/volume/tsdf_volume.h>
 
-namespace pcl::cosection
-{
-
-namespace
-{
+namespace pcl::cosection {
+namespace {
 
 constexpr TriangleMesh::Colour colour_unknown = {128, 128, 128};
 

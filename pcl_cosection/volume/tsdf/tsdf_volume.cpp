@@ -7,11 +7,8 @@
 #include <cmath>
 #include <limits>
 
-namespace pcl::cosection
-{
-
-namespace
-{
+namespace pcl::cosection {
+namespace {
 
 constexpr float unseen = std::numeric_limits<float>::quiet_NaN ();
 

@@ -8,8 +8,7 @@
 
 #include <vector>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief Part [begin, end) of a row of voxels along x. */
 struct VoxelRange

@@ -32,8 +32,7 @@ using namespace pcl::cosection;
 using namespace pcl::cosection::test;
 namespace fs = std::filesystem;
 
-namespace
-{
+namespace {
 
 const char* const tools_of_others[] = {"pcl::Poisson", "pcl::ConvexHull", "pcl::MarchingCubesHoppe"};
 

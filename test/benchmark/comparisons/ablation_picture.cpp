@@ -12,8 +12,7 @@
 
 using namespace pcl::cosection;
 
-namespace
-{
+namespace {
 
 constexpr int panel_px = 180;
 constexpr double distance_radii = 4.5;

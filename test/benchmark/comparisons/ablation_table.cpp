@@ -3,8 +3,7 @@
 
 #include <cstdio>
 
-namespace
-{
+namespace {
 
 std::string
 cell (double accuracy_m, double completeness_m, double f_score)

@@ -9,8 +9,7 @@
 using namespace pcl::cosection;
 namespace fs = std::filesystem;
 
-namespace
-{
+namespace {
 
 SimulatedScene
 sceneOf (const std::string& name)

@@ -25,8 +25,7 @@
 using namespace pcl::cosection;
 namespace fs = std::filesystem;
 
-namespace
-{
+namespace {
 
 constexpr int views = 2;
 constexpr int default_scenes = 12;

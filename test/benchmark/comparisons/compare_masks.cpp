@@ -24,8 +24,7 @@
 using namespace pcl::cosection;
 namespace fs = std::filesystem;
 
-namespace
-{
+namespace {
 
 constexpr double clear_view_share = 1600.0 / (640.0 * 480.0); // of the image: smaller views of an object do not count
 

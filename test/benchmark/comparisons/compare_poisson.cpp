@@ -19,8 +19,7 @@
 
 using namespace pcl::cosection;
 
-namespace
-{
+namespace {
 
 constexpr double reach_m = 0.1;
 

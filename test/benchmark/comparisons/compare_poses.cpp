@@ -21,8 +21,7 @@
 using namespace pcl::cosection;
 namespace fs = std::filesystem;
 
-namespace
-{
+namespace {
 
 constexpr std::size_t mask_every = 10; // frames
 

@@ -31,8 +31,7 @@
 using namespace pcl::cosection;
 using namespace pcl::cosection::test;
 
-namespace
-{
+namespace {
 
 const PinholeCamera camera{320, 240, 262.5, 262.5, 159.5, 119.5};
 constexpr double distance_m = 0.7;

@@ -19,8 +19,7 @@
 
 using namespace pcl::cosection;
 
-namespace
-{
+namespace {
 
 constexpr int repetitions = 3;
 

@@ -34,8 +34,7 @@
 using namespace pcl::cosection;
 namespace fs = std::filesystem;
 
-namespace
-{
+namespace {
 
 using Cloud = pcl::PointCloud<pcl::PointXYZL>;
 

@@ -8,8 +8,7 @@
 #include <random>
 #include <vector>
 
-namespace
-{
+namespace {
 
 using nlohmann::json;
 

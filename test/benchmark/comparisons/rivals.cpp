@@ -10,11 +10,8 @@
 
 #include <utility>
 
-namespace pcl::cosection::test
-{
-
-namespace
-{
+namespace pcl::cosection::test {
+namespace {
 
 constexpr int poisson_depth = 6;
 constexpr int hoppe_cells = 50;

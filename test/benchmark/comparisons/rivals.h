@@ -8,8 +8,7 @@
 
 // What PCL makes of the same oriented points: to compare with.
 
-namespace pcl::cosection::test
-{
+namespace pcl::cosection::test {
 
 /** \brief pcl::Poisson of depth 6, otherwise its defaults. */
 TriangleMesh poissonSurface (const std::vector<OrientedPoint>& points);

@@ -10,8 +10,7 @@
 #include <string>
 #include <tuple>
 
-namespace pcl::cosection::test
-{
+namespace pcl::cosection::test {
 
 struct CompletionView
 {

@@ -5,11 +5,8 @@
 
 #include <algorithm>
 
-namespace pcl::cosection::test
-{
-
-namespace
-{
+namespace pcl::cosection::test {
+namespace {
 
 const Eigen::Vector3d view_target (0.0, 0.0, 0.04);
 

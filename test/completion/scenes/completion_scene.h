@@ -7,8 +7,7 @@
 
 #include <string>
 
-namespace pcl::cosection::test
-{
+namespace pcl::cosection::test {
 
 enum class Shape
 {

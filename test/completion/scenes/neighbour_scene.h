@@ -6,8 +6,7 @@
 #include <algorithm>
 #include <limits>
 
-namespace pcl::cosection::test
-{
+namespace pcl::cosection::test {
 
 constexpr double neighbour_voxel_m = 0.005;
 constexpr double about_a_voxel = 1.5;

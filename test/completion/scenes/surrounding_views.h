@@ -11,8 +11,7 @@
 #include <set>
 #include <vector>
 
-namespace pcl::cosection::test
-{
+namespace pcl::cosection::test {
 
 /** \brief Sensor poses around the table, each far from those before it. */
 inline Eigen::Isometry3d

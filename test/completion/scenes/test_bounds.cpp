@@ -11,8 +11,7 @@
 using namespace pcl::cosection;
 using namespace pcl::cosection::test;
 
-namespace
-{
+namespace {
 
 /** \brief Largest distance of vertices of \a inner outside \a outer, voxels. */
 double

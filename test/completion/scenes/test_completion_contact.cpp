@@ -4,8 +4,7 @@
 using namespace pcl::cosection;
 using namespace pcl::cosection::test;
 
-namespace
-{
+namespace {
 
 class CompletionContact : public Completion
 {};

@@ -6,8 +6,7 @@
 using namespace pcl::cosection;
 using namespace pcl::cosection::test;
 
-namespace
-{
+namespace {
 
 class Neighbours : public testing::TestWithParam<int> // voxels by which the data of one is pushed into the other
 {};

@@ -8,8 +8,7 @@
 using namespace pcl::cosection;
 using namespace pcl::cosection::test;
 
-namespace
-{
+namespace {
 
 class NeighbourResidual : public testing::TestWithParam<std::tuple<int, bool>> // overlap of the data, extent prior
 {};

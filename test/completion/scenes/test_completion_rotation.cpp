@@ -6,8 +6,7 @@
 using namespace pcl::cosection;
 using namespace pcl::cosection::test;
 
-namespace
-{
+namespace {
 
 class Rotation : public testing::TestWithParam<Shape>
 {};

@@ -18,8 +18,7 @@
 using namespace pcl::cosection;
 using namespace pcl::cosection::test;
 
-namespace
-{
+namespace {
 
 /** \brief A view with all readings removed except those of the object. */
 DepthView

@@ -17,8 +17,7 @@
 using namespace pcl::cosection;
 using namespace pcl::cosection::test;
 
-namespace
-{
+namespace {
 
 constexpr double background_voxel_m = 0.02;
 constexpr double half_length_m = 1.6;

@@ -18,8 +18,7 @@
 using namespace pcl::cosection;
 using namespace pcl::cosection::test;
 
-namespace
-{
+namespace {
 
 /** \brief A closed box. */
 TriangleMesh

@@ -7,8 +7,7 @@
 namespace fs = std::filesystem;
 using namespace pcl::cosection::test;
 
-namespace
-{
+namespace {
 
 std::unique_ptr<TemporaryFolder> fused; // lives as long as the program
 

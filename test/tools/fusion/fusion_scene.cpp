@@ -6,8 +6,7 @@
 namespace fs = std::filesystem;
 using namespace pcl::cosection::test;
 
-namespace
-{
+namespace {
 
 const char* const coarse_scene = R"({
   "frames": 12,

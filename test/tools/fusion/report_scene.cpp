@@ -9,8 +9,7 @@
 namespace fs = std::filesystem;
 using namespace pcl::cosection::test;
 
-namespace
-{
+namespace {
 
 std::unique_ptr<TemporaryFolder> runs; // lives as long as the program
 

@@ -9,8 +9,7 @@
 
 #include <nlohmann/json.hpp>
 
-namespace
-{
+namespace {
 
 class FusionNetwork : public FusionScene
 {

@@ -22,8 +22,7 @@ using namespace pcl::cosection;
 using namespace pcl::cosection::test;
 namespace fs = std::filesystem;
 
-namespace
-{
+namespace {
 
 class FusionTool : public FusionScene
 {

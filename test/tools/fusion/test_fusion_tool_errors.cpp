@@ -20,8 +20,7 @@ using namespace pcl::cosection;
 using namespace pcl::cosection::test;
 namespace fs = std::filesystem;
 
-namespace
-{
+namespace {
 
 class FusionToolErrors : public FusionScene
 {

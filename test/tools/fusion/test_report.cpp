@@ -18,8 +18,7 @@
 using namespace pcl::cosection::test;
 namespace fs = std::filesystem;
 
-namespace
-{
+namespace {
 
 class Report : public ReportScene
 {

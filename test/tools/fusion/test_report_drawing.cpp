@@ -16,8 +16,7 @@
 
 using namespace pcl::cosection::test;
 
-namespace
-{
+namespace {
 
 class ReportDrawing : public testing::Test
 {

@@ -19,8 +19,7 @@
 
 using namespace pcl::cosection;
 
-namespace
-{
+namespace {
 
 std::vector<std::uint8_t>
 fromBase64 (const std::string& letters)

@@ -15,8 +15,7 @@ namespace fs = std::filesystem;
 using namespace pcl::cosection;
 using namespace pcl::cosection::test;
 
-namespace
-{
+namespace {
 
 using Viewer = FusedScene;
 

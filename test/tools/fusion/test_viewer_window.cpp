@@ -20,8 +20,7 @@ namespace fs = std::filesystem;
 using namespace pcl::cosection;
 using namespace pcl::cosection::test;
 
-namespace
-{
+namespace {
 
 class ViewerWindow : public FusedScene
 {

@@ -11,8 +11,7 @@
 #include <cstdlib>
 #include <thread>
 
-namespace
-{
+namespace {
 
 const char* const act_program = "/usr/bin/xdotool";
 

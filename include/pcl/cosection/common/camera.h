@@ -10,13 +10,11 @@
 #include <string>
 #include <vector>
 
-namespace pcl
-{
+namespace pcl {
 template <typename PointT> class PointCloud;
 }
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief A pinhole camera without distortion: pixel (u, v) of integer coordinates is the centre of
  * a pixel; z points forward, x right, y down. */

@@ -7,8 +7,7 @@
 #include <stdexcept>
 #include <string>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief Base of everything the library throws; what () is one line fit for a user. */
 class PCL_COSECTION_EXPORT Error : public std::runtime_error

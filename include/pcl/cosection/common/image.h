@@ -6,8 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief An image, row by row. */
 template <typename Pixel> struct Image

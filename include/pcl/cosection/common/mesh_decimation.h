@@ -6,8 +6,7 @@
 
 #include <cstddef>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief How far decimate () goes, and what it must not do. */
 struct PCL_COSECTION_EXPORT DecimationOptions

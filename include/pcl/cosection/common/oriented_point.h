@@ -6,8 +6,7 @@
 #include <array>
 #include <cstdint>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief A measured point with its outward normal. */
 struct OrientedPoint

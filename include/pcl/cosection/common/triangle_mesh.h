@@ -11,8 +11,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief Why a piece of surface is where it is. */
 enum class Provenance : std::uint8_t

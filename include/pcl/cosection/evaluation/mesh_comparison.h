@@ -12,8 +12,7 @@
 #include <string>
 #include <vector>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief How to compare meshes. */
 struct PCL_COSECTION_EXPORT MeshComparisonOptions

@@ -11,8 +11,7 @@
 #include <memory>
 #include <optional>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief How to measure penetration. */
 struct PCL_COSECTION_EXPORT PenetrationOptions

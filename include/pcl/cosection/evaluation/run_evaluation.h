@@ -13,8 +13,7 @@
 #include <string>
 #include <vector>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief A scene of moving objects before a moving camera, true or estimated. */
 struct PCL_COSECTION_EXPORT SceneRecord

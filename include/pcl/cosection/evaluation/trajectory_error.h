@@ -12,8 +12,7 @@
 #include <string>
 #include <vector>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief How the estimate is brought into the frame of the truth. */
 enum class TrajectoryAlignment

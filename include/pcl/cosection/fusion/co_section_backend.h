@@ -18,8 +18,7 @@
 #include <thread>
 #include <vector>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief How much of a sequence CoSectionBackend keeps. */
 struct PCL_COSECTION_EXPORT BackendOptions

@@ -19,8 +19,7 @@
 #include <string>
 #include <vector>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 class FrameSegmenter;
 

@@ -19,8 +19,7 @@
 #include <string>
 #include <vector>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief What the front end knows of a frame when it asks for its objects; it refers to images that live as long as
  * the call. */

@@ -11,8 +11,7 @@
 #include <map>
 #include <vector>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief What is taken from the frames of a sequence. */
 struct PCL_COSECTION_EXPORT KeyframeOptions

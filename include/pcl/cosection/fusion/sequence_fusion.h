@@ -19,8 +19,7 @@
 #include <string>
 #include <vector>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief A sequence and what is known beside its images. */
 struct PCL_COSECTION_EXPORT KnownSequence

@@ -13,8 +13,7 @@
 #include <string>
 #include <vector>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief How to read a PCD file as a view. */
 struct PCL_COSECTION_EXPORT PcdViewOptions

@@ -21,8 +21,7 @@
 #include <thread>
 #include <vector>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief How the files of a sequence are laid out. */
 enum class SequenceFormat

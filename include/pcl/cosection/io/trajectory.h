@@ -8,8 +8,7 @@
 #include <string>
 #include <vector>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief Where something was at a time. */
 struct StampedPose

@@ -8,8 +8,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief What the rasteriser writes for each pixel; row by row, width * height entries. */
 struct PCL_COSECTION_EXPORT RasterImage

@@ -14,13 +14,11 @@
 #include <limits>
 #include <vector>
 
-namespace pcl
-{
+namespace pcl {
 struct Label;
 }
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief Parameters of segmentObjects (). */
 struct PCL_COSECTION_EXPORT ObjectSegmentationOptions
@@ -183,8 +181,7 @@ GeometricSegmentation<PointT>::segment (pcl::PointCloud<pcl::Label>& labels,
 
 } // namespace pcl::cosection
 
-namespace pcl
-{
+namespace pcl {
 struct PointXYZ;
 struct PointXYZI;
 struct PointXYZRGB;
@@ -195,8 +192,7 @@ struct PointXYZRGBNormal;
 struct PointXYZINormal;
 } // namespace pcl
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 extern template class PCL_COSECTION_EXPORT GeometricSegmentation<pcl::PointXYZ>;
 extern template class PCL_COSECTION_EXPORT GeometricSegmentation<pcl::PointXYZI>;
 extern template class PCL_COSECTION_EXPORT GeometricSegmentation<pcl::PointXYZRGB>;

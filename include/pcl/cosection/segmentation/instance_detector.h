@@ -12,8 +12,7 @@
 #include <string>
 #include <vector>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief One thing that a network has found in an image. */
 struct PCL_COSECTION_EXPORT DetectedInstance

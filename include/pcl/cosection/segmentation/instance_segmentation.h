@@ -14,13 +14,11 @@
 #include <optional>
 #include <vector>
 
-namespace pcl
-{
+namespace pcl {
 struct Label;
 }
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief The network and last result of InstanceSegmentation, which do not depend on the type of its points.
  *
@@ -130,16 +128,14 @@ InstanceSegmentation<PointT>::segment (pcl::PointCloud<pcl::Label>& labels,
 
 } // namespace pcl::cosection
 
-namespace pcl
-{
+namespace pcl {
 struct PointXYZRGB;
 struct PointXYZRGBA;
 struct PointXYZRGBL;
 struct PointXYZRGBNormal;
 } // namespace pcl
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 extern template class PCL_COSECTION_EXPORT InstanceSegmentation<pcl::PointXYZRGB>;
 extern template class PCL_COSECTION_EXPORT InstanceSegmentation<pcl::PointXYZRGBA>;
 extern template class PCL_COSECTION_EXPORT InstanceSegmentation<pcl::PointXYZRGBL>;

@@ -17,13 +17,11 @@
 #include <optional>
 #include <vector>
 
-namespace pcl
-{
+namespace pcl {
 struct Label;
 }
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief Parameters of MovingBodyFinder. */
 struct PCL_COSECTION_EXPORT MotionSegmentationOptions
@@ -276,8 +274,7 @@ MotionSegmentation<PointT>::segment (pcl::PointCloud<pcl::Label>& labels, std::v
 
 } // namespace pcl::cosection
 
-namespace pcl
-{
+namespace pcl {
 struct PointXYZ;
 struct PointXYZI;
 struct PointXYZRGB;
@@ -288,8 +285,7 @@ struct PointXYZRGBNormal;
 struct PointXYZINormal;
 } // namespace pcl
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 extern template class PCL_COSECTION_EXPORT MotionSegmentation<pcl::PointXYZ>;
 extern template class PCL_COSECTION_EXPORT MotionSegmentation<pcl::PointXYZI>;
 extern template class PCL_COSECTION_EXPORT MotionSegmentation<pcl::PointXYZRGB>;

@@ -7,8 +7,7 @@
 
 #include <vector>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief A scene as the camera sees it at a time. */
 struct PCL_COSECTION_EXPORT SimulatedFrame

@@ -16,8 +16,7 @@
 #include <utility>
 #include <vector>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief A body of known shape, metres, in its own frame. */
 class PCL_COSECTION_EXPORT Shape

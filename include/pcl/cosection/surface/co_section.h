@@ -17,8 +17,7 @@
 #include <string>
 #include <vector>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief The measurements of one object. */
 struct PCL_COSECTION_EXPORT ObjectInput

@@ -10,8 +10,7 @@
 #include <optional>
 #include <vector>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 class FreeSpaceView;
 
@@ -168,8 +167,7 @@ FreeSpaceFilter<PointT>::applyFilter (Indices& indices)
 
 } // namespace pcl::cosection
 
-namespace pcl
-{
+namespace pcl {
 struct PointXYZ;
 struct PointXYZI;
 struct PointXYZRGB;
@@ -180,8 +178,7 @@ struct PointXYZRGBNormal;
 struct PointXYZINormal;
 } // namespace pcl
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 extern template class PCL_COSECTION_EXPORT FreeSpaceFilter<pcl::PointXYZ>;
 extern template class PCL_COSECTION_EXPORT FreeSpaceFilter<pcl::PointXYZI>;
 extern template class PCL_COSECTION_EXPORT FreeSpaceFilter<pcl::PointXYZRGB>;

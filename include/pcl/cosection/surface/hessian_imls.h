@@ -18,8 +18,7 @@
 #include <utility>
 #include <vector>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief The options, constraints and last result of HessianIMLS, which do not depend on the type of its points.
  *
@@ -292,15 +291,13 @@ HessianIMLS<PointNT>::performReconstruction (pcl::PointCloud<PointNT>& points, s
 
 } // namespace pcl::cosection
 
-namespace pcl
-{
+namespace pcl {
 struct PointNormal;
 struct PointXYZRGBNormal;
 struct PointXYZINormal;
 } // namespace pcl
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 extern template class PCL_COSECTION_EXPORT HessianIMLS<pcl::PointNormal>;
 extern template class PCL_COSECTION_EXPORT HessianIMLS<pcl::PointXYZRGBNormal>;
 extern template class PCL_COSECTION_EXPORT HessianIMLS<pcl::PointXYZINormal>;

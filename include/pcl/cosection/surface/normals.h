@@ -9,8 +9,7 @@
 #include <functional>
 #include <vector>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief Parameters of computeOrganizedNormals (). */
 struct PCL_COSECTION_EXPORT OrganizedNormalsOptions

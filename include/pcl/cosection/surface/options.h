@@ -6,8 +6,7 @@
 #include <cstddef>
 #include <string>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief How the measurements at a voxel are combined. */
 enum class Weighting

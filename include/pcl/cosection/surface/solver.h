@@ -13,8 +13,7 @@
 #include <string>
 #include <vector>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief A one-sided quadratic penalty beta max (0, d - u)^2 at one voxel, in four bytes: the
  * distance in steps of 1/256 voxel up to 255 voxels, the weight with eight significant bits. */

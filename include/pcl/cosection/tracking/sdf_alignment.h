@@ -12,8 +12,7 @@
 #include <string>
 #include <vector>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief How SdfAlignment looks for a pose. */
 struct PCL_COSECTION_EXPORT SdfAlignmentOptions

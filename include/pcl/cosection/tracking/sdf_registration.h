@@ -12,8 +12,7 @@
 #include <string>
 #include <vector>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief Aligns a cloud with the surface of a signed distance volume (SdfAlignment), as a pcl::Registration: in place
  * of pcl::IterativeClosestPoint where the target is not a cloud but a model, such as what TsdfVolume has averaged, what
@@ -215,8 +214,7 @@ SdfRegistration<PointSource, PointTarget, Scalar>::computeTransformation (PointC
 
 } // namespace pcl::cosection
 
-namespace pcl
-{
+namespace pcl {
 struct PointXYZ;
 struct PointXYZI;
 struct PointXYZRGB;
@@ -226,8 +224,7 @@ struct PointXYZRGBNormal;
 struct PointXYZINormal;
 } // namespace pcl
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 extern template class PCL_COSECTION_EXPORT SdfRegistration<pcl::PointXYZ>;
 extern template class PCL_COSECTION_EXPORT SdfRegistration<pcl::PointXYZI>;
 extern template class PCL_COSECTION_EXPORT SdfRegistration<pcl::PointXYZRGB>;

@@ -12,8 +12,7 @@
 #include <optional>
 #include <vector>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief Where SdfTracker expects the object in the next frame. */
 enum class MotionModel
@@ -168,8 +167,7 @@ SdfTracker<PointInT, StateT>::computeTracking ()
 
 } // namespace pcl::cosection
 
-namespace pcl
-{
+namespace pcl {
 struct PointXYZ;
 struct PointXYZI;
 struct PointXYZRGB;
@@ -178,8 +176,7 @@ struct PointNormal;
 struct PointXYZRGBNormal;
 } // namespace pcl
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 extern template class PCL_COSECTION_EXPORT SdfTracker<pcl::PointXYZ>;
 extern template class PCL_COSECTION_EXPORT SdfTracker<pcl::PointXYZI>;
 extern template class PCL_COSECTION_EXPORT SdfTracker<pcl::PointXYZRGB>;

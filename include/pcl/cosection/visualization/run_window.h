@@ -11,8 +11,7 @@
 #include <optional>
 #include <string>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief Connect to the display.
  * \return the connection, to be kept until there is a window: a server may begin anew when its last client goes, and

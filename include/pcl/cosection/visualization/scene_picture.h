@@ -14,8 +14,7 @@
 #include <string>
 #include <vector>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief From where a scene is looked at. */
 struct PCL_COSECTION_EXPORT Viewpoint

@@ -8,8 +8,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief How extractIsoSurface () ends a surface. */
 struct PCL_COSECTION_EXPORT IsoSurfaceOptions

@@ -5,8 +5,7 @@
 #include <pcl/cosection/common/triangle_mesh.h>
 #include <pcl/cosection/volume/signed_distance_field.h>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief The signed distance of a mesh at every voxel of a grid: metres, positive outside, negative inside,
  * the exact Euclidean distance up to \a band_m and that with the right sign beyond.

@@ -13,8 +13,7 @@
 #include <optional>
 #include <vector>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief A regular grid of cubic voxels, axis-aligned in its reference frame. Values live at voxel
  * centres; x varies fastest. */

@@ -12,8 +12,7 @@
 #include <limits>
 #include <vector>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief How raycast () looks at volumes. */
 struct PCL_COSECTION_EXPORT RaycastOptions

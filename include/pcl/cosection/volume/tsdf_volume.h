@@ -16,8 +16,7 @@
 #include <optional>
 #include <vector>
 
-namespace pcl::cosection
-{
+namespace pcl::cosection {
 
 /** \brief How TsdfVolume averages. */
 struct PCL_COSECTION_EXPORT TsdfOptions
