@@ -3,10 +3,9 @@
 // make_man_page PROGRAM: prints the manual page of a program, which says what --help says. Part of the build, not
 // installed.
 
+#include "command_line.h"
 #include "evaluation_commands.h"
 #include "fusion_command_line.h"
-#include "option_table.h"
-#include "program_text.h"
 #include "report_command_line.h"
 #include "segment_command_line.h"
 #include "simulate_command_line.h"
@@ -14,55 +13,39 @@
 
 #include <iostream>
 
+namespace {
+
+template <typename Given>
+void
+print (const ProgramText& program, void (*declare) (CLI::App&, Given&))
+{
+  CLI::App app;
+  Given given;
+  declare (app, given);
+  std::cout << manPage (app, program);
+}
+
+} // namespace
+
 int
 main (int argc, char** argv)
 {
   const std::string program = argc == 2 ? argv[1] : "";
   if (program == "pcl_cosection")
-  {
-    CLI::App app;
-    Given given;
-    declareOptions (app, given);
-    std::cout << manPage (app, completionText ()) << std::flush;
-  }
+    print (completionText (), declareOptions);
   else if (program == "pcl_cosection_evaluate")
-    std::cout << evaluationManPage () << std::flush;
+    std::cout << evaluationManPage ();
   else if (program == "pcl_cosection_fusion")
-  {
-    CLI::App app;
-    GivenFusion given;
-    declareFusionOptions (app, given);
-    std::cout << manPage (app, fusionText ()) << std::flush;
-  }
+    print (fusionText (), declareFusionOptions);
   else if (program == "pcl_cosection_report")
-  {
-    CLI::App app;
-    GivenReport given;
-    declareReportOptions (app, given);
-    std::cout << manPage (app, reportText ()) << std::flush;
-  }
+    print (reportText (), declareReportOptions);
   else if (program == "pcl_cosection_segment")
-  {
-    CLI::App app;
-    GivenSegmentation given;
-    declareSegmentationOptions (app, given);
-    std::cout << manPage (app, segmentationText ()) << std::flush;
-  }
+    print (segmentationText (), declareSegmentationOptions);
   else if (program == "pcl_cosection_simulate")
-  {
-    CLI::App app;
-    GivenSimulation given;
-    declareSimulationOptions (app, given);
-    std::cout << manPage (app, simulationText ()) << std::flush;
-  }
+    print (simulationText (), declareSimulationOptions);
   else if (program == "pcl_cosection_viewer")
-  {
-    CLI::App app;
-    GivenViewer given;
-    declareViewerOptions (app, given);
-    std::cout << manPage (app, viewerText ()) << std::flush;
-  }
+    print (viewerText (), declareViewerOptions);
   else
     return (2);
-  return (std::cout ? 0 : 1);
+  return (std::cout.flush () ? 0 : 1);
 }

@@ -3,23 +3,26 @@
 // Completes the hidden surfaces of the objects in PCD views; see pcl_cosection --help.
 
 #include "command_line.h"
-#include "interruption.h"
-#include "json_summary.h"
+#include "method_json.h"
+#include "output_files.h"
 #include "output_target.h"
 #include "run_program.h"
 #include "scene_input.h"
-#include "stopwatch.h"
-#include "terminal.h"
 
 #include <pcl/cosection/common/error.h>
 #include <pcl/cosection/common/mesh_decimation.h>
 #include <pcl/cosection/surface/co_section.h>
+
+#include <nlohmann/json.hpp>
+
+#include <pcl/common/time.h>
 
 #include <iomanip>
 #include <sstream>
 #include <utility>
 
 using namespace pcl::cosection;
+using Json = nlohmann::ordered_json;
 
 namespace {
 
@@ -71,16 +74,55 @@ summaryLine (const ObjectResult& object)
   return (text.str ());
 }
 
+Json
+parameters (const Settings& settings)
+{
+  Json result;
+  result["preset"] = settings.preset.empty () ? "default" : settings.preset;
+  addMethod (settings.method, result);
+  result["planes"] = Json::array ();
+  for (const Eigen::Vector4d& p : settings.planes)
+    result["planes"].push_back ({p[0], p[1], p[2], p[3]});
+  result["free_space"] = settings.free_space;
+  result["obstacles"] = settings.obstacles;
+  result["object_trajectories"] = Json::object ();
+  for (const auto& [label, file] : settings.object_trajectories)
+    result["object_trajectories"][std::to_string (label)] = file;
+  result["max_faces"] = settings.max_faces;
+  result["scale"] = settings.reading.scale;
+  result["world_points"] = settings.reading.world_points;
+  result["viewpoints"] = settings.viewpoints;
+  return (result);
+}
+
+Json
+summaryJson (const Settings& settings, const SceneResult& result, const std::map<std::string, double>& timings_s,
+             const std::vector<std::string>& warnings)
+{
+  Json summary;
+  summary["timings_s"] = timings_s;
+  summary["parameters"] = parameters (settings);
+  summary["objects"] = Json::array ();
+  summary["failed"] = Json::array ();
+  for (const ObjectResult& object : result.objects)
+    if (object.error.empty ())
+      summary["objects"].push_back (objectJson (object));
+    else
+      summary["failed"].push_back ({{"id", object.id}, {"error", object.error}});
+  summary["warnings"] = warnings;
+  return (summary);
+}
+
 /** \brief Read, complete, write. \return whether every object succeeded */
 bool
 complete (const Settings& settings, const OutputTarget& target, std::vector<std::string>& warnings, Terminal& terminal)
 {
-  const Stopwatch total;
+  const pcl::StopWatch total;
   SceneInput input = readScene (settings, [&] (const std::string& stage, double fraction) {
     terminal.progress (stage, read_share * fraction);
     return (!interrupted ());
   });
-  const double read_s = total.seconds ();
+  const double read_s = total.getTimeSeconds ();
   warnings = input.warnings;
   for (const std::string& warning : warnings)
     terminal.warning (warning);
@@ -114,9 +156,9 @@ complete (const Settings& settings, const OutputTarget& target, std::vector<std:
 
   std::map<std::string, double> timings_s = result.timings_s;
   timings_s["read"] = read_s;
-  timings_s["total"] = total.seconds ();
+  timings_s["total"] = total.getTimeSeconds ();
   if (!settings.json.empty ())
-    writeJsonSummary (settings, result, timings_s, warnings);
+    saveJson (summaryJson (settings, result, timings_s, warnings), settings.json);
   for (const auto& [stage, seconds] : timings_s)
     terminal.detail (stage + ": " + std::to_string (seconds) + " s");
   return (all_good);
@@ -125,6 +167,7 @@ complete (const Settings& settings, const OutputTarget& target, std::vector<std:
 bool
 run (const Settings& settings, Terminal& terminal)
 {
+  catchInterruptions ();
   const OutputTarget target (settings);
   std::vector<std::string> warnings;
   try
@@ -137,8 +180,7 @@ run (const Settings& settings, Terminal& terminal)
   }
   catch (const std::exception& error)
   {
-    if (!settings.json.empty ())
-      writeJsonOfFailure (settings, describe (error, out_of_memory), warnings);
+    saveFailure (describe (error, out_of_memory), parameters (settings), warnings, {settings.json});
     throw;
   }
 }
@@ -148,12 +190,6 @@ run (const Settings& settings, Terminal& terminal)
 int
 main (int argc, char** argv)
 {
-  return (runProgram ({"pcl_cosection", "interrupted, nothing was written", out_of_memory}, [&] (Terminal& terminal) {
-    const std::optional<Settings> settings = parseCommandLine (argc, argv);
-    if (!settings)
-      return (true);
-    terminal.setVerbosity (settings->verbosity);
-    catchInterruptions ();
-    return (run (*settings, terminal));
-  }));
+  return (runProgram ({"pcl_cosection", "interrupted, nothing was written", out_of_memory}, argc, argv,
+                      parseCommandLine, run));
 }

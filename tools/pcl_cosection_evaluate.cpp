@@ -4,8 +4,6 @@
 #include "arguments.h"
 #include "evaluation_commands.h"
 #include "run_program.h"
-#include "suggestion.h"
-#include "terminal.h"
 
 #include <pcl/cosection/version.h>
 

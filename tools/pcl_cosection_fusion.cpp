@@ -2,19 +2,16 @@
 
 // Tracks and completes the objects of an RGB-D sequence; see pcl_cosection_fusion --help.
 
-#include "class_summary.h"
 #include "fusion_command_line.h"
 #include "fusion_outputs.h"
-#include "interruption.h"
 #include "live_view.h"
 #include "run_program.h"
-#include "segmenter_choice.h"
-#include "stopwatch.h"
-#include "terminal.h"
 
 #include <pcl/cosection/common/error.h>
 #include <pcl/cosection/common/triangle_mesh.h>
 #include <pcl/cosection/io/trajectory.h>
+
+#include <pcl/common/time.h>
 
 #include <algorithm>
 #include <sstream>
@@ -86,7 +83,7 @@ makeFusion (const FusionSettings& settings, const Inputs& inputs)
       sequence.segmenter = makeSegmenter (settings.segmentation, settings.fusion.front_end.threads, settings.network);
     return (SequenceFusion (sequence, options));
   }
-  if (settings.ids_per_frame)
+  if (settings.mask_ids == "per-frame")
     throw InvalidArgument (
         "with given poses, objects must have the same number in all masks, not --mask-ids per-frame");
   return (SequenceFusion (inputs.known, options));
@@ -96,16 +93,16 @@ makeFusion (const FusionSettings& settings, const Inputs& inputs)
 bool
 fuse (const FusionSettings& settings, FusionOutputs& outputs, Terminal& terminal)
 {
-  const Stopwatch total;
+  const pcl::StopWatch total;
   const Inputs inputs (settings);
   for (const std::string& warning : inputs.warnings)
     terminal.warning (warning);
   const SequenceFusion fusion = makeFusion (settings, inputs);
   std::optional<LiveView> live;
-  const Stopwatch opening;
+  const pcl::StopWatch opening;
   if (settings.live)
     live.emplace (settings.dataset, inputs.images.camera (), settings.output);
-  const double window_s = opening.seconds ();
+  const double window_s = opening.getTimeSeconds ();
   outputs.begin (); // not before the inputs are there: a slip of the pen costs nothing
 
   const auto report = [&] (const std::string& stage, double fraction) {
@@ -148,11 +145,11 @@ fuse (const FusionSettings& settings, FusionOutputs& outputs, Terminal& terminal
                     (result.warnings.empty () ? std::string () : "; " + result.warnings.back ()));
   }
 
-  const Stopwatch writing;
+  const pcl::StopWatch writing;
   const std::vector<std::string> files = outputs.write (result);
-  result.timings_s["write"] = writing.seconds ();
-  result.timings_s["total"] = total.seconds () - window_s; // a window that opens is not yet the run
-  outputs.writeSummary (settings, result);
+  result.timings_s["write"] = writing.getTimeSeconds ();
+  result.timings_s["total"] = total.getTimeSeconds () - window_s; // a window that opens is not yet the run
+  outputs.writeSummary (result);
   for (const std::string& file : files)
     terminal.detail ("wrote " + file);
   std::ostringstream text;
@@ -168,6 +165,7 @@ fuse (const FusionSettings& settings, FusionOutputs& outputs, Terminal& terminal
 bool
 run (const FusionSettings& settings, Terminal& terminal)
 {
+  catchInterruptions ();
   FusionOutputs outputs (settings);
   try
   {
@@ -179,7 +177,7 @@ run (const FusionSettings& settings, Terminal& terminal)
   }
   catch (const std::exception& error)
   {
-    outputs.writeFailure (settings, describe (error, out_of_memory));
+    outputs.writeFailure (describe (error, out_of_memory));
     throw;
   }
 }
@@ -189,13 +187,6 @@ run (const FusionSettings& settings, Terminal& terminal)
 int
 main (int argc, char** argv)
 {
-  return (runProgram ({"pcl_cosection_fusion", "interrupted; what was written is whole", out_of_memory},
-                      [&] (Terminal& terminal) {
-                        const std::optional<FusionSettings> settings = parseFusionCommandLine (argc, argv);
-                        if (!settings)
-                          return (true);
-                        terminal.setVerbosity (settings->verbosity);
-                        catchInterruptions ();
-                        return (run (*settings, terminal));
-                      }));
+  return (runProgram ({"pcl_cosection_fusion", "interrupted; what was written is whole", out_of_memory}, argc, argv,
+                      parseFusionCommandLine, run));
 }

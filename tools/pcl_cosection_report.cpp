@@ -2,12 +2,10 @@
 
 // Shows a run of pcl_cosection_fusion in one HTML file; see pcl_cosection_report --help.
 
-#include "interruption.h"
 #include "output_files.h"
 #include "report_command_line.h"
 #include "report_page.h"
 #include "run_program.h"
-#include "terminal.h"
 
 #include <pcl/cosection/common/error.h>
 
@@ -29,8 +27,6 @@ addTruth (ReportContent& content, Terminal& terminal)
     content.truth = compareWithTruth (content.scene, content.truth_folder, content.threads);
     measureErrors (content.scene, content.truth->truth, content.truth->evaluation, content.threads);
     content.warnings.insert (content.warnings.end (), content.truth->notes.begin (), content.truth->notes.end ());
-    content.warnings.insert (content.warnings.end (), content.truth->evaluation.warnings.begin (),
-                             content.truth->evaluation.warnings.end ());
   }
   catch (const IoError&) // there is no truth
   {
@@ -65,18 +61,10 @@ addOtherRuns (ReportContent& content, const std::vector<std::string>& folders, T
   }
 }
 
-/** \brief "3 objects, 2.4 MB" */
-std::string
-describe (const ReportContent& content, std::size_t bytes)
-{
-  char size[32];
-  std::snprintf (size, sizeof (size), "%.1f MB", static_cast<double> (bytes) / 1e6);
-  return (counted (content.run.objects.size (), "object") + ", " + size);
-}
-
-void
+bool
 run (const ReportSettings& settings, Terminal& terminal)
 {
+  catchInterruptions ();
   terminal.progress ("reading", 0.0);
   ReportContent content;
   content.threads = settings.threads;
@@ -96,7 +84,10 @@ run (const ReportSettings& settings, Terminal& terminal)
     return (!interrupted ());
   });
   saveText (page, settings.output);
-  terminal.result ("wrote " + settings.output + ": " + describe (content, page.size ()));
+  char size[32];
+  std::snprintf (size, sizeof (size), "%.1f MB", static_cast<double> (page.size ()) / 1e6);
+  terminal.result ("wrote " + settings.output + ": " + counted (content.run.objects.size (), "object") + ", " + size);
+  return (true);
 }
 
 } // namespace
@@ -104,13 +95,6 @@ run (const ReportSettings& settings, Terminal& terminal)
 int
 main (int argc, char** argv)
 {
-  return (runProgram ({"pcl_cosection_report", "interrupted; nothing was written"}, [&] (Terminal& terminal) {
-    const std::optional<ReportSettings> settings = parseReportCommandLine (argc, argv);
-    if (!settings)
-      return (true);
-    terminal.setVerbosity (settings->verbosity);
-    catchInterruptions ();
-    run (*settings, terminal);
-    return (true);
-  }));
+  return (runProgram ({"pcl_cosection_report", "interrupted; nothing was written"}, argc, argv, parseReportCommandLine,
+                      run));
 }

@@ -2,20 +2,20 @@
 
 // Finds the objects in a view; see pcl_cosection_segment --help.
 
-#include "class_summary.h"
-#include "found_objects.h"
 #include "output_files.h"
 #include "run_program.h"
 #include "segment_command_line.h"
-#include "stopwatch.h"
-#include "terminal.h"
 
-#include <nlohmann/json.hpp>
-
+#include "pcl_cosection/view/organized_cloud.h"
 #include <pcl/cosection/common/error.h>
 #include <pcl/cosection/common/image.h>
 
+#include <nlohmann/json.hpp>
+#include <pcl/common/time.h>
+
 #include <algorithm>
+#include <array>
+#include <limits>
 #include <optional>
 
 using namespace pcl::cosection;
@@ -23,6 +23,77 @@ using namespace pcl::cosection;
 namespace {
 
 constexpr float large_depth_m = 100.0f; ///< what is farther is probably not in metres
+
+/** \brief The objects in a view. */
+struct FoundObjects
+{
+  struct Object
+  {
+    std::size_t points = 0;
+    std::optional<DetectedInstance> detected; ///< by a network
+  };
+
+  std::vector<std::uint32_t> labels; ///< one per point
+  std::vector<Object> objects;       ///< label n is at n - 1
+  std::vector<Eigen::Vector4f> support_planes;
+};
+
+FoundObjects
+findByGeometry (const SegmentSettings& settings, OrganizedCloud cloud, const Image<std::uint8_t>& ignored)
+{
+  for (std::size_t i = 0; i < cloud.points.size (); ++i)
+    if (ignored.pixels[i] != 0)
+      cloud.points[i].setConstant (std::numeric_limits<float>::quiet_NaN ());
+  ObjectSegmentation found = segmentObjects (cloud.points, cloud.width, cloud.height, settings.segmentation);
+  return {std::move (found.labels), std::vector<FoundObjects::Object> (found.objects),
+          std::move (found.support_planes)};
+}
+
+FoundObjects
+findByNetwork (InstanceDetector& detector, const ClassRoles& roles, const OrganizedCloud& cloud,
+               const Image<std::uint8_t>& ignored)
+{
+  const std::vector<std::array<std::uint8_t, 3>>& pixels = cloud.picture.pixels;
+  if (std::all_of (pixels.begin (), pixels.end (), [] (const auto& c) { return (c == std::array<std::uint8_t, 3>{}); }))
+    throw DegenerateInput (pixels.empty () ? "has no colours (a field rgb or rgba), which --method mask-rcnn needs"
+                                           : "all of it is black");
+  Image<std::uint8_t> readings (cloud.width, cloud.height, 0);
+  for (std::size_t i = 0; i < cloud.points.size (); ++i)
+    readings.pixels[i] = cloud.points[i].allFinite () && ignored.pixels[i] == 0 ? 1 : 0;
+  std::vector<DetectedInstance> instances = detector.detect (cloud.picture);
+  const InstanceLabels labelled = labelInstances (instances, cloud.width, cloud.height, roles, readings);
+  FoundObjects found;
+  found.labels.assign (labelled.labels.pixels.begin (), labelled.labels.pixels.end ());
+  for (const std::size_t n : labelled.instances)
+    found.objects.push_back ({0, std::move (instances[n])});
+  return (found);
+}
+
+/** \brief Find them as the user asked for. \param[in] detector null: by geometry
+ * \throws UsageError, Error naming the file */
+FoundObjects
+findObjects (const SegmentSettings& settings, const OrganizedCloud& cloud, InstanceDetector* detector)
+{
+  const Image<std::uint8_t> ignored = ignoredPixels (settings.ignored, cloud.width, cloud.height);
+  FoundObjects found;
+  try
+  {
+    found = detector != nullptr ? findByNetwork (*detector, settings.network->roles, cloud, ignored)
+                                : findByGeometry (settings, cloud, ignored);
+  }
+  catch (const DegenerateInput& error)
+  {
+    throw DegenerateInput (settings.input + ": " + error.what ());
+  }
+  for (std::size_t i = 0; i < found.labels.size (); ++i)
+  {
+    if (ignored.pixels[i] != 0)
+      found.labels[i] = ignored_label;
+    if (found.labels[i] > 0 && found.labels[i] <= found.objects.size ())
+      ++found.objects[found.labels[i] - 1].points;
+  }
+  return (found);
+}
 
 std::vector<std::string>
 warningsOf (const SegmentSettings& settings, const OrganizedCloud& cloud)
@@ -39,12 +110,6 @@ warningsOf (const SegmentSettings& settings, const OrganizedCloud& cloud)
     warnings.push_back (settings.input + ": is up to " + std::to_string (static_cast<long> (depth)) +
                         " m deep; if it is in millimetres, give --scale 0.001");
   return warnings;
-}
-
-std::string
-numbered (std::size_t count, const std::string& what)
-{
-  return (std::to_string (count) + " " + what + (count == 1 ? "" : "s"));
 }
 
 /** \brief "cup, score 0.92, "; nothing if that is not known. */
@@ -85,10 +150,11 @@ parameters (const SegmentSettings& settings)
   return (summary);
 }
 
-void
-run (SegmentSettings settings, Terminal& terminal)
+bool
+run (const SegmentSettings& given, Terminal& terminal)
 {
-  const Stopwatch total;
+  SegmentSettings settings = given;
+  const pcl::StopWatch total;
   if (settings.network)
     readClassNames (*settings.network);
   requireWritable (settings.output);
@@ -98,7 +164,7 @@ run (SegmentSettings settings, Terminal& terminal)
   reading.scale = settings.scale;
   reading.world_points = settings.world_points;
   const OrganizedCloud cloud = readOrganizedCloud (settings.input, reading);
-  const double read_s = total.seconds ();
+  const double read_s = total.getTimeSeconds ();
   const std::vector<std::string> warnings = warningsOf (settings, cloud);
   for (const std::string& warning : warnings)
     terminal.warning (warning);
@@ -106,20 +172,20 @@ run (SegmentSettings settings, Terminal& terminal)
   std::optional<InstanceDetector> detector;
   if (settings.network)
     detector.emplace (settings.network->network);
-  const Stopwatch segmentation;
+  const pcl::StopWatch segmentation;
   const FoundObjects found = findObjects (settings, cloud, detector ? &*detector : nullptr);
-  const double segmentation_s = segmentation.seconds ();
+  const double segmentation_s = segmentation.getTimeSeconds ();
   copyWithLabels (settings.input, found.labels, settings.output);
 
   for (std::size_t n = 0; n < found.objects.size (); ++n)
     terminal.detail ("object " + std::to_string (n + 1) + ": " + nameOf (found.objects[n]) +
-                     numbered (found.objects[n].points, "point"));
-  terminal.result ("wrote " + settings.output + ": " + numbered (found.objects.size (), "object") +
-                   (detector ? "" : " on " + numbered (found.support_planes.size (), "plane")));
+                     counted (found.objects[n].points, "point"));
+  terminal.result ("wrote " + settings.output + ": " + counted (found.objects.size (), "object") +
+                   (detector ? "" : " on " + counted (found.support_planes.size (), "plane")));
   if (settings.json.empty ())
-    return;
+    return (true);
   nlohmann::ordered_json summary;
-  summary["timings_s"] = {{"read", read_s}, {"segmentation", segmentation_s}, {"total", total.seconds ()}};
+  summary["timings_s"] = {{"read", read_s}, {"segmentation", segmentation_s}, {"total", total.getTimeSeconds ()}};
   summary["parameters"] = parameters (settings);
   summary["objects"] = nlohmann::ordered_json::array ();
   for (std::size_t n = 0; n < found.objects.size (); ++n)
@@ -130,6 +196,7 @@ run (SegmentSettings settings, Terminal& terminal)
     summary["support_planes"].push_back ({plane[0], plane[1], plane[2], plane[3]});
   summary["warnings"] = warnings;
   saveJson (summary, settings.json);
+  return (true);
 }
 
 } // namespace
@@ -137,12 +204,5 @@ run (SegmentSettings settings, Terminal& terminal)
 int
 main (int argc, char** argv)
 {
-  return (runProgram ({"pcl_cosection_segment"}, [&] (Terminal& terminal) {
-    const std::optional<SegmentSettings> settings = parseSegmentCommandLine (argc, argv);
-    if (!settings)
-      return (true);
-    terminal.setVerbosity (settings->verbosity);
-    run (*settings, terminal);
-    return (true);
-  }));
+  return (runProgram ({"pcl_cosection_segment"}, argc, argv, parseSegmentCommandLine, run));
 }

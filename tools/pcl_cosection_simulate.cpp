@@ -2,19 +2,17 @@
 
 // Renders known scenes, with the truth; see pcl_cosection_simulate --help.
 
-#include "interruption.h"
 #include "output_files.h"
 #include "run_program.h"
 #include "simulate_command_line.h"
-#include "stopwatch.h"
-#include "terminal.h"
-
-#include <nlohmann/json.hpp>
 
 #include "pcl_cosection/simulation/penetration_check.h"
 #include "pcl_cosection/simulation/sequence_writer.h"
 #include <pcl/cosection/common/error.h>
 #include <pcl/cosection/simulation/simulated_scene.h>
+
+#include <nlohmann/json.hpp>
+#include <pcl/common/time.h>
 
 #include <algorithm>
 #include <iostream>
@@ -58,7 +56,7 @@ warningsOf (const SimulatedScene& scene, const SequenceOptions& frames, const Pr
     std::ostringstream text;
     text.precision (2);
     text << p.second << " is inside " << p.first << ", by " << 1000.0 * p.depth_m << " mm at frame " << p.frame
-         << " (in " << p.frames << (p.frames == 1 ? " frame)" : " frames)");
+         << " (in " << counted (p.frames, "frame") << ")";
     warnings.push_back (text.str ());
   }
   return (warnings);
@@ -82,11 +80,11 @@ checkOutputs (const SimulateSettings& settings, const SimulatedScene& scene)
 }
 
 void
-run (const SimulateSettings& settings, Terminal& terminal)
+simulate (const SimulateSettings& settings, Terminal& terminal)
 {
-  const Stopwatch stopwatch;
+  const pcl::StopWatch stopwatch;
   const SimulatedScene scene = sceneOf (settings);
-  const double read_s = stopwatch.seconds ();
+  const double read_s = stopwatch.getTimeSeconds ();
   checkOutputs (settings, scene);
   SequenceOptions options;
   options.first = settings.first_frame;
@@ -99,22 +97,22 @@ run (const SimulateSettings& settings, Terminal& terminal)
   const std::vector<std::string> warnings = warningsOf (scene, options, report);
   for (const std::string& warning : warnings)
     terminal.warning (warning);
-  const double check_s = stopwatch.seconds () - read_s;
+  const double check_s = stopwatch.getTimeSeconds () - read_s;
 
   double truth_s = 0.0; // until the first frame
   writeSequence (scene, settings.output, options, [&] (const std::string& stage, double fraction) {
     if (stage == "frames" && truth_s == 0.0)
-      truth_s = stopwatch.seconds () - read_s - check_s;
+      truth_s = stopwatch.getTimeSeconds () - read_s - check_s;
     return (report (stage, fraction));
   });
-  const double total_s = stopwatch.seconds ();
+  const double total_s = stopwatch.getTimeSeconds ();
   const int frames = (options.last < 0 ? scene.frames : options.last) - options.first;
   const double render_s = total_s - read_s - check_s - truth_s;
   std::ostringstream text;
   text.precision (3);
-  text << "wrote " << settings.output << ": " << frames << (frames == 1 ? " frame" : " frames") << " of "
-       << scene.camera.width << " x " << scene.camera.height << ", " << scene.bodies.size () - 1
-       << (scene.bodies.size () == 2 ? " object, " : " objects, ") << frames / render_s << " frames/s";
+  text << "wrote " << settings.output << ": " << counted (frames, "frame") << " of " << scene.camera.width << " x "
+       << scene.camera.height << ", " << counted (scene.bodies.size () - 1, "object") << ", " << frames / render_s
+       << " frames/s";
   terminal.result (text.str ());
   if (settings.json.empty ())
     return;
@@ -135,27 +133,28 @@ run (const SimulateSettings& settings, Terminal& terminal)
   saveJson (summary, settings.json);
 }
 
+bool
+run (const SimulateSettings& settings, Terminal& terminal)
+{
+  if (settings.list_presets)
+    for (const ScenePreset& preset : scenePresets ())
+      std::cout << preset.name << std::string (8 - std::min<std::size_t> (7, preset.name.size ()), ' ')
+                << preset.meaning << "\n";
+  else if (!settings.print_preset.empty ())
+    std::cout << presetOf (settings.print_preset).spec;
+  else
+  {
+    catchInterruptions ();
+    simulate (settings, terminal);
+  }
+  return (true);
+}
+
 } // namespace
 
 int
 main (int argc, char** argv)
 {
-  return (runProgram ({"pcl_cosection_simulate", "interrupted, nothing was written"}, [&] (Terminal& terminal) {
-    const std::optional<SimulateSettings> settings = parseSimulateCommandLine (argc, argv);
-    if (!settings)
-      return (true);
-    if (settings->list_presets)
-      for (const ScenePreset& preset : scenePresets ())
-        std::cout << preset.name << std::string (8 - std::min<std::size_t> (7, preset.name.size ()), ' ')
-                  << preset.meaning << "\n";
-    else if (!settings->print_preset.empty ())
-      std::cout << presetOf (settings->print_preset).spec;
-    else
-    {
-      terminal.setVerbosity (settings->verbosity);
-      catchInterruptions ();
-      run (*settings, terminal);
-    }
-    return (true);
-  }));
+  return (runProgram ({"pcl_cosection_simulate", "interrupted, nothing was written"}, argc, argv,
+                      parseSimulateCommandLine, run));
 }

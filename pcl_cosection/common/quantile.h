@@ -7,7 +7,8 @@
 
 namespace pcl::cosection {
 
-// Every function here takes values that are finite and at least one, and is O (values). The values' order changes.
+// Every function here takes values that are finite and at least one, and is O (values) unless it says more. The values'
+// order changes.
 
 /** \brief The value at place \a rank, from 0, if the values were sorted. */
 template <typename Real>
@@ -33,6 +34,15 @@ Real
 upperMedian (std::vector<Real>& values)
 {
   return valueOfRank (values, values.size () / 2);
+}
+
+/** \brief The value in the middle, the mean of two if there are two. O (values log values). */
+template <typename Real>
+Real
+median (std::vector<Real>& values)
+{
+  std::sort (values.begin (), values.end ());
+  return Real (0.5) * (values[(values.size () - 1) / 2] + values[values.size () / 2]);
 }
 
 /** \brief Standard deviation of normally distributed errors, from their \a sizes: robust, as half of them may be

@@ -1,11 +1,10 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "background.h"
 
-#include "pcl_cosection/completion/grid/place_bodies.h"
-#include "pcl_cosection/completion/grid/volume_layout.h"
-#include "pcl_cosection/completion/grid/voxel_size.h"
+#include "pcl_cosection/common/boxes.h"
 #include "pcl_cosection/energy/body_mesh.h"
 #include "pcl_cosection/mesh/mesh_attributes.h"
+#include "place_bodies.h"
 
 #include <algorithm>
 #include <array>
@@ -21,6 +20,7 @@ constexpr double whole_background_voxel_m = 0.02;          // smaller for small 
 constexpr double whole_background_resolution = 128.0;      // voxels along the longest side
 constexpr double most_whole_voxels = 256.0 * 256.0 * 256.0;
 constexpr double whole_margin_vox = 4.0;
+constexpr const char* background_name = "the background"; // in warnings
 constexpr double growth_vox = 12.0; // margin of an incremental background where it grows, as it will grow again
 
 /** \brief The box with a margin for further growth on those sides where it exceeds the grid, if memory allows. */
@@ -47,7 +47,7 @@ boxInWorld (const SceneObject& object)
 {
   Eigen::AlignedBox3d box;
   for (const Eigen::Isometry3d& T : object.T_world_object)
-    for (const Eigen::Vector3d& corner : corners (boxOf (object.grid ())))
+    for (const Eigen::Vector3d& corner : corners (object.grid ()))
       box.extend (T * corner);
   return box;
 }
@@ -81,8 +81,8 @@ backgroundVoxelSize (const Scene& scene, const std::vector<SceneObject>& objects
   double smallest = std::numeric_limits<double>::infinity ();
   for (const SceneObject& object : objects)
     smallest = std::min (smallest,
-                         fixedVoxelSize (options) ? object.observation->voxel_size_m : object.observation->spacing_m);
-  const double side = boxes.empty () ? 0.0 : boxes.front ().sizes ().maxCoeff ();
+                         scene.fixedVoxelSize () ? object.observation->voxel_size_m : object.observation->spacing_m);
+  const double side = boxes.front ().sizes ().maxCoeff ();
   if (!options.whole_background)
     return std::isfinite (smallest) ? background_voxels_per_object_voxel * smallest : side / background_only_resolution;
   double voxel = std::min (whole_background_voxel_m, side / whole_background_resolution);
@@ -114,49 +114,6 @@ continuedPlanes (const std::vector<SceneObject>& objects)
   return planes;
 }
 
-template <typename Function>
-void
-guardBackground (CompletionLog& log, Function&& f)
-{
-  const std::string reason = CompletionLog::reasonOfFailure (f);
-  if (!reason.empty ())
-    log.warn ("the background was left out: " + reason);
-}
-
-void
-solveBody (const Scene& scene, CompletionMode mode, UpdateOutput output, const std::vector<PlaneContinuation>& planes,
-           BodyState& body, Background& background, CompletionLog& log)
-{
-  const BodyEnergy energy = log.timed ("constraints", [&] { return makeBodyEnergy (*body.evidence, planes); });
-  if (mode == CompletionMode::Once)
-    body.evidence.reset ();
-  if (!energy.hasData ())
-    return;
-  BackgroundResult piece;
-  log.timed ("solve", [&] {
-    const ProgressCallback progress = [&] (const std::string&, double f) {
-      log.report ("background", 0.05 + 0.25 * f);
-      return true;
-    };
-    if (mode == CompletionMode::Once)
-      piece.solver = solve (energy, Resolution::Full, body.solution, progress);
-    else
-    {
-      const FollowSummary summary = followSolution (energy, body.solution, progress);
-      piece.solver = summary.solver;
-      piece.solved_share = summary.solved_share;
-    }
-  });
-  if (output == UpdateOutput::Meshes)
-    log.timed ("mesh", [&] {
-      TriangleMesh mesh = trimmedMesh (energy, body.solution, scene.background);
-      transferAttributes (scene.background, energy.grid, mesh);
-      appendMesh (background.mesh, mesh);
-    });
-  piece.signed_distance = std::make_shared<SignedDistanceField> (solvedField (energy, body.solution));
-  background.pieces.push_back (std::move (piece));
-}
-
 } // namespace
 
 std::vector<SignedDistanceField::ConstPtr>
@@ -186,11 +143,11 @@ placeBackground (const Scene& scene, const std::vector<SceneObject>& objects, Co
       if (whole.grid && whole.grid->voxel_size_m == voxel && options.max_memory_bytes == 0)
         box = withRoomToGrow (box, *whole.grid);
       const std::size_t others = used_bytes - (whole.grid ? estimateBytes (*whole.grid) : 0);
-      guardBackground (log, [&] { placeBody (box, voxel, 1.0, false, others, options, mode, whole); });
+      log.guardPart (background_name, [&] { placeBody (box, voxel, 1.0, false, others, options, mode, whole); });
     }
     else
       for (const Eigen::AlignedBox3d& box : boxes)
-        guardBackground (log, [&] {
+        log.guardPart (background_name, [&] {
           auto piece = std::make_unique<BodyState> ();
           placeBody (box, voxel, 1.0, false, used_bytes, options, mode, *piece);
           background.pieces.push_back (std::move (piece));
@@ -211,8 +168,34 @@ solveBackground (const Scene& scene, const std::vector<SceneObject>& objects, Co
   if (bodies.empty ())
     return background;
   const std::vector<PlaneContinuation> planes = continuedPlanes (objects);
+  const auto solveBody = [&] (BodyState& body) {
+    const BodyEnergy energy = log.timed ("constraints", [&] { return makeBodyEnergy (*body.evidence, planes); });
+    if (mode == CompletionMode::Once)
+      body.evidence.reset ();
+    if (!energy.hasData ())
+      return;
+    BackgroundResult piece;
+    log.timed ("solve", [&] {
+      const ProgressCallback progress = [&] (const std::string&, double f) {
+        log.report ("background", 0.05 + 0.25 * f);
+        return true;
+      };
+      if (mode == CompletionMode::Once)
+        piece.solver = solve (energy, Resolution::Full, body.solution, progress);
+      else
+        piece.solver = followSolution (energy, body.solution, progress, piece.solved_share);
+    });
+    if (output == UpdateOutput::Meshes)
+      log.timed ("mesh", [&] {
+        TriangleMesh mesh = trimmedMesh (energy, body.solution, scene.background);
+        transferAttributes (scene.background, energy.grid, mesh);
+        appendMesh (background.mesh, mesh);
+      });
+    piece.signed_distance = std::make_shared<SignedDistanceField> (solvedField (energy, body.solution));
+    background.pieces.push_back (std::move (piece));
+  };
   for (BodyState* body : bodies)
-    guardBackground (log, [&] { solveBody (scene, mode, output, planes, *body, background, log); });
+    log.guardPart (background_name, [&] { solveBody (*body); });
   return background;
 }
 

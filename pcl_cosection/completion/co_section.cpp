@@ -84,17 +84,11 @@ CoSection::removeViews (const std::vector<bool>& remove)
   for (std::size_t v = 0, next = 0; v < remove.size (); ++v)
     number[v] = remove[v] ? -1 : static_cast<int> (next++);
   const auto compact = [&] (auto& per_view) {
-    if (per_view.empty ())
-      return;
-    std::size_t next = 0;
-    for (std::size_t v = 0; v < per_view.size (); ++v)
-      if (v >= remove.size () || !remove[v])
-      {
-        if (next != v)
-          per_view[next] = std::move (per_view[v]);
-        ++next;
-      }
-    per_view.resize (next);
+    const auto is_removed = [&] (const auto& of_view) {
+      const auto v = static_cast<std::size_t> (&of_view - per_view.data ());
+      return v < remove.size () && remove[v];
+    };
+    per_view.erase (std::remove_if (per_view.begin (), per_view.end (), is_removed), per_view.end ());
   };
   compact (impl_->scene.views);
   for (auto& [id, poses] : impl_->scene.poses)
@@ -128,10 +122,8 @@ CoSection::removeViews (const std::vector<bool>& remove)
 void
 CoSection::removeObject (int id)
 {
-  auto& objects = impl_->scene.objects;
-  objects.erase (
-      std::remove_if (objects.begin (), objects.end (), [id] (const ObjectInput& object) { return object.id == id; }),
-      objects.end ());
+  if (const ObjectInput* object = impl_->scene.find (id)) // each is there once
+    impl_->scene.objects.erase (impl_->scene.objects.begin () + (object - impl_->scene.objects.data ()));
   impl_->scene.poses.erase (id);
   impl_->state.objects.erase (id);
   if (id != 0)

@@ -2,12 +2,11 @@
 #include "complete_scene.h"
 
 #include "background.h"
+#include "energy_terms.h"
 #include "finish_objects.h"
-#include "gather_evidence.h"
 #include "joint_solve.h"
-#include "object_energies.h"
 #include "observe.h"
-#include "pcl_cosection/completion/grid/place_bodies.h"
+#include "place_bodies.h"
 #include "surroundings.h"
 
 namespace pcl::cosection {
@@ -37,7 +36,7 @@ completeScene (const Scene& scene, CompletionMode mode, UpdateOutput output, con
     return placeBackground (scene, objects, mode, used_bytes + bytesOf (obstacles), state, log);
   });
 
-  // Equations (2) and (3): sums over points, and votes on free space.
+  // Sums over points for equation (2), and votes on free space for (3).
   const std::vector<double> contradicted = gatherEvidence (scene, mode, objects, bodies.bodies, log);
 
   // The background first, E_data + E_reg + E_hull: it is a constraint for all objects.
@@ -52,7 +51,7 @@ completeScene (const Scene& scene, CompletionMode mode, UpdateOutput output, con
   const std::vector<SolverSummary> solvers = solveJointly (scene, objects, background_fields, obstacles, energies, log);
 
   // Zero sets with provenance and confidence, inner and outer bounds, penetration.
-  std::vector<FinishedObject> finished = log.timed ("mesh", [&] {
+  std::vector<ObjectResult> finished = log.timed ("mesh", [&] {
     return finishObjects (scene, objects, energies, background_fields, obstacles, output, used_bytes, log);
   });
   log.report ("done", 1.0);

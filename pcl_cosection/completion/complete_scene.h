@@ -1,8 +1,7 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "pcl_cosection/completion/scene/scene.h"
-#include "pcl_cosection/completion/scene/scene_state.h"
+#include "scene.h"
 
 namespace pcl::cosection {
 

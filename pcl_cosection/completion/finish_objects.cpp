@@ -1,10 +1,11 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "finish_objects.h"
 
-#include "pcl_cosection/completion/grid/place_bodies.h"
+#include "hulls.h"
+#include "joint_solve.h"
 #include "pcl_cosection/energy/body_mesh.h"
 #include "pcl_cosection/mesh/mesh_attributes.h"
-#include "penetration.h"
+#include "place_bodies.h"
 
 #include <algorithm>
 #include <cmath>
@@ -29,66 +30,49 @@ markInferred (const SceneObject& object, TriangleMesh& mesh)
       mesh.provenance[v] = static_cast<std::uint8_t> (Provenance::Inferred);
 }
 
-void
-addMeshes (const SceneObject& object, const BodyEnergy& energy, FinishedObject& finished)
-{
-  const BodySolution& solution = object.body->solution;
-  finished.mesh = closedMesh (energy, solution);
-  if (finished.mesh.empty ())
-    throw DegenerateInput ("its measurements determine no closed surface, or lie inside another body");
-  markInferred (object, finished.mesh);
-  transferAttributes (object.points (), energy.grid, finished.mesh);
-  if (energy.options.compute_bounds)
-    finished.inner_bound = innerMesh (energy, solution, object.points ());
-}
-
 } // namespace
 
-std::vector<FinishedObject>
+std::vector<ObjectResult>
 finishObjects (const Scene& scene, const std::vector<SceneObject>& objects, const std::vector<BodyEnergy>& energies,
                const std::vector<SignedDistanceField::ConstPtr>& background, const std::vector<Obstacle>& obstacles,
                UpdateOutput output, std::size_t used_bytes, CompletionLog& log)
 {
-  std::vector<FinishedObject> finished (objects.size ());
-  const auto forEach = [&] (auto&& f) {
-    for (std::size_t o = 0; o < objects.size (); ++o)
-      if (!log.failed (objects[o].index))
-        log.guard (objects[o].index, [&] { f (o); });
-  };
-  forEach ([&] (std::size_t o) {
-    finished[o].field = std::make_shared<SignedDistanceField> (solvedField (energies[o], objects[o].body->solution));
-    if (output == UpdateOutput::Meshes)
-      addMeshes (objects[o], energies[o], finished[o]);
+  std::vector<ObjectResult> results (objects.size ());
+  forEachObject (objects, log, [&] (std::size_t o) {
+    const SceneObject& object = objects[o];
+    const BodySolution& solution = object.body->solution;
+    ObjectResult& result = results[o];
+    result.signed_distance = std::make_shared<SignedDistanceField> (solvedField (energies[o], solution));
+    if (output != UpdateOutput::Meshes)
+      return;
+    result.mesh = closedMesh (energies[o], solution);
+    if (result.mesh.empty ())
+      throw DegenerateInput ("its measurements determine no closed surface, or lie inside another body");
+    markInferred (object, result.mesh);
+    transferAttributes (object.points (), energies[o].grid, result.mesh);
+    if (scene.options.compute_bounds)
+      result.inner_bound = innerMesh (energies[o], solution, object.points ());
   });
   if (output == UpdateOutput::Meshes)
   {
-    std::vector<const TriangleMesh*> meshes;
-    std::vector<const SignedDistanceField*> fields;
-    for (const FinishedObject& object : finished)
-    {
-      meshes.push_back (&object.mesh);
-      fields.push_back (object.field.get ());
-    }
     used_bytes += bytesOf (obstacles);
     for (const SignedDistanceField::ConstPtr& field : background)
       used_bytes += bytesOf (*field);
-    std::vector<HullMeshes> hulls = findHulls (scene, objects, meshes, fields, used_bytes, log);
-    for (std::size_t o = 0; o < objects.size (); ++o)
-      finished[o].hulls = std::move (hulls[o]);
+    addHulls (scene, objects, used_bytes, results, log);
   }
   if (scene.options.use_intersection)
-    forEach ([&] (std::size_t o) {
-      const SignedDistanceField& field = *finished[o].field;
+    forEachObject (objects, log, [&] (std::size_t o) {
+      const SignedDistanceField& field = *results[o].signed_distance;
       double deepest = penetrationOfSurroundings (scene, objects[o], field, background, obstacles);
       for (std::size_t p = 0; p < objects.size (); ++p)
         if (p != o && !log.failed (objects[p].index))
           deepest = std::max (deepest,
-                              penetration (field, *finished[p].field,
+                              penetration (field, *results[p].signed_distance,
                                            relativePoses (*objects[o].input, objects[o].grid (), objects[p].input),
                                            scene.options.threads));
-      finished[o].penetration_m = deepest;
+      results[o].penetration_m = deepest;
     });
-  return finished;
+  return results;
 }
 
 void
@@ -103,32 +87,27 @@ SceneResult
 sceneResult (const Scene& scene, const std::vector<Observation>& observations,
              const std::vector<SupportPlanes>& support, const std::vector<SceneObject>& objects,
              const std::vector<double>& contradicted, Background background, const std::vector<SolverSummary>& solvers,
-             std::vector<FinishedObject> finished, const CompletionLog& log)
+             std::vector<ObjectResult> finished, const CompletionLog& log)
 {
   SceneResult result;
   result.objects.resize (scene.objects.size ());
-  for (std::size_t o = 0; o < scene.objects.size (); ++o)
-  {
-    result.objects[o].id = scene.objects[o].id;
-    result.objects[o].error = log.error (o);
-  }
   for (std::size_t n = 0; n < objects.size (); ++n)
   {
     const std::size_t o = objects[n].index;
     if (log.failed (o))
       continue;
     ObjectResult& object = result.objects[o];
-    object.mesh = std::move (finished[n].mesh);
-    object.hull = std::move (finished[n].hulls.hull);
-    object.inner_bound = std::move (finished[n].inner_bound);
-    object.outer_bound = std::move (finished[n].hulls.outer_bound);
-    object.signed_distance = finished[n].field;
+    object = std::move (finished[n]);
     object.outlier_points = observations[o].outliers ();
     object.contradicted_share = contradicted[o];
     if (support[o].inferred)
       object.guessed_plane = support[o].planes.front ();
     object.solver = solvers[n];
-    object.penetration_m = finished[n].penetration_m;
+  }
+  for (std::size_t o = 0; o < scene.objects.size (); ++o)
+  {
+    result.objects[o].id = scene.objects[o].id;
+    result.objects[o].error = log.error (o);
   }
   result.background = std::move (background.mesh);
   result.background_pieces = std::move (background.pieces);

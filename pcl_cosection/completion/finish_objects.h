@@ -2,7 +2,6 @@
 #pragma once
 
 #include "background.h"
-#include "hulls.h"
 #include "surroundings.h"
 
 #include <cstddef>
@@ -10,23 +9,13 @@
 
 namespace pcl::cosection {
 
-/** \brief The results of one object, in its frame. */
-struct FinishedObject
-{
-  SignedDistanceField::Ptr field; // metres
-  TriangleMesh mesh;              // closed
-  TriangleMesh inner_bound;
-  HullMeshes hulls;
-  double penetration_m = 0.0; // largest depth in any other body
-};
-
-/** \brief Fields, meshes with provenance and confidence, and bounds of all objects that were solved.
+/** \brief Fields, meshes with provenance and confidence, bounds and penetration of all objects that were solved.
  * \param[in] used_bytes memory in use, without obstacles and fields */
-std::vector<FinishedObject> finishObjects (const Scene& scene, const std::vector<SceneObject>& objects,
-                                           const std::vector<BodyEnergy>& energies,
-                                           const std::vector<SignedDistanceField::ConstPtr>& background,
-                                           const std::vector<Obstacle>& obstacles, UpdateOutput output,
-                                           std::size_t used_bytes, CompletionLog& log);
+std::vector<ObjectResult> finishObjects (const Scene& scene, const std::vector<SceneObject>& objects,
+                                         const std::vector<BodyEnergy>& energies,
+                                         const std::vector<SignedDistanceField::ConstPtr>& background,
+                                         const std::vector<Obstacle>& obstacles, UpdateOutput output,
+                                         std::size_t used_bytes, CompletionLog& log);
 
 /** \brief Remove the states of objects that failed. */
 void dropFailed (const Scene& scene, const CompletionLog& log, SceneState& state);
@@ -36,7 +25,7 @@ void dropFailed (const Scene& scene, const CompletionLog& log, SceneState& state
 SceneResult sceneResult (const Scene& scene, const std::vector<Observation>& observations,
                          const std::vector<SupportPlanes>& support, const std::vector<SceneObject>& objects,
                          const std::vector<double>& contradicted, Background background,
-                         const std::vector<SolverSummary>& solvers, std::vector<FinishedObject> finished,
+                         const std::vector<SolverSummary>& solvers, std::vector<ObjectResult> finished,
                          const CompletionLog& log);
 
 } // namespace pcl::cosection

@@ -1,18 +1,21 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "observe.h"
 
-#include "pcl_cosection/completion/grid/volume_layout.h"
-#include "pcl_cosection/completion/grid/voxel_size.h"
+#include "pcl_cosection/common/boxes.h"
+#include "pcl_cosection/common/lattice_cells.h"
+#include "pcl_cosection/common/quantile.h"
 #include "pcl_cosection/priors/extent_prior.h"
-#include "pcl_cosection/priors/shape_fits.h"
-#include "pcl_cosection/view/outliers/outlier_points.h"
-#include "pcl_cosection/view/outliers/point_groups.h"
-#include "pcl_cosection/view/virtual_viewpoint.h"
+#include "pcl_cosection/view/outliers/point_clusters.h"
+#include "pcl_cosection/view/range_image.h"
+#include "pcl_cosection/view/visibility/visibility.h"
+#include "place_bodies.h"
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <iomanip>
 #include <sstream>
+#include <unordered_map>
 
 namespace pcl::cosection {
 namespace {
@@ -20,6 +23,22 @@ namespace {
 constexpr double outlier_reach_voxels = 3.0;  // cutoff of a point in the data term
 constexpr double max_outlier_share = 0.2;     // if more points seem to be outliers, all points are kept
 constexpr double least_spacings_across = 5.0; // least middle extent of an object, in supported voxels
+constexpr double trimmed_share = 0.005;       // of the points, at either end of each axis of their box
+constexpr double min_extent_m = 1e-6;
+constexpr double points_per_voxel = 3.0;
+// So few points per voxel are enough if more would need voxels so large that they lose the shape:
+constexpr double least_points_per_voxel = 1.5;
+constexpr int least_resolution = 16; // voxels along the longest side
+constexpr int least_voxels = 8;      // along the longest side, however few points there are
+constexpr double voxel_growth = 1.1;
+// Voxels smaller than the points' spacing supports, by this factor, are more accurate than coarse ones with less
+// smoothing, and than fine ones with the absolute smoothing of coarse ones.
+constexpr double finer = 0.65;
+// But voxels must not be finer than this multiple of the points' noise, which voxels of three points average.
+constexpr double voxels_per_noise = 1.6;
+constexpr std::size_t points_to_measure_noise = 5; // in a cell
+constexpr double noise_cells = 3.0;  // their edge, in supported voxels: smaller cells would clip the noise
+constexpr double facing_alike = 0.4; // least length of the mean normal: a cell with less holds two sides of a wall
 
 std::string
 nameOf (const ObjectInput& object)
@@ -41,13 +60,129 @@ checkInput (const Scene& scene, const ObjectInput& object)
                            std::to_string (scene.options.min_points) + " are needed");
 }
 
+/** \brief Box of an object's points without outliers. \throws DegenerateInput */
+Eigen::AlignedBox3d
+observedBox (const std::vector<OrientedPoint>& points, int threads)
+{
+  if (points.empty ())
+    throw DegenerateInput ("no points with finite coordinates and a normal");
+  if (!std::all_of (points.begin (), points.end (), [] (const OrientedPoint& p) { return p.position.allFinite (); }))
+    throw DegenerateInput ("some points have no finite coordinates");
+  const auto box = trimmedBox<double> (
+      points, trimmed_share, [] (const OrientedPoint& p) { return p.position; }, threads);
+  if (!(box.sizes ().maxCoeff () > min_extent_m))
+    throw DegenerateInput ("all points lie on one spot");
+  return box;
+}
+
+/** \brief Voxels of edge \a h with a point in them. */
+std::size_t
+occupiedVoxels (const std::vector<OrientedPoint>& points, const Eigen::AlignedBox3d& box, double h)
+{
+  const Eigen::Array3i dims = (box.sizes () / h).array ().floor ().cast<int> () + 1;
+  std::vector<std::uint8_t> occupied (static_cast<std::size_t> (dims.x ()) * dims.y () * dims.z (), 0);
+  std::size_t count = 0;
+  for (const OrientedPoint& p : points)
+  {
+    const Eigen::Vector3d position = p.position.cast<double> ();
+    if (!box.contains (position))
+      continue;
+    const Eigen::Array3i at = ((position - box.min ()) / h).cast<int> ();
+    std::uint8_t& voxel = occupied[(static_cast<std::size_t> (at.z ()) * dims.y () + at.y ()) * dims.x () + at.x ()];
+    count += voxel == 0;
+    voxel = 1;
+  }
+  return count;
+}
+
+/** \brief The smallest voxel size that the points' spacing supports, of those that give at most 64 voxels along the
+ * longest side: at least three points in each occupied voxel on average, or 1.5 if voxels were larger than a 16th of
+ * the longest side. */
+double
+supportedVoxelSize (const std::vector<OrientedPoint>& points, const Eigen::AlignedBox3d& box)
+{
+  const double longest = box.sizes ().maxCoeff ();
+  double h = longest / default_resolution;
+  const auto supported = [&] {
+    const double wanted = h < longest / least_resolution ? points_per_voxel : least_points_per_voxel;
+    return static_cast<double> (points.size ()) >= wanted * static_cast<double> (occupiedVoxels (points, box, h));
+  };
+  while (h < longest / least_voxels && !supported ())
+    h *= voxel_growth;
+  return h;
+}
+
+/** \brief Sums of the points in a cell. */
+struct CellOfPoints
+{
+  std::size_t count = 0;
+  Eigen::Vector3d normal = Eigen::Vector3d::Zero ();
+  Eigen::Vector3d place = Eigen::Vector3d::Zero ();
+  Eigen::Matrix3d squares = Eigen::Matrix3d::Zero ();
+
+  /** \brief Standard deviation from the plane through their mean with their mean normal. */
+  double scatterAlongNormal () const
+  {
+    const Eigen::Vector3d n = normal.normalized ();
+    const double mean = n.dot (place) / static_cast<double> (count);
+    const double sum = n.dot (squares * n) - static_cast<double> (count) * mean * mean;
+    return std::sqrt (std::max (0.0, sum) / static_cast<double> (count - 1));
+  }
+};
+
+/** \brief Standard deviation of the points along their normals, median over the surface; 0 with too few points. */
+double
+noiseOf (const Observation& object)
+{
+  std::unordered_map<std::uint64_t, CellOfPoints> cells;
+  const double per_m = 1.0 / (noise_cells * object.spacing_m);
+  for (const OrientedPoint& point : object.points ())
+  {
+    const Eigen::Vector3d place = point.position.cast<double> () - object.box.min ();
+    if (const auto at = cellOf (per_m * place))
+    {
+      CellOfPoints& cell = cells[keyOf (*at)];
+      ++cell.count;
+      cell.normal += point.normal.cast<double> ();
+      cell.place += place;
+      cell.squares += place * place.transpose ();
+    }
+  }
+  std::vector<double> noise_m;
+  for (const auto& [key, cell] : cells)
+    if (cell.count >= points_to_measure_noise && cell.normal.norm () > facing_alike * static_cast<double> (cell.count))
+      noise_m.push_back (cell.scatterAlongNormal ());
+  return noise_m.empty () ? 0.0 : upperMedian (noise_m);
+}
+
+/** \brief The voxel size of the options. If neither it nor a resolution is given, 64 voxels along the longest side,
+ * but voxels no smaller than .65 times those that the points' spacing supports, nor, up to the size of those, than 1.6
+ * times the points' noise.
+ * \throws InvalidArgument */
+double
+objectVoxelSize (const Observation& object, const CoSectionOptions& options)
+{
+  const double longest = object.box.sizes ().maxCoeff ();
+  const double h = options.voxel_size_m;
+  if (h > longest)
+  {
+    std::ostringstream message;
+    message << "voxel size " << h << " m is larger than the object, which is " << longest << " m long";
+    throw InvalidArgument (message.str ());
+  }
+  if (h > 0.0 || options.resolution > 0)
+    return h > 0.0 ? h : longest / options.resolution;
+  const double finest = longest / default_resolution;
+  const double noise_m = object.spacing_m > finest ? voxels_per_noise * noiseOf (object) : 0.0;
+  return std::max ({finer * object.spacing_m, std::min (object.spacing_m, noise_m), finest});
+}
+
 void
 measure (const CoSectionOptions& options, Observation& object)
 {
   object.box = observedBox (object.points (), options.threads);
-  const PointSpacing spacing = measureSpacing (object.points (), object.box);
-  object.spacing_m = spacing.supported_m;
-  object.voxel_size_m = objectVoxelSize (spacing, object.box, options);
+  object.spacing_m = supportedVoxelSize (object.points (), object.box);
+  object.voxel_size_m = objectVoxelSize (object, options);
 }
 
 /** \brief Marks small groups of points far from all others, which would become separate components. */
@@ -74,8 +209,7 @@ viewsOf (const Scene& scene, const ObjectInput& object)
       continue;
     const DepthView& view = scene.views[v].depth;
     const Eigen::Isometry3d T_object_sensor = poseAt (object, v).inverse () * view.T_world_sensor;
-    const bool has_reading = std::any_of (view.depth.begin (), view.depth.end (),
-                                          [] (float z) { return std::isfinite (z); });
+    const bool has_reading = std::any_of (view.depth.begin (), view.depth.end (), isReading);
     if (T_object_sensor.matrix ().allFinite () && has_reading)
       views.emplace_back (&view, T_object_sensor);
   }
@@ -134,7 +268,7 @@ observeObjects (const Scene& scene, CompletionMode mode, SceneState& state, Comp
     }
     warnIfFarApart (input, object, log);
     object.extents_m = observedExtents (object.points (), options.threads);
-    if (mode == CompletionMode::Once && !fixedVoxelSize (options))
+    if (mode == CompletionMode::Once && !scene.fixedVoxelSize ())
       warnIfCoarse (input, object, log);
 
     object.views = viewsOf (scene, input);

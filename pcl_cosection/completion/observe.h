@@ -1,10 +1,9 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "pcl_cosection/completion/scene/completion_log.h"
-#include "pcl_cosection/completion/scene/scene.h"
-#include "pcl_cosection/completion/scene/scene_state.h"
-#include "pcl_cosection/priors/observation.h"
+#include "completion_log.h"
+#include "pcl_cosection/priors/object_priors.h"
+#include "scene.h"
 
 #include <vector>
 

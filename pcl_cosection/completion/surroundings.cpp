@@ -1,10 +1,9 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "surroundings.h"
 
-#include "pcl_cosection/completion/grid/place_bodies.h"
-#include "pcl_cosection/completion/grid/volume_layout.h"
+#include "pcl_cosection/common/boxes.h"
 #include "pcl_cosection/energy/constraints/support_plane.h"
-#include "pcl_cosection/priors/object_priors.h"
+#include "place_bodies.h"
 #include <pcl/cosection/volume/mesh_distance.h>
 
 #include <algorithm>
@@ -97,7 +96,7 @@ sampleMesh (const MeshObstacle& obstacle, const std::vector<SceneObject>& object
       for (const Eigen::Isometry3d& T_mesh_world : obstacle.T_mesh_world)
       {
         Eigen::AlignedBox3d box;
-        for (const Eigen::Vector3d& corner : corners (boxOf (object.grid ())))
+        for (const Eigen::Vector3d& corner : corners (object.grid ()))
           box.extend (T_mesh_world * T_world_object * corner);
         boxes.emplace_back (box.min () - margin, box.max () + margin);
       }
@@ -215,38 +214,14 @@ sampleObstacles (const Scene& scene, const std::vector<SceneObject>& objects, st
   for (const MeshObstacle& mesh : scene.mesh_obstacles)
   {
     std::vector<Obstacle> sampled;
-    const std::string reason = CompletionLog::reasonOfFailure (
-        [&] { sampled = sampleMesh (mesh, objects, smallest, band_m, used_bytes, scene.options); });
-    if (!reason.empty ())
-      log.warn ("a body given as a mesh was left out: " + reason);
+    log.guardPart ("a body given as a mesh",
+                   [&] { sampled = sampleMesh (mesh, objects, smallest, band_m, used_bytes, scene.options); });
     used_bytes += bytesOf (sampled);
     std::move (sampled.begin (), sampled.end (), std::back_inserter (obstacles));
   }
   for (const SceneObject& object : objects)
     warnIfCutByObstacles (object, obstacles, log);
   return obstacles;
-}
-
-IntersectionConstraint
-surroundingsConstraint (const SceneObject& object, const BodyEnergy& energy,
-                        const std::vector<SignedDistanceField::ConstPtr>& background,
-                        const std::vector<Obstacle>& obstacles, const CoSectionOptions& options)
-{
-  const double beta = options.beta_inter;
-  IntersectionConstraint constraint (object.grid (), options.max_bound_vox, options.threads);
-  for (const Eigen::Vector4d& plane : object.planes ())
-    constraint.addHalfSpace (plane, energy.free_space, beta);
-  for (const SignedDistanceField::ConstPtr& body : background)
-    constraint.addBody (*body, object.T_world_object, beta);
-  for (const Obstacle& obstacle : obstacles)
-  {
-    std::vector<Eigen::Isometry3d> T_field_object;
-    for (const Eigen::Isometry3d& T_field_world : obstacle.T_field_world)
-      for (const Eigen::Isometry3d& T_world_object : object.T_world_object)
-        T_field_object.push_back (T_field_world * T_world_object);
-    constraint.addBody (*obstacle.field, T_field_object, beta);
-  }
-  return constraint;
 }
 
 } // namespace pcl::cosection

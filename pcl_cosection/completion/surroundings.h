@@ -1,11 +1,9 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "pcl_cosection/completion/scene/completion_log.h"
-#include "pcl_cosection/completion/scene/scene.h"
-#include "pcl_cosection/completion/scene/scene_state.h"
-#include "pcl_cosection/energy/constraints/intersection_constraint.h"
-#include "pcl_cosection/priors/observation.h"
+#include "completion_log.h"
+#include "pcl_cosection/priors/object_priors.h"
+#include "scene.h"
 
 #include <vector>
 
@@ -37,6 +35,16 @@ struct SceneObject
   std::vector<Eigen::Vector4d> planes () const;
 };
 
+/** \brief Call f (o) for all objects that have not failed. If it throws, only that object fails. */
+template <typename Function>
+void
+forEachObject (const std::vector<SceneObject>& objects, CompletionLog& log, Function&& f)
+{
+  for (std::size_t o = 0; o < objects.size (); ++o)
+    if (!log.failed (objects[o].index))
+      log.guard (objects[o].index, [&] { f (o); });
+}
+
 /** \brief The surroundings of an object, as priors need them. */
 ObjectSetting settingOf (const Scene& scene, const ObjectInput& object, const BodyState& body);
 
@@ -58,10 +66,5 @@ std::vector<Eigen::Vector4d> differentPlanes (const Scene& scene, const std::vec
  * \param[in] used_bytes memory in use, without obstacles */
 std::vector<Obstacle> sampleObstacles (const Scene& scene, const std::vector<SceneObject>& objects,
                                        std::size_t used_bytes, CompletionLog& log);
-
-/** \brief Equation (5) for everything that is not an object: planes, the background, obstacles. */
-IntersectionConstraint surroundingsConstraint (const SceneObject& object, const BodyEnergy& energy,
-                                               const std::vector<SignedDistanceField::ConstPtr>& background,
-                                               const std::vector<Obstacle>& obstacles, const CoSectionOptions& options);
 
 } // namespace pcl::cosection

@@ -8,6 +8,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <utility>
 
 namespace pcl::cosection {
 namespace {
@@ -16,6 +18,9 @@ constexpr float observed_weight = 0.3f; // sum of weights that makes a voxel one
 constexpr double continued_plane_weight = 0.5;  // of the data term on a continued plane: that of dense measurements
 constexpr double continued_plane_gap_vox = 2.0; // planes are continued where no data is nearer
 constexpr std::size_t bytes_per_voxel = 94;
+constexpr float carving_reach_vox = 1.5f; // from the boundary of free space into the hull
+// Local solutions after new evidence extend so far beyond the supported region.
+constexpr double follow_margin_vox = 3.0;
 
 /** \brief Call f (index) for every voxel; threads divide the planes of the grid. */
 template <typename Function>
@@ -87,13 +92,15 @@ addHullBound (BodyEnergy& energy)
   });
 }
 
-} // namespace
-
-bool
-BodyEnergy::hasData () const
+SolverOptions
+solverOptions (const CoSectionOptions& options)
 {
-  return std::any_of (data.begin (), data.end (), [] (std::uint8_t d) { return d != 0; });
+  SolverOptions solver = options.solver;
+  solver.threads = options.threads;
+  return solver;
 }
+
+} // namespace
 
 BodyEnergy
 makeBodyEnergy (const ShapeEvidence& evidence, const std::vector<PlaneContinuation>& planes)
@@ -128,14 +135,88 @@ measuredField (const BodyEnergy& energy)
   SignedDistanceField field;
   field.grid = energy.grid;
   field.values.resize (energy.grid.size (), 0.0f);
-  field.supported.resize (energy.grid.size (), 0);
+  field.supported = energy.data;
   const EnergyProblem& problem = energy.problem;
   for (std::size_t n = 0; n < energy.grid.size (); ++n)
     if (energy.data[n])
-    {
       field.values[n] = static_cast<float> (problem.weighted_target[n] / problem.weight[n] * energy.grid.voxel_size_m);
-      field.supported[n] = 1;
-    }
+  return field;
+}
+
+BodySolution
+startFrom (const BodySolution& solution, const VoxelGrid& from, const VoxelGrid& to)
+{
+  BodySolution start;
+  if (!solution.has (Resolution::Full))
+    return start;
+  const Eigen::Vector3i shift = ((to.origin_m - from.origin_m) / to.voxel_size_m).array ().round ().cast<int> ();
+  start.u.resize (to.size ());
+  for (int k = 0; k < to.dims.z (); ++k)
+    for (int j = 0; j < to.dims.y (); ++j)
+      for (int i = 0; i < to.dims.x (); ++i)
+      {
+        // Beyond the other grid: the value at its border plus the distance to it.
+        const Eigen::Vector3i at = Eigen::Vector3i (i, j, k) + shift;
+        const Eigen::Vector3i inside = at.cwiseMax (0).cwiseMin (from.dims - Eigen::Vector3i::Ones ());
+        start.u[to.index (i, j, k)] = solution.u[from.index (inside.x (), inside.y (), inside.z ())] +
+                                      static_cast<float> ((at - inside).cast<double> ().norm ());
+      }
+  start.solved_fully = true;
+  if (to.origin_m == from.origin_m && to.dims == from.dims)
+    start.quarter = solution.quarter;
+  return start;
+}
+
+SolverSummary
+solve (const BodyEnergy& energy, Resolution resolution, BodySolution& solution, const ProgressCallback& progress)
+{
+  const SolverOptions solver = solverOptions (energy.options);
+  if (resolution == Resolution::Half &&
+      solveAtHalfResolution (energy.problem, solver, solution.half_u, solution.u, progress))
+    return {};
+  std::vector<float> ().swap (solution.half_u);
+  solution.solved_fully = true;
+  return solve (energy.problem, solver, solution.u, progress);
+}
+
+SolverSummary
+followSolution (const BodyEnergy& energy, BodySolution& solution, const ProgressCallback& progress,
+                double& solved_share)
+{
+  const SolverOptions solver = solverOptions (energy.options);
+  QuarterResolution quarter;
+  std::swap (quarter, solution.quarter); // returned at the end
+  std::optional<LocalSolution> local;
+  if (quarter.update (energy.problem, solver, solution.u, progress) && solution.solved_fully)
+  {
+    const auto reach_vox = static_cast<float> (energy.options.max_bound_vox + follow_margin_vox);
+    local = solveNearData (energy.problem, solver, {energy.data_distance_vox, reach_vox}, solution.u, progress);
+  }
+  solved_share = local ? static_cast<double> (local->voxels) / static_cast<double> (energy.grid.size ()) : 1.0;
+  SolverSummary summary = local ? local->summary : solve (energy, Resolution::Full, solution, progress);
+  solution.quarter = std::move (quarter);
+  return summary;
+}
+
+float
+carvedValue (const BodyEnergy& energy, const BodySolution& solution, std::size_t voxel)
+{
+  if (energy.carved.empty () || energy.carved[voxel] <= -carving_reach_vox)
+    return solution.u[voxel];
+  return std::max (solution.u[voxel], energy.carved[voxel]);
+}
+
+SignedDistanceField
+solvedField (const BodyEnergy& energy, const BodySolution& solution)
+{
+  SignedDistanceField field;
+  field.grid = energy.grid;
+  field.values.resize (energy.grid.size ());
+  field.supported.resize (energy.grid.size ());
+  forEachVoxel (energy, [&] (std::size_t n) {
+    field.values[n] = static_cast<float> (carvedValue (energy, solution, n) * energy.grid.voxel_size_m);
+    field.supported[n] = !energy.free_space[n] && energy.data_distance_vox[n] <= energy.options.max_bound_vox;
+  });
   return field;
 }
 

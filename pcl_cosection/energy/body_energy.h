@@ -1,14 +1,16 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "pcl_cosection/energy/data/normal_bin_occupancy.h"
 #include "pcl_cosection/energy/data/shape_evidence.h"
+#include "pcl_cosection/energy/solver/local_solver.h"
+#include <pcl/cosection/common/error.h>
 #include <pcl/cosection/surface/options.h>
 #include <pcl/cosection/surface/solver.h>
 #include <pcl/cosection/volume/signed_distance_field.h>
 
 #include <Eigen/Geometry>
 
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -36,7 +38,7 @@ struct BodyEnergy
   std::vector<float> carved;            // signed distance to free space, voxels, finer than the votes; or empty
   NormalBinOccupancy facing;            // for thin walls, whose two sides are near each other; or empty
 
-  bool hasData () const;
+  bool hasData () const { return std::find (data.begin (), data.end (), 1) != data.end (); }
 };
 
 /** \brief E_data of equation (2), with data terms on continued planes, and E_hull of equation (3). */
@@ -47,5 +49,46 @@ std::size_t estimateBytes (const VoxelGrid& grid);
 
 /** \brief The signed distance of the measurements alone, sum w f / sum w, supported where there is data. Metres. */
 SignedDistanceField measuredField (const BodyEnergy& energy);
+
+/** \brief How finely a body is solved. */
+enum class Resolution
+{
+  Half, ///< voxels of twice the size: an intermediate step, eight times cheaper
+  Full,
+};
+
+/** \brief The field that minimises a body's energy, and from which the next solve starts. Voxels of the body's grid. */
+struct BodySolution
+{
+  std::vector<float> u;
+  std::vector<float> half_u; // at half the resolution
+  QuarterResolution quarter; // for followSolution ()
+  bool solved_fully = false; // at full resolution
+
+  /** \brief Whether this is a solution at this resolution, or a finer one. */
+  bool has (Resolution resolution) const { return !u.empty () && (resolution == Resolution::Half || solved_fully); }
+};
+
+/** \brief A solution as a start on another grid of the same lattice; empty if it was not solved at full resolution. */
+BodySolution startFrom (const BodySolution& solution, const VoxelGrid& from, const VoxelGrid& to);
+
+/** \brief Minimise, from the last solution if there is one.
+ * \throws Cancelled */
+SolverSummary solve (const BodyEnergy& energy, Resolution resolution, BodySolution& solution,
+                     const ProgressCallback& progress);
+
+/** \brief Minimise after more evidence, for a body whose field is used only near data: everywhere on voxels of four
+ * times the size, and at full resolution near data that has changed. Calls solve () the first time, and if most has
+ * changed.
+ * \param[out] solved_share part of the voxels that was solved at full resolution
+ * \throws Cancelled */
+SolverSummary followSolution (const BodyEnergy& energy, BodySolution& solution, const ProgressCallback& progress,
+                              double& solved_share);
+
+/** \brief The carved minimiser max (u, c) at a voxel, in voxels. */
+float carvedValue (const BodyEnergy& energy, const BodySolution& solution, std::size_t voxel);
+
+/** \brief The carved minimiser, supported near data where not seen free. Metres. */
+SignedDistanceField solvedField (const BodyEnergy& energy, const BodySolution& solution);
 
 } // namespace pcl::cosection

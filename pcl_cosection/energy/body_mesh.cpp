@@ -99,16 +99,14 @@ template <typename Value>
 TriangleMesh
 closedMeshOf (const BodyEnergy& energy, const BodySolution& solution, Value&& value)
 {
-  IsoSurfaceOptions iso;
-  iso.closed = true;
-  iso.threads = energy.options.threads;
   SignedDistanceField field;
   field.grid = energy.grid;
   field.values.resize (energy.grid.size ());
   for (std::size_t n = 0; n < energy.grid.size (); ++n)
     field.values[n] = static_cast<float> (value (n) * energy.grid.voxel_size_m);
   keepOffBorder (field);
-  TriangleMesh mesh = extractIsoSurface (field, iso);
+  const IsoSurfaceOptions closed{true, energy.options.threads};
+  TriangleMesh mesh = extractIsoSurface (field, closed);
   attachEvidence (energy, solution, mesh);
   return mesh;
 }
@@ -136,14 +134,11 @@ observedComponents (const BodyEnergy& energy, const TriangleMesh& mesh)
                                           static_cast<float> (small_component_voxels * energy.grid.voxel_size_m));
   const std::size_t all_observed = std::accumulate (observed.begin (), observed.end (), std::size_t (0));
   const auto share = [&] (std::size_t c) { return static_cast<double> (observed[c]) / static_cast<double> (all[c]); };
-  const std::ptrdiff_t best = observed.empty ()
-                                  ? 0
-                                  : std::max_element (observed.begin (), observed.end ()) - observed.begin ();
+  const std::size_t best = std::max_element (observed.begin (), observed.end ()) - observed.begin ();
   // Mixed pixels at a depth edge make small components with hardly any observed vertices but those pixels.
   const auto is_noise = [&] (std::size_t c) {
     return std::any_of (noise_limits.begin (), noise_limits.end (), [&] (const NoiseLimits& limits) {
-      return length (c) < limits.length * longest &&
-             share (c) < limits.share * share (static_cast<std::size_t> (best)) &&
+      return length (c) < limits.length * longest && share (c) < limits.share * share (best) &&
              static_cast<double> (observed[c]) < limits.weight * static_cast<double> (all_observed);
     });
   };
@@ -194,22 +189,17 @@ trimmedMesh (const BodyEnergy& energy, const BodySolution& solution, const std::
       seen[energy.grid.index (at->x (), at->y (), at->z ())] = 1;
   const std::vector<float> distance_vox = distanceTransform (energy.grid.dims, seen, energy.options.threads);
   const double reach_vox = energy.options.max_bound_vox - half_cells_vox;
-
-  IsoSurfaceOptions iso;
-  iso.closed = false;
-  iso.threads = energy.options.threads;
   const SignedDistanceField field = solvedField (energy, solution);
-  TriangleMesh mesh = extractIsoSurface (field, iso);
+  const IsoSurfaceOptions open{false, energy.options.threads};
+  TriangleMesh mesh = extractIsoSurface (field, open);
   attachEvidence (energy, solution, mesh);
   std::vector<bool> near (mesh.vertices.size ());
   for (std::size_t v = 0; v < near.size (); ++v)
-  {
-    const Eigen::Vector3i at = energy.grid.toVoxel (mesh.vertices[v].cast<double> ()).array ().round ().cast<int> ();
-    if (!energy.grid.contains (at.x (), at.y (), at.z ()))
-      continue;
-    const std::size_t n = energy.grid.index (at.x (), at.y (), at.z ());
-    near[v] = field.supported[n] && distance_vox[n] <= reach_vox;
-  }
+    if (const auto at = energy.grid.nearest (mesh.vertices[v].cast<double> ()))
+    {
+      const std::size_t n = energy.grid.index (at->x (), at->y (), at->z ());
+      near[v] = field.supported[n] && distance_vox[n] <= reach_vox;
+    }
   std::vector<bool> keep (mesh.triangles.size ());
   for (std::size_t t = 0; t < keep.size (); ++t)
     keep[t] = near[mesh.triangles[t][0]] && near[mesh.triangles[t][1]] && near[mesh.triangles[t][2]];

@@ -1,7 +1,7 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "body_solution.h"
+#include "body_energy.h"
 #include <pcl/cosection/common/oriented_point.h>
 #include <pcl/cosection/common/triangle_mesh.h>
 

@@ -50,21 +50,17 @@ CoSectionOptions::validate () const
   require (finite (voxel_size_m) && voxel_size_m >= 0.0, "voxel size", voxel_size_m, "positive, in metres");
   require (resolution == 0 || (resolution >= 4 && resolution <= 2048), "resolution", resolution,
            "between 4 and 2048 voxels");
-  require (finite (padding) && padding >= 0.0 && padding <= 10.0, "padding", padding, "between 0 and 10");
+  require (padding >= 0.0 && padding <= 10.0, "padding", padding, "between 0 and 10");
   require (finite (background_voxel_size_m) && background_voxel_size_m >= 0.0, "background voxel size",
            background_voxel_size_m, "positive, in metres");
-  require (finite (alpha) && alpha > 0.0 && alpha <= 1e6, "alpha", alpha, "positive and at most 1e6");
-  require (finite (beta_hull) && beta_hull >= 0.0 && beta_hull <= 1e6, "beta-hull", beta_hull, "between 0 and 1e6");
-  require (finite (beta_inter) && beta_inter >= 0.0 && beta_inter <= 1e6, "beta-inter", beta_inter,
-           "between 0 and 1e6");
-  require (finite (beta_extent) && beta_extent >= 0.0 && beta_extent <= 1e6, "beta-extent", beta_extent,
-           "between 0 and 1e6");
-  require (finite (beta_contact) && beta_contact >= 0.0 && beta_contact <= 1e6, "beta-contact", beta_contact,
-           "between 0 and 1e6");
-  require (finite (sigma_vox) && sigma_vox > 0.0 && sigma_vox <= 10.0, "sigma", sigma_vox,
-           "positive and at most 10 voxels");
-  require (finite (max_bound_vox) && max_bound_vox > 0.0 && max_bound_vox <= 100.0, "largest intersection distance",
-           max_bound_vox, "positive and at most 100 voxels");
+  require (alpha > 0.0 && alpha <= 1e6, "alpha", alpha, "positive and at most 1e6");
+  require (beta_hull >= 0.0 && beta_hull <= 1e6, "beta-hull", beta_hull, "between 0 and 1e6");
+  require (beta_inter >= 0.0 && beta_inter <= 1e6, "beta-inter", beta_inter, "between 0 and 1e6");
+  require (beta_extent >= 0.0 && beta_extent <= 1e6, "beta-extent", beta_extent, "between 0 and 1e6");
+  require (beta_contact >= 0.0 && beta_contact <= 1e6, "beta-contact", beta_contact, "between 0 and 1e6");
+  require (sigma_vox > 0.0 && sigma_vox <= 10.0, "sigma", sigma_vox, "positive and at most 10 voxels");
+  require (max_bound_vox > 0.0 && max_bound_vox <= 100.0, "largest intersection distance", max_bound_vox,
+           "positive and at most 100 voxels");
   require (max_passes >= 1 && max_passes <= 100, "number of passes", max_passes, "between 1 and 100");
   require (threads >= 0 && threads <= 1024, "number of threads", threads, "between 0 (all) and 1024");
   require (solver.max_iterations >= 1, "number of iterations", solver.max_iterations, "at least 1");

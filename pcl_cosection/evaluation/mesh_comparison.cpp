@@ -1,8 +1,7 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include <pcl/cosection/evaluation/mesh_comparison.h>
 
-#include "pcl_cosection/evaluation/surface_distance.h"
-#include "surface_samples.h"
+#include "mesh_surface.h"
 #include <pcl/cosection/common/error.h>
 
 #include <algorithm>
@@ -11,27 +10,6 @@
 #include <sstream>
 
 namespace pcl::cosection {
-namespace {
-
-double
-shareWithin (const std::vector<double>& distances_m, double threshold_m)
-{
-  const auto within = std::count_if (distances_m.begin (), distances_m.end (),
-                                     [threshold_m] (double d) { return d <= threshold_m; });
-  return static_cast<double> (within) / static_cast<double> (distances_m.size ());
-}
-
-/** \brief A quantile of sorted values. */
-double
-quantile (const std::vector<double>& sorted, double share)
-{
-  const double place = share * static_cast<double> (sorted.size () - 1);
-  const auto below = static_cast<std::size_t> (place);
-  const std::size_t above = std::min (below + 1, sorted.size () - 1);
-  return sorted[below] + (place - static_cast<double> (below)) * (sorted[above] - sorted[below]);
-}
-
-} // namespace
 
 void
 MeshComparisonOptions::validate () const
@@ -51,6 +29,12 @@ errorStatistics (std::vector<double> values)
   if (values.empty ())
     return result;
   std::sort (values.begin (), values.end ());
+  const auto quantile = [&values] (double share) {
+    const double place = share * static_cast<double> (values.size () - 1);
+    const auto below = static_cast<std::size_t> (place);
+    const std::size_t above = std::min (below + 1, values.size () - 1);
+    return values[below] + (place - static_cast<double> (below)) * (values[above] - values[below]);
+  };
   double sum = 0.0, squares = 0.0;
   for (const double value : values)
   {
@@ -60,8 +44,8 @@ errorStatistics (std::vector<double> values)
   const auto count = static_cast<double> (values.size ());
   result.mean = sum / count;
   result.rmse = std::sqrt (squares / count);
-  result.median = quantile (values, 0.5);
-  result.p95 = quantile (values, 0.95);
+  result.median = quantile (0.5);
+  result.p95 = quantile (0.95);
   result.max = values.back ();
   return result;
 }

@@ -1,10 +1,12 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include <pcl/cosection/evaluation/penetration.h>
 
-#include "solid_depth.h"
+#include "mesh_surface.h"
 
 #include "pcl_cosection/common/parallel.h"
-#include "surface_samples.h"
+#include "pcl_cosection/mesh/mesh_cleaning.h"
+#include "pcl_cosection/volume/mesh_distance/mesh_bodies.h"
+
 #include <pcl/cosection/common/error.h>
 #include <pcl/cosection/evaluation/mesh_comparison.h>
 #include <pcl/cosection/volume/mesh_distance.h>
@@ -18,8 +20,87 @@ namespace {
 
 constexpr double max_voxels = 2e8;
 constexpr double touching_m = 1e-7; ///< rounding of coordinates, no penetration
+constexpr double room_share = 0.5;  ///< of the diagonal of everything
+
+double
+diagonal (const TriangleMesh& mesh)
+{
+  const Eigen::AlignedBox3f box = vertexBox (mesh).cast<float> ();
+  return box.isEmpty () ? 0.0 : static_cast<double> (box.diagonal ().norm ());
+}
 
 } // namespace
+
+/** \brief How deep points lie in the matter that a mesh bounds, by the rules of sampleSignedDistance (); but a closed
+ * part that faces inward and is less than half as long as the whole is a cavity in matter that something else bounds,
+ * and says nothing. */
+class SolidDepth
+{
+public:
+  /** \param[in] band_m how far behind open parts there is matter; 0: there is none */
+  SolidDepth (const TriangleMesh& mesh, double band_m) : band_m_ (band_m)
+  {
+    const TriangleMesh clean = dropBackToBack (cleanMesh (mesh));
+    const MeshBodies division = divideBodies (clean);
+    const double whole_m = diagonal (clean);
+    for (const auto& triangles : division.bodies)
+    {
+      auto body = std::make_unique<SearchableSurface> (clean, triangles);
+      if (body->is_room && diagonal (body->mesh) < room_share * whole_m)
+        continue; // a cavity in the matter of others, not a room that everything is in
+      bodies_.push_back (std::move (body));
+    }
+    if (!division.sheets.empty ())
+      sheets_ = std::make_unique<SearchableSurface> (clean, division.sheets);
+  }
+
+  /** \brief Metres to the surface of the body that \a p lies deepest in, or to the open part that it lies behind; 0
+   * outside. */
+  double at (const Eigen::Vector3d& p) const
+  {
+    double depth_m = 0.0;
+    for (const auto& body : bodies_)
+      if (body->is_room || body->box.contains (p))
+      {
+        const NearestPoint nearest = body->tree.nearest (p);
+        const double side = body->side (nearest);
+        if (side < 0.0 || (side == 0.0 && body->isInMatter (p)))
+          depth_m = std::max (depth_m, std::sqrt (nearest.squared_m2));
+      }
+    if (sheets_ && band_m_ > 0.0 && sheets_->box.squaredExteriorDistance (p) <= band_m_ * band_m_)
+    {
+      const NearestPoint nearest = sheets_->tree.nearest (p, band_m_);
+      if (sheets_->side (nearest) < 0.0)
+        depth_m = std::max (depth_m, std::sqrt (nearest.squared_m2));
+    }
+    return depth_m;
+  }
+
+  bool hasBodies () const { return !bodies_.empty (); }
+
+  /** \brief Whether a closed part faces inward, with matter all around it. */
+  bool hasRoom () const
+  {
+    return std::any_of (bodies_.begin (), bodies_.end (), [] (const auto& body) { return body->is_room; });
+  }
+
+  /** \brief The mesh without its open parts. */
+  TriangleMesh closedParts () const
+  {
+    TriangleMesh mesh;
+    for (const auto& body : bodies_)
+      appendMesh (mesh, body->mesh);
+    return mesh;
+  }
+
+  /** \brief Whether some of the mesh is open. */
+  bool hasSheets () const { return sheets_ != nullptr; }
+
+private:
+  std::vector<std::unique_ptr<SearchableSurface>> bodies_;
+  std::unique_ptr<SearchableSurface> sheets_;
+  double band_m_;
+};
 
 void
 PenetrationOptions::validate () const

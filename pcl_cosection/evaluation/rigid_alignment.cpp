@@ -2,6 +2,7 @@
 #include "rigid_alignment.h"
 
 #include "pcl_cosection/common/parallel.h"
+#include "pcl_cosection/common/quantile.h"
 #include "pcl_cosection/common/robust_weights.h"
 #include <pcl/cosection/common/error.h>
 
@@ -20,14 +21,6 @@ namespace {
 using Vector6d = Eigen::Matrix<double, 6, 1>;
 using Matrix6d = Eigen::Matrix<double, 6, 6>;
 
-Eigen::Vector3d
-meanOf (const std::vector<Eigen::Vector3d>& points)
-{
-  const Eigen::Vector3d sum = std::accumulate (points.begin (), points.end (),
-                                               Eigen::Vector3d (Eigen::Vector3d::Zero ()));
-  return sum / static_cast<double> (std::max<std::size_t> (1, points.size ()));
-}
-
 double
 angleOf (const Eigen::Matrix3d& rotation)
 {
@@ -45,7 +38,8 @@ public:
       : points_ (points)
       , surface_ (surface)
       , options_ (options)
-      , centre_ (meanOf (points))
+      , centre_ (std::accumulate (points.begin (), points.end (), Eigen::Vector3d (Eigen::Vector3d::Zero ())) /
+                 static_cast<double> (points.size ()))
   {
     double squares = 0.0;
     for (const Eigen::Vector3d& p : points)
@@ -158,17 +152,16 @@ medianPose (const std::vector<Eigen::Isometry3d>& poses, const Eigen::Vector3d& 
       best = n;
     }
   }
-  Eigen::Vector3d median;
+  Eigen::Vector3d middle;
   for (int axis = 0; axis < 3; ++axis)
   {
     std::vector<double> values;
     for (const Eigen::Isometry3d& pose : poses)
       values.push_back ((pose * centre)[axis]);
-    std::sort (values.begin (), values.end ());
-    median[axis] = 0.5 * (values[(values.size () - 1) / 2] + values[values.size () / 2]);
+    middle[axis] = median (values);
   }
   Eigen::Isometry3d result = poses[best];
-  result.translation () = median - result.linear () * centre;
+  result.translation () = middle - result.linear () * centre;
   return result;
 }
 

@@ -1,7 +1,7 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "pcl_cosection/evaluation/surface_distance.h"
+#include "mesh_surface.h"
 #include <pcl/cosection/common/triangle_mesh.h>
 #include <pcl/cosection/evaluation/run_evaluation.h>
 

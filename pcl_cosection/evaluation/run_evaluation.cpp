@@ -1,13 +1,12 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include <pcl/cosection/evaluation/run_evaluation.h>
 
-#include "object_matching.h"
-#include "run_penetration.h"
-#include "scene_visibility.h"
-
+#include "mesh_surface.h"
 #include "rigid_alignment.h"
-#include "surface_distance.h"
+#include "run_penetration.h"
+
 #include <pcl/cosection/common/error.h>
+#include <pcl/cosection/rendering/rasterizer.h>
 
 #include <algorithm>
 
@@ -16,6 +15,164 @@ namespace {
 
 constexpr std::size_t refinement_points = 5000;
 constexpr std::size_t median_frames = 400;
+constexpr std::size_t match_samples = 500;
+constexpr std::size_t match_frames = 7;
+constexpr double match_reach = 0.05; ///< of the true object's diagonal: nearer surfaces coincide
+constexpr double least_overlap = 0.1;
+constexpr double visibility_width_px = 160.0; ///< of the pictures that are drawn to find out what is visible
+constexpr double least_visible_share = 0.001;
+
+/** \brief An object as the camera sees it, and its surface, which others are laid upon. */
+struct ViewedObject
+{
+  ViewedObject (const SceneRecord::Object& object, std::vector<StampedPose> poses)
+      : object (&object)
+      , poses (std::move (poses))
+      , distance (object.mesh)
+      , points (sampleSurface (object.mesh, match_samples))
+      , diagonal_m (summarizeMesh (object.mesh).box.diagonal ().norm ())
+  {}
+
+  double shareNear (const ViewedObject& other, const Eigen::Isometry3d& T_this_other, double reach_m, int threads) const
+  {
+    std::vector<Eigen::Vector3d> moved;
+    for (const Eigen::Vector3d& p : other.points)
+      moved.push_back (T_this_other * p);
+    return shareWithin (distance.of (moved, threads), reach_m);
+  }
+
+  const SceneRecord::Object* object;
+  std::vector<StampedPose> poses; ///< T_camera_object, where the camera has a pose too
+  SurfaceDistance distance;
+  std::vector<Eigen::Vector3d> points;
+  double diagonal_m;
+};
+
+/** \brief The objects of a scene that have a mesh and poses together with the camera. */
+std::vector<ViewedObject>
+viewObjects (const SceneRecord& scene, double max_difference_s, const char* whose, std::vector<std::string>& warnings)
+{
+  std::vector<ViewedObject> viewed;
+  for (const SceneRecord::Object& object : scene.objects)
+  {
+    std::vector<StampedPose> poses;
+    for (const PosePair& pair : associatePoses (scene.camera, object.poses, max_difference_s))
+      poses.push_back ({object.poses[pair.estimate].stamp,
+                        scene.camera[pair.truth].pose.inverse () * object.poses[pair.estimate].pose});
+    const std::string name = std::string (whose) + " " + object.name;
+    if (object.mesh.empty ())
+      warnings.push_back (name + " has no mesh: it is left out");
+    else if (poses.empty ())
+      warnings.push_back (name + " has no pose at a time when the camera has one: it is left out");
+    else
+      viewed.emplace_back (object, std::move (poses));
+  }
+  return viewed;
+}
+
+double
+overlapAt (const ViewedObject& truth, const ViewedObject& estimate, const Eigen::Isometry3d& T_truth_estimate,
+           int threads)
+{
+  const double reach_m = match_reach * truth.diagonal_m;
+  const double of_estimate = truth.shareNear (estimate, T_truth_estimate, reach_m, threads);
+  const double of_truth = estimate.shareNear (truth, T_truth_estimate.inverse (), reach_m, threads);
+  return of_estimate + of_truth > 0.0 ? 2.0 * of_estimate * of_truth / (of_estimate + of_truth) : 0.0;
+}
+
+struct ObjectMatch
+{
+  std::size_t truth = 0; ///< indices
+  std::size_t estimate = 0;
+  double overlap = 0.0;
+};
+
+/** \brief Match one to one, by ascending index of the estimate. */
+std::vector<ObjectMatch>
+matchObjects (const std::vector<ViewedObject>& truth, const std::vector<ViewedObject>& estimate,
+              double max_difference_s, int threads)
+{
+  std::vector<ObjectMatch> candidates;
+  for (std::size_t t = 0; t < truth.size (); ++t)
+    for (std::size_t e = 0; e < estimate.size (); ++e)
+    {
+      const auto pairs = associatePoses (truth[t].poses, estimate[e].poses, max_difference_s);
+      std::vector<double> overlaps;
+      const std::size_t frames = std::min (pairs.size (), match_frames);
+      for (std::size_t n = 0; n < frames; ++n)
+      {
+        const PosePair& pair = pairs[frames > 1 ? n * (pairs.size () - 1) / (frames - 1) : 0];
+        overlaps.push_back (
+            overlapAt (truth[t], estimate[e],
+                       truth[t].poses[pair.truth].pose.inverse () * estimate[e].poses[pair.estimate].pose, threads));
+      }
+      const double overlap = errorStatistics (overlaps).median;
+      if (overlap >= least_overlap)
+        candidates.push_back ({t, e, overlap});
+    }
+  std::stable_sort (candidates.begin (), candidates.end (),
+                    [] (const ObjectMatch& a, const ObjectMatch& b) { return a.overlap > b.overlap; });
+  std::vector<ObjectMatch> matches;
+  for (const ObjectMatch& candidate : candidates)
+    if (std::none_of (matches.begin (), matches.end (), [&] (const ObjectMatch& m) {
+          return m.truth == candidate.truth || m.estimate == candidate.estimate;
+        }))
+      matches.push_back (candidate);
+  std::sort (matches.begin (), matches.end (),
+             [] (const ObjectMatch& a, const ObjectMatch& b) { return a.estimate < b.estimate; });
+  return matches;
+}
+
+PinholeCamera
+reduced (const PinholeCamera& camera)
+{
+  const double factor = std::min (1.0, visibility_width_px / camera.width);
+  return {std::max (1, static_cast<int> (camera.width * factor)),
+          std::max (1, static_cast<int> (camera.height * factor)),
+          camera.fx * factor,
+          camera.fy * factor,
+          (camera.cx + 0.5) * factor - 0.5,
+          (camera.cy + 0.5) * factor - 0.5};
+}
+
+/** \brief The stamps at which each object of a scene is visible: it covers at least a thousandth of the picture, behind
+ * others and the background. Without intrinsics, all stamps at which it and the camera have a pose. */
+std::vector<std::vector<double>>
+visibleStamps (const SceneRecord& scene, double max_difference_s)
+{
+  // By frame of the camera, the index of each object's pose.
+  std::vector<std::vector<std::optional<std::size_t>>> poses (scene.objects.size ());
+  for (std::size_t n = 0; n < scene.objects.size (); ++n)
+  {
+    poses[n].resize (scene.camera.size ());
+    for (const PosePair& pair : associatePoses (scene.camera, scene.objects[n].poses, max_difference_s))
+      poses[n][pair.truth] = pair.estimate;
+  }
+  std::vector<std::vector<double>> stamps (scene.objects.size ());
+  for (std::size_t frame = 0; frame < scene.camera.size (); ++frame)
+  {
+    std::vector<std::size_t> pixels (scene.objects.size (), 0);
+    std::size_t least = 0;
+    if (scene.intrinsics)
+    {
+      const PinholeCamera camera = reduced (*scene.intrinsics);
+      Rasterizer rasterizer (camera, scene.camera[frame].pose);
+      if (!scene.background.empty ())
+        rasterizer.draw (scene.background, static_cast<int> (scene.objects.size ()));
+      for (std::size_t n = 0; n < scene.objects.size (); ++n)
+        if (poses[n][frame] && !scene.objects[n].mesh.empty ())
+          rasterizer.draw (scene.objects[n].mesh, static_cast<int> (n), scene.objects[n].poses[*poses[n][frame]].pose);
+      for (const std::int32_t id : rasterizer.image ().ids)
+        if (id >= 0 && id < static_cast<std::int32_t> (pixels.size ()))
+          ++pixels[static_cast<std::size_t> (id)];
+      least = std::max<std::size_t> (1, static_cast<std::size_t> (least_visible_share * camera.width * camera.height));
+    }
+    for (std::size_t n = 0; n < scene.objects.size (); ++n)
+      if (poses[n][frame] && pixels[n] >= least)
+        stamps[n].push_back (scene.camera[frame].stamp);
+  }
+  return stamps;
+}
 
 /** \brief At most \a count of \a values, evenly spread. */
 template <typename Value>

@@ -21,17 +21,20 @@ isSame (const Eigen::Isometry3d& a, const Eigen::Isometry3d& b)
 }
 
 PairPenetration
-measure (const PenetrationBody& first, const PenetrationBody& second, const RelativePoses& poses, int volume_frames)
+measure (int first_id, const PenetrationBody& first, int second_id, const PenetrationBody& second,
+         const RelativePoses& poses, int volume_frames)
 {
   PairPenetration result;
+  result.first = first_id;
+  result.second = second_id;
   result.frames = poses.size ();
   std::vector<std::pair<double, std::size_t>> deep; // depth and frame
-  double depth_m = 0.0;
   for (std::size_t n = 0; n < poses.size (); ++n)
   {
     if (n > 0 && isSame (poses[n].pose, poses[n - 1].pose))
       continue;
-    depth_m = std::max (first.depthOf (second, poses[n].pose), second.depthOf (first, poses[n].pose.inverse ()));
+    const double depth_m = std::max (first.depthOf (second, poses[n].pose),
+                                     second.depthOf (first, poses[n].pose.inverse ()));
     if (depth_m > 0.0)
       deep.emplace_back (-depth_m, n);
   }
@@ -74,11 +77,6 @@ measurePenetrations (const SceneRecord& scene, double max_difference_s, const Ru
     }
 
   std::vector<PairPenetration> result;
-  const auto add = [&] (int first, int second, PairPenetration pair) {
-    pair.first = first;
-    pair.second = second;
-    result.push_back (pair);
-  };
   for (std::size_t a = 0; a < objects.size (); ++a)
     for (std::size_t b = a + 1; b < objects.size (); ++b)
     {
@@ -86,7 +84,7 @@ measurePenetrations (const SceneRecord& scene, double max_difference_s, const Ru
       for (const PosePair& pair : associatePoses (objects[a]->poses, objects[b]->poses, max_difference_s))
         poses.push_back ({objects[a]->poses[pair.truth].stamp,
                           objects[a]->poses[pair.truth].pose.inverse () * objects[b]->poses[pair.estimate].pose});
-      add (objects[a]->id, objects[b]->id, measure (bodies[a], bodies[b], poses, options.volume_frames));
+      result.push_back (measure (objects[a]->id, bodies[a], objects[b]->id, bodies[b], poses, options.volume_frames));
     }
   if (!scene.background.empty ())
   {
@@ -96,7 +94,8 @@ measurePenetrations (const SceneRecord& scene, double max_difference_s, const Ru
       RelativePoses poses;
       for (const StampedPose& pose : objects[n]->poses)
         poses.push_back ({pose.stamp, pose.pose.inverse ()});
-      add (objects[n]->id, PairPenetration::background, measure (bodies[n], background, poses, options.volume_frames));
+      result.push_back (
+          measure (objects[n]->id, bodies[n], PairPenetration::background, background, poses, options.volume_frames));
     }
   }
   return result;

@@ -1,7 +1,8 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include <pcl/cosection/evaluation/run_evaluation.h>
 
-#include "surface_samples.h"
+#include "mesh_surface.h"
+
 #include <pcl/cosection/common/error.h>
 #include <pcl/cosection/io/mesh_io.h>
 #include <pcl/cosection/io/trajectory.h>
@@ -32,30 +33,49 @@ inFolder (const std::string& folder, const std::string& name)
   return (fs::path (folder) / name).string ();
 }
 
-/** \brief The files of a folder whose names match, with what the groups of the pattern are, by name. */
-std::vector<std::pair<std::string, std::smatch>>
-matchingFiles (const std::string& folder, const std::regex& pattern, std::vector<std::string>& names)
+/** \brief The files of a folder whose names match, by name: the path, and what the groups of the pattern are. */
+std::vector<std::vector<std::string>>
+matchingFiles (const std::string& folder, const std::regex& pattern)
 {
   std::error_code error;
+  std::vector<std::string> names;
   for (const fs::directory_entry& entry : fs::directory_iterator (folder, error))
     names.push_back (entry.path ().filename ().string ());
   std::sort (names.begin (), names.end ());
-  std::vector<std::pair<std::string, std::smatch>> files;
+  std::vector<std::vector<std::string>> files;
   for (const std::string& name : names)
-  {
-    std::smatch match;
-    if (std::regex_match (name, match, pattern))
-      files.emplace_back (inFolder (folder, name), match);
-  }
+    if (std::smatch match; std::regex_match (name, match, pattern))
+    {
+      files.emplace_back (match.begin (), match.end ());
+      files.back ().front () = inFolder (folder, name);
+    }
   return files;
 }
 
-/** \brief A mesh with its provenance if it has one; empty, and a warning, if it cannot be read. */
-TriangleMesh
-readMesh (const std::string& path, ReadingNotes& notes)
+/** \brief What \a read () returns; an empty value, and a warning that begins with \a whose, if it fails. */
+template <typename Read>
+auto
+readOrWarn (ReadingNotes& notes, const std::string& whose, Read&& read) -> decltype (read ())
 {
   try
   {
+    return read ();
+  }
+  catch (const Error& error)
+  {
+    notes.warnings.push_back (whose + error.what ());
+    notes.whole = false;
+    return {};
+  }
+}
+
+/** \brief A mesh with its provenance if it has one; empty if there is no file. */
+TriangleMesh
+readMesh (const std::string& path, ReadingNotes& notes)
+{
+  if (!fs::exists (path))
+    return {};
+  return readOrWarn (notes, "", [&] {
     TriangleMesh mesh;
     try
     {
@@ -67,44 +87,19 @@ readMesh (const std::string& path, ReadingNotes& notes)
     }
     requireSurface (mesh, path.c_str ());
     return mesh;
-  }
-  catch (const Error& error)
-  {
-    notes.warnings.emplace_back (error.what ());
-    notes.whole = false;
-    return TriangleMesh ();
-  }
+  });
 }
 
 TriangleMesh
 readTrueMesh (const std::string& path, ReadingNotes& notes)
 {
-  try
-  {
-    return loadMesh (path);
-  }
-  catch (const Error& error)
-  {
-    notes.warnings.emplace_back (error.what ());
-    notes.whole = false;
-    return TriangleMesh ();
-  }
+  return readOrWarn (notes, "", [&] { return loadMesh (path); });
 }
 
-/** \brief The pose of each time; none, and a warning, if the file cannot be read. */
 std::vector<StampedPose>
 readPoses (const std::string& path, ReadingNotes& notes)
 {
-  try
-  {
-    return loadTrajectory (path);
-  }
-  catch (const Error& error)
-  {
-    notes.warnings.emplace_back (error.what ());
-    notes.whole = false;
-    return std::vector<StampedPose> ();
-  }
+  return readOrWarn (notes, "", [&] { return loadTrajectory (path); });
 }
 
 std::optional<PinholeCamera>
@@ -112,31 +107,22 @@ readCalibration (const std::string& path, ReadingNotes& notes)
 {
   if (!fs::exists (path))
     return std::nullopt;
-  PinholeCamera camera;
-  camera.width = 640;
-  camera.height = 480;
-  std::ifstream file (path);
-  try
-  {
-    if (!(file >> camera.fx >> camera.fy >> camera.cx >> camera.cy))
+  return readOrWarn (notes, path + ": ", [&] {
+    std::optional<PinholeCamera> camera = PinholeCamera{640, 480};
+    std::ifstream file (path);
+    if (!(file >> camera->fx >> camera->fy >> camera->cx >> camera->cy))
       throw IoError ("must have the numbers fx fy cx cy [width height]");
     int width = 0, height = 0;
     if (file >> width >> height)
     {
       if (width < 1 || height < 1 || width > largest_image || height > largest_image)
         throw IoError ("has an image of " + std::to_string (width) + " x " + std::to_string (height) + " pixels");
-      camera.width = width;
-      camera.height = height;
+      camera->width = width;
+      camera->height = height;
     }
-    camera.validate ();
+    camera->validate ();
     return camera;
-  }
-  catch (const Error& error)
-  {
-    notes.warnings.push_back (path + ": " + error.what ());
-    notes.whole = false;
-    return std::nullopt;
-  }
+  });
 }
 
 } // namespace
@@ -150,29 +136,20 @@ readRun (const std::string& folder, ReadingNotes& notes)
     throw IoError (folder + ": is a dataset, not what a run wrote; the run comes first, then the dataset");
   SceneRecord run;
   run.camera = loadTrajectory (inFolder (folder, "trajectory/camera.txt"));
-  std::vector<std::string> names;
-  const auto trajectories = matchingFiles (inFolder (folder, "trajectory"), std::regex ("object_([0-9]{1,9})\\.txt"),
-                                           names);
-  for (const auto& [path, match] : trajectories)
+  for (const auto& file : matchingFiles (inFolder (folder, "trajectory"), std::regex ("object_([0-9]{1,9})\\.txt")))
   {
     SceneRecord::Object object;
-    object.id = std::stoi (match[1]);
+    object.id = std::stoi (file[1]);
     object.name = std::to_string (object.id);
-    object.poses = readPoses (path, notes);
-    const std::string mesh = inFolder (folder, "mesh/object_" + match[1].str () + ".ply");
-    if (fs::exists (mesh))
-      object.mesh = readMesh (mesh, notes);
+    object.poses = readPoses (file[0], notes);
+    object.mesh = readMesh (inFolder (folder, "mesh/object_" + file[1] + ".ply"), notes);
     run.objects.push_back (std::move (object));
   }
   std::sort (run.objects.begin (), run.objects.end (), [] (const auto& a, const auto& b) { return a.id < b.id; });
-  std::vector<std::string> mesh_names;
-  for (const auto& [path, match] :
-       matchingFiles (inFolder (folder, "mesh"), std::regex ("object_([0-9]{1,9})\\.ply"), mesh_names))
-    if (!fs::exists (inFolder (folder, "trajectory/object_" + match[1].str () + ".txt")))
-      notes.warnings.push_back (path + ": has no trajectory/object_" + match[1].str () + ".txt; it is left out");
-  const std::string background = inFolder (folder, "mesh/background.ply");
-  if (fs::exists (background))
-    run.background = readMesh (background, notes);
+  for (const auto& file : matchingFiles (inFolder (folder, "mesh"), std::regex ("object_([0-9]{1,9})\\.ply")))
+    if (!fs::exists (inFolder (folder, "trajectory/object_" + file[1] + ".txt")))
+      notes.warnings.push_back (file[0] + ": has no trajectory/object_" + file[1] + ".txt; it is left out");
+  run.background = readMesh (inFolder (folder, "mesh/background.ply"), notes);
   return run;
 }
 
@@ -183,15 +160,14 @@ readTruth (const std::string& folder, ReadingNotes& notes)
   SceneRecord truth;
   truth.camera = loadTrajectory (inFolder (folder, "gt-cam-0.txt"));
   truth.intrinsics = readCalibration (inFolder (folder, "calibration.txt"), notes);
-  std::vector<std::string> names;
-  for (const auto& [path, match] : matchingFiles (folder, std::regex ("gt-(.+)-([0-9]{1,9})\\.txt"), names))
+  for (const auto& file : matchingFiles (folder, std::regex ("gt-(.+)-([0-9]{1,9})\\.txt")))
   {
-    if (match[1] == "cam" && match[2] == "0")
+    if (file[1] == "cam" && file[2] == "0")
       continue;
     SceneRecord::Object object;
-    object.id = std::stoi (match[2]);
-    object.name = match[1];
-    object.poses = readPoses (path, notes);
+    object.id = std::stoi (file[2]);
+    object.name = file[1];
+    object.poses = readPoses (file[0], notes);
     const std::string mesh = inFolder (folder, "gt-mesh/" + object.name + ".ply");
     if (fs::exists (mesh))
       object.mesh = readTrueMesh (mesh, notes);

@@ -1,9 +1,11 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include <pcl/cosection/evaluation/trajectory_error.h>
 
-#include "pcl_cosection/sequence/stamp_span.h"
+#include "rigid_alignment.h"
 
-#include "pcl_cosection/evaluation/rigid_alignment.h"
+#include "pcl_cosection/common/quantile.h"
+#include "pcl_cosection/sequence/stamp_matching.h"
+
 #include <pcl/cosection/common/error.h>
 
 #include <algorithm>
@@ -89,13 +91,6 @@ private:
   std::priority_queue<Candidate, std::vector<Candidate>, std::greater<>> candidates_;
 };
 
-double
-medianOf (std::vector<double> values)
-{
-  std::sort (values.begin (), values.end ());
-  return 0.5 * (values[(values.size () - 1) / 2] + values[values.size () / 2]);
-}
-
 /** \brief Corresponding poses of a truth and an estimate. */
 struct Matches
 {
@@ -139,7 +134,7 @@ computeRpe (const Matches& matches, const TrajectoryOptions& options, Trajectory
   std::vector<double> spans;
   for (std::size_t i = 0, j = delta; j < matches.size (); ++i, ++j)
     spans.push_back (matches.truth[j].stamp - matches.truth[i].stamp);
-  const double usual = medianOf (std::move (spans));
+  const double usual = median (spans);
   const double tolerance = std::max (0.5 * *medianPeriod (matches.truth), rpe_span_share * usual) * (1.0 + rounding);
   std::vector<double> translations, rotations;
   for (std::size_t i = 0, j = delta; j < matches.size (); ++i, ++j)
@@ -183,7 +178,7 @@ medianPeriod (const std::vector<StampedPose>& trajectory)
   std::vector<double> periods;
   for (std::size_t n = 1; n < trajectory.size (); ++n)
     periods.push_back (trajectory[n].stamp - trajectory[n - 1].stamp);
-  return medianOf (std::move (periods));
+  return median (periods);
 }
 
 std::vector<PosePair>

@@ -27,16 +27,6 @@ associationOptions (const DynamicFusionOptions& options)
   return association;
 }
 
-TsdfOptions
-tsdfOptions (double truncation_vox, const DynamicFusionOptions& options)
-{
-  TsdfOptions tsdf;
-  tsdf.truncation_vox = truncation_vox;
-  tsdf.max_weight = options.max_weight;
-  tsdf.threads = options.threads;
-  return tsdf;
-}
-
 } // namespace
 
 void
@@ -65,14 +55,21 @@ FusionSetup::FusionSetup (const PinholeCamera& camera, const DynamicFusionOption
     : camera (camera)
     , options (options)
     , association (associationOptions (options))
-    , background_tsdf (tsdfOptions (options.background_truncation_vox, options))
-    , object_tsdf (tsdfOptions (options.object_truncation_vox, options))
 {
   camera.validate ();
   options.validate ();
   constexpr double standard_pixels = 640.0 * 480.0;
   const double share = static_cast<double> (camera.width) * camera.height / standard_pixels;
   min_object_pixels = static_cast<std::size_t> (std::max (1.0, std::round (options.min_object_pixels * share)));
+  alignment.max_points = options.tracking_points;
+  alignment.threads = options.threads;
+  background_tsdf.truncation_vox = options.background_truncation_vox;
+  object_tsdf.truncation_vox = options.object_truncation_vox;
+  for (TsdfOptions* tsdf : {&background_tsdf, &object_tsdf})
+  {
+    tsdf->max_weight = options.max_weight;
+    tsdf->threads = options.threads;
+  }
   background_tsdf.foreground = options.objects;
   object_tsdf.colour = true;
   object_tsdf.foreground = true;
@@ -98,7 +95,7 @@ DynamicFusion& DynamicFusion::operator= (DynamicFusion&& other) noexcept = defau
 void
 DynamicFusion::setSegmenter (std::shared_ptr<FrameSegmenter> segmenter)
 {
-  impl_->state.segmenter.set (std::move (segmenter));
+  impl_->state.segmenter = ScheduledSegmenter (impl_->setup.options.segment_every, std::move (segmenter));
 }
 
 const TrackedFrame&
@@ -114,11 +111,8 @@ DynamicFusion::process (const RgbdFrame& frame, const Image<std::uint16_t>* mask
 std::set<int>
 DynamicFusion::objects () const
 {
-  std::set<int> ids;
-  for (const auto& [id, object] : impl_->state.objects.by_id)
-    if (object.isActive () && object.confirmed)
-      ids.insert (id);
-  return ids;
+  return impl_->state.objects.idsOf (
+      [] (const TrackedObject& object) { return object.isActive () && object.confirmed; });
 }
 
 std::set<int>

@@ -1,39 +1,321 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "frame_context.h"
 
+#include "pcl_cosection/fusion/mapping/object_tsdf.h"
+#include "pcl_cosection/sequence/stamp_matching.h"
+
 #include <pcl/cosection/common/error.h>
+#include <pcl/cosection/fusion/dynamic_fusion.h>
 
 #include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <map>
 
 namespace pcl::cosection {
+namespace {
 
-std::optional<Image<std::uint16_t>>
-MaskReader::read (const RgbdFrame& frame)
+/** \brief Reads masks, and collects warnings about them. */
+class MaskReader
 {
-  constexpr std::size_t most_warnings = 20;
-  if (!masks_)
-    return std::nullopt;
+public:
+  /** \param[in] masks null: no frame has one */
+  explicit MaskReader (const MaskSequence* masks) : masks_ (masks) {}
+
+  /** \brief The mask of a frame; nothing if it has none or the mask is damaged. */
+  std::optional<Image<std::uint16_t>> read (const RgbdFrame& frame)
   try
   {
-    return masks_->read (frame.stamp);
+    return masks_ ? masks_->read (frame.stamp) : std::nullopt;
   }
   catch (const Error& error)
   {
+    constexpr std::size_t most_warnings = 20;
     if (warnings_.size () < most_warnings)
       warnings_.push_back (std::string (error.what ()) + "; the frame is used without it");
     else
       ++more_;
     return std::nullopt;
   }
+
+  std::vector<std::string> warnings () const
+  {
+    std::vector<std::string> result = warnings_;
+    if (more_ > 0)
+      result.push_back ("and " + std::to_string (more_) + " more warnings about masks");
+    return result;
+  }
+
+private:
+  const MaskSequence* masks_;
+  std::vector<std::string> warnings_;
+  std::size_t more_ = 0;
+};
+
+using PosesByFrame = std::vector<std::optional<Eigen::Isometry3d>>;
+
+/** \brief An object of the masks, of a trajectory or of both. */
+struct KnownObject
+{
+  explicit KnownObject (const ObjectTsdfOptions& options) : tsdf (options) {}
+
+  /** \brief Its pose in a frame, if that is known. */
+  std::optional<Eigen::Isometry3d> pose (std::size_t frame) const
+  {
+    if (!T_world_object.empty ())
+      return T_world_object[frame];
+    return seen ? std::optional<Eigen::Isometry3d> (Eigen::Isometry3d::Identity ()) : std::nullopt;
+  }
+
+  PosesByFrame T_world_object; ///< empty: it has no trajectory, and is at rest
+  bool seen = false;           ///< in a keyframe
+  ObjectTsdf tsdf;
+};
+
+/** \brief Poses and masks are given; TSDF volumes are made of the masked pixels. */
+class KnownPoses : public FrameContext
+{
+public:
+  KnownPoses (const KnownSequence& sequence, const FusionOptions& options)
+      : sequence_ (sequence)
+      , options_ (options)
+      , masks_ (sequence.masks)
+  {
+    const std::vector<double> stamps = sequence.images->stamps ();
+    const double period = sequence.images->period ();
+    T_world_camera_ = posesAtStamps (sequence.camera, stamps, period);
+    for (const auto& [id, trajectory] : sequence.objects)
+      objectOf (id).T_world_object = posesAtStamps (trajectory, stamps, period);
+  }
+
+  FrameKnowns next (const RgbdFrame& frame) override
+  {
+    FrameKnowns known;
+    known.T_world_camera = T_world_camera_[frame.index];
+    known.masked = true;
+    ++frames_;
+    frames_without_pose_ += !known.T_world_camera;
+    const ScopedSeconds timer (segmentation_s_);
+    if (known.T_world_camera)
+      known.instances = sequence_.masks ? masks_.read (frame) : Image<std::uint16_t> ();
+    return known;
+  }
+
+  CoSectionBackend::Poses mapObjects (const RgbdFrame& frame, const FrameKnowns& known, Keyframe* keyframe) override
+  {
+    if (keyframe)
+    {
+      keyframe->points.erase (ignored_label);
+      placeVolumes (*keyframe, frame.index);
+    }
+    CoSectionBackend::Poses poses;
+    for (const auto& [id, object] : objects_)
+      if (const auto T_world_object = object.pose (frame.index))
+        poses[id] = *T_world_object;
+    if (!known.instances || known.instances->pixels.empty ())
+      return poses;
+    const ScopedSeconds timer (integration_s_);
+    TsdfPixels pixels;
+    pixels.labels = &*known.instances;
+    if (!frame.colour.pixels.empty ())
+      pixels.colours = &frame.colour;
+    for (const auto& [id, T_world_object] : poses)
+    {
+      pixels.label = static_cast<std::uint16_t> (id);
+      objects_.at (id).tsdf.integrate (frame.depth, sequence_.images->camera (),
+                                       T_world_object.inverse () * *known.T_world_camera, pixels);
+    }
+    return poses;
+  }
+
+  TriangleMesh surfaceMesh (int id) const override
+  {
+    const auto object = objects_.find (id);
+    return object == objects_.end () || !object->second.tsdf.volume () ? TriangleMesh ()
+                                                                       : object->second.tsdf.volume ()->surfaceMesh ();
+  }
+
+  std::vector<std::string> maskWarnings () const override { return masks_.warnings (); }
+
+  void finish (FusionResult& result) override
+  {
+    result.timings_s["segmentation"] += segmentation_s_;
+    result.timings_s["integration"] += integration_s_;
+    for (const auto& [id, object] : objects_)
+    {
+      if (object.tsdf.volume ())
+        result.objects[id].tsdf = object.tsdf.volume ()->surfaceMesh ();
+      if (object.T_world_object.empty ())
+        result.warnings.push_back ("object " + std::to_string (id) +
+                                   " of the masks has no trajectory: it is taken to be at rest");
+    }
+    if (frames_without_pose_ > 0)
+      result.warnings.push_back (std::to_string (frames_without_pose_) + " of " + std::to_string (frames_) +
+                                 " frames were left out: the camera's trajectory has no pose for them");
+    const bool saw_object = std::any_of (objects_.begin (), objects_.end (),
+                                         [] (const auto& object) { return object.second.seen; });
+    if (sequence_.masks && result.objects.empty () && !saw_object)
+      result.warnings.push_back ("the masks show no object in any keyframe");
+    for (const auto& [id, trajectory] : sequence_.objects)
+      if (result.objects[id].points == 0)
+        result.warnings.push_back ("object " + std::to_string (id) +
+                                   " has a trajectory, but no points in any keyframe");
+  }
+
+private:
+  KnownObject& objectOf (int id) { return objects_.try_emplace (id, options_.tsdf).first->second; }
+
+  /** \brief Make room for the points of a keyframe. */
+  void placeVolumes (const Keyframe& keyframe, std::size_t frame)
+  {
+    for (const auto& [id, points] : keyframe.points)
+    {
+      if (id != 0)
+        objectOf (id).seen = true;
+      const auto object = objects_.find (id);
+      const auto T_world_object = object == objects_.end () ? std::nullopt : object->second.pose (frame);
+      if (!T_world_object)
+        continue;
+      std::vector<OrientedPoint> local (points);
+      const Eigen::Isometry3d T_object_camera = T_world_object->inverse () * keyframe.view.T_world_sensor;
+      for (OrientedPoint& point : local)
+        point.position = (T_object_camera * point.position.cast<double> ()).cast<float> ();
+      object->second.tsdf.makeRoom (local);
+    }
+  }
+
+  const KnownSequence& sequence_;
+  const FusionOptions& options_;
+  MaskReader masks_;
+  PosesByFrame T_world_camera_;
+  std::map<int, KnownObject> objects_;
+  std::size_t frames_ = 0;
+  std::size_t frames_without_pose_ = 0;
+  double segmentation_s_ = 0.0;
+  double integration_s_ = 0.0;
+};
+
+DynamicFusionOptions
+frontEndOptions (DynamicFusionOptions options, bool has_objects)
+{
+  options.objects = has_objects;
+  return options;
 }
 
-std::vector<std::string>
-MaskReader::warnings () const
+/** \brief Poses and instances are found by DynamicFusion. */
+class TrackedPoses : public FrameContext
 {
-  std::vector<std::string> result = warnings_;
-  if (more_ > 0)
-    result.push_back ("and " + std::to_string (more_) + " more warnings about masks");
-  return result;
+public:
+  TrackedPoses (const TrackedSequence& sequence, const FusionOptions& options)
+      : masks_ (sequence.masks)
+      , has_objects_ (sequence.masks || sequence.segmenter)
+      , fusion_ (sequence.images->camera (), frontEndOptions (options.front_end, has_objects_))
+  {
+    fusion_.setSegmenter (sequence.segmenter);
+  }
+
+  FrameKnowns next (const RgbdFrame& frame) override
+  {
+    std::optional<Image<std::uint16_t>> mask;
+    {
+      const ScopedSeconds timer (masks_s_);
+      mask = masks_.read (frame);
+    }
+    tracked_ = &fusion_.process (frame, mask ? &*mask : nullptr);
+    ++frames_;
+    frames_lost_ += !tracked_->T_world_camera;
+    for (const auto& [id, T] : tracked_->T_world_object)
+      tracked_ids_.insert (id);
+    FrameKnowns known;
+    known.T_world_camera = tracked_->T_world_camera;
+    known.masked = !has_objects_ || tracked_->masked;
+    if (known.T_world_camera)
+      known.instances = tracked_->instances;
+    return known;
+  }
+
+  CoSectionBackend::Poses mapObjects (const RgbdFrame&, const FrameKnowns&, Keyframe* keyframe) override
+  {
+    if (keyframe)
+      keyframe->points.erase (TrackedFrame::unassigned);
+    return tracked_->T_world_object;
+  }
+
+  std::set<int> wrongObjects () const override
+  {
+    const std::set<int> found = fusion_.foundObjects ();
+    std::set<int> wrong;
+    std::set_difference (tracked_ids_.begin (), tracked_ids_.end (), found.begin (), found.end (),
+                         std::inserter (wrong, wrong.end ()));
+    return wrong;
+  }
+
+  TriangleMesh surfaceMesh (int id) const override { return fusion_.surfaceMesh (id); }
+
+  std::string status () const override
+  {
+    if (!tracked_)
+      return "";
+    std::string text;
+    if (has_objects_)
+      text = std::to_string (fusion_.objects ().size ()) + " objects, ";
+    if (tracked_->lost > 0)
+      text += std::to_string (tracked_->lost) + " lost, ";
+    if (!tracked_->T_world_camera)
+      return text + "camera lost";
+    return text + "fit " + std::to_string (std::lround (100.0 * tracked_->inlier_share)) + " %";
+  }
+
+  std::vector<std::string> maskWarnings () const override { return masks_.warnings (); }
+
+  void finish (FusionResult& result) override
+  {
+    for (const auto& [stage, seconds] : fusion_.timings ())
+      result.timings_s[stage] += seconds;
+    result.timings_s["segmentation"] += masks_s_;
+    result.tracked = true;
+    result.events = fusion_.events ();
+    if (frames_lost_ > 0)
+      result.warnings.push_back (std::to_string (frames_lost_) + " of " + std::to_string (frames_) +
+                                 " frames were left out: the camera could not be tracked in them");
+    const std::set<int> found = fusion_.foundObjects ();
+    for (auto object = result.objects.begin (); object != result.objects.end ();)
+    {
+      const int id = object->first;
+      if (found.count (id) == 0)
+      {
+        object = eraseObject (object, true, result);
+        continue;
+      }
+      object->second.tsdf = fusion_.surfaceMesh (id);
+      object->second.best_class = fusion_.objectClass (id);
+      ++object;
+    }
+  }
+
+private:
+  MaskReader masks_;
+  const bool has_objects_;
+  DynamicFusion fusion_;
+  const TrackedFrame* tracked_ = nullptr; // of the last frame
+  std::set<int> tracked_ids_;             // of objects in any frame
+  std::size_t frames_ = 0;
+  std::size_t frames_lost_ = 0;
+  double masks_s_ = 0.0;
+};
+
+} // namespace
+
+std::unique_ptr<FrameContext>
+makeKnownPoses (const KnownSequence& sequence, const FusionOptions& options)
+{
+  return std::make_unique<KnownPoses> (sequence, options);
+}
+
+std::unique_ptr<FrameContext>
+makeTrackedPoses (const TrackedSequence& sequence, const FusionOptions& options)
+{
+  return std::make_unique<TrackedPoses> (sequence, options);
 }
 
 std::map<int, FusedObject>::iterator

@@ -1,10 +1,10 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "run_log.h"
+
 #include <pcl/cosection/fusion/sequence_fusion.h>
 
-#include <chrono>
-#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -57,43 +57,9 @@ std::unique_ptr<FrameContext> makeKnownPoses (const KnownSequence& sequence, con
 
 std::unique_ptr<FrameContext> makeTrackedPoses (const TrackedSequence& sequence, const FusionOptions& options);
 
-/** \brief Reads masks, and collects warnings about them. */
-class MaskReader
-{
-public:
-  /** \param[in] masks null: no frame has one */
-  explicit MaskReader (const MaskSequence* masks) : masks_ (masks) {}
-
-  /** \brief The mask of a frame; nothing if it has none or the mask is damaged. */
-  std::optional<Image<std::uint16_t>> read (const RgbdFrame& frame);
-
-  std::vector<std::string> warnings () const;
-
-private:
-  const MaskSequence* masks_;
-  std::vector<std::string> warnings_;
-  std::size_t more_ = 0;
-};
-
 /** \brief Erase an object of a result. \param[in] completed erase its completion in any case, else only if it failed
  * \return the next object */
 std::map<int, FusedObject>::iterator eraseObject (std::map<int, FusedObject>::iterator object, bool completed,
                                                   FusionResult& result);
-
-/** \brief Adds the seconds of a scope. */
-class ScopedSeconds
-{
-public:
-  explicit ScopedSeconds (double& seconds) : seconds_ (seconds) {}
-
-  ~ScopedSeconds () { seconds_ += std::chrono::duration<double> (std::chrono::steady_clock::now () - start_).count (); }
-
-  ScopedSeconds (const ScopedSeconds&) = delete;
-  ScopedSeconds& operator= (const ScopedSeconds&) = delete;
-
-private:
-  double& seconds_;
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now ();
-};
 
 } // namespace pcl::cosection

@@ -4,6 +4,7 @@
 #include "pcl_cosection/fusion/association/data_association.h"
 #include <pcl/cosection/common/camera.h>
 #include <pcl/cosection/fusion/dynamic_fusion.h>
+#include <pcl/cosection/tracking/sdf_alignment.h>
 
 #include <cstddef>
 
@@ -25,6 +26,7 @@ struct FusionSetup
   PinholeCamera camera;
   DynamicFusionOptions options;
   DataAssociation association;
+  SdfAlignmentOptions alignment;
   std::size_t min_object_pixels = 0; ///< of a new object, in an image of this size
   TsdfOptions background_tsdf;
   TsdfOptions object_tsdf;

@@ -4,34 +4,13 @@
 #include "pcl_cosection/fusion/association/frame_labels.h"
 #include "pcl_cosection/fusion/association/instance_matching.h"
 #include "pcl_cosection/fusion/association/unreliable_mask.h"
-#include "pcl_cosection/fusion/mapping/background_model.h"
-#include "pcl_cosection/fusion/mapping/integration.h"
+#include "pcl_cosection/fusion/mapping/scene_volumes.h"
 #include "pcl_cosection/fusion/tracking/object_tracking.h"
 
-#include <chrono>
 #include <utility>
 
 namespace pcl::cosection {
 namespace {
-
-/** \brief Adds the seconds of stages that follow each other. */
-class StageClock
-{
-public:
-  explicit StageClock (std::map<std::string, double>& timings_s) : timings_s_ (timings_s) {}
-
-  /** \brief A stage ends, the next one begins. */
-  void end (const char* stage)
-  {
-    const auto now = std::chrono::steady_clock::now ();
-    timings_s_[stage] += std::chrono::duration<double> (now - start_).count ();
-    start_ = now;
-  }
-
-private:
-  std::map<std::string, double>& timings_s_;
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now ();
-};
 
 TrackedFrame
 trackedFrame (const PosedFrame& frame, const LabelImage& labels, double inlier_share, bool masked,
@@ -82,50 +61,33 @@ labelsByMask (const PosedFrame& frame, const LabelImage& associated, const Frame
   return labels;
 }
 
-SdfAlignmentOptions
-alignmentOptions (const DynamicFusionOptions& options)
-{
-  SdfAlignmentOptions alignment;
-  alignment.max_points = options.tracking_points;
-  alignment.threads = options.threads;
-  return alignment;
-}
-
 } // namespace
-
-FusionState::FusionState (const FusionSetup& setup)
-    : segmenter (setup.options.segment_every)
-    , alignment (alignmentOptions (setup.options))
-{
-  camera.T_world_camera = setup.options.first_pose;
-}
 
 TrackedFrame
 processFrame (const RgbdFrame& frame, const Image<std::uint16_t>* given_mask, const FusionSetup& setup,
               FusionState& state)
 {
-  StageClock clock (state.timings_s);
+  std::optional<ScopedSeconds> stage (state.timings_s["tracking"]);
   // Points p = z K^-1 (u, v, 1), with z from a bilateral filter.
   const FrameCloud cloud = makeFrameCloud (frame, setup.camera, setup.options);
 
-  // Camera pose, E- and M-step of EM-Fusion: argmin_T sum_i P_i (background) rho (d (T p_i)), see DataAssociation and
-  // SdfAlignment. The background's volume goes with the camera.
+  // Camera pose, E- and M-step of EM-Fusion: argmin_T sum_i P_i (m) rho (d_m (T p_i)) for the model m of the
+  // background, see associatePixels () and SdfAlignment. The background's volume goes with the camera.
   CameraStep step = trackCamera (frame, cloud, state.background, state.objects, state.camera, setup, state.alignment,
                                  state.log);
   state.camera = std::move (step.camera);
   const PosedFrame posed{frame.stamp, cloud, state.camera.T_world_camera};
   if (step.tracked)
     followBackground (posed, setup, state.background);
-  const bool tracked = step.tracked && state.background;
-
-  // Object poses, the same with P_i (object), relative to the camera.
-  if (tracked)
-    trackObjects (posed, *state.background, {setup.association, state.alignment}, state.objects, state.log);
-  clock.end ("tracking");
-  if (!tracked)
+  if (!step.tracked || !state.background)
     return untrackedFrame (step.inlier_share, state.objects);
 
-  // Labels by association, argmax_m P_i (m), Section 3.2. Models are projected, not ray cast. Then objects grow.
+  // Object poses: the same for the model of each object, relative to the camera.
+  trackObjects (posed, *state.background, {setup.association, state.alignment}, state.objects, state.log);
+  stage.emplace (state.timings_s["segmentation"]);
+
+  // Labels by association, argmax_m P_i (m) (EM-Fusion, Section 3.2). Models are projected, not ray cast. Then objects
+  // grow over pixels that no model explains: by small components only, unless a mask or an exact segmenter corrects it.
   const SceneModels scene = trackedModels (*state.background, state.objects, posed.T_world_camera);
   const PixelAssociation associated = associatePixels (cloud, scene, setup.association);
   const bool exact = given_mask || state.segmenter.isExact ();
@@ -141,7 +103,8 @@ processFrame (const RgbdFrame& frame, const Image<std::uint16_t>* given_mask, co
   if (mask)
     mask->instances = relabelled (std::move (mask->instances), whole_of);
 
-  // Objects of the instances: matched, found again or new. The mask overrules association.
+  // Objects of the instances: matched, found again or new. The mask overrules association. Without one, an object that
+  // has absorbed others has their pixels as its foreground.
   const LabelImage masked = mask ? labelsByMask (posed, united, *mask, setup, state) : united;
   if (mask || !whole_of.empty ())
     growVolumes (posed, masked, setup.options.max_object_resolution, state.objects, state.log);
@@ -153,11 +116,10 @@ processFrame (const RgbdFrame& frame, const Image<std::uint16_t>* given_mask, co
   const LabelImage resting = withoutMoving (masked, state.camera.moving, cloud);
   pruneObjects (frame.stamp, associated.mean_probability, setup.options, state.objects, state.log);
   const LabelImage labels = withoutLost (resting, state.objects, posed);
-  clock.end ("segmentation");
+  stage.emplace (state.timings_s["integration"]);
 
   // Integration of depth, and foreground counts where there is a mask.
   integrateFrame (frame, posed, labels, mask.has_value (), *state.background, state.objects);
-  clock.end ("integration");
   return trackedFrame (posed, labels, step.inlier_share, mask.has_value (), state.objects);
 }
 

@@ -1,11 +1,11 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "event_log.h"
 #include "fusion_setup.h"
 #include "pcl_cosection/fusion/mapping/object_map.h"
 #include "pcl_cosection/fusion/segmenters/scheduled_segmenter.h"
 #include "pcl_cosection/fusion/tracking/camera_tracking.h"
+#include "run_log.h"
 
 #include <map>
 #include <optional>
@@ -16,7 +16,10 @@ namespace pcl::cosection {
 /** \brief What goes from frame to frame. */
 struct FusionState
 {
-  explicit FusionState (const FusionSetup& setup);
+  explicit FusionState (const FusionSetup& setup) : segmenter (setup.options.segment_every), alignment (setup.alignment)
+  {
+    camera.T_world_camera = setup.options.first_pose;
+  }
 
   std::optional<TsdfVolume> background; ///< world frame; nothing before the first frame
   ObjectMap objects;

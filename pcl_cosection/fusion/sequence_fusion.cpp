@@ -3,10 +3,7 @@
 
 #include "frame_context.h"
 #include "pcl_cosection/sequence/stamp_matching.h"
-#include "pcl_cosection/sequence/stamp_span.h"
 
-#include <pcl/cosection/common/error.h>
-#include <pcl/cosection/fusion/co_section_backend.h>
 #include <pcl/cosection/fusion/frame_segmenter.h>
 
 #include <algorithm>
@@ -14,8 +11,6 @@
 #include <chrono>
 #include <cstdio>
 #include <limits>
-#include <memory>
-#include <optional>
 #include <sstream>
 #include <utility>
 
@@ -49,9 +44,9 @@ void
 requirePoses (const KnownSequence& sequence, const FrameRange& frames)
 {
   const std::vector<double> stamps = sequence.images->stamps ();
-  const std::size_t last = std::min (frames.last, stamps.size ());
-  const auto begin = stamps.begin () + static_cast<std::ptrdiff_t> (frames.first);
-  const std::vector<double> used (begin, stamps.begin () + static_cast<std::ptrdiff_t> (last));
+  const std::vector<double> used (stamps.begin () + static_cast<std::ptrdiff_t> (frames.first),
+                                  stamps.begin () +
+                                      static_cast<std::ptrdiff_t> (std::min (frames.last, stamps.size ())));
   const auto poses = posesAtStamps (sequence.camera, used, sequence.images->period ());
   if (std::none_of (poses.begin (), poses.end (), [] (const auto& pose) { return pose.has_value (); }))
     throw InvalidArgument ("the camera's trajectory has no pose for any frame: its stamps are " +

@@ -1,10 +1,9 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "image_io.h"
 
-#include "file_extension.h"
-#include "pcl_cosection/common/file_bytes.h"
+#include "lower_case.h"
+#include "pcl_cosection/common/files.h"
 
-#include "pcl_cosection/common/atomic_file.h"
 #include <pcl/cosection/common/error.h>
 
 #include <opencv2/core/mat.hpp>
@@ -114,12 +113,8 @@ void
 saveColourImage (const Picture& picture, const std::string& path)
 {
   cv::Mat image (picture.height, picture.width, CV_8UC3);
-  for (int v = 0; v < picture.height; ++v)
-    for (int u = 0; u < picture.width; ++u)
-    {
-      const auto& c = picture.at (u, v);
-      image.at<cv::Vec3b> (v, u) = {c[2], c[1], c[0]};
-    }
+  std::transform (picture.pixels.begin (), picture.pixels.end (), image.begin<cv::Vec3b> (),
+                  [] (const auto& c) { return cv::Vec3b (c[2], c[1], c[0]); });
   encode (image, path);
 }
 
@@ -183,12 +178,9 @@ loadColourImage (const std::string& path)
 {
   const cv::Mat image = decode (path, cv::IMREAD_COLOR);
   Picture picture (image.cols, image.rows);
-  for (int v = 0; v < image.rows; ++v)
-    for (int u = 0; u < image.cols; ++u)
-    {
-      const cv::Vec3b& c = image.at<cv::Vec3b> (v, u);
-      picture.at (u, v) = {c[2], c[1], c[0]};
-    }
+  std::transform (image.begin<cv::Vec3b> (), image.end<cv::Vec3b> (), picture.pixels.begin (), [] (const cv::Vec3b& c) {
+    return std::array<std::uint8_t, 3>{c[2], c[1], c[0]};
+  });
   return picture;
 }
 

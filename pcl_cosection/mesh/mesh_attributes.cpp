@@ -1,6 +1,8 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "mesh_attributes.h"
 
+#include <Eigen/Geometry>
+
 #include <algorithm>
 #include <cmath>
 #include <unordered_map>
@@ -56,33 +58,39 @@ sumAround (const VoxelSums& voxels, const VoxelGrid& grid, const Eigen::Vector3i
   return total;
 }
 
-/** \brief Vertices along edges of a mesh: those of vertex v are vertices[begin[v]] up to vertices[begin[v + 1]]. */
-struct VertexNeighbours
-{
-  std::vector<std::uint32_t> begin;
-  std::vector<std::uint32_t> vertices;
-};
-
-VertexNeighbours
+/** \brief The vertices along edges of each vertex, those of edges of two triangles twice. */
+std::vector<std::vector<std::uint32_t>>
 vertexNeighbours (const TriangleMesh& mesh)
 {
-  VertexNeighbours neighbours;
-  std::vector<std::uint32_t>& begin = neighbours.begin;
-  begin.assign (mesh.vertices.size () + 1, 0);
-  for (const auto& triangle : mesh.triangles)
-    for (const std::uint32_t v : triangle)
-      begin[v + 1] += 2;
-  for (std::size_t v = 0; v < mesh.vertices.size (); ++v)
-    begin[v + 1] += begin[v];
-  neighbours.vertices.resize (begin.back ());
-  std::vector<std::uint32_t> next (begin.begin (), begin.end () - 1);
+  std::vector<std::vector<std::uint32_t>> neighbours (mesh.vertices.size ());
   for (const auto& triangle : mesh.triangles)
     for (int c = 0; c < 3; ++c)
-    {
-      neighbours.vertices[next[triangle[c]]++] = triangle[(c + 1) % 3];
-      neighbours.vertices[next[triangle[c]]++] = triangle[(c + 2) % 3];
-    }
+      for (const int other : {(c + 1) % 3, (c + 2) % 3})
+        neighbours[triangle[c]].push_back (triangle[other]);
   return neighbours;
+}
+
+/** \brief Value at the fraction \a t of the way from \a a to \a b. */
+float
+blended (float a, float b, double t)
+{
+  return static_cast<float> ((1.0 - t) * a + t * b);
+}
+
+TriangleMesh::Colour
+blended (const TriangleMesh::Colour& a, const TriangleMesh::Colour& b, double t)
+{
+  TriangleMesh::Colour result;
+  for (std::size_t channel = 0; channel < result.size (); ++channel)
+    result[channel] = static_cast<std::uint8_t> (std::lround ((1.0 - t) * a[channel] + t * b[channel]));
+  return result;
+}
+
+/** \brief Names of kinds, like Provenance, have nothing between them: that of the nearer end. */
+std::uint8_t
+blended (std::uint8_t a, std::uint8_t b, double t)
+{
+  return t <= 0.5 ? a : b;
 }
 
 } // namespace
@@ -120,12 +128,12 @@ transferAttributes (const std::vector<OrientedPoint>& points, const VoxelGrid& g
   }
 
   // Breadth first along the edges from all vertices near points at once.
-  const VertexNeighbours neighbours = vertexNeighbours (mesh);
+  const auto neighbours = vertexNeighbours (mesh);
   for (std::size_t head = 0; head < front.size (); ++head)
   {
     const std::uint32_t v = front[head];
-    for (std::uint32_t e = neighbours.begin[v]; e < neighbours.begin[v + 1]; ++e)
-      if (const std::uint32_t other = neighbours.vertices[e]; !done[other])
+    for (const std::uint32_t other : neighbours[v])
+      if (!done[other])
       {
         done[other] = true;
         if (coloured)
@@ -135,6 +143,40 @@ transferAttributes (const std::vector<OrientedPoint>& points, const VoxelGrid& g
         front.push_back (other);
       }
   }
+}
+
+void
+blendAttributes (TriangleMesh& mesh, std::uint32_t u, std::uint32_t v, double t)
+{
+  const auto blend = [=] (auto& values) {
+    if (!values.empty ())
+      values[u] = blended (values[u], values[v], t);
+  };
+  blend (mesh.colours);
+  blend (mesh.intensity);
+  blend (mesh.confidence);
+  blend (mesh.provenance);
+}
+
+std::vector<Eigen::Vector3f>
+vertexNormals (const TriangleMesh& mesh)
+{
+  std::vector<Eigen::Vector3d> sums (mesh.vertices.size (), Eigen::Vector3d::Zero ());
+  for (const auto& triangle : mesh.triangles)
+    for (int n = 0; n < 3; ++n)
+    {
+      const Eigen::Vector3d corner = mesh.vertices[triangle[n]].cast<double> ();
+      const Eigen::Vector3d a = mesh.vertices[triangle[(n + 1) % 3]].cast<double> () - corner;
+      const Eigen::Vector3d b = mesh.vertices[triangle[(n + 2) % 3]].cast<double> () - corner;
+      const Eigen::Vector3d area = a.cross (b);
+      if (area.norm () > 0.0)
+        sums[triangle[n]] += std::atan2 (area.norm (), a.dot (b)) * area.normalized ();
+    }
+  std::vector<Eigen::Vector3f> normals;
+  normals.reserve (sums.size ());
+  for (const auto& sum : sums)
+    normals.push_back ((sum.norm () > 0.0 ? sum.normalized () : Eigen::Vector3d (0, 0, 1)).cast<float> ());
+  return normals;
 }
 
 } // namespace pcl::cosection

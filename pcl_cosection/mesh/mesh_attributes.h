@@ -14,4 +14,11 @@ namespace pcl::cosection {
  * black, no intensities if all are zero. */
 void transferAttributes (const std::vector<OrientedPoint>& points, const VoxelGrid& grid, TriangleMesh& mesh);
 
+/** \brief Give vertex \a u all attributes, its normal apart, at the fraction \a t of the way from \a u to \a v. */
+void blendAttributes (TriangleMesh& mesh, std::uint32_t u, std::uint32_t v, double t);
+
+/** \brief Unit normals of the vertices: the triangles' normals weighted by their angles at the vertex, so that it does
+ * not matter how flat parts are triangulated. (0, 0, 1) where the triangles' normals cancel or there are none. */
+std::vector<Eigen::Vector3f> vertexNormals (const TriangleMesh& mesh);
+
 } // namespace pcl::cosection

@@ -33,8 +33,7 @@ firstOfEqualVertices (const TriangleMesh& mesh)
     const Eigen::Vector3f& v = vertices[b];
     return std::lexicographical_compare (u.data (), u.data () + 3, v.data (), v.data () + 3);
   };
-  std::sort (order.begin (), order.end (),
-             [&] (std::uint32_t a, std::uint32_t b) { return less (a, b) || (!less (b, a) && a < b); });
+  std::stable_sort (order.begin (), order.end (), less);
   std::vector<std::uint32_t> first (vertices.size ());
   for (std::size_t n = 0; n < order.size (); ++n)
     first[order[n]] = (n > 0 && vertices[order[n - 1]] == vertices[order[n]] ? first[order[n - 1]] : order[n]);
@@ -139,7 +138,8 @@ private:
     for (const std::uint32_t corner : mesh_.triangles[other])
       if (corner != a && corner != c)
         d = corner;
-    if (triangle_of_.count (directed (b, d)) != 0 || triangle_of_.count (directed (d, b)) != 0)
+    if (d == b || // the same corners, of which rounding says in this order that they are not collinear
+        triangle_of_.count (directed (b, d)) != 0 || triangle_of_.count (directed (d, b)) != 0)
       return false;
     mesh_.triangles[t] = {a, b, d};
     mesh_.triangles[other] = {b, c, d};
@@ -158,19 +158,18 @@ private:
   std::unordered_map<std::uint64_t, std::uint32_t> triangle_of_; // of each side, by its direction
 };
 
-/** \brief Indices of the triangles, those of equal canonical corners behind each other, by index. */
-template <typename Key>
-std::vector<std::uint32_t>
-sortedTriangles (const TriangleMesh& mesh, Key&& key)
+/** \brief Calls visit (a, b) for triangles of equal key, each with the next one. */
+template <typename Key, typename Visit>
+void
+forEachRepetition (const std::vector<Triangle>& triangles, Key&& key, Visit&& visit)
 {
-  std::vector<std::uint32_t> order (mesh.triangles.size ());
+  std::vector<std::uint32_t> order (triangles.size ());
   std::iota (order.begin (), order.end (), 0u);
-  std::sort (order.begin (), order.end (), [&] (std::uint32_t a, std::uint32_t b) {
-    const Triangle u = key (mesh.triangles[a]);
-    const Triangle v = key (mesh.triangles[b]);
-    return u != v ? u < v : a < b;
-  });
-  return order;
+  std::stable_sort (order.begin (), order.end (),
+                    [&] (std::uint32_t a, std::uint32_t b) { return key (triangles[a]) < key (triangles[b]); });
+  for (std::size_t n = 1; n < order.size (); ++n)
+    if (key (triangles[order[n]]) == key (triangles[order[n - 1]]))
+      visit (order[n - 1], order[n]);
 }
 
 } // namespace
@@ -191,10 +190,7 @@ cleanMesh (const TriangleMesh& mesh)
       v = first[v];
     keep[t] = corners[0] != corners[1] && corners[1] != corners[2] && corners[2] != corners[0];
   }
-  const auto order = sortedTriangles (welded, canonical);
-  for (std::size_t n = 1; n < order.size (); ++n)
-    if (canonical (welded.triangles[order[n]]) == canonical (welded.triangles[order[n - 1]]))
-      keep[order[n]] = false;
+  forEachRepetition (welded.triangles, canonical, [&] (std::uint32_t, std::uint32_t b) { keep[b] = false; });
   CollinearTriangles (welded, keep).remove ();
   return extractTriangles (welded, keep);
 }
@@ -206,11 +202,8 @@ dropBackToBack (const TriangleMesh& mesh)
     std::sort (triangle.begin (), triangle.end ());
     return triangle;
   };
-  const auto order = sortedTriangles (mesh, corners);
   std::vector<bool> keep (mesh.triangles.size (), true);
-  for (std::size_t n = 1; n < order.size (); ++n)
-    if (corners (mesh.triangles[order[n]]) == corners (mesh.triangles[order[n - 1]]))
-      keep[order[n]] = keep[order[n - 1]] = false;
+  forEachRepetition (mesh.triangles, corners, [&] (std::uint32_t a, std::uint32_t b) { keep[a] = keep[b] = false; });
   return extractTriangles (mesh, keep);
 }
 

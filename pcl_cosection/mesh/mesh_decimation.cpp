@@ -4,22 +4,22 @@
 // closed manifold stays one.
 
 #include "collapsible_mesh.h"
+#include "mesh_attributes.h"
 #include "mesh_checks.h"
-#include "quadric.h"
 #include "triangle_shape.h"
-#include "vertex_attributes.h"
-#include "vertex_normals.h"
 
 #include <pcl/cosection/common/error.h>
 #include <pcl/cosection/common/mesh_decimation.h>
 
 #include <Eigen/Geometry>
+#include <Eigen/LU>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <sstream>
 #include <string>
-#include <utility>
+#include <tuple>
 
 namespace pcl::cosection {
 namespace {
@@ -52,6 +52,56 @@ constexpr double least_quality = 1e-3;
 /** \brief The least share of a closed surface's volume that is kept: with less, thin walls lie on each other, or turn
  * inside out. */
 constexpr double least_volume_share = 0.1;
+
+/** \brief Weighted sum of squared distances to planes as a function of position,
+ * Q (x) = x^T A x + 2 b^T x + c (Garland and Heckbert 1997). */
+class Quadric
+{
+public:
+  /** \brief Add the plane through \a point with unit normal \a normal. */
+  void addPlane (const Eigen::Vector3d& normal, const Eigen::Vector3d& point, double weight)
+  {
+    const double d = -normal.dot (point);
+    A_ += weight * normal * normal.transpose ();
+    b_ += weight * d * normal;
+    c_ += weight * d * d;
+  }
+
+  Quadric& operator+= (const Quadric& other)
+  {
+    A_ += other.A_;
+    b_ += other.b_;
+    c_ += other.c_;
+    return *this;
+  }
+
+  double operator() (const Eigen::Vector3d& x) const { return x.dot (A_ * x + 2.0 * b_) + c_; }
+
+  /** \brief Sum of the planes' weights. */
+  double weight () const { return A_.trace (); }
+
+  /** \brief The minimum near \a start: along directions in which Q hardly changes the result stays there.
+   *
+   * Proximal point iterations: an eigenvalue e of A leaves the fraction (m / (e + m))^steps of the way to the minimum,
+   * m = damping * trace (A). So there is no threshold at which the result jumps. */
+  Eigen::Vector3d minimumNear (const Eigen::Vector3d& start) const
+  {
+    constexpr double damping = 1e-3;
+    constexpr int steps = 3;
+    if (!(weight () > 0.0))
+      return start;
+    const Eigen::Matrix3d inverse = (A_ + damping * weight () * Eigen::Matrix3d::Identity ()).inverse ();
+    Eigen::Vector3d x = start;
+    for (int step = 0; step < steps; ++step)
+      x -= inverse * (A_ * x + b_);
+    return x;
+  }
+
+private:
+  Eigen::Matrix3d A_ = Eigen::Matrix3d::Zero ();
+  Eigen::Vector3d b_ = Eigen::Vector3d::Zero ();
+  double c_ = 0.0;
+};
 
 /** \brief Fraction of the way from \a a to \a b at which \a x lies. */
 double
@@ -88,9 +138,7 @@ struct Candidate
    * does not matter. */
   bool operator<(const Candidate& other) const
   {
-    if (cost != other.cost)
-      return cost > other.cost;
-    return u != other.u ? u > other.u : v > other.v;
+    return std::tie (other.cost, other.u, other.v) < std::tie (cost, u, v);
   }
 };
 
@@ -280,30 +328,12 @@ private:
   TriangleMesh result ()
   {
     mesh_.triangles = surface_.triangles ();
-    std::vector<std::uint32_t> new_index (positions_.size (), 0);
-    for (const auto& triangle : mesh_.triangles)
-      for (const auto v : triangle)
-        new_index[v] = 1;
-    std::vector<Vertex> kept;
-    for (Vertex v = 0; v < new_index.size (); ++v)
-      if (new_index[v] != 0)
-      {
-        new_index[v] = static_cast<std::uint32_t> (kept.size ());
-        kept.push_back (v);
-      }
-    for (auto& triangle : mesh_.triangles)
-      for (auto& v : triangle)
-        v = new_index[v];
-
-    std::vector<Eigen::Vector3f> vertices;
-    vertices.reserve (kept.size ());
-    for (const auto v : kept)
-      vertices.push_back ((positions_[v] + centre_).cast<float> ());
-    mesh_.vertices = std::move (vertices);
-    keepAttributes (mesh_, kept);
-    if (!mesh_.normals.empty ())
-      mesh_.normals = vertexNormals (mesh_);
-    return std::move (mesh_);
+    for (std::size_t v = 0; v < positions_.size (); ++v)
+      mesh_.vertices[v] = (positions_[v] + centre_).cast<float> ();
+    TriangleMesh result = extractTriangles (mesh_, std::vector<bool> (mesh_.triangles.size (), true));
+    if (!result.normals.empty ())
+      result.normals = vertexNormals (result);
+    return result;
   }
 
   struct MovedTriangle
@@ -326,6 +356,24 @@ private:
 };
 
 } // namespace
+
+void
+DecimationOptions::validate () const
+{
+  const auto require = [] (bool ok, const char* name, double value, const char* domain) {
+    if (ok)
+      return;
+    std::ostringstream message;
+    message << "decimate: " << name << " is " << value << "; it must be " << domain;
+    throw InvalidArgument (message.str ());
+  };
+  require (max_triangles >= 1, "largest number of triangles", static_cast<double> (max_triangles), "at least 1");
+  require (max_normal_turn_deg > 0.0 && max_normal_turn_deg <= 90.0, "largest turn of a normal", max_normal_turn_deg,
+           "positive and at most 90 degrees");
+  require (min_quality >= 0.0 && min_quality <= 1.0, "least quality of a triangle", min_quality, "between 0 and 1");
+  require (boundary_weight >= 0.0 && boundary_weight <= 1e6, "weight of the boundary", boundary_weight,
+           "between 0 and 1e6");
+}
 
 TriangleMesh
 decimate (const TriangleMesh& mesh, const DecimationOptions& options)

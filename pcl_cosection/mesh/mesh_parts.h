@@ -37,4 +37,10 @@ std::optional<std::size_t> enclosingPart (const TriangleMesh& mesh, const std::v
 PCL_COSECTION_EXPORT double windingNumber (const TriangleMesh& mesh, const std::vector<std::uint32_t>& triangles,
                                            const Eigen::Vector3d& p);
 
+/** \brief Turn triangles so that neighbours across edges of two agree, the fewest that do, and so that closed
+ * parts face outward: all of them if their volumes sum up to less than nothing, then each whose volume is
+ * negative unless it is a cavity in another. Where a surface has one side only (a Moebius strip), two
+ * neighbours keep disagreeing. */
+void orientTriangles (TriangleMesh& mesh);
+
 } // namespace pcl::cosection

@@ -2,9 +2,7 @@
 #include "contact_prior.h"
 
 #include "pcl_cosection/common/convex_hull.h"
-#include "pcl_cosection/priors/shape/principal_axes.h"
-
-#include "pcl_cosection/energy/constraints/plane_map.h"
+#include "pcl_cosection/priors/shape/axes.h"
 
 #include <Eigen/Geometry>
 
@@ -15,12 +13,112 @@
 namespace pcl::cosection {
 namespace {
 
-constexpr int least_part_cells = 4;     // of a part of the contact; smaller ones are outliers
-constexpr double lowest_free_vox = 3.0; // over the plane: lower free space cannot be distinguished from the plane
+constexpr double contact_height_vox = 2.5; // largest distance of a contact point from the plane
+constexpr double max_slope = 0.7;          // largest |n.plane| of the normal n of a contact point
+constexpr double gap_per_length = 1.0;     // largest gap between a part and its copy, per length of the part
+constexpr double max_free_share = 0.1;     // of the space between a part and its copy over the plane, seen free
+constexpr std::size_t least_contacts = 10; // number of contact points
+constexpr double patch_reach_vox = 2.0;    // voxels up to this height above or below the plane are affected
+constexpr int least_part_cells = 4;        // of a part of the contact; smaller ones are outliers
+constexpr double lowest_free_vox = 3.0;    // over the plane: lower free space cannot be distinguished from the plane
 constexpr double highest_free_vox = 7.0;
 constexpr int closing_cells = 3; // gaps between points up to twice this wide are closed
 
 using Polygon = std::vector<Eigen::Vector2d>;
+
+/** \brief A bitmap on a plane, whose cells are set by points. */
+class PlaneMap
+{
+public:
+  /** \param[in] margin cells beyond \a low and \a high, at least the radius of close () */
+  PlaneMap (const Eigen::Vector2d& low, const Eigen::Vector2d& high, double cell, int margin)
+      : low_ (low - Eigen::Vector2d::Constant (margin * cell))
+      , cell_ (cell)
+      , width_ (static_cast<int> ((high.x () - low.x ()) / cell) + 2 * margin + 1)
+      , height_ (static_cast<int> ((high.y () - low.y ()) / cell) + 2 * margin + 1)
+      , cells_ (static_cast<std::size_t> (width_) * height_, 0)
+  {}
+
+  void set (const Eigen::Vector2d& p) { cells_[index (p)] = 1; }
+
+  bool at (const Eigen::Vector2d& p) const
+  {
+    const Eigen::Vector2d q = (p - low_) / cell_;
+    return q.x () >= 0.0 && q.y () >= 0.0 && q.x () < width_ && q.y () < height_ && cells_[index (p)] != 0;
+  }
+
+  /** \brief Fill gaps of up to twice \a radius cells. */
+  void close (int radius)
+  {
+    spread (radius, 1);
+    spread (radius, 0);
+  }
+
+  /** \brief Centres of the cells of each connected component. */
+  std::vector<std::vector<Eigen::Vector2d>> parts () const
+  {
+    std::vector<std::vector<Eigen::Vector2d>> parts;
+    std::vector<std::uint8_t> left = cells_;
+    std::vector<std::size_t> open;
+    for (std::size_t seed = 0; seed < left.size (); ++seed)
+    {
+      if (!left[seed])
+        continue;
+      left[seed] = 0;
+      open.push_back (seed);
+      parts.emplace_back ();
+      while (!open.empty ())
+      {
+        const auto x = static_cast<int> (open.back () % width_);
+        const auto y = static_cast<int> (open.back () / width_);
+        open.pop_back ();
+        parts.back ().emplace_back (low_ + cell_ * Eigen::Vector2d (x + 0.5, y + 0.5));
+        for (int j = std::max (0, y - 1); j <= std::min (height_ - 1, y + 1); ++j)
+          for (int i = std::max (0, x - 1); i <= std::min (width_ - 1, x + 1); ++i)
+          {
+            const std::size_t n = static_cast<std::size_t> (j) * width_ + i;
+            if (!left[n])
+              continue;
+            left[n] = 0;
+            open.push_back (n);
+          }
+      }
+    }
+    return parts;
+  }
+
+private:
+  std::size_t index (const Eigen::Vector2d& p) const
+  {
+    const Eigen::Vector2d q = (p - low_) / cell_;
+    return static_cast<std::size_t> (q.y ()) * width_ + static_cast<std::size_t> (q.x ());
+  }
+
+  /** \brief Dilation of the cells that have \a value, with a square of \a radius cells. */
+  void spread (int radius, std::uint8_t value)
+  {
+    for (const bool along_x : {true, false})
+    {
+      const std::vector<std::uint8_t> before = cells_;
+      for (int y = 0; y < height_; ++y)
+        for (int x = 0; x < width_; ++x)
+          for (int r = -radius; r <= radius; ++r)
+          {
+            const int i = along_x ? x + r : x;
+            const int j = along_x ? y : y + r;
+            if (i >= 0 && j >= 0 && i < width_ && j < height_ &&
+                before[static_cast<std::size_t> (j) * width_ + i] == value)
+              cells_[static_cast<std::size_t> (y) * width_ + x] = value;
+          }
+    }
+  }
+
+  Eigen::Vector2d low_;
+  double cell_;
+  int width_;
+  int height_;
+  std::vector<std::uint8_t> cells_;
+};
 
 /** \brief Coordinates over a support plane, metres. */
 struct PlaneFrame
@@ -44,8 +142,7 @@ struct FlatPoints
 };
 
 FlatPoints
-flatten (const ContactPrior& prior, const VoxelGrid& grid, const PlaneFrame& frame,
-         const std::vector<OrientedPoint>& points)
+flatten (const VoxelGrid& grid, const PlaneFrame& frame, const std::vector<OrientedPoint>& points)
 {
   const double h = grid.voxel_size_m;
   const Eigen::Vector3d normal = frame.plane.head<3> ();
@@ -59,8 +156,7 @@ flatten (const ContactPrior& prior, const VoxelGrid& grid, const PlaneFrame& fra
     if ((p.array () < begin).any () || (p.array () >= end).any ())
       continue;
     const double z = frame.height (p);
-    if (std::abs (z) <= prior.contact_height_vox * h &&
-        std::abs (normal.dot (point.normal.cast<double> ())) < prior.max_slope)
+    if (std::abs (z) <= contact_height_vox * h && std::abs (normal.dot (point.normal.cast<double> ())) < max_slope)
       flat.contacts.push_back (frame.flat (p));
     if (z > 0.0)
       flat.above.push_back (frame.flat (p));
@@ -94,7 +190,7 @@ freeShareOver (const Polygon& polygon, const VoxelGrid& grid, const PlaneFrame& 
 
 /** \brief Whether a part of the contact and its turned copy are no farther apart than the part is long. */
 bool
-isNearItsCopy (const std::vector<Eigen::Vector2d>& part, const PlaneFrame& frame, double gap_per_length)
+isNearItsCopy (const std::vector<Eigen::Vector2d>& part, const PlaneFrame& frame)
 {
   double length = 0.0, gap = std::numeric_limits<double>::infinity ();
   for (const Eigen::Vector2d& a : part)
@@ -109,15 +205,15 @@ isNearItsCopy (const std::vector<Eigen::Vector2d>& part, const PlaneFrame& frame
 } // namespace
 
 std::vector<std::uint8_t>
-ContactPrior::patch (const VoxelGrid& grid, const Eigen::Vector4d& plane, const std::vector<OrientedPoint>& points,
-                     const Eigen::Vector3d& center, const std::vector<std::uint8_t>& free_space) const
+contactPatch (const VoxelGrid& grid, const Eigen::Vector4d& plane, const std::vector<OrientedPoint>& points,
+              const Eigen::Vector3d& center, const std::vector<std::uint8_t>& free_space)
 {
   const double h = grid.voxel_size_m;
   const Eigen::Matrix3d axes = principalAxes (points, plane.head<3> ());
   PlaneFrame frame{plane, axes.col (0), axes.col (1), {}};
   frame.middle = frame.flat (center);
-  const FlatPoints flat = flatten (*this, grid, frame, points);
-  if (static_cast<int> (flat.contacts.size ()) < min_contacts || flat.above.empty ())
+  const FlatPoints flat = flatten (grid, frame, points);
+  if (flat.contacts.size () < least_contacts || flat.above.empty ())
     return {};
   Eigen::AlignedBox2d box;
   for (const Eigen::Vector2d& p : flat.above)
@@ -126,14 +222,13 @@ ContactPrior::patch (const VoxelGrid& grid, const Eigen::Vector4d& plane, const 
   const Eigen::Vector2d& middle = frame.middle;
   const Eigen::Vector2d reach = (box.max () - middle).cwiseMax (middle - box.min ()); // of points and turned copies
   const Eigen::Vector2d half = ((reach.array () / h).ceil () + 0.5) * h;
-  PlaneMap covered (middle - half, middle + half, h, closing_cells + 1);
+  PlaneMap covered (middle - half, middle + half, h, closing_cells + 1), touched = covered;
   for (const Eigen::Vector2d& p : flat.above)
   {
     covered.set (p);
     covered.set (frame.turned (p));
   }
   covered.close (closing_cells);
-  PlaneMap touched (middle - half, middle + half, h, closing_cells + 1);
   for (const Eigen::Vector2d& p : flat.contacts)
     touched.set (p);
   touched.close (closing_cells);
@@ -153,7 +248,7 @@ ContactPrior::patch (const VoxelGrid& grid, const Eigen::Vector4d& plane, const 
         both.emplace_back (frame.turned (p) + corner);
       }
     both = convexHull (std::move (both));
-    const bool completed = isNearItsCopy (part, frame, gap_per_length) &&
+    const bool completed = isNearItsCopy (part, frame) &&
                            freeShareOver (both, grid, frame, covered, free_space) < max_free_share;
     undersides.push_back (completed ? both : convexHull (std::move (own)));
   }
@@ -165,7 +260,7 @@ ContactPrior::patch (const VoxelGrid& grid, const Eigen::Vector4d& plane, const 
       {
         const std::size_t n = grid.index (i, j, k);
         const Eigen::Vector3d p = grid.center (i, j, k);
-        if (std::abs (frame.height (p)) > reach_vox * h || free_space[n])
+        if (std::abs (frame.height (p)) > patch_reach_vox * h || free_space[n])
           continue;
         const Eigen::Vector2d q = frame.flat (p);
         patch[n] = covered.at (q) && std::any_of (undersides.begin (), undersides.end (),

@@ -1,12 +1,14 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "occlusion_map.h"
 #include "pcl_cosection/priors/shape/symmetric_extent.h"
 #include <pcl/cosection/common/camera.h>
 #include <pcl/cosection/common/oriented_point.h>
 #include <pcl/cosection/volume/signed_distance_field.h>
 
-#include <utility>
+#include <algorithm>
+#include <cstdint>
 #include <vector>
 
 namespace pcl::cosection {
@@ -42,14 +44,19 @@ struct ExtentPrior
 
   /** \brief Parameters for an object whose points were cut out of a scene: its surroundings are unknown, and a missing
    * reading beside it suggests no matter. */
-  static ExtentPrior cutOut ();
-
-  /** \brief Largest distance from its data that an object may have, metres. */
-  double farthest (const std::vector<OrientedPoint>& points) const;
+  static ExtentPrior cutOut ()
+  {
+    ExtentPrior prior;
+    prior.side_factor = 0.05;
+    return prior;
+  }
 
   /** \brief Largest distance from its data that an object with given extents may have, metres.
    * \param[in] extents_m observedExtents () of its points */
-  double farthest (const Eigen::Vector3d& extents_m) const;
+  double farthest (const Eigen::Vector3d& extents_m) const
+  {
+    return std::max ({depth_factor, occluded_factor, side_factor}) * extents_m[1];
+  }
 
   /** \brief Bounds in voxels; 0 for voxels without a bound.
    * \param[in] data_distance_vox distance to the nearest voxel with data
@@ -59,9 +66,25 @@ struct ExtentPrior
    * \param[in] plausible regions of which any may hold the object, the grid's frame; if empty, there is no second
    * bound */
   std::vector<float> bounds (const VoxelGrid& grid, const std::vector<float>& data_distance_vox,
-                             const std::vector<OrientedPoint>& points,
-                             const std::vector<std::pair<const DepthView*, Eigen::Isometry3d>>& views, int threads = 0,
-                             const std::vector<SymmetricExtent>& plausible = {}) const;
+                             const std::vector<OrientedPoint>& points, const OcclusionMap::Views& views,
+                             int threads = 0, const std::vector<SymmetricExtent>& plausible = {}) const;
+
+  /** \brief These bounds with the occlusion map \a places of the object's points and views.
+   * \param[in] extents_m observedExtents () of its points
+   * \param[in] exempt 1 for voxels that get no bound; or empty */
+  std::vector<float> bounds (const VoxelGrid& grid, const std::vector<float>& data_distance_vox,
+                             const Eigen::Vector3d& extents_m, OcclusionMap& places,
+                             const std::vector<SymmetricExtent>& plausible, const std::vector<std::uint8_t>& exempt,
+                             int threads) const;
 };
+
+/** \brief Allowed distance of a voxel from the nearest data, as a fraction of the middle observed extent. */
+inline double
+allowedFactor (const ExtentPrior& prior, Hidden hidden)
+{
+  return hidden == Hidden::ByObject  ? prior.depth_factor
+         : hidden == Hidden::ByOther ? prior.occluded_factor
+                                     : prior.side_factor;
+}
 
 } // namespace pcl::cosection

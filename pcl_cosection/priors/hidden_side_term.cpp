@@ -58,78 +58,70 @@ pick (const std::vector<OrientedPoint>& points, const std::function<bool (const 
 }
 
 ImlsDataTerm
-termOf (const VoxelGrid& grid, const std::vector<OrientedPoint>& points, const CoSectionOptions& options)
+termOf (const BodyEnergy& energy, const std::vector<OrientedPoint>& points)
 {
   ImlsDataTerm term;
-  term.weight.assign (grid.size (), 0.0f);
-  term.weighted_target.assign (grid.size (), 0.0f);
-  term.count.assign (grid.size (), 0.0f);
-  term.add (grid, points, options.sigma_vox, options.threads);
+  term.weight.assign (energy.grid.size (), 0.0f);
+  term.weighted_target.assign (energy.grid.size (), 0.0f);
+  term.count.assign (energy.grid.size (), 0.0f);
+  term.add (energy.grid, points, energy.options.sigma_vox, energy.options.threads);
   return term;
 }
 
 /** \brief Signed distances from one part of a vessel's surface, as measured or else as expected. */
-class PartOfWall
+struct PartOfWall
 {
-public:
-  PartOfWall (const VoxelGrid& grid, const std::vector<OrientedPoint>& seen, const std::vector<OrientedPoint>& expected,
-              const std::vector<std::uint8_t>& free, const CoSectionOptions& options)
-      : distance_ (grid.size (), -std::numeric_limits<float>::infinity ())
-      , expected_ (grid.size ())
+  std::vector<float> distance;        // voxels, positive outside; -infinity where the part is not known
+  std::vector<std::uint8_t> expected; // 1 where the distance is as expected
+
+  PartOfWall (const BodyEnergy& energy, const std::vector<OrientedPoint>& seen,
+              const std::vector<OrientedPoint>& hidden)
+      : distance (energy.grid.size (), -std::numeric_limits<float>::infinity ())
+      , expected (energy.grid.size ())
   {
-    std::vector<std::uint8_t> near (grid.size ());
+    std::vector<std::uint8_t> near (energy.grid.size ());
     {
-      const ImlsDataTerm term = termOf (grid, seen, options);
-      for (std::size_t n = 0; n < grid.size (); ++n)
+      const ImlsDataTerm term = termOf (energy, seen);
+      for (std::size_t n = 0; n < near.size (); ++n)
       {
-        near[n] = !free[n] && term.weight[n] >= near_weight;
+        near[n] = !energy.empty[n] && term.weight[n] >= near_weight;
         if (term.weight[n] >= far_weight)
-          distance_[n] = term.weighted_target[n] / term.weight[n];
+          distance[n] = term.weighted_target[n] / term.weight[n];
       }
     }
-    const std::vector<float> seen_distance = distanceTransform (grid.dims, near, options.threads);
-    const ImlsDataTerm term = termOf (grid, expected, options);
-    for (std::size_t n = 0; n < grid.size (); ++n)
+    const std::vector<float> seen_distance = distanceTransform (energy.grid.dims, near, energy.options.threads);
+    const ImlsDataTerm term = termOf (energy, hidden);
+    for (std::size_t n = 0; n < near.size (); ++n)
       if (seen_distance[n] >= gap_vox && term.weight[n] >= near_weight)
       {
-        expected_[n] = 1;
-        distance_[n] = term.weighted_target[n] / term.weight[n];
+        expected[n] = 1;
+        distance[n] = term.weighted_target[n] / term.weight[n];
       }
   }
-
-  bool isExpected (std::size_t n) const { return expected_[n] != 0; }
-
-  /** \brief Signed distance at a voxel, voxels, positive outside; -infinity where the part is not known. */
-  float distance (std::size_t n) const { return distance_[n]; }
-
-private:
-  std::vector<float> distance_;
-  std::vector<std::uint8_t> expected_;
 };
 
 /** \brief Add the term of a vessel. Its wall is the intersection of the insides of all parts of its surface: the
  * largest of their signed distances is the target. */
 void
-addVessel (EnergyProblem& problem, const VoxelGrid& grid, const SymmetricExtent& plausible,
-           const std::vector<OrientedPoint>& measured, const std::vector<OrientedPoint>& expected,
-           const std::vector<std::uint8_t>& free, const CoSectionOptions& options)
+addVessel (BodyEnergy& energy, const SymmetricExtent& plausible, const std::vector<OrientedPoint>& measured,
+           const std::vector<OrientedPoint>& expected)
 {
+  const VoxelGrid& grid = energy.grid;
+  const CoSectionOptions& options = energy.options;
   const auto isOfWall = [&] (const OrientedPoint& p) { return plausible.holds (p.position.cast<double> ()); };
   const auto find = [&] (VesselPart part) {
     const auto isOfPart = [&] (const OrientedPoint& p) { return plausible.partOf (p) == part; };
-    return PartOfWall (grid, pick (measured, [&] (const OrientedPoint& p) { return isOfPart (p) && isOfWall (p); }),
-                       pick (expected, isOfPart), free, options);
+    return PartOfWall (energy, pick (measured, [&] (const OrientedPoint& p) { return isOfPart (p) && isOfWall (p); }),
+                       pick (expected, isOfPart));
   };
   const PartOfWall outer = find (VesselPart::Outer), bottom = find (VesselPart::Bottom);
-  const PartOfWall inner = find (VesselPart::Inner);
-  const PartOfWall rim = find (VesselPart::Rim);
-  const ImlsDataTerm handles = termOf (grid, pick (measured, [&] (const OrientedPoint& p) { return !isOfWall (p); }),
-                                       options);
+  const PartOfWall inner = find (VesselPart::Inner), rim = find (VesselPart::Rim);
+  const ImlsDataTerm handles = termOf (energy, pick (measured, [&] (const OrientedPoint& p) { return !isOfWall (p); }));
   const double wall_vox = std::max (least_wall * plausible.wallThickness () / grid.voxel_size_m, least_wall_vox);
 
   const auto set = [&] (std::size_t n, double weight, double target) {
-    problem.weight[n] = static_cast<float> (weight);
-    problem.weighted_target[n] = static_cast<float> (weight * target);
+    energy.problem.weight[n] = static_cast<float> (weight);
+    energy.problem.weighted_target[n] = static_cast<float> (weight * target);
   };
   parallelFor (0, grid.dims.z (), threadsForVoxels (options.threads, grid.size ()), [&] (int k) {
     std::vector<float> beyond_m (static_cast<std::size_t> (grid.dims.x ())); // of a row
@@ -140,22 +132,22 @@ addVessel (EnergyProblem& problem, const VoxelGrid& grid, const SymmetricExtent&
       for (int i = 0; i < grid.dims.x (); ++i)
       {
         const std::size_t n = grid.index (i, j, k);
-        if (free[n] || handles.weight[n] >= near_weight)
+        if (energy.empty[n] || handles.weight[n] >= near_weight)
           continue;
-        const PartOfWall& outside = outer.distance (n) > bottom.distance (n) ? outer : bottom;
-        const double from_outside = outside.distance (n);
-        const double from_inner = inner.distance (n);
-        const double from_rim = rim.distance (n);
-        const double lacking = std::max (0.0, wall_vox + from_outside +
-                                                  from_inner); // missing thickness; 0 unless both sides are known
+        const PartOfWall& outside = outer.distance[n] > bottom.distance[n] ? outer : bottom;
+        const double from_outside = outside.distance[n];
+        const double from_inner = inner.distance[n];
+        const double from_rim = rim.distance[n];
+        // Missing thickness; 0 unless both sides are known.
+        const double lacking = std::max (0.0, wall_vox + from_outside + from_inner);
         const double from_sides = std::max (from_outside, from_inner) - 0.5 * lacking;
         const double target = std::max (from_sides, from_rim);
         const PartOfWall& nearer = from_rim > from_sides ? rim : from_outside > from_inner ? outside : inner;
-        if (nearer.isExpected (n))
+        if (nearer.expected[n])
           set (n, vessel_weight * options.beta_extent, target);
-        else if (problem.weight[n] > 0.0f && std::isfinite (target))
-          set (n, problem.weight[n], target);
-        else if (problem.weight[n] <= 0.0f)
+        else if (energy.problem.weight[n] > 0.0f && std::isfinite (target))
+          set (n, energy.problem.weight[n], target);
+        else if (energy.problem.weight[n] <= 0.0f)
         {
           const Eigen::Vector3d place = grid.center (i, j, k);
           const double clearance_m = std::max<double> (
@@ -171,13 +163,13 @@ addVessel (EnergyProblem& problem, const VoxelGrid& grid, const SymmetricExtent&
 
 /** \brief Expect free space below free space that is lower than the top: it is beside the vertical walls. */
 void
-emptyBesideTop (EnergyProblem& problem, const VoxelGrid& grid, const Eigen::Vector3d& up, double top_m,
-                const SeenVoxels& seen, const CoSectionOptions& options)
+emptyBesideTop (BodyEnergy& energy, const Eigen::Vector3d& up, double top_m)
 {
+  const VoxelGrid& grid = energy.grid;
+  EnergyProblem& problem = energy.problem;
   const double highest_m = top_m - below_top_vox * grid.voxel_size_m;
-  const int threads = threadsForVoxels (options.threads, grid.size ());
   std::vector<std::uint8_t> inside (grid.size (), 1);
-  parallelFor (0, grid.dims.z (), threads, [&] (int k) {
+  parallelFor (0, grid.dims.z (), threadsForVoxels (energy.options.threads, grid.size ()), [&] (int k) {
     for (int j = 0; j < grid.dims.y (); ++j)
       for (int i = 0; i < grid.dims.x (); ++i)
         for (Eigen::Vector3d p = grid.center (i, j, k); up.dot (p) < highest_m; p += grid.voxel_size_m * up)
@@ -186,19 +178,19 @@ emptyBesideTop (EnergyProblem& problem, const VoxelGrid& grid, const Eigen::Vect
           if (!at)
             break;
           const std::size_t above = grid.index (at->x (), at->y (), at->z ());
-          if (seen.data_distance[above] < gap_vox)
+          if (energy.data_distance_vox[above] < gap_vox)
             break;
-          if (!seen.free[above])
+          if (!energy.empty[above])
             continue;
           inside[grid.index (i, j, k)] = 0;
           break;
         }
   });
-  const std::vector<float> distance = distanceTransform (grid.dims, inside, options.threads);
+  const std::vector<float> distance = distanceTransform (grid.dims, inside, energy.options.threads);
   for (std::size_t n = 0; n < grid.size (); ++n)
-    if (!seen.free[n] && problem.weight[n] <= 0.0f && distance[n] > empty_margin_vox)
+    if (!energy.empty[n] && problem.weight[n] <= 0.0f && distance[n] > empty_margin_vox)
     {
-      problem.weight[n] = static_cast<float> (empty_weight * options.beta_extent);
+      problem.weight[n] = static_cast<float> (empty_weight * energy.options.beta_extent);
       problem.weighted_target[n] = problem.weight[n] * std::min (distance[n], static_cast<float> (empty_far_vox));
     }
 }
@@ -206,31 +198,28 @@ emptyBesideTop (EnergyProblem& problem, const VoxelGrid& grid, const Eigen::Vect
 } // namespace
 
 void
-addHiddenSide (EnergyProblem& problem, const VoxelGrid& grid, const SymmetricExtent& plausible,
-               const std::vector<OrientedPoint>& points, const SeenVoxels& seen, const CoSectionOptions& options)
+addHiddenSide (BodyEnergy& energy, const SymmetricExtent& plausible, const std::vector<OrientedPoint>& points)
 {
-  const std::vector<OrientedPoint> few = thinned (grid, points, std::max (1.0, options.sigma_vox));
-  const std::vector<OrientedPoint> expected = plausible.hiddenSide (few, reach_vox * grid.voxel_size_m);
+  const std::vector<OrientedPoint> few = thinned (energy.grid, points, std::max (1.0, energy.options.sigma_vox));
+  const std::vector<OrientedPoint> expected = plausible.hiddenSide (few, reach_vox * energy.grid.voxel_size_m);
   if (expected.empty ())
     return;
   if (plausible.wallThickness () > 0.0)
   {
-    addVessel (problem, grid, plausible, points, expected, seen.free, options);
+    addVessel (energy, plausible, points, expected);
     return;
   }
-  const ImlsDataTerm term = termOf (grid, expected, options);
-  const auto weight = static_cast<float> ((plausible.hasProfile () ? profile_weight
-                                           : plausible.isPrism ()  ? wall_weight
-                                                                   : 1.0) *
-                                          options.beta_extent);
-  for (std::size_t n = 0; n < grid.size (); ++n)
-    if (!seen.free[n] && seen.data_distance[n] >= gap_vox && term.weight[n] >= near_weight)
+  const ImlsDataTerm term = termOf (energy, expected);
+  const double importance = plausible.hasProfile () ? profile_weight : plausible.isPrism () ? wall_weight : 1.0;
+  const auto weight = static_cast<float> (importance * energy.options.beta_extent);
+  for (std::size_t n = 0; n < energy.grid.size (); ++n)
+    if (!energy.empty[n] && energy.data_distance_vox[n] >= gap_vox && term.weight[n] >= near_weight)
     {
-      problem.weight[n] += weight;
-      problem.weighted_target[n] += weight * term.weighted_target[n] / term.weight[n];
+      energy.problem.weight[n] += weight;
+      energy.problem.weighted_target[n] += weight * term.weighted_target[n] / term.weight[n];
     }
   if (plausible.top ())
-    emptyBesideTop (problem, grid, plausible.up (), *plausible.top (), seen, options);
+    emptyBesideTop (energy, plausible.up (), *plausible.top ());
 }
 
 } // namespace pcl::cosection

@@ -1,8 +1,8 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "hidden_walls.h"
 
+#include "pcl_cosection/common/directions.h"
 #include "pcl_cosection/common/quantile.h"
-#include "pcl_cosection/common/sectors.h"
 
 #include <Eigen/Geometry>
 

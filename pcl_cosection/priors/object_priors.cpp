@@ -1,21 +1,15 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "object_priors.h"
 
-#include "contact_edge.h"
 #include "contact_prior.h"
-#include "extent_bounds.h"
 #include "extent_prior.h"
 #include "hidden_side_term.h"
 #include "hidden_walls.h"
 #include "inferred_support_plane.h"
-#include "pcl_cosection/priors/shape/symmetric_extent.h"
 #include "pcl_cosection/volume/distance_transform.h"
-#include "rays_without_return.h"
-#include "shape_fits.h"
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <limits>
 #include <utility>
 
@@ -26,7 +20,7 @@ constexpr std::size_t most_points = 10000; // even subset of the points for infe
 constexpr double along_axis = 0.9;         // cosine: a round object stands on a plane across its axis
 // Heights of the lowest points over a plane, of the middle observed extent: the object rests on the plane ...
 constexpr double resting_reach = 0.15;        // ... in any case
-constexpr double hidden_foot_reach = 0.5;     // ... if the space between them was not observed
+constexpr double hidden_foot_reach = 0.5;     // ... unless free space or another body was observed between them
 constexpr double lowest_plane_reach = 2.0;    // ... if its walls continue down to the plane behind other things
 constexpr double resting_share = 0.01;        // of the points: outliers among the lowest ones
 constexpr std::ptrdiff_t least_ground = 20;   // background points seen in the cavity, which make a vessel a tube
@@ -50,14 +44,6 @@ hasFootNear (const Observation& object, const Eigen::Vector4d& plane, double rea
     return heightOver (plane, p.position.cast<double> ()) < reach * object.extents_m[1];
   });
   return lower > static_cast<std::ptrdiff_t> (resting_share * static_cast<double> (points.size ()));
-}
-
-/** \brief Whether the lowest points are so near to a plane that the object rests on it unless free space or another
- * body was observed between them. */
-bool
-mayRestOn (const Observation& object, const Eigen::Vector4d& plane)
-{
-  return hasFootNear (object, plane, hidden_foot_reach);
 }
 
 /** \brief The symmetric extent of the points; without floor if background was seen where a vessel would have its floor.
@@ -89,7 +75,11 @@ fitExtent (const Observation& object, const ObjectSetting& setting, const std::o
 const SymmetricExtent&
 extentOf (const Observation& object, const ObjectSetting& setting, const std::optional<Eigen::Vector4d>& plane)
 {
-  return object.fits->of (plane, [&] { return fitExtent (object, setting, plane); });
+  const Eigen::Vector4d p = plane.value_or (Eigen::Vector4d::Zero ());
+  const ShapeFits::key_type key = {p[0], p[1], p[2], p[3]};
+  const auto found = object.fits->find (key);
+  return found != object.fits->end () ? found->second
+                                      : object.fits->emplace (key, fitExtent (object, setting, plane)).first->second;
 }
 
 UnseenPlaces
@@ -138,7 +128,8 @@ restingPlanes (const Observation& object, const ObjectSetting& setting, const Un
     });
     if (known)
       continue;
-    if (hasFootNear (object, plane, resting_reach) || (mayRestOn (object, plane) && foot_is_hidden (plane)))
+    if (hasFootNear (object, plane, resting_reach) ||
+        (hasFootNear (object, plane, hidden_foot_reach) && foot_is_hidden (plane)))
       resting.push_back (plane);
   }
   if (!resting.empty ())
@@ -219,7 +210,7 @@ addContactPrior (const Observation& object, const Eigen::Vector4d& plane, const 
   const double beta = energy.options.beta_contact;
   if (beta <= 0.0)
     return;
-  const std::vector<std::uint8_t> patch = ContactPrior ().patch (grid, plane, object.points (), center, energy.empty);
+  const std::vector<std::uint8_t> patch = contactPatch (grid, plane, object.points (), center, energy.empty);
   for (std::size_t n = 0; n < patch.size (); ++n)
   {
     if (!patch[n] || energy.data[n])
@@ -271,8 +262,8 @@ addExtentPrior (const ExtentPrior& prior, const Observation& object, OcclusionMa
   std::vector<std::uint8_t> bounded (grid.size ());
   for (std::size_t n = 0; n < grid.size (); ++n)
     bounded[n] = static_cast<bool> (exterior[n]);
-  std::vector<float> bounds = extentBounds (prior, grid, distanceToExpected (energy, plausible), object.extents_m,
-                                            hidden, plausible, bounded, options.threads);
+  std::vector<float> bounds = prior.bounds (grid, distanceToExpected (energy, plausible), object.extents_m, hidden,
+                                            plausible, bounded, options.threads);
   if (energy.empty != energy.free_space)
   {
     // The bound on a ray without return is at most the distance to the nearest voxel that is not on such a ray.
@@ -290,17 +281,6 @@ addExtentPrior (const ExtentPrior& prior, const Observation& object, OcclusionMa
       exterior[n] = LowerBound (bounds[n], static_cast<float> (options.beta_extent));
 }
 
-/** \brief Add the hidden side that symmetry or a profile suggests. */
-void
-addHiddenSide (const SymmetricExtent& plausible, const Observation& object, BodyEnergy& energy)
-{
-  if (energy.options.beta_extent > 0.0)
-    addHiddenSide (energy.problem, energy.grid, plausible, object.points (), {energy.empty, energy.data_distance_vox},
-                   energy.options);
-  if (plausible.wallThickness () > 0.0)
-    energy.facing = NormalBinOccupancy (energy.grid, object.points ());
-}
-
 } // namespace
 
 double
@@ -309,16 +289,12 @@ wallThickness (const Observation& object, const ObjectSetting& setting, const st
   std::optional<Eigen::Vector4d> nearest;
   double least_m = std::numeric_limits<double>::infinity ();
   for (const Eigen::Vector4d& plane : planes)
-  {
-    if (!mayRestOn (object, plane))
-      continue;
-    const double height_m = heightOver (plane, object.box.center ());
-    if (height_m < least_m)
+    if (const double height_m = heightOver (plane, object.box.center ());
+        height_m < least_m && hasFootNear (object, plane, hidden_foot_reach))
     {
       least_m = height_m;
       nearest = plane;
     }
-  }
   return extentOf (object, setting, nearest).wallThickness ();
 }
 
@@ -389,7 +365,12 @@ addPriors (const Observation& object, const ObjectSetting& setting, const std::v
     return;
   for (const SymmetricExtent& extent : standing)
     if (extent.copiesAreAlike ())
-      addHiddenSide (extent, object, energy);
+    {
+      if (options.beta_extent > 0.0)
+        addHiddenSide (energy, extent, object.points ());
+      if (extent.wallThickness () > 0.0)
+        energy.facing = NormalBinOccupancy (energy.grid, object.points ());
+    }
   addExtentPrior (is_cut_out ? ExtentPrior::cutOut () : ExtentPrior (), object, hidden, standing, energy);
 }
 

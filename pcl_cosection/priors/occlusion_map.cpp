@@ -2,21 +2,233 @@
 #include "occlusion_map.h"
 
 #include "pcl_cosection/common/parallel.h"
+#include "pcl_cosection/view/visibility/visibility.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
 
 namespace pcl::cosection {
 namespace {
 
+constexpr int cell_px = 4;        // closes the gaps between points
+constexpr int margin_cells = 1;   // around the object, as silhouettes are inaccurate
+constexpr double rounding = 1e-9; // relative bound of the rounding errors of a box's depths
+constexpr double slack_px = 1.0;  // bound of the errors of its pixels
 constexpr std::uint8_t stale = 4;
 
-bool
-sameGrid (const VoxelGrid& a, const VoxelGrid& b)
+/** \brief The cells of an image beside an object, outside its outline. */
+class Beside
 {
-  return a.dims == b.dims && a.voxel_size_m == b.voxel_size_m && a.origin_m == b.origin_m;
-}
+public:
+  Beside (const DepthView& view, const Eigen::Isometry3d& T_object_sensor, const std::vector<OrientedPoint>& points)
+      : view_ (view)
+      , T_sensor_object_ (T_object_sensor.inverse ())
+      , size_ ((view.camera.width + cell_px - 1) / cell_px, (view.camera.height + cell_px - 1) / cell_px)
+      , cells_ (static_cast<std::size_t> (size_.x ()) * size_.y (), 0)
+  {
+    for (int v = 0; v < view.camera.height; ++v) // readings without a normal show a surface, too
+      for (int u = 0; u < view.camera.width; ++u)
+        if (isReading (view.at (u, v)))
+          mark (Eigen::Array2i (u, v) / cell_px);
+    for (const OrientedPoint& point : points)
+      if (const auto pixel = pixelOf (view.camera, T_sensor_object_ * point.position.cast<double> ()))
+        mark (*pixel / cell_px);
+    fill ();
+  }
+
+  bool isOpen (const Eigen::Vector3d& place) const
+  {
+    const Eigen::Vector3d q = T_sensor_object_ * place;
+    const auto pixel = pixelOf (view_.camera, q);
+    return pixel && cells_[indexOf (*pixel / cell_px)] == outside &&
+           compareWithReading (q.z (), view_.at (pixel->x (), pixel->y ()), 0.0) != PointVisibility::Occluded;
+  }
+
+private:
+  static constexpr std::uint8_t object = 1;
+  static constexpr std::uint8_t outside = 2;
+
+  std::size_t indexOf (const Eigen::Array2i& cell) const
+  {
+    return static_cast<std::size_t> (cell.y ()) * size_.x () + cell.x ();
+  }
+
+  void mark (const Eigen::Array2i& cell)
+  {
+    const Eigen::Array2i low = (cell - margin_cells).max (0), high = (cell + margin_cells).min (size_ - 1);
+    for (int v = low.y (); v <= high.y (); ++v)
+      for (int u = low.x (); u <= high.x (); ++u)
+        cells_[indexOf ({u, v})] = object;
+  }
+
+  /** \brief Flood fill from the border of the image through cells that are not the object's. */
+  void fill ()
+  {
+    std::vector<Eigen::Array2i> front;
+    const auto reach = [&] (const Eigen::Array2i& cell) {
+      if ((cell < 0).any () || (cell >= size_).any () || cells_[indexOf (cell)] != 0)
+        return;
+      cells_[indexOf (cell)] = outside;
+      front.push_back (cell);
+    };
+    for (int v = 0; v < size_.y (); ++v)
+      for (int u = 0; u < size_.x (); ++u)
+        if (u == 0 || v == 0 || u == size_.x () - 1 || v == size_.y () - 1)
+          reach ({u, v});
+    while (!front.empty ())
+    {
+      const Eigen::Array2i cell = front.back ();
+      front.pop_back ();
+      reach (cell + Eigen::Array2i (1, 0));
+      reach (cell - Eigen::Array2i (1, 0));
+      reach (cell + Eigen::Array2i (0, 1));
+      reach (cell - Eigen::Array2i (0, 1));
+    }
+  }
+
+  const DepthView& view_;
+  Eigen::Isometry3d T_sensor_object_;
+  Eigen::Array2i size_; // cells
+  std::vector<std::uint8_t> cells_;
+};
 
 } // namespace
+
+void
+ObjectDepthBuffer::extend (const Eigen::Array2i& low, const Eigen::Array2i& high)
+{
+  const bool empty = depth_.empty ();
+  const Eigen::Array2i first = empty ? low : Eigen::Array2i (low.min (first_));
+  const Eigen::Array2i size = (empty ? high : Eigen::Array2i (high.max (first_ + size_ - 1))) - first + 1;
+  if (!empty && (first == first_).all () && (size == size_).all ())
+    return;
+  const std::size_t cells = static_cast<std::size_t> (size.x ()) * size.y ();
+  std::vector<float> depth (cells, std::numeric_limits<float>::infinity ());
+  std::vector<std::uint8_t> changed (cells, 0);
+  const Eigen::Array2i shift = first_ - first;
+  for (int v = 0; v < size_.y (); ++v)
+  {
+    const auto from = static_cast<std::ptrdiff_t> (v) * size_.x ();
+    const auto to = static_cast<std::ptrdiff_t> (v + shift.y ()) * size.x () + shift.x ();
+    std::copy_n (depth_.begin () + from, size_.x (), depth.begin () + to);
+    std::copy_n (changed_.begin () + from, size_.x (), changed.begin () + to);
+  }
+  depth_ = std::move (depth);
+  changed_ = std::move (changed);
+  first_ = first;
+  size_ = size;
+}
+
+void
+ObjectDepthBuffer::add (const std::vector<OrientedPoint>& points, std::size_t first)
+{
+  struct Sighting
+  {
+    Eigen::Array2i cell;
+    float depth;
+  };
+  std::vector<Sighting> seen;
+  seen.reserve (points.size () - first);
+  Eigen::Array2i low = Eigen::Array2i::Constant (std::numeric_limits<int>::max ());
+  Eigen::Array2i high = Eigen::Array2i::Constant (-1);
+  for (std::size_t n = first; n < points.size (); ++n)
+  {
+    const Eigen::Vector3d p = T_sensor_object_ * points[n].position.cast<double> ();
+    const std::optional<Eigen::Array2i> pixel = pixelOf (camera_, p);
+    if (!pixel)
+      continue;
+    seen.push_back ({*pixel / cell_px, static_cast<float> (p.z ())});
+    low = low.min (seen.back ().cell);
+    high = high.max (seen.back ().cell);
+  }
+  if (seen.empty ())
+    return;
+  extend (low, high);
+  for (const Sighting& sighting : seen)
+  {
+    const std::size_t cell = indexOf (sighting.cell.x () - first_.x (), sighting.cell.y () - first_.y ());
+    if (sighting.depth < depth_[cell])
+    {
+      depth_[cell] = sighting.depth;
+      changed_[cell] = 1;
+      any_changed_ = true;
+    }
+  }
+}
+
+void
+ObjectDepthBuffer::settle ()
+{
+  if (any_changed_)
+    std::fill (changed_.begin (), changed_.end (), std::uint8_t (0));
+  any_changed_ = false;
+}
+
+Hidden
+ObjectDepthBuffer::at (const Eigen::Vector3d& p, const DepthView& view) const
+{
+  const Eigen::Vector3d q = T_sensor_object_ * p;
+  const std::optional<Eigen::Array2i> pixel = pixelOf (camera_, q);
+  if (!pixel)
+    return Hidden::Nothing;
+  const Eigen::Array2i cell = *pixel / cell_px - first_;
+  if ((cell >= 0).all () && (cell < size_).all () && q.z () > depth_[indexOf (cell.x (), cell.y ())])
+    return Hidden::ByObject;
+  return compareWithReading (q.z (), view.at (pixel->x (), pixel->y ()), 0.0) == PointVisibility::Occluded
+             ? Hidden::ByOther
+             : Hidden::Nothing;
+}
+
+ObjectDepthBuffer::Outlook
+ObjectDepthBuffer::outlook (const Eigen::Vector3d& center, const Eigen::Vector3d& half_sizes) const
+{
+  const Eigen::Vector3d middle = T_sensor_object_ * center;
+  const Eigen::Matrix3d arms = T_sensor_object_.linear () * half_sizes.asDiagonal ();
+  const double reach = arms.row (2).cwiseAbs ().sum ();
+  const double nearest = (middle.z () - reach) * (1.0 - rounding);
+  const double farthest = (middle.z () + reach) * (1.0 + rounding);
+  Outlook outlook;
+  if (farthest <= 0.0)
+    return outlook;
+  if (nearest <= 0.0) // its projection is unbounded
+  {
+    outlook.in_view = outlook.may_be_hidden = true;
+    outlook.may_have_changed = any_changed_;
+    return outlook;
+  }
+  Eigen::Array2d low = Eigen::Array2d::Constant (std::numeric_limits<double>::infinity ());
+  Eigen::Array2d high = -low;
+  for (int corner = 0; corner < 8; ++corner)
+  {
+    const Eigen::Vector3d sense ((corner & 1) ? 1.0 : -1.0, (corner & 2) ? 1.0 : -1.0, (corner & 4) ? 1.0 : -1.0);
+    const Eigen::Array2d pixel = camera_.project (middle + arms * sense).array () + 0.5;
+    low = low.min (pixel);
+    high = high.max (pixel);
+  }
+  low -= slack_px;
+  high += slack_px;
+  const Eigen::Array2d end (camera_.width, camera_.height);
+  if ((high < 0.0).any () || (low >= end).any ())
+    return outlook;
+  outlook.in_view = true;
+  bool covered = (low >= 0.0).all () && (high < end).all (); // all cells are nearer than the box
+  const Eigen::Array2i first = low.max (0.0).cast<int> () / cell_px - first_;
+  const Eigen::Array2i last = high.min (end - 1.0).cast<int> () / cell_px - first_;
+  covered = covered && (first >= 0).all () && (last < size_).all ();
+  for (int v = std::max (0, first.y ()); v <= std::min (size_.y () - 1, last.y ()); ++v)
+    for (int u = std::max (0, first.x ()); u <= std::min (size_.x () - 1, last.x ()); ++u)
+    {
+      const std::size_t cell = indexOf (u, v);
+      const bool before_some = depth_[cell] < farthest;
+      outlook.may_be_hidden |= before_some;
+      outlook.may_have_changed |= before_some && changed_[cell] != 0;
+      covered = covered && depth_[cell] < nearest;
+    }
+  outlook.all_hidden = covered;
+  return outlook;
+}
 
 std::vector<VoxelTile>
 tilesOf (const VoxelGrid& grid)
@@ -30,12 +242,6 @@ tilesOf (const VoxelGrid& grid)
         tiles.push_back ({first, (first.array () + VoxelTile::size).min (grid.dims.array ())});
       }
   return tiles;
-}
-
-void
-OcclusionMap::clear ()
-{
-  *this = OcclusionMap ();
 }
 
 void
@@ -75,14 +281,15 @@ OcclusionMap::isBehindOther (const Eigen::Vector3d& p) const
 void
 OcclusionMap::begin (const VoxelGrid& grid)
 {
-  if (sameGrid (grid, grid_) && known_.size () == grid.size ())
+  if (grid.dims == grid_.dims && grid.voxel_size_m == grid_.voxel_size_m && grid.origin_m == grid_.origin_m &&
+      known_.size () == grid.size ())
     return;
   grid_ = grid;
   known_.assign (grid.size (), stale);
 }
 
-void
-OcclusionMap::find (const VoxelTile& tile, const std::vector<std::uint8_t>& wanted, std::vector<Hidden>& hidden)
+std::vector<Hidden>
+OcclusionMap::find (const VoxelTile& tile, const std::vector<std::uint8_t>& wanted)
 {
   struct Place
   {
@@ -92,7 +299,7 @@ OcclusionMap::find (const VoxelTile& tile, const std::vector<std::uint8_t>& want
     bool stale;
   };
   std::vector<Place> open;
-  hidden.assign (wanted.size (), Hidden::Nothing);
+  std::vector<Hidden> hidden (wanted.size (), Hidden::Nothing);
   bool any_stale = false;
   std::size_t position = 0;
   for (int k = tile.first.z (); k < tile.end.z (); ++k)
@@ -143,6 +350,7 @@ OcclusionMap::find (const VoxelTile& tile, const std::vector<std::uint8_t>& want
   }
   for (const Place& place : open)
     known_[place.index] = static_cast<std::uint8_t> (hidden[place.position]);
+  return hidden;
 }
 
 void
@@ -160,6 +368,24 @@ OcclusionMap::bytes () const
   for (const ObjectDepthBuffer& silhouette : depth_buffers_)
     bytes += sizeof (ObjectDepthBuffer) + silhouette.bytes ();
   return bytes;
+}
+
+std::vector<std::uint8_t>
+findRaysWithoutReturn (const VoxelGrid& grid, const OcclusionMap::Views& views,
+                       const std::vector<OrientedPoint>& points, int threads)
+{
+  std::vector<std::uint8_t> open (grid.size (), 0);
+  for (const auto& [view, T_object_sensor] : views)
+  {
+    const Beside beside (*view, T_object_sensor, points);
+    parallelFor (0, grid.dims.z (), threads, [&] (int k) {
+      for (int j = 0; j < grid.dims.y (); ++j)
+        for (int i = 0; i < grid.dims.x (); ++i)
+          if (std::uint8_t& is_open = open[grid.index (i, j, k)]; !is_open)
+            is_open = beside.isOpen (grid.center (i, j, k));
+    });
+  }
+  return open;
 }
 
 } // namespace pcl::cosection

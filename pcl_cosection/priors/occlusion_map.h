@@ -1,18 +1,77 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "object_depth_buffer.h"
-
 #include <pcl/cosection/common/camera.h>
+#include <pcl/cosection/common/oriented_point.h>
 #include <pcl/cosection/volume/signed_distance_field.h>
 
 #include <Eigen/Geometry>
 
+#include <cstddef>
 #include <cstdint>
 #include <utility>
 #include <vector>
 
 namespace pcl::cosection {
+
+/** \brief What hides a place from a view that does not see it free. */
+enum class Hidden : std::uint8_t
+{
+  Nothing,  ///< no reading in front of it, or out of view
+  ByOther,  ///< the surface of something else
+  ByObject, ///< an observed surface of the object
+};
+
+/** \brief Depth buffer of an object's points in one view: the nearest depth per cell of the image. Cells of several
+ * pixels close the gaps between points. Further points can only hide more places. */
+class ObjectDepthBuffer
+{
+public:
+  /** \param[in] T_object_sensor pose of the sensor in the points' frame */
+  ObjectDepthBuffer (const PinholeCamera& camera, const Eigen::Isometry3d& T_object_sensor)
+      : camera_ (camera)
+      , T_sensor_object_ (T_object_sensor.inverse ())
+  {}
+
+  /** \brief Add points from the \a first on; cells that this makes nearer count as changed. */
+  void add (const std::vector<OrientedPoint>& points, std::size_t first = 0);
+
+  /** \brief Mark all cells as unchanged. */
+  void settle ();
+
+  bool changed () const { return any_changed_; }
+
+  /** \brief What hides \a p. \param[in] view the depth image */
+  Hidden at (const Eigen::Vector3d& p, const DepthView& view) const;
+
+  /** \brief Visibility of a box of places. */
+  struct Outlook
+  {
+    bool in_view = false;          ///< some places may be in view
+    bool all_hidden = false;       ///< the object hides all places
+    bool may_be_hidden = false;    ///< the object may hide some places
+    bool may_have_changed = false; ///< the cells of some places may have changed
+  };
+
+  /** \param[in] center of the box \param[in] half_sizes of the box, along the axes of the points' frame */
+  Outlook outlook (const Eigen::Vector3d& center, const Eigen::Vector3d& half_sizes) const;
+
+  std::size_t bytes () const { return depth_.capacity () * sizeof (float) + changed_.capacity (); }
+
+private:
+  /** \brief Enlarge the buffer to hold the cells from \a low to \a high. */
+  void extend (const Eigen::Array2i& low, const Eigen::Array2i& high);
+
+  std::size_t indexOf (int column, int row) const { return static_cast<std::size_t> (row) * size_.x () + column; }
+
+  PinholeCamera camera_;
+  Eigen::Isometry3d T_sensor_object_;
+  Eigen::Array2i first_ = Eigen::Array2i::Zero (); // first cell of the buffer; cells beyond it show no point
+  Eigen::Array2i size_ = Eigen::Array2i::Zero ();
+  std::vector<float> depth_;
+  std::vector<std::uint8_t> changed_;
+  bool any_changed_ = false;
+};
 
 /** \brief A block of voxels, at most size^3. */
 struct VoxelTile
@@ -44,7 +103,7 @@ public:
   void add (const Views& views, const std::vector<OrientedPoint>& points, int threads = 0);
 
   /** \brief Remove all views and points. */
-  void clear ();
+  void clear () { *this = OcclusionMap (); }
 
   /** \brief What hides a place. */
   Hidden at (const Eigen::Vector3d& p) const;
@@ -57,8 +116,8 @@ public:
 
   /** \brief What hides the voxels of a tile. Different threads may query different tiles.
    * \param[in] wanted 1 for the voxels of the tile whose result is needed, in their order; others get any value
-   * \param[out] hidden one value per voxel of the tile */
-  void find (const VoxelTile& tile, const std::vector<std::uint8_t>& wanted, std::vector<Hidden>& hidden);
+   * \return one value per voxel of the tile */
+  std::vector<Hidden> find (const VoxelTile& tile, const std::vector<std::uint8_t>& wanted);
 
   /** \brief End the query; all tiles have been visited. */
   void end ();
@@ -73,5 +132,15 @@ private:
   std::vector<std::uint8_t> known_; // per voxel the last result, with a mark if it is stale
   std::size_t views_known_ = 0;     // number of views in the results that are not stale
 };
+
+/** \brief Voxels on rays without return: beside an object that was cut out of its scene, in view, and without a reading
+ * in front of them. The readings beside the object were cut away, so no part of the object is there.
+ *
+ * Missing readings inside the object's outline in the image do not count, as the sensor may miss parts of the object.
+ * \param[in] views of the object, and their sensors' poses in the points' frame
+ * \param[in] points of the object
+ * \return 1 for such voxels, 0 for others */
+std::vector<std::uint8_t> findRaysWithoutReturn (const VoxelGrid& grid, const OcclusionMap::Views& views,
+                                                 const std::vector<OrientedPoint>& points, int threads);
 
 } // namespace pcl::cosection

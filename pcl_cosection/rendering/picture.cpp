@@ -1,10 +1,9 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
+#include "picture.h"
 
-#include "pcl_cosection/common/file_bytes.h"
+#include "pcl_cosection/common/files.h"
 #include "pcl_cosection/io/mesh/vtk_errors.h"
 
-#include "pcl_cosection/common/atomic_file.h"
-#include "picture.h"
 #include <pcl/cosection/common/error.h>
 
 #include <vtkImageData.h>
@@ -20,16 +19,11 @@ namespace {
 
 constexpr double ambient_light = 0.25; ///< the rest comes from the head light
 
-std::size_t
-pixelCount (const Picture& picture)
-{
-  return static_cast<std::size_t> (picture.width) * picture.height;
-}
-
 void
 checkPicture (const Picture& picture)
 {
-  if (picture.width < 1 || picture.height < 1 || picture.pixels.size () != pixelCount (picture))
+  if (picture.width < 1 || picture.height < 1 ||
+      picture.pixels.size () != static_cast<std::size_t> (picture.width) * picture.height)
     throw InvalidArgument ("picture: there must be width * height pixels");
 }
 
@@ -40,10 +34,7 @@ shade (const RasterImage& image, const PinholeCamera& camera, const std::array<s
 {
   if (image.width != camera.width || image.height != camera.height)
     throw InvalidArgument ("shade: the image was not taken by this camera");
-  Picture picture;
-  picture.width = image.width;
-  picture.height = image.height;
-  picture.pixels.assign (pixelCount (picture), background);
+  Picture picture (image.width, image.height, background);
   for (int v = 0; v < image.height; ++v)
     for (int u = 0; u < image.width; ++u)
     {
@@ -81,29 +72,25 @@ provenanceColours (const TriangleMesh& mesh)
 Picture
 beside (const std::vector<Picture>& pictures, int gap_px)
 {
-  Picture result;
   if (pictures.empty ())
-    return result;
+    return {};
   if (gap_px < 0)
     throw InvalidArgument ("beside: the gap must not be negative");
-  result.height = pictures[0].height;
-  result.width = gap_px * (static_cast<int> (pictures.size ()) - 1);
+  int width = gap_px * (static_cast<int> (pictures.size ()) - 1);
   for (const Picture& picture : pictures)
   {
     checkPicture (picture);
-    if (picture.height != result.height)
+    if (picture.height != pictures[0].height)
       throw InvalidArgument ("beside: the pictures must have equal height");
-    result.width += picture.width;
+    width += picture.width;
   }
-  result.pixels.assign (pixelCount (result), {255, 255, 255});
-  std::size_t left = 0;
+  Picture result (width, pictures[0].height, {255, 255, 255});
+  int left = 0;
   for (const Picture& picture : pictures)
   {
     for (int v = 0; v < picture.height; ++v)
-      std::copy_n (picture.pixels.begin () + static_cast<std::ptrdiff_t> (v) * picture.width, picture.width,
-                   result.pixels.begin () + static_cast<std::ptrdiff_t> (v) * result.width +
-                       static_cast<std::ptrdiff_t> (left));
-    left += static_cast<std::size_t> (picture.width) + gap_px;
+      std::copy_n (&picture.at (0, v), picture.width, &result.at (left, v));
+    left += picture.width + gap_px;
   }
   return result;
 }
@@ -118,7 +105,7 @@ writePng (const Picture& picture, const std::string& path)
   auto* out = static_cast<std::uint8_t*> (image->GetScalarPointer ());
   for (int v = picture.height - 1; v >= 0; --v) // VTK's first row is the lowest
     for (int u = 0; u < picture.width; ++u)
-      out = std::copy_n (picture.pixels[static_cast<std::size_t> (v) * picture.width + u].begin (), 3, out);
+      out = std::copy_n (picture.at (u, v).begin (), 3, out);
 
   writeAtomically (path, [&] (const std::string& temporary) {
     vtkNew<vtkPNGWriter> writer;

@@ -2,9 +2,6 @@
 
 // Written by hand, because VTK's rendering needs a display even off the screen.
 
-#include "frustum_clip.h"
-#include "pixel_coverage.h"
-
 #include "pcl_cosection/mesh/mesh_checks.h"
 
 #include <pcl/cosection/common/error.h>
@@ -13,13 +10,165 @@
 #include <Eigen/Geometry>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
 #include <limits>
+#include <utility>
 
 namespace pcl::cosection {
 namespace {
 
 using Colour = TriangleMesh::Colour;
+
+/** \brief A convex polygon in the sensor frame: a triangle after clipping. */
+struct ClippedPolygon
+{
+  static constexpr int max_corners = 8; ///< a triangle cut by five planes
+
+  std::array<Eigen::Vector3d, max_corners> corners;
+  int count = 0;
+};
+
+/** \brief Cuts triangles at the near plane and, far outside of the picture, at its sides, so that
+ * pixel coordinates stay small. Two triangles of one edge are cut in the same points of it. */
+class FrustumClip
+{
+public:
+  FrustumClip (const PinholeCamera& camera, double near_m)
+  {
+    // Pixel column u = fx x/z + cx >= -g becomes fx x + (cx + g) z >= 0; likewise at the other sides.
+    constexpr double g = 8192.0; // how far outside of the picture coordinates may be, pixels
+    normals_ = {Eigen::Vector3d (0, 0, 1), Eigen::Vector3d (camera.fx, 0, camera.cx + g),
+                Eigen::Vector3d (-camera.fx, 0, camera.width + g - camera.cx),
+                Eigen::Vector3d (0, camera.fy, camera.cy + g),
+                Eigen::Vector3d (0, -camera.fy, camera.height + g - camera.cy)};
+    offsets_ = {near_m, 0, 0, 0, 0};
+  }
+
+  bool contains (const Eigen::Vector3d& p) const
+  {
+    for (int plane = 0; plane < plane_count; ++plane)
+      if (!(distance (plane, p) >= 0.0))
+        return false;
+    return true;
+  }
+
+  ClippedPolygon clip (const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c) const
+  {
+    ClippedPolygon polygon{{a, b, c}, 3};
+    for (int plane = 0; plane < plane_count && polygon.count > 0; ++plane)
+    {
+      ClippedPolygon cut;
+      for (int n = 0; n < polygon.count; ++n)
+      {
+        const Eigen::Vector3d& p = polygon.corners[n];
+        const Eigen::Vector3d& q = polygon.corners[(n + 1) % polygon.count];
+        const double dp = distance (plane, p);
+        const double dq = distance (plane, q);
+        if (dp >= 0.0 && cut.count < ClippedPolygon::max_corners)
+          cut.corners[cut.count++] = p;
+        // from the end inside, whichever comes first here: the neighbour goes the other way round
+        if ((dp >= 0.0) != (dq >= 0.0) && cut.count < ClippedPolygon::max_corners)
+          cut.corners[cut.count++] = dp >= 0.0 ? crossing (p, q, dp, dq) : crossing (q, p, dq, dp);
+      }
+      polygon = cut;
+    }
+    return polygon;
+  }
+
+private:
+  static constexpr int plane_count = 5;
+
+  double distance (int plane, const Eigen::Vector3d& p) const { return normals_[plane].dot (p) - offsets_[plane]; }
+
+  static Eigen::Vector3d crossing (const Eigen::Vector3d& from, const Eigen::Vector3d& to, double d_from, double d_to)
+  {
+    return from + d_from / (d_from - d_to) * (to - from);
+  }
+
+  std::array<Eigen::Vector3d, plane_count> normals_;
+  std::array<double, plane_count> offsets_;
+};
+
+/** \brief Pixel coordinates in 1/256 of a pixel: coverage is decided in exact integer arithmetic. */
+struct SubpixelPoint
+{
+  static constexpr int subpixels = 256;
+
+  std::int64_t x = 0;
+  std::int64_t y = 0;
+
+  static SubpixelPoint fromPixel (const Eigen::Vector2d& pixel)
+  {
+    return {std::llround (pixel.x () * subpixels), std::llround (pixel.y () * subpixels)};
+  }
+};
+
+/** \brief Call visit (u, v) for every pixel of a width * height picture whose centre lies in the
+ * triangle, whichever its orientation.
+ *
+ * A centre exactly on a side belongs to the triangle to whose left or top the side is: of two
+ * triangles that share it, just one covers the pixel (J. Pineda, "A Parallel Algorithm for Polygon
+ * Rasterization", SIGGRAPH 1988). */
+template <typename Visit>
+void
+forEachCoveredPixel (SubpixelPoint a, SubpixelPoint b, SubpixelPoint c, int width, int height, Visit&& visit)
+{
+  const auto twice_area = (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
+  if (twice_area == 0)
+    return;
+  if (twice_area < 0)
+    std::swap (b, c);
+
+  // value (x, y) = dx y - dy x + constant >= 0 on the inner side
+  struct SideFunction
+  {
+    SideFunction (const SubpixelPoint& p, const SubpixelPoint& q)
+        : step_u (-(q.y - p.y) * SubpixelPoint::subpixels)
+        , step_v ((q.x - p.x) * SubpixelPoint::subpixels)
+        , constant ((q.y - p.y) * p.x - (q.x - p.x) * p.y)
+    {
+      const bool owns_points_on_it = q.y < p.y || (q.y == p.y && q.x > p.x);
+      if (!owns_points_on_it)
+        --constant;
+    }
+
+    std::int64_t at (int u, int v) const { return constant + step_u * u + step_v * v; }
+
+    std::int64_t step_u;
+    std::int64_t step_v;
+    std::int64_t constant;
+  };
+  const SideFunction ab (a, b);
+  const SideFunction bc (b, c);
+  const SideFunction ca (c, a);
+
+  const auto firstCentre = [] (std::int64_t x) { // the least pixel whose centre is not before x
+    return static_cast<int> (std::ceil (static_cast<double> (x) / SubpixelPoint::subpixels));
+  };
+  const auto lastCentre = [] (std::int64_t x) {
+    return static_cast<int> (std::floor (static_cast<double> (x) / SubpixelPoint::subpixels));
+  };
+  const int u_begin = std::max (0, firstCentre (std::min ({a.x, b.x, c.x})));
+  const int v_begin = std::max (0, firstCentre (std::min ({a.y, b.y, c.y})));
+  const int u_last = std::min (width - 1, lastCentre (std::max ({a.x, b.x, c.x})));
+  const int v_last = std::min (height - 1, lastCentre (std::max ({a.y, b.y, c.y})));
+  for (int v = v_begin; v <= v_last; ++v)
+  {
+    std::int64_t e_ab = ab.at (u_begin, v);
+    std::int64_t e_bc = bc.at (u_begin, v);
+    std::int64_t e_ca = ca.at (u_begin, v);
+    for (int u = u_begin; u <= u_last; ++u)
+    {
+      if ((e_ab | e_bc | e_ca) >= 0)
+        visit (u, v);
+      e_ab += ab.step_u;
+      e_bc += bc.step_u;
+      e_ca += ca.step_u;
+    }
+  }
+}
 
 /** \brief Where the rays of a camera meet the plane of a triangle.
  *

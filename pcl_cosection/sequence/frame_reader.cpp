@@ -8,11 +8,6 @@
 #include <system_error>
 
 namespace pcl::cosection {
-namespace {
-
-constexpr std::size_t most_warnings = 20;
-
-} // namespace
 
 FrameReader::FrameReader (const RgbdSequence& sequence, const FrameRange& range, std::size_t ahead)
     : sequence_ (sequence)
@@ -99,6 +94,7 @@ FrameReader::readFrame (std::size_t index) const
 std::optional<RgbdFrame>
 FrameReader::next ()
 {
+  constexpr std::size_t most_warnings = 20;
   std::unique_lock<std::mutex> lock (mutex_);
   for (;;)
   {

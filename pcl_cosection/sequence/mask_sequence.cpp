@@ -2,10 +2,9 @@
 #include <pcl/cosection/io/rgbd_sequence.h>
 
 #include "numbered_files.h"
-#include "stamp_span.h"
-
 #include "pcl_cosection/io/image_io.h"
 #include "stamp_matching.h"
+
 #include <pcl/cosection/common/error.h>
 
 namespace pcl::cosection {

@@ -1,12 +1,12 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "numbered_files.h"
 
+#include "pcl_cosection/io/lower_case.h"
 #include "pcl_cosection/io/text_scanner.h"
 
 #include <pcl/cosection/common/error.h>
 
 #include <algorithm>
-#include <cctype>
 #include <filesystem>
 #include <optional>
 #include <system_error>
@@ -22,14 +22,6 @@ bool
 isDigit (char c)
 {
   return c >= '0' && c <= '9';
-}
-
-std::string
-lowerCase (std::string text)
-{
-  std::transform (text.begin (), text.end (), text.begin (),
-                  [] (unsigned char c) { return static_cast<char> (std::tolower (c)); });
-  return text;
 }
 
 /** \brief The name without the longest ending that it has; nothing if it has no such ending. */

@@ -1,15 +1,17 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include <pcl/cosection/io/rgbd_sequence.h>
 
-#include "calibration.h"
+#include "pcl_cosection/common/files.h"
 #include "pcl_cosection/common/quantile.h"
-#include "pcl_cosection/io/file_extension.h"
-#include "pose_matrix.h"
-#include "sequence_layouts.h"
-
 #include "pcl_cosection/io/image_io.h"
+#include "pcl_cosection/io/lower_case.h"
+#include "pcl_cosection/io/text_scanner.h"
+#include "sequence_layouts.h"
 #include "stamp_matching.h"
+
 #include <pcl/cosection/common/error.h>
+
+#include <Eigen/SVD>
 
 #include <algorithm>
 #include <cmath>
@@ -26,6 +28,12 @@ constexpr double tum_depth_scale = 5000.0;
 constexpr double millimetres = 1000.0;
 constexpr double nearest_median_m = 0.05;
 constexpr double farthest_median_m = 100.0;
+constexpr double largest_size_px = 32768.0;
+constexpr double largest_focal_length_px = 1e6;
+constexpr double shortest_focal_length = 0.05;    // of the image's size: a field of view of 169 degrees
+constexpr double longest_focal_length = 100.0;    // half a degree
+constexpr double farthest_principal_point = 10.0; // of the image's size: it may be cut out of a larger one
+constexpr double rigid_tolerance = 0.02;          // of the entries of R R^T - I
 const float none = std::numeric_limits<float>::quiet_NaN ();
 
 std::string
@@ -114,6 +122,121 @@ calibrationFile (const std::string& folder, SequenceFormat format)
     if (fs::exists (place / "calibration.txt", ignored))
       return (place / "calibration.txt").string ();
   return {};
+}
+
+std::string
+pairText (double a, double b)
+{
+  std::ostringstream out;
+  out << a << " and " << b;
+  return out.str ();
+}
+
+bool
+isSize (double pixels)
+{
+  return pixels >= 1.0 && pixels <= largest_size_px && pixels == std::floor (pixels);
+}
+
+/** \brief What is implausible about a camera, whose size may be 0 (unknown); empty if nothing is. */
+std::string
+implausibleIntrinsics (const PinholeCamera& camera)
+{
+  const double fx = camera.fx, fy = camera.fy, cx = camera.cx, cy = camera.cy;
+  if (!(fx > 0.0 && fy > 0.0 && fx < largest_focal_length_px && fy < largest_focal_length_px))
+    return "has focal lengths fx and fy of " + pairText (fx, fy) +
+           " pixels; they must be positive, and less than a million";
+  constexpr double farthest_px = farthest_principal_point * largest_size_px;
+  if (!(std::abs (cx) <= farthest_px && std::abs (cy) <= farthest_px))
+    return "has a principal point cx, cy of " + pairText (cx, cy) + " pixels; it must be in the image, or near it";
+  if (fx < 2.0 || fy < 2.0)
+    return "has focal lengths fx and fy of " + pairText (fx, fy) +
+           "; they must be in pixels, not parts of the image's size";
+  const double width = camera.width, height = camera.height;
+  if (width <= 0.0 || height <= 0.0)
+    return {};
+  const std::string image = " for an image of " + sizeText (camera.width, camera.height);
+  if (fx < shortest_focal_length * width || fy < shortest_focal_length * height || fx > longest_focal_length * width ||
+      fy > longest_focal_length * height)
+    return "has focal lengths fx and fy of " + pairText (fx, fy) + image + "; they must be in pixels";
+  if (std::abs (cx) > farthest_principal_point * width || std::abs (cy) > farthest_principal_point * height)
+    return "has a principal point cx, cy of " + pairText (cx, cy) + image + "; it must be in the image, or near it";
+  return {};
+}
+
+/** \brief Read "fx fy cx cy [width height]", in pixels; lines that begin with # are skipped.
+ * \return of size 0 x 0 if the file has none
+ * \throws IoError if it cannot be read or is no plausible camera */
+PinholeCamera
+readCalibration (const std::string& path)
+{
+  const std::string bytes = readBytes (path);
+  std::vector<double> numbers;
+  try
+  {
+    TextScanner scanner (bytes);
+    while (!scanner.left ().empty ())
+    {
+      TextScanner line (scanner.line ());
+      for (std::string_view word = line.word (); !word.empty () && word[0] != '#'; word = line.word ())
+        numbers.push_back (toReal (word));
+    }
+  }
+  catch (const IoError& error)
+  {
+    throw IoError (path + ": must be 'fx fy cx cy [width height]' in pixels, but " + error.what ());
+  }
+  if (numbers.size () != 4 && numbers.size () != 6)
+    throw IoError (path + ": must be 'fx fy cx cy [width height]' in pixels, but has " +
+                   std::to_string (numbers.size ()) + " numbers");
+  PinholeCamera camera = {0, 0, numbers[0], numbers[1], numbers[2], numbers[3]};
+  if (numbers.size () == 6)
+  {
+    if (!isSize (numbers[4]) || !isSize (numbers[5]))
+      throw IoError (path + ": has a width and height of " + pairText (numbers[4], numbers[5]) +
+                     "; they must be whole numbers of pixels");
+    camera.width = static_cast<int> (numbers[4]);
+    camera.height = static_cast<int> (numbers[5]);
+  }
+  const std::string fault = implausibleIntrinsics (camera);
+  if (!fault.empty ())
+    throw IoError (path + ": " + fault);
+  return camera;
+}
+
+/** \brief Read a pose as 7-Scenes has it: the 16 numbers of a 4 x 4 matrix, row by row. What rounding took from the
+ * rotation is given back. \throws IoError if it cannot be read, is not finite, or not rigid */
+Eigen::Isometry3d
+readPoseMatrix (const std::string& path)
+{
+  const std::string bytes = readBytes (path);
+  Eigen::Matrix4d matrix;
+  try
+  {
+    TextScanner scanner (bytes);
+    for (int row = 0; row < 4; ++row)
+      for (int column = 0; column < 4; ++column)
+        matrix (row, column) = toReal (scanner.word ());
+    const std::string_view more = scanner.word ();
+    if (!more.empty ())
+      throw IoError ("there is " + quoted (more) + " behind it");
+  }
+  catch (const IoError& error)
+  {
+    throw IoError (path + ": must be the 16 numbers of a 4 x 4 matrix, but " + error.what ());
+  }
+  if (!matrix.allFinite ())
+    throw IoError (path + ": has a pose that is not finite");
+  const Eigen::Matrix3d rotation = matrix.topLeftCorner<3, 3> ();
+  const double skew = (rotation * rotation.transpose () - Eigen::Matrix3d::Identity ()).cwiseAbs ().maxCoeff ();
+  const double last_row = (matrix.row (3) - Eigen::RowVector4d (0, 0, 0, 1)).cwiseAbs ().maxCoeff ();
+  if (!(skew <= rigid_tolerance && last_row <= rigid_tolerance && rotation.determinant () > 0.0))
+    throw IoError (path + ": has a matrix that is not a rotation and a translation");
+  const Eigen::JacobiSVD<Eigen::Matrix3d> svd (rotation, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity ();
+  pose.linear () = svd.matrixU () * svd.matrixV ().transpose (); // the nearest rotation
+  pose.translation () = matrix.topRightCorner<3, 1> ();
+  return pose;
 }
 
 } // namespace

@@ -2,16 +2,19 @@
 #include "sequence_layouts.h"
 
 #include "numbered_files.h"
-#include "tum_lists.h"
-
+#include "pcl_cosection/common/files.h"
+#include "pcl_cosection/io/lower_case.h"
+#include "pcl_cosection/io/text_scanner.h"
 #include "stamp_matching.h"
+
 #include <pcl/cosection/common/error.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <map>
 #include <set>
-#include <sstream>
+#include <tuple>
 
 namespace fs = std::filesystem;
 
@@ -24,6 +27,10 @@ const NumberedNames co_fusion_colour = {{"color", "colour", ""},
 const NumberedNames seven_scenes_depth = {{"frame-"}, {".depth.png", ".depth.exr"}};
 const NumberedNames seven_scenes_colour = {{"frame-"}, {".color.png", ".color.jpg", ".color.jpeg"}};
 const NumberedNames seven_scenes_pose = {{"frame-"}, {".pose.txt"}};
+
+constexpr double max_difference_s = 0.02; // of depth and colour, as the tool of the TUM benchmark has it
+constexpr double largest_stamp_s = 1e15;
+constexpr std::size_t most_neighbours = 8; // whose stamps are looked at on either side
 
 constexpr double gap_periods = 1.5;
 
@@ -56,22 +63,15 @@ byNumber (const std::vector<NumberedFile>& files)
   return paths;
 }
 
-std::string
-valueOr (const std::map<double, std::string>& paths, double number)
-{
-  const auto found = paths.find (number);
-  return found == paths.end () ? "" : found->second;
-}
-
 /** \brief The frames whose colour and pose have the number of a depth image. */
 std::vector<FrameFiles>
 joinByNumber (const std::vector<NumberedFile>& depth, const std::vector<NumberedFile>& colour,
               const std::vector<NumberedFile>& pose)
 {
-  const auto colour_paths = byNumber (colour), pose_paths = byNumber (pose);
+  auto colour_paths = byNumber (colour), pose_paths = byNumber (pose); // "" for other numbers
   std::vector<FrameFiles> files;
   for (const NumberedFile& file : depth)
-    files.push_back ({file.number, file.path, valueOr (colour_paths, file.number), valueOr (pose_paths, file.number)});
+    files.push_back ({file.number, file.path, colour_paths[file.number], pose_paths[file.number]});
   return files;
 }
 
@@ -116,6 +116,142 @@ listSevenScenes (SequenceListing& listing)
     throw IoError (folder + ": has no depth images; their names should be frame-NNNNNN.depth.png");
   listing.files = joinByNumber (depth, numberedFiles (folder, names, seven_scenes_colour, listing.warnings),
                                 numberedFiles (folder, names, seven_scenes_pose, listing.warnings));
+}
+
+struct StampedFile
+{
+  double stamp = 0.0;
+  std::string name;
+};
+
+double
+parseStamp (std::string_view word)
+{
+  const double stamp = toReal (word);
+  if (!(std::abs (stamp) < largest_stamp_s))
+    throw IoError (quoted (word) + " is not a time in seconds");
+  return stamp;
+}
+
+/** \brief Read a list whose lines are \a columns stamped files; several columns have names without spaces. */
+std::vector<std::vector<StampedFile>>
+readList (const std::string& path, std::size_t columns)
+{
+  const std::string form = columns == 1 ? "'stamp file'" : "'stamp file stamp file'";
+  const std::string bytes = readBytes (path);
+  std::vector<std::vector<StampedFile>> rows;
+  TextScanner scanner (bytes);
+  for (std::size_t number = 1; !scanner.left ().empty (); ++number)
+  {
+    TextScanner line (scanner.line ());
+    const std::string_view first = TextScanner (line).word ();
+    if (first.empty () || first[0] == '#')
+      continue;
+    try
+    {
+      std::vector<StampedFile> row (columns);
+      for (StampedFile& file : row)
+      {
+        file.stamp = parseStamp (line.word ());
+        file.name = line.word ();
+        if (file.name.empty ())
+          throw IoError ("it ends where the name of a file should be");
+        if (std::any_of (file.name.begin (), file.name.end (), [] (unsigned char c) { return c < ' ' || c == 127; }))
+          throw IoError (quoted (std::string_view (file.name)) + " is not the name of a file");
+      }
+      const std::string_view more = line.word ();
+      if (!more.empty ())
+        throw IoError ("there is " + quoted (more) + " behind it");
+      rows.push_back (std::move (row));
+    }
+    catch (const IoError& error)
+    {
+      throw IoError (path + ": line " + std::to_string (number) + " must be " + form + ", but " + error.what ());
+    }
+  }
+  if (rows.empty ())
+    throw IoError (path + ": is empty; its lines should be " + form);
+  return rows;
+}
+
+/** \brief Positive if the name is that of depth, negative if it is that of colour. */
+int
+depthLikeness (const std::string& name)
+{
+  const auto contains = [lower = lowerCase (name)] (const char* word) { return lower.find (word) != lower.npos; };
+  const std::string extension = lowerCaseExtension (name);
+  const bool is_colour = contains ("rgb") || contains ("col");
+  return 2 * contains ("depth") - 2 * is_colour + (extension == ".exr") - (extension == ".jpg" || extension == ".jpeg");
+}
+
+std::vector<FrameFiles>
+readAssociations (const std::string& folder)
+{
+  const std::vector<std::vector<StampedFile>> rows = readList (inFolder (folder, "associations.txt"), 2);
+  const bool depth_first = depthLikeness (rows[0][0].name) > depthLikeness (rows[0][1].name);
+  std::vector<FrameFiles> frames;
+  for (const std::vector<StampedFile>& row : rows)
+  {
+    const StampedFile& depth = row[depth_first ? 0 : 1];
+    const StampedFile& colour = row[depth_first ? 1 : 0];
+    frames.push_back ({depth.stamp, inFolder (folder, depth.name), inFolder (folder, colour.name), {}});
+  }
+  return frames;
+}
+
+std::vector<StampedFile>
+readStampedFiles (const std::string& folder, const char* name)
+{
+  std::vector<StampedFile> files;
+  for (std::vector<StampedFile>& row : readList (inFolder (folder, name), 1))
+    files.push_back ({row[0].stamp, inFolder (folder, row[0].name)});
+  return files;
+}
+
+/** \brief Give each frame a colour image, and no image to two frames: the pairs nearest in time first, up to
+ * max_difference_s. */
+void
+associate (std::vector<FrameFiles>& frames, std::vector<StampedFile> colours)
+{
+  std::stable_sort (colours.begin (), colours.end (),
+                    [] (const StampedFile& a, const StampedFile& b) { return a.stamp < b.stamp; });
+  std::vector<std::tuple<double, std::size_t, std::size_t>> pairs; // difference, frame, colour
+  for (std::size_t frame = 0; frame < frames.size (); ++frame)
+  {
+    const double stamp = frames[frame].stamp;
+    const auto above = static_cast<std::size_t> (
+        std::lower_bound (colours.begin (), colours.end (), stamp,
+                          [] (const StampedFile& file, double s) { return file.stamp < s; }) -
+        colours.begin ());
+    for (std::size_t n = above - std::min (above, most_neighbours);
+         n < std::min (above + most_neighbours, colours.size ()); ++n)
+      if (const double difference = std::abs (colours[n].stamp - stamp); difference < max_difference_s)
+        pairs.emplace_back (difference, frame, n);
+  }
+  std::sort (pairs.begin (), pairs.end ());
+  std::vector<bool> taken (colours.size ());
+  for (const auto& [difference, frame, colour] : pairs)
+    if (frames[frame].colour.empty () && !taken[colour])
+    {
+      frames[frame].colour = colours[colour].name;
+      taken[colour] = true;
+    }
+}
+
+/** \brief The frames of TUM's layout, in the order of the lists; depth may be without colour. \throws IoError */
+std::vector<FrameFiles>
+readTumLists (const std::string& folder, std::vector<std::string>& warnings)
+{
+  if (isThere (inFolder (folder, "associations.txt")))
+    return readAssociations (folder);
+  std::vector<FrameFiles> frames;
+  for (StampedFile& depth : readStampedFiles (folder, "depth.txt"))
+    frames.push_back ({depth.stamp, std::move (depth.name), {}, {}});
+  if (isThere (inFolder (folder, "rgb.txt")))
+    associate (frames, readStampedFiles (folder, "rgb.txt"));
+  else
+    warnings.push_back (folder + ": has no rgb.txt; the frames are without colour");
+  return frames;
 }
 
 bool

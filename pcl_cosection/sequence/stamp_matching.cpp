@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 
 namespace pcl::cosection {
 
@@ -49,6 +50,15 @@ posesAtStamps (const std::vector<StampedPose>& trajectory, const std::vector<dou
     if (const auto nearest = nearestStamp (known, stamps[n], 0.5 * period))
       poses[n] = trajectory[*nearest].pose;
   return poses;
+}
+
+std::string
+stampSpan (double first, double last)
+{
+  std::ostringstream text;
+  text.precision (15);
+  text << first << " to " << last;
+  return text.str ();
 }
 
 } // namespace pcl::cosection

@@ -8,6 +8,7 @@
 
 #include <cstddef>
 #include <optional>
+#include <string>
 #include <vector>
 
 namespace pcl::cosection {
@@ -29,5 +30,8 @@ PCL_COSECTION_EXPORT std::optional<std::size_t> nearestStamp (const std::vector<
  * \throws InvalidArgument if the period is not positive and finite */
 PCL_COSECTION_EXPORT std::vector<std::optional<Eigen::Isometry3d>>
 posesAtStamps (const std::vector<StampedPose>& trajectory, const std::vector<double>& stamps, double period);
+
+/** \brief The range of stamps for messages: "0 to 59". */
+PCL_COSECTION_EXPORT std::string stampSpan (double first, double last);
 
 } // namespace pcl::cosection

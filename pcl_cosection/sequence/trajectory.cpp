@@ -1,9 +1,8 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include <pcl/cosection/io/trajectory.h>
 
-#include "pcl_cosection/common/file_bytes.h"
+#include "pcl_cosection/common/files.h"
 
-#include "pcl_cosection/common/atomic_file.h"
 #include <pcl/cosection/common/error.h>
 
 #include <algorithm>

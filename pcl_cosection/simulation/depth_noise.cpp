@@ -58,8 +58,8 @@ findShadows (const Image<float>& depth, int v, double disparity_m_px, std::vecto
              std::vector<bool>& shadow)
 {
   const int width = depth.width;
-  lit.assign (width,
-              std::numeric_limits<float>::infinity ()); // nearest depth in each column of the projector's picture
+  // The nearest depth in each column of the projector's picture.
+  lit.assign (width, std::numeric_limits<float>::infinity ());
   const auto column = [&] (int u) {
     return static_cast<int> (std::max (std::floor (u - disparity_m_px / depth.at (u, v) + 0.5), -2.0));
   };

@@ -2,7 +2,7 @@
 #include "penetration_check.h"
 
 #include "pcl_cosection/common/parallel.h"
-#include <pcl/cosection/common/error.h>
+#include "pcl_cosection/mesh/triangle_shape.h"
 
 #include <algorithm>
 #include <cmath>
@@ -38,7 +38,7 @@ addSurfacePoints (const std::vector<Eigen::Vector3d>& vertices, const std::vecto
                   Probe& probe)
 {
   const auto areaOf = [&vertices] (const TriangleMesh::Triangle& t) {
-    return 0.5 * (vertices[t[1]] - vertices[t[0]]).cross (vertices[t[2]] - vertices[t[0]]).norm ();
+    return 0.5 * areaVector (vertices[t[0]], vertices[t[1]], vertices[t[2]]).norm ();
   };
   double area = 0.0;
   for (const TriangleMesh::Triangle& t : triangles)
@@ -70,12 +70,11 @@ void
 addEdges (const std::vector<Eigen::Vector3d>& vertices, const std::vector<TriangleMesh::Triangle>& triangles,
           Probe& probe)
 {
-  std::map<std::pair<std::uint32_t, std::uint32_t>, std::vector<Eigen::Vector3d>>
-      normals; // of the triangles at each edge
+  // Of the triangles at each edge.
+  std::map<std::pair<std::uint32_t, std::uint32_t>, std::vector<Eigen::Vector3d>> normals;
   for (const TriangleMesh::Triangle& t : triangles)
   {
-    const Eigen::Vector3d
-        n = (vertices[t[1]] - vertices[t[0]]).cross (vertices[t[2]] - vertices[t[0]]).stableNormalized ();
+    const Eigen::Vector3d n = areaVector (vertices[t[0]], vertices[t[1]], vertices[t[2]]).stableNormalized ();
     for (int k = 0; k < 3; ++k)
       normals[std::minmax (t[k], t[(k + 1) % 3])].push_back (n);
   }

@@ -1,11 +1,11 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "sequence_writer.h"
 
-#include "pcl_cosection/common/file_bytes.h"
+#include "pcl_cosection/common/files.h"
 
 #include "pcl_cosection/common/parallel.h"
 #include "pcl_cosection/io/image_io.h"
-#include "pcl_cosection/view/labelled_cloud.h"
+#include "pcl_cosection/view/organized_cloud.h"
 #include <pcl/cosection/common/error.h>
 #include <pcl/cosection/io/mesh_io.h>
 #include <pcl/cosection/io/trajectory.h>
@@ -41,11 +41,9 @@ public:
     std::error_code failure;
     if (path_.filename () == "." || path_.filename () == ".." || path_.empty ())
       throw IoError (path + ": cannot be replaced; give the name of a new folder");
-    if (fs::exists (fs::symlink_status (path_, failure)))
-    {
-      if (!fs::is_directory (path_, failure) || !fs::is_empty (path_, failure))
-        throw IoError (path + ": is there already; give the name of a new folder");
-    }
+    if (fs::exists (fs::symlink_status (path_, failure)) &&
+        (!fs::is_directory (path_, failure) || !fs::is_empty (path_, failure)))
+      throw IoError (path + ": is there already; give the name of a new folder");
     const fs::path parent = path_.has_parent_path () ? path_.parent_path () : fs::path (".");
     fs::create_directories (parent, failure);
     std::string name = (parent / ("." + path_.filename ().string () + "_XXXXXX")).string ();
@@ -115,10 +113,9 @@ public:
       , folder_ (folder)
       , options_ (options)
       , renderer_ (scene)
-  {
-    for (const SceneBody& body : scene.bodies)
-      wide_mask_ = wide_mask_ || body.id > 255;
-  }
+      , wide_mask_ (std::any_of (scene.bodies.begin (), scene.bodies.end (),
+                                 [] (const SceneBody& body) { return body.id > 255; }))
+  {}
 
   void write (const ProgressCallback& progress)
   {
@@ -236,7 +233,7 @@ private:
   const NewFolder& folder_;
   const SequenceOptions options_;
   const SceneRenderer renderer_;
-  bool wide_mask_ = false;
+  const bool wide_mask_;
 };
 
 } // namespace

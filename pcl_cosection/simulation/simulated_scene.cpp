@@ -36,14 +36,6 @@ printable (std::string text)
   return text;
 }
 
-TriangleMesh
-transformed (TriangleMesh mesh, const Eigen::Isometry3d& T)
-{
-  for (Eigen::Vector3f& v : mesh.vertices)
-    v = (T * v.cast<double> ()).cast<float> ();
-  return mesh;
-}
-
 Eigen::Vector3d
 toPart (const BodyPart& part, const Eigen::Vector3d& p)
 {
@@ -132,7 +124,14 @@ SceneBody::surface (double chord_m) const
 {
   TriangleMesh all;
   for (const BodyPart& part : parts)
-    appendMesh (all, transformed (part.shape->tessellate (chord_m), part.T_body_part));
+  {
+    TriangleMesh mesh = part.shape->tessellate (chord_m);
+    for (Eigen::Vector3f& v : mesh.vertices)
+      v = (part.T_body_part * v.cast<double> ()).cast<float> ();
+    for (Eigen::Vector3f& normal : mesh.normals)
+      normal = (part.T_body_part.linear () * normal.cast<double> ()).cast<float> ();
+    appendMesh (all, mesh);
+  }
   const bool analytic = std::all_of (parts.begin (), parts.end (),
                                      [] (const BodyPart& part) { return part.shape->isAnalytic (); });
   if (id == 0 || parts.size () == 1 || !analytic)

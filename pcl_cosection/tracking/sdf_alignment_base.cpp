@@ -30,18 +30,16 @@ SdfAlignmentBase::report (const char* function, const std::string& error) const
 
 bool
 SdfAlignmentBase::setOptions (const SdfAlignmentOptions& options)
+try
 {
-  try
-  {
-    options.validate ();
-  }
-  catch (const Error& error)
-  {
-    report ("setOptions", error.what ());
-    return false;
-  }
+  options.validate ();
   options_ = options;
   return true;
+}
+catch (const Error& error)
+{
+  report ("setOptions", error.what ());
+  return false;
 }
 
 void
@@ -52,59 +50,53 @@ SdfAlignmentBase::setNumberOfThreads (unsigned int threads)
 
 bool
 SdfAlignmentBase::setTarget (const TsdfVolume::ConstPtr& volume, std::vector<Eigen::Vector3f>* surface)
+try
 {
-  try
-  {
-    if (!volume)
-      throw InvalidArgument ("the signed distance volume is a null pointer");
-    requireSurface (volume->field (), surface);
-  }
-  catch (const Error& error)
-  {
-    report ("setSignedDistance", error.what ());
-    return false;
-  }
+  if (!volume)
+    throw InvalidArgument ("the signed distance volume is a null pointer");
+  requireSurface (volume->field (), surface);
   volume_ = volume;
   field_.reset ();
   return true;
 }
+catch (const Error& error)
+{
+  report ("setSignedDistance", error.what ());
+  return false;
+}
 
 bool
 SdfAlignmentBase::setTarget (const SignedDistanceField::ConstPtr& field, std::vector<Eigen::Vector3f>* surface)
+try
 {
-  try
-  {
-    if (!field)
-      throw InvalidArgument ("the signed distance field is a null pointer");
-    requireSurface (SdfTarget (*field).field (), surface); // which checks it
-  }
-  catch (const Error& error)
-  {
-    report ("setSignedDistance", error.what ());
-    return false;
-  }
+  if (!field)
+    throw InvalidArgument ("the signed distance field is a null pointer");
+  requireSurface (SdfTarget (*field).field (), surface); // which checks it
   field_ = field;
   volume_.reset ();
   return true;
+}
+catch (const Error& error)
+{
+  report ("setSignedDistance", error.what ());
+  return false;
 }
 
 bool
 SdfAlignmentBase::alignPoints (const SdfAlignmentOptions& options, const std::vector<Eigen::Vector3f>& points,
                                const std::vector<float>& weights, const Eigen::Isometry3d& guess)
+try
 {
   result_ = SdfAlignmentResult ();
-  try
-  {
-    if (!hasTarget ())
-      throw InvalidArgument ("there is no signed distance to align with; setSignedDistance () gives one");
-    result_ = SdfAlignment (options).align (points, weights, target (), guess);
-  }
-  catch (const Error& error)
-  {
-    report ("align", error.what ());
-    return false;
-  }
+  if (!hasTarget ())
+    throw InvalidArgument ("there is no signed distance to align with; setSignedDistance () gives one");
+  result_ = SdfAlignment (options).align (points, weights, target (), guess);
   return true;
+}
+catch (const Error& error)
+{
+  report ("align", error.what ());
+  return false;
 }
 
 } // namespace pcl::cosection

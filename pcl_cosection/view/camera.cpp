@@ -1,6 +1,9 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
-
 #include <pcl/cosection/common/camera.h>
+
+#include "camera_resection.h"
+#include "range_image.h"
+
 #include <pcl/cosection/common/error.h>
 
 #include <algorithm>
@@ -29,10 +32,7 @@ public:
     yy_ += dy * (y - mean_y_);
   }
 
-  double slope () const
-  {
-    return xy_ / xx_; // not finite if all x are equal
-  }
+  double slope () const { return xy_ / xx_; } // not finite if all x are equal
 
   double offset () const { return mean_y_ - slope () * mean_x_; }
 
@@ -40,12 +40,7 @@ public:
   double residualX () const { return std::max (0.0, yy_ - slope () * xy_) / (count_ * slope () * slope ()); }
 
 private:
-  double count_ = 0.0;
-  double mean_x_ = 0.0;
-  double mean_y_ = 0.0;
-  double xx_ = 0.0;
-  double xy_ = 0.0;
-  double yy_ = 0.0;
+  double count_ = 0.0, mean_x_ = 0.0, mean_y_ = 0.0, xx_ = 0.0, xy_ = 0.0, yy_ = 0.0;
 };
 
 } // namespace
@@ -79,8 +74,7 @@ fitPinholeCamera (const std::vector<Eigen::Vector3f>& points, int width, int hei
 {
   if (width <= 0 || height <= 0 || points.size () != static_cast<std::size_t> (width) * height)
     throw InvalidArgument ("fitPinholeCamera: there must be width * height points");
-  LineFit columns; // x/z = column / fx - cx / fx
-  LineFit rows;
+  LineFit columns, rows; // x/z = column / fx - cx / fx
   int usable = 0;
   for (int v = 0; v < height; ++v)
     for (int u = 0; u < width; ++u)
@@ -95,9 +89,7 @@ fitPinholeCamera (const std::vector<Eigen::Vector3f>& points, int width, int hei
   if (usable < min_fit_points)
     return std::nullopt;
 
-  PinholeCamera camera;
-  camera.width = width;
-  camera.height = height;
+  PinholeCamera camera{width, height};
   camera.fx = 1.0 / columns.slope ();
   camera.fy = 1.0 / rows.slope ();
   camera.cx = -columns.offset () * camera.fx;
@@ -107,6 +99,27 @@ fitPinholeCamera (const std::vector<Eigen::Vector3f>& points, int width, int hei
         mean_squared <= max_fit_residual_px * max_fit_residual_px))
     return std::nullopt;
   return camera;
+}
+
+std::optional<DepthView>
+toDepthView (const std::vector<Eigen::Vector3f>& points, int width, int height, const Eigen::Isometry3d& T_world_points)
+{
+  if (points.empty ())
+    return std::nullopt;
+  if (height > 1)
+  {
+    if (const auto camera = fitPinholeCamera (points, width, height))
+      return depthImage (*camera, points, T_world_points);
+    if (const auto located = locateCamera (points, width, height))
+      return depthImage (located->camera, takeToSensor (located->T_points_sensor.inverse (), points),
+                         T_world_points * located->T_points_sensor);
+    return std::nullopt;
+  }
+  std::optional<RangeImage> image = drawRangeImage (points, Eigen::Vector3d::Zero ());
+  if (!image || image->hidden_share > RangeImage::max_hidden_share)
+    return std::nullopt;
+  image->view.T_world_sensor = T_world_points * image->view.T_world_sensor;
+  return std::move (image->view);
 }
 
 } // namespace pcl::cosection

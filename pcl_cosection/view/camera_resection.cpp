@@ -38,8 +38,7 @@ template <int Dimension> struct Normalisation
 
   Eigen::Matrix<double, Dimension + 1, Dimension + 1> matrix () const
   {
-    Eigen::Matrix<double, Dimension + 1, Dimension + 1>
-        m = Eigen::Matrix<double, Dimension + 1, Dimension + 1>::Identity ();
+    auto m = Eigen::Matrix<double, Dimension + 1, Dimension + 1>::Identity ().eval ();
     m.template topLeftCorner<Dimension, Dimension> () *= scale;
     m.template topRightCorner<Dimension, 1> () = -scale * middle;
     return m;
@@ -226,26 +225,15 @@ takeToSensor (const Eigen::Isometry3d& T_sensor_points, const std::vector<Eigen:
   return seen;
 }
 
-std::optional<DepthView>
-organizedDepthView (const std::vector<Eigen::Vector3f>& points, int width, int height,
-                    const Eigen::Isometry3d& T_world_points)
+DepthView
+depthImage (const PinholeCamera& camera, const std::vector<Eigen::Vector3f>& points,
+            const Eigen::Isometry3d& T_world_sensor)
 {
-  DepthView view;
-  view.T_world_sensor = T_world_points;
-  const auto draw = [&] (const PinholeCamera& camera, const std::vector<Eigen::Vector3f>& seen) {
-    view.camera = camera;
-    view.depth.reserve (seen.size ());
-    for (const Eigen::Vector3f& p : seen)
-      view.depth.push_back (p.z () > 0.0f ? p.z () : std::numeric_limits<float>::quiet_NaN ());
-    return std::move (view);
-  };
-  if (const auto camera = fitPinholeCamera (points, width, height))
-    return draw (*camera, points);
-  const auto located = locateCamera (points, width, height);
-  if (!located)
-    return std::nullopt;
-  view.T_world_sensor = T_world_points * located->T_points_sensor;
-  return draw (located->camera, takeToSensor (located->T_points_sensor.inverse (), points));
+  DepthView view{camera, {}, T_world_sensor};
+  view.depth.reserve (points.size ());
+  for (const Eigen::Vector3f& p : points)
+    view.depth.push_back (p.z () > 0.0f ? p.z () : std::numeric_limits<float>::quiet_NaN ());
+  return view;
 }
 
 } // namespace pcl::cosection

@@ -37,13 +37,8 @@ std::vector<Eigen::Vector3f> takeToSensor (const Eigen::Isometry3d& T_sensor_poi
  * O (width * height); does not depend on the number of threads. */
 std::optional<LocatedCamera> locateCamera (const std::vector<Eigen::Vector3f>& points, int width, int height);
 
-/** \brief The depth image that an organised cloud is.
- * \param[in] points width * height points, row by row, in the sensor's frame (fitPinholeCamera ()) or any other
- * (locateCamera ())
- * \param[in] T_world_points pose of that frame
- * \return nothing if it is not the image of a pinhole camera
- * \throws InvalidArgument if there are not width * height points */
-std::optional<DepthView> organizedDepthView (const std::vector<Eigen::Vector3f>& points, int width, int height,
-                                             const Eigen::Isometry3d& T_world_points = Eigen::Isometry3d::Identity ());
+/** \brief The depth image that an organised cloud is. \param[in] points in the frame of the camera */
+DepthView depthImage (const PinholeCamera& camera, const std::vector<Eigen::Vector3f>& points,
+                      const Eigen::Isometry3d& T_world_sensor);
 
 } // namespace pcl::cosection

@@ -2,16 +2,17 @@
 #include "organized_cloud.h"
 
 #include "pcl_cosection/io/cloud/pcd_cloud.h"
-#include "pcl_cosection/io/cloud/pcd_header.h"
-#include "pcl_cosection/io/cloud/pcd_points.h"
+#include "pcl_cosection/io/cloud/pcd_file.h"
 #include "pcl_cosection/io/quiet_console.h"
 
-#include "pcl_cosection/common/atomic_file.h"
+#include "pcl_cosection/common/files.h"
 #include "pcl_cosection/view/camera_resection.h"
 #include <pcl/cosection/common/error.h>
 
 #include <pcl/common/io.h>
 #include <pcl/io/pcd_io.h>
+#include <pcl/point_cloud.h>
+#include <pcl/point_types.h>
 
 #include <algorithm>
 #include <cstring>
@@ -81,6 +82,26 @@ withLabels (const PCLPointCloud2& cloud, const PcdHeader& header, const std::vec
   return (result);
 }
 
+/** \brief Let \a write (temporary path) write a PCD file by PCL. \throws IoError naming \a path */
+template <typename Write>
+void
+writePcd (const std::string& path, Write&& write)
+{
+  writeAtomically (path, [&] (const std::string& temporary) {
+    bool written = false;
+    try
+    {
+      written = write (temporary) == 0;
+    }
+    catch (const std::exception&)
+    {
+      // reported below
+    }
+    if (!written)
+      throw IoError (path + ": cannot be written");
+  });
+}
+
 } // namespace
 
 OrganizedCloud
@@ -124,20 +145,41 @@ copyWithLabels (const std::string& input, const std::vector<std::uint32_t>& labe
   const Eigen::Vector4f origin (static_cast<float> (v[0]), static_cast<float> (v[1]), static_cast<float> (v[2]), 0.0f);
   const Eigen::Quaternionf orientation (static_cast<float> (v[3]), static_cast<float> (v[4]), static_cast<float> (v[5]),
                                         static_cast<float> (v[6]));
-  writeAtomically (output, [&] (const std::string& temporary) {
+  writePcd (output, [&] (const std::string& temporary) {
     const QuietConsole quiet;
-    bool written = false;
-    try
-    {
-      written = pcl::PCDWriter ().writeBinaryCompressed (temporary, cloud, origin, orientation) == 0;
-    }
-    catch (const std::exception&)
-    {
-      // reported below
-    }
-    if (!written)
-      throw IoError (output + ": cannot be written");
+    return pcl::PCDWriter ().writeBinaryCompressed (temporary, cloud, origin, orientation);
   });
+}
+
+void
+saveLabelledCloud (const DepthView& view, const Image<std::uint16_t>& labels, const Picture& colours,
+                   const std::string& path)
+{
+  view.validate ();
+  if (labels.pixels.size () != view.depth.size () || colours.pixels.size () != view.depth.size ())
+    throw InvalidArgument (path + ": there must be one label and one colour per pixel");
+  pcl::PointCloud<pcl::PointXYZRGBL> cloud (view.camera.width, view.camera.height);
+  cloud.is_dense = false;
+  for (int v = 0; v < view.camera.height; ++v)
+    for (int u = 0; u < view.camera.width; ++u)
+    {
+      pcl::PointXYZRGBL& point = cloud (u, v);
+      const float z = view.at (u, v);
+      if (std::isfinite (z))
+        point.getVector3fMap () = view.camera.unproject (u, v, z).cast<float> ();
+      else
+        point.x = point.y = point.z = std::numeric_limits<float>::quiet_NaN ();
+      const auto& colour = colours.at (u, v);
+      point.r = colour[0];
+      point.g = colour[1];
+      point.b = colour[2];
+      point.a = 255;
+      point.label = labels.at (u, v);
+    }
+  cloud.sensor_origin_.head<3> () = view.T_world_sensor.translation ().cast<float> ();
+  cloud.sensor_orientation_ = Eigen::Quaternionf (view.T_world_sensor.linear ().cast<float> ());
+  writePcd (path,
+            [&] (const std::string& temporary) { return pcl::PCDWriter ().writeBinaryCompressed (temporary, cloud); });
 }
 
 } // namespace pcl::cosection

@@ -35,4 +35,11 @@ OrganizedCloud readOrganizedCloud (const std::string& path, const PcdViewOptions
  * wrong */
 void copyWithLabels (const std::string& input, const std::vector<std::uint32_t>& labels, const std::string& output);
 
+/** \brief Write a depth view as an organised PCD file with the fields x y z rgb label: points in the sensor frame, NaN
+ * where there is no reading, and the sensor's pose as VIEWPOINT. readPcdView () reads it.
+ * \param[in] labels one per pixel \param[in] colours one per pixel
+ * \throws IoError, InvalidArgument if the sizes differ */
+PCL_COSECTION_EXPORT void saveLabelledCloud (const DepthView& view, const Image<std::uint16_t>& labels,
+                                             const Picture& colours, const std::string& path);
+
 } // namespace pcl::cosection

@@ -1,9 +1,7 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include <pcl/cosection/io/pcd_view.h>
 
-#include "organized_view.h"
-#include "pcl_cosection/io/cloud/pcd_cloud.h"
-#include "unorganized_view.h"
+#include "sensor_view.h"
 
 #include <pcl/cosection/common/error.h>
 

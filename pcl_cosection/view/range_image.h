@@ -2,6 +2,7 @@
 #pragma once
 
 #include <pcl/cosection/common/camera.h>
+#include <pcl/cosection/common/oriented_point.h>
 
 #include <Eigen/Core>
 
@@ -35,5 +36,10 @@ struct RangeImage
  * \return nothing for fewer than 50 points, or if some are more than 60 degrees from both the middle of their box and
  * their mean direction as seen from the sensor */
 std::optional<RangeImage> drawRangeImage (const std::vector<Eigen::Vector3f>& points, const Eigen::Vector3d& sensor);
+
+/** \brief Where the points of an object may have been seen from, if nothing is known of that: the direction to which
+ * nearly all of them face, from far away. To judge how far hidden parts may reach, not to call space free.
+ * \return nothing if there is no such direction, as for points from all around */
+std::optional<DepthView> virtualViewpoint (const std::vector<OrientedPoint>& points);
 
 } // namespace pcl::cosection

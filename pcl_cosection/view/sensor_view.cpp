@@ -1,11 +1,11 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "sensor_view.h"
 
+#include "pcl_cosection/common/boxes.h"
 #include "pcl_cosection/common/quantile.h"
 #include "pcl_cosection/io/place_text.h"
 #include "pcl_cosection/view/normals/estimated_normals.h"
-
-#include "pcl_cosection/view/range_image.h"
+#include "range_image.h"
 #include "sensor_location.h"
 
 #include <algorithm>
@@ -23,6 +23,8 @@ constexpr double max_hidden_of_label_from_guess = 0.1; // ... and of those of a 
 constexpr double same_place = 0.1;                     // of the distance to the points
 constexpr int lonely_neighbours = 6;                   // of which the farthest ...
 constexpr float lonely_factor = 2.0f;                  // ... is so much farther than usual
+constexpr double outermost_share = 0.02;               // of an object's points on each side, which may be wrong
+constexpr float nearness = 1.0f;                       // to an object, of its longest side
 constexpr std::size_t most_to_judge = 500000;          // points: of more, trails are no share worth mentioning
 
 /** \brief Evidence that a sensor at some place saw the points, or did not. */
@@ -145,6 +147,43 @@ membersOf (const SensorCloud& cloud)
     if (cloud.positions[i].allFinite ())
       members[cloud.labels[i]].push_back (i);
   return members;
+}
+
+std::vector<Eigen::Vector3f>
+pick (const std::vector<Eigen::Vector3f>& all, const std::vector<std::size_t>& indices)
+{
+  std::vector<Eigen::Vector3f> picked (indices.size ());
+  std::transform (indices.begin (), indices.end (), picked.begin (), [&] (std::size_t i) { return all[i]; });
+  return picked;
+}
+
+Surroundings
+surroundingsOf (const Members& members, const SensorCloud& cloud)
+{
+  Surroundings boxes;
+  for (const auto& [label, indices] : members)
+    if (label != 0)
+    {
+      const Eigen::AlignedBox3f box = trimmedBox<float> (indices, outermost_share,
+                                                         [&] (std::size_t i) { return cloud.positions[i]; });
+      const Eigen::Vector3f reach = Eigen::Vector3f::Constant (nearness * box.sizes ().maxCoeff ());
+      boxes[label] = Eigen::AlignedBox3f (box.min () - reach, box.max () + reach);
+    }
+  return boxes;
+}
+
+BackgroundParts
+partsOfBackground (const Surroundings& objects, const Members& members, const SensorCloud& cloud)
+{
+  BackgroundParts parts;
+  if (const auto background = members.find (0); background != members.end ())
+    for (const std::size_t i : background->second)
+    {
+      const bool near = std::any_of (objects.begin (), objects.end (),
+                                     [&] (const auto& object) { return object.second.contains (cloud.positions[i]); });
+      (near ? parts.near : parts.far).push_back (i);
+    }
+  return parts;
 }
 
 std::string

@@ -1,40 +1,119 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
-#include "unorganized_view.h"
-
-#include "object_surroundings.h"
-#include "pcl_cosection/view/normals/consistent_normals.h"
-#include "pcl_cosection/view/normals/estimated_normals.h"
-#include "pcl_cosection/view/outliers/mixed_pixels.h"
-#include "pcl_cosection/view/outliers/points_behind_edges.h"
-#include "pcl_cosection/view/outliers/scattered_points.h"
 #include "sensor_view.h"
 
-#include "pcl_cosection/view/range_image.h"
+#include "pcl_cosection/view/normals/estimated_normals.h"
+#include "pcl_cosection/view/outliers/mixed_pixels.h"
+#include "range_image.h"
+
 #include <pcl/cosection/surface/normals.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <optional>
 
 namespace pcl::cosection {
 namespace {
 
-constexpr float away_cosine = -0.2f;       // of a normal that clearly points away from the viewpoint
-constexpr double least_filled = 0.01;      // share of normals with a direction, of which fields have some
-constexpr double worth_saying = 0.02;      // share of the normals
-constexpr double surely_inward = 0.3;      // outward share of a body whose normals are flipped
-constexpr std::size_t least_points = 100;  // of an object: as many remain if some are left out, ...
-constexpr double most_left_out = 0.3;      // ... which are no larger a share than this
-constexpr std::size_t most_points = 20000; // of an object: of more, trails are a small share
+constexpr float away_cosine = -0.2f;  // of a normal that clearly points away from the viewpoint
+constexpr double least_filled = 0.01; // share of normals with a direction, of which fields have some
+constexpr double worth_saying = 0.02; // share of the normals
+constexpr double surely_inward = 0.3; // outward share of a body whose normals are flipped
+// Length of the mean normal of a background that has a side; of random ones to one side, 0.5.
+constexpr float one_sided = 0.7f;
+constexpr std::size_t least_background = 100; // points, to decide on a side
+constexpr double decisive = 0.75;             // share of a piece that faces to one side
+
+/** \brief How much of what of all normals has a sign does have a positive one. */
+class Share
+{
+public:
+  void add (float value) { (value > 0.0f ? positive_ : negative_) += std::abs (value); }
+
+  bool isKnown () const { return positive_ + negative_ > 0.0; }
+
+  double get () const { return isKnown () ? positive_ / (positive_ + negative_) : 0.5; }
+
+private:
+  double positive_ = 0.0, negative_ = 0.0;
+};
+
+/** \brief How much of a piece of the background faces the objects near it; all of them, if there is none near. */
+double
+facingShare (const Surroundings& objects, const std::vector<Eigen::Vector3f>& points,
+             const std::vector<Eigen::Vector3f>& normals)
+{
+  Share near, all;
+  for (std::size_t i = 0; i < points.size (); ++i)
+    for (const auto& [label, box] : objects)
+    {
+      const float facing = normals[i].dot (box.center () - points[i]);
+      all.add (facing);
+      if (box.contains (points[i]))
+        near.add (facing);
+    }
+  return near.isKnown () ? near.get () : all.get ();
+}
+
+/** \brief How much of a piece of an object faces away from the background. */
+double
+awayShare (const Eigen::Vector3f& away, const std::vector<Eigen::Vector3f>& points,
+           const std::vector<Eigen::Vector3f>& normals)
+{
+  Share share;
+  for (const Eigen::Vector3f& normal : normals)
+    share.add (normal.dot (away));
+  return std::max (share.get (), 1.0 - share.get ()) >= decisive ? share.get () : outwardShare (points, normals);
+}
+
+/** \brief The side of the background near an object on which that is; zero if it has none, as a bin's walls. */
+Eigen::Vector3f
+sideOf (const Eigen::AlignedBox3f& surroundings, const Members& members, const SensorCloud& cloud)
+{
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero ();
+  std::size_t count = 0;
+  if (const auto background = members.find (0); background != members.end ())
+    for (const std::size_t i : background->second)
+      if (cloud.normals[i].allFinite () && surroundings.contains (cloud.positions[i]))
+      {
+        sum += cloud.normals[i].cast<double> ();
+        ++count;
+      }
+  if (!(count >= least_background && sum.norm () > one_sided * static_cast<double> (count)))
+    return Eigen::Vector3f::Zero ();
+  return sum.normalized ().cast<float> ();
+}
+
+/** \brief Estimate the normals of an unorganised cloud of which it is not known where it was seen from.
+ *
+ * Those of neighbours agree (orientConsistently ()). The background faces the objects near it, and these face away from
+ * it, as all that was seen of them, also the inside of a bowl, was seen from its outer side; where that does not say
+ * enough, bodies are on the inner side. Scattered points of the background near objects, mixed pixels between these and
+ * what is behind them, get no normals. */
+void
+addConsistentNormals (const PcdViewOptions& options, const Members& members, SensorCloud& cloud)
+{
+  const Surroundings objects = surroundingsOf (members, cloud);
+  const auto add = [&] (const std::vector<std::size_t>& indices, const auto& rightShare) {
+    addNormals (options, indices, cloud,
+                [&] (const auto& points, auto& normals) { orientConsistently (points, normals, rightShare); });
+  };
+  const BackgroundParts background = partsOfBackground (objects, members, cloud);
+  for (const std::vector<std::size_t>* part : {&background.near, &background.far})
+    add (*part, [&] (const auto& points, const auto& normals) { return facingShare (objects, points, normals); });
+  leaveOutScattered (options, objects, background.near, cloud);
+  for (const auto& [label, indices] : members)
+    if (label != 0)
+    {
+      const Eigen::Vector3f away = sideOf (objects.at (label), members, cloud);
+      add (indices, [&away] (const auto& points, const auto& normals) { return awayShare (away, points, normals); });
+    }
+}
 
 /** \brief Turn normals that clearly point away from the viewpoint, which is the origin. \return their share */
 double
 turnTowardsViewpoint (float away, SensorCloud& cloud)
 {
-  std::size_t turned = 0;
-  std::size_t all = 0;
-  std::size_t opposed = 0;
+  std::size_t turned = 0, all = 0, opposed = 0;
   for (std::size_t i = 0; i < cloud.positions.size (); ++i)
     if (cloud.positions[i].allFinite () && cloud.normals[i].allFinite ())
     {
@@ -50,9 +129,8 @@ turnTowardsViewpoint (float away, SensorCloud& cloud)
   for (std::size_t i = 0; i < cloud.positions.size (); ++i)
   {
     Eigen::Vector3f& normal = cloud.normals[i];
-    if (!cloud.positions[i].allFinite () || !normal.allFinite ())
-      continue;
-    if (-cloud.positions[i].normalized ().dot (normal) >= away * normal.norm ())
+    if (!cloud.positions[i].allFinite () || !normal.allFinite () ||
+        -cloud.positions[i].normalized ().dot (normal) >= away * normal.norm ())
       continue;
     normal = -normal;
     ++turned;
@@ -77,40 +155,6 @@ checkWithoutViewpoint (const std::string& path, const Members& members, SensorCl
                                (result.has_labels ? "of label " + std::to_string (label) + " " : std::string ()) +
                                "point inward; they were turned");
   }
-}
-
-/** \brief Take the normals of points of an object that are nowhere, behind its own edges, if enough others remain. */
-void
-leaveOutTrails (const PcdViewOptions& options, const DepthView& view, const std::vector<std::size_t>& indices,
-                SensorCloud& cloud)
-{
-  std::vector<std::size_t> usable;
-  for (const std::size_t i : indices)
-    if (cloud.normals[i].allFinite ())
-      usable.push_back (i);
-  if (usable.size () <= least_points || usable.size () > most_points)
-    return;
-  std::vector<Eigen::Vector3f> points = pick (cloud.positions, usable);
-  const Eigen::Isometry3f T_view_points = (view.T_world_sensor.inverse () * cloud.T_world_sensor).cast<float> ();
-  for (Eigen::Vector3f& point : points)
-    point = T_view_points * point;
-  const std::vector<bool> behind = findBehindEdges (points, options.threads);
-  const auto left_out = static_cast<std::size_t> (std::count (behind.begin (), behind.end (), true));
-  if (usable.size () < least_points + left_out ||
-      static_cast<double> (left_out) > most_left_out * static_cast<double> (usable.size ()))
-    return;
-  for (std::size_t k = 0; k < usable.size (); ++k)
-    if (behind[k])
-      cloud.normals[usable[k]].setConstant (std::numeric_limits<float>::quiet_NaN ());
-}
-
-/** \brief Estimate the normals of some of the points, of any sign. */
-void
-addNormals (const PcdViewOptions& options, const std::vector<std::size_t>& indices, SensorCloud& cloud)
-{
-  const EstimatedNormals estimated = estimateNormals (options, pick (cloud.positions, indices));
-  for (std::size_t k = 0; k < indices.size (); ++k)
-    cloud.normals[indices[k]] = estimated.normals[estimated.of[k]];
 }
 
 /** \brief Fields without values, all zero or not finite, count as absent. */

@@ -1,23 +1,31 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include <pcl/cosection/visualization/run_scene.h>
 
-#include "run_summary.h"
-
+#include "pcl_cosection/common/quantile.h"
+#include "pcl_cosection/evaluation/mesh_surface.h"
+#include "pcl_cosection/evaluation/pictures/error_picture.h"
 #include "pcl_cosection/sequence/stamp_matching.h"
+
 #include <pcl/cosection/common/error.h>
 #include <pcl/cosection/common/mesh_decimation.h>
 #include <pcl/cosection/io/mesh_io.h>
 
+#include <nlohmann/json.hpp>
+
 #include <algorithm>
 #include <filesystem>
+#include <fstream>
 
 namespace fs = std::filesystem;
 
 namespace pcl::cosection {
 namespace {
 
-/** \brief What the camera is taken for if it is not known. */
-constexpr PinholeCamera usual_camera = {640, 480, 525.0, 525.0, 319.5, 239.5};
+using Json = nlohmann::json;
+
+constexpr int largest_image = 8192;
+constexpr PinholeCamera usual_camera = {640, 480, 525.0, 525.0, 319.5, 239.5}; ///< if it is not known
+constexpr double usual_share = 0.95; ///< of the errors that the colours distinguish
 
 bool
 isThere (const fs::path& path)
@@ -41,16 +49,112 @@ nearestPose (const std::vector<StampedPose>& poses, double stamp, double limit)
   return nearest->pose;
 }
 
-/** \brief What stands in the way of showing anything. */
+/** \brief A field of an object; null if there is none. */
+const Json&
+fieldOf (const Json& json, const char* name)
+{
+  static const Json none;
+  const auto field = json.find (name);
+  return field != json.end () ? *field : none;
+}
+
+std::string
+textOf (const Json& json, const char* name)
+{
+  const Json& field = fieldOf (json, name);
+  return field.is_string () ? field.get<std::string> () : std::string ();
+}
+
+double
+numberOf (const Json& json, const char* name)
+{
+  const Json& field = fieldOf (json, name);
+  return field.is_number () ? field.get<double> () : 0.0;
+}
+
+std::optional<PinholeCamera>
+cameraOf (const Json& json)
+{
+  const double width = numberOf (json, "width"), height = numberOf (json, "height");
+  if (!(width >= 1.0 && width <= largest_image && height >= 1.0 && height <= largest_image))
+    return std::nullopt;
+  const PinholeCamera camera = {static_cast<int> (width), static_cast<int> (height), numberOf (json, "fx"),
+                                numberOf (json, "fy"),    numberOf (json, "cx"),     numberOf (json, "cy")};
+  try
+  {
+    camera.validate ();
+    return camera;
+  }
+  catch (const InvalidArgument&)
+  {
+    return std::nullopt;
+  }
+}
+
+SequenceSource
+sourceOf (const Json& json)
+{
+  SequenceSource source;
+  const std::string format = textOf (json, "format");
+  source.format = format == "cofusion"  ? SequenceFormat::CoFusion
+                  : format == "tum"     ? SequenceFormat::Tum
+                  : format == "7scenes" ? SequenceFormat::SevenScenes
+                                        : SequenceFormat::Detect;
+  source.depth_folder = textOf (json, "depth_dir");
+  source.depth_scale = std::max (0.0, numberOf (json, "depth_scale"));
+  const Json& intrinsics = fieldOf (json, "intrinsics");
+  if (intrinsics.is_array () && intrinsics.size () == 4 &&
+      std::all_of (intrinsics.begin (), intrinsics.end (), [] (const Json& value) { return value.is_number (); }))
+    source.intrinsics = intrinsics.get<std::array<double, 4>> ();
+  return source;
+}
+
+/** \brief By object; classes that have a number only have no name. */
+std::map<int, std::string>
+classesOf (const Json& objects)
+{
+  std::map<int, std::string> classes;
+  if (!objects.is_array ())
+    return classes;
+  for (const Json& object : objects)
+  {
+    const Json& id = fieldOf (object, "id");
+    const std::string name = textOf (object, "class");
+    if (id.is_number_integer () && name.find_first_not_of ("0123456789") != std::string::npos)
+      classes[id.get<int> ()] = name;
+  }
+  return classes;
+}
+
+/** \brief What is in summary.json, which may lack anything, as those of earlier versions do; nothing if there is no
+ * such file. */
+std::optional<Json>
+readSummary (const std::string& folder, ReadingNotes& notes)
+{
+  const std::string path = (fs::path (folder) / "summary.json").string ();
+  std::ifstream file (path);
+  if (!file)
+    return std::nullopt;
+  Json json = Json::parse (file, nullptr, false);
+  if (!json.is_object ())
+  {
+    notes.warnings.push_back (path + ": is no JSON object");
+    notes.whole = false;
+  }
+  return json;
+}
+
+/** \brief What stands in the way of showing anything. \param[in] error that the run's summary tells of */
 void
-requireRun (const std::string& folder, const RunSummary& summary)
+requireRun (const std::string& folder, const std::string& error)
 {
   const fs::path path (folder);
-  if (!isThere (path / "trajectory" / "camera.txt") && !summary.error.empty ())
-    throw IoError (folder + ": that run failed: " + summary.error);
+  if (isThere (path / "trajectory" / "camera.txt"))
+    return;
+  if (!error.empty ())
+    throw IoError (folder + ": that run failed: " + error);
   std::error_code ignored;
-  if (fs::is_directory (path, ignored) && !isThere (path / "trajectory" / "camera.txt") &&
-      !isThere (path / "gt-cam-0.txt"))
+  if (fs::is_directory (path, ignored) && !isThere (path / "gt-cam-0.txt"))
     throw IoError (folder + ": has no trajectory/camera.txt: it is not what pcl_cosection_fusion wrote, or that run "
                             "did not come to its end");
 }
@@ -88,6 +192,14 @@ simplify (TriangleMesh& mesh, std::size_t triangles)
   {
     // no manifold: drawn as it is
   }
+}
+
+std::vector<double>
+errorsOf (const TriangleMesh& mesh, const SurfaceDistance& truth, const Eigen::Isometry3d& T_truth_mesh, int threads)
+{
+  if (mesh.empty ())
+    return {};
+  return vertexDistances (transformMesh (mesh, T_truth_mesh), truth, threads);
 }
 
 } // namespace
@@ -151,24 +263,67 @@ RunScene::camera () const
 RunScene
 loadRunScene (const std::string& folder, ReadingNotes& notes, const RunSceneOptions& options)
 {
-  const RunSummary summary = readRunSummary (folder, notes);
-  requireRun (folder, summary);
+  const std::optional<Json> summary = readSummary (folder, notes);
+  const Json json = summary.value_or (Json ());
+  requireRun (folder, textOf (json, "error"));
   RunScene scene;
   scene.folder = folder;
   scene.run = readRun (folder, notes);
-  scene.run.intrinsics = summary.camera;
-  scene.classes = summary.classes;
-  scene.dataset = summary.dataset;
-  scene.source = summary.source;
+  scene.run.intrinsics = cameraOf (fieldOf (json, "camera"));
+  scene.classes = classesOf (fieldOf (json, "objects"));
+  const Json& parameters = fieldOf (json, "parameters");
+  scene.dataset = textOf (parameters, "dataset");
+  scene.source = sourceOf (fieldOf (parameters, "images"));
   loadTsdf (scene, notes);
   simplify (scene.run.background, options.triangles);
   for (SceneRecord::Object& object : scene.run.objects)
     simplify (object.mesh, options.triangles / 2);
   for (auto& [id, mesh] : scene.tsdf)
     simplify (mesh, options.triangles / 2);
-  if (!summary.is_there)
+  if (!summary)
     notes.warnings.push_back (folder + ": has no summary.json: the run did not come to its end");
   return scene;
+}
+
+void
+measureErrors (RunScene& scene, const SceneRecord& truth, const RunEvaluation& evaluation, int threads)
+{
+  scene.errors.clear ();
+  std::vector<double> all;
+  for (const ObjectEvaluation& object : evaluation.objects)
+  {
+    const auto of_truth = std::find_if (truth.objects.begin (), truth.objects.end (),
+                                        [&object] (const SceneRecord::Object& o) { return o.id == object.truth_id; });
+    if (of_truth == truth.objects.end () || of_truth->mesh.empty ())
+      continue;
+    const SurfaceDistance surface (of_truth->mesh);
+    const Eigen::Isometry3d& T_truth_estimate = object.mesh.alignment.T_truth_estimate;
+    VertexErrors& errors = scene.errors[object.id];
+    errors.completed = errorsOf (scene.surface (object.id, SurfaceMode::Completed), surface, T_truth_estimate, threads);
+    errors.tsdf = errorsOf (scene.surface (object.id, SurfaceMode::Tsdf), surface, T_truth_estimate, threads);
+    all.insert (all.end (), errors.completed.begin (), errors.completed.end ());
+  }
+  if (evaluation.background && !truth.background.empty ())
+    scene.errors[RunScene::background].completed = errorsOf (scene.run.background, SurfaceDistance (truth.background),
+                                                             evaluation.background->alignment.T_truth_estimate,
+                                                             threads);
+  if (all.empty () && scene.errors.count (RunScene::background) > 0)
+    all = scene.errors[RunScene::background].completed;
+  if (all.empty ())
+    return;
+  scene.error_max_m = roundErrorUp (quantile (all, usual_share));
+}
+
+std::vector<std::string>
+measureErrors (RunScene& scene, const SceneRecord& truth, int threads)
+{
+  RunOptions options;
+  options.comparison.samples = 100; // only the alignment is asked for
+  options.measure_penetration = false;
+  options.threads = threads;
+  const RunEvaluation evaluation = evaluateRun (truth, scene.run, options);
+  measureErrors (scene, truth, evaluation, threads);
+  return evaluation.warnings;
 }
 
 } // namespace pcl::cosection

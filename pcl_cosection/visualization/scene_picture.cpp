@@ -1,28 +1,48 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include <pcl/cosection/visualization/scene_picture.h>
 
+#include "scene_legend.h"
 #include "scene_lines.h"
 
 #include "pcl_cosection/evaluation/pictures/picture_canvas.h"
-
 #include "pcl_cosection/rendering/picture.h"
-#include "scene_caption.h"
+#include "pcl_cosection/sequence/stamp_matching.h"
+
 #include <pcl/cosection/common/error.h>
 #include <pcl/cosection/rendering/rasterizer.h>
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <sstream>
 
 namespace pcl::cosection {
 namespace {
 
+constexpr TriangleMesh::Colour no_colour = {200, 200, 200}; ///< of readings without a colour image
 constexpr TriangleMesh::Colour paper = {246, 247, 249};
 constexpr double text_size = 0.5;
 constexpr int margin_px = 14;
 constexpr int line_px = 22;
 constexpr double ambient_light = 0.35; ///< the rest comes from the head light
 constexpr int other_id = 0;
+constexpr double near_m = 0.02;        ///< nearer parts of lines are not drawn
+constexpr double most_points = 6000.0; ///< of a line
+
+std::unique_ptr<RgbdSequence>
+openImages (const RunScene& scene, const std::string& dataset)
+{
+  const std::string folder = dataset.empty () ? scene.dataset : dataset;
+  if (folder.empty ())
+    throw IoError (
+        scene.folder +
+        ": does not name the images that the run has read, so there are no points to show; name them with --dataset");
+  std::error_code ignored;
+  if (dataset.empty () && !std::filesystem::is_directory (folder, ignored))
+    throw IoError (folder +
+                   ": the images that the run has read are not there any more; name their folder with --dataset");
+  return std::make_unique<RgbdSequence> (folder, scene.source);
+}
 
 /** \brief A mesh in other colours. */
 TriangleMesh
@@ -93,25 +113,34 @@ drawSurfaces (const RunScene& scene, double stamp, const SceneView& view, const 
   }
 }
 
+/** \brief Draw points of the lines, so near each other that they touch. */
 void
-drawLines (const RunScene& scene, double stamp, const SceneView& view, const Eye& eye, Rasterizer& rasterizer)
+drawLines (const std::vector<SceneLine>& lines, const Eye& eye, int size_px, Rasterizer& rasterizer)
 {
-  std::vector<SceneLine> lines;
-  const auto add = [&lines] (const std::vector<SceneLine>& more) {
-    lines.insert (lines.end (), more.begin (), more.end ());
-  };
-  const std::optional<Eigen::Isometry3d> camera = scene.cameraAt (stamp);
-  if (view.path && view.viewpoint)
-    add (pathLines (scene, stamp));
-  if (view.frustum && view.viewpoint && camera)
-    add (frustumLines (scene, *camera));
-  if (view.boxes)
-    for (const SceneRecord::Object& object : scene.run.objects)
-      add (boxLines (scene, object, view.surface, stamp));
   std::vector<Eigen::Vector3f> points;
   std::vector<TriangleMesh::Colour> colours;
-  samplePoints (lines, eye.camera, eye.T_world_camera, points, colours);
-  rasterizer.drawPoints (points, colours, other_id, view.oversampling + 1);
+  const Eigen::Isometry3d T_camera_world = eye.T_world_camera.inverse ();
+  for (const SceneLine& line : lines)
+  {
+    Eigen::Vector3d a = T_camera_world * line.begin, b = T_camera_world * line.end;
+    if (a.z () > b.z ())
+      std::swap (a, b);
+    if (b.z () <= near_m)
+      continue;
+    if (a.z () < near_m)
+      a += (near_m - a.z ()) / (b.z () - a.z ()) * (b - a);
+    // Equal steps in the picture are steps in the inverse of the depth.
+    const double length_px = (eye.camera.project (b) - eye.camera.project (a)).norm ();
+    const double steps = std::clamp (std::ceil (length_px), 1.0, most_points);
+    for (double n = 0.0; n <= steps; ++n)
+    {
+      const double share = n / steps;
+      const double along = share * a.z () / ((1.0 - share) * b.z () + share * a.z ());
+      points.push_back ((eye.T_world_camera * (a + along * (b - a))).cast<float> ());
+      colours.push_back (line.colour);
+    }
+  }
+  rasterizer.drawPoints (points, colours, other_id, size_px);
 }
 
 /** \brief Brighter than shade (), whose dark sides hide colours. */
@@ -161,10 +190,9 @@ drawLegend (const ColourLegend& legend, const SceneView& view, PictureCanvas& ca
   for (int n = 0; n < count; ++n)
   {
     const int top = 2 * margin_px + n * line_px - margin_px / 2;
-    canvas.fill (cv::Rect (left + margin_px / 2, top, swatch_px, swatch_px),
-                 legend.entries[static_cast<std::size_t> (n)].colour);
-    canvas.write (legend.entries[static_cast<std::size_t> (n)].text, left + swatch_px + margin_px, top + swatch_px - 2,
-                  text_size);
+    const LegendEntry& entry = legend.entries[static_cast<std::size_t> (n)];
+    canvas.fill (cv::Rect (left + margin_px / 2, top, swatch_px, swatch_px), entry.colour);
+    canvas.write (entry.text, left + swatch_px + margin_px, top + swatch_px - 2, text_size);
   }
 }
 
@@ -177,6 +205,40 @@ drawCaption (const std::string& text, const SceneView& view, PictureCanvas& canv
 }
 
 } // namespace
+
+FramePointReader::FramePointReader (const RunScene& scene, const std::string& dataset)
+    : images_ (openImages (scene, dataset))
+    , stamps_ (images_->stamps ())
+{}
+
+FramePointReader::~FramePointReader () = default;
+FramePointReader::FramePointReader (FramePointReader&&) noexcept = default;
+FramePointReader& FramePointReader::operator= (FramePointReader&&) noexcept = default;
+
+FramePoints
+FramePointReader::read (const RunScene& scene, double stamp, int every) const
+{
+  if (every < 1)
+    throw InvalidArgument ("every must be at least 1 pixel");
+  FramePoints result;
+  const std::optional<Eigen::Isometry3d> T_world_camera = scene.cameraAt (stamp);
+  const std::optional<std::size_t> index = nearestStamp (stamps_, stamp, 0.5 * images_->period ());
+  if (!index || !T_world_camera)
+    return result;
+  std::vector<std::string> ignored;
+  const RgbdFrame frame = images_->read (*index, ignored);
+  const PinholeCamera& camera = images_->camera ();
+  for (int v = 0; v < camera.height; v += every)
+    for (int u = 0; u < camera.width; u += every)
+    {
+      const float z = frame.depth.at (u, v);
+      if (!std::isfinite (z))
+        continue;
+      result.points.push_back ((*T_world_camera * camera.unproject (u, v, z)).cast<float> ());
+      result.colours.push_back (frame.colour.pixels.empty () ? no_colour : frame.colour.at (u, v));
+    }
+  return result;
+}
 
 void
 SceneView::validate () const
@@ -199,7 +261,7 @@ drawScene (const RunScene& scene, double stamp, const SceneView& view, const Fra
   drawSurfaces (scene, stamp, view, eye, rasterizer);
   if (points && view.surface == SurfaceMode::Points)
     rasterizer.drawPoints (points->points, points->colours, other_id, view.oversampling + 1);
-  drawLines (scene, stamp, view, eye, rasterizer);
+  drawLines (linesOf (scene, stamp, view), eye, view.oversampling + 1, rasterizer);
 
   PictureCanvas canvas (view.width, view.height, view.oversampling);
   shadeOnto (rasterizer.image (), eye.camera, canvas.pixels ());

@@ -1,6 +1,8 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "sdf_slices.h"
 
+#include "pcl_cosection/evaluation/mesh_surface.h"
+
 #include <pcl/cosection/common/error.h>
 #include <pcl/cosection/volume/mesh_distance.h>
 
@@ -35,9 +37,7 @@ SdfSlices::SdfSlices (const TriangleMesh& mesh, int voxels, int threads)
 {
   if (voxels < 8)
     throw InvalidArgument ("there must be at least 8 voxels along a side");
-  Eigen::AlignedBox3d box;
-  for (const Eigen::Vector3f& v : mesh.vertices)
-    box.extend (v.cast<double> ());
+  const Eigen::AlignedBox3d box = vertexBox (mesh);
   if (box.isEmpty () || !(box.sizes ().maxCoeff () > 0.0))
     throw InvalidArgument ("a mesh without extent has no signed distance");
   const double side_m = box.sizes ().maxCoeff ();

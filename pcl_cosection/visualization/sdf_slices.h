@@ -36,12 +36,9 @@ public:
    * \param[in] pixels along the longer side of the picture */
   SdfSlice slice (int axis, double share, int pixels = 192) const;
 
-  /** \brief The distance at which colours end, metres. */
-  double limit () const { return limit_m_; }
-
 private:
   SignedDistanceField field_;
-  double limit_m_ = 0.0;
+  double limit_m_ = 0.0; ///< at which colours end
 };
 
 } // namespace pcl::cosection

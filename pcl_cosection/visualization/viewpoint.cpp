@@ -1,9 +1,11 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include <pcl/cosection/visualization/scene_picture.h>
 
-#include "pcl_cosection/common/atomic_file.h"
+#include "pcl_cosection/common/files.h"
 #include "pcl_cosection/common/quantile.h"
+#include "pcl_cosection/evaluation/mesh_surface.h"
 #include "pcl_cosection/view/look_at.h"
+
 #include <pcl/cosection/common/error.h>
 
 #include <nlohmann/json.hpp>
@@ -26,15 +28,6 @@ constexpr double beyond = 1.15;        ///< room around what is to be seen
 constexpr double least_radius_m = 0.05;
 constexpr double deepest_share = 0.02; ///< of a background's vertices, beyond its box at each end
 
-Eigen::AlignedBox3d
-boxOf (const TriangleMesh& mesh)
-{
-  Eigen::AlignedBox3d box;
-  for (const Eigen::Vector3f& v : mesh.vertices)
-    box.extend (v.cast<double> ());
-  return box;
-}
-
 /** \brief The corners of the objects' boxes, wherever the objects were. */
 Eigen::AlignedBox3d
 boxOfObjects (const RunScene& scene)
@@ -45,7 +38,7 @@ boxOfObjects (const RunScene& scene)
     const TriangleMesh& mesh = object.mesh.empty () ? scene.surface (object.id, SurfaceMode::Tsdf) : object.mesh;
     if (mesh.vertices.empty ())
       continue;
-    const Eigen::AlignedBox3d box = boxOf (mesh);
+    const Eigen::AlignedBox3d box = vertexBox (mesh);
     for (const StampedPose& pose : object.poses)
       for (int corner = 0; corner < 8; ++corner)
         all.extend (pose.pose * box.corner (static_cast<Eigen::AlignedBox3d::CornerType> (corner)));
@@ -57,7 +50,6 @@ boxOfObjects (const RunScene& scene)
 Eigen::AlignedBox3d
 boxOfMost (const TriangleMesh& mesh)
 {
-  Eigen::AlignedBox3d box;
   Eigen::Vector3d low, high;
   std::vector<float> values (mesh.vertices.size ());
   for (int axis = 0; axis < 3; ++axis)
@@ -67,9 +59,7 @@ boxOfMost (const TriangleMesh& mesh)
     low[axis] = quantile (values, deepest_share);
     high[axis] = quantile (values, 1.0 - deepest_share);
   }
-  box.extend (low);
-  box.extend (high);
-  return box;
+  return {low, high};
 }
 
 Eigen::Vector3d

@@ -1,5 +1,4 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
-
 #include "distance_transform.h"
 #include "pcl_cosection/common/parallel.h"
 #include <pcl/cosection/common/error.h>

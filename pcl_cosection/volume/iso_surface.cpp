@@ -1,11 +1,12 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
-
 // Written by hand, because pcl::MarchingCubes gives every triangle its own three vertices, and neither it nor VTK's
 // marching cubes promise a manifold.
 
 #include "marching_cubes_cases.h"
 
 #include "pcl_cosection/common/parallel.h"
+#include "pcl_cosection/mesh/triangle_shape.h"
+
 #include <pcl/cosection/common/error.h>
 #include <pcl/cosection/volume/iso_surface.h>
 
@@ -305,9 +306,8 @@ private:
     {
       if (!missing[triangle[0]] && !missing[triangle[1]] && !missing[triangle[2]])
         continue;
-      const Eigen::Vector3d p = mesh_.vertices[triangle[0]].cast<double> ();
-      const Eigen::Vector3d area = (mesh_.vertices[triangle[1]].cast<double> () - p)
-                                       .cross (mesh_.vertices[triangle[2]].cast<double> () - p);
+      const auto corner = [&] (int n) { return mesh_.vertices[triangle[n]].cast<double> (); };
+      const Eigen::Vector3d area = areaVector (corner (0), corner (1), corner (2));
       for (const auto v : triangle)
         sums[v] += area;
     }

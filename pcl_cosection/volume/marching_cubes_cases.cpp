@@ -1,5 +1,4 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
-
 #include "marching_cubes_cases.h"
 
 #include <Eigen/Core>

@@ -1,5 +1,4 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
-
 #include <pcl/cosection/volume/signed_distance_field.h>
 
 #include <algorithm>
@@ -7,6 +6,19 @@
 #include <cmath>
 
 namespace pcl::cosection {
+namespace {
+
+/** \brief The number of the voxel nearest to \a v, voxel coordinates; nothing outside the voxel centres' box. */
+std::optional<std::size_t>
+nearestVoxel (const VoxelGrid& grid, const Eigen::Vector3d& v)
+{
+  if (!((v.array () >= 0.0).all () && (v.array () <= grid.dims.cast<double> ().array () - 1.0).all ()))
+    return std::nullopt;
+  const Eigen::Array3i nearest = (v.array () + 0.5).cast<int> ();
+  return grid.index (nearest.x (), nearest.y (), nearest.z ());
+}
+
+} // namespace
 
 std::optional<float>
 SignedDistanceField::sample (const Eigen::Vector3d& p) const
@@ -50,10 +62,8 @@ SignedDistanceField::sampleVoxel (const Eigen::Vector3d& v) const
 std::optional<float>
 SignedDistanceField::sampleInside (const Eigen::Vector3d& v) const
 {
-  if (!((v.array () >= 0.0).all () && (v.array () <= grid.dims.cast<double> ().array () - 1.0).all ()))
-    return std::nullopt;
-  const Eigen::Array3i nearest = (v.array () + 0.5).cast<int> ();
-  if (!mayBeInside (grid.index (nearest.x (), nearest.y (), nearest.z ())))
+  const std::optional<std::size_t> nearest = nearestVoxel (grid, v);
+  if (!nearest || !mayBeInside (*nearest))
     return std::nullopt;
   const std::optional<float> value = sampleVoxel (v);
   return value && *value < 0.0f ? value : std::nullopt;
@@ -63,18 +73,8 @@ std::optional<float>
 SignedDistanceField::sampleSupported (const Eigen::Vector3d& p) const
 {
   const Eigen::Vector3d v = grid.toVoxel (p);
-  if (supported.empty ())
-    return sampleVoxel (v);
-  std::array<int, 3> nearest;
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    if (!(v[axis] >= 0.0 && v[axis] <= grid.dims[axis] - 1))
-      return std::nullopt;
-    nearest[axis] = static_cast<int> (v[axis] + 0.5);
-  }
-  if (supported[grid.index (nearest[0], nearest[1], nearest[2])] == 0)
-    return std::nullopt;
-  return sampleVoxel (v);
+  const std::optional<std::size_t> nearest = nearestVoxel (grid, v);
+  return nearest && (supported.empty () || supported[*nearest] != 0) ? sampleVoxel (v) : std::nullopt;
 }
 
 } // namespace pcl::cosection

@@ -2,7 +2,7 @@
 
 #include "temporary_folder.h"
 
-#include "pcl_cosection/common/atomic_file.h"
+#include "pcl_cosection/common/files.h"
 #include <pcl/cosection/common/error.h>
 
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "pcl_cosection/common/disjoint_sets.h"
-#include "pcl_cosection/common/occupied_cells.h"
+#include "pcl_cosection/common/lattice_cells.h"
 #include "pcl_cosection/common/robust_weights.h"
 
 #include <gtest/gtest.h>

@@ -1,8 +1,8 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
+#include "pcl_cosection/common/boxes.h"
 #include "pcl_cosection/common/convex_hull.h"
+#include "pcl_cosection/common/directions.h"
 #include "pcl_cosection/common/quantile.h"
-#include "pcl_cosection/common/sectors.h"
-#include "pcl_cosection/common/trimmed_box.h"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "completion/analytic_scene.h"
 
-#include "pcl_cosection/energy/constraints/free_space_carving.h"
+#include "pcl_cosection/energy/constraints/hull_constraint.h"
 
 #include <gtest/gtest.h>
 

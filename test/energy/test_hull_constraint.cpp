@@ -213,6 +213,23 @@ TEST_P (HullConstraintTest, IsTheSameForAnyNumberOfThreads)
 
 INSTANTIATE_TEST_SUITE_P (VoxelSizes, HullConstraintTest, testing::Values (0.001, 0.005, 0.01));
 
+TEST (FreeSpaceViewTest, TakesADepthOfZeroForAHole)
+{
+  DepthView with_nan = rendered (ballBeforeWall ()), with_zero = with_nan;
+  for (int v = 20; v < 40; ++v)
+    for (int u = 20; u < 50; ++u)
+    {
+      with_nan.depth[v * 160 + u] = not_a_number;
+      with_zero.depth[v * 160 + u] = 0.0f;
+    }
+  const FreeSpaceView a (with_nan), b (with_zero);
+  for (int v = 0; v < 120; ++v)
+    for (int u = 0; u < 160; ++u)
+      ASSERT_EQ (a.atEdge (u, v), b.atEdge (u, v)) << u << ' ' << v;
+  const VoxelGrid grid = gridAbout ({0.0, 0.0, ball_m}, 48, 0.01);
+  EXPECT_EQ (freeSpace (grid, {with_nan}), freeSpace (grid, {with_zero}));
+}
+
 TEST (FreeSpaceViewTest, FindsSilhouettesButNotSlopes)
 {
   const RenderedView ball = ballBeforeWall ().render (smallCamera (), Eigen::Isometry3d::Identity ());

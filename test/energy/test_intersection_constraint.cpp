@@ -50,7 +50,7 @@ TEST_P (IntersectionConstraintTest, IsTheDepthInsideTheBody)
 {
   const Eigen::Isometry3d T_body_grid = testPose ();
   IntersectionConstraint constraint (grid_, cap_vox);
-  constraint.addBody (body_, T_body_grid, beta);
+  constraint.addBody (body_, {T_body_grid}, beta);
   const std::vector<LowerBound> bounds = constraint.bounds ();
   ASSERT_EQ (bounds.size (), grid_.size ());
   // Linear interpolation of the sphere's distance; kinked only at its centre, far beyond the cap or not.
@@ -104,11 +104,11 @@ TEST_P (IntersectionConstraintTest, IsThatOfEachVoxelByItself)
 TEST_P (IntersectionConstraintTest, ScalesTheWeightsOfWhatIsThere)
 {
   IntersectionConstraint scaled (grid_, cap_vox);
-  scaled.addBody (body_, testPose (), beta);
+  scaled.addBody (body_, {testPose ()}, beta);
   scaled.scaleWeights (4.0);
   scaled.addHalfSpace ({0.0, 0.0, 1.0, 0.02}, {}, beta);
   IntersectionConstraint direct (grid_, cap_vox);
-  direct.addBody (body_, testPose (), 4.0 * beta);
+  direct.addBody (body_, {testPose ()}, 4.0 * beta);
   direct.addHalfSpace ({0.0, 0.0, 1.0, 0.02}, {}, beta);
   EXPECT_TRUE (scaled.bounds () == direct.bounds ());
 }
@@ -140,7 +140,7 @@ TEST_P (IntersectionConstraintTest, SaysNothingWhereTheBodyIsNotSupported)
   half.supported.assign (half.grid.size (), 0);
   forEachVoxel (half.grid, [&] (std::size_t n, const Eigen::Vector3d& p) { half.supported[n] = p.x () > 0.0; });
   IntersectionConstraint constraint (grid_, cap_vox);
-  constraint.addBody (half, Eigen::Isometry3d::Identity (), beta);
+  constraint.addBody (half, {Eigen::Isometry3d::Identity ()}, beta);
   const std::vector<LowerBound> bounds = constraint.bounds ();
   ASSERT_EQ (bounds.size (), grid_.size ());
   std::size_t bounded = 0, wrong = 0;
@@ -160,7 +160,7 @@ TEST (IntersectionBodies, OutsideTheirVolumeSayNothing)
   SignedDistanceField body = sampleField ([] (const Eigen::Vector3d&) { return -0.1; }, 0.02, 0.005);
   const VoxelGrid grid = testGrid (0.004);
   IntersectionConstraint constraint (grid, cap_vox);
-  constraint.addBody (body, Eigen::Isometry3d::Identity (), beta);
+  constraint.addBody (body, {Eigen::Isometry3d::Identity ()}, beta);
   const std::vector<LowerBound> bounds = constraint.bounds ();
   ASSERT_EQ (bounds.size (), grid.size ());
   std::size_t wrong = 0;
@@ -173,7 +173,7 @@ TEST (IntersectionBodies, OutsideTheirVolumeSayNothing)
   IntersectionConstraint far (grid, cap_vox);
   Eigen::Isometry3d away = Eigen::Isometry3d::Identity ();
   away.translation ().x () = 10.0;
-  far.addBody (body, away, beta);
+  far.addBody (body, {away}, beta);
   EXPECT_TRUE (far.bounds ().empty ());
   EXPECT_TRUE (IntersectionConstraint (grid, cap_vox).bounds ().empty ());
 }
@@ -188,7 +188,7 @@ TEST (IntersectionBodies, TheDeepestCounts)
   there.translation ().z () = 0.02;
   const auto boundsOf = [&] (auto&&... bodies) {
     IntersectionConstraint constraint (grid, 100.0);
-    (constraint.addBody (*bodies.first, bodies.second.first, bodies.second.second), ...);
+    (constraint.addBody (*bodies.first, {bodies.second.first}, bodies.second.second), ...);
     return constraint.bounds ();
   };
   const auto body = [] (const SignedDistanceField& f, const Eigen::Isometry3d& T, double b) {

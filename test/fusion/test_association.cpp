@@ -1,7 +1,7 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 
 #include "pcl_cosection/fusion/association/data_association.h"
-#include "pcl_cosection/fusion/association/mask_matching.h"
+#include "pcl_cosection/fusion/association/instance_matching.h"
 #include <pcl/cosection/common/error.h>
 
 #include <gtest/gtest.h>

@@ -2,7 +2,7 @@
 
 // The class of an object, by many detections that may contradict each other.
 
-#include "pcl_cosection/fusion/mapping/class_evidence.h"
+#include "pcl_cosection/fusion/mapping/tracked_object.h"
 #include <pcl/cosection/common/error.h>
 
 #include <gtest/gtest.h>

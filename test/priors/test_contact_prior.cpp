@@ -43,8 +43,8 @@ rests (const std::vector<OrientedPoint>& points, double x, double y, const Eigen
     for (int j = 0; j < grid.dims.y (); ++j)
       for (int i = 0; i < grid.dims.x (); ++i)
         free_space[grid.index (i, j, k)] = seen_free.contains (grid.center (i, j, k));
-  const std::vector<std::uint8_t> patch = ContactPrior ().patch (grid, floor_plane, points, Eigen::Vector3d::Zero (),
-                                                                 free_space);
+  const std::vector<std::uint8_t> patch = contactPatch (grid, floor_plane, points, Eigen::Vector3d::Zero (),
+                                                        free_space);
   const Eigen::Vector3i at = *grid.nearest ({x, y, 0.0});
   return !patch.empty () && patch[grid.index (at.x (), at.y (), at.z ())] != 0;
 }

@@ -1,8 +1,6 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "command_line.h"
-#include "frame_span.h"
 #include "option_values.h"
-#include "suggestion.h"
 
 #include <gtest/gtest.h>
 

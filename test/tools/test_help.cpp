@@ -3,11 +3,10 @@
 // What the program says about itself: the help screen, the manual page and the document have every option, and the
 // examples work.
 
+#include "command_line.h"
 #include "common/temporary_folder.h"
 #include "evaluation_commands.h"
 #include "fusion_command_line.h"
-#include "option_table.h"
-#include "program_text.h"
 #include "report_command_line.h"
 #include "scene_files.h"
 #include "segment_command_line.h"
@@ -103,7 +102,7 @@ TEST_F (Help, EveryOptionIsEverywhere)
 TEST_F (Help, SimulationIsExplained)
 {
   CLI::App app;
-  GivenSimulation given;
+  SimulateSettings given;
   declareSimulationOptions (app, given);
   const std::string screen = helpText (app, simulationText ());
   EXPECT_GE (expectEverywhere (app, screen, manPage (app, simulationText ()), "pcl_cosection_simulate.md"), 12);
@@ -125,7 +124,7 @@ TEST_F (Help, SegmentationIsExplained)
 TEST_F (Help, ReportsAreExplained)
 {
   CLI::App app;
-  GivenReport given;
+  ReportSettings given;
   declareReportOptions (app, given);
   const std::string screen = helpText (app, reportText ());
   EXPECT_GE (expectEverywhere (app, screen, manPage (app, reportText ()), "pcl_cosection_report.md"), 8);
@@ -152,7 +151,7 @@ TEST_F (Help, FusionIsExplained)
 TEST_F (Help, ViewerIsExplained)
 {
   CLI::App app;
-  GivenViewer given;
+  ViewerSettings given;
   declareViewerOptions (app, given);
   const std::string screen = helpText (app, viewerText ());
   EXPECT_GE (expectEverywhere (app, screen, manPage (app, viewerText ()), "pcl_cosection_viewer.md"), 18);

@@ -136,8 +136,8 @@ TEST (OrganizedDepthView, IsTheSameInAnyFrame)
 {
   const auto points = image (0.5);
   const Eigen::Isometry3d T = somePose (7), T_world_points = somePose (8);
-  const auto plain = organizedDepthView (points, image_width, image_height, T_world_points * T);
-  const auto view = organizedDepthView (moved (T, points), image_width, image_height, T_world_points);
+  const auto plain = toDepthView (points, image_width, image_height, T_world_points * T);
+  const auto view = toDepthView (moved (T, points), image_width, image_height, T_world_points);
   ASSERT_TRUE (plain && view);
   EXPECT_TRUE (plain->T_world_sensor.isApprox (T_world_points * T));
   EXPECT_LT ((view->T_world_sensor.matrix () - plain->T_world_sensor.matrix ()).norm (), 1e-3);

@@ -26,7 +26,7 @@ isSaid (const SceneResult& result)
 }
 
 /** \brief The shape on its table from several sides; the pose of the second view is wrong by \a error. */
-class ViewAgreement : public testing::TestWithParam<Shape>
+class AgreementOfViews : public testing::TestWithParam<Shape>
 {
 protected:
   SceneResult completeWith (const Eigen::Isometry3d& error, int views, CoSectionOptions options = optionsFor (voxel_m))
@@ -55,7 +55,7 @@ protected:
 
 } // namespace
 
-TEST_P (ViewAgreement, RightPosesAgree)
+TEST_P (AgreementOfViews, RightPosesAgree)
 {
   for (const int views : {1, 2, 5})
   {
@@ -65,7 +65,7 @@ TEST_P (ViewAgreement, RightPosesAgree)
   }
 }
 
-TEST_P (ViewAgreement, AWrongPoseIsSaid)
+TEST_P (AgreementOfViews, AWrongPoseIsSaid)
 {
   const Eigen::Isometry3d aside (Eigen::Translation3d (0.0, 0.0, 0.05));
   for (const int views : {2, 3})
@@ -80,7 +80,7 @@ TEST_P (ViewAgreement, AWrongPoseIsSaid)
 }
 
 /** \brief The shape moves between two views with correct poses. */
-TEST_P (ViewAgreement, WhatMovesNeedsPoses)
+TEST_P (AgreementOfViews, WhatMovesNeedsPoses)
 {
   const Eigen::Isometry3d motion (Eigen::Translation3d (0.1, 0.06, 0.0));
   const auto is_said = [&] (bool with_poses) {
@@ -105,10 +105,11 @@ TEST_P (ViewAgreement, WhatMovesNeedsPoses)
   EXPECT_FALSE (is_said (true));
 }
 
-INSTANTIATE_TEST_SUITE_P (Shapes, ViewAgreement, testing::Values (Shape::Sphere, Shape::Box, Shape::Torus, Shape::Cup),
+INSTANTIATE_TEST_SUITE_P (Shapes, AgreementOfViews,
+                          testing::Values (Shape::Sphere, Shape::Box, Shape::Torus, Shape::Cup),
                           [] (const auto& info) { return nameOf (info.param); });
 
-TEST (ViewAgreement, GroupsFarApartAreSaid)
+TEST (AgreementOfViews, GroupsFarApartAreSaid)
 {
   for (const double aside_m : {0.0, 0.05, 1.0})
   {

@@ -3,7 +3,7 @@
 #include "run_folder.h"
 
 #include "pcl_cosection/io/image_io.h"
-#include "pcl_cosection/visualization/scene_caption.h"
+#include "pcl_cosection/visualization/scene_legend.h"
 #include <pcl/cosection/common/error.h>
 #include <pcl/cosection/visualization/scene_picture.h>
 

@@ -1,7 +1,7 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "arguments.h"
 
-#include "suggestion.h"
+#include "option_values.h"
 
 #include <pcl/cosection/version.h>
 
@@ -12,10 +12,29 @@
 
 namespace {
 
-std::string
-unknownOption (const std::string& given, const std::vector<std::string>& names)
+/** \brief Levenshtein distance, where more letters at the end cost little: "--vox" is near "--voxel-size". */
+std::size_t
+editDistance (const std::string& word, const std::string& name)
 {
-  return ("unknown option " + given + suggestion (given, names));
+  constexpr std::size_t full = 4; // cost of an edit; a letter missing at the end costs 1
+  std::vector<std::size_t> row (name.size () + 1);
+  for (std::size_t j = 0; j < row.size (); ++j)
+    row[j] = j * full;
+  for (std::size_t i = 1; i <= word.size (); ++i)
+  {
+    std::size_t diagonal = row[0];
+    row[0] = i * full;
+    for (std::size_t j = 1; j <= name.size (); ++j)
+    {
+      const std::size_t replaced = diagonal + (word[i - 1] == name[j - 1] ? 0 : full);
+      diagonal = row[j];
+      row[j] = std::min ({replaced, row[j] + full, row[j - 1] + full});
+    }
+  }
+  std::size_t best = row[name.size ()];
+  for (std::size_t j = 0; j < name.size (); ++j)
+    best = std::min (best, row[j] + (name.size () - j));
+  return (best);
 }
 
 /** \brief Configuration files, with the same answer to unknown names as the command line. */
@@ -54,22 +73,15 @@ optionNames (const CLI::App& app)
   return (names);
 }
 
-/** \brief Options that have a letter, as -o, one after the other. */
-std::string
-optionLetters (const CLI::App& app)
-{
-  std::string letters;
-  for (const CLI::Option* option : app.get_options ())
-    for (const std::string& name : option->get_snames ())
-      letters += name;
-  return (letters);
-}
-
 /** \brief CLI11 would take the value of an unknown option for an input. */
 void
 refuseUnknownOptions (const std::vector<std::string>& arguments, const std::vector<std::string>& names,
-                      const std::string& letters)
+                      const CLI::App& app)
 {
+  std::string letters; // of options that have one, as -o
+  for (const CLI::Option* option : app.get_options ())
+    for (const std::string& letter : option->get_snames ())
+      letters += letter;
   for (const std::string& argument : arguments)
   {
     if (argument == "--")
@@ -81,23 +93,47 @@ refuseUnknownOptions (const std::vector<std::string>& arguments, const std::vect
     const bool is_letter = name.size () > 1 && name[1] != '-' && letters.find (name[1]) != std::string::npos;
     if (is_option && !is_value && !(is_letter && (name.size () == 2 || name[1] != 'h')) &&
         std::find (names.begin (), names.end (), name) == names.end ())
-      throw UsageError (unknownOption (name, names));
+      throw UsageError ("unknown option " + name + suggestion (name, names));
   }
 }
 
 } // namespace
 
 void
-declareGeneralOptions (CLI::App& app, const std::string& program, bool& verbose, bool& quiet)
+declareGeneralOptions (CLI::App& app, const std::string& program, GeneralOptions& given)
 {
-  const std::string general = "General";
-  app.add_flag ("--verbose", verbose, "Say what is being done")->group (general);
-  app.add_flag ("--quiet", quiet, "Print errors only")->group (general);
+  app.add_option ("paths", given.paths)->group ("")->configurable (false);
+  const std::string name = "General";
+  OptionGroup general (app, name);
+  general.add ("--threads N", given.threads, wholeRange (1, 1024),
+               "Threads to use, without influence on results (default: all processors)");
+  general.addFlag ("--verbose", given.verbose, "Say what is being done");
+  general.addFlag ("--quiet", given.quiet, "Print errors only");
   app.set_config ("--config", "", "Read options from a file; the command line overrides it")
       ->option_text ("FILE")
-      ->group (general);
-  app.set_version_flag ("--version", program + " " PCL_COSECTION_VERSION, "Print the version")->group (general);
-  app.set_help_flag ("-h,--help", "Print this, or only a TOPIC of it")->group (general);
+      ->group (name);
+  app.set_version_flag ("--version", program + " " PCL_COSECTION_VERSION, "Print the version")->group (name);
+  app.set_help_flag ("-h,--help", "Print this, or only a TOPIC of it")->group (name);
+}
+
+Verbosity
+verbosityOf (const GeneralOptions& given)
+{
+  if (given.quiet && given.verbose)
+    throw UsageError ("--quiet and --verbose exclude each other");
+  return (given.quiet ? Verbosity::Quiet : given.verbose ? Verbosity::Verbose : Verbosity::Normal);
+}
+
+void
+requirePaths (const std::vector<std::string>& paths, const std::string& first, const std::string& last,
+              bool may_be_more)
+{
+  if (paths.empty ())
+    throw UsageError (first + " and " + last + " are missing; see --help");
+  if (paths.size () == 1)
+    throw UsageError (last + " is missing after " + paths[0] + "; see --help");
+  if (paths.size () > 2 && !may_be_more)
+    throw UsageError ("there is one argument too many: " + paths[2]);
 }
 
 bool
@@ -114,7 +150,7 @@ parseArguments (CLI::App& app, const ProgramText& program, int argc, const char*
     }
   const std::vector<std::string> names = optionNames (app);
   app.config_formatter (std::make_shared<ConfigurationFile> (names));
-  refuseUnknownOptions (std::vector<std::string> (argv + 1, argv + argc), names, optionLetters (app));
+  refuseUnknownOptions (std::vector<std::string> (argv + 1, argv + argc), names, app);
   try
   {
     app.parse (argc, argv);
@@ -145,4 +181,32 @@ parseArguments (CLI::App& app, const ProgramText& program, int argc, const char*
   {
     throw UsageError (error.what ());
   }
+}
+
+std::string
+nearestName (const std::string& word, const std::vector<std::string>& names)
+{
+  std::string nearest;
+  std::size_t smallest = 0;
+  for (const std::string& name : names)
+  {
+    const std::size_t distance = editDistance (word, name);
+    if (nearest.empty () || distance < smallest)
+    {
+      nearest = name;
+      smallest = distance;
+    }
+  }
+  const std::size_t letters = word.size () - std::min (word.size (), word.find_first_not_of ('-'));
+  const std::size_t acceptable = 4 * (letters / 3) + 6; // a third of the letters, or the end missing
+  return (smallest <= acceptable ? nearest : "");
+}
+
+std::string
+suggestion (const std::string& word, const std::vector<std::string>& names, bool bare)
+{
+  const std::string name = nearestName (word, names);
+  if (name.empty ())
+    return ("");
+  return ("; did you mean " + (bare ? name.substr (name.find_first_not_of ('-')) : name) + "?");
 }

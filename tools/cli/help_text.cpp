@@ -1,6 +1,7 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "help_text.h"
 
+#include "pcl_cosection/io/lower_case.h"
 #include <pcl/cosection/version.h>
 
 #include <algorithm>
@@ -69,14 +70,6 @@ groupsOf (const CLI::App& app)
     if (!group.empty () && !optionsOf (app, group).empty ())
       groups.push_back (group);
   return (groups);
-}
-
-std::string
-lowerCase (std::string text)
-{
-  std::transform (text.begin (), text.end (), text.begin (),
-                  [] (unsigned char c) { return (static_cast<char> (std::tolower (c))); });
-  return (text);
 }
 
 std::string
@@ -173,7 +166,7 @@ helpTopics (const CLI::App& app)
 {
   std::vector<std::string> topics;
   for (const std::string& group : groupsOf (app))
-    topics.push_back (lowerCase (group));
+    topics.push_back (pcl::cosection::lowerCase (group));
   topics.push_back ("examples");
   return (topics);
 }
@@ -184,7 +177,7 @@ helpText (const CLI::App& app, const ProgramText& program, const std::string& to
   if (topic == "examples")
     return (exampleText (program));
   for (const std::string& group : groupsOf (app))
-    if (lowerCase (group) == topic)
+    if (pcl::cosection::lowerCase (group) == topic)
       return (groupText (app, group));
   std::string topics;
   for (const std::string& name : helpTopics (app))

@@ -3,7 +3,7 @@
 
 #include "arguments.h"
 
-#include "pcl_cosection/common/atomic_file.h"
+#include "pcl_cosection/common/files.h"
 #include <pcl/cosection/common/error.h>
 
 #include <nlohmann/json.hpp>
@@ -27,6 +27,12 @@ folderOf (const fs::path& path)
 }
 
 bool
+endsWith (const std::string& name, const std::string& ending)
+{
+  return (name.size () > ending.size () && name.compare (name.size () - ending.size (), ending.size (), ending) == 0);
+}
+
+bool
 isSameFile (const std::string& first, const std::string& second)
 {
   const fs::path a (first), b (second);
@@ -42,8 +48,9 @@ bool
 isWithin (const std::string& path, const std::string& folder)
 {
   std::error_code failure;
-  const fs::path inner = fs::weakly_canonical (path, failure);
-  const fs::path outer = fs::weakly_canonical (folder, failure);
+  // weakly_canonical () leaves a relative path as it is if nothing of it exists.
+  const fs::path inner = fs::weakly_canonical (fs::absolute (path, failure), failure);
+  const fs::path outer = fs::weakly_canonical (fs::absolute (folder, failure), failure);
   return (std::mismatch (outer.begin (), outer.end (), inner.begin (), inner.end ()).first == outer.end ());
 }
 
@@ -61,6 +68,15 @@ refuseToOverwrite (const std::vector<std::string>& inputs, const std::vector<std
       if (!outputs[other].empty () && isSameFile (outputs[n], outputs[other]))
         throw UsageError (outputs[n] + " would be written twice");
   }
+}
+
+void
+makeFolder (const fs::path& folder)
+{
+  std::error_code failure, ignored;
+  fs::create_directories (folder, failure);
+  if (!fs::is_directory (folder, ignored))
+    throw IoError (folder.string () + ": the folder cannot be made" + (failure ? ": " + failure.message () : ""));
 }
 
 void

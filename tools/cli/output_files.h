@@ -10,6 +10,9 @@
 /** \brief The folder that a file is in; "." for a name without one. */
 std::filesystem::path folderOf (const std::filesystem::path& path);
 
+/** \brief Whether a name is more than an ending, such as ".ply", and has it. */
+bool endsWith (const std::string& name, const std::string& ending);
+
 /** \brief Whether both names stand for the same file, even if it does not exist yet, or links lead to it. */
 bool isSameFile (const std::string& first, const std::string& second);
 
@@ -19,6 +22,9 @@ bool isWithin (const std::string& path, const std::string& folder);
 /** \brief \throws UsageError if one of \a outputs is one of \a inputs, or two of them are the same; empty names are
  * none. */
 void refuseToOverwrite (const std::vector<std::string>& inputs, const std::vector<std::string>& outputs);
+
+/** \brief Make a folder, with those above it, unless there is one. \throws pcl::cosection::IoError */
+void makeFolder (const std::filesystem::path& folder);
 
 /** \brief Prove by doing it that a file can be made in a folder. \param[in] path what the message names \throws
  * pcl::cosection::IoError */

@@ -14,12 +14,12 @@ namespace {
 constexpr int bar_width = 30;
 constexpr std::size_t stage_width = 40; // so that the bar fits into a line of 80 characters
 
-/** \brief A terminal that can go back to the beginning of its line. */
+/** \brief A terminal that cannot go back to the beginning of its line. */
 bool
-isTerminal ()
+isDumb ()
 {
   const char* term = std::getenv ("TERM");
-  return (isatty (STDERR_FILENO) != 0 && !(term && std::string (term) == "dumb"));
+  return (term && std::string (term) == "dumb");
 }
 
 /** \brief One line that no name of a file can make the terminal misbehave with. */
@@ -37,22 +37,10 @@ oneLine (std::string text)
 
 } // namespace
 
-Terminal::Terminal (const std::string& program, Verbosity verbosity)
+Terminal::Terminal (const std::string& program)
     : program_ (program)
-    , verbosity_ (verbosity)
-    , is_terminal_ (isTerminal ())
+    , is_terminal_ (isatty (STDERR_FILENO) != 0 && !isDumb ())
 {}
-
-Terminal::~Terminal ()
-{
-  clearBar ();
-}
-
-void
-Terminal::setVerbosity (Verbosity verbosity)
-{
-  verbosity_ = verbosity;
-}
 
 void
 Terminal::result (const std::string& line)
@@ -75,12 +63,6 @@ Terminal::warning (const std::string& line)
 {
   if (verbosity_ != Verbosity::Quiet)
     say ("warning: ", line);
-}
-
-void
-Terminal::error (const std::string& line)
-{
-  say ("error: ", line);
 }
 
 void
@@ -117,4 +99,10 @@ Terminal::say (const std::string& kind, const std::string& line)
 {
   clearBar ();
   std::cerr << program_ + ": " + kind + oneLine (line) + "\n" << std::flush;
+}
+
+std::string
+counted (std::size_t count, const std::string& what)
+{
+  return (std::to_string (count) + ' ' + what + (count == 1 ? "" : "s"));
 }

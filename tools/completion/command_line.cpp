@@ -1,56 +1,111 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "command_line.h"
 
-#include "option_table.h"
 #include "option_values.h"
-#include "program_text.h"
 
-#include <pcl/cosection/common/error.h>
+#include "pcl_cosection/io/lower_case.h"
 
 #include <algorithm>
 #include <array>
-#include <cctype>
-#include <filesystem>
 
 using namespace pcl::cosection;
 
 namespace {
 
 void
-setPaths (const Given& given, Settings& settings)
+declareInput (CLI::App& app, Given& given)
 {
-  if (given.paths.empty ())
-    throw UsageError ("INPUT.pcd and OUTPUT are missing; see --help");
-  if (given.paths.size () == 1)
-    throw UsageError ("OUTPUT is missing after " + given.paths[0] + "; see --help");
-  settings.inputs.assign (given.paths.begin (), given.paths.end () - 1);
-  settings.output = given.paths.back ();
-  if (settings.output.empty ())
-    throw UsageError ("OUTPUT is empty; it must be a folder, or a file ending in .ply, .stl or .obj");
-  std::string extension = std::filesystem::path (settings.output).extension ().string ();
-  std::transform (extension.begin (), extension.end (), extension.begin (),
-                  [] (unsigned char c) { return (std::tolower (c)); });
-  if (extension == ".pcd")
-    throw UsageError ("OUTPUT is " + settings.output +
-                      ", a point cloud; it must be a folder, or a file ending in .ply, .stl or .obj");
-  constexpr std::array<const char*, 10> unwritten{".off",  ".vtk", ".vtp", ".dae", ".glb",
-                                                  ".gltf", ".fbx", ".3ds", ".3mf", ".wrl"};
-  if (std::find (unwritten.begin (), unwritten.end (), extension) != unwritten.end ())
-    throw UsageError ("OUTPUT is " + settings.output +
-                      ", a format that is not written; it must be a folder, or a file ending "
-                      "in .ply, .stl or .obj");
-  const std::string mesh = meshExtension (settings.output);
-  if (!mesh.empty () && !given.format.empty () && given.format != mesh)
-    throw UsageError ("--format " + given.format + " contradicts OUTPUT " + settings.output);
-  settings.format = !mesh.empty () ? mesh : !given.format.empty () ? given.format : "ply";
+  OptionGroup input (app, "Input");
+  input.addFlag ("--world-points", given.reading.world_points, "Points are in the world frame already");
+  input.add ("--viewpoint X,Y,Z", given.viewpoint_values,
+             "Where the sensor stood, for points in the world frame whose header does not say it; once for all views, "
+             "or once for each");
+  input.add ("--intrinsics FX,FY,CX,CY", given.intrinsics,
+             "Camera in pixels, for organised clouds that no pinhole fits");
+  input.add ("--scale FACTOR", given.reading.scale, positiveNumber (),
+             "Multiplies all coordinates: 0.001 for millimetres");
+  input.add ("--object-trajectory ID=FILE", given.trajectory_values,
+             "Poses of object ID in the world, for views in which it moved: lines \"view tx ty tz qx qy qz qw\", views "
+             "from 0; repeatable");
+  input.add ("--free-space VIEW.pcd", given.free_space,
+             "View that shows which space is free and nothing else: its labels and points are not used; numbered after "
+             "the INPUTs; repeatable");
 }
 
 void
-setViewpoints (const Given& given, Settings& settings)
+declareSurroundings (CLI::App& app, Given& given)
 {
-  if (given.viewpoints.empty ())
+  OptionGroup surroundings (app, "Surroundings");
+  surroundings.add (
+      "--plane A,B,C,D", given.plane_values,
+      "Plane a x + b y + c z + d = 0 (world, metres) that no object crosses: a table, a wall; repeatable");
+  surroundings.add ("--obstacle MESH", given.obstacles,
+                    "Mesh (world, metres) that no object enters: .ply, .stl, .obj, .off, .vtk or .vtp; repeatable");
+  surroundings.addFlag ("--no-planes", given.no_planes,
+                        "Do not look for support planes in the background, nor guess them");
+}
+
+void
+declareOutput (CLI::App& app, Given& given)
+{
+  OptionGroup output (app, "Output");
+  output.add ("--format ply|stl|obj", given.format, "Format of the meshes in a folder" + byDefault ("ply"));
+  output.add ("--max-faces N", given.max_faces, wholeRange (4, 2147483647),
+              "Simplify each mesh to at most so many triangles, still closed");
+  output.addFlag ("--save-hull", given.save_hull,
+                  "Write each object's hull: all that may be it, as no view saw it free (_hull)");
+  output.addFlag (
+      "--save-bounds", given.save_bounds,
+      "Write bounds for collision checks: matter surely there (_inner), and the mesh with its hull (_outer)");
+  output.addFlag ("--save-sdf", given.save_sdf, "Write each object's signed distance beside its mesh (.vti)");
+  output.add ("--json FILE", given.json, "Write a summary for programs");
+}
+
+void
+setPaths (Settings& settings)
+{
+  requirePaths (settings.paths, "INPUT.pcd", "OUTPUT", true);
+  settings.inputs.assign (settings.paths.begin (), settings.paths.end () - 1);
+  settings.output = settings.paths.back ();
+  const std::string possible = "; it must be a folder, or a file ending in .ply, .stl or .obj";
+  if (settings.output.empty ())
+    throw UsageError ("OUTPUT is empty" + possible);
+  const std::string extension = lowerCaseExtension (settings.output);
+  if (extension == ".pcd")
+    throw UsageError ("OUTPUT is " + settings.output + ", a point cloud" + possible);
+  constexpr std::array<const char*, 10> unwritten{".off",  ".vtk", ".vtp", ".dae", ".glb",
+                                                  ".gltf", ".fbx", ".3ds", ".3mf", ".wrl"};
+  if (std::find (unwritten.begin (), unwritten.end (), extension) != unwritten.end ())
+    throw UsageError ("OUTPUT is " + settings.output + ", a format that is not written" + possible);
+  const std::string mesh = meshExtension (settings.output);
+  if (!mesh.empty () && !settings.format.empty () && settings.format != mesh)
+    throw UsageError ("--format " + settings.format + " contradicts OUTPUT " + settings.output);
+  if (!mesh.empty () || settings.format.empty ())
+    settings.format = mesh.empty () ? "ply" : mesh;
+}
+
+void
+setPlanes (Settings& settings)
+{
+  if (settings.plane_values.empty ())
     return;
-  const auto viewpoints = parseTuples<3> (given.viewpoints);
+  const auto planes = parseTuples<4> (settings.plane_values);
+  if (!planes)
+    throw UsageError ("--plane must be four numbers a,b,c,d");
+  for (const auto& p : *planes)
+  {
+    settings.planes.emplace_back (p[0], p[1], p[2], p[3]);
+    if (!(settings.planes.back ().head<3> ().norm () > 0.0))
+      throw UsageError ("--plane has the normal 0,0,0; its first three numbers must not all be zero");
+  }
+}
+
+void
+setViewpoints (Settings& settings)
+{
+  if (settings.viewpoint_values.empty ())
+    return;
+  const auto viewpoints = parseTuples<3> (settings.viewpoint_values);
   if (!viewpoints)
     throw UsageError ("--viewpoint must be three numbers x,y,z");
   const std::size_t views = settings.inputs.size () + settings.free_space.size ();
@@ -62,80 +117,80 @@ setViewpoints (const Given& given, Settings& settings)
                       std::to_string (views) + " views; give one for all, or one for each");
 }
 
-Settings
-toSettings (const Given& given)
+void
+interpret (Settings& settings)
 {
-  Settings settings;
-  if (given.quiet && given.verbose)
-    throw UsageError ("--quiet and --verbose exclude each other");
-  setPaths (given, settings);
-  settings.json = given.json;
-  settings.save_sdf = given.save_sdf;
-  if (given.max_faces)
-    settings.max_faces = static_cast<std::size_t> (*given.max_faces);
-  settings.free_space = given.free_space;
-  settings.obstacles = given.obstacles;
-  settings.object_trajectories = parseObjectFiles ("--object-trajectory", given.object_trajectories);
-  settings.verbosity = given.quiet ? Verbosity::Quiet : given.verbose ? Verbosity::Verbose : Verbosity::Normal;
-  settings.preset = given.preset;
-  settings.method = methodOptions (given);
-  settings.method.compute_hull = given.save_hull;
-  settings.method.compute_bounds = given.save_bounds;
+  setPaths (settings);
+  settings.object_trajectories = parseObjectFiles ("--object-trajectory", settings.trajectory_values);
+  settings.method = methodOptions (settings);
+  settings.method.compute_hull = settings.save_hull;
+  settings.method.compute_bounds = settings.save_bounds;
   settings.constraints = constraintsOf (settings.method);
-  if (!given.planes.empty ())
-  {
-    const auto planes = parseTuples<4> (given.planes);
-    if (!planes)
-      throw UsageError ("--plane must be four numbers a,b,c,d");
-    for (const auto& p : *planes)
-    {
-      settings.planes.emplace_back (p[0], p[1], p[2], p[3]);
-      if (!(settings.planes.back ().head<3> ().norm () > 0.0))
-        throw UsageError ("--plane has the normal 0,0,0; its first three numbers must not all be zero");
-    }
-  }
-  settings.reading.world_points = given.world_points;
+  setPlanes (settings);
   settings.reading.threads = settings.method.threads;
   settings.reading.max_memory_bytes = settings.method.max_memory_bytes;
-  override (settings.reading.scale, given.scale);
-  setViewpoints (given, settings);
-  if (!given.intrinsics.empty ())
-  {
-    const auto intrinsics = parseTuples<4> (given.intrinsics);
-    if (!intrinsics || intrinsics->size () != 1 || !((*intrinsics)[0][0] > 0.0) || !((*intrinsics)[0][1] > 0.0))
-      throw UsageError ("--intrinsics must be four numbers fx,fy,cx,cy with positive fx and fy");
-    settings.reading.intrinsics = (*intrinsics)[0];
-  }
-  return (settings);
+  setViewpoints (settings);
+  settings.reading.intrinsics = parseIntrinsics (settings.intrinsics);
 }
 
 } // namespace
 
+const ProgramText&
+completionText ()
+{
+  static const ProgramText text = {
+      "pcl_cosection",
+      "complete the hidden surfaces of objects in point clouds",
+      "pcl_cosection [OPTIONS] INPUT.pcd [INPUT.pcd ...] OUTPUT",
+      "Completes the hidden surfaces of objects in point clouds: closed meshes that keep clear of seen free space and "
+      "of each other.",
+      {"INPUT is a view: points in the sensor frame; VIEWPOINT of the header is the pose of the sensor. An integer "
+       "field \"label\" says which object a point belongs to, 0 is the background; without it, everything is object 1. "
+       "Organised clouds, and others that were seen from their viewpoint, also show which space is free.",
+       "OUTPUT ending in .ply, .stl or .obj is one file with the meshes of all objects, without the background; "
+       "anything else is a folder for background.ply and object_LABEL.ply. Meshes are in metres, in the world frame, "
+       "or in the frame of an object that has a trajectory."},
+      {
+          {"pcl_cosection table.pcd meshes",
+           "every labelled object of one organised view, and the table, into the folder meshes"},
+          {"pcl_cosection front.pcd left.pcd cup.ply",
+           "one object seen in two views (VIEWPOINT in each header), as one closed mesh"},
+          {"pcl_cosection --free-space other.pcd table.pcd carved",
+           "one labelled view, and what another one, without labels, saw free"},
+          {"pcl_cosection --plane 0,0,1,0 --voxel-size 0.003 cropped.pcd cup.stl",
+           "what stands on a known plane, z = 0 in the world, with voxels of 3 mm"},
+          {"pcl_cosection --obstacle shelf.off --max-faces 2000 cropped.pcd cup.obj",
+           "what stands in a shelf whose model is known, in a mesh of 2000 triangles"},
+          {"pcl_cosection --scale 0.001 --save-bounds scan_mm.pcd part.ply",
+           "a scan in millimetres; also part_inner.ply and part_outer.ply"},
+          {"pcl_cosection --preset paper --constraints hull --json s.json table.pcd out",
+           "the parameters of the publication, without the intersection constraint"},
+      },
+      {"voxel-size = 0.004", "plane = [0, 0, 1, 0.72]"},
+  };
+  return (text);
+}
+
+void
+declareOptions (CLI::App& app, Given& given)
+{
+  declareInput (app, given);
+  declareSurroundings (app, given);
+  declareVolumeOptions (app, given, "twice the smallest object's");
+  declareMethodOptions (app, given);
+  declareOutput (app, given);
+  declareGeneralOptions (app, "pcl_cosection", given);
+}
+
 std::string
 meshExtension (const std::string& path)
 {
-  std::string extension = std::filesystem::path (path).extension ().string ();
-  std::transform (extension.begin (), extension.end (), extension.begin (),
-                  [] (unsigned char c) { return (std::tolower (c)); });
-  const bool known = extension == ".ply" || extension == ".stl" || extension == ".obj";
-  return (known ? extension.substr (1) : "");
+  const std::string extension = lowerCaseExtension (path);
+  return (extension == ".ply" || extension == ".stl" || extension == ".obj" ? extension.substr (1) : "");
 }
 
 std::optional<Settings>
 parseCommandLine (int argc, const char* const* argv)
 {
-  Given given;
-  CLI::App app;
-  declareOptions (app, given);
-  if (!parseArguments (app, completionText (), argc, argv))
-    return (std::nullopt);
-  try
-  {
-    preferCommandLine ({argv + 1, argv + argc}, given);
-    return (toSettings (given));
-  }
-  catch (const InvalidArgument& error)
-  {
-    throw UsageError (error.what ());
-  }
+  return (readCommandLine<Settings> (argc, argv, completionText (), declareOptions, interpret));
 }

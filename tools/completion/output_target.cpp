@@ -3,91 +3,90 @@
 
 #include "output_files.h"
 
-#include "pcl_cosection/common/atomic_file.h"
+#include "pcl_cosection/common/files.h"
 #include <pcl/cosection/common/error.h>
 #include <pcl/cosection/io/mesh_io.h>
 
-#include <unistd.h>
-
 #include <algorithm>
-#include <cerrno>
-#include <cstdlib>
-#include <cstring>
 #include <filesystem>
 
 namespace fs = std::filesystem;
 using namespace pcl::cosection;
 
-OutputFolder::OutputFolder (const std::string& path)
+/** \brief A folder, made with those above it if there is none. What was made is removed again if nothing was written
+ * into it. */
+class OutputFolder
 {
-  if (path.empty ())
-    return;
-  std::error_code failure;
-  if (fs::exists (path, failure) && !fs::is_directory (path, failure))
-    throw IoError (path + ": is a file; OUTPUT must be a folder, or a file ending in .ply, .stl or .obj");
-  fs::path folder = followLinks (path);
-  if (!folder.has_filename ()) // "a/b/" is "a/b"
-    folder = folder.parent_path ();
-  std::vector<fs::path> missing;
-  for (; !folder.empty () && !fs::exists (folder, failure); folder = folder.parent_path ())
-    missing.push_back (folder);
-  std::reverse (missing.begin (), missing.end ());
-  for (const fs::path& name : missing)
+public:
+  explicit OutputFolder (const std::string& path)
   {
-    if (fs::create_directory (name, failure))
-      made_.push_back (name);
-    if (!failure)
-      continue;
-    removeMade ();
-    throw IoError (path + ": the folder cannot be made: " + failure.message ());
+    std::error_code failure;
+    if (fs::exists (path, failure) && !fs::is_directory (path, failure))
+      throw IoError (path + ": is a file; OUTPUT must be a folder, or a file ending in .ply, .stl or .obj");
+    fs::path folder = followLinks (path);
+    if (!folder.has_filename ()) // "a/b/" is "a/b"
+      folder = folder.parent_path ();
+    std::vector<fs::path> missing;
+    for (; !folder.empty () && !fs::exists (folder, failure); folder = folder.parent_path ())
+      missing.push_back (folder);
+    std::reverse (missing.begin (), missing.end ());
+    for (const fs::path& name : missing)
+    {
+      if (fs::create_directory (name, failure))
+        made_.push_back (name);
+      if (!failure)
+        continue;
+      removeMade ();
+      throw IoError (path + ": the folder cannot be made: " + failure.message ());
+    }
   }
-}
 
-OutputFolder::~OutputFolder ()
-{
-  removeMade ();
-}
+  OutputFolder (const OutputFolder&) = delete;
+  OutputFolder& operator= (const OutputFolder&) = delete;
+  ~OutputFolder () { removeMade (); }
 
-void
-OutputFolder::removeMade () const
-{
-  std::error_code ignored;
-  for (auto name = made_.rbegin (); name != made_.rend (); ++name)
-    fs::remove (*name, ignored); // fails if it is not empty, as it should
-}
+private:
+  void removeMade () const
+  {
+    std::error_code ignored;
+    for (auto name = made_.rbegin (); name != made_.rend (); ++name)
+      fs::remove (*name, ignored); // fails if it is not empty, as it should
+  }
+
+  std::vector<fs::path> made_; ///< the deepest one last
+};
 
 OutputTarget::OutputTarget (const Settings& settings)
-    : output_ (settings.output)
-    , format_ (settings.format)
-    , save_sdf_ (settings.save_sdf)
-    , save_more_ (settings.method.compute_hull || settings.method.compute_bounds)
+    : settings_ (settings)
     , single_file_ (!meshExtension (settings.output).empty ())
-    , folder_ (single_file_ ? "" : settings.output)
+    , folder_ (single_file_ ? nullptr : std::make_shared<OutputFolder> (settings.output))
 {
   if (!settings.json.empty ())
     requireWritable (settings.json);
   if (single_file_)
-    requireWritable (output_);
+    requireWritable (settings_.output);
   else
-    requireWritableFolder (output_, output_);
-  refuseToOverwrite (settings);
+    requireWritableFolder (settings_.output, settings_.output);
+  refuseToOverwrite ();
 }
 
 bool
 OutputTarget::isOwnName (const fs::path& name) const
 {
   const std::string stem = name.stem ().string (), extension = name.extension ().string ();
-  const bool is_sdf = save_sdf_ && extension == ".vti";
-  const bool is_beside = is_sdf || (save_more_ && extension == "." + format_);
+  const bool is_sdf = settings_.save_sdf && extension == ".vti";
+  const bool is_beside = is_sdf ||
+                         ((settings_.save_hull || settings_.save_bounds) && extension == "." + settings_.format);
   if (single_file_)
-    return (name == fs::path (output_).filename () || (is_beside && stem.rfind (fs::path (output_).stem (), 0) == 0));
-  return ((is_sdf || extension == "." + format_) && (stem == "background" || stem.rfind ("object_", 0) == 0));
+    return (name == fs::path (settings_.output).filename () ||
+            (is_beside && stem.rfind (fs::path (settings_.output).stem (), 0) == 0));
+  return ((is_sdf || extension == "." + settings_.format) && (stem == "background" || stem.rfind ("object_", 0) == 0));
 }
 
 void
-OutputTarget::refuseToOverwrite (const Settings& settings) const
+OutputTarget::refuseToOverwrite () const
 {
-  const fs::path folder = single_file_ ? folderOf (output_) : fs::path (output_);
+  const fs::path folder = single_file_ ? folderOf (settings_.output) : fs::path (settings_.output);
   std::vector<fs::path> own; // what is there already, be it a link
   std::error_code unreadable;
   for (const auto& entry : fs::directory_iterator (folder, unreadable))
@@ -99,20 +98,20 @@ OutputTarget::refuseToOverwrite (const Settings& settings) const
     return ((isOwnName (target.filename ()) && isSameFile (folderOf (target).string (), folder.string ())) ||
             std::any_of (own.begin (), own.end (), same));
   };
-  std::vector<std::string> inputs = settings.inputs;
-  inputs.insert (inputs.end (), settings.free_space.begin (), settings.free_space.end ());
-  inputs.insert (inputs.end (), settings.obstacles.begin (), settings.obstacles.end ());
-  for (const auto& [label, file] : settings.object_trajectories)
+  std::vector<std::string> inputs = settings_.inputs;
+  inputs.insert (inputs.end (), settings_.free_space.begin (), settings_.free_space.end ());
+  inputs.insert (inputs.end (), settings_.obstacles.begin (), settings_.obstacles.end ());
+  for (const auto& [label, file] : settings_.object_trajectories)
     inputs.push_back (file);
   for (const std::string& input : inputs)
   {
     if (isOwn (input))
-      throw UsageError (input + ": is an input that " + output_ + " would overwrite; give another OUTPUT");
-    if (!settings.json.empty () && isSameFile (input, settings.json))
+      throw UsageError (input + ": is an input that " + settings_.output + " would overwrite; give another OUTPUT");
+    if (!settings_.json.empty () && isSameFile (input, settings_.json))
       throw UsageError (input + ": is an input that --json would overwrite; give another file");
   }
-  if (!settings.json.empty () && isOwn (settings.json))
-    throw UsageError ("--json " + settings.json + ": is a file for a mesh; give another one");
+  if (!settings_.json.empty () && isOwn (settings_.json))
+    throw UsageError ("--json " + settings_.json + ": is a file for a mesh; give another one");
 }
 
 std::vector<std::string>
@@ -129,22 +128,22 @@ OutputTarget::write (const SceneResult& result) const
     if (!object.error.empty ())
       continue;
     else if (!single_file_)
-      save (object.mesh, objectPath (object, format_, only));
+      save (object.mesh, objectPath (object, settings_.format, only));
     else if (all.empty ())
       all = object.mesh;
     else
       appendMesh (all, object.mesh);
   if (single_file_ && !all.empty ())
-    save (all, output_);
+    save (all, settings_.output);
   if (!single_file_ && !result.background.empty ())
-    save (result.background, (fs::path (output_) / ("background." + format_)).string ());
+    save (result.background, (fs::path (settings_.output) / ("background." + settings_.format)).string ());
   for (const ObjectResult& object : result.objects)
     for (const auto& [mesh, suffix] : {std::pair{&object.hull, "_hull"}, std::pair{&object.inner_bound, "_inner"},
                                        std::pair{&object.outer_bound, "_outer"}})
       if (!mesh->empty ())
-        save (*mesh, objectPath (object, format_, only, suffix));
+        save (*mesh, objectPath (object, settings_.format, only, suffix));
   for (const ObjectResult& object : result.objects) // last: they are large, and the disk may be full
-    if (save_sdf_ && object.error.empty () && object.signed_distance)
+    if (settings_.save_sdf && object.error.empty () && object.signed_distance)
     {
       files.push_back (objectPath (object, "vti", only));
       saveSignedDistance (*object.signed_distance, files.back ());
@@ -158,8 +157,8 @@ OutputTarget::objectPath (const ObjectResult& object, const std::string& extensi
 {
   const std::string name = "object_" + std::to_string (object.id) + suffix;
   if (!single_file_)
-    return ((fs::path (output_) / (name + "." + extension)).string ());
-  fs::path path (output_);
+    return ((fs::path (settings_.output) / (name + "." + extension)).string ());
+  fs::path path (settings_.output);
   path.replace_extension ();
   return (path.string () + (only ? suffix : "_" + name) + "." + extension);
 }

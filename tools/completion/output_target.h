@@ -6,26 +6,9 @@
 #include <pcl/cosection/surface/co_section.h>
 
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <vector>
-
-/** \brief A folder, made with those above it if there is none. */
-class OutputFolder
-{
-public:
-  /** \param[in] path empty: none is needed \throws pcl::cosection::IoError */
-  explicit OutputFolder (const std::string& path);
-
-  /** \brief Removes the folders again that were made here, if nothing was written into them. */
-  ~OutputFolder ();
-  OutputFolder (const OutputFolder&) = delete;
-  OutputFolder& operator= (const OutputFolder&) = delete;
-
-private:
-  void removeMade () const;
-
-  std::vector<std::filesystem::path> made_; ///< the deepest one last
-};
 
 /** \brief The files that a run writes.
  *
@@ -34,7 +17,7 @@ class OutputTarget
 {
 public:
   /** \brief Check that everything can be written, before the work; makes the folder if there is none
-   * (and removes it again if nothing is written into it).
+   * (and removes it again if nothing is written into it). Keeps a reference.
    * \throws UsageError if an input would be overwritten, or a mesh by the summary
    * \throws pcl::cosection::IoError */
   explicit OutputTarget (const Settings& settings);
@@ -47,15 +30,12 @@ private:
   /** \brief Whether a file of this name in the folder of the output may be written. */
   bool isOwnName (const std::filesystem::path& name) const;
 
-  void refuseToOverwrite (const Settings& settings) const;
+  void refuseToOverwrite () const;
 
   std::string objectPath (const pcl::cosection::ObjectResult& object, const std::string& extension, bool only,
                           const std::string& suffix = "") const;
 
-  const std::string output_;
-  const std::string format_;
-  const bool save_sdf_;
-  const bool save_more_; ///< hulls or bounds
+  const Settings& settings_;
   const bool single_file_;
-  const OutputFolder folder_;
+  const std::shared_ptr<const class OutputFolder> folder_;
 };

@@ -1,15 +1,15 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "scene_input.h"
 
-#include "object_poses.h"
-
-#include "pcl_cosection/common/trimmed_box.h"
+#include "pcl_cosection/common/boxes.h"
 
 #include <pcl/cosection/common/error.h>
 #include <pcl/cosection/io/mesh_io.h>
 #include <pcl/cosection/io/pcd_view.h>
+#include <pcl/cosection/io/trajectory.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <filesystem>
 #include <iterator>
@@ -27,6 +27,7 @@ constexpr double whole_image_share = 0.5;   ///< of the pixels; an object that w
 constexpr std::size_t image_pixels = 70000; ///< ... or is smaller than a camera's image
 constexpr double long_object = 5.0;         ///< metres; what is longer is hardly one thing in metres
 constexpr double outlier_share = 0.02;      ///< of its points, on each side
+constexpr double same_view = 0.5;           ///< largest difference of a stamp from the number of its view
 constexpr float large_extent = 100.0f;      ///< metres; what is larger is probably not in metres
 
 std::string
@@ -112,6 +113,50 @@ transform (const Eigen::Isometry3d& T_object_world, std::vector<OrientedPoint>& 
   }
 }
 
+/** \brief T_world_object of each view by label, not finite where the trajectory has none. */
+using ObjectPoses = std::map<int, std::vector<Eigen::Isometry3d>>;
+
+/** \brief Read trajectories whose stamps are views. */
+ObjectPoses
+readPoses (const std::map<int, std::string>& files, std::size_t views)
+{
+  Eigen::Isometry3d unknown;
+  unknown.matrix ().setConstant (std::numeric_limits<double>::quiet_NaN ());
+  ObjectPoses T_world_object;
+  for (const auto& [label, file] : files)
+  {
+    std::vector<Eigen::Isometry3d>& poses = T_world_object[label];
+    poses.assign (views, unknown);
+    std::vector<double> nearest (views, same_view);
+    bool any = false;
+    for (const StampedPose& stamped : loadTrajectory (file))
+    {
+      const double view = std::round (stamped.stamp);
+      if (!(view >= 0.0 && view < static_cast<double> (views)))
+        continue;
+      const auto v = static_cast<std::size_t> (view);
+      const double difference = std::abs (stamped.stamp - view);
+      if (difference >= nearest[v])
+        continue;
+      nearest[v] = difference;
+      poses[v] = stamped.pose;
+      any = true;
+    }
+    if (!any)
+      throw IoError (file + ": has no pose for any of the " + std::to_string (views) +
+                     " views; its stamps must be their numbers, 0 for the first INPUT");
+  }
+  return (T_world_object);
+}
+
+/** \brief Empty for an object that rests. */
+std::vector<Eigen::Isometry3d>
+posesOf (const ObjectPoses& poses, std::uint32_t label)
+{
+  const auto found = poses.find (static_cast<int> (label));
+  return (found == poses.end () ? std::vector<Eigen::Isometry3d> () : found->second);
+}
+
 using Labels = std::map<std::uint32_t, LabelledView::Points>;
 
 /** \brief Add what a view has of each label, in the frame of the object. */
@@ -121,7 +166,7 @@ merge (const std::string& path, std::size_t index, LabelledView& view, const Obj
 {
   for (auto& [label, object] : view.objects)
   {
-    const std::vector<Eigen::Isometry3d>& T_world_object = poses.of (static_cast<int> (label));
+    const std::vector<Eigen::Isometry3d> T_world_object = posesOf (poses, label);
     if (!T_world_object.empty () && !T_world_object[index].matrix ().allFinite ())
     {
       warnings.push_back (path + ": its points of label " + std::to_string (label) +
@@ -184,46 +229,41 @@ readScene (const Settings& settings, const ProgressCallback& progress)
   for (const std::string& file : settings.obstacles)
     scene.obstacles.push_back (readObstacle (file, scene.warnings));
   const std::size_t files = settings.inputs.size () + settings.free_space.size ();
-  const ObjectPoses poses (settings.object_trajectories, files);
-  std::size_t begun = 0;
-  const auto report = [&] (const std::string& path) {
-    if (!progress ("reading " + std::filesystem::path (path).filename ().string (),
-                   static_cast<double> (begun++) / static_cast<double> (files)))
-      throw Cancelled ("interrupted");
-  };
+  const ObjectPoses poses = readPoses (settings.object_trajectories, files);
   Labels labels;
-  for (std::size_t i = 0; i < settings.inputs.size (); ++i)
-  {
-    report (settings.inputs[i]);
-    LabelledView view = readPcdView (settings.inputs[i], optionsOf (i, settings, labels));
+  std::size_t begun = 0;
+  const auto read = [&] (const std::string& path) {
+    if (!progress ("reading " + std::filesystem::path (path).filename ().string (),
+                   static_cast<double> (begun) / static_cast<double> (files)))
+      throw Cancelled ("interrupted");
+    LabelledView view = readPcdView (path, optionsOf (begun++, settings, labels));
     std::move (view.warnings.begin (), view.warnings.end (), std::back_inserter (scene.warnings));
+    return (view);
+  };
+  for (const std::string& path : settings.inputs)
+  {
+    LabelledView view = read (path);
     if (isWholeImage (view))
-      scene.warnings.push_back (settings.inputs[i] +
-                                ": has no field label, so all that it shows is taken as one object; " +
+      scene.warnings.push_back (path + ": has no field label, so all that it shows is taken as one object; " +
                                 "if it shows several, give them labels or cut one out");
-    merge (settings.inputs[i], i, view, poses, labels, scene.warnings);
+    merge (path, begun - 1, view, poses, labels, scene.warnings);
     if (view.view)
       scene.views.push_back (std::move (*view.view));
     else if (!poses.empty ()) // they come one per view
       scene.views.push_back (silentView ());
   }
-  for (std::size_t i = 0; i < settings.free_space.size (); ++i)
+  for (const std::string& path : settings.free_space)
   {
-    const std::string& path = settings.free_space[i];
-    report (path);
-    LabelledView view = readPcdView (path, optionsOf (settings.inputs.size () + i, settings, labels));
-    std::move (view.warnings.begin (), view.warnings.end (), std::back_inserter (scene.warnings));
+    LabelledView view = read (path);
     if (!view.view)
       throw DegenerateInput (path +
                              ": shows no free space: it is no image of a pinhole camera, nor seen from its VIEWPOINT");
     scene.free_space.push_back (std::move (*view.view));
   }
 
-  std::vector<int> found;
   for (auto& [label, object] : labels)
   {
     const int id = static_cast<int> (label);
-    found.push_back (id);
     if (object.points.size () < min_points)
       scene.warnings.push_back (tooFew (label, object));
     else if (label == 0)
@@ -232,7 +272,7 @@ readScene (const Settings& settings, const ProgressCallback& progress)
     {
       if (const auto warning = tooLong (label, object.points))
         scene.warnings.push_back (*warning);
-      scene.objects[id] = {id, std::move (object.points), poses.of (id)};
+      scene.objects[id] = {id, std::move (object.points), posesOf (poses, label)};
     }
   }
   if (scene.objects.empty ())
@@ -246,7 +286,8 @@ readScene (const Settings& settings, const ProgressCallback& progress)
   }
   if (const auto warning = smallBackground (scene))
     scene.warnings.push_back (*warning);
-  for (const std::string& warning : poses.unused (found))
-    scene.warnings.push_back (warning);
+  for (const auto& [label, file] : settings.object_trajectories)
+    if (labels.count (static_cast<std::uint32_t> (label)) == 0)
+      scene.warnings.push_back (file + ": is not used, there is no object " + std::to_string (label));
   return (scene);
 }

@@ -1,29 +1,63 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "terminal.h"
+#include "arguments.h"
+#include "evaluation_commands.h"
 
-#include <CLI/CLI.hpp>
+#include <pcl/cosection/evaluation/mesh_comparison.h>
 
 #include <cstdint>
-#include <optional>
+#include <functional>
+#include <memory>
 #include <string>
-#include <vector>
+
+class OptionGroup;
 
 /** \brief The options that all commands have. */
-struct CommonOptions
+struct CommonOptions : GeneralOptions
 {
-  std::vector<std::string> paths;
   std::string json, csv;
-  std::optional<int> threads;
-  bool verbose = false, quiet = false;
 };
 
 /** \brief Declare --json and --csv in the group "Output", and the general ones. */
 void declareCommonOptions (CLI::App& app, CommonOptions& given);
 
-/** \brief \throws UsageError unless there are two paths, which are not empty, and the verbosity is clear
- * \param[in] first, second what the paths are */
-void checkCommonOptions (const CommonOptions& given, const std::string& first, const std::string& second);
+/** \brief Those of the commands that compare surfaces. */
+struct SurfaceOptions
+{
+  long samples = 10000;
+  std::uint64_t seed = 0;
+  double f_threshold_m = 0.01;
+  double penetration_voxel_m = 0.0; ///< 0: by the size of the meshes
 
-Verbosity verbosityOf (const CommonOptions& given);
+  pcl::cosection::MeshComparisonOptions comparison (int threads) const;
+};
+
+/** \brief Declare --samples, --seed and --f-threshold. */
+void declareSurfaceOptions (OptionGroup& group, SurfaceOptions& given);
+
+/** \brief Do the work of a command. If it throws, {"error": ...} is left in the JSON file, if that was asked for.
+ * \param[in] first, second what the two paths are \param[in] check \throws UsageError
+ * \param[in] work returns whether every file that is there could be read
+ * \throws UsageError, pcl::cosection::Error */
+void executeCommand (const CommonOptions& given, const std::string& first, const std::string& second,
+                     const std::function<void ()>& check, const std::function<bool ()>& work, Terminal& terminal);
+
+/** \brief A command from its parts, see executeCommand (). */
+template <typename Settings>
+EvaluationCommand
+makeCommand (const std::string& word, const ProgramText& text, const std::string& first, const std::string& second,
+             void (*declare) (CLI::App&, Settings&), void (*check) (const Settings&),
+             bool (*work) (const Settings&, Terminal&))
+{
+  const auto for_help = std::make_shared<Settings> (); // options refer to it
+  const auto run = [=, &text] (int argc, const char* const* argv, Terminal& terminal) {
+    CLI::App app;
+    Settings settings;
+    declare (app, settings);
+    if (parseArguments (app, text, argc, argv))
+      executeCommand (
+          settings, first, second, [&] { check (settings); }, [&] { return (work (settings, terminal)); }, terminal);
+  };
+  return {word, &text, [=] (CLI::App& app) { declare (app, *for_help); }, run};
+}

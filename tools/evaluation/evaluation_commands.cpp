@@ -1,23 +1,34 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "evaluation_commands.h"
 
-#include "evaluation_text.h"
+#include "help_text.h"
 #include "mesh_command.h"
 #include "run_command.h"
 #include "trajectory_command.h"
 
 #include <deque>
-#include <memory>
 
 namespace {
 
-/** \brief Settings that live as long as the process, for the options refer to them. */
-template <typename Settings>
-std::function<void (CLI::App&)>
-declaring (void (*declare) (CLI::App&, Settings&))
+const ProgramText&
+evaluationText ()
 {
-  const auto settings = std::make_shared<Settings> ();
-  return ([declare, settings] (CLI::App& app) { declare (app, *settings); });
+  static const ProgramText text = {
+      "pcl_cosection_evaluate",
+      "compare reconstructed meshes and trajectories with the truth",
+      "pcl_cosection_evaluate mesh|trajectory [OPTIONS] TRUTH ESTIMATE\n       pcl_cosection_evaluate run [OPTIONS] "
+      "OUTPUT DATASET",
+      "Compares reconstructed meshes, trajectories and whole runs with the truth.",
+      {"Lengths are in metres in options, JSON and CSV, and in millimetres on the terminal. An unknown command, file "
+       "or option is refused; what cannot be measured is said."},
+      {
+          {"pcl_cosection_evaluate mesh truth.ply cup.ply", "how near a mesh is to the true one"},
+          {"pcl_cosection_evaluate trajectory groundtruth.txt camera.txt", "how near a trajectory is to the true one"},
+          {"pcl_cosection_evaluate run output dataset", "all objects, the camera and the background of a run"},
+      },
+      {"f-threshold = 0.005", "threads = 2"},
+  };
+  return (text);
 }
 
 /** \brief The commands with their options. */
@@ -42,11 +53,7 @@ struct DeclaredCommands
 const std::vector<EvaluationCommand>&
 evaluationCommands ()
 {
-  static const std::vector<EvaluationCommand> commands = {
-      {"mesh", &meshText (), declaring (declareMeshOptions), runMeshCommand},
-      {"trajectory", &trajectoryText (), declaring (declareTrajectoryOptions), runTrajectoryCommand},
-      {"run", &runText (), declaring (declareRunOptions), runRunCommand},
-  };
+  static const std::vector<EvaluationCommand> commands = {meshCommand (), trajectoryCommand (), runCommand ()};
   return (commands);
 }
 

@@ -17,7 +17,8 @@ struct EvaluationCommand
   std::string word;
   const ProgramText* text;
   std::function<void (CLI::App& app)> declare; ///< its options, for help only: their values go nowhere
-  void (*run) (int argc, const char* const* argv, Terminal& terminal);
+  /** \brief \throws UsageError, pcl::cosection::Error */
+  std::function<void (int argc, const char* const* argv, Terminal& terminal)> run;
 };
 
 const std::vector<EvaluationCommand>& evaluationCommands ();

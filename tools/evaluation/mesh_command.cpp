@@ -1,36 +1,51 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "mesh_command.h"
 
-#include "arguments.h"
-#include "evaluation_json.h"
-#include "evaluation_text.h"
-#include "failure_json.h"
+#include "evaluation_output.h"
 #include "mesh_surroundings.h"
 #include "option_values.h"
 #include "output_files.h"
-#include "text_table.h"
 
+#include "pcl_cosection/evaluation/mesh_surface.h"
 #include "pcl_cosection/evaluation/pictures/error_picture.h"
 #include "pcl_cosection/evaluation/rigid_alignment.h"
-#include "pcl_cosection/evaluation/surface_distance.h"
-#include "pcl_cosection/evaluation/surface_samples.h"
 #include "pcl_cosection/rendering/picture.h"
 #include <pcl/cosection/common/error.h>
 #include <pcl/cosection/evaluation/mesh_comparison.h>
 #include <pcl/cosection/io/mesh_io.h>
 
+#include <pcl/common/time.h>
+
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 
 using namespace pcl::cosection;
 
 namespace {
 
-double
-now ()
+const ProgramText&
+meshText ()
 {
-  return (std::chrono::duration<double> (std::chrono::steady_clock::now ().time_since_epoch ()).count ());
+  static const ProgramText text = {
+      "pcl_cosection_evaluate mesh",
+      "accuracy, completeness, F-score and topology of a mesh",
+      "pcl_cosection_evaluate mesh [OPTIONS] TRUTH RECONSTRUCTION",
+      "Compares a reconstructed mesh with the true one.",
+      {"Accuracy is the mean distance of points of the reconstruction to the truth, completeness that of points of the "
+       "truth to the reconstruction: points are uniform by area, distances exact. Both meshes are in one frame and in "
+       "metres: .ply, .stl, .obj, .off, .vtk or .vtp. They may be open; the volume is that of closed meshes."},
+      {
+          {"pcl_cosection_evaluate mesh truth.ply cup.ply", "the table on the terminal"},
+          {"pcl_cosection_evaluate mesh --error-picture cup.png truth.ply cup.ply",
+           "also a picture of where the errors are"},
+          {"pcl_cosection_evaluate mesh --obstacle table.ply truth.ply cup.ply",
+           "also how deep the cup is in the table"},
+          {"pcl_cosection_evaluate mesh --pose 1,0,0,0,0,0,1 --align icp truth.ply cup.ply",
+           "a mesh in another frame, whose pose is known roughly"},
+      },
+      {"samples = 100000", "obstacle = table.ply"},
+  };
+  return (text);
 }
 
 Eigen::Isometry3d
@@ -130,8 +145,7 @@ print (const MeshSettings& settings, const MeshReport& report, Terminal& termina
   };
   row ("accuracy", report.comparison.accuracy);
   row ("completeness", report.comparison.completeness);
-  for (const std::string& text : table.lines ())
-    terminal.result (text);
+  table.print (terminal);
   terminal.result ("F-score at " + toShortText (1000.0 * settings.f_threshold_m) +
                    " mm: " + toText (report.comparison.f_score) + " (precision " +
                    toText (report.comparison.precision) + ", recall " + toText (report.comparison.recall) + ")");
@@ -149,12 +163,12 @@ reportJson (const MeshSettings& settings, const MeshReport& report)
   Json json;
   addComparison (report.comparison, settings.f_threshold_m, json);
   json["closed"] = report.reconstruction.topology.closed_manifold;
-  json["volume_error"] = report.volume_error ? Json (*report.volume_error) : Json ();
+  json["volume_error"] = orNull (report.volume_error);
   addSurroundings (report.surroundings, json);
   json["truth"] = toJson (report.truth);
-  json["truth"]["file"] = settings.common.paths[0];
+  json["truth"]["file"] = settings.paths[0];
   json["reconstruction"] = toJson (report.reconstruction);
-  json["reconstruction"]["file"] = settings.common.paths[1];
+  json["reconstruction"]["file"] = settings.paths[1];
   json["T_truth_reconstruction"] = toJson (report.T_truth_reconstruction);
   json["parameters"] = {{"samples", settings.samples},
                         {"seed", settings.seed},
@@ -172,10 +186,9 @@ toCsv (const MeshSettings& settings, const MeshReport& report)
   const MeshComparison& c = report.comparison;
   return (csvRow ({"truth", "reconstruction", "accuracy_m", "completeness_m", "f_score", "precision", "recall",
                    "closed", "volume_error", "penetration_m", "free_space_violation"}) +
-          csvRow ({settings.common.paths[0], settings.common.paths[1], toField (c.accuracy.mean),
-                   toField (c.completeness.mean), toField (c.f_score), toField (c.precision), toField (c.recall),
-                   report.reconstruction.topology.closed_manifold ? "1" : "0",
-                   report.volume_error ? toField (*report.volume_error) : "",
+          csvRow ({settings.paths[0], settings.paths[1], toField (c.accuracy.mean), toField (c.completeness.mean),
+                   toField (c.f_score), toField (c.precision), toField (c.recall),
+                   report.reconstruction.topology.closed_manifold ? "1" : "0", toField (report.volume_error),
                    report.surroundings.obstacles.empty () ? "" : toField (report.surroundings.penetration_m ()),
                    report.surroundings.free_space ? toField (report.surroundings.free_space->share) : ""}));
 }
@@ -196,34 +209,34 @@ writeErrors (const MeshSettings& settings, const MeshReport& report, const Trian
     options.front = frontFor (options.up);
     options.reconstruction_caption += ", " + inMillimetres (report.comparison.accuracy.mean) + " mm on average";
     options.truth_caption += ", " + inMillimetres (report.comparison.completeness.mean) + " mm on average";
-    options.threads = settings.common.threads.value_or (0);
+    options.threads = settings.threads;
     writePng (drawErrorPicture (truth, reconstruction, options), settings.error_picture);
     terminal.result ("wrote " + settings.error_picture);
   }
   if (!settings.error_mesh.empty ())
   {
-    reconstruction.colours = errorColours (
-        vertexDistances (reconstruction, SurfaceDistance (truth), settings.common.threads.value_or (0)), error_max_m);
+    reconstruction.colours = errorColours (vertexDistances (reconstruction, SurfaceDistance (truth), settings.threads),
+                                           error_max_m);
     saveMesh (reconstruction, settings.error_mesh);
     terminal.result ("wrote " + settings.error_mesh + ", red at " + inMillimetres (error_max_m) + " mm");
   }
 }
 
-void
+bool
 compare (const MeshSettings& settings, Terminal& terminal)
 {
-  const double begin = now ();
+  const pcl::StopWatch total;
   MeshReport report;
-  const TriangleMesh truth = loadMesh (settings.common.paths[0]);
-  TriangleMesh reconstruction = loadMesh (settings.common.paths[1]);
-  report.read_s = now () - begin;
+  const TriangleMesh truth = loadMesh (settings.paths[0]);
+  TriangleMesh reconstruction = loadMesh (settings.paths[1]);
+  report.read_s = total.getTimeSeconds ();
 
   report.T_truth_reconstruction = poseOf (settings.pose);
   reconstruction = transformMesh (std::move (reconstruction), report.T_truth_reconstruction);
   report.warnings = frameWarnings (summarizeMesh (truth), summarizeMesh (reconstruction));
   if (settings.align == "icp")
   {
-    report.refinement = alignByIcp (truth, settings.common.threads.value_or (0), reconstruction);
+    report.refinement = alignByIcp (truth, settings.threads, reconstruction);
     report.T_truth_reconstruction = report.refinement->correction * report.T_truth_reconstruction;
     if (report.refinement->limited)
       report.warnings.emplace_back (
@@ -233,40 +246,32 @@ compare (const MeshSettings& settings, Terminal& terminal)
   report.reconstruction = summarizeMesh (reconstruction);
   noteVolumes (report);
 
-  const double compare_begin = now ();
-  MeshComparisonOptions options;
-  options.samples = static_cast<std::size_t> (settings.samples);
-  options.seed = settings.seed;
-  options.f_threshold_m = settings.f_threshold_m;
-  options.threads = settings.common.threads.value_or (0);
-  report.comparison = compareMeshes (truth, reconstruction, options);
-  report.compare_s = now () - compare_begin;
+  const pcl::StopWatch comparing;
+  report.comparison = compareMeshes (truth, reconstruction, settings.comparison (settings.threads));
+  report.compare_s = comparing.getTimeSeconds ();
   report.surroundings = measureSurroundings (settings, reconstruction, report.warnings);
 
   for (const std::string& warning : report.warnings)
     terminal.warning (warning);
   print (settings, report, terminal);
   writeErrors (settings, report, truth, reconstruction, terminal);
-  report.total_s = now () - begin;
+  report.total_s = total.getTimeSeconds ();
   terminal.detail ("read " + toText (report.read_s) + " s, compared " + toText (report.compare_s) + " s, all " +
                    toText (report.total_s) + " s");
-  if (!settings.common.json.empty ())
-    saveJson (reportJson (settings, report), settings.common.json);
-  if (!settings.common.csv.empty ())
-    saveText (toCsv (settings, report), settings.common.csv);
+  if (!settings.json.empty ())
+    saveJson (reportJson (settings, report), settings.json);
+  if (!settings.csv.empty ())
+    saveText (toCsv (settings, report), settings.csv);
+  return (true);
 }
 
 void
 check (const MeshSettings& settings)
 {
-  checkCommonOptions (settings.common, "TRUTH", "RECONSTRUCTION");
-  std::vector<std::string> inputs = settings.common.paths;
+  std::vector<std::string> inputs = settings.paths;
   inputs.insert (inputs.end (), settings.obstacles.begin (), settings.obstacles.end ());
   inputs.insert (inputs.end (), settings.views.begin (), settings.views.end ());
-  refuseToOverwrite (inputs, {settings.common.json, settings.common.csv, settings.error_mesh, settings.error_picture});
-  const auto endsWith = [] (const std::string& name, const std::string& end) {
-    return (name.size () > end.size () && name.compare (name.size () - end.size (), end.size (), end) == 0);
-  };
+  refuseToOverwrite (inputs, {settings.json, settings.csv, settings.error_mesh, settings.error_picture});
   if (!settings.error_mesh.empty () && !endsWith (settings.error_mesh, ".ply"))
     throw UsageError ("--error-mesh must end in .ply, for colours; it is " + settings.error_mesh);
   if (!settings.error_picture.empty () && !endsWith (settings.error_picture, ".png"))
@@ -275,17 +280,39 @@ check (const MeshSettings& settings)
   upOf (settings.up);
 }
 
+void
+declareMeshOptions (CLI::App& app, MeshSettings& settings)
+{
+  OptionGroup comparison (app, "Comparison"), surroundings (app, "Surroundings"), output (app, "Output");
+  declareSurfaceOptions (comparison, settings);
+  comparison.add ("--pose TX,TY,TZ,QX,QY,QZ,QW", settings.pose,
+                  "Pose of the reconstruction in the frame of the truth (default: the same frame)");
+  comparison.add ("--align none|icp", settings.align,
+                  "Refine the pose, by point-to-plane ICP, before comparing (default: none)");
+  surroundings.add ("--obstacle MESH", settings.obstacles,
+                    "Mesh (frame of the truth) that the reconstruction should not enter; repeatable");
+  surroundings.add ("--penetration-voxel METRES", settings.penetration_voxel_m, positiveNumber (),
+                    "Voxels of the volume inside obstacles (default: 1/128 of the smaller box)");
+  surroundings.add ("--free-space VIEW.pcd", settings.views,
+                    "Organised PCD view whose VIEWPOINT is the sensor in the frame of the truth: no surface should be "
+                    "in front of what it measured; repeatable");
+  surroundings.add ("--free-space-tolerance METRES", settings.free_space_tolerance_m, numberRange (0, unlimited),
+                    "How far in front is no violation" + byDefault (settings.free_space_tolerance_m));
+  output.add ("--error-picture FILE.png", settings.error_picture,
+              "Draw both meshes, coloured by their distance to each other");
+  output.add ("--error-mesh FILE.ply", settings.error_mesh,
+              "Write the reconstruction, its vertices coloured by their distance to the truth");
+  output.add ("--error-max METRES", settings.error_max_m, positiveNumber (),
+              "Error at the red end of the colours (default: where 95 % of both meshes are below, rounded up)");
+  output.add ("--up X,Y,Z", settings.up, "What points up in the picture (default: 0,0,1)");
+  declareCommonOptions (app, settings);
+}
+
 } // namespace
 
-void
-runMeshCommand (int argc, const char* const* argv, Terminal& terminal)
+EvaluationCommand
+meshCommand ()
 {
-  CLI::App app;
-  MeshSettings settings;
-  declareMeshOptions (app, settings);
-  if (!parseArguments (app, meshText (), argc, argv))
-    return;
-  check (settings);
-  terminal.setVerbosity (verbosityOf (settings.common));
-  withFailureJson (settings.common.json, [&] { compare (settings, terminal); });
+  return (
+      makeCommand<MeshSettings> ("mesh", meshText (), "TRUTH", "RECONSTRUCTION", declareMeshOptions, check, compare));
 }

@@ -1,9 +1,7 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "mesh_surroundings.h"
 
-#include "text_table.h"
-
-#include "pcl_cosection/evaluation/surface_samples.h"
+#include "pcl_cosection/evaluation/mesh_surface.h"
 #include <pcl/cosection/common/error.h>
 #include <pcl/cosection/evaluation/penetration.h>
 #include <pcl/cosection/io/mesh_io.h>
@@ -24,7 +22,7 @@ measureObstacles (const MeshSettings& settings, const TriangleMesh& reconstructi
   PenetrationOptions options;
   options.seed = settings.seed;
   options.voxel_size_m = settings.penetration_voxel_m;
-  options.threads = settings.common.threads.value_or (0);
+  options.threads = settings.threads;
   const PenetrationBody body (reconstruction, options);
   for (const std::string& file : settings.obstacles)
   {
@@ -47,7 +45,7 @@ measureFreeSpace (const MeshSettings& settings, const TriangleMesh& reconstructi
 {
   std::vector<DepthView> views;
   PcdViewOptions options;
-  options.threads = settings.common.threads.value_or (0);
+  options.threads = settings.threads;
   for (const std::string& file : settings.views)
   {
     LabelledView view = readPcdView (file, options);
@@ -112,7 +110,7 @@ addSurroundings (const Surroundings& surroundings, Json& json)
       json["obstacles"].push_back ({{"file", obstacle.file},
                                     {"open", obstacle.is_open},
                                     {"penetration_m", obstacle.depth_m},
-                                    {"penetration_m3", obstacle.volume_m3 ? Json (*obstacle.volume_m3) : Json ()}});
+                                    {"penetration_m3", orNull (obstacle.volume_m3)}});
   }
   if (surroundings.free_space)
     json["free_space"] = {{"violation", surroundings.free_space->share},

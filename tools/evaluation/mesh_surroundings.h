@@ -1,9 +1,8 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "evaluation_json.h"
+#include "evaluation_output.h"
 #include "mesh_command.h"
-#include "terminal.h"
 
 #include "pcl_cosection/evaluation/free_space_violation.h"
 

@@ -4,53 +4,52 @@
 #include "ignored_area.h"
 #include "method_options.h"
 #include "network_options.h"
-#include "terminal.h"
 
+#include <pcl/cosection/fusion/frame_segmenter.h>
 #include <pcl/cosection/fusion/sequence_fusion.h>
 
-#include <array>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
-/** \brief What the user of pcl_cosection_fusion asked for. */
-struct FusionSettings
+/** \brief Options as the user gives them. */
+struct GivenFusion : GivenMethod
 {
-  std::string dataset;
-  std::string output;
+  std::vector<std::string> intrinsics, trajectory_values;
+  std::string format, depth_dir, mask_ids, frames;
+  std::string camera_trajectory; ///< file; empty: the poses that come with the images, or tracking
+  std::string masks;             ///< folder; empty: there are no objects
+  std::string segmentation;      ///< what finds objects without masks; empty: nothing
+  std::string json;              ///< a further summary
+  GivenNetwork given_network;
+  GivenIgnoredArea given_area;
+  std::optional<double> depth_scale, max_depth;
+  std::optional<int> keyframe_every, max_views;
+  bool save_keyframes = false, deterministic = false, live = false;
+};
+
+/** \brief What the user of pcl_cosection_fusion asked for: the options, and what they mean together. */
+struct FusionSettings : GivenFusion
+{
+  std::string dataset, output;
   pcl::cosection::SequenceSource source;
-  std::string camera_trajectory;                  ///< file; empty: the poses that come with the images, or tracking
   std::map<int, std::string> object_trajectories; ///< files, by id
-  std::string masks;                              ///< folder; empty: there are no objects
-  bool ids_per_frame = false;                     ///< asked for: a number of a mask means another object in the next
-  std::string segmentation;                       ///< what finds objects without masks; empty: nothing
-  std::optional<NetworkSettings> network;         ///< that finds them
+  std::optional<NetworkSettings> network;         ///< that finds objects
   IgnoredArea ignored;                            ///< of every image
-  std::string preset;                             ///< empty: our own defaults
-  bool save_keyframes = false;
-  bool live = false;
-  std::string json; ///< a further summary
-  Verbosity verbosity = Verbosity::Normal;
   pcl::cosection::FusionOptions fusion;
 };
 
 /** \brief What pcl_cosection_fusion says about itself. */
 const ProgramText& fusionText ();
 
-/** \brief Options as the user gives them. */
-struct GivenFusion : GivenMethod
-{
-  std::vector<std::string> paths, intrinsics, object_trajectories;
-  std::string format, depth_dir, camera_trajectory, masks, mask_ids, segmentation, frames, json;
-  GivenNetwork network;
-  GivenIgnoredArea ignored;
-  std::optional<double> depth_scale, max_depth;
-  std::optional<int> keyframe_every, max_views;
-  bool save_keyframes = false, deterministic = false, live = false, verbose = false, quiet = false;
-};
-
 void declareFusionOptions (CLI::App& app, GivenFusion& given);
 
 /** \brief Read the command line. \return nothing if all that was asked for was printed \throws UsageError */
 std::optional<FusionSettings> parseFusionCommandLine (int argc, const char* const* argv);
+
+/** \brief What finds objects where there are no masks. \param[in] name a value of --segmentation \param[in] threads 0:
+ * all \param[in] network for mask-rcnn \throws UsageError, pcl::cosection::IoError */
+std::shared_ptr<pcl::cosection::FrameSegmenter> makeSegmenter (const std::string& name, int threads,
+                                                               const std::optional<NetworkSettings>& network);

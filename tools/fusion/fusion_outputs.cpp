@@ -1,7 +1,6 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "fusion_outputs.h"
 
-#include "class_summary.h"
 #include "method_json.h"
 #include "output_files.h"
 
@@ -20,21 +19,6 @@ using Json = nlohmann::ordered_json;
 namespace fs = std::filesystem;
 
 namespace {
-
-void
-makeFolder (const fs::path& folder)
-{
-  std::error_code failure, ignored;
-  fs::create_directories (folder, failure);
-  if (!fs::is_directory (folder, ignored))
-    throw IoError (folder.string () + ": the folder cannot be made" + (failure ? ": " + failure.message () : ""));
-}
-
-bool
-endsWith (const std::string& text, const std::string& ending)
-{
-  return (text.size () >= ending.size () && text.compare (text.size () - ending.size (), ending.size (), ending) == 0);
-}
 
 /** \brief The stamp as trajectories have it. */
 std::string
@@ -65,20 +49,41 @@ isTrajectory (const std::string& name)
   return (name == "camera.txt" || (name.rfind ("object_", 0) == 0 && endsWith (name, ".txt")));
 }
 
-/** \brief Remove the files that \a isOurs, and the folder if nothing is left in it. */
-template <typename Predicate>
-void
-removeFiles (const fs::path& folder, Predicate&& isOurs)
+std::vector<fs::path>
+entriesOf (const fs::path& folder)
 {
   std::error_code ignored;
-  std::vector<fs::path> ours;
+  std::vector<fs::path> entries;
   for (fs::directory_iterator entry (folder, ignored), end; entry != end; entry.increment (ignored))
-    if (isTemporary (entry->path ().filename ().string ()) || isOurs (entry->path ().filename ().string ()))
-      ours.push_back (entry->path ());
-  for (const fs::path& file : ours)
-    fs::remove (file, ignored);
+    entries.push_back (entry->path ());
+  return (entries);
+}
+
+/** \brief Remove the files that \a isOurs, and the folder if nothing is left in it. */
+void
+removeFiles (const fs::path& folder, bool (*isOurs) (const std::string& name))
+{
+  std::error_code ignored;
+  for (const fs::path& file : entriesOf (folder))
+    if (isTemporary (file.filename ().string ()) || isOurs (file.filename ().string ()))
+      fs::remove (file, ignored);
   if (!fs::is_symlink (folder, ignored))
     fs::remove (folder, ignored); // fails if it is not empty, as it should
+}
+
+void
+removeEarlierRun (const fs::path& folder)
+{
+  std::error_code ignored;
+  removeFiles (folder / "mesh", isMesh);
+  removeFiles (folder / "trajectory", isTrajectory);
+  for (const fs::path& keyframe : entriesOf (folder / "keyframes"))
+    removeFiles (keyframe, isMesh);
+  fs::remove (folder / "keyframes", ignored);
+  fs::remove (folder / "summary.json", ignored);
+  for (const fs::path& file : entriesOf (folder))
+    if (isTemporary (file.filename ().string ()))
+      fs::remove (file, ignored);
 }
 
 /** \brief Files that are read; empty names are left out. */
@@ -113,41 +118,22 @@ checkJson (const FusionSettings& settings)
     requireWritable (settings.json);
 }
 
-/** \brief How the images were read, for who reads them again; what was found out is empty. */
-Json
-imagesJson (const SequenceSource& source)
-{
-  static const std::map<SequenceFormat, std::string> names = {{SequenceFormat::Detect, ""},
-                                                              {SequenceFormat::CoFusion, "cofusion"},
-                                                              {SequenceFormat::Tum, "tum"},
-                                                              {SequenceFormat::SevenScenes, "7scenes"}};
-  return {{"format", names.at (source.format)},
-          {"depth_dir", source.depth_folder},
-          {"depth_scale", source.depth_scale},
-          {"intrinsics", source.intrinsics ? Json (*source.intrinsics) : Json ()}};
-}
-
-Json
-cameraJson (const PinholeCamera& camera)
-{
-  return {{"width", camera.width}, {"height", camera.height}, {"fx", camera.fx},
-          {"fy", camera.fy},       {"cx", camera.cx},         {"cy", camera.cy}};
-}
-
 Json
 parameters (const FusionSettings& settings)
 {
   Json result;
   result["dataset"] = settings.dataset;
-  result["images"] = imagesJson (settings.source);
+  const SequenceSource& source = settings.source; // for who reads the images again; what was found out is empty
+  result["images"] = {{"format", settings.format},
+                      {"depth_dir", source.depth_folder},
+                      {"depth_scale", source.depth_scale},
+                      {"intrinsics", source.intrinsics ? Json (*source.intrinsics) : Json ()}};
   result["camera_trajectory"] = settings.camera_trajectory;
   result["object_trajectories"] = Json::object ();
   for (const auto& [id, file] : settings.object_trajectories)
     result["object_trajectories"][std::to_string (id)] = file;
   result["masks"] = settings.masks;
-  result["mask_ids"] = settings.fusion.front_end.persistent_ids ? "persistent"
-                       : settings.ids_per_frame                 ? "per-frame"
-                                                                : "";
+  result["mask_ids"] = settings.mask_ids;
   result["segmentation"] = settings.segmentation;
   if (settings.network)
     result["network"] = networkJson (*settings.network);
@@ -165,17 +151,24 @@ parameters (const FusionSettings& settings)
 
 } // namespace
 
-FusionOutputs::FusionOutputs (const FusionSettings& settings) : folder_ (settings.output), json_ (settings.json)
+Json
+cameraJson (const PinholeCamera& camera)
+{
+  return {{"width", camera.width}, {"height", camera.height}, {"fx", camera.fx},
+          {"fy", camera.fy},       {"cx", camera.cx},         {"cy", camera.cy}};
+}
+
+FusionOutputs::FusionOutputs (const FusionSettings& settings) : settings_ (settings), folder_ (settings.output)
 {
   std::vector<std::string> inputs = inputFiles (settings);
   inputs.insert (inputs.end (), {settings.dataset, settings.masks});
   for (const std::string& input : inputs)
-    if (!input.empty () && isWithin (input, folder_))
-      throw UsageError ("OUTPUT " + folder_ + " would overwrite the input " + input + "; give another folder");
+    if (!input.empty () && isWithin (input, settings.output))
+      throw UsageError ("OUTPUT " + settings.output + " would overwrite the input " + input + "; give another folder");
   std::error_code failure;
   if (fs::exists (folder_, failure) && !fs::is_directory (folder_, failure))
-    throw IoError (folder_ + ": is a file; OUTPUT must be a folder");
-  if (!json_.empty ())
+    throw IoError (settings.output + ": is a file; OUTPUT must be a folder");
+  if (!settings.json.empty ())
     checkJson (settings);
 }
 
@@ -183,38 +176,17 @@ void
 FusionOutputs::begin ()
 {
   makeFolder (folder_);
-  requireWritableFolder (folder_, folder_);
-  if (!json_.empty ())
-    requireWritable (json_); // it may be in that folder
-  removeEarlierRun ();
+  requireWritableFolder (settings_.output, settings_.output);
+  if (!settings_.json.empty ())
+    requireWritable (settings_.json); // it may be in that folder
+  removeEarlierRun (folder_);
   begun_ = true;
-}
-
-void
-FusionOutputs::removeEarlierRun () const
-{
-  std::error_code ignored;
-  const fs::path folder (folder_);
-  removeFiles (folder / "mesh", isMesh);
-  removeFiles (folder / "trajectory", isTrajectory);
-  std::vector<fs::path> keyframes;
-  for (fs::directory_iterator entry (folder / "keyframes", ignored), end; entry != end; entry.increment (ignored))
-    keyframes.push_back (entry->path ());
-  for (const fs::path& keyframe : keyframes)
-    removeFiles (keyframe, isMesh);
-  fs::remove (folder / "keyframes", ignored);
-  std::vector<fs::path> files{folder / "summary.json"};
-  for (fs::directory_iterator entry (folder, ignored), end; entry != end; entry.increment (ignored))
-    if (isTemporary (entry->path ().filename ().string ()))
-      files.push_back (entry->path ());
-  for (const fs::path& file : files)
-    fs::remove (file, ignored);
 }
 
 void
 FusionOutputs::writeKeyframe (const KeyframeReport& keyframe) const
 {
-  const fs::path folder = fs::path (folder_) / "keyframes" / folderName (keyframe.stamp);
+  const fs::path folder = folder_ / "keyframes" / folderName (keyframe.stamp);
   makeFolder (folder);
   if (!keyframe.scene.background.empty ())
     saveMesh (keyframe.scene.background, (folder / "background.ply").string ());
@@ -227,8 +199,8 @@ std::vector<std::string>
 FusionOutputs::write (const FusionResult& result) const
 {
   std::vector<std::string> files;
-  const fs::path mesh = fs::path (folder_) / "mesh";
-  const fs::path trajectory = fs::path (folder_) / "trajectory";
+  const fs::path mesh = folder_ / "mesh";
+  const fs::path trajectory = folder_ / "trajectory";
   makeFolder (mesh);
   makeFolder (trajectory);
   const auto write = [&] (const fs::path& file, auto&& save) {
@@ -254,7 +226,7 @@ FusionOutputs::write (const FusionResult& result) const
 }
 
 void
-FusionOutputs::writeSummary (const FusionSettings& settings, const FusionResult& result) const
+FusionOutputs::writeSummary (const FusionResult& result) const
 {
   Json summary;
   summary["timings_s"] = result.timings_s;
@@ -265,7 +237,7 @@ FusionOutputs::writeSummary (const FusionSettings& settings, const FusionResult&
   summary["keyframes"] = result.keyframes;
   summary["kept_keyframes"] = result.kept_keyframes;
   summary["camera"] = cameraJson (result.intrinsics);
-  summary["parameters"] = parameters (settings);
+  summary["parameters"] = parameters (settings_);
   summary["objects"] = Json::array ();
   summary["failed"] = Json::array ();
   for (const ObjectResult& object : result.scene.objects)
@@ -274,7 +246,7 @@ FusionOutputs::writeSummary (const FusionSettings& settings, const FusionResult&
       Json entry = objectJson (object);
       entry.erase ("label");
       entry["mask_ids"] = Json::array ();
-      if (!result.tracked || settings.fusion.front_end.persistent_ids)
+      if (!result.tracked || settings_.fusion.front_end.persistent_ids)
         entry["mask_ids"].push_back (object.id); // else they differ from mask to mask
       const auto fused = result.objects.find (object.id);
       entry["frames_tracked"] = fused == result.objects.end () ? 0 : fused->second.trajectory.size ();
@@ -296,28 +268,14 @@ FusionOutputs::writeSummary (const FusionSettings& settings, const FusionResult&
   if (result.tracked)
     summary["events"] = result.events;
   summary["warnings"] = result.warnings;
-  saveJson (summary, (fs::path (folder_) / "summary.json").string ());
-  if (!json_.empty ())
-    saveJson (summary, json_);
+  saveJson (summary, (folder_ / "summary.json").string ());
+  if (!settings_.json.empty ())
+    saveJson (summary, settings_.json);
 }
 
 void
-FusionOutputs::writeFailure (const FusionSettings& settings, const std::string& error) const
-try
+FusionOutputs::writeFailure (const std::string& error) const
 {
-  Json summary;
-  summary["error"] = error;
-  summary["timings_s"] = Json::object ();
-  summary["parameters"] = parameters (settings);
-  summary["objects"] = Json::array ();
-  summary["failed"] = Json::array ();
-  summary["warnings"] = Json::array ();
-  if (!json_.empty ())
-    saveJson (summary, json_);
-  if (begun_)
-    saveJson (summary, (fs::path (folder_) / "summary.json").string ());
-}
-catch (const std::exception&)
-{
-  // the error itself is reported
+  saveFailure (error, parameters (settings_), {},
+               {settings_.json, begun_ ? (folder_ / "summary.json").string () : std::string ()});
 }

@@ -5,15 +5,20 @@
 
 #include <pcl/cosection/fusion/sequence_fusion.h>
 
-#include <map>
+#include <nlohmann/json_fwd.hpp>
+
+#include <filesystem>
 #include <string>
 #include <vector>
+
+/** \brief For summaries: "width", "height", "fx", "fy", "cx", "cy". */
+nlohmann::ordered_json cameraJson (const pcl::cosection::PinholeCamera& camera);
 
 /** \brief The folder that a run writes. Each file is whole or not there. */
 class FusionOutputs
 {
 public:
-  /** \brief Nothing is touched yet.
+  /** \brief Nothing is touched yet. Keeps a reference.
    * \throws UsageError if an input would be overwritten \throws pcl::cosection::IoError if OUTPUT is a file, or the
    * further summary cannot be written */
   explicit FusionOutputs (const FusionSettings& settings);
@@ -29,15 +34,13 @@ public:
   std::vector<std::string> write (const pcl::cosection::FusionResult& result) const;
 
   /** \brief Write summary.json. \throws pcl::cosection::IoError */
-  void writeSummary (const FusionSettings& settings, const pcl::cosection::FusionResult& result) const;
+  void writeSummary (const pcl::cosection::FusionResult& result) const;
 
   /** \brief Write a summary of a run that failed as a whole; into the folder only if the run had begun. */
-  void writeFailure (const FusionSettings& settings, const std::string& error) const;
+  void writeFailure (const std::string& error) const;
 
 private:
-  void removeEarlierRun () const;
-
-  const std::string folder_;
-  const std::string json_; ///< a further summary, or empty
+  const FusionSettings& settings_;
+  const std::filesystem::path folder_;
   bool begun_ = false;
 };

@@ -1,9 +1,12 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "live_view.h"
 
+#include "fusion_outputs.h"
 #include "output_files.h"
 
 #include <pcl/cosection/common/error.h>
+#include <pcl/cosection/io/mesh_io.h>
+#include <pcl/cosection/io/trajectory.h>
 
 #include <nlohmann/json.hpp>
 
@@ -12,13 +15,16 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <chrono>
+#include <cmath>
 #include <csignal>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <limits>
 #include <utility>
 
 namespace fs = std::filesystem;
@@ -30,6 +36,97 @@ const char* const viewer = "pcl_cosection_viewer";
 constexpr std::size_t background_parts = 16;
 constexpr std::chrono::milliseconds snapshot_every (200), look_every (20);
 constexpr std::chrono::seconds patience (60); ///< until the window is there
+constexpr int columns = 64;                   ///< of the background's mesh
+constexpr double deepest_jump = 0.06;         ///< between neighbours on one surface, of their depth
+constexpr TriangleMesh::Colour no_colour = {200, 200, 200};
+constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max ();
+
+void
+addNormals (TriangleMesh& mesh)
+{
+  mesh.normals.assign (mesh.vertices.size (), Eigen::Vector3f::Zero ());
+  for (const TriangleMesh::Triangle& t : mesh.triangles)
+  {
+    const Eigen::Vector3f normal = (mesh.vertices[t[1]] - mesh.vertices[t[0]])
+                                       .cross (mesh.vertices[t[2]] - mesh.vertices[t[0]]);
+    for (const std::uint32_t vertex : t)
+      mesh.normals[vertex] += normal;
+  }
+  for (Eigen::Vector3f& normal : mesh.normals)
+    normal = normal.norm () > 0.0f ? Eigen::Vector3f (normal.normalized ()) : Eigen::Vector3f::UnitZ ();
+}
+
+/** \brief A mesh in the world of the background's pixels in a frame, at a stride. */
+TriangleMesh
+backgroundOf (const FrameReport& report, const PinholeCamera& camera)
+{
+  TriangleMesh mesh;
+  if (!report.instances)
+    return (mesh);
+  const Image<float>& depth = report.frame.depth;
+  const int step = std::max (1, depth.width / columns);
+  const int width = depth.width / step, height = depth.height / step;
+  std::vector<std::uint32_t> vertex_of (static_cast<std::size_t> (width) * height, none);
+  std::vector<float> z_of;
+  for (int v = 0; v < height; ++v)
+    for (int u = 0; u < width; ++u)
+    {
+      const float z = depth.at (u * step, v * step);
+      if (!std::isfinite (z) || (!report.instances->pixels.empty () && report.instances->at (u * step, v * step) != 0))
+        continue;
+      vertex_of[static_cast<std::size_t> (v) * width + u] = static_cast<std::uint32_t> (mesh.vertices.size ());
+      mesh.vertices.push_back ((report.T_world_camera * camera.unproject (u * step, v * step, z)).cast<float> ());
+      mesh.colours.push_back (report.frame.colour.pixels.empty () ? no_colour
+                                                                  : report.frame.colour.at (u * step, v * step));
+      z_of.push_back (z);
+    }
+  const auto add = [&] (std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+    if (a == none || b == none || c == none)
+      return;
+    const auto [least, most] = std::minmax ({z_of[a], z_of[b], z_of[c]});
+    if (most - least < deepest_jump * most)
+      mesh.triangles.push_back ({a, b, c});
+  };
+  for (int v = 0; v + 1 < height; ++v)
+    for (int u = 0; u + 1 < width; ++u)
+    {
+      const std::size_t n = static_cast<std::size_t> (v) * width + u;
+      // Counter-clockwise for the camera, whose y points down.
+      add (vertex_of[n], vertex_of[n + width], vertex_of[n + 1]);
+      add (vertex_of[n + 1], vertex_of[n + width], vertex_of[n + width + 1]);
+    }
+  addNormals (mesh);
+  return (mesh);
+}
+
+/** \brief Write what has changed, in the layout of a run; each file is whole. */
+void
+writeLiveScene (const LiveScene& scene, const std::string& folder)
+{
+  const fs::path mesh = fs::path (folder) / "mesh", trajectory = fs::path (folder) / "trajectory";
+  const auto write = [&mesh] (const TriangleMesh& surface, const std::string& name) {
+    if (!surface.empty ())
+      saveMesh (surface, (mesh / name).string ());
+  };
+  for (const auto& [id, surface] : scene.seen)
+    write (surface, "object_" + std::to_string (id) + "_tsdf.ply");
+  for (const auto& [id, surface] : scene.completed)
+    write (surface, "object_" + std::to_string (id) + ".ply");
+  if (scene.changed_background)
+  {
+    TriangleMesh all;
+    for (const TriangleMesh& part : scene.background)
+      if (all.vertices.empty ())
+        all = part;
+      else
+        appendMesh (all, part);
+    write (all, "background.ply");
+  }
+  for (const auto& [id, poses] : scene.objects)
+    saveTrajectory (poses, (trajectory / ("object_" + std::to_string (id) + ".txt")).string ());
+  if (!scene.camera.empty ()) // last: its time shows that there is something new
+    saveTrajectory (scene.camera, (trajectory / "camera.txt").string ());
+}
 
 std::string
 makeTemporaryFolder ()
@@ -83,14 +180,7 @@ LiveView::LiveView (const std::string& dataset, const PinholeCamera& camera, con
   {
     fs::create_directory (fs::path (folder_) / "mesh");
     fs::create_directory (fs::path (folder_) / "trajectory");
-    const nlohmann::ordered_json summary = {{"camera",
-                                             {{"width", camera.width},
-                                              {"height", camera.height},
-                                              {"fx", camera.fx},
-                                              {"fy", camera.fy},
-                                              {"cx", camera.cx},
-                                              {"cy", camera.cy}}},
-                                            {"parameters", {{"dataset", dataset}}}};
+    const nlohmann::ordered_json summary = {{"camera", cameraJson (camera)}, {"parameters", {{"dataset", dataset}}}};
     saveJson (summary, (fs::path (folder_) / "summary.json").string ());
     start (output);
     waitUntilReady ();
@@ -205,10 +295,7 @@ LiveView::show (const FrameReport& report)
   for (const auto& [id, pose] : report.T_world_object)
     scene_.objects[id].push_back ({report.frame.stamp, pose});
   for (auto& [id, mesh] : seen)
-  {
     scene_.seen[id] = std::move (mesh);
-    scene_.changed_seen.insert (id);
-  }
   if (!background.empty ())
   {
     scene_.background.push_back (std::move (background));
@@ -228,10 +315,7 @@ LiveView::show (const KeyframeReport& report)
   const std::lock_guard<std::mutex> lock (mutex_);
   for (const ObjectResult& object : report.scene.objects)
     if (object.error.empty ())
-    {
       scene_.completed[object.id] = object.mesh;
-      scene_.changed_completed.insert (object.id);
-    }
   is_new_ = true;
   changed_.notify_all ();
 }
@@ -242,14 +326,10 @@ LiveView::takeChanges ()
   LiveScene changes;
   changes.camera = scene_.camera;
   changes.objects = scene_.objects;
-  for (const int id : scene_.changed_seen)
-    changes.seen[id] = scene_.seen[id];
-  for (const int id : scene_.changed_completed)
-    changes.completed[id] = scene_.completed[id];
+  std::swap (changes.seen, scene_.seen);
+  std::swap (changes.completed, scene_.completed);
   if (scene_.changed_background)
     changes.background = scene_.background;
-  std::swap (changes.changed_seen, scene_.changed_seen);
-  std::swap (changes.changed_completed, scene_.changed_completed);
   std::swap (changes.changed_background, scene_.changed_background);
   is_new_ = false;
   return (changes);

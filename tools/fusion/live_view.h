@@ -1,15 +1,28 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "live_scene.h"
+#include <pcl/cosection/fusion/sequence_fusion.h>
 
 #include <sys/types.h>
 
 #include <atomic>
 #include <condition_variable>
+#include <deque>
+#include <map>
 #include <mutex>
 #include <string>
 #include <thread>
+#include <vector>
+
+/** \brief What there is to show of a run that goes on. */
+struct LiveScene
+{
+  std::vector<pcl::cosection::StampedPose> camera;
+  std::map<int, std::vector<pcl::cosection::StampedPose>> objects;
+  std::map<int, pcl::cosection::TriangleMesh> seen, completed; ///< that are not written yet, object frame
+  std::deque<pcl::cosection::TriangleMesh> background;         ///< as keyframes see it, world frame
+  bool changed_background = false;
+};
 
 /** \brief Shows a run in a window while it goes on: pcl_cosection_viewer as a process of its own, which reads
  * snapshots. Whatever becomes of the window, the run is not concerned. Snapshots are written in a thread; what comes

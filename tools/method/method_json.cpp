@@ -2,10 +2,12 @@
 #include "method_json.h"
 
 #include "method_options.h"
+#include "output_files.h"
 
 #include <pcl/cosection/common/triangle_mesh.h>
 
-#include <array>
+#include <algorithm>
+#include <utility>
 
 using namespace pcl::cosection;
 using Json = nlohmann::ordered_json;
@@ -22,19 +24,16 @@ toJson (const Eigen::Vector3d& v)
 Json
 provenanceShares (const TriangleMesh& mesh)
 {
-  std::array<std::size_t, 4> counts{};
-  for (const std::uint8_t p : mesh.provenance)
-    if (p < counts.size ())
-      ++counts[p];
-  const auto share = [&] (Provenance p) {
-    return (mesh.provenance.empty () ? 0.0
-                                     : static_cast<double> (counts[static_cast<std::size_t> (p)]) /
-                                           static_cast<double> (mesh.provenance.size ()));
-  };
-  return (Json{{"observed", share (Provenance::Observed)},
-               {"inferred", share (Provenance::Inferred)},
-               {"hull", share (Provenance::Hull)},
-               {"intersection", share (Provenance::Intersection)}});
+  Json shares;
+  for (const auto& [name, kind] :
+       {std::pair ("observed", Provenance::Observed), std::pair ("inferred", Provenance::Inferred),
+        std::pair ("hull", Provenance::Hull), std::pair ("intersection", Provenance::Intersection)})
+    shares[name] = mesh.provenance.empty ()
+                       ? 0.0
+                       : static_cast<double> (std::count (mesh.provenance.begin (), mesh.provenance.end (),
+                                                          static_cast<std::uint8_t> (kind))) /
+                             static_cast<double> (mesh.provenance.size ());
+  return (shares);
 }
 
 } // namespace
@@ -95,4 +94,21 @@ addMethod (const CoSectionOptions& method, Json& result)
   result["tolerance_vox"] = method.solver.tolerance_vox;
   result["threads"] = method.threads;
   result["max_memory_bytes"] = method.max_memory_bytes;
+}
+
+void
+saveFailure (const std::string& error, const Json& parameters, const std::vector<std::string>& warnings,
+             const std::vector<std::string>& files)
+try
+{
+  const Json summary = {{"error", error},           {"timings_s", Json::object ()},
+                        {"parameters", parameters}, {"objects", Json::array ()},
+                        {"failed", Json::array ()}, {"warnings", warnings}};
+  for (const std::string& file : files)
+    if (!file.empty ())
+      saveJson (summary, file);
+}
+catch (const std::exception&)
+{
+  // the error itself is reported
 }

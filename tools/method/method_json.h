@@ -5,6 +5,9 @@
 
 #include <pcl/cosection/surface/co_section.h>
 
+#include <string>
+#include <vector>
+
 nlohmann::ordered_json solverJson (const pcl::cosection::SolverSummary& solver);
 
 /** \brief A completed object in a summary for programs. */
@@ -12,3 +15,8 @@ nlohmann::ordered_json objectJson (const pcl::cosection::ObjectResult& object);
 
 /** \brief Add the parameters of the method. */
 void addMethod (const pcl::cosection::CoSectionOptions& method, nlohmann::ordered_json& parameters);
+
+/** \brief Save the summary of a run that failed as a whole, without objects and with the field error. Does nothing if
+ * it cannot be written. */
+void saveFailure (const std::string& error, const nlohmann::ordered_json& parameters,
+                  const std::vector<std::string>& warnings, const std::vector<std::string>& files);

@@ -13,89 +13,49 @@ using namespace pcl::cosection;
 void
 declareVolumeOptions (CLI::App& app, GivenMethod& given, const std::string& background_default)
 {
-  const std::string group = "Volume";
-  app.add_option ("--voxel-size", given.voxel_size, "Edge of an object's voxels")
-      ->option_text ("METRES")
-      ->check (numberRange (0, unlimited, true))
-      ->group (group);
-  app.add_option ("--resolution", given.resolution,
-                  "Voxels along an object's longest observed side (default: 64, fewer where points are sparse)")
-      ->option_text ("N")
-      ->check (wholeRange (4, 2048))
-      ->group (group);
-  app.add_option ("--padding", given.padding,
-                  "Volume beyond the observed box on each side, as a fraction of its longest side "
-                  "(default: 0, as far as the shape may extend)")
-      ->option_text ("FRACTION")
-      ->check (numberRange (0, 10))
-      ->group (group);
-  app.add_option ("--background-voxel-size", given.background_voxel_size,
-                  "Edge of the background's voxels (default: " + background_default + ")")
-      ->option_text ("METRES")
-      ->check (numberRange (0, unlimited, true))
-      ->group (group);
-  app.add_option ("--max-memory", given.max_memory,
-                  "Refuse clouds and volumes that need more, for example 500M or 2G (default: this machine's memory)")
-      ->option_text ("BYTES")
-      ->group (group);
+  OptionGroup volume (app, "Volume");
+  volume.add ("--voxel-size METRES", given.voxel_size, positiveNumber (), "Edge of an object's voxels");
+  volume.add ("--resolution N", given.resolution, wholeRange (4, 2048),
+              "Voxels along an object's longest observed side (default: 64, fewer where points are sparse)");
+  volume.add ("--padding FRACTION", given.padding, numberRange (0, 10),
+              "Volume beyond the observed box on each side, as a fraction of its longest side (default: 0, as far as "
+              "the shape may extend)");
+  volume.add ("--background-voxel-size METRES", given.background_voxel_size, positiveNumber (),
+              "Edge of the background's voxels (default: " + background_default + ")");
+  volume.add ("--max-memory BYTES", given.max_memory,
+              "Refuse clouds and volumes that need more, for example 500M or 2G (default: this machine's memory)");
 }
 
 void
 declareMethodOptions (CLI::App& app, GivenMethod& given)
 {
   const CoSectionOptions defaults;
-  const std::string group = "Method";
-  app.add_option ("--preset", given.preset, "The parameters of the publication; other options override it")
-      ->option_text ("paper")
-      ->check (oneOf ({"paper"}))
-      ->group (group);
-  app.add_option ("--constraints", given.constraints,
-                  "What bounds hidden surfaces: seen free space (hull), other bodies (intersection)" +
-                      byDefault ("all"))
-      ->option_text ("none|hull|intersection|all")
-      ->check (oneOf ({"none", "hull", "intersection", "all"}))
-      ->group (group);
-  app.add_option ("--alpha", given.alpha, "Weight of smoothness, relative to the voxel" + byDefault (defaults.alpha))
-      ->option_text ("WEIGHT")
-      ->check (numberRange (0, unlimited, true))
-      ->group (group);
-  app.add_option ("--beta-hull", given.beta_hull, "Weight of seen free space" + byDefault (defaults.beta_hull))
-      ->option_text ("WEIGHT")
-      ->check (numberRange (0, unlimited))
-      ->group (group);
-  app.add_option ("--beta-inter", given.beta_inter, "Weight of other bodies" + byDefault (defaults.beta_inter))
-      ->option_text ("WEIGHT")
-      ->check (numberRange (0, unlimited))
-      ->group (group);
-  app.add_option ("--sigma", given.sigma, "Width of a point's influence" + byDefault (defaults.sigma_vox))
-      ->option_text ("VOXELS")
-      ->check (numberRange (0, 10, true))
-      ->group (group);
-  app.add_option ("--weighting", given.weighting, "How points near a voxel are combined" + byDefault ("mean"))
-      ->option_text ("mean|sum")
-      ->check (oneOf ({"mean", "sum"}))
-      ->group (group);
-  app.add_option ("--solver", given.solver, "How the minimum is found" + byDefault ("multigrid"))
-      ->option_text ("multigrid|fast-jacobi")
-      ->check (oneOf ({"multigrid", "fast-jacobi"}))
-      ->group (group);
-  app.add_option ("--max-iterations", given.max_iterations,
-                  "Most iterations on each level" + byDefault (defaults.solver.max_iterations))
-      ->option_text ("N")
-      ->check (wholeRange (1, 10000000))
-      ->group (group);
-  app.add_option ("--tolerance", given.tolerance,
-                  "Stop when the surface is this near to the solution" + byDefault (defaults.solver.tolerance_vox))
-      ->option_text ("VOXELS")
-      ->check (numberRange (0, unlimited, true))
-      ->group (group);
+  OptionGroup method (app, "Method");
+  method.add ("--preset paper", given.preset, oneOf ({"paper"}),
+              "The parameters of the publication; other options override it");
+  method.add ("--constraints none|hull|intersection|all", given.constraints,
+              "What bounds hidden surfaces: seen free space (hull), other bodies (intersection)" + byDefault ("all"));
+  method.add ("--alpha WEIGHT", given.alpha, positiveNumber (),
+              "Weight of smoothness, relative to the voxel" + byDefault (defaults.alpha));
+  method.add ("--beta-hull WEIGHT", given.beta_hull, numberRange (0, unlimited),
+              "Weight of seen free space" + byDefault (defaults.beta_hull));
+  method.add ("--beta-inter WEIGHT", given.beta_inter, numberRange (0, unlimited),
+              "Weight of other bodies" + byDefault (defaults.beta_inter));
+  method.add ("--sigma VOXELS", given.sigma, numberRange (0, 10, true),
+              "Width of a point's influence" + byDefault (defaults.sigma_vox));
+  method.add ("--weighting mean|sum", given.weighting, "How points near a voxel are combined" + byDefault ("mean"));
+  method.add ("--solver multigrid|fast-jacobi", given.solver, "How the minimum is found" + byDefault ("multigrid"));
+  method.add ("--max-iterations N", given.max_iterations, wholeRange (1, 10000000),
+              "Most iterations on each level" + byDefault (defaults.solver.max_iterations));
+  method.add ("--tolerance VOXELS", given.tolerance, positiveNumber (),
+              "Stop when the surface is this near to the solution" + byDefault (defaults.solver.tolerance_vox));
 }
 
-void
-preferCommandLine (const std::vector<std::string>& arguments, GivenMethod& given)
+CoSectionOptions
+methodOptions (GivenMethod given)
 {
   const auto isGiven = [&] (const std::string& name) {
-    return (std::any_of (arguments.begin (), arguments.end (), [&name] (const std::string& argument) {
+    return (std::any_of (given.arguments.begin (), given.arguments.end (), [&name] (const std::string& argument) {
       return (argument.substr (0, argument.find ('=')) == name);
     }));
   };
@@ -104,11 +64,6 @@ preferCommandLine (const std::vector<std::string>& arguments, GivenMethod& given
     given.resolution.reset ();
   if (resolution && !voxel_size)
     given.voxel_size.reset ();
-}
-
-CoSectionOptions
-methodOptions (const GivenMethod& given)
-{
   if (given.voxel_size && given.resolution)
     throw UsageError ("--voxel-size and --resolution exclude each other");
   CoSectionOptions options = given.preset == "paper" ? CoSectionOptions::paper () : CoSectionOptions ();
@@ -124,8 +79,8 @@ methodOptions (const GivenMethod& given)
   override (options.sigma_vox, given.sigma);
   override (options.solver.max_iterations, given.max_iterations);
   override (options.solver.tolerance_vox, given.tolerance);
-  override (options.threads, given.threads);
-  options.solver.threads = options.threads;
+  options.threads = given.threads;
+  options.solver.threads = given.threads;
   if (!given.constraints.empty ())
   {
     options.use_hull = given.constraints == "hull" || given.constraints == "all";

@@ -11,10 +11,10 @@
 #include <vector>
 
 /** \brief Options of the method as the user gave them: what is absent leaves the preset as it is. */
-struct GivenMethod
+struct GivenMethod : GeneralOptions
 {
   std::optional<double> voxel_size, padding, background_voxel_size, alpha, beta_hull, beta_inter, sigma, tolerance;
-  std::optional<int> resolution, max_iterations, threads;
+  std::optional<int> resolution, max_iterations;
   std::string constraints, weighting, solver, preset, max_memory;
   bool no_planes = false;
 };
@@ -26,11 +26,9 @@ void declareVolumeOptions (CLI::App& app, GivenMethod& given, const std::string&
 /** \brief Declare those about the energy and its minimisation, in the group "Method". */
 void declareMethodOptions (CLI::App& app, GivenMethod& given);
 
-/** \brief What the command line says of the size of voxels replaces what the configuration file does. */
-void preferCommandLine (const std::vector<std::string>& arguments, GivenMethod& given);
-
-/** \throws UsageError, pcl::cosection::InvalidArgument */
-pcl::cosection::CoSectionOptions methodOptions (const GivenMethod& given);
+/** \brief The options of the method. What the command line says of the size of voxels replaces what the configuration
+ * file does. \throws UsageError, pcl::cosection::InvalidArgument */
+pcl::cosection::CoSectionOptions methodOptions (GivenMethod given);
 
 /** \brief "none", "hull", "intersection" or "all". */
 std::string constraintsOf (const pcl::cosection::CoSectionOptions& method);

@@ -2,36 +2,24 @@
 #pragma once
 
 #include "arguments.h"
-#include "terminal.h"
 
 #include <optional>
 #include <string>
 #include <vector>
 
 /** \brief What the user of pcl_cosection_report asked for. */
-struct ReportSettings
+struct ReportSettings : GeneralOptions
 {
   std::string run;                 ///< folder
   std::string truth;               ///< dataset; empty: not given
   std::vector<std::string> others; ///< folders of other runs
-  std::string output = "report.html";
-  int threads = 0; ///< 0: all
-  Verbosity verbosity = Verbosity::Normal;
+  std::string output;
 };
 
 /** \brief What pcl_cosection_report says about itself. */
 const ProgramText& reportText ();
 
-/** \brief Options as the user gives them. */
-struct GivenReport
-{
-  std::vector<std::string> paths, others;
-  std::string truth, output;
-  std::optional<int> threads;
-  bool verbose = false, quiet = false;
-};
-
-void declareReportOptions (CLI::App& app, GivenReport& given);
+void declareReportOptions (CLI::App& app, ReportSettings& settings);
 
 /** \brief Read the command line. \return nothing if all that was asked for was printed \throws UsageError, also where
  * the report would be written over an input */

@@ -2,13 +2,49 @@
 #pragma once
 
 #include "run_folder.h"
-#include "run_truth.h"
 
-#include <Eigen/Core>
+#include <pcl/cosection/evaluation/mesh_comparison.h>
+#include <pcl/cosection/evaluation/run_evaluation.h>
 
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
+
+/** \brief The object of a number; null if there is no such object. */
+template <typename Object>
+const Object*
+withId (const std::vector<Object>& objects, int id)
+{
+  const auto found = std::find_if (objects.begin (), objects.end (), [id] (const Object& o) { return (o.id == id); });
+  return (found == objects.end () ? nullptr : &*found);
+}
+
+/** \brief A run beside the truth. */
+struct RunTruth
+{
+  pcl::cosection::SceneRecord truth;
+  pcl::cosection::RunEvaluation evaluation;
+  /** \brief Of the TSDF meshes, in the alignment of the completed ones, by objects' ids. */
+  std::map<int, pcl::cosection::MeshComparison> seen;
+  std::vector<std::string> notes; ///< what of the truth is missing, and the warnings of the evaluation
+};
+
+/** \brief Compare a run with the truth of a dataset.
+ * \throws pcl::cosection::IoError if the dataset has no truth
+ * \throws pcl::cosection::DegenerateInput if the run has no camera that matches */
+RunTruth compareWithTruth (const pcl::cosection::RunScene& run, const std::string& dataset, int threads);
+
+/** \brief Another run, beside the one that a report is about. */
+struct ComparedRun
+{
+  std::string name; ///< its folder
+  RunFolder run;
+  std::optional<pcl::cosection::RunEvaluation> evaluation; ///< against the same truth
+};
 
 /** \brief All that a report is made of. */
 struct ReportContent
@@ -34,5 +70,27 @@ std::string titleOf (const ReportContent& content);
 /** \brief The last part of a path, whatever slashes it ends in. */
 std::string lastPartOf (const std::string& path);
 
-/** \brief "1 frame", "2 frames". */
-std::string counted (std::size_t count, const std::string& what);
+/** \brief The distance of every vertex of a mesh in the frame of the estimated object to the true surface, metres;
+ * empty if there is no counterpart. */
+std::vector<double> errorsOf (const RunTruth& truth, int id, const pcl::cosection::TriangleMesh& mesh, int threads);
+
+/** \brief How an object was seen, in its own frame. */
+struct ObjectDirections
+{
+  Eigen::Vector3d up = Eigen::Vector3d::UnitZ ();
+  Eigen::Vector3d front = Eigen::Vector3d (0.8, -1.0, 0.75).normalized (); ///< to the camera, in the mean
+};
+
+/** \brief Unit vectors, not along each other; the defaults where poses are missing. */
+ObjectDirections directionsOf (const RunObject& object, const RunFolder& run, const Eigen::Vector3d& up);
+
+/** \brief The pose at a stamp, to a millionth; null if there is no such pose. */
+const Eigen::Isometry3d* poseAt (const std::vector<pcl::cosection::StampedPose>& poses, double stamp);
+
+/** \brief Length, width and height (metres) of the smallest box around a mesh that stands vertical; zero without
+ * vertices.
+ * \param[in] up in the frame of the mesh, unit */
+Eigen::Vector3d standingSize (const pcl::cosection::TriangleMesh& mesh, const Eigen::Vector3d& up);
+
+/** \brief The middle of the box around the mesh of an object, in its frame. */
+Eigen::Vector3d middleOf (const RunObject& object);

@@ -1,6 +1,8 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "report_pictures.h"
 
+#include "embedding.h"
+
 #include "pcl_cosection/evaluation/pictures/error_picture.h"
 #include "pcl_cosection/rendering/picture.h"
 #include <pcl/cosection/rendering/rasterizer.h>
@@ -74,46 +76,56 @@ shrinkInto (const RasterImage& image, TransparentPicture& result, int top)
     }
 }
 
-} // namespace
-
+/** \brief A mesh from the side of the camera above the same from behind, on nothing.
+ * \param[in] fit_to what fills the picture; the same for all pictures of an object */
 TransparentPicture
-drawFrontAndBack (const TriangleMesh& mesh, const TriangleMesh& fit_to, const ObjectDirections& directions, int size_px)
+drawFrontAndBack (const TriangleMesh& mesh, const TriangleMesh& fit_to, const ObjectDirections& directions)
 {
-  Eigen::AlignedBox3d box;
-  for (const Eigen::Vector3f& vertex : fit_to.vertices)
-    box.extend (vertex.cast<double> ());
+  const Eigen::AlignedBox3d box = boxOf (fit_to);
   const Eigen::Vector3d up = directions.up;
   const Eigen::Vector3d horizontal = (directions.front - directions.front.dot (up) * up).normalized ();
   const double elevation = std::max (elevation_rad, std::asin (std::clamp (directions.front.dot (up), -1.0, 1.0)));
   const Eigen::Vector3d front = std::cos (elevation) * horizontal + std::sin (elevation) * up;
-  TransparentPicture result (size_px, 2 * size_px, {255, 255, 255, 0});
+  TransparentPicture result (panel_px, 2 * panel_px, {255, 255, 255, 0});
   for (int row = 0; row < 2; ++row)
   {
     const Eigen::Vector3d eye = box.center () + distance_radii * 0.5 * box.diagonal ().norm () *
                                                     (Eigen::AngleAxisd (row * turn_rad, up) * front);
     const Eigen::Isometry3d T_object_camera = Viewpoint{eye, box.center (), up}.pose ();
-    const PinholeCamera camera = fittingCamera (fit_to, T_object_camera, oversampling * size_px);
+    const PinholeCamera camera = fittingCamera (fit_to, T_object_camera, oversampling * panel_px);
     Rasterizer rasterizer (camera, T_object_camera, 1e-6);
     rasterizer.draw (mesh, 1, Eigen::Isometry3d::Identity (), plain);
-    shrinkInto (rasterizer.image (), result, row * size_px);
+    shrinkInto (rasterizer.image (), result, row * panel_px);
   }
   return (result);
 }
 
-std::vector<CaptionedPicture>
+template <typename Picture>
+Json
+pictureJson (const Picture& picture, const std::string& caption, const std::string& alternative)
+{
+  return {{"uri", dataUri (picture)},
+          {"caption", caption},
+          {"alternative", alternative},
+          {"width", picture.width},
+          {"height", picture.height}};
+}
+
+} // namespace
+
+Json
 drawObject (const RunObject& object, const ObjectDirections& directions, const std::vector<double>& errors_m,
             double error_max_m, const std::string& name)
 {
-  std::vector<CaptionedPicture> pictures;
+  Json pictures = Json::array ();
   TriangleMesh fit_to; // both, as points
   fit_to.vertices = object.completed.vertices;
   fit_to.vertices.insert (fit_to.vertices.end (), object.seen.vertices.begin (), object.seen.vertices.end ());
   const auto add = [&] (const TriangleMesh& mesh, const std::string& caption, const std::string& what) {
     if (mesh.empty ())
       return;
-    const TransparentPicture picture = drawFrontAndBack (mesh, fit_to, directions, panel_px);
-    pictures.push_back ({caption, name + ", " + what + ", from the side of the camera above and from behind below",
-                         picture.width, picture.height, dataUri (picture)});
+    pictures.push_back (pictureJson (drawFrontAndBack (mesh, fit_to, directions), caption,
+                                     name + ", " + what + ", from the side of the camera above and from behind below"));
   };
   add (object.seen, "Seen", "what was seen");
   add (object.completed, "Completed", "the completed mesh");
@@ -131,26 +143,26 @@ drawObject (const RunObject& object, const ObjectDirections& directions, const s
   return (pictures);
 }
 
-std::vector<CaptionedPicture>
+Json
 drawScenePanels (const ReportContent& content)
 {
   const RunScene& scene = content.scene;
   const std::vector<double> stamps = scene.stamps ();
   const bool has_objects = std::any_of (scene.run.objects.begin (), scene.run.objects.end (),
                                         [] (const SceneRecord::Object& object) { return (!object.mesh.empty ()); });
+  Json pictures = Json::array ();
   if (stamps.empty () || !has_objects)
-    return {};
+    return (pictures);
   SceneView view;
   view.width = scene_width_px;
   view.height = scene_height_px;
   view.legend = view.caption = view.path = view.frustum = false;
-  std::vector<CaptionedPicture> pictures;
   const auto add = [&] (double turn_rad, SurfaceMode surface, ColourMode colour, const std::string& caption) {
     view.viewpoint = overview (scene, turn_rad);
     view.surface = surface;
     view.colour = colour;
-    pictures.push_back ({caption, "The scene: " + caption, scene_width_px, scene_height_px,
-                         dataUri (drawScene (scene, stamps[stamps.size () / 2], view))});
+    pictures.push_back (
+        pictureJson (drawScene (scene, stamps[stamps.size () / 2], view), caption, "The scene: " + caption));
   };
   add (0.0, SurfaceMode::Tsdf, ColourMode::Real, "Seen, from the side of the camera");
   add (0.0, SurfaceMode::Completed, ColourMode::Real, "Completed, from the side of the camera");

@@ -1,13 +1,14 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "run_folder.h"
 
-#include "pcl_cosection/evaluation/surface_samples.h"
+#include "pcl_cosection/evaluation/mesh_surface.h"
 #include <pcl/cosection/common/error.h>
 #include <pcl/cosection/io/mesh_io.h>
 
 #include <sys/stat.h>
 
 #include <algorithm>
+#include <cmath>
 #include <ctime>
 #include <filesystem>
 #include <fstream>
@@ -171,6 +172,51 @@ noteWhatIsMissing (RunFolder& run)
 }
 
 } // namespace
+
+const Json&
+member (const Json& json, const std::string& key)
+{
+  static const Json missing;
+  if (!json.is_object ())
+    return (missing);
+  const auto found = json.find (key);
+  return (found == json.end () ? missing : *found);
+}
+
+std::optional<double>
+numberIn (const Json& json, const std::string& key)
+{
+  const Json& value = member (json, key);
+  if (!value.is_number () || !std::isfinite (value.get<double> ()))
+    return (std::nullopt);
+  return (value.get<double> ());
+}
+
+std::optional<bool>
+flagIn (const Json& json, const std::string& key)
+{
+  const Json& value = member (json, key);
+  return (value.is_boolean () ? std::optional<bool> (value.get<bool> ()) : std::nullopt);
+}
+
+std::string
+textIn (const Json& json, const std::string& key)
+{
+  const Json& value = member (json, key);
+  return (value.is_string () ? value.get<std::string> () : std::string ());
+}
+
+std::vector<std::string>
+textsIn (const Json& json, const std::string& key)
+{
+  std::vector<std::string> texts;
+  const Json& list = member (json, key);
+  if (list.is_array ())
+    for (const Json& value : list)
+      if (value.is_string ())
+        texts.push_back (value.get<std::string> ());
+  return (texts);
+}
 
 RunFolder
 readRunFolder (const std::string& path)

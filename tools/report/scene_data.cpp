@@ -1,10 +1,9 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "scene_data.h"
 
-#include "mesh_embedding.h"
-#include "scene_directions.h"
+#include "embedding.h"
 
-#include "pcl_cosection/visualization/scene_colours.h"
+#include "pcl_cosection/visualization/scene_legend.h"
 #include <pcl/cosection/visualization/scene_picture.h>
 
 #include <algorithm>
@@ -15,8 +14,12 @@ using namespace pcl::cosection;
 
 namespace {
 
-constexpr double nearer = 0.8;     ///< than a picture of everything: one may turn and move
-constexpr double pose_steps = 1e5; ///< per metre, and of quaternions
+constexpr std::size_t background_triangles = 60000;
+constexpr std::size_t object_triangles = 24000; ///< of a completed mesh; two thirds of that of what was seen
+constexpr std::size_t all_triangles = 240000;   ///< of all objects' completed meshes together
+constexpr std::size_t most_frames = 1500;       ///< the trajectory is thinned evenly
+constexpr double nearer = 0.8;                  ///< than a picture of everything: one may turn and move
+constexpr double pose_steps = 1e5;              ///< per metre, and of quaternions
 
 /** \brief Written with few digits. */
 Json
@@ -44,9 +47,9 @@ toJson (const Eigen::Isometry3d* pose)
   return (shortNumbers ({t.x (), t.y (), t.z (), q.x (), q.y (), q.z (), q.w ()}));
 }
 
-/** \brief The stamps of the camera, else of the objects, else 0; no more than \a most. */
+/** \brief The stamps of the camera, else of the objects, else 0; not too many. */
 std::vector<double>
-stampsOf (const RunFolder& run, std::size_t most)
+stampsOf (const RunFolder& run)
 {
   std::set<double> all;
   for (const StampedPose& pose : run.camera)
@@ -57,7 +60,7 @@ stampsOf (const RunFolder& run, std::size_t most)
         all.insert (pose.stamp);
   if (all.empty ())
     all.insert (0.0);
-  const std::size_t step = (all.size () + most - 1) / most;
+  const std::size_t step = (all.size () + most_frames - 1) / most_frames;
   std::vector<double> stamps;
   std::size_t n = 0;
   for (const double stamp : all)
@@ -102,11 +105,9 @@ firstView (const ReportContent& content)
   }
   Eigen::AlignedBox3d box;
   for (const RunObject& object : content.run.objects)
-    for (const Eigen::Vector3f& vertex : (object.completed.empty () ? object.seen : object.completed).vertices)
-      box.extend (vertex.cast<double> ());
+    box.extend (boxOf (object.completed.empty () ? object.seen : object.completed));
   if (box.isEmpty ())
-    for (const Eigen::Vector3f& vertex : content.run.background.vertices)
-      box.extend (vertex.cast<double> ());
+    box = boxOf (content.run.background);
   if (box.isEmpty ())
     box.extend (Eigen::Vector3d::Zero ());
   Viewpoint view;
@@ -119,10 +120,10 @@ firstView (const ReportContent& content)
 } // namespace
 
 Json
-sceneData (const ReportContent& content, const SceneBudget& budget)
+sceneData (const ReportContent& content)
 {
   const RunFolder& run = content.run;
-  const std::vector<double> stamps = stampsOf (run, budget.frames);
+  const std::vector<double> stamps = stampsOf (run);
   const Viewpoint view = firstView (content);
   Json json;
   json["up"] = toJson (view.up);
@@ -138,10 +139,9 @@ sceneData (const ReportContent& content, const SceneBudget& budget)
                           {"width", run.intrinsics->width}, {"height", run.intrinsics->height}};
   json["error_max_mm"] = content.truth ? Json (1000.0 * content.scene.error_max_m) : Json ();
   json["background"] = run.background.empty () ? Json ()
-                                               : embedMesh (forDisplay (run.background, budget.background_triangles));
+                                               : embedMesh (forDisplay (run.background, background_triangles));
   json["objects"] = Json::array ();
-  const std::size_t most = std::min (budget.object_triangles,
-                                     budget.all_triangles / std::max<std::size_t> (1, run.objects.size ()));
+  const std::size_t most = std::min (object_triangles, all_triangles / std::max<std::size_t> (1, run.objects.size ()));
   for (const RunObject& object : run.objects)
   {
     if (object.completed.empty () && object.seen.empty ())

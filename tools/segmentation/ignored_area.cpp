@@ -14,15 +14,10 @@ using namespace pcl::cosection;
 void
 declareIgnoredArea (CLI::App& app, GivenIgnoredArea& given)
 {
-  const std::string group = "Input";
-  app.add_option ("--ignore-region", given.regions,
-                  "Leave out these pixels: column and row of a rectangle's corner, its width and height; repeatable")
-      ->option_text ("X,Y,W,H")
-      ->allow_extra_args (false)
-      ->group (group);
-  app.add_option ("--ignore-mask", given.mask, "Also those that are not 0 in this PNG")
-      ->option_text ("FILE")
-      ->group (group);
+  OptionGroup input (app, "Input");
+  input.add ("--ignore-region X,Y,W,H", given.regions,
+             "Leave out these pixels: column and row of a rectangle's corner, its width and height; repeatable");
+  input.add ("--ignore-mask FILE", given.mask, "Also those that are not 0 in this PNG");
 }
 
 IgnoredArea

@@ -2,7 +2,6 @@
 #include "network_options.h"
 
 #include "option_values.h"
-#include "suggestion.h"
 
 #include <nlohmann/json.hpp>
 
@@ -10,17 +9,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iomanip>
 #include <limits>
+#include <sstream>
 
 using namespace pcl::cosection;
 
 namespace {
-
-CLI::Option*
-addList (CLI::App& app, const std::string& name, std::vector<std::string>& values, const std::string& description)
-{
-  return (app.add_option (name, values, description)->delimiter (',')->allow_extra_args (false));
-}
 
 /** \brief Numbers of an option; \a count of them. */
 std::vector<double>
@@ -39,50 +34,28 @@ numbersOf (const std::string& option, const std::vector<std::string>& values, st
 void
 declareNetworkOptions (CLI::App& app, GivenNetwork& given)
 {
-  const InstanceDetectorOptions defaults;
-  const std::string group = "Network";
-  app.add_option ("--model", given.model, "Instance segmentation network: ONNX, or a frozen graph of TensorFlow (.pb)")
-      ->option_text ("FILE")
-      ->group (group);
-  app.add_option ("--model-config", given.model_config, "Text graph of a .pb (.pbtxt)")
-      ->option_text ("FILE")
-      ->group (group);
-  app.add_option ("--class-names", given.class_names, "Names of the classes, one in each line")
-      ->option_text ("FILE")
-      ->group (group);
-  addList (app, "--classes", given.classes, "Only these become objects, by name or number (default: all)")
-      ->option_text ("A,B,...")
-      ->group (group);
-  addList (app, "--static-classes", given.static_classes, "These are background: tables, screens")
-      ->option_text ("A,B,...")
-      ->group (group);
-  addList (app, "--ignore", given.ignored_classes, "These are neither objects nor background: people")
-      ->option_text ("A,B,...")
-      ->group (group);
-  app.add_option ("--score", given.score,
-                  "What has a lower score is not there" + byDefault (defaults.detection.score_threshold))
-      ->option_text ("SCORE")
-      ->check (numberRange (0.0, 1.0))
-      ->group (group);
-  addList (app, "--input-size", given.input_size,
-           "Pixels that the network takes (default: YOLO: 640,640, others: the image's)")
-      ->option_text ("W,H")
-      ->group (group);
-  app.add_option ("--input-fit", given.input_fit, "How an image fills them (default: stretch; YOLO: letterbox)")
-      ->option_text ("stretch|letterbox")
-      ->check (oneOf ({"stretch", "letterbox"}))
-      ->group (group);
-  app.add_option ("--input-scale", given.input_scale, "Multiplies colours (default: 1/255; TensorFlow: 1)")
-      ->option_text ("FACTOR")
-      ->check (numberRange (0.0, unlimited, true))
-      ->group (group);
-  addList (app, "--input-mean", given.input_mean, "Subtracted from colours before (default: 0,0,0)")
-      ->option_text ("R,G,B")
-      ->group (group);
-  app.add_option ("--input-order", given.input_order, "Order of the colours (default: rgb)")
-      ->option_text ("rgb|bgr")
-      ->check (oneOf ({"rgb", "bgr"}))
-      ->group (group);
+  OptionGroup network (app, "Network");
+  const auto addList = [&] (const std::string& form, std::vector<std::string>& values, const std::string& description) {
+    network.add (form, values, description)->delimiter (',');
+  };
+  network.add ("--model FILE", given.model,
+               "Instance segmentation network: ONNX, or a frozen graph of TensorFlow (.pb)");
+  network.add ("--model-config FILE", given.model_config, "Text graph of a .pb (.pbtxt)");
+  network.add ("--class-names FILE", given.class_names, "Names of the classes, one in each line");
+  addList ("--classes A,B,...", given.classes, "Only these become objects, by name or number (default: all)");
+  addList ("--static-classes A,B,...", given.static_classes, "These are background: tables, screens");
+  addList ("--ignore A,B,...", given.ignored_classes, "These are neither objects nor background: people");
+  network.add ("--score SCORE", given.score, numberRange (0.0, 1.0),
+               "What has a lower score is not there" +
+                   byDefault (InstanceDetectorOptions ().detection.score_threshold));
+  addList ("--input-size W,H", given.input_size,
+           "Pixels that the network takes (default: YOLO: 640,640, others: the image's)");
+  network.add ("--input-fit stretch|letterbox", given.input_fit,
+               "How an image fills them (default: stretch; YOLO: letterbox)");
+  network.add ("--input-scale FACTOR", given.input_scale, positiveNumber (),
+               "Multiplies colours (default: 1/255; TensorFlow: 1)");
+  addList ("--input-mean R,G,B", given.input_mean, "Subtracted from colours before (default: 0,0,0)");
+  network.add ("--input-order rgb|bgr", given.input_order, "Order of the colours (default: rgb)");
 }
 
 std::string
@@ -135,14 +108,7 @@ networkSettings (const GivenNetwork& given)
   network.blue_first = given.input_order == "bgr";
   settings.roles = {given.classes, given.static_classes, given.ignored_classes};
   settings.class_names = given.class_names;
-  try
-  {
-    network.validate ();
-  }
-  catch (const InvalidArgument& error)
-  {
-    throw UsageError (error.what ());
-  }
+  network.validate ();
   return (settings);
 }
 
@@ -178,4 +144,19 @@ networkJson (const NetworkSettings& settings)
           {"classes", settings.roles.objects},
           {"static_classes", settings.roles.statics},
           {"ignore", settings.roles.ignored}};
+}
+
+std::string
+classText (int class_id, const std::string& class_name, double score)
+{
+  std::ostringstream text;
+  text << (class_name == std::to_string (class_id) ? "class " : "") << class_name << ", score " << std::setprecision (2)
+       << score;
+  return (text.str ());
+}
+
+nlohmann::ordered_json
+classJson (int class_id, const std::string& class_name, double score)
+{
+  return {{"class", class_name}, {"class_id", class_id}, {"score", std::round (1e4 * score) / 1e4}};
 }

@@ -33,7 +33,7 @@ void declareNetworkOptions (CLI::App& app, GivenNetwork& given);
 /** \brief The name of an option that was given; empty if no option was. */
 std::string anyNetworkOption (const GivenNetwork& given);
 
-/** \throws UsageError */
+/** \throws UsageError, pcl::cosection::InvalidArgument */
 NetworkSettings networkSettings (const GivenNetwork& given);
 
 /** \brief Read the class names, and find out whether they have the classes that were asked for.
@@ -42,3 +42,9 @@ void readClassNames (NetworkSettings& settings);
 
 /** \brief For summaries: "model", "score", "classes", "static_classes", "ignore". */
 nlohmann::ordered_json networkJson (const NetworkSettings& settings);
+
+/** \brief "cup, score 0.92"; "class 41, score 0.92" where a class has no name but its number. */
+std::string classText (int class_id, const std::string& class_name, double score);
+
+/** \brief For summaries: "class", "class_id", "score" to four digits. */
+nlohmann::ordered_json classJson (int class_id, const std::string& class_name, double score);

@@ -1,9 +1,7 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "simulate_command_line.h"
 
-#include "frame_span.h"
 #include "option_values.h"
-#include "suggestion.h"
 
 #include <pcl/cosection/simulation/simulated_scene.h>
 
@@ -13,41 +11,50 @@ using namespace pcl::cosection;
 
 namespace {
 
-std::vector<std::string>
-presetNames ()
+void
+requirePreset (const std::string& option, const std::string& name)
 {
   std::vector<std::string> names;
   for (const ScenePreset& preset : scenePresets ())
     names.push_back (preset.name);
-  return (names);
-}
-
-void
-requirePreset (const std::string& option, const std::string& name)
-{
-  const std::vector<std::string> names = presetNames ();
-  if (std::find (names.begin (), names.end (), name) == names.end ())
+  if (!name.empty () && std::find (names.begin (), names.end (), name) == names.end ())
     throw UsageError (option + ": there is no preset " + name + suggestion (name, names) +
                       "; --list-presets names them");
 }
 
 void
-setPaths (const GivenSimulation& given, SimulateSettings& settings)
+setPaths (SimulateSettings& settings)
 {
-  const std::size_t needed = given.preset.empty () ? 2 : 1;
-  if (given.paths.size () < needed)
-    throw UsageError (given.paths.empty () && given.preset.empty ()
+  const std::vector<std::string>& paths = settings.paths;
+  const bool has_preset = !settings.preset.empty ();
+  const std::size_t needed = has_preset ? 1 : 2;
+  if (paths.size () < needed)
+    throw UsageError (paths.empty () && !has_preset
                           ? "SPEC.json and OUTPUT are missing; see --help"
-                          : "OUTPUT is missing" +
-                                (given.preset.empty () ? " after " + given.paths[0] : std::string ()) + "; see --help");
-  if (given.paths.size () > needed)
-    throw UsageError ("there is one argument too many: " + given.paths[needed] +
-                      (given.preset.empty () ? "" : "; with --preset there is no SPEC.json"));
-  if (given.preset.empty ())
-    settings.spec = given.paths[0];
-  settings.output = given.paths.back ();
+                          : "OUTPUT is missing" + (has_preset ? "" : " after " + paths[0]) + "; see --help");
+  if (paths.size () > needed)
+    throw UsageError ("there is one argument too many: " + paths[needed] +
+                      (has_preset ? "; with --preset there is no SPEC.json" : ""));
+  if (!has_preset)
+    settings.spec = paths[0];
+  settings.output = paths.back ();
   if (settings.output.empty ())
     throw UsageError ("OUTPUT is empty; it must be the name of a new folder");
+}
+
+void
+interpret (SimulateSettings& settings)
+{
+  requirePreset ("--print-preset", settings.print_preset);
+  requirePreset ("--preset", settings.preset);
+  if (settings.list_presets || !settings.print_preset.empty ())
+    return;
+  setPaths (settings);
+  if (settings.frames.empty ())
+    return;
+  const FrameSpan frames = parseFrames (settings.frames);
+  settings.first_frame = static_cast<int> (frames.first);
+  settings.last_frame = frames.last ? static_cast<int> (*frames.last) : -1;
 }
 
 } // namespace
@@ -79,70 +86,24 @@ simulationText ()
 }
 
 void
-declareSimulationOptions (CLI::App& app, GivenSimulation& given)
+declareSimulationOptions (CLI::App& app, SimulateSettings& settings)
 {
-  app.add_option ("paths", given.paths)->group ("")->configurable (false);
-  const std::string scene = "Scene";
-  app.add_option ("--preset", given.preset, "A scene that comes with the program")->option_text ("NAME")->group (scene);
-  app.add_flag ("--list-presets", given.list_presets, "Name them")->group (scene)->configurable (false);
-  app.add_option ("--print-preset", given.print_preset, "Print one's description, to begin your own with")
-      ->option_text ("NAME")
-      ->group (scene)
+  OptionGroup scene (app, "Scene"), output (app, "Output");
+  scene.add ("--preset NAME", settings.preset, "A scene that comes with the program");
+  scene.addFlag ("--list-presets", settings.list_presets, "Name them")->configurable (false);
+  scene.add ("--print-preset NAME", settings.print_preset, "Print one's description, to begin your own with")
       ->configurable (false);
-  const std::string output = "Output";
-  app.add_option ("--frames", given.frames, "Only the frames from A up to but without B (default: all)")
-      ->option_text ("A:B")
-      ->group (output);
-  app.add_option ("--seed", given.seed, "Of the noise (default: the scene's)")
-      ->option_text ("N")
-      ->check (wholeRange (0, 2147483647))
-      ->group (output);
-  app.add_flag ("--no-noise", given.no_noise, "Exact depth, in depth/")->group (output);
-  app.add_option ("--views-every", given.views_every,
-                  "A labelled point cloud of every N-th frame; 0 for none (default: the scene's)")
-      ->option_text ("N")
-      ->check (wholeRange (0, 1000000))
-      ->group (output);
-  app.add_option ("--json", given.json, "Write a summary for programs")->option_text ("FILE")->group (output);
-  app.add_option ("--threads", given.threads, "Threads to use, without influence on results (default: all processors)")
-      ->option_text ("N")
-      ->check (wholeRange (1, 1024))
-      ->group ("General");
-  declareGeneralOptions (app, "pcl_cosection_simulate", given.verbose, given.quiet);
+  output.add ("--frames A:B", settings.frames, "Only the frames from A up to but without B (default: all)");
+  output.add ("--seed N", settings.seed, wholeRange (0, 2147483647), "Of the noise (default: the scene's)");
+  output.addFlag ("--no-noise", settings.no_noise, "Exact depth, in depth/");
+  output.add ("--views-every N", settings.views_every, wholeRange (0, 1000000),
+              "A labelled point cloud of every N-th frame; 0 for none (default: the scene's)");
+  output.add ("--json FILE", settings.json, "Write a summary for programs");
+  declareGeneralOptions (app, "pcl_cosection_simulate", settings);
 }
 
 std::optional<SimulateSettings>
 parseSimulateCommandLine (int argc, const char* const* argv)
 {
-  GivenSimulation given;
-  CLI::App app;
-  declareSimulationOptions (app, given);
-  if (!parseArguments (app, simulationText (), argc, argv))
-    return (std::nullopt);
-  SimulateSettings settings;
-  if (given.quiet && given.verbose)
-    throw UsageError ("--quiet and --verbose exclude each other");
-  settings.verbosity = given.quiet ? Verbosity::Quiet : given.verbose ? Verbosity::Verbose : Verbosity::Normal;
-  settings.list_presets = given.list_presets;
-  settings.print_preset = given.print_preset;
-  if (!given.print_preset.empty ())
-    requirePreset ("--print-preset", given.print_preset);
-  if (!given.preset.empty ())
-    requirePreset ("--preset", given.preset);
-  if (given.list_presets || !given.print_preset.empty ())
-    return (settings);
-  settings.preset = given.preset;
-  setPaths (given, settings);
-  if (!given.frames.empty ())
-  {
-    const FrameSpan frames = parseFrames (given.frames);
-    settings.first_frame = static_cast<int> (frames.first);
-    settings.last_frame = frames.last ? static_cast<int> (*frames.last) : -1;
-  }
-  settings.seed = given.seed;
-  settings.views_every = given.views_every;
-  settings.no_noise = given.no_noise;
-  settings.json = given.json;
-  settings.threads = given.threads.value_or (0);
-  return (settings);
+  return (readCommandLine<SimulateSettings> (argc, argv, simulationText (), declareSimulationOptions, interpret));
 }

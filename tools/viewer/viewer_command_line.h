@@ -2,7 +2,6 @@
 #pragma once
 
 #include "arguments.h"
-#include "terminal.h"
 
 #include <pcl/cosection/visualization/scene_picture.h>
 
@@ -19,22 +18,23 @@ enum class ViewChoice
   Camera, ///< with the camera of the run
 };
 
-/** \brief What the user of pcl_cosection_viewer asked for. */
-struct ViewerSettings
+/** \brief What the user of pcl_cosection_viewer asked for: the options, and what they mean. */
+struct ViewerSettings : GeneralOptions
 {
-  std::string run;       ///< folder
-  std::string truth;     ///< dataset; empty: none
-  std::string dataset;   ///< of the input points; empty: the one that the run names
-  std::string viewpoint; ///< file; empty: \a choice
+  std::string run;        ///< folder
+  std::string truth;      ///< dataset; empty: none
+  std::string dataset;    ///< of the input points; empty: the one that the run names
+  std::string viewpoint;  ///< file; empty: \a choice
+  std::string screenshot; ///< file; empty: none
+  std::string record;     ///< folder; empty: none
+  std::string follow;     ///< folder of snapshots; empty: nothing is followed
+  std::string choice_name, mode, colour, size;
+  std::vector<std::string> hidden;
   ViewChoice choice = ViewChoice::Overview;
   std::optional<double> stamp; ///< nothing: the last
-  std::size_t triangles = 0;   ///< of each surface, at most; 0: all
-  std::string screenshot;      ///< file; empty: none
-  std::string record;          ///< folder; empty: none
-  std::size_t every = 1;       ///< frames, to record
-  std::string follow;          ///< folder of snapshots; empty: nothing is followed
-  int threads = 0;
-  Verbosity verbosity = Verbosity::Normal;
+  std::optional<int> triangles_given, every_given;
+  std::size_t triangles = 0;      ///< of each surface, at most; 0: all
+  std::size_t every = 1;          ///< frames, to record
   pcl::cosection::SceneView view; ///< without a viewpoint
 
   bool needsWindow () const { return (screenshot.empty () && record.empty ()); }
@@ -43,17 +43,7 @@ struct ViewerSettings
 /** \brief What pcl_cosection_viewer says about itself. */
 const ProgramText& viewerText ();
 
-/** \brief Options as the user gives them. */
-struct GivenViewer
-{
-  std::vector<std::string> paths, hidden;
-  std::string truth, dataset, viewpoint, view, mode, colour, size, screenshot, record, follow;
-  std::optional<double> frame;
-  std::optional<int> every, triangles, threads;
-  bool boxes = false, verbose = false, quiet = false;
-};
-
-void declareViewerOptions (CLI::App& app, GivenViewer& given);
+void declareViewerOptions (CLI::App& app, ViewerSettings& settings);
 
 /** \brief Read the command line. \return nothing if all that was asked for was printed \throws UsageError */
 std::optional<ViewerSettings> parseViewerCommandLine (int argc, const char* const* argv);

@@ -1,10 +1,10 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "viewer_pictures.h"
 
-#include "interruption.h"
 #include "output_files.h"
+#include "run_program.h"
 
-#include "pcl_cosection/common/atomic_file.h"
+#include "pcl_cosection/common/files.h"
 #include "pcl_cosection/rendering/picture.h"
 #include "pcl_cosection/sequence/stamp_matching.h"
 #include <pcl/cosection/common/error.h>
@@ -64,10 +64,7 @@ void
 record (const ViewerSettings& settings, const RunScene& scene, Terminal& terminal)
 {
   const FrameDrawer drawer (settings, scene);
-  std::error_code failure;
-  fs::create_directories (settings.record, failure);
-  if (!fs::is_directory (settings.record))
-    throw IoError (settings.record + ": the folder cannot be made" + (failure ? ": " + failure.message () : ""));
+  makeFolder (settings.record);
   requireWritableFolder (settings.record, settings.record);
   const std::vector<double> stamps = scene.stamps ();
   std::size_t number = 0;
@@ -78,8 +75,7 @@ record (const ViewerSettings& settings, const RunScene& scene, Terminal& termina
       throw Cancelled ("cancelled");
     drawer.draw (stamps[n], (fs::path (settings.record) / nameOfFrame (++number)).string ());
   }
-  terminal.result ("wrote " + settings.record + ": " + std::to_string (number) +
-                   (number == 1 ? " frame of " : " frames of ") + sizeOf (settings.view));
+  terminal.result ("wrote " + settings.record + ": " + counted (number, "frame") + " of " + sizeOf (settings.view));
 }
 
 } // namespace

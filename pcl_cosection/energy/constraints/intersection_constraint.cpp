@@ -1,12 +1,11 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "intersection_constraint.h"
 
-#include "pcl_cosection/volume/mesh_distance/inside_bricks.h"
-
+#include "pcl_cosection/common/boxes.h"
 #include "pcl_cosection/common/parallel.h"
+#include "pcl_cosection/volume/mesh_distance/brick_distances.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace pcl::cosection {
 
@@ -28,46 +27,29 @@ IntersectionConstraint::raise (std::size_t n, float distance_vox, float beta)
 }
 
 void
-IntersectionConstraint::addBody (const SignedDistanceField& body, const Eigen::Isometry3d& T_body_grid, double beta)
-{
-  addBody (body, std::vector<Eigen::Isometry3d>{T_body_grid}, beta);
-}
-
-void
 IntersectionConstraint::addBody (const SignedDistanceField& body, const std::vector<Eigen::Isometry3d>& T_body_grid,
                                  double beta)
 {
   const InsideBricks inside (body, threads_);
   if (inside.any ())
     for (const Eigen::Isometry3d& T : T_body_grid)
-      addBody (body, inside, T, beta);
+      addBody (body, inside, T, static_cast<float> (beta));
 }
 
 void
 IntersectionConstraint::addBody (const SignedDistanceField& body, const InsideBricks& inside,
-                                 const Eigen::Isometry3d& T_body_grid, double beta)
+                                 const Eigen::Isometry3d& T_body_grid, float beta)
 {
   // Only the part of this grid that the body's volume covers.
   const Eigen::Isometry3d T_grid_body = T_body_grid.inverse ();
-  Eigen::Vector3d low = Eigen::Vector3d::Constant (1e30);
-  Eigen::Vector3d high = Eigen::Vector3d::Constant (-1e30);
-  for (int corner = 0; corner < 8; ++corner)
-  {
-    const Eigen::Vector3i at ((corner & 1) ? body.grid.dims.x () - 1 : 0, (corner & 2) ? body.grid.dims.y () - 1 : 0,
-                              (corner & 4) ? body.grid.dims.z () - 1 : 0);
-    const Eigen::Vector3d p = grid_.toVoxel (T_grid_body * body.grid.center (at.x (), at.y (), at.z ()));
-    low = low.cwiseMin (p);
-    high = high.cwiseMax (p);
-  }
-  Eigen::Vector3i first, last;
-  for (int a = 0; a < 3; ++a)
-  {
-    first[a] = static_cast<int> (std::floor (std::clamp (low[a], 0.0, static_cast<double> (grid_.dims[a]))));
-    last[a] = static_cast<int> (std::ceil (std::clamp (high[a] + 1.0, 0.0, static_cast<double> (grid_.dims[a]))));
-  }
+  Eigen::AlignedBox3d covered; // voxels
+  for (const Eigen::Vector3d& corner : corners (body.grid))
+    covered.extend (grid_.toVoxel (T_grid_body * corner));
+  const Eigen::Array3d dims = grid_.dims.cast<double> ();
+  const Eigen::Vector3i first = covered.min ().array ().max (0.0).min (dims).floor ().cast<int> ();
+  const Eigen::Vector3i last = (covered.max ().array () + 1.0).max (0.0).min (dims).ceil ().cast<int> ();
   if ((first.array () >= last.array ()).any ())
     return;
-  empty_ = false;
   distance_vox_.resize (grid_.size (), 0.0f);
   beta_.resize (grid_.size (), 0.0f);
   const auto to_voxels = static_cast<float> (1.0 / grid_.voxel_size_m);
@@ -85,9 +67,8 @@ IntersectionConstraint::addBody (const SignedDistanceField& body, const InsideBr
           i += static_cast<int> (empty * steps_per_voxel - 0.01); // skip empty voxels, with a margin for rounding
         if (empty >= 0)
           continue;
-        const auto u = body.sampleInside (v);
-        if (u)
-          raise (grid_.index (i, j, k), -*u * to_voxels, static_cast<float> (beta));
+        if (const auto u = body.sampleInside (v))
+          raise (grid_.index (i, j, k), -*u * to_voxels, beta);
       }
     }
   });
@@ -97,7 +78,6 @@ void
 IntersectionConstraint::addHalfSpace (const Eigen::Vector4d& plane, const std::vector<std::uint8_t>& free_space,
                                       double beta)
 {
-  empty_ = false;
   distance_vox_.resize (grid_.size (), 0.0f);
   beta_.resize (grid_.size (), 0.0f);
   parallelFor (0, grid_.dims.z (), threads_, [&] (int k) {
@@ -125,10 +105,7 @@ IntersectionConstraint::scaleWeights (double factor)
 std::vector<LowerBound>
 IntersectionConstraint::bounds () const
 {
-  std::vector<LowerBound> bounds;
-  if (empty_)
-    return bounds;
-  bounds.resize (grid_.size ());
+  std::vector<LowerBound> bounds (distance_vox_.size ());
   for (std::size_t n = 0; n < bounds.size (); ++n)
     if (distance_vox_[n] > 0.0f)
       bounds[n] = LowerBound (distance_vox_[n], beta_[n]);

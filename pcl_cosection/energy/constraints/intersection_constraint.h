@@ -21,12 +21,9 @@ public:
   /** \param[in] max_bound_vox cap of the distance */
   IntersectionConstraint (const VoxelGrid& grid, double max_bound_vox, int threads = 0);
 
-  /** \brief Add another body at one pose. It has no effect outside its volume and where it is not supported.
-   * \param[in] T_body_grid takes this grid's frame to the body's
+  /** \brief Add another body at some poses. It has no effect outside its volume and where it is not supported.
+   * \param[in] T_body_grid take this grid's frame to the body's
    * \param[in] beta weight of the constraint where this body's distance is the largest */
-  void addBody (const SignedDistanceField& body, const Eigen::Isometry3d& T_body_grid, double beta);
-
-  /** \brief Add another body at many poses, with less work per pose. */
   void addBody (const SignedDistanceField& body, const std::vector<Eigen::Isometry3d>& T_body_grid, double beta);
 
   /** \brief Add the half-space n.x + d < 0 of \a plane (unit normal, this grid's frame), except for voxels seen
@@ -41,15 +38,14 @@ public:
 
 private:
   void addBody (const SignedDistanceField& body, const InsideBricks& inside, const Eigen::Isometry3d& T_body_grid,
-                double beta);
+                float beta);
 
   void raise (std::size_t n, float distance_vox, float beta);
 
   VoxelGrid grid_;
   float max_bound_vox_;
   int threads_;
-  bool empty_ = true;
-  std::vector<float> distance_vox_;
+  std::vector<float> distance_vox_; // both empty while no body reaches the volume
   std::vector<float> beta_;
 };
 

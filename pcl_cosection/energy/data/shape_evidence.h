@@ -2,10 +2,10 @@
 #pragma once
 
 #include "imls_data_term.h"
-#include "pcl_cosection/energy/constraints/free_space_carving.h"
 #include "pcl_cosection/energy/constraints/hull_constraint.h"
 #include <pcl/cosection/common/oriented_point.h>
 #include <pcl/cosection/surface/options.h>
+#include <pcl/cosection/volume/signed_distance_field.h>
 
 #include <Eigen/Geometry>
 
@@ -23,12 +23,15 @@ public:
   /** \param[in] carve also gather FreeSpaceCarving */
   ShapeEvidence (const VoxelGrid& grid, const CoSectionOptions& options, bool carve);
 
-  void addPoints (const std::vector<OrientedPoint>& points);
+  void addPoints (const std::vector<OrientedPoint>& points)
+  {
+    data_.add (grid_, points, options_.sigma_vox, options_.threads);
+  }
 
   void clearPoints ();
 
   /** \param[in] silhouettes false: only votes on voxels, without carving, in a third of the time */
-  void addView (const FreeSpaceView& view, const Eigen::Isometry3d& T_grid_sensor, bool silhouettes = true);
+  void addView (const FreeSpaceView& view, const Eigen::Isometry3d& T_grid_sensor, bool silhouettes);
 
   bool carves () const { return carving_.has_value (); }
 
@@ -36,14 +39,14 @@ public:
 
   const CoSectionOptions& options () const { return options_; }
 
-  /** \brief Sums over the points, not yet averaged; empty if there are no points. */
+  /** \brief Sums over the points, not yet averaged. */
   const ImlsDataTerm& data () const { return data_; }
 
   /** \brief 1 where seen free. */
   std::vector<std::uint8_t> freeSpace () const { return hull_.freeSpace (options_.revise_votes); }
 
   /** \brief Lower bounds of FreeSpaceCarving in voxels; empty if it was not gathered. */
-  std::vector<float> carvedBounds () const;
+  std::vector<float> carvedBounds () const { return seen_ ? carving_->lowerBounds () : std::vector<float> (); }
 
 private:
   VoxelGrid grid_;
@@ -51,7 +54,26 @@ private:
   ImlsDataTerm data_;
   HullConstraint hull_;
   std::optional<FreeSpaceCarving> carving_;
-  bool seen_ = false;
+  bool seen_ = false; // whether carving_ has a view
+};
+
+/** \brief Directions of the normals of measured points, in six bins per voxel. Both sides of a thin wall are near the
+ * points of either side; the normals show which of them was seen. */
+class NormalBinOccupancy
+{
+public:
+  NormalBinOccupancy () = default;
+  NormalBinOccupancy (const VoxelGrid& grid, const std::vector<OrientedPoint>& points);
+
+  /** \brief Whether no points were given. */
+  bool empty () const { return ways_.empty (); }
+
+  /** \brief Whether a point within three voxels has about the same normal as \a normal. */
+  bool face (const Eigen::Vector3f& position, const Eigen::Vector3f& normal) const;
+
+private:
+  VoxelGrid grid_;
+  std::vector<std::uint8_t> ways_; // by voxel, a bit for each sense of each axis
 };
 
 } // namespace pcl::cosection

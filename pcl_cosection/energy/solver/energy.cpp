@@ -2,11 +2,11 @@
 #include "energy.h"
 
 #include "hessian_rows.h"
-
 #include "pcl_cosection/common/parallel.h"
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace pcl::cosection {
 
@@ -30,10 +30,7 @@ evaluate (const EnergyProblem& problem, const HessianOperator<Real>& hessian, co
     planes[k] += kernels::evaluateRow (energyRow (problem, at), product, u + at, static_cast<Real> (problem.alpha), nx,
                                        residual ? residual + at : nullptr, weights ? weights + at : nullptr);
   });
-  double energy = 0.0;
-  for (const double sum : planes)
-    energy += sum;
-  return energy;
+  return std::accumulate (planes.begin (), planes.end (), 0.0);
 }
 
 template <typename Real>
@@ -102,14 +99,10 @@ coarsen (const EnergyProblem& problem, bool bounds, int threads)
               for (int x = 2 * i; x < std::min (2 * i + 2, fine.x ()); ++x)
                 f ((static_cast<std::size_t> (z) * fine.y () + y) * fine.x () + x);
         };
-        float weight = 0.0f;
-        float target = 0.0f;
         forEachChild ([&] (std::size_t child) {
-          weight += problem.weight[child];
-          target += problem.weighted_target[child];
+          coarse.weight[n] += problem.weight[child];
+          coarse.weighted_target[n] += problem.weighted_target[child];
         });
-        coarse.weight[n] = weight;
-        coarse.weighted_target[n] = target;
         const auto gather = [&] (const std::vector<LowerBound>& from, std::vector<LowerBound>& to) {
           if (to.empty ())
             return;

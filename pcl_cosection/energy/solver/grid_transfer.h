@@ -15,24 +15,20 @@ namespace pcl::cosection {
  * of a basis function of bounded second derivative, which a Galerkin operator of fourth order needs. */
 struct AxisTransfer
 {
-  struct Parent
+  /** \brief A voxel of the other level. */
+  struct Relative
   {
-    int coarse;
-    double weight;
-  };
-  struct Child
-  {
-    int fine;
+    int voxel;
     double weight;
   };
 
-  int fine_size = 0;
-  int coarse_size = 0;
-  std::vector<std::array<Parent, 2>> parents; ///< per fine voxel
-  std::vector<std::vector<Child>> children;   ///< per coarse voxel
+  int fine_size;
+  int coarse_size;
+  std::vector<std::array<Relative, 2>> parents; ///< per fine voxel
+  std::vector<std::vector<Relative>> children;  ///< per coarse voxel
 
   /** \brief Halve an axis of \a size voxels, or keep it if it has no more than \a keep. */
-  static AxisTransfer make (int size, int keep);
+  AxisTransfer (int size, int keep);
 };
 
 /** \brief Tensor product of three axis transfers. */
@@ -41,7 +37,8 @@ struct GridTransfer
   std::array<AxisTransfer, 3> axes;
 
   /** \param[in] keep axes of no more voxels are not coarsened */
-  GridTransfer (const Eigen::Vector3i& fine_dims, int keep);
+  GridTransfer (const Eigen::Vector3i& fine, int keep) : axes{{{fine.x (), keep}, {fine.y (), keep}, {fine.z (), keep}}}
+  {}
 
   Eigen::Vector3i fineDims () const { return {axes[0].fine_size, axes[1].fine_size, axes[2].fine_size}; }
 

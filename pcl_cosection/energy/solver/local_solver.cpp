@@ -11,7 +11,6 @@
 #include <atomic>
 #include <chrono>
 #include <cmath>
-#include <limits>
 #include <numeric>
 
 namespace pcl::cosection {
@@ -49,12 +48,8 @@ public:
       , u_ (u)
       , hessian_ (problem.dims, threadsForVoxels (options.threads, problem.size ()))
       , bricks_ ((problem.dims.array () + brick_edge - 1) / brick_edge)
-  {
-    tolerance_.band = zero_band_vox;
-    tolerance_.mean = options.tolerance_vox;
-    tolerance_.largest = options.peak_tolerance_vox > 0.0 ? options.peak_tolerance_vox
-                                                          : std::numeric_limits<double>::infinity ();
-  }
+      , tolerance_ (options, 1)
+  {}
 
   /** \brief Boxes of bricks in which a step of Jacobi's method is longer than \a smallest_step. */
   std::vector<Box> findBoxes (double smallest_step)
@@ -228,21 +223,20 @@ private:
       first[a] = domain.min ()[a] == 0 ? 0 : fixed_layers;
       last[a] = part.dims[a] - 1 - (domain.max ()[a] == problem_.dims[a] - 1 ? 0 : fixed_layers);
     }
+    const Box free (first, last);
     const auto weight = static_cast<float> (fixed_weight * interior_diagonal * problem_.alpha);
     std::size_t n = 0;
     for (int k = 0; k < part.dims.z (); ++k)
       for (int j = 0; j < part.dims.y (); ++j)
         for (int i = 0; i < part.dims.x (); ++i, ++n)
         {
-          if (i >= first.x () && i <= last.x () && j >= first.y () && j <= last.y () && k >= first.z () &&
-              k <= last.z ())
+          if (free.contains (Eigen::Vector3i (i, j, k)))
             continue;
           part.weight[n] = weight;
           part.weighted_target[n] = weight * u[n];
-          if (!part.exterior.empty ())
-            part.exterior[n] = LowerBound ();
-          if (!part.intersection.empty ())
-            part.intersection[n] = LowerBound ();
+          for (std::vector<LowerBound>* bounds : {&part.exterior, &part.intersection})
+            if (!bounds->empty ())
+              (*bounds)[n] = LowerBound ();
         }
   }
 

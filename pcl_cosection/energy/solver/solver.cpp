@@ -4,7 +4,6 @@
 #include "solver_detail.h"
 
 #include <chrono>
-#include <limits>
 
 namespace pcl::cosection {
 namespace {
@@ -14,19 +13,16 @@ constexpr int fast_jacobi_coarsest = 32; // as in the paper
 constexpr int coarse_extra_degree = 1;   // of the smoother: constraints are stiffer on coarse levels
 constexpr double coarse_tolerance = 0.1; // factor: errors that coarse levels leave are slow to remove on finer ones
 
+/** \param[in] scale voxels of the level, in those of the finest */
 template <typename Real>
 SolverSummary
-solveLevel (const EnergyProblem& problem, const SolverOptions& options, double scale, bool finest, std::vector<Real>& u,
+solveLevel (const EnergyProblem& problem, const SolverOptions& options, int scale, std::vector<Real>& u,
             const ProgressCallback& progress)
 {
-  LevelTolerance tolerance;
-  tolerance.band = zero_band_vox * scale;
-  tolerance.mean = options.tolerance_vox * scale;
-  tolerance.largest = finest && options.peak_tolerance_vox > 0.0 ? options.peak_tolerance_vox
-                                                                 : std::numeric_limits<double>::infinity ();
+  LevelTolerance tolerance (options, scale);
   if (options.type == SolverType::FastJacobi)
     return solveLevelFastJacobi (problem, options, tolerance, u, progress);
-  if (finest)
+  if (scale == 1)
     return solveLevelMultigrid (problem, options, tolerance, u, progress);
   SolverOptions coarse = options;
   coarse.smoothing_degree += coarse_extra_degree;
@@ -56,8 +52,7 @@ coarserProblem (const EnergyProblem& problem, const SolverOptions& options)
   return coarsen (problem, options.type == SolverType::Multigrid, options.threads);
 }
 
-/** \brief Nested iteration: solve the problem; if \a u is no start, the solution of the next coarser problem is one.
- * \param[in] scale voxels of the problem, in those of the finest */
+/** \brief Nested iteration: solve the problem; if \a u is no start, the solution of the next coarser problem is one. */
 template <typename Real>
 SolverSummary
 solveNested (const EnergyProblem& problem, const SolverOptions& options, int scale, std::vector<Real>& u,
@@ -71,7 +66,7 @@ solveNested (const EnergyProblem& problem, const SolverOptions& options, int sca
                    [&] (const std::string& stage, double) { return !progress || progress (stage, 0.0); });
     u = u.empty () ? std::vector<Real> (problem.size (), Real (0)) : interpolate (u, problem.dims, options.threads);
   }
-  return solveLevel (problem, options, scale, scale == 1, u, progress);
+  return solveLevel (problem, options, scale, u, progress);
 }
 
 } // namespace

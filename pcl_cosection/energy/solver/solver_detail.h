@@ -7,18 +7,24 @@
 #include <pcl/cosection/surface/solver.h>
 
 #include <cmath>
+#include <limits>
 
 namespace pcl::cosection {
-
-/** \brief Values within this many voxels of zero count as near the zero set. */
-constexpr double zero_band_vox = 1.5;
 
 /** \brief The remaining changes at which a level counts as solved, in units of u. */
 struct LevelTolerance
 {
-  double band;    ///< only voxels with |u| below this count
+  double band;    ///< only voxels with |u| below this count: 1.5 voxels
   double mean;    ///< limit of the root mean square change
   double largest; ///< limit of the change of any voxel
+
+  /** \param[in] scale voxels of the level, in those of the finest, where alone the largest change counts */
+  LevelTolerance (const SolverOptions& options, int scale)
+      : band (1.5 * scale)
+      , mean (options.tolerance_vox * scale)
+      , largest (scale == 1 && options.peak_tolerance_vox > 0.0 ? options.peak_tolerance_vox
+                                                                : std::numeric_limits<double>::infinity ())
+  {}
 
   /** \brief Whether \a factor times the last change is below both limits. */
   bool met (const kernels::SquaredChange& change, double factor = 1.0) const

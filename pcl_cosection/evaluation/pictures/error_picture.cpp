@@ -1,11 +1,12 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "error_picture.h"
 
-#include "creased_normals.h"
 #include "picture_canvas.h"
 
-#include "pcl_cosection/evaluation/surface_distance.h"
+#include "pcl_cosection/evaluation/mesh_surface.h"
+#include "pcl_cosection/mesh/triangle_shape.h"
 #include "pcl_cosection/view/look_at.h"
+
 #include <pcl/cosection/common/error.h>
 #include <pcl/cosection/evaluation/mesh_comparison.h>
 #include <pcl/cosection/rendering/rasterizer.h>
@@ -28,6 +29,38 @@ constexpr double ambient_light = 0.55; ///< much, so that colours can be disting
 constexpr double turn_rad = 2.6;       ///< between the columns
 constexpr int title_px = 48;
 constexpr int scale_px = 150; ///< width of the column of the scale
+
+/** \brief Gives a surface normals that are smooth but for sharp edges, where vertices are repeated. */
+TriangleMesh
+withCreasedNormals (const TriangleMesh& mesh)
+{
+  const double sharp = std::cos (0.6); // radians between neighbours that are apart
+  std::vector<Eigen::Vector3d> areas;
+  std::vector<std::vector<std::uint32_t>> around (mesh.vertices.size ());
+  for (std::uint32_t t = 0; t < mesh.triangles.size (); ++t)
+  {
+    const auto corner = [&] (int n) { return mesh.vertices[mesh.triangles[t][n]].cast<double> (); };
+    areas.push_back (areaVector (corner (0), corner (1), corner (2)));
+    for (const std::uint32_t v : mesh.triangles[t])
+      around[v].push_back (t);
+  }
+  TriangleMesh result;
+  for (std::uint32_t t = 0; t < mesh.triangles.size (); ++t)
+  {
+    const auto first = static_cast<std::uint32_t> (result.vertices.size ());
+    result.triangles.push_back ({first, first + 1, first + 2});
+    for (const std::uint32_t v : mesh.triangles[t])
+    {
+      Eigen::Vector3d sum = areas[t];
+      for (const std::uint32_t other : around[v])
+        if (other != t && areas[other].dot (areas[t]) > sharp * areas[other].norm () * areas[t].norm ())
+          sum += areas[other];
+      result.vertices.push_back (mesh.vertices[v]);
+      result.normals.push_back (sum.normalized ().cast<float> ());
+    }
+  }
+  return result;
+}
 
 /** \brief A camera of a square picture that all vertices of the meshes fill. */
 PinholeCamera

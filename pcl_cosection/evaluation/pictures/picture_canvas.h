@@ -28,10 +28,8 @@ class PictureCanvas
 public:
   using Pixels = cv::Mat_<cv::Vec3b>; ///< red, green, blue, as in Picture
 
+  /** \param[in] oversampling so many pixels along each axis become one */
   PictureCanvas (int width, int height, int oversampling);
-
-  /** \brief The pixels that become one are so many along each axis. */
-  int oversampling () const { return oversampling_; }
 
   /** \brief What is drawn on; \a oversampling times as wide and high as the result. */
   Pixels& pixels () { return pixels_; }

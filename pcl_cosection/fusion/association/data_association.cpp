@@ -1,11 +1,10 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "data_association.h"
 
+#include "pcl_cosection/common/boxes.h"
 #include "pcl_cosection/common/parallel.h"
 #include <pcl/cosection/common/camera.h>
 #include <pcl/cosection/common/error.h>
-
-#include <Eigen/Geometry>
 
 #include <algorithm>
 #include <cmath>
@@ -13,8 +12,6 @@
 
 namespace pcl::cosection {
 namespace {
-
-constexpr std::size_t max_models = 250;
 
 void
 check (bool good, const char* message)
@@ -32,14 +29,10 @@ public:
       , options_ (options)
       , R_ (model.T_model_sensor.linear ().cast<float> ())
       , t_ (model.T_model_sensor.translation ().cast<float> ())
+      , box_ (boxOf (model.volume->grid ()).cast<float> ())
       , free_m_ (static_cast<float> (options.free_truncation * model.volume->truncation ()))
       , counted_ (model.volume->options ().foreground)
-  {
-    const VoxelGrid& grid = model.volume->grid ();
-    box_ = Eigen::AlignedBox3f (
-        grid.center (0, 0, 0).cast<float> (),
-        grid.center (grid.dims.x () - 1, grid.dims.y () - 1, grid.dims.z () - 1).cast<float> ());
-  }
+  {}
 
   ModelEvidence evidence (const Eigen::Vector3f& point) const
   {
@@ -135,7 +128,7 @@ DataAssociation::probabilities (const std::vector<Eigen::Vector3f>& points, cons
 PointAssignment
 DataAssociation::assign (const std::vector<Eigen::Vector3f>& points, const std::vector<AssociatedModel>& models) const
 {
-  check (models.size () <= max_models, "there are more than 250 models");
+  check (models.size () <= 250, "there are more than 250 models");
   PointAssignment result;
   result.model.assign (points.size (), PointAssignment::no_point);
   result.probability.assign (points.size (), 0.0f);

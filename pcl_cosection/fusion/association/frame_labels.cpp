@@ -34,31 +34,6 @@ modelsByLabel (const SceneModels& scene)
   return model_of;
 }
 
-/** \brief Components that are too large to belong to an object, or cut by the image's border. */
-class ForeignComponents
-{
-public:
-  ForeignComponents (const LabelImage& labels, const FrameCloud& cloud)
-  {
-    std::vector<bool> is_unassigned;
-    for (const std::uint16_t label : labels.pixels)
-    {
-      is_unassigned.push_back (label == unassigned);
-      ++pixels_[label];
-    }
-    components_ = findUnassignedComponents (is_unassigned, cloud);
-  }
-
-  bool contain (std::size_t pixel, std::uint16_t label) const
-  {
-    return !components_.mayBelongTo (components_.of_pixel[pixel], pixels_.at (label));
-  }
-
-private:
-  UnassignedComponents components_;
-  std::map<std::uint16_t, std::size_t> pixels_;
-};
-
 } // namespace
 
 PixelAssociation
@@ -99,9 +74,18 @@ growObjects (const PixelAssociation& associated, const FrameCloud& cloud, const 
              const DataAssociation& association, ObjectGrowth growth)
 {
   LabelImage labels = associated.labels;
-  std::optional<ForeignComponents> foreign;
+  std::optional<UnassignedComponents> components; // of which only small ones may join
+  std::map<std::uint16_t, std::size_t> pixels_of; // labels
   if (growth == ObjectGrowth::Small)
-    foreign.emplace (labels, cloud);
+  {
+    std::vector<bool> is_unassigned;
+    for (const std::uint16_t label : labels.pixels)
+    {
+      is_unassigned.push_back (label == unassigned);
+      ++pixels_of[label];
+    }
+    components = findUnassignedComponents (is_unassigned, cloud);
+  }
   const std::map<std::uint16_t, std::size_t> model_of = modelsByLabel (scene);
   std::vector<std::pair<std::size_t, Eigen::Vector3f>> front; // pixel, and where its growth began
   for (std::size_t n = 0; n < labels.pixels.size (); ++n)
@@ -122,7 +106,7 @@ growObjects (const PixelAssociation& associated, const FrameCloud& cloud, const 
           continue;
         const std::size_t beside = static_cast<std::size_t> (v + dv) * labels.width + u + du;
         if (labels.pixels[beside] != unassigned || associated.background[beside] != background_free ||
-            (foreign && foreign->contain (beside, label)))
+            (components && !components->mayBelongTo (components->of_pixel[beside], pixels_of.at (label))))
           continue;
         const Eigen::Vector3f& p = cloud.points[beside];
         if (std::abs (p.z () - cloud.points[n].z ()) > same_surface * p.z () || (p - origin).norm () > growth_m ||
@@ -162,29 +146,24 @@ applyMask (LabelImage labels, const Image<std::uint16_t>& mask, const LabelMap& 
       continue;
     std::uint16_t& label = labels.pixels[n];
     const std::uint16_t instance = mask.pixels[n];
+    const auto object = object_of.find (instance);
     if (instance == FrameSegmenter::ignored)
-    {
       label = unassigned;
-      continue;
-    }
-    if (instance == 0)
+    else if (instance == 0)
     {
       if (label == unassigned || matched.count (label) > 0)
         label = association.evidence (scene.models[0], p).free ? unassigned : 0;
-      continue;
     }
-    const auto object = object_of.find (instance);
-    if (object == object_of.end ())
+    else if (object == object_of.end ())
+      label = label == 0 ? unassigned : label;
+    else
     {
-      if (label == 0)
+      const auto model = model_of.find (object->second);
+      if (model == model_of.end () || !association.evidence (scene.models[model->second], p).free)
+        label = object->second;
+      else if (label == object->second)
         label = unassigned;
-      continue;
     }
-    const auto model = model_of.find (object->second);
-    if (model == model_of.end () || !association.evidence (scene.models[model->second], p).free)
-      label = object->second;
-    else if (label == object->second)
-      label = unassigned;
   }
   return labels;
 }
@@ -192,12 +171,10 @@ applyMask (LabelImage labels, const Image<std::uint16_t>& mask, const LabelMap& 
 LabelImage
 withoutMoving (LabelImage labels, const MovingParts& moving, const FrameCloud& cloud)
 {
-  if (!moving.any)
-    return labels;
-  for (int v = 0; v < labels.height; ++v)
-    for (int u = 0; u < labels.width; ++u)
-      if (labels.at (u, v) == 0 && std::isfinite (cloud.depth.at (u, v)) && moving.moves (u, v))
-        labels.at (u, v) = unassigned;
+  const Image<std::uint8_t> moves = movingPixels (moving, cloud, labels);
+  for (std::size_t n = 0; n < labels.pixels.size (); ++n)
+    if (moves.pixels[n])
+      labels.pixels[n] = unassigned;
   return labels;
 }
 

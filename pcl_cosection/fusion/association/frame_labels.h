@@ -1,14 +1,8 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "frame_mask.h"
 #include "pcl_cosection/fusion/mapping/moving_parts.h"
 #include "pcl_cosection/fusion/mapping/object_map.h"
-#include "pcl_cosection/fusion/tracking/frame_cloud.h"
-
-#include "data_association.h"
-#include <pcl/cosection/common/image.h>
-#include <pcl/cosection/fusion/dynamic_fusion.h>
 
 #include <cstdint>
 #include <map>

@@ -1,19 +1,20 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "instance_matching.h"
 
-#include "mask_matching.h"
+#include "pcl_cosection/fusion/mapping/scene_volumes.h"
 #include "pcl_cosection/fusion/tracking/object_tracking.h"
+#include "pcl_cosection/tracking/surface_points.h"
 #include "unassigned_components.h"
 
-#include "pcl_cosection/tracking/surface_points.h"
+#include <pcl/cosection/common/error.h>
 #include <pcl/cosection/fusion/frame_segmenter.h>
 
 #include <algorithm>
-#include <numeric>
+#include <cmath>
 #include <optional>
 #include <set>
+#include <tuple>
 #include <utility>
-#include <vector>
 
 namespace pcl::cosection {
 namespace {
@@ -23,9 +24,9 @@ constexpr int last_id = TrackedFrame::unassigned - 1;
 Eigen::Vector3d
 centroid (const std::vector<Eigen::Vector3f>& points)
 {
-  const Eigen::Vector3d sum = std::accumulate (
-      points.begin (), points.end (), Eigen::Vector3d (0.0, 0.0, 0.0),
-      [] (const Eigen::Vector3d& s, const Eigen::Vector3f& p) -> Eigen::Vector3d { return s + p.cast<double> (); });
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero ();
+  for (const Eigen::Vector3f& p : points)
+    sum += p.cast<double> ();
   return sum / static_cast<double> (std::max<std::size_t> (1, points.size ()));
 }
 
@@ -153,14 +154,12 @@ beginObject (const PosedFrame& frame, const std::vector<Eigen::Vector3f>& points
                                      [] (const auto& object) { return object.second.isActive (); });
   if (active >= options.max_objects)
     return refuse ("there are ", active, " objects already");
-  const std::optional<VoxelGrid> grid = placeObjectVolume (transformed (points, frame.T_world_camera),
-                                                           options.object_resolution);
+  const std::optional<VoxelGrid> grid = placeObjectVolume (points, frame.T_world_camera, options.object_resolution);
   if (!grid)
     return refuse ("its points have no extent");
   for (const auto& [id, object] : objects.by_id)
   {
-    const double overlap = object.isActive () ? volumeOverlap (*grid, Eigen::Isometry3d::Identity (),
-                                                               object.volume->grid (), object.T_world_object)
+    const double overlap = object.isActive () ? volumeOverlap (*grid, object.volume->grid (), object.T_world_object)
                                               : 0.0;
     if (overlap > options.max_volume_iou && !options.persistent_ids)
       return refuse ("its volume would be that of object ", id, " to ", 100.0 * overlap, " %");
@@ -186,6 +185,43 @@ beginObject (const PosedFrame& frame, const std::vector<Eigen::Vector3f>& points
 
 } // namespace
 
+MaskMatches
+matchMasks (const Image<std::uint16_t>& mask, const Image<std::uint16_t>& rendered, const Image<float>& depth,
+            double min_iou)
+{
+  if (mask.pixels.size () != rendered.pixels.size () || mask.pixels.size () != depth.pixels.size ())
+    throw InvalidArgument ("masks can be matched with an image of their own size only");
+  MaskMatches matches;
+  std::map<std::pair<std::uint16_t, std::uint16_t>, std::size_t> common;
+  for (std::size_t n = 0; n < mask.pixels.size (); ++n)
+  {
+    const std::uint16_t instance = mask.pixels[n];
+    const std::uint16_t object = rendered.pixels[n];
+    if ((instance == 0 && object == 0) || !std::isfinite (depth.pixels[n]))
+      continue;
+    if (instance != 0)
+      ++matches.instance_pixels[instance];
+    if (object != 0)
+      ++matches.object_pixels[object];
+    if (instance != 0 && object != 0)
+      ++common[{instance, object}];
+  }
+  std::vector<std::tuple<double, std::uint16_t, std::uint16_t>> pairs;
+  for (const auto& [pair, pixels] : common)
+  {
+    const std::size_t either = matches.instance_pixels[pair.first] + matches.object_pixels[pair.second] - pixels;
+    const double iou = static_cast<double> (pixels) / static_cast<double> (either);
+    if (iou > min_iou)
+      pairs.emplace_back (-iou, pair.first, pair.second);
+  }
+  std::sort (pairs.begin (), pairs.end ());
+  std::set<std::uint16_t> taken;
+  for (const auto& [iou, instance, object] : pairs)
+    if (matches.object_of.count (instance) == 0 && taken.insert (object).second)
+      matches.object_of[instance] = object;
+  return matches;
+}
+
 MatchedInstances
 matchInstances (const PosedFrame& frame, const FrameMask& mask, const LabelImage& labels, const FusionSetup& setup,
                 SdfAlignment& alignment, ObjectMap& objects, EventLog& log)
@@ -199,7 +235,7 @@ matchInstances (const PosedFrame& frame, const FrameMask& mask, const LabelImage
   {
     if (matches.object_of.count (instance) > 0)
       continue;
-    const std::vector<Eigen::Vector3f> points = pointsOf (frame.cloud, mask.instances, instance);
+    const std::vector<Eigen::Vector3f> points = frame.cloud.pointsOf (mask.instances, instance);
     if (!mask.exact && (cut.count (instance) > 0 || points.size () < setup.min_object_pixels))
       continue; // not worth a line in the log: there are many
     const TrackedObject* object = findAgain (frame, points, instance, setup.options.persistent_ids, alignment, objects);

@@ -5,8 +5,6 @@
 
 #include <pcl/cosection/fusion/frame_segmenter.h>
 
-#include <algorithm>
-
 namespace pcl::cosection {
 namespace {
 
@@ -16,54 +14,51 @@ constexpr double border_share = 0.25; // of a side, with readings
 // From the border of the view, where surfaces have no normals and belong to no instance.
 constexpr int cut_margin_px = 12;
 
-/** \brief Call f (pixels from the border inwards) along the borders of the view: sides of the smallest rectangle with
- * all readings, unless a side is that of things before a background without readings. */
-template <typename Function>
-void
-forEnds (const FrameCloud& cloud, Function&& f)
+/** \brief At how many pixels along the borders of the view each thing ends. Borders are sides of the smallest rectangle
+ * with all readings, unless a side is that of things before a background without readings.
+ * \param[in] thingOf (pixel): number of a thing, or a negative one; the first from the border inwards counts */
+template <typename Number>
+std::vector<std::size_t>
+countEnds (const FrameCloud& cloud, std::size_t things, Number&& thingOf)
 {
+  std::vector<std::size_t> ends (things, 0);
   const int width = cloud.camera.width;
   const int height = cloud.camera.height;
   const auto isRead = [&] (int u, int v) { return std::isfinite (cloud.depth.at (u, v)); };
-  int left = width, right = -1, top = height, bottom = -1;
+  Eigen::AlignedBox2i view; // with all readings
   for (int v = 0; v < height; ++v)
     for (int u = 0; u < width; ++u)
       if (isRead (u, v))
-      {
-        left = std::min (left, u);
-        right = std::max (right, u);
-        top = std::min (top, v);
-        bottom = std::max (bottom, v);
-      }
-  if (right - left < 2 * cut_margin_px || bottom - top < 2 * cut_margin_px)
-    return;
+        view.extend (Eigen::Vector2i (u, v));
+  if (view.isEmpty () || view.sizes ().minCoeff () < 2 * cut_margin_px)
+    return ends;
   const auto side = [&] (int from, int step, bool vertical) {
     const int size = vertical ? width : height;
     if ((step > 0 ? from : size - 1 - from) > widest_margin * size)
       return;
-    const int first = vertical ? top : left, last = vertical ? bottom : right;
+    const int first = view.min ()[vertical], last = view.max ()[vertical];
     int read = 0;
     for (int along = first; along <= last; ++along)
       read += vertical ? isRead (from + step * cut_margin_px / 2, along)
                        : isRead (along, from + step * cut_margin_px / 2);
     if (static_cast<double> (read) < border_share * (last - first + 1))
       return;
-    std::vector<std::size_t> end (cut_margin_px);
     for (int along = first; along <= last; ++along)
-    {
       for (int n = 0; n < cut_margin_px; ++n)
       {
         const int across = from + step * n;
-        end[n] = vertical ? static_cast<std::size_t> (along) * width + across
-                          : static_cast<std::size_t> (across) * width + along;
+        const int thing = thingOf (vertical ? along * width + across : across * width + along);
+        if (thing < 0)
+          continue;
+        ++ends[thing];
+        break;
       }
-      f (end);
-    }
   };
-  side (left, 1, true);
-  side (right, -1, true);
-  side (top, 1, false);
-  side (bottom, -1, false);
+  side (view.min ().x (), 1, true);
+  side (view.max ().x (), -1, true);
+  side (view.min ().y (), 1, false);
+  side (view.max ().y (), -1, false);
+  return ends;
 }
 
 bool
@@ -92,15 +87,8 @@ findUnassignedComponents (const std::vector<bool>& unassigned, const FrameCloud&
       components.pixels.push_back (0);
     ++components.pixels[component];
   }
-  std::vector<std::size_t> ends (components.pixels.size (), 0);
-  forEnds (cloud, [&] (const std::vector<std::size_t>& end) {
-    for (const std::size_t pixel : end)
-      if (components.of_pixel[pixel] != UnassignedComponents::none)
-      {
-        ++ends[components.of_pixel[pixel]];
-        return;
-      }
-  });
+  const std::vector<std::size_t> ends = countEnds (cloud, components.pixels.size (),
+                                                   [&] (int pixel) { return components.of_pixel[pixel]; });
   for (std::size_t component = 0; component < ends.size (); ++component)
     components.cut.push_back (isCut (ends[component], components.pixels[component]));
   return components;
@@ -112,14 +100,9 @@ cutInstances (const Image<std::uint16_t>& mask, const FrameCloud& cloud)
   std::vector<std::size_t> pixels (FrameSegmenter::ignored + 1, 0);
   for (const std::uint16_t instance : mask.pixels)
     ++pixels[instance];
-  std::vector<std::size_t> ends (pixels.size (), 0);
-  forEnds (cloud, [&] (const std::vector<std::size_t>& end) {
-    for (const std::size_t pixel : end)
-      if (const std::uint16_t instance = mask.pixels[pixel]; instance != 0 && instance != FrameSegmenter::ignored)
-      {
-        ++ends[instance];
-        return;
-      }
+  const std::vector<std::size_t> ends = countEnds (cloud, pixels.size (), [&] (int pixel) {
+    const std::uint16_t instance = mask.pixels[pixel];
+    return instance == 0 || instance == FrameSegmenter::ignored ? -1 : static_cast<int> (instance);
   });
   std::set<std::uint16_t> cut;
   for (std::size_t instance = 1; instance < FrameSegmenter::ignored; ++instance)

@@ -1,7 +1,7 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "unreliable_mask.h"
 
-#include "mask_matching.h"
+#include "instance_matching.h"
 #include "unassigned_components.h"
 
 #include <algorithm>

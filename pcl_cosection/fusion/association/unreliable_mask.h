@@ -1,10 +1,8 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "frame_labels.h"
 #include "pcl_cosection/fusion/tracking/frame_cloud.h"
 
-#include <pcl/cosection/common/image.h>
 #include <pcl/cosection/fusion/frame_segmenter.h>
 
 #include <cstdint>

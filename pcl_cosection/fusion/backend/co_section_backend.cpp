@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <limits>
 #include <string>
+#include <system_error>
+#include <utility>
 
 namespace pcl::cosection {
 namespace {
@@ -24,12 +26,18 @@ transformed (const std::vector<OrientedPoint>& points, const Eigen::Isometry3d& 
   return result;
 }
 
-void
-requireFinite (const CoSectionBackend::Poses& poses)
+/** \brief T_body_sensor of the world (id 0) and of the objects. \throws InvalidArgument if a pose is not finite */
+std::map<int, Eigen::Isometry3d>
+relativeTo (const CoSectionBackend::Poses& T_world_object, const Eigen::Isometry3d& T_world_sensor)
 {
-  for (const auto& [id, T] : poses)
+  std::map<int, Eigen::Isometry3d> T_body_sensor{{0, T_world_sensor}};
+  for (const auto& [id, T] : T_world_object)
+  {
     if (!T.matrix ().allFinite ())
       throw InvalidArgument ("the pose of object " + std::to_string (id) + " is not finite");
+    T_body_sensor[id] = T.inverse () * T_world_sensor;
+  }
+  return T_body_sensor;
 }
 
 } // namespace
@@ -136,11 +144,7 @@ bool
 CoSectionBackend::addFrame (DepthView view, const Poses& T_world_object)
 {
   view.validate ();
-  requireFinite (T_world_object);
-  KeptView place{{{0, view.T_world_sensor}}, false};
-  for (const auto& [id, T] : T_world_object)
-    place.T_body_sensor[id] = T.inverse () * view.T_world_sensor;
-  if (!reserve (std::move (place)))
+  if (!reserve ({relativeTo (T_world_object, view.T_world_sensor), false}))
     return false;
   scene_.addView (std::move (view), T_world_object, ViewUse::FreeSpace);
   return true;
@@ -150,14 +154,11 @@ bool
 CoSectionBackend::addKeyframe (const Keyframe& keyframe, const Poses& T_world_object)
 {
   keyframe.view.validate ();
-  requireFinite (T_world_object);
+  const Eigen::Isometry3d& T_world_sensor = keyframe.view.T_world_sensor;
+  KeptView place{relativeTo (T_world_object, T_world_sensor), true};
   if (!keyframe.points.empty () && keyframe.points.begin ()->first < 0)
     throw InvalidArgument ("the id of an object is " + std::to_string (keyframe.points.begin ()->first) +
                            "; it must be positive");
-  const Eigen::Isometry3d& T_world_sensor = keyframe.view.T_world_sensor;
-  KeptView place{{{0, T_world_sensor}}, true};
-  for (const auto& [id, T] : T_world_object)
-    place.T_body_sensor[id] = T.inverse () * T_world_sensor;
   if (!reserve (std::move (place)))
     return false;
   scene_.addView (keyframe.view, T_world_object, ViewUse::Full);
@@ -191,6 +192,140 @@ SceneResult
 CoSectionBackend::solve (const ProgressCallback& progress) const
 {
   return scene_.reconstruct (progress);
+}
+
+BackendThread::BackendThread (CoSectionBackend& backend, UpdateOutput output) : backend_ (backend), output_ (output)
+{
+  try
+  {
+    thread_ = std::thread (&BackendThread::run, this);
+  }
+  catch (const std::system_error& error)
+  {
+    throw Error (std::string ("no thread can be started for the back end: ") + error.what ());
+  }
+}
+
+BackendThread::~BackendThread ()
+{
+  {
+    const std::lock_guard<std::mutex> lock (mutex_);
+    stop_ = true;
+  }
+  changed_.notify_all ();
+  thread_.join ();
+}
+
+void
+BackendThread::addKeyframe (Keyframe keyframe, CoSectionBackend::Poses T_world_object)
+{
+  add ({std::move (keyframe), {}, std::move (T_world_object)});
+}
+
+void
+BackendThread::addFrame (DepthView view, CoSectionBackend::Poses T_world_object)
+{
+  add ({std::nullopt, std::move (view), std::move (T_world_object)});
+}
+
+void
+BackendThread::add (Item item)
+{
+  {
+    const std::lock_guard<std::mutex> lock (mutex_);
+    waiting_.push_back (std::move (item));
+  }
+  changed_.notify_all ();
+}
+
+std::vector<BackendUpdate>
+BackendThread::takeUpdates ()
+{
+  const std::lock_guard<std::mutex> lock (mutex_);
+  if (failure_)
+    std::rethrow_exception (failure_);
+  return std::exchange (updates_, {});
+}
+
+bool
+BackendThread::wait (std::size_t views, std::chrono::milliseconds time)
+{
+  std::unique_lock<std::mutex> lock (mutex_);
+  const bool done = changed_.wait_for (
+      lock, time, [&] { return failure_ || (waiting_.size () <= views && (views > 0 || !busy_)); });
+  if (failure_)
+    std::rethrow_exception (failure_);
+  return done;
+}
+
+void
+BackendThread::run () noexcept
+{
+  try
+  {
+    work ();
+  }
+  catch (...)
+  {
+    const std::lock_guard<std::mutex> lock (mutex_);
+    if (!stop_)
+      failure_ = std::current_exception ();
+  }
+  changed_.notify_all ();
+}
+
+void
+BackendThread::work ()
+{
+  std::unique_lock<std::mutex> lock (mutex_);
+  for (;;)
+  {
+    changed_.wait (lock, [this] { return stop_ || !waiting_.empty (); });
+    if (stop_)
+      return;
+    std::vector<Item> items = std::exchange (waiting_, {});
+    busy_ = true;
+    lock.unlock ();
+    changed_.notify_all (); // there is room
+
+    std::optional<BackendUpdate> result;
+    if (const std::optional<double> stamp = use (std::move (items)))
+      result = update (*stamp);
+
+    lock.lock ();
+    busy_ = false;
+    if (result)
+      updates_.push_back (std::move (*result));
+    changed_.notify_all ();
+  }
+}
+
+std::optional<double>
+BackendThread::use (std::vector<Item> items)
+{
+  std::optional<double> stamp;
+  for (Item& item : items)
+  {
+    if (!item.keyframe)
+    {
+      backend_.addFrame (std::move (item.view), item.T_world_object);
+      continue;
+    }
+    backend_.addKeyframe (*item.keyframe, item.T_world_object);
+    stamp = item.keyframe->stamp;
+  }
+  return stamp;
+}
+
+BackendUpdate
+BackendThread::update (double stamp)
+{
+  const auto start = std::chrono::steady_clock::now ();
+  BackendUpdate result;
+  result.stamp = stamp;
+  result.scene = backend_.update (output_, [this] (const std::string&, double) { return !stop_; });
+  result.seconds = std::chrono::duration<double> (std::chrono::steady_clock::now () - start).count ();
+  return result;
 }
 
 } // namespace pcl::cosection

@@ -4,7 +4,6 @@
 #include <pcl/cosection/common/error.h>
 #include <pcl/cosection/surface/normals.h>
 
-#include <cmath>
 #include <limits>
 #include <string>
 
@@ -57,14 +56,11 @@ makeKeyframe (const RgbdFrame& frame, const PinholeCamera& camera, const Image<s
   keyframe.stamp = frame.stamp;
   keyframe.view = makeDepthView (frame.depth, camera, T_world_camera, options);
 
-  const std::vector<float>& depth = keyframe.view.depth;
-  std::vector<Eigen::Vector3f> points (depth.size ());
+  std::vector<Eigen::Vector3f> points;
+  points.reserve (keyframe.view.depth.size ());
   for (int v = 0; v < camera.height; ++v)
     for (int u = 0; u < camera.width; ++u)
-    {
-      const std::size_t n = static_cast<std::size_t> (v) * camera.width + u;
-      points[n] = camera.unproject (u, v, depth[n]).cast<float> ();
-    }
+      points.push_back (camera.unproject (u, v, keyframe.view.at (u, v)).cast<float> ());
   const std::vector<std::uint32_t> labels (instances.pixels.begin (), instances.pixels.end ());
   OrganizedNormalsOptions normal_options;
   normal_options.threads = options.threads;

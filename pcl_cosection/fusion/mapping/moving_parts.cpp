@@ -58,15 +58,11 @@ backgroundDistances (const MovingParts& grid, const FrameCloud& cloud, const std
       if (!std::isfinite (p.z ()) || !std::isfinite (cloud.reliable.at (i * step + step / 2, j * step + step / 2)))
         continue;
       const ModelEvidence evidence = association.evidence (background, p);
-      if (!evidence.known)
-        continue;
-      bool of_object = false;
-      for (std::size_t m = 1; m < models.size () && !of_object; ++m)
-      {
-        const ModelEvidence other = association.evidence (models[m], p);
-        of_object = other.known && !other.free;
-      }
-      if (of_object)
+      const auto is_seen_there = [&] (const AssociatedModel& object) {
+        const ModelEvidence of_object = association.evidence (object, p);
+        return of_object.known && !of_object.free;
+      };
+      if (!evidence.known || std::any_of (models.begin () + 1, models.end (), is_seen_there))
         continue;
       const float z = evidence.free ? free_sigmas
                                     : static_cast<float> (evidence.distance_m /

@@ -1,14 +1,10 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "object_merging.h"
-#include "pcl_cosection/fusion/event_log.h"
-#include "pcl_cosection/fusion/fusion_setup.h"
-#include "pcl_cosection/fusion/tracking/frame_cloud.h"
-#include "tracked_object.h"
-
 #include "pcl_cosection/fusion/association/data_association.h"
-#include <pcl/cosection/common/image.h>
+#include "pcl_cosection/fusion/fusion_setup.h"
+#include "pcl_cosection/fusion/run_log.h"
+#include "tracked_object.h"
 
 #include <Eigen/Geometry>
 
@@ -16,23 +12,54 @@
 #include <cstdint>
 #include <map>
 #include <set>
+#include <utility>
 #include <vector>
 
 namespace pcl::cosection {
+
+struct ReconciledMask;
+
+/** \brief Whether two objects are parts of one, as unreliable masks may show parts of objects. */
+struct ObjectPair
+{
+  int together = 0;         ///< masks that showed them as one instance
+  int apart = 0;            ///< masks that showed them as two that touch
+  Eigen::Vector3d place;    ///< of the second in the first when both were first tracked, metres
+  Eigen::Vector3d start[2]; ///< of both, then, world frame
+  int frames = 0;           ///< in which both were tracked
+  double travel_m = 0.0;    ///< largest distance from its start of the one that moved less
+  double drift_m = 0.0;     ///< largest distance of the second from its place in the first
+  double tolerance_m = 0.0;
+  bool two = false; ///< they were seen to move separately: they are two forever
+
+  /** \brief Whether they touch and keep their places relative to each other while both move, or masks show them as one
+   * more often than as two. */
+  bool isOne () const;
+};
 
 /** \brief All objects, and what is known of pairs of them. */
 struct ObjectMap
 {
   std::map<int, TrackedObject> by_id;
-  ObjectPairs pairs;
+  std::map<std::pair<int, int>, ObjectPair> pairs; ///< by ids, the smaller one first
   int next_id = 1;
   int next_dormant = 1; ///< TrackedObject::dormant_since
 
-  /** \brief Ids of all objects but those that are not confirmed. */
-  std::set<int> found () const;
+  /** \brief Ids of the objects for which \a condition (object) holds. */
+  template <typename Condition> std::set<int> idsOf (Condition&& condition) const
+  {
+    std::set<int> ids;
+    for (const auto& [id, object] : by_id)
+      if (condition (object))
+        ids.insert (id);
+    return ids;
+  }
 
-  /** \brief Ids of objects that are tracked and have moved since they began. */
-  std::set<int> moved () const;
+  /** \brief Ids of all objects but those that are not confirmed. */
+  std::set<int> found () const
+  {
+    return idsOf ([] (const TrackedObject& object) { return object.confirmed; });
+  }
 
   /** \brief The object of an id; null without one. */
   const TrackedObject* find (int id) const;
@@ -62,15 +89,15 @@ SceneModels expectedModels (const TsdfVolume& background, const ObjectMap& objec
 SceneModels trackedModels (const TsdfVolume& background, const ObjectMap& objects,
                            const Eigen::Isometry3d& T_world_camera);
 
-/** \brief The reliable points of a label, sensor frame. */
-std::vector<Eigen::Vector3f> pointsOf (const FrameCloud& cloud, const Image<std::uint16_t>& labels,
-                                       std::uint16_t label);
+/** \brief Learn from a mask that is not exact: confirm objects that began with another one, or erase them.
+ * \param[in] labels of this frame, by association */
+void confirmObjects (double stamp, const ReconciledMask& mask, const LabelImage& labels, const FusionSetup& setup,
+                     ObjectMap& objects, EventLog& log);
 
-std::vector<Eigen::Vector3f> transformed (const std::vector<Eigen::Vector3f>& points, const Eigen::Isometry3d& T);
-
-/** \brief Grow the volumes of tracked objects so that they hold the points of their labels. */
-void growVolumes (const PosedFrame& frame, const Image<std::uint16_t>& labels, int max_resolution, ObjectMap& objects,
-                  EventLog& log);
+/** \brief Unite objects that are parts of one: the one with more pixels absorbs the other.
+ * \param[in] labels of this frame, by association
+ * \return by label of a part, which is erased, the label of its whole */
+LabelMap uniteParts (double stamp, const LabelImage& labels, ObjectMap& objects, EventLog& log);
 
 /** \brief Erase what is probably no object; objects that were not seen for long become dormant.
  * \param[in] mean_probability of the pixels that an object explains, by label */

@@ -1,13 +1,10 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "object_tsdf.h"
 
-#include "pcl_cosection/common/trimmed_box.h"
+#include "pcl_cosection/common/boxes.h"
 
 #include <pcl/cosection/common/error.h>
 
-#include <Eigen/Geometry>
-
-#include <algorithm>
 #include <cmath>
 
 namespace pcl::cosection {
@@ -22,6 +19,26 @@ Eigen::AlignedBox3d
 boxWithout (double share, const std::vector<OrientedPoint>& points)
 {
   return trimmedBox<double> (points, share, [] (const OrientedPoint& point) { return point.position; });
+}
+
+/** \brief Whether a volume of at most so many voxels along a side can grow to hold a box. */
+bool
+canHold (const VoxelGrid& grid, const Eigen::AlignedBox3d& box, int max_resolution)
+{
+  const Eigen::Array3d low = grid.toVoxel (box.min ()).array ().min (0.0);
+  const Eigen::Array3d high = grid.toVoxel (box.max ()).array ().max (grid.dims.cast<double> ().array () - 1.0);
+  return (high - low < max_resolution).all ();
+}
+
+VoxelGrid
+gridAround (const Eigen::AlignedBox3d& box, double voxel_size_m, int max_resolution)
+{
+  VoxelGrid grid;
+  grid.voxel_size_m = voxel_size_m;
+  const Eigen::Array3d wanted = (box.sizes () / voxel_size_m).array ().ceil () + 1.0;
+  grid.dims = wanted.min (max_resolution).cast<int> ().matrix ();
+  grid.origin_m = box.center () - 0.5 * voxel_size_m * (grid.dims.cast<double> ().array () - 1.0).matrix ();
+  return grid;
 }
 
 } // namespace
@@ -43,26 +60,6 @@ ObjectTsdf::ObjectTsdf (const ObjectTsdfOptions& options) : options_ (options)
   options.validate ();
 }
 
-bool
-ObjectTsdf::canHold (const Eigen::AlignedBox3d& box) const
-{
-  const VoxelGrid& grid = volume_->grid ();
-  const Eigen::Array3d low = grid.toVoxel (box.min ()).array ().min (0.0);
-  const Eigen::Array3d high = grid.toVoxel (box.max ()).array ().max (grid.dims.cast<double> ().array () - 1.0);
-  return (high - low < options_.max_resolution).all ();
-}
-
-void
-ObjectTsdf::place (const Eigen::AlignedBox3d& box, double voxel_size_m)
-{
-  VoxelGrid grid;
-  grid.voxel_size_m = voxel_size_m;
-  const Eigen::Array3d wanted = (box.sizes () / voxel_size_m).array ().ceil () + 1.0;
-  grid.dims = wanted.min (options_.max_resolution).cast<int> ().matrix ();
-  grid.origin_m = box.center () - 0.5 * voxel_size_m * (grid.dims.cast<double> ().array () - 1.0).matrix ();
-  volume_.emplace (grid, options_.tsdf);
-}
-
 void
 ObjectTsdf::makeRoom (const std::vector<OrientedPoint>& points)
 {
@@ -74,9 +71,9 @@ ObjectTsdf::makeRoom (const std::vector<OrientedPoint>& points)
     return;
   const Eigen::Vector3d margin = Eigen::Vector3d::Constant (options_.margin * longest);
   const Eigen::AlignedBox3d wanted (seen.min () - margin, seen.max () + margin);
-  if (!volume_ || !canHold (boxWithout (core_share, points)))
+  if (!volume_ || !canHold (volume_->grid (), boxWithout (core_share, points), options_.max_resolution))
   {
-    place (wanted, longest / options_.resolution);
+    volume_.emplace (gridAround (wanted, longest / options_.resolution, options_.max_resolution), options_.tsdf);
     return;
   }
   const VoxelGrid& grid = volume_->grid ();

@@ -31,9 +31,6 @@ public:
   const std::optional<TsdfVolume>& volume () const { return volume_; }
 
 private:
-  bool canHold (const Eigen::AlignedBox3d& box) const;
-  void place (const Eigen::AlignedBox3d& box, double voxel_size_m);
-
   ObjectTsdfOptions options_;
   std::optional<TsdfVolume> volume_;
 };

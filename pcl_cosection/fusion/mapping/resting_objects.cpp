@@ -3,7 +3,6 @@
 
 #include "pcl_cosection/common/quantile.h"
 #include "pcl_cosection/common/robust_weights.h"
-#include "pcl_cosection/fusion/tracking/frame_cloud.h"
 
 #include <pcl/cosection/common/camera.h>
 
@@ -16,9 +15,6 @@
 
 namespace pcl::cosection {
 namespace {
-
-using Vector6d = MotionChart::Vector6d;
-using Matrix6d = Eigen::Matrix<double, 6, 6>;
 
 constexpr int rounds = 2; // of association
 constexpr int steps = 6;  // in each
@@ -70,25 +66,16 @@ samplesOf (const Pieces& pieces, const Eigen::Isometry3d& T_world_camera)
   return all;
 }
 
-/** \brief Standard deviation of distances, from the median of their sizes. */
-double
-spread (std::vector<double> distances)
-{
-  for (double& distance : distances)
-    distance = std::abs (distance);
-  return sigmaOfSizes (distances);
-}
-
 /** \brief Whether the readings that observe a direction do not fit the background: depth edges are noisy, walls not. */
 bool
 isNoisy (const std::vector<SurfaceSample>& samples, const MotionChart& chart, const Vector6d& direction,
          double largest_spread_m)
 {
-  std::vector<double> distances;
+  std::vector<double> sizes; // of distances
   for (const SurfaceSample& sample : samples)
     if (std::abs (chart.slope (sample).dot (direction)) >= sample.facing)
-      distances.push_back (sample.distance);
-  return !distances.empty () && spread (distances) > largest_spread_m;
+      sizes.push_back (std::abs (sample.distance));
+  return !sizes.empty () && sigmaOfSizes (sizes) > largest_spread_m;
 }
 
 /** \brief The motions that the background does not observe, or by less than \a enough weight of noisy readings. */
@@ -96,21 +83,10 @@ Directions
 openDirections (const std::vector<SurfaceSample>& samples, const MotionChart& chart, double enough,
                 double largest_spread_m)
 {
-  Matrix6d curvature = Matrix6d::Zero ();
-  double total = 0.0;
-  for (const SurfaceSample& sample : samples)
-  {
-    const Vector6d slope = chart.slope (sample);
-    curvature += sample.weight * slope * slope.transpose ();
-    total += sample.weight;
-  }
-  const Eigen::SelfAdjointEigenSolver<Matrix6d> solver (curvature);
   Directions open (6, 0);
-  for (int k = 0; k < 6; ++k)
+  for (const auto& [direction, curvature, support, observed] : principalDirections (samples, chart))
   {
-    const Vector6d direction = solver.eigenvectors ().col (k);
-    const DirectionSupport support = directionSupport (samples, chart, direction);
-    if (support.isEnough (total) && (support.all >= enough || !isNoisy (samples, chart, direction, largest_spread_m)))
+    if (observed && (support >= enough || !isNoisy (samples, chart, direction, largest_spread_m)))
       continue;
     open.conservativeResize (Eigen::NoChange, open.cols () + 1);
     open.rightCols<1> () = direction;
@@ -119,34 +95,28 @@ openDirections (const std::vector<SurfaceSample>& samples, const MotionChart& ch
 }
 
 /** \brief Coordinates of motions along open directions, by which certain samples move. */
-class OpenMotions
+struct OpenMotions
 {
-public:
   /** \param[in] open directions in the chart of the background */
   OpenMotions (const std::vector<SurfaceSample>& samples, const Directions& open, const MotionChart& background)
-      : chart_ (samples)
+      : chart (samples)
   {
     constexpr double small = 1e-4; // metres: such motions add up
     Directions directions (6, open.cols ());
     for (int k = 0; k < open.cols (); ++k)
-      directions.col (k) = chart_.coordinates (background.motion (small * open.col (k))) / small;
-    basis_ = Eigen::HouseholderQR<Directions> (directions).householderQ () * Directions::Identity (6, open.cols ());
+      directions.col (k) = chart.coordinates (background.motion (small * open.col (k))) / small;
+    basis = Eigen::HouseholderQR<Directions> (directions).householderQ () * Directions::Identity (6, open.cols ());
   }
 
   VectorXd coordinates (const Eigen::Isometry3d& motion) const
   {
-    return basis_.transpose () * chart_.coordinates (motion);
+    return basis.transpose () * chart.coordinates (motion);
   }
 
-  Eigen::Isometry3d motion (const VectorXd& x) const { return chart_.motion (basis_ * x); }
+  Eigen::Isometry3d motion (const VectorXd& x) const { return chart.motion (basis * x); }
 
-  const MotionChart& chart () const { return chart_; }
-
-  const Directions& basis () const { return basis_; }
-
-private:
-  MotionChart chart_;
-  Directions basis_;
+  MotionChart chart;
+  Directions basis;
 };
 
 /** \brief A Gauss-Newton step. Directions that hardly any sample observes are left out. */
@@ -154,13 +124,13 @@ struct OpenStep
 {
   OpenStep (const std::vector<SurfaceSample>& samples, const OpenMotions& open)
   {
-    const auto k = open.basis ().cols ();
+    const auto k = open.basis.cols ();
     MatrixXd curvature = MatrixXd::Zero (k, k);
     VectorXd gradient = VectorXd::Zero (k);
     double total = 0.0;
     for (const SurfaceSample& sample : samples)
     {
-      const VectorXd slope = open.basis ().transpose () * open.chart ().slope (sample);
+      const VectorXd slope = open.basis.transpose () * open.chart.slope (sample);
       curvature += sample.weight * slope * slope.transpose ();
       gradient += sample.weight * sample.distance * slope;
       total += sample.weight;
@@ -171,7 +141,7 @@ struct OpenStep
     for (int n = 0; n < k; ++n)
     {
       const VectorXd direction = solver.eigenvectors ().col (n);
-      if (!(directionSupport (samples, open.chart (), open.basis () * direction).all > least_share * total))
+      if (!(directionSupport (samples, open.chart, open.basis * direction).all > least_share * total))
         continue;
       step -= direction.dot (gradient) / solver.eigenvalues ()[n] * direction;
       observed += direction * direction.transpose ();
@@ -185,11 +155,8 @@ struct OpenStep
 };
 
 /** \brief Finds poses along the open directions of the background by pieces. */
-class PoseByPieces
+struct PoseByPieces
 {
-public:
-  PoseByPieces (const MotionChart& chart, Directions open) : chart_ (chart), open_ (std::move (open)) {}
-
   /** \brief The pose by these pieces, from a pose nearby. \param[in] default_pose along directions that they do not
    * observe */
   HeldPose solve (const Pieces& pieces, const Eigen::Isometry3d& start, const Eigen::Isometry3d& default_pose) const
@@ -199,10 +166,10 @@ public:
     for (int n = 0; n < steps; ++n)
     {
       const std::vector<SurfaceSample> samples = samplesOf (pieces, result.T_world_camera);
-      const OpenMotions open (samples, open_, chart_);
-      const OpenStep next (samples, open);
-      const VectorXd x = open.coordinates (result.T_world_camera * default_pose.inverse ());
-      result.T_world_camera = open.motion (next.step) * open.motion (next.observed * x) * default_pose;
+      const OpenMotions motions (samples, open, chart);
+      const OpenStep next (samples, motions);
+      const VectorXd x = motions.coordinates (result.T_world_camera * default_pose.inverse ());
+      result.T_world_camera = motions.motion (next.step) * motions.motion (next.observed * x) * default_pose;
       result.directions = next.directions;
       if (next.step.norm () < short_step * pieces[0]->volume->grid ().voxel_size_m)
         break;
@@ -218,18 +185,11 @@ public:
     for (const SurfaceSample& sample : samples)
       counted += sample.points;
     return 2.0 * counted >= static_cast<double> (piece.points.size ()) &&
-           OpenStep (samples, OpenMotions (samples, open_, chart_)).step.norm () < piece.tolerance_m;
+           OpenStep (samples, OpenMotions (samples, open, chart)).step.norm () < piece.tolerance_m;
   }
 
-  /** \brief How far a motion moves these pieces. */
-  double length (const Pieces& pieces, const Eigen::Isometry3d& T_world_camera, const Eigen::Isometry3d& motion) const
-  {
-    return OpenMotions (samplesOf (pieces, T_world_camera), open_, chart_).coordinates (motion).norm ();
-  }
-
-private:
-  const MotionChart& chart_;
-  Directions open_;
+  const MotionChart& chart;
+  const Directions& open;
 };
 
 /** \brief The pieces that agree with the pose that most agree with. \param[in] steady T_world_camera if the camera goes
@@ -249,8 +209,9 @@ mostThatAgree (const std::vector<Piece>& pieces, const PoseByPieces& poses, cons
   double most = 0.0;
   const auto consider = [&] (const Pieces& some) {
     const Eigen::Isometry3d pose = poses.solve (some, steady, steady).T_world_camera;
+    const OpenMotions motions (samplesOf (all, pose), poses.open, poses.chart);
+    double support = motions.coordinates (pose * steady.inverse ()).norm () < tolerance_m ? largest : 0.0;
     Pieces agreeing;
-    double support = poses.length (all, pose, pose * steady.inverse ()) < tolerance_m ? largest : 0.0;
     for (const Piece* piece : all)
       if (poses.agrees (*piece, pose))
       {
@@ -317,17 +278,17 @@ observingPart (const TsdfVolume& room, const std::vector<SurfaceSample>& samples
   const double voxel_m = room.grid ().voxel_size_m;
   Piece piece{&room, Eigen::Isometry3d::Identity (), voxel_m};
   const Eigen::Isometry3d T_camera_world = T_world_camera.inverse ();
-  std::vector<double> distances;
+  std::vector<double> sizes; // of distances
   for (const SurfaceSample& sample : samples)
     if ((open.transpose () * chart.slope (sample)).norm () >= sample.facing)
     {
       piece.points.push_back ((T_camera_world * sample.position).cast<float> ());
       piece.weights.push_back (static_cast<float> (sample.weight));
       piece.votes += sample.weight;
-      distances.push_back (sample.distance);
+      sizes.push_back (std::abs (sample.distance));
     }
-  if (!distances.empty ())
-    piece.tolerance_m = std::clamp (spread (distances), least_error * voxel_m, voxel_m);
+  if (!sizes.empty ())
+    piece.tolerance_m = std::clamp (sigmaOfSizes (sizes), least_error * voxel_m, voxel_m);
   piece.votes *= voxel_m / piece.tolerance_m;
   return piece;
 }
@@ -354,7 +315,7 @@ holdByRestingObjects (const std::vector<Eigen::Vector3f>& points, const std::vec
                                           bad_fit * room.grid ().voxel_size_m);
   if (!(weight > 0.0) || open.cols () == 0)
     return result;
-  const PoseByPieces poses (chart, open);
+  const PoseByPieces poses{chart, open};
   const VectorXd expected = open.transpose () * chart.coordinates (T_world_camera * by_background.inverse ());
   const Eigen::Isometry3d steady = chart.motion (open * expected) * by_background;
   const Piece part = observingPart (room, samples, chart, open, by_background);

@@ -3,8 +3,6 @@
 
 #include "object_map.h"
 
-#include "pcl_cosection/fusion/association/data_association.h"
-
 #include <Eigen/Geometry>
 
 #include <vector>

@@ -3,17 +3,45 @@
 
 #include "pcl_cosection/fusion/tracking/brightness_tracking.h"
 
-#include "class_evidence.h"
 #include <pcl/cosection/common/triangle_mesh.h>
+#include <pcl/cosection/fusion/dynamic_fusion.h>
 #include <pcl/cosection/volume/tsdf_volume.h>
 
 #include <Eigen/Geometry>
 
 #include <cstddef>
+#include <map>
 #include <optional>
-#include <vector>
 
 namespace pcl::cosection {
+
+/** \brief What an object is, by all detections of it.
+ *
+ * A detection tells the score of one class; those of all others are taken for 0. The score of a class is the mean over
+ * all detections. Fusion++ averages class probabilities so, instead of multiplying them as SemanticFusion does:
+ * detections from similar views are not independent, and their product soon is certain of what is wrong. J. McCormac et
+ * al., "Fusion++: Volumetric Object-Level SLAM", 3DV 2018; J. McCormac et al., "SemanticFusion: Dense 3D Semantic
+ * Mapping with Convolutional Neural Networks", ICRA 2017. */
+class ClassEvidence
+{
+public:
+  /** \brief Count a detection. \throws InvalidArgument if its score is not in [0, 1] */
+  void add (const ClassScore& detection);
+
+  /** \brief Count all detections of something else that turns out to be the same object. */
+  void add (const ClassEvidence& other);
+
+  /** \brief How many there were. */
+  std::size_t detections () const { return detections_; }
+
+  /** \brief The class of the highest score, of equals that of the smallest class_id, with its score; nothing without a
+   * detection. The name is the one that came first with the class_id. */
+  std::optional<ClassScore> best () const;
+
+private:
+  std::map<int, ClassScore> sums_; // over detections, by class_id
+  std::size_t detections_ = 0;
+};
 
 enum class ObjectState
 {
@@ -37,9 +65,6 @@ struct TrackedObject
 
   /** \brief Take over a pose that tracking found. */
   void moveTo (const Eigen::Isometry3d& T_world);
-
-  /** \brief Keep the surface and free the volume. */
-  void retire ();
 
   bool isTracked () const { return state == ObjectState::Tracked; }
 
@@ -93,19 +118,5 @@ struct TrackedObject
   int missed = 0;  ///< masks in which it should have been seen
   int unshown = 0; ///< masks that did not show it while it was not confirmed
 };
-
-/** \brief Place the volume of a new object: centred on the box of its points without a tenth of them at either end of
- * each axis, with an edge twice the longest side of the box. Nothing for too few points or points without extent.
- * \param[in] points world frame */
-std::optional<VoxelGrid> placeObjectVolume (const std::vector<Eigen::Vector3f>& points, int resolution);
-
-/** \brief Make room for points near the volume's sides or beyond; its voxels stay.
- * \param[in] points object frame
- * \return whether the volume holds them, without outliers */
-bool growObjectVolume (TsdfVolume& volume, const std::vector<Eigen::Vector3f>& points, int max_resolution);
-
-/** \brief Intersection over union of two volumes' boxes, by sampling the first. */
-double volumeOverlap (const VoxelGrid& a, const Eigen::Isometry3d& T_world_a, const VoxelGrid& b,
-                      const Eigen::Isometry3d& T_world_b);
 
 } // namespace pcl::cosection

@@ -5,19 +5,7 @@
 
 #include <pcl/cosection/common/error.h>
 
-#include <utility>
-
 namespace pcl::cosection {
-
-void
-ScheduledSegmenter::set (std::shared_ptr<FrameSegmenter> segmenter)
-{
-  segmenter_ = std::move (segmenter);
-  next_frame_ = 0;
-  logged_notes_.clear ();
-  if (segmenter_)
-    segmenter_->begin ();
-}
 
 FrameInstances
 ScheduledSegmenter::see (const ObservedFrame& frame, EventLog& log)
@@ -57,7 +45,9 @@ detectInstances (const RgbdFrame& images, const PosedFrame& frame, const LabelIm
     return FrameMask{std::move (*found.mask), std::move (found.classes), true, segmenter.findsAll ()};
   const ReconciledMask reconciled = reconcile (*found.mask, labels, moving_pixels, frame.cloud);
   confirmObjects (frame.stamp, reconciled, labels, setup, objects, log);
-  Image<std::uint16_t> attached = attachToMoved (reconciled, objects.moved (), labels, frame.cloud);
+  const std::set<int> moved = objects.idsOf (
+      [] (const TrackedObject& object) { return object.isTracked () && object.hasMoved (); });
+  Image<std::uint16_t> attached = attachToMoved (reconciled, moved, labels, frame.cloud);
   std::map<std::uint16_t, ClassScore> classes = carriedClasses (found, attached, frame.cloud);
   return FrameMask{std::move (attached), std::move (classes), false, segmenter.findsAll ()};
 }

@@ -1,10 +1,8 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "pcl_cosection/fusion/association/frame_mask.h"
-#include "pcl_cosection/fusion/event_log.h"
+#include "pcl_cosection/fusion/association/instance_matching.h"
 #include "pcl_cosection/fusion/mapping/moving_parts.h"
-#include "pcl_cosection/fusion/mapping/object_map.h"
 
 #include <pcl/cosection/fusion/frame_segmenter.h>
 
@@ -13,6 +11,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <utility>
 
 namespace pcl::cosection {
 
@@ -20,11 +19,14 @@ namespace pcl::cosection {
 class ScheduledSegmenter
 {
 public:
-  /** \param[in] every frames */
-  explicit ScheduledSegmenter (int every) : every_ (static_cast<std::size_t> (every)) {}
-
-  /** \param[in] segmenter null: none */
-  void set (std::shared_ptr<FrameSegmenter> segmenter);
+  /** \param[in] every frames \param[in] segmenter null: none */
+  explicit ScheduledSegmenter (int every, std::shared_ptr<FrameSegmenter> segmenter = {})
+      : every_ (static_cast<std::size_t> (every))
+      , segmenter_ (std::move (segmenter))
+  {
+    if (segmenter_)
+      segmenter_->begin ();
+  }
 
   bool isSet () const { return segmenter_ != nullptr; }
 

@@ -13,9 +13,6 @@
 namespace pcl::cosection {
 namespace {
 
-using Vector6d = Eigen::Matrix<double, 6, 1>;
-using Matrix6d = Eigen::Matrix<double, 6, 6>;
-
 constexpr int lights = 5; // that change all brightness: a factor, an offset, a slope along each axis
 using VectorXd = Eigen::Matrix<double, 6 + lights, 1>;
 using MatrixXd = Eigen::Matrix<double, 6 + lights, 6 + lights>;
@@ -49,12 +46,6 @@ atLevel (const Eigen::Vector2d& pixel, std::size_t level)
   return (pixel.array () + 0.5) / scale - 0.5;
 }
 
-bool
-isWithin (const Image<float>& image, const Eigen::Vector2d& pixel)
-{
-  return pixel.x () >= 0.0 && pixel.y () >= 0.0 && pixel.x () <= image.width - 1.0 && pixel.y () <= image.height - 1.0;
-}
-
 /** \brief Projection onto the directions that are observed. */
 Matrix6d
 observedBy (const Matrix6d& precision)
@@ -65,12 +56,6 @@ observedBy (const Matrix6d& precision)
     if (solver.eigenvalues ()[k] * known_sigma_m * known_sigma_m > 1.0)
       observed += solver.eigenvectors ().col (k) * solver.eigenvectors ().col (k).transpose ();
   return observed;
-}
-
-int
-directionsOf (const Matrix6d& precision)
-{
-  return static_cast<int> (std::lround (observedBy (precision).trace ()));
 }
 
 /** \brief A shape's precision with the errors of the model itself: the fewer readings observe a direction, relative to
@@ -102,10 +87,53 @@ struct Comparison
 /** \brief The normal equations of the points at a pose. */
 struct Sums
 {
-  explicit Sums (const std::vector<Comparison>& points);
+  explicit Sums (const std::vector<Comparison>& points) : seen (points.size ())
+  {
+    if (seen < least_points)
+      return;
+    std::vector<double> differences (seen);
+    std::transform (points.begin (), points.end (), differences.begin (),
+                    [] (const Comparison& point) { return point.now - point.then; });
+    const double offset = upperMedian (differences);
+    for (double& difference : differences)
+      difference = std::abs (difference - offset);
+    sigma = std::max (least_sigma, sigmaOfSizes (differences));
+    double mean = 0.0;
+    for (const Comparison& point : points)
+      mean += point.then / static_cast<double> (seen);
+
+    const double huber = huber_sigmas * sigma;
+    for (const Comparison& point : points)
+    {
+      const double difference = point.now - point.then - offset, size = std::abs (difference);
+      const double weight = huberWeight (size, huber);
+      VectorXd change;
+      change << point.slope, (point.then - mean) / factor_unit, 1.0, point.place;
+      squares += weight * change * change.transpose ();
+      gradient += weight * difference * change;
+      cost += huberCost (size, huber);
+      agreeing += size <= as_bright;
+    }
+    cost /= static_cast<double> (seen);
+    leaveOutLight ();
+  }
 
   /** \brief Eliminate the light: precision and slope of the pose, whatever the light is. */
-  void leaveOutLight ();
+  void leaveOutLight ()
+  {
+    constexpr double least_contrast = 1e-6;
+    const double scale = 1.0 / (sigma * sigma * correlated);
+    const Eigen::Matrix<double, lights, lights> of_light = squares.bottomRightCorner<lights, lights> () +
+                                                           least_contrast * static_cast<double> (seen) *
+                                                               Eigen::Matrix<double, lights, lights>::Identity ();
+    const Eigen::Matrix<double, 6, lights> mixed = squares.topRightCorner<6, lights> () * of_light.inverse ();
+    const Matrix6d of_pixels = scale *
+                               (squares.topLeftCorner<6, 6> () - mixed * squares.bottomLeftCorner<lights, 6> ());
+    const Matrix6d observed = observedBy (of_pixels); // along other directions the pixels say little of worth
+    const Matrix6d share = (Matrix6d::Identity () + reference_sigma_m * reference_sigma_m * of_pixels).inverse ();
+    precision = share * observed * of_pixels;
+    slope = scale * share * observed * (gradient.head<6> () - mixed * gradient.tail<lights> ());
+  }
 
   MatrixXd squares = MatrixXd::Zero (); // six of the pose, and the lights
   VectorXd gradient = VectorXd::Zero ();
@@ -116,53 +144,6 @@ struct Sums
   std::size_t seen;
   std::size_t agreeing = 0;
 };
-
-Sums::Sums (const std::vector<Comparison>& points) : seen (points.size ())
-{
-  if (seen < least_points)
-    return;
-  std::vector<double> differences (seen);
-  std::transform (points.begin (), points.end (), differences.begin (),
-                  [] (const Comparison& point) { return point.now - point.then; });
-  const double offset = upperMedian (differences);
-  for (double& difference : differences)
-    difference = std::abs (difference - offset);
-  sigma = std::max (least_sigma, sigmaOfSizes (differences));
-  double mean = 0.0;
-  for (const Comparison& point : points)
-    mean += point.then / static_cast<double> (seen);
-
-  const double huber = huber_sigmas * sigma;
-  for (const Comparison& point : points)
-  {
-    const double difference = point.now - point.then - offset, size = std::abs (difference);
-    const double weight = huberWeight (size, huber);
-    VectorXd change;
-    change << point.slope, (point.then - mean) / factor_unit, 1.0, point.place;
-    squares += weight * change * change.transpose ();
-    gradient += weight * difference * change;
-    cost += huberCost (size, huber);
-    agreeing += size <= as_bright;
-  }
-  cost /= static_cast<double> (seen);
-  leaveOutLight ();
-}
-
-void
-Sums::leaveOutLight ()
-{
-  constexpr double least_contrast = 1e-6;
-  const double scale = 1.0 / (sigma * sigma * correlated);
-  const Eigen::Matrix<double, lights, lights> of_light = squares.bottomRightCorner<lights, lights> () +
-                                                         least_contrast * static_cast<double> (seen) *
-                                                             Eigen::Matrix<double, lights, lights>::Identity ();
-  const Eigen::Matrix<double, 6, lights> mixed = squares.topRightCorner<6, lights> () * of_light.inverse ();
-  const Matrix6d of_pixels = scale * (squares.topLeftCorner<6, 6> () - mixed * squares.bottomLeftCorner<lights, 6> ());
-  const Matrix6d observed = observedBy (of_pixels); // along other directions the pixels say little of worth
-  const Matrix6d share = (Matrix6d::Identity () + reference_sigma_m * reference_sigma_m * of_pixels).inverse ();
-  precision = share * observed * of_pixels;
-  slope = scale * share * observed * (gradient.head<6> () - mixed * gradient.tail<lights> ());
-}
 
 Sums
 compare (const BrightnessReference& reference, const FrameCloud& cloud, std::size_t level, const MotionChart& chart,
@@ -187,7 +168,7 @@ compare (const BrightnessReference& reference, const FrameCloud& cloud, std::siz
     if (!cloud.unmixed.at (u, v) ||
         !(std::abs (z - p.z ()) < hidden_sigmas * depthNoiseSigma (p.z ()) + hidden_share * p.z ()))
       continue;
-    const BrightnessReading reading = readBrightness (image, place.x (), place.y ());
+    const BrightnessReading reading = readBrightness (image, place);
     const double du = per_pixel * camera.fx * reading.du / p.z (), dv = per_pixel * camera.fy * reading.dv / p.z ();
     const Eigen::Vector3d by_point (du, dv, -(du * p.x () + dv * p.y ()) / p.z ());
     // A motion of the camera in the model's frame moves points the other way before it.
@@ -202,7 +183,7 @@ compare (const BrightnessReference& reference, const FrameCloud& cloud, std::siz
 int
 UncertainPose::directions () const
 {
-  return directionsOf (precision);
+  return static_cast<int> (std::lround (observedBy (precision).trace ()));
 }
 
 BrightnessFit
@@ -246,7 +227,8 @@ trackBrightness (const BrightnessReference& reference, const FrameCloud& cloud, 
   const Sums sums = compare (reference, cloud, 0, chart, result.T_model_camera);
   BrightnessFit fit;
   fit.agreement = static_cast<double> (sums.agreeing) / static_cast<double> (reference.points.size ());
-  if (directionsOf (sums.precision) >= least_directions && fit.agreement >= least_agreeing)
+  if (UncertainPose{result.T_model_camera, sums.precision}.directions () >= least_directions &&
+      fit.agreement >= least_agreeing)
     fit.pose = result;
   return fit;
 }
@@ -273,10 +255,7 @@ nextReference (BrightnessReference reference, const FrameCloud& cloud, const Tra
       continue;
     BrightnessReference::Point point{T_model_camera * p, {}};
     for (std::size_t level = 0; level < brightness_levels; ++level)
-    {
-      const Eigen::Vector2d place = atLevel (pixel, level);
-      point.brightness[level] = readBrightness (cloud.brightness[level], place.x (), place.y ()).value;
-    }
+      point.brightness[level] = readBrightness (cloud.brightness[level], atLevel (pixel, level)).value;
     reference.points.push_back (point);
   }
   return reference;

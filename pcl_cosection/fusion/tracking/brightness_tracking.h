@@ -2,7 +2,7 @@
 #pragma once
 
 #include "frame_cloud.h"
-#include "surface_samples.h"
+#include "observed_motion.h"
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
@@ -16,8 +16,6 @@ namespace pcl::cosection {
 /** \brief A pose and how well it is known. */
 struct UncertainPose
 {
-  using Matrix6d = Eigen::Matrix<double, 6, 6>;
-
   Eigen::Isometry3d T_model_camera = Eigen::Isometry3d::Identity ();
   /** \brief Inverse of the covariance of T_model_camera's left factor, in a chart's coordinates, 1 / m^2. */
   Matrix6d precision = Matrix6d::Zero ();

@@ -96,8 +96,7 @@ compareBlocks (const RestReference& reference, const FrameCloud& cloud, const Ei
       if (p.z () <= 0.0)
         continue;
       const Eigen::Vector2d pixel = camera.project (p);
-      if (!(pixel.x () >= 0.0 && pixel.y () >= 0.0 && pixel.x () <= camera.width - 1.0 &&
-            pixel.y () <= camera.height - 1.0))
+      if (!isWithin (cloud.depth, pixel))
         continue;
       shifts += (pixel - Eigen::Vector2d (u, v)).norm ();
       ++compared;
@@ -107,8 +106,7 @@ compareBlocks (const RestReference& reference, const FrameCloud& cloud, const Ei
       {
         const float then = reference.brightness.at (u, v);
         ballot.brightness.add ((cloud.brightness[0].at (u, v) - then) / brightness_sigma,
-                               (readBrightness (cloud.brightness[0], pixel.x (), pixel.y ()).value - then) /
-                                   brightness_sigma);
+                               (readBrightness (cloud.brightness[0], pixel).value - then) / brightness_sigma);
       }
       const float at_rest = cloud.depth.at (u, v);
       const float moved = cloud.depth.at (static_cast<int> (std::lround (pixel.x ())),

@@ -3,10 +3,10 @@
 
 #include "brightness_tracking.h"
 #include "camera_at_rest.h"
-#include "pcl_cosection/fusion/event_log.h"
 #include "pcl_cosection/fusion/fusion_setup.h"
 #include "pcl_cosection/fusion/mapping/moving_parts.h"
 #include "pcl_cosection/fusion/mapping/object_map.h"
+#include "pcl_cosection/fusion/run_log.h"
 
 #include <pcl/cosection/io/rgbd_sequence.h>
 #include <pcl/cosection/tracking/sdf_alignment.h>

@@ -10,7 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
+#include <utility>
 
 namespace pcl::cosection {
 namespace {
@@ -20,6 +20,8 @@ constexpr float none = std::numeric_limits<float>::quiet_NaN ();
 // smallestEdgeStep (): tracking can do without readings, and is more accurate without those that are only noisy.
 constexpr float edge_step = 0.03f;
 constexpr double model_sigma_voxels = 0.25; // how well a volume knows where a surface is
+constexpr int smallest_side = 16;           // of a level of brightness
+constexpr int brightness_reach_px = 3;      // of the mean that the first level's brightness between pixels is
 
 bool
 isEdge (const Image<float>& depth, int u, int v)
@@ -32,16 +34,48 @@ isEdge (const Image<float>& depth, int u, int v)
   return jumps (u - 1, v) || jumps (u + 1, v) || jumps (u, v - 1) || jumps (u, v + 1);
 }
 
+cv::Mat
+viewOf (Image<float>& image)
+{
+  return {image.height, image.width, CV_32F, image.pixels.data ()};
+}
+
+BrightnessLevels
+brightnessLevels (const Picture& picture)
+{
+  BrightnessLevels result (1, Image<float> (picture.width, picture.height));
+  for (std::size_t n = 0; n < picture.pixels.size (); ++n)
+  {
+    const auto& rgb = picture.pixels[n];
+    result[0].pixels[n] = 0.299f * rgb[0] + 0.587f * rgb[1] + 0.114f * rgb[2];
+  }
+  cv::Mat first = viewOf (result[0]);
+  cv::GaussianBlur (first, first, cv::Size (5, 5), 1.0);
+  while (result.size () < brightness_levels &&
+         std::min (result.back ().width, result.back ().height) >= 2 * smallest_side)
+  {
+    Image<float>& last = result.back ();
+    Image<float> next (last.width / 2, last.height / 2);
+    cv::Mat half = viewOf (next);
+    // Means of 2 x 2 pixels, so that the middle of a pixel stays the middle of a pixel.
+    cv::Mat whole = viewOf (last) (cv::Rect (0, 0, 2 * next.width, 2 * next.height));
+    cv::resize (whole, half, half.size (), 0.0, 0.0, cv::INTER_AREA);
+    cv::GaussianBlur (half, half, cv::Size (3, 3), 0.7);
+    result.push_back (std::move (next));
+  }
+  return result;
+}
+
 /** \brief 1 where all pixels that the first level's brightness is a mean of have a reliable reading, else 0. */
 Image<std::uint8_t>
 unmixedPixels (const Image<float>& reliable)
 {
-  constexpr int reach = brightness_reach_px;
+  constexpr int window = 2 * brightness_reach_px + 1;
   Image<std::uint8_t> unmixed (reliable.width, reliable.height);
   std::transform (reliable.pixels.begin (), reliable.pixels.end (), unmixed.pixels.begin (),
                   [] (float z) { return static_cast<std::uint8_t> (std::isfinite (z)); });
   cv::Mat view (unmixed.height, unmixed.width, CV_8U, unmixed.pixels.data ());
-  cv::erode (view, view, cv::Mat::ones (2 * reach + 1, 2 * reach + 1, CV_8U));
+  cv::erode (view, view, cv::Mat::ones (window, window, CV_8U));
   return unmixed;
 }
 
@@ -56,6 +90,16 @@ FrameCloud::sample (int step) const
     for (int u = step / 2; u < camera.width; u += step)
       if (std::isfinite (reliable.at (u, v)))
         result.push_back (points[static_cast<std::size_t> (v) * camera.width + u]);
+  return result;
+}
+
+std::vector<Eigen::Vector3f>
+FrameCloud::pointsOf (const LabelImage& labels, std::uint16_t label) const
+{
+  std::vector<Eigen::Vector3f> result;
+  for (std::size_t n = 0; n < labels.pixels.size (); ++n)
+    if (labels.pixels[n] == label && std::isfinite (reliable.pixels[n]))
+      result.push_back (points[n]);
   return result;
 }
 
@@ -74,7 +118,6 @@ makeFrameCloud (const RgbdFrame& frame, const PinholeCamera& camera, const Dynam
   cloud.depth = depth;
   cloud.reliable = Image<float> (camera.width, camera.height, none);
   cloud.points.assign (depth.pixels.size (), Eigen::Vector3f::Constant (none));
-  std::vector<std::size_t> readings (camera.height, 0);
   parallelFor (0, camera.height, threadsForVoxels (options.threads, depth.pixels.size ()), [&] (int v) {
     for (int u = 0; u < camera.width; ++u)
     {
@@ -84,20 +127,39 @@ makeFrameCloud (const RgbdFrame& frame, const PinholeCamera& camera, const Dynam
         z = none;
         continue;
       }
-      ++readings[v];
       cloud.points[static_cast<std::size_t> (v) * camera.width +
                    u] = camera.unproject (u, v, smooth ? smoothed.at (u, v) : z).cast<float> ();
       if (!isEdge (depth, u, v))
         cloud.reliable.at (u, v) = z;
     }
   });
-  cloud.readings = std::accumulate (readings.begin (), readings.end (), std::size_t (0));
+  cloud.readings = static_cast<std::size_t> (
+      std::count_if (cloud.depth.pixels.begin (), cloud.depth.pixels.end (), [] (float z) { return !std::isnan (z); }));
   if (frame.colour.pixels.size () == depth.pixels.size ())
   {
-    cloud.brightness = brightnessLevels (frame.colour, brightness_levels);
+    cloud.brightness = brightnessLevels (frame.colour);
     cloud.unmixed = unmixedPixels (cloud.reliable);
   }
   return cloud;
+}
+
+BrightnessReading
+readBrightness (const Image<float>& image, const Eigen::Vector2d& pixel)
+{
+  const int i = std::min (image.width - 2, static_cast<int> (pixel.x ()));
+  const int j = std::min (image.height - 2, static_cast<int> (pixel.y ()));
+  const auto a = static_cast<float> (pixel.x () - i), b = static_cast<float> (pixel.y () - j);
+  const float* upper = &image.at (i, j);
+  const float* lower = upper + image.width;
+  const float left = upper[0] + b * (lower[0] - upper[0]), right = upper[1] + b * (lower[1] - upper[1]);
+  const float above = upper[0] + a * (upper[1] - upper[0]), below = lower[0] + a * (lower[1] - lower[0]);
+  return {left + a * (right - left), right - left, below - above};
+}
+
+bool
+isWithin (const Image<float>& image, const Eigen::Vector2d& pixel)
+{
+  return pixel.x () >= 0.0 && pixel.y () >= 0.0 && pixel.x () <= image.width - 1.0 && pixel.y () <= image.height - 1.0;
 }
 
 float

@@ -1,10 +1,10 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "object_tracking.h"
-#include "pcl_cosection/view/visibility/visibility.h"
 
 #include "observed_motion.h"
-
+#include "pcl_cosection/common/boxes.h"
 #include "pcl_cosection/tracking/surface_points.h"
+#include "pcl_cosection/view/visibility/visibility.h"
 
 #include <algorithm>
 #include <cmath>
@@ -48,11 +48,9 @@ pointsNear (const FrameCloud& cloud, const AssociatedModel& model)
   const VoxelGrid& grid = model.volume->grid ();
   const Eigen::Isometry3d T_camera_model = model.T_model_sensor.inverse ();
   Eigen::AlignedBox2d seen;
-  for (int corner = 0; corner < 8; ++corner)
+  for (const Eigen::Vector3d& corner : corners (grid))
   {
-    const Eigen::Vector3d p = T_camera_model * grid.center ((corner & 1) * (grid.dims.x () - 1),
-                                                            ((corner >> 1) & 1) * (grid.dims.y () - 1),
-                                                            (corner >> 2) * (grid.dims.z () - 1));
+    const Eigen::Vector3d p = T_camera_model * corner;
     if (p.z () <= 0.0)
       return cloud.sample (1);
     seen.extend (cloud.camera.project (p));
@@ -91,27 +89,14 @@ checkVisibility (const TsdfVolume& volume, const Eigen::Isometry3d& T_model_came
     if (!cell || cell->gradient ().dot (eye - point) <= 0.0f)
       continue; // it is turned away, or at the end of the known space
     const Eigen::Vector3d p = T_camera_model * point.cast<double> ();
+    ++result.facing;
     const std::optional<Eigen::Array2i> pixel = pixelOf (cloud.camera, p);
     if (!pixel)
-    {
-      ++result.outside;
       continue;
-    }
-    switch (compareWithReading (p.z (), cloud.depth.at (pixel->x (), pixel->y ()),
-                                tolerance_m + 3.0 * depthNoiseSigma (p.z ())))
-    {
-    case PointVisibility::Occluded:
-      ++result.occluded;
-      break;
-    case PointVisibility::AtSurface:
-      ++result.confirmed;
-      break;
-    case PointVisibility::Free:
-      ++result.contradicted;
-      break;
-    default:
-      ++result.unread;
-    }
+    const PointVisibility seen = compareWithReading (p.z (), cloud.depth.at (pixel->x (), pixel->y ()),
+                                                     tolerance_m + 3.0 * depthNoiseSigma (p.z ()));
+    result.confirmed += seen == PointVisibility::AtSurface;
+    result.contradicted += seen == PointVisibility::Free;
   }
   return result;
 }

@@ -1,8 +1,8 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "pcl_cosection/fusion/event_log.h"
 #include "pcl_cosection/fusion/mapping/object_map.h"
+#include "pcl_cosection/fusion/run_log.h"
 #include "pose_estimate.h"
 
 namespace pcl::cosection {

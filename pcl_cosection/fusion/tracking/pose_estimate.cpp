@@ -1,11 +1,10 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "pose_estimate.h"
 
-#include "pcl_cosection/fusion/event_log.h"
+#include "pcl_cosection/fusion/run_log.h"
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 namespace pcl::cosection {
 namespace {
@@ -14,20 +13,6 @@ constexpr double standard_pixels = 640.0 * 480.0;
 constexpr double correlated_pixels = 49.0; // the depth filter's window, in an image of so many
 
 } // namespace
-
-double
-Visibility::inViewShare () const
-{
-  const std::size_t all = facing ();
-  return all > 0 ? static_cast<double> (confirmed + contradicted) / static_cast<double> (all) : 0.0;
-}
-
-double
-Visibility::confirmedShare () const
-{
-  const std::size_t seen = confirmed + contradicted;
-  return seen > 0 ? static_cast<double> (confirmed) / static_cast<double> (seen) : 1.0;
-}
 
 std::string
 rejectionReason (const SdfAlignmentResult& result, const Eigen::Isometry3d& pose, const Eigen::Isometry3d& guess,

@@ -17,22 +17,22 @@ namespace pcl::cosection {
 
 constexpr int all_directions = 6; ///< of a pose
 
-/** \brief How a frame agrees with a model's surface at a pose: numbers of surface points that face the camera. */
+/** \brief How a frame agrees with a model's surface at a pose: numbers of surface points. */
 struct Visibility
 {
-  std::size_t outside = 0;      ///< of the image
-  std::size_t unread = 0;       ///< where there is no reading
-  std::size_t occluded = 0;     ///< something is in front
-  std::size_t confirmed = 0;    ///< the reading is on the surface
-  std::size_t contradicted = 0; ///< the reading is behind
-
-  std::size_t facing () const { return outside + unread + occluded + confirmed + contradicted; }
-
   /** \brief Share of the points that the frame confirms or contradicts; 0 without points. */
-  double inViewShare () const;
+  double inViewShare () const { return facing > 0 ? static_cast<double> (confirmed + contradicted) / facing : 0.0; }
 
   /** \brief Share of these that it confirms; 1 without any. */
-  double confirmedShare () const;
+  double confirmedShare () const
+  {
+    const int seen = confirmed + contradicted;
+    return seen > 0 ? static_cast<double> (confirmed) / seen : 1.0;
+  }
+
+  int facing = 0;       ///< the camera
+  int confirmed = 0;    ///< of these: the reading is on the surface
+  int contradicted = 0; ///< the reading is behind
 };
 
 /** \brief A model's pose relative to the camera, and whether to believe it. */

@@ -5,8 +5,7 @@
 
 #include "pcd_cloud.h"
 
-#include "pcd_header.h"
-#include "pcd_points.h"
+#include "pcd_file.h"
 #include "pcl_cosection/common/byte_text.h"
 
 #include <pcl/cosection/common/error.h>
@@ -113,10 +112,7 @@ readVectors (const std::string& path, const PcdHeader& header, const PCLPointClo
 void
 checkMemory (const std::string& path, const PcdHeader& header, std::size_t limit_bytes)
 {
-  std::size_t step = 0;
-  for (const PcdField& field : header.fields)
-    step += field.size * field.count;
-  const std::size_t per_point = 2 * step + 2 * sizeof (Eigen::Vector3f) + sizeof (std::uint32_t) +
+  const std::size_t per_point = 2 * header.pointBytes () + 2 * sizeof (Eigen::Vector3f) + sizeof (std::uint32_t) +
                                 sizeof (OrientedPoint);
   if (limit_bytes == 0 || header.points <= limit_bytes / per_point)
     return;

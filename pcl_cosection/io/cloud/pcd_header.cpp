@@ -1,5 +1,5 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
-#include "pcd_header.h"
+#include "pcd_file.h"
 
 #include <pcl/cosection/common/error.h>
 
@@ -10,6 +10,7 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <set>
 #include <sstream>
 
@@ -34,10 +35,7 @@ Tokens
 split (const std::string& line)
 {
   std::istringstream stream (line);
-  Tokens tokens;
-  for (std::string token; stream >> token;)
-    tokens.push_back (token);
-  return (tokens);
+  return (Tokens (std::istream_iterator<std::string> (stream), {}));
 }
 
 std::uint64_t
@@ -51,15 +49,6 @@ parseCount (const std::string& path, const std::string& key, const std::string& 
   return (value);
 }
 
-bool
-isNumber (const char* first, const char* last)
-{
-  // strtod reads "nan", "inf" and everything that PCL writes; the token is bounded by white space.
-  char* end = nullptr;
-  std::strtod (first, &end);
-  return (end == last);
-}
-
 class HeaderParser
 {
 public:
@@ -67,12 +56,8 @@ public:
 
   PcdHeader parse (const std::string& text)
   {
-    std::size_t begin = 0;
-    while (begin < text.size ())
+    for (std::size_t begin = 0, end = text.find ('\n'); end != text.npos; end = text.find ('\n', begin))
     {
-      const std::size_t end = text.find ('\n', begin);
-      if (end == std::string::npos)
-        break;
       const Tokens tokens = split (text.substr (begin, end - begin));
       begin = end + 1;
       if (tokens.empty () || tokens[0][0] == '#')
@@ -138,9 +123,10 @@ private:
     bool good = tokens.size () == 8;
     for (std::size_t i = 0; good && i < 7; ++i)
     {
-      good = isNumber (tokens[i + 1].c_str (), tokens[i + 1].c_str () + tokens[i + 1].size ());
-      header_.viewpoint[i] = std::strtod (tokens[i + 1].c_str (), nullptr);
-      good = good && std::abs (header_.viewpoint[i]) <= max_viewpoint;
+      const std::string& token = tokens[i + 1];
+      char* end = nullptr; // strtod reads "nan", "inf" and everything that PCL writes
+      header_.viewpoint[i] = std::strtod (token.c_str (), &end);
+      good = end == token.c_str () + token.size () && std::abs (header_.viewpoint[i]) <= max_viewpoint;
     }
     const auto& v = header_.viewpoint;
     if (!good || !(std::hypot (std::hypot (v[3], v[4]), std::hypot (v[5], v[6])) > 1e-6))
@@ -210,14 +196,6 @@ checkCompressed (const std::string& path, const PcdHeader& header, std::istream&
     fail (path, "its compressed points do not have the size that its header announces");
 }
 
-void
-checkAscii (const std::string& path, const PcdHeader& header, std::uint64_t found)
-{
-  const std::uint64_t shortest = 2 * header.pointValues () * header.points - 1; // a digit and a separator each
-  if (found < shortest)
-    failTruncated (path, shortest, found);
-}
-
 } // namespace
 
 const PcdField*
@@ -236,15 +214,6 @@ PcdHeader::pointBytes (PcdPadding padding) const
     if (padding == PcdPadding::Included || !field.isPadding ())
       bytes += field.size * field.count;
   return (bytes);
-}
-
-std::uint64_t
-PcdHeader::pointValues () const
-{
-  std::uint64_t values = 0;
-  for (const PcdField& field : fields)
-    values += field.count;
-  return (values);
 }
 
 std::string
@@ -282,13 +251,19 @@ readPcdHeader (const std::string& path)
   PcdHeader header = HeaderParser (path).parse (text);
 
   const std::uint64_t found = size - header.data_offset;
+  std::uint64_t shortest = header.points * header.pointBytes ();
+  if (header.encoding == PcdEncoding::Ascii)
+  {
+    std::uint64_t values = 0;
+    for (const PcdField& field : header.fields)
+      values += field.count;
+    shortest = 2 * values * header.points - 1; // a digit and a separator each
+  }
   file.clear ();
   if (header.encoding == PcdEncoding::BinaryCompressed)
     checkCompressed (path, header, file, found);
-  else if (header.encoding == PcdEncoding::Ascii)
-    checkAscii (path, header, found);
-  else if (found < header.points * header.pointBytes ())
-    failTruncated (path, header.points * header.pointBytes (), found);
+  else if (found < shortest)
+    failTruncated (path, shortest, found);
   return (header);
 }
 

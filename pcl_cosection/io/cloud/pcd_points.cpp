@@ -1,5 +1,5 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
-#include "pcd_points.h"
+#include "pcd_file.h"
 
 #include <pcl/cosection/common/error.h>
 
@@ -14,12 +14,6 @@
 
 namespace pcl::cosection {
 namespace {
-
-[[noreturn]] void
-failDamaged (const std::string& path)
-{
-  throw IoError (path + ": its points cannot be decoded; the file is damaged");
-}
 
 /** \brief A cloud with the fields of the header and zeros for the points. */
 PCLPointCloud2
@@ -61,7 +55,7 @@ readCompressed (const std::string& path, const PcdHeader& header, std::istream& 
   readBytes (path, file, packed.data (), packed.size ());
   if (packed.empty () || columns.size () != sizes[1] ||
       lzfDecompress (packed.data (), sizes[0], columns.data (), sizes[1]) != sizes[1])
-    failDamaged (path);
+    throw IoError (path + ": its points cannot be decoded; the file is damaged");
   const char* source = columns.data ();
   std::size_t offset = 0;
   for (const PcdField& field : header.fields)

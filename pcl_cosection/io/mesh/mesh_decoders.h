@@ -1,14 +1,49 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "polygon_soup.h"
+#include <pcl/cosection/common/triangle_mesh.h>
 
+#include <cstdint>
 #include <string>
+#include <vector>
 
 namespace pcl::cosection {
 
-/** \brief Faces of a PLY file, ASCII or binary of either byte order: polygons and triangle strips.
+/** \brief Polygons as files have them, unchecked: any number of corners, indices that may not exist. */
+struct PolygonSoup
+{
+  std::vector<Eigen::Vector3f> points;
+  std::vector<std::int64_t> corners; ///< indices of points, those of one polygon behind those of another
+  std::vector<std::size_t> ends;     ///< where each polygon ends in \a corners
+
+  /** \brief End a polygon: its corners are those that were added since the last one. */
+  void endPolygon () { ends.push_back (corners.size ()); }
+
+  void addPolygon (const std::vector<std::int64_t>& polygon)
+  {
+    corners.insert (corners.end (), polygon.begin (), polygon.end ());
+    endPolygon ();
+  }
+
+  /** \brief Add the triangles of a strip: each has three consecutive indices, and every other one is turned. */
+  void addStrip (const std::vector<std::int64_t>& strip)
+  {
+    for (std::size_t n = 2; n < strip.size (); ++n)
+    {
+      const bool turned = n % 2 != 0;
+      for (const std::size_t m : {n - 2, turned ? n : n - 1, turned ? n - 1 : n})
+        corners.push_back (strip[m]);
+      endPolygon ();
+    }
+  }
+};
+
+/** \brief The mesh of a PLY file that saveMesh () wrote, or of another one of triangles: text or either byte order,
+ * properties and indices of any type; properties that it does not know are skipped.
  * All decoders throw IoError, whose message is only the reason. */
+TriangleMesh decodePly (const std::string& bytes);
+
+/** \brief Faces of a PLY file, ASCII or binary of either byte order: polygons and triangle strips. */
 PolygonSoup decodePlyPolygons (const std::string& bytes);
 
 /** \brief Faces of an STL file, ASCII or binary. */

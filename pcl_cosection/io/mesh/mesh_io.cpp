@@ -1,23 +1,79 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
-
-#include "pcl_cosection/common/file_bytes.h"
-#include "pcl_cosection/io/file_extension.h"
-#include "pcl_cosection/mesh/mesh_checks.h"
-#include "ply_mesh.h"
-
-#include "pcl_cosection/common/atomic_file.h"
-#include <pcl/cosection/common/error.h>
 #include <pcl/cosection/io/mesh_io.h>
 
+#include "pcl_cosection/common/files.h"
+#include "pcl_cosection/io/lower_case.h"
+#include "pcl_cosection/mesh/mesh_checks.h"
+#include "vtk_errors.h"
+
+#include <pcl/cosection/common/error.h>
+
 #include <Eigen/Geometry>
+
+#include <vtkFloatArray.h>
+#include <vtkImageData.h>
+#include <vtkNew.h>
+#include <vtkPointData.h>
+#include <vtkUnsignedCharArray.h>
+#include <vtkXMLImageDataWriter.h>
 
 #include <array>
 #include <charconv>
 #include <cstring>
 #include <limits>
+#include <locale>
+#include <sstream>
 
 namespace pcl::cosection {
 namespace {
+
+/** \brief Append the value at \a index, if there are any. */
+template <typename T>
+void
+appendValue (std::string& bytes, const std::vector<T>& values, std::size_t index)
+{
+  if (!values.empty ())
+    bytes.append (reinterpret_cast<const char*> (&values[index]), sizeof (T));
+}
+
+/** \brief Binary little-endian PLY with all vertex properties of the mesh. */
+std::string
+encodePly (const TriangleMesh& mesh)
+{
+  std::ostringstream header;
+  header.imbue (std::locale::classic ());
+  header << "ply\nformat binary_little_endian 1.0\nelement vertex " << mesh.vertices.size ()
+         << "\nproperty float x\nproperty float y\nproperty float z\n";
+  if (!mesh.normals.empty ())
+    header << "property float nx\nproperty float ny\nproperty float nz\n";
+  if (!mesh.colours.empty ())
+    header << "property uchar red\nproperty uchar green\nproperty uchar blue\n";
+  if (!mesh.intensity.empty ())
+    header << "property float intensity\n";
+  if (!mesh.confidence.empty ())
+    header << "property float confidence\n";
+  if (!mesh.provenance.empty ())
+    header << "property uchar provenance\n";
+  header << "element face " << mesh.triangles.size () << "\nproperty list uchar int vertex_indices\nend_header\n";
+
+  std::string bytes = header.str ();
+  bytes.reserve (bytes.size () + mesh.vertices.size () * 32 + mesh.triangles.size () * 13);
+  for (std::size_t v = 0; v < mesh.vertices.size (); ++v)
+  {
+    appendValue (bytes, mesh.vertices, v);
+    appendValue (bytes, mesh.normals, v);
+    appendValue (bytes, mesh.colours, v);
+    appendValue (bytes, mesh.intensity, v);
+    appendValue (bytes, mesh.confidence, v);
+    appendValue (bytes, mesh.provenance, v);
+  }
+  for (std::size_t t = 0; t < mesh.triangles.size (); ++t)
+  {
+    bytes += '\3'; // corners
+    appendValue (bytes, mesh.triangles, t);
+  }
+  return bytes;
+}
 
 /** \brief Binary STL: 80 bytes of title, the number of triangles, and for each one its normal, its
  * corners and two unused bytes. */
@@ -110,6 +166,17 @@ encoderFor (const std::string& path)
   throw InvalidArgument ("cannot write a mesh to '" + path + "': the extension must be .ply, .stl or .obj");
 }
 
+/** \brief Lends \a values to the image, which only reads them. */
+template <typename Array, typename T>
+void
+addArray (vtkImageData& image, const char* name, const std::vector<T>& values)
+{
+  vtkNew<Array> array;
+  array->SetName (name);
+  array->SetArray (const_cast<T*> (values.data ()), static_cast<vtkIdType> (values.size ()), 1);
+  image.GetPointData ()->AddArray (array);
+}
+
 } // namespace
 
 void
@@ -122,18 +189,36 @@ saveMesh (const TriangleMesh& mesh, const std::string& path)
   writeAtomically (path, [&] (const std::string& temporary) { writeBytes (temporary, encode (mesh)); });
 }
 
-TriangleMesh
-loadPlyMesh (const std::string& path)
+void
+saveSignedDistance (const SignedDistanceField& field, const std::string& path)
 {
-  const std::string bytes = readBytes (path);
-  try
-  {
-    return decodePly (bytes);
-  }
-  catch (const IoError& error)
-  {
-    throw IoError ("cannot read '" + path + "': " + error.what ());
-  }
+  const VoxelGrid& grid = field.grid;
+  if (grid.dims.minCoeff () < 1 || field.values.size () != grid.size () ||
+      (!field.supported.empty () && field.supported.size () != grid.size ()))
+    throw InvalidArgument ("cannot write '" + path + "': the field must have one value per voxel");
+
+  vtkNew<vtkImageData> image;
+  image->SetDimensions (grid.dims.x (), grid.dims.y (), grid.dims.z ());
+  image->SetSpacing (grid.voxel_size_m, grid.voxel_size_m, grid.voxel_size_m);
+  image->SetOrigin (grid.origin_m.x (), grid.origin_m.y (), grid.origin_m.z ());
+  addArray<vtkFloatArray> (*image, "signed_distance", field.values);
+  if (!field.supported.empty ())
+    addArray<vtkUnsignedCharArray> (*image, "supported", field.supported);
+  image->GetPointData ()->SetActiveScalars ("signed_distance");
+
+  writeAtomically (path, [&] (const std::string& temporary) {
+    // VTK encodes, we write: its own report of a full disk or a missing right says little.
+    vtkNew<vtkXMLImageDataWriter> writer;
+    const auto errors = VtkErrors::observe (*writer);
+    writer->SetInputData (image);
+    writer->EncodeAppendedDataOff ();
+    writer->SetCompressorTypeToNone (); // compressing would take several times as long as all the rest
+    writer->SetHeaderTypeToUInt64 ();
+    writer->WriteToOutputStringOn ();
+    if (writer->Write () == 0 || errors->failed ())
+      throw IoError ("cannot write '" + path + "': VTK could not encode the field");
+    writeBytes (temporary, writer->GetOutputString ());
+  });
 }
 
 } // namespace pcl::cosection

@@ -1,12 +1,21 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
+#include <pcl/cosection/io/mesh_io.h>
 
 #include "mesh_decoders.h"
-#include "pcl_cosection/common/file_bytes.h"
-#include "pcl_cosection/io/file_extension.h"
+#include "pcl_cosection/common/files.h"
+#include "pcl_cosection/io/lower_case.h"
 #include "pcl_cosection/io/text_scanner.h"
+#include "pcl_cosection/mesh/mesh_cleaning.h"
+#include "pcl_cosection/mesh/mesh_parts.h"
 
 #include <pcl/cosection/common/error.h>
-#include <pcl/cosection/io/mesh_io.h>
+
+#include <vtkIdList.h>
+#include <vtkNew.h>
+#include <vtkPoints.h>
+#include <vtkPolygon.h>
+
+#include <limits>
 
 namespace pcl::cosection {
 namespace {
@@ -35,16 +44,12 @@ decoderForContents (const std::string& bytes)
 Decoder
 decoderForExtension (const std::string& extension)
 {
-  struct Format
-  {
-    const char* extension;
-    Decoder decode;
-  };
-  static constexpr Format formats[] = {{".ply", decodePlyPolygons}, {".stl", decodeStl}, {".obj", decodeObj},
-                                       {".off", decodeOff},         {".vtk", decodeVtk}, {".vtp", decodeVtp}};
-  for (const Format& format : formats)
-    if (extension == format.extension)
-      return format.decode;
+  static constexpr std::pair<const char*, Decoder> formats[] = {{".ply", decodePlyPolygons}, {".stl", decodeStl},
+                                                                {".obj", decodeObj},         {".off", decodeOff},
+                                                                {".vtk", decodeVtk},         {".vtp", decodeVtp}};
+  for (const auto& [known, decode] : formats)
+    if (extension == known)
+      return decode;
   return nullptr;
 }
 
@@ -61,20 +66,103 @@ decode (const std::string& bytes, const std::string& extension)
   throw IoError ("unknown format; known are .ply, .stl, .obj, .off, .vtk and .vtp");
 }
 
-} // namespace
+void
+check (const PolygonSoup& soup)
+{
+  if (soup.points.size () > std::numeric_limits<std::uint32_t>::max () ||
+      soup.ends.size () > std::numeric_limits<std::uint32_t>::max ())
+    throw IoError ("it has more vertices or faces than a 32-bit index can count");
+  const auto count = static_cast<std::int64_t> (soup.points.size ());
+  for (const std::int64_t corner : soup.corners)
+  {
+    if (corner < 0 || corner >= count)
+      throw IoError ("a face refers to a vertex that does not exist");
+    if (!soup.points[static_cast<std::size_t> (corner)].allFinite ())
+      throw IoError ("vertex " + std::to_string (corner) + " (from 0) is not finite");
+  }
+}
 
+/** \brief Append the triangles of the polygon, maybe concave, with the corners [begin, end) of \a soup; \a scratch may
+ * hold anything. */
+void
+addTriangles (const PolygonSoup& soup, std::size_t begin, std::size_t end, vtkPolygon& scratch, TriangleMesh& mesh)
+{
+  const std::size_t size = end - begin;
+  const auto corner = [&] (std::size_t n) { return static_cast<std::uint32_t> (soup.corners[begin + n]); };
+  if (size == 3)
+    mesh.triangles.push_back ({corner (0), corner (1), corner (2)});
+  if (size <= 3)
+    return;
+  scratch.GetPoints ()->SetNumberOfPoints (static_cast<vtkIdType> (size));
+  scratch.GetPointIds ()->SetNumberOfIds (static_cast<vtkIdType> (size));
+  for (std::size_t n = 0; n < size; ++n)
+  {
+    const Eigen::Vector3d p = soup.points[corner (n)].cast<double> ();
+    scratch.GetPoints ()->SetPoint (static_cast<vtkIdType> (n), p.data ());
+    scratch.GetPointIds ()->SetId (static_cast<vtkIdType> (n), static_cast<vtkIdType> (n));
+  }
+  vtkNew<vtkIdList> found;
+  if (scratch.Triangulate (found) == 0 || found->GetNumberOfIds () != static_cast<vtkIdType> (3 * (size - 2)))
+  {
+    for (std::size_t n = 2; n < size; ++n) // it crosses itself or has no area
+      mesh.triangles.push_back ({corner (0), corner (n - 1), corner (n)});
+    return;
+  }
+  const auto at = [&] (vtkIdType n) { return corner (static_cast<std::size_t> (found->GetId (n))); };
+  for (vtkIdType n = 0; n < found->GetNumberOfIds (); n += 3)
+    mesh.triangles.push_back ({at (n), at (n + 1), at (n + 2)});
+}
+
+/** \brief The triangles of a soup: polygons are triangulated, what its vertices imply is made so
+ * (cleanMesh ()), and triangles are turned to agree and face outward (orientTriangles ()).
+ * \throws IoError, whose message is only the reason */
 TriangleMesh
-loadMesh (const std::string& path)
+makeMesh (const PolygonSoup& soup)
+{
+  check (soup);
+  TriangleMesh mesh;
+  mesh.vertices = soup.points;
+  mesh.triangles.reserve (soup.ends.size ());
+  vtkNew<vtkPolygon> scratch;
+  for (std::size_t n = 0; n < soup.ends.size (); ++n)
+    addTriangles (soup, n == 0 ? 0 : soup.ends[n - 1], soup.ends[n], *scratch, mesh);
+  if (mesh.empty ())
+    throw IoError ("it has no triangles");
+  mesh = cleanMesh (mesh);
+  if (mesh.empty ())
+    throw IoError ("all its triangles are without area");
+  orientTriangles (mesh);
+  return mesh;
+}
+
+/** \brief Calls decode (bytes) with the bytes of a file, and names the file in its errors. */
+template <typename Decode>
+TriangleMesh
+load (const std::string& path, Decode&& decode)
 {
   const std::string bytes = readBytes (path);
   try
   {
-    return makeMesh (decode (bytes, lowerCaseExtension (path)));
+    return decode (bytes);
   }
   catch (const IoError& error)
   {
     throw IoError ("cannot read '" + path + "': " + error.what ());
   }
+}
+
+} // namespace
+
+TriangleMesh
+loadMesh (const std::string& path)
+{
+  return load (path, [&] (const std::string& bytes) { return makeMesh (decode (bytes, lowerCaseExtension (path))); });
+}
+
+TriangleMesh
+loadPlyMesh (const std::string& path)
+{
+  return load (path, decodePly);
 }
 
 } // namespace pcl::cosection

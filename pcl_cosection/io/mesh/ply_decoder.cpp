@@ -4,20 +4,138 @@
 // takes as much memory as a header claims.
 
 #include "mesh_decoders.h"
-#include "ply_header.h"
-#include "ply_mesh.h"
+#include "value_reader.h"
 
 #include <pcl/cosection/common/error.h>
 
 #include <algorithm>
 #include <array>
 #include <functional>
+#include <optional>
+#include <sstream>
 
 namespace pcl::cosection {
 namespace {
 
-/** \brief Where values of one vertex property go. */
-using Setter = std::function<void (TriangleMesh&, std::size_t, double)>;
+struct PlyProperty
+{
+  std::string name;
+  ScalarType type = ScalarType::Float32;
+  std::optional<ScalarType> count_type; ///< of lists
+};
+
+struct PlyElement
+{
+  std::string name;
+  std::uint64_t count = 0;
+  std::vector<PlyProperty> properties;
+};
+
+struct PlyHeader
+{
+  Encoding encoding = Encoding::Ascii;
+  std::vector<PlyElement> elements;
+};
+
+ScalarType
+scalarType (const std::string& name)
+{
+  static constexpr std::pair<const char*, ScalarType> names[] = {
+      {"char", ScalarType::Int8},      {"int8", ScalarType::Int8},       {"uchar", ScalarType::UInt8},
+      {"uint8", ScalarType::UInt8},    {"short", ScalarType::Int16},     {"int16", ScalarType::Int16},
+      {"ushort", ScalarType::UInt16},  {"uint16", ScalarType::UInt16},   {"int", ScalarType::Int32},
+      {"int32", ScalarType::Int32},    {"uint", ScalarType::UInt32},     {"uint32", ScalarType::UInt32},
+      {"float", ScalarType::Float32},  {"float32", ScalarType::Float32}, {"double", ScalarType::Float64},
+      {"float64", ScalarType::Float64}};
+  for (const auto& [known, type] : names)
+    if (name == known)
+      return type;
+  throw IoError ("a property of the PLY header has an unknown type");
+}
+
+Encoding
+encodingOf (const std::string& format)
+{
+  if (format == "ascii")
+    return Encoding::Ascii;
+  if (format == "binary_little_endian")
+    return Encoding::LittleEndian;
+  if (format == "binary_big_endian")
+    return Encoding::BigEndian;
+  throw IoError ("PLY format " + quoted (format) +
+                 " is not supported, only ascii, binary_little_endian and binary_big_endian");
+}
+
+PlyProperty
+parseProperty (std::istringstream& words)
+{
+  PlyProperty property;
+  std::string type;
+  words >> type;
+  if (type == "list")
+  {
+    words >> type;
+    property.count_type = scalarType (type);
+    type.clear ();
+    words >> type;
+  }
+  property.type = scalarType (type);
+  if (!(words >> property.name))
+    throw IoError ("a property of the PLY header has no name");
+  return property;
+}
+
+/** \brief Reads the header; \a scanner is behind it then. */
+PlyHeader
+parsePlyHeader (TextScanner& scanner)
+{
+  PlyHeader header;
+  bool has_format = false;
+  for (int line_number = 0;; ++line_number)
+  {
+    if (scanner.left ().find ('\n') == std::string_view::npos)
+      throw IoError (line_number == 0 ? "not a PLY file" : "the PLY header does not end");
+    std::istringstream words{std::string (scanner.line ())};
+    std::string keyword;
+    words >> keyword;
+    if (line_number == 0)
+    {
+      if (keyword != "ply")
+        throw IoError ("not a PLY file");
+      continue;
+    }
+    if (keyword == "end_header")
+      break;
+    if (keyword == "format")
+    {
+      std::string format;
+      words >> format;
+      header.encoding = encodingOf (format);
+      has_format = true;
+    }
+    else if (keyword == "element")
+    {
+      PlyElement element;
+      if (!(words >> element.name >> element.count))
+        throw IoError ("an element of the PLY header has no count");
+      header.elements.push_back (element);
+    }
+    else if (keyword == "property")
+    {
+      if (header.elements.empty ())
+        throw IoError ("a property of the PLY header belongs to no element");
+      header.elements.back ().properties.push_back (parseProperty (words));
+    }
+    else if (keyword != "comment" && keyword != "obj_info" && !keyword.empty ())
+      throw IoError ("unknown keyword in the PLY header");
+  }
+  if (!has_format)
+    throw IoError ("the PLY header names no format");
+  return header;
+}
+
+/** \brief Puts the value of one property where that of vertex v belongs. */
+using Setter = std::function<void (std::size_t v, double value)>;
 
 std::uint8_t
 toByte (double value)
@@ -25,29 +143,40 @@ toByte (double value)
   return static_cast<std::uint8_t> (value >= 0.0 ? std::min (value, 255.0) : 0.0);
 }
 
+/** \brief The setter of a property, for which it makes room in the mesh; empty if the name is not known. */
 Setter
-vertexSetter (const std::string& name)
+vertexSetter (const std::string& name, std::size_t count, TriangleMesh& mesh)
 {
+  const auto real = [count] (std::vector<float>& values) -> Setter {
+    values.resize (count);
+    return [&values] (std::size_t v, double value) { values[v] = static_cast<float> (value); };
+  };
+  const auto component = [count] (std::vector<Eigen::Vector3f>& values, int axis) -> Setter {
+    values.resize (count, Eigen::Vector3f::Zero ());
+    return [&values, axis] (std::size_t v, double value) { values[v][axis] = static_cast<float> (value); };
+  };
   static constexpr std::array<const char*, 3> positions = {"x", "y", "z"};
   static constexpr std::array<const char*, 3> normals = {"nx", "ny", "nz"};
   static constexpr std::array<const char*, 3> colours = {"red", "green", "blue"};
   for (int axis = 0; axis < 3; ++axis)
   {
     if (name == positions[axis])
-      return
-          [axis] (TriangleMesh& m, std::size_t v, double value) { m.vertices[v][axis] = static_cast<float> (value); };
+      return component (mesh.vertices, axis);
     if (name == normals[axis])
-      return [axis] (TriangleMesh& m, std::size_t v, double value) { m.normals[v][axis] = static_cast<float> (value); };
-    if (name == colours[axis])
-      return [axis] (TriangleMesh& m, std::size_t v, double value) { m.colours[v][axis] = toByte (value); };
+      return component (mesh.normals, axis);
+    if (name != colours[axis])
+      continue;
+    mesh.colours.resize (count);
+    return [&mesh, axis] (std::size_t v, double value) { mesh.colours[v][axis] = toByte (value); };
   }
   if (name == "intensity")
-    return [] (TriangleMesh& m, std::size_t v, double value) { m.intensity[v] = static_cast<float> (value); };
+    return real (mesh.intensity);
   if (name == "confidence")
-    return [] (TriangleMesh& m, std::size_t v, double value) { m.confidence[v] = static_cast<float> (value); };
-  if (name == "provenance")
-    return [] (TriangleMesh& m, std::size_t v, double value) { m.provenance[v] = toByte (value); };
-  return {};
+    return real (mesh.confidence);
+  if (name != "provenance")
+    return {};
+  mesh.provenance.resize (count);
+  return [&mesh] (std::size_t v, double value) { mesh.provenance[v] = toByte (value); };
 }
 
 /** \brief The vertices, with their properties, and the faces as they are. */
@@ -65,38 +194,21 @@ public:
 
   void readVertices (const PlyElement& element, TriangleMesh& mesh)
   {
-    std::string names = " ";
+    for (const char* name : {"x", "y", "z"})
+      if (std::none_of (element.properties.begin (), element.properties.end (),
+                        [name] (const PlyProperty& p) { return !p.count_type && p.name == name; }))
+        throw IoError ("the vertices have no x, y and z");
+    require (element);
     std::vector<Setter> setters;
     for (const PlyProperty& property : element.properties)
-    {
-      setters.push_back (property.count_type ? Setter () : vertexSetter (property.name));
-      names += (property.count_type ? "" : property.name) + " ";
-    }
-    const auto has = [&names] (const char* name) {
-      return names.find (std::string (" ") + name + " ") != std::string::npos;
-    };
-    if (!has ("x") || !has ("y") || !has ("z"))
-      throw IoError ("the vertices have no x, y and z");
-
-    require (element);
-    mesh.vertices.resize (element.count);
-    if (has ("nx") || has ("ny") || has ("nz"))
-      mesh.normals.resize (element.count, Eigen::Vector3f::Zero ());
-    if (has ("red") || has ("green") || has ("blue"))
-      mesh.colours.resize (element.count);
-    if (has ("intensity"))
-      mesh.intensity.resize (element.count);
-    if (has ("confidence"))
-      mesh.confidence.resize (element.count);
-    if (has ("provenance"))
-      mesh.provenance.resize (element.count);
+      setters.push_back (property.count_type ? Setter () : vertexSetter (property.name, element.count, mesh));
     for (std::size_t v = 0; v < element.count; ++v)
       for (std::size_t p = 0; p < setters.size (); ++p)
       {
         if (element.properties[p].count_type)
           skip (element.properties[p]);
         else if (const double value = values_.next (element.properties[p].type); setters[p])
-          setters[p](mesh, v, value);
+          setters[p](v, value);
       }
   }
 
@@ -132,10 +244,7 @@ public:
         if (strips)
           faces.addStrip (corners);
         else
-        {
-          faces.corners.insert (faces.corners.end (), corners.begin (), corners.end ());
-          faces.endPolygon ();
-        }
+          faces.addPolygon (corners);
       }
   }
 

@@ -4,7 +4,7 @@
 // and null pointers where a type or a number is not what it expects: what would make it safe is a reader.
 
 #include "mesh_decoders.h"
-#include "pcl_cosection/io/cloud/value_reader.h"
+#include "value_reader.h"
 
 #include <pcl/cosection/common/error.h>
 
@@ -26,29 +26,24 @@ upperCase (std::string_view word)
 ScalarType
 scalarType (std::string_view word)
 {
-  struct Name
-  {
-    const char* name;
-    ScalarType type;
-  };
-  static constexpr Name names[] = {{"CHAR", ScalarType::Int8},
-                                   {"SIGNED_CHAR", ScalarType::Int8},
-                                   {"UNSIGNED_CHAR", ScalarType::UInt8},
-                                   {"SHORT", ScalarType::Int16},
-                                   {"UNSIGNED_SHORT", ScalarType::UInt16},
-                                   {"INT", ScalarType::Int32},
-                                   {"UNSIGNED_INT", ScalarType::UInt32},
-                                   {"VTKIDTYPE", ScalarType::Int32}, // so in files
-                                   {"LONG", ScalarType::Int64},
-                                   {"UNSIGNED_LONG", ScalarType::UInt64},
-                                   {"VTKTYPEINT64", ScalarType::Int64},
-                                   {"VTKTYPEUINT64", ScalarType::UInt64},
-                                   {"FLOAT", ScalarType::Float32},
-                                   {"DOUBLE", ScalarType::Float64}};
+  static constexpr std::pair<const char*, ScalarType> names[] = {{"CHAR", ScalarType::Int8},
+                                                                 {"SIGNED_CHAR", ScalarType::Int8},
+                                                                 {"UNSIGNED_CHAR", ScalarType::UInt8},
+                                                                 {"SHORT", ScalarType::Int16},
+                                                                 {"UNSIGNED_SHORT", ScalarType::UInt16},
+                                                                 {"INT", ScalarType::Int32},
+                                                                 {"UNSIGNED_INT", ScalarType::UInt32},
+                                                                 {"VTKIDTYPE", ScalarType::Int32}, // so in files
+                                                                 {"LONG", ScalarType::Int64},
+                                                                 {"UNSIGNED_LONG", ScalarType::UInt64},
+                                                                 {"VTKTYPEINT64", ScalarType::Int64},
+                                                                 {"VTKTYPEUINT64", ScalarType::UInt64},
+                                                                 {"FLOAT", ScalarType::Float32},
+                                                                 {"DOUBLE", ScalarType::Float64}};
   const std::string upper = upperCase (word);
-  for (const Name& known : names)
-    if (upper == known.name)
-      return known.type;
+  for (const auto& [known, type] : names)
+    if (upper == known)
+      return type;
   throw IoError ("values of type " + quoted (word) + " in VTK files are not supported");
 }
 
@@ -75,10 +70,7 @@ public:
       else if (keyword == "VERTICES" || keyword == "LINES")
         readCells ([] (const std::vector<std::int64_t>&) {});
       else if (keyword == "POLYGONS")
-        readCells ([this] (const std::vector<std::int64_t>& corners) {
-          soup_.corners.insert (soup_.corners.end (), corners.begin (), corners.end ());
-          soup_.endPolygon ();
-        });
+        readCells ([this] (const std::vector<std::int64_t>& corners) { soup_.addPolygon (corners); });
       else if (keyword == "TRIANGLE_STRIPS")
         readCells ([this] (const std::vector<std::int64_t>& corners) { soup_.addStrip (corners); });
       else if (keyword == "FIELD")

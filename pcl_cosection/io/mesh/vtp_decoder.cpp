@@ -4,7 +4,7 @@
 // memory as counts, offsets of cells and sizes of blocks say and writes beyond it where they overflow or disagree.
 
 #include "mesh_decoders.h"
-#include "pcl_cosection/io/cloud/value_reader.h"
+#include "value_reader.h"
 #include "vtk_errors.h"
 
 #include <vtkBase64Utilities.h>
@@ -77,19 +77,14 @@ countOf (vtkXMLDataElement& element, const char* what)
 int
 typeOf (std::string_view word)
 {
-  struct Name
-  {
-    const char* name;
-    int type;
-  };
-  static constexpr Name names[] = {{"Int8", VTK_TYPE_INT8},       {"UInt8", VTK_TYPE_UINT8},
-                                   {"Int16", VTK_TYPE_INT16},     {"UInt16", VTK_TYPE_UINT16},
-                                   {"Int32", VTK_TYPE_INT32},     {"UInt32", VTK_TYPE_UINT32},
-                                   {"Int64", VTK_TYPE_INT64},     {"UInt64", VTK_TYPE_UINT64},
-                                   {"Float32", VTK_TYPE_FLOAT32}, {"Float64", VTK_TYPE_FLOAT64}};
-  for (const Name& known : names)
-    if (word == known.name)
-      return known.type;
+  static constexpr std::pair<const char*, int> names[] = {{"Int8", VTK_TYPE_INT8},       {"UInt8", VTK_TYPE_UINT8},
+                                                          {"Int16", VTK_TYPE_INT16},     {"UInt16", VTK_TYPE_UINT16},
+                                                          {"Int32", VTK_TYPE_INT32},     {"UInt32", VTK_TYPE_UINT32},
+                                                          {"Int64", VTK_TYPE_INT64},     {"UInt64", VTK_TYPE_UINT64},
+                                                          {"Float32", VTK_TYPE_FLOAT32}, {"Float64", VTK_TYPE_FLOAT64}};
+  for (const auto& [known, type] : names)
+    if (word == known)
+      return type;
   throw IoError ("values of type " + quoted (word) + " in VTK files are not supported");
 }
 
@@ -283,11 +278,7 @@ addPiece (const ArrayReader& reader, vtkXMLDataElement& piece, PolygonSoup& soup
     return corners;
   };
   forEachCell (reader, piece.FindNestedElementWithName ("Polys"), countOf (piece, "NumberOfPolys"),
-               [&] (const std::vector<std::int64_t>& cell) {
-                 const auto corners = shift (cell);
-                 soup.corners.insert (soup.corners.end (), corners.begin (), corners.end ());
-                 soup.endPolygon ();
-               });
+               [&] (const std::vector<std::int64_t>& cell) { soup.addPolygon (shift (cell)); });
   forEachCell (reader, piece.FindNestedElementWithName ("Strips"), countOf (piece, "NumberOfStrips"),
                [&] (const std::vector<std::int64_t>& cell) { soup.addStrip (shift (cell)); });
 }

@@ -1,9 +1,9 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "footprint_axis.h"
 
+#include "pcl_cosection/common/directions.h"
 #include "pcl_cosection/common/quantile.h"
 #include "pcl_cosection/common/robust_weights.h"
-#include "pcl_cosection/common/sectors.h"
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 
 namespace pcl::cosection {
 namespace {
@@ -28,7 +29,6 @@ constexpr int plane_rounds = 20;
 constexpr double plane_reach = 0.02; // of NormalLines::size: distance from the plane with a low weight
 
 using Points = std::vector<Eigen::Vector2d>;
-using Points3 = std::vector<Eigen::Vector3d>;
 
 /** \brief Points as seen from above. */
 struct Footprint
@@ -50,10 +50,8 @@ struct Footprint
 std::vector<std::size_t>
 farthestOf (const Points& points)
 {
-  std::vector<std::size_t> ends;
-  std::vector<std::size_t> order (points.size ());
-  for (std::size_t n = 0; n < order.size (); ++n)
-    order[n] = n;
+  std::vector<std::size_t> ends, order (points.size ());
+  std::iota (order.begin (), order.end (), std::size_t (0));
   const auto rank = order.begin () + static_cast<std::ptrdiff_t> (outlier_share * static_cast<double> (points.size ()));
   for (int d = 0; d < directions; ++d)
   {
@@ -98,8 +96,7 @@ isRound (const Points& points, const Eigen::Vector2d& center)
   for (std::vector<double>& sector : radii)
     if (!sector.empty ())
       reaches.push_back (trimmedMax (sector, sector_outliers));
-  std::vector<double> sorted = reaches;
-  const double radius = quantile (sorted, 0.5);
+  const double radius = quantile (reaches, 0.5);
   const auto alike = std::count_if (reaches.begin (), reaches.end (),
                                     [&] (double reach) { return std::abs (reach - radius) < round_reach * radius; });
   return alike >= round_sectors;
@@ -129,7 +126,7 @@ outermost (const std::vector<NormalLine>& lines, const Eigen::Vector3d& up)
 }
 
 Eigen::Vector3d
-planeNormal (const Points3& points, Eigen::Vector3d normal)
+planeNormal (const std::vector<Eigen::Vector3d>& points, Eigen::Vector3d normal)
 {
   Eigen::Vector3d center = Eigen::Vector3d::Zero ();
   for (const Eigen::Vector3d& p : points)
@@ -141,8 +138,7 @@ planeNormal (const Points3& points, Eigen::Vector3d normal)
     double weights = 0.0;
     for (const Eigen::Vector3d& p : points)
     {
-      const double off = normal.dot (p - center) / plane_reach;
-      const double weight = cauchyWeight (off);
+      const double weight = cauchyWeight (normal.dot (p - center) / plane_reach);
       sum += weight * (p - center);
       products += weight * (p - center) * (p - center).transpose ();
       weights += weight;
@@ -167,7 +163,7 @@ rimNormal (const std::vector<NormalLine>& lines)
   up.normalize ();
   for (int round = 0; round < rim_rounds; ++round)
   {
-    Points3 rim;
+    std::vector<Eigen::Vector3d> rim;
     for (const std::size_t n : outermost (lines, up))
       rim.push_back (lines[n].position);
     up = planeNormal (rim, up);

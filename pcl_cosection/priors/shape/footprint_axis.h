@@ -1,7 +1,7 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "normal_axis.h"
+#include "axes.h"
 
 #include <cstddef>
 #include <optional>

@@ -1,11 +1,9 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "profile_surface.h"
 
-#include "normal_axis.h"
+#include "axes.h"
+#include "pcl_cosection/common/directions.h"
 #include "pcl_cosection/common/quantile.h"
-#include "pcl_cosection/common/sectors.h"
-#include "pcl_cosection/priors/vessels/dish_profile.h"
-#include "pcl_cosection/priors/vessels/vessel_profile.h"
 
 #include <Eigen/Geometry>
 
@@ -46,12 +44,12 @@ ProfileSurface::profileOf (const Eigen::Vector3d& position) const
   return {height, distanceOf (q - height * direction_)};
 }
 
-Eigen::Vector2d
-ProfileSurface::profileNormalOf (const OrientedPoint& point) const
+ProfilePoint
+ProfileSurface::profilePointOf (const OrientedPoint& point) const
 {
-  const Eigen::Vector3d q = point.position.cast<double> () - center_;
-  const Eigen::Vector3d n = point.normal.cast<double> ();
-  return {direction_.dot (n), n.dot (awayOf (q - direction_.dot (q) * direction_))};
+  const Eigen::Vector3d position = point.position.cast<double> (), n = point.normal.cast<double> ();
+  const Eigen::Vector3d q = position - center_;
+  return {profileOf (position), {direction_.dot (n), n.dot (awayOf (q - direction_.dot (q) * direction_))}};
 }
 
 bool
@@ -61,7 +59,7 @@ ProfileSurface::findProfile (const std::vector<OrientedPoint>& points, double si
   Eigen::AlignedBox2d box;
   for (const OrientedPoint& p : points)
   {
-    profile.push_back ({profileOf (p.position.cast<double> ()), profileNormalOf (p)});
+    profile.push_back (profilePointOf (p));
     box.extend (profile.back ().position);
   }
   if (points.empty () || box.max ().y () > max_radius * size_m)
@@ -74,13 +72,13 @@ ProfileSurface::findProfile (const std::vector<OrientedPoint>& points, double si
   cell_m_ = cell_size * size_m;
   first_ = box.min ();
   cells_ = (box.sizes () / cell_m_).array ().floor ().cast<int> () + 1;
-  std::vector<std::array<bool, sectors>> seen (static_cast<std::size_t> (cells_.prod ()), std::array<bool, sectors>{});
+  std::vector<std::array<bool, sectors>> seen (static_cast<std::size_t> (cells_.prod ()));
   std::array<bool, sectors> seen_anywhere{};
   const Sectors around (direction_, sectors);
   for (std::size_t n = 0; n < points.size (); ++n)
   {
     const std::size_t sector = around.of (points[n].position.cast<double> () - center_);
-    const Eigen::Vector2i cell = cellOf (profile[n].position);
+    const Eigen::Vector2i cell = ((profile[n].position - first_) / cell_m_).array ().floor ().cast<int> ();
     for (int j = std::max (0, cell.y () - 1); j <= std::min (cells_.y () - 1, cell.y () + 1); ++j)
       for (int i = std::max (0, cell.x () - 1); i <= std::min (cells_.x () - 1, cell.x () + 1); ++i)
         seen[indexOf ({i, j})][sector] = true;
@@ -104,24 +102,12 @@ ProfileSurface::findVessel (const std::optional<Eigen::Vector4d>& plane, Hollow 
   if (hollow == Hollow::None)
     return;
   std::optional<StandingPlane> standing;
-  if (const double rise = plane ? plane->head<3> ().dot (direction_) : 0.0; std::abs (rise) > vertical)
+  if (const double rise = plane ? plane->head<3> ().dot (direction_) : 0.0; std::abs (rise) > vertical_cosine)
     standing = StandingPlane{-(plane->head<3> ().dot (center_) + (*plane)[3]) / rise, rise > 0.0 ? 1.0 : -1.0};
   if (hollow != Hollow::Dish)
-    vessel_ = VesselProfile::find (profile_, cell_m_, standing);
+    vessel_ = fitVessel (profile_, cell_m_, standing);
   if (!vessel_ && hollow != Hollow::Vessel && (standing || !plane))
-    vessel_ = DishProfile::find (profile_, cell_m_, standing);
-}
-
-Eigen::Vector2i
-ProfileSurface::cellOf (const Eigen::Vector2d& profile) const
-{
-  return ((profile - first_) / cell_m_).array ().floor ().cast<int> ();
-}
-
-std::size_t
-ProfileSurface::indexOf (const Eigen::Vector2i& cell) const
-{
-  return static_cast<std::size_t> (cell.y ()) * cells_.x () + cell.x ();
+    vessel_ = fitDish (profile_, cell_m_, standing);
 }
 
 bool
@@ -132,20 +118,33 @@ ProfileSurface::holds (const Eigen::Vector3d& position) const
          held_[indexOf (cell.cast<int> ())];
 }
 
-bool
-ProfileSurface::isOfProfile (const OrientedPoint& point) const
-{
-  const Eigen::Vector3d position = point.position.cast<double> ();
-  return holds (position) && (!vessel_ || vessel_->holds ({profileOf (position), profileNormalOf (point)}));
-}
-
 std::vector<OrientedPoint>
 ProfileSurface::copies (const std::vector<OrientedPoint>& points) const
 {
   std::vector<OrientedPoint> held;
-  std::copy_if (points.begin (), points.end (), std::back_inserter (held),
-                [this] (const OrientedPoint& p) { return isOfProfile (p); });
+  std::copy_if (points.begin (), points.end (), std::back_inserter (held), [this] (const OrientedPoint& p) {
+    return holds (p.position.cast<double> ()) && (!vessel_ || vessel_->holds (profilePointOf (p)));
+  });
   return onOtherSides (held);
+}
+
+std::vector<OrientedPoint>
+ProfileSurface::onOtherSides (const std::vector<OrientedPoint>& points) const
+{
+  std::vector<OrientedPoint> copies;
+  for (const Eigen::Matrix3d& turn : turns ())
+    for (const OrientedPoint& p : points)
+      copies.push_back (turnedAbout (center_, turn, p));
+  return copies;
+}
+
+std::shared_ptr<const ProfileSurface>
+ProfileSurface::withoutFloor () const
+{
+  const std::shared_ptr<ProfileSurface> tube = clone ();
+  if (vessel_)
+    tube->vessel_ = vessel_->withoutFloor ();
+  return tube;
 }
 
 double
@@ -158,25 +157,6 @@ ProfileSurface::extent (const Eigen::Vector3d& n) const
   for (const ProfilePoint& p : profile_)
     extents.push_back (rise * p.position.x () + reachOf (across, p.position.y ()));
   return trimmedMax (extents, outlier_share);
-}
-
-VesselPart
-ProfileSurface::partOf (const OrientedPoint& point) const
-{
-  return vessel_ ? vessel_->partOf ({profileOf (point.position.cast<double> ()), profileNormalOf (point)})
-                 : VesselPart::Outer;
-}
-
-double
-ProfileSurface::depthInCavity (const Eigen::Vector3d& position) const
-{
-  return vessel_ ? vessel_->depthInCavity (profileOf (position)) : 0.0;
-}
-
-double
-ProfileSurface::depthUnder (const Eigen::Vector3d& position) const
-{
-  return vessel_ ? vessel_->depthUnder (profileOf (position)) : 0.0;
 }
 
 std::vector<OrientedPoint>

@@ -15,7 +15,16 @@
 namespace pcl::cosection {
 
 /** \brief Least cosine between a vertical axis and a plane's normal. */
-constexpr double vertical = 0.97;
+constexpr double vertical_cosine = 0.97;
+
+/** \brief A copy of a point by a turn or a reflection about \a center. */
+inline OrientedPoint
+turnedAbout (const Eigen::Vector3d& center, const Eigen::Matrix3d& turn, OrientedPoint point)
+{
+  point.position = (center + turn * (point.position.cast<double> () - center)).cast<float> ();
+  point.normal = (turn * point.normal.cast<double> ()).cast<float> ();
+  return point;
+}
 
 /** \brief A surface with the same profile on all sides of an axis: a surface of revolution, or an open box. */
 class ProfileSurface
@@ -42,7 +51,7 @@ public:
   std::vector<OrientedPoint> copies (const std::vector<OrientedPoint>& points) const;
 
   /** \brief Copies of all points on other sides of the axis. */
-  virtual std::vector<OrientedPoint> onOtherSides (const std::vector<OrientedPoint>& points) const = 0;
+  std::vector<OrientedPoint> onOtherSides (const std::vector<OrientedPoint>& points) const;
 
   /** \brief Points of flat faces at those ends of the axis to which a straight wall leads, such as the hidden bottom of
    * a can. */
@@ -52,17 +61,26 @@ public:
   const WallProfile* vessel () const { return vessel_.get (); }
 
   /** \brief This surface as a tube: a vessel open at both ends. */
-  virtual std::shared_ptr<const ProfileSurface> withoutFloor () const = 0;
+  std::shared_ptr<const ProfileSurface> withoutFloor () const;
 
   /** \brief The part of a vessel to which a point belongs; the outer side for other shapes. */
-  VesselPart partOf (const OrientedPoint& point) const;
+  VesselPart partOf (const OrientedPoint& point) const
+  {
+    return vessel_ ? vessel_->partOf (profilePointOf (point)) : VesselPart::Outer;
+  }
 
   /** \brief Distance of a place in the cavity of a vessel from the wall (across the axis) or above the floor, the
    * smaller one; metres, 0 elsewhere. */
-  double depthInCavity (const Eigen::Vector3d& position) const;
+  double depthInCavity (const Eigen::Vector3d& position) const
+  {
+    return vessel_ ? vessel_->depthInCavity (profileOf (position)) : 0.0;
+  }
 
   /** \brief Distance of a place under a dish from its wall and foot, metres; 0 elsewhere, and for other vessels. */
-  double depthUnder (const Eigen::Vector3d& position) const;
+  double depthUnder (const Eigen::Vector3d& position) const
+  {
+    return vessel_ ? vessel_->depthUnder (profileOf (position)) : 0.0;
+  }
 
   /** \brief Points of the parts of a vessel that views see least: lower parts of both sides, floor and bottom.
    * \param[in] step_m between points */
@@ -84,6 +102,11 @@ protected:
     Eigen::Vector3d away;   // unit, across the axis
   };
 
+  virtual std::shared_ptr<ProfileSurface> clone () const = 0;
+
+  /** \brief The turns and reflections about center () that make the copies. */
+  virtual std::vector<Eigen::Matrix3d> turns () const = 0;
+
   /** \brief Distance from the axis of a place \a q in the plane across it; for a box, constant along outlines parallel
    * to the walls. */
   virtual double distanceOf (const Eigen::Vector3d& q) const = 0;
@@ -97,15 +120,11 @@ protected:
   /** \brief Places of the outline at that distance, all around the axis. */
   virtual std::vector<Place> around (double distance, double step_m) const = 0;
 
-  Eigen::Vector2d profileOf (const Eigen::Vector3d& position) const;  // height along the axis, distance from it
-  Eigen::Vector2d profileNormalOf (const OrientedPoint& point) const; // component along the axis, away from it
   /** \brief Find the part of the profile that was seen on many sides.
    * \param[in] size_m NormalLines::size of the points
    * \param[in] least_sectors around the axis, next to each other, in which points must face sideways */
   bool findProfile (const std::vector<OrientedPoint>& points, double size_m, int least_sectors);
   void findVessel (const std::optional<Eigen::Vector4d>& plane, Hollow hollow);
-  /** \brief Whether a point belongs to the surface, and not to a handle. */
-  bool isOfProfile (const OrientedPoint& point) const;
 
   Eigen::Vector3d center_ = Eigen::Vector3d::Zero ();
   Eigen::Vector3d direction_ = Eigen::Vector3d::UnitZ ();
@@ -114,12 +133,34 @@ protected:
   std::shared_ptr<const WallProfile> vessel_; // null if it is not hollow
 
 private:
-  Eigen::Vector2i cellOf (const Eigen::Vector2d& profile) const;
-  std::size_t indexOf (const Eigen::Vector2i& cell) const;
+  Eigen::Vector2d profileOf (const Eigen::Vector3d& position) const; // height along the axis, distance from it
+  ProfilePoint profilePointOf (const OrientedPoint& point) const;
+
+  std::size_t indexOf (const Eigen::Vector2i& cell) const
+  {
+    return static_cast<std::size_t> (cell.y ()) * cells_.x () + cell.x ();
+  }
 
   Eigen::Vector2i cells_ = Eigen::Vector2i::Zero ();
   Eigen::Vector2d first_ = Eigen::Vector2d::Zero (); // origin of the cells, height and distance
   std::vector<std::uint8_t> held_;                   // by cell
 };
+
+/** \brief Fit a surface of revolution to the points of one body.
+ * \param[in] plane support plane (n, d) with n.x + d = 0, unit n towards the body: an axis along n is preferred to
+ * others that are about as good
+ * \param[in] alone its surroundings are unknown: without a plane, the rim of a dish may determine the axis
+ * \return null if less than three quarters of the points belong to such a surface, or less than 70 degrees of it were
+ * seen. For a plate, which hardly faces sideways, a round outline as seen from above suffices */
+std::shared_ptr<const ProfileSurface> fitSurfaceOfRevolution (const std::vector<OrientedPoint>& points,
+                                                              const std::optional<Eigen::Vector4d>& plane, bool alone);
+
+/** \brief Fit an open box to the points of one body.
+ * \param[in] faces normals of its large faces: without a plane, the floor is one of them
+ * \param[in] plane support plane (n, d) with n.x + d = 0, unit n towards the body
+ * \return null if it is not hollow, or less than three quarters of the points belong to such walls and their floor */
+std::shared_ptr<const ProfileSurface> fitOpenBox (const std::vector<OrientedPoint>& points,
+                                                  const std::vector<Eigen::Vector3d>& faces,
+                                                  const std::optional<Eigen::Vector4d>& plane);
 
 } // namespace pcl::cosection

@@ -1,18 +1,12 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "symmetric_extent.h"
 
-#include "faces.h"
-#include "pcl_cosection/priors/vessels/open_box.h"
-#include "pcl_cosection/priors/vessels/prism_walls.h"
-#include "principal_axes.h"
-#include "surface_of_revolution.h"
+#include "axes.h"
 
-#include <Eigen/Cholesky>
 #include <Eigen/Geometry>
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <limits>
 #include <utility>
 
@@ -93,24 +87,13 @@ std::shared_ptr<const ProfileSurface>
 profileSurfaceOf (const std::vector<OrientedPoint>& points, const std::vector<Eigen::Vector3d>& faces,
                   const std::optional<Eigen::Vector4d>& plane, bool alone)
 {
-  std::optional<SurfaceOfRevolution> round = SurfaceOfRevolution::fit (points, plane, alone);
+  std::shared_ptr<const ProfileSurface> round = fitSurfaceOfRevolution (points, plane, alone), box;
   if (!round || !round->vessel ())
-    if (std::optional<OpenBox> box = OpenBox::fit (points, faces, plane))
-      return std::make_shared<const OpenBox> (std::move (*box));
-  return round ? std::make_shared<const SurfaceOfRevolution> (std::move (*round)) : nullptr;
+    box = fitOpenBox (points, faces, plane);
+  return box ? box : round;
 }
 
 } // namespace
-
-SymmetricExtent::SymmetricExtent (const std::vector<OrientedPoint>& points, bool alone)
-{
-  build (points, std::nullopt, alone);
-}
-
-SymmetricExtent::SymmetricExtent (const std::vector<OrientedPoint>& points, const Eigen::Vector4d& plane)
-{
-  build (points, plane, false);
-}
 
 void
 SymmetricExtent::build (const std::vector<OrientedPoint>& all, const std::optional<Eigen::Vector4d>& plane, bool alone)
@@ -150,7 +133,7 @@ SymmetricExtent::build (const std::vector<OrientedPoint>& all, const std::option
     center_ = middleOfFarthest (ends);
   }
   std::optional<Eigen::Vector3d> foot;
-  if (up && (!profile_ || std::abs (up->dot (profile_->direction ())) > vertical) &&
+  if (up && (!profile_ || std::abs (up->dot (profile_->direction ())) > vertical_cosine) &&
       up->dot (farthest.along (-*up)) > -(*plane)[3])
     foot = center_ - (up->dot (center_) + (*plane)[3]) * *up;
 
@@ -175,13 +158,10 @@ SymmetricExtent::build (const std::vector<OrientedPoint>& all, const std::option
   copies_alike_ = up || profile_ || isCuboid (points, faces);
   if (up && faceted_ && !profile_)
   {
-    std::vector<OrientedPoint> copies;
-    std::transform (points.begin (), points.end (), std::back_inserter (copies),
-                    [this] (const OrientedPoint& p) { return turned (p); });
     walls_ = std::make_shared<const PrismWalls> (points, std::vector<OrientedPoint> (), faces, *plane);
     if (!walls_->showsTop ())
       walls_.reset ();
-    walls_with_copies_ = std::make_shared<const PrismWalls> (points, copies, faces, *plane);
+    walls_with_copies_ = std::make_shared<const PrismWalls> (points, copiesOf (points), faces, *plane);
   }
 }
 
@@ -192,40 +172,29 @@ SymmetricExtent::hiddenSide (const std::vector<OrientedPoint>& points, double re
   {
     std::vector<OrientedPoint> all = profile_->copies (points);
     all.insert (all.end (), continuation_.begin (), continuation_.end ());
-    std::vector<OrientedPoint> ends;
-    if (profile_->vessel ())
-      ends = profile_->depths (reach);
-    else if (!standing_)
-      ends = profile_->flatEnds ();
+    const std::vector<OrientedPoint> ends = profile_->vessel () ? profile_->depths (reach)
+                                            : standing_         ? std::vector<OrientedPoint> ()
+                                                                : profile_->flatEnds ();
     all.insert (all.end (), ends.begin (), ends.end ());
     return all;
   }
   std::vector<OrientedPoint> copies = continuation_;
-  for (const OrientedPoint& p : has_copies_ ? points : std::vector<OrientedPoint> ())
-    if (const OrientedPoint copy = turned (p); beyond (copy.position.cast<double> ()) >= -reach)
-      copies.push_back (copy);
+  if (has_copies_)
+    for (const OrientedPoint& copy : copiesOf (points))
+      if (beyond (copy.position.cast<double> ()) >= -reach)
+        copies.push_back (copy);
   return copies;
 }
 
-OrientedPoint
-SymmetricExtent::turned (OrientedPoint point) const
+std::vector<OrientedPoint>
+SymmetricExtent::copiesOf (const std::vector<OrientedPoint>& points) const
 {
-  point.position = (center_ + turn_ * (point.position.cast<double> () - center_)).cast<float> ();
-  point.normal = (turn_ * point.normal.cast<double> ()).cast<float> ();
-  return point;
-}
-
-std::vector<WallColumn>
-SymmetricExtent::verticalWalls (double step_m, bool of_copies) const
-{
-  const std::shared_ptr<const PrismWalls>& walls = of_copies ? walls_with_copies_ : walls_;
-  return walls ? walls->columns (step_m) : std::vector<WallColumn> ();
-}
-
-std::vector<WallColumn>
-SymmetricExtent::wallsBelowEdges (double step_m) const
-{
-  return walls_ ? walls_->belowEdges (step_m) : std::vector<WallColumn> ();
+  if (profile_)
+    return profile_->onOtherSides (points);
+  std::vector<OrientedPoint> copies;
+  for (const OrientedPoint& p : points)
+    copies.push_back (turnedAbout (center_, turn_, p));
+  return copies;
 }
 
 void
@@ -240,15 +209,9 @@ SymmetricExtent::expect (const std::vector<OrientedPoint>& points)
 SymmetricExtent
 SymmetricExtent::continuedBy (const std::vector<OrientedPoint>& points) const
 {
-  std::vector<OrientedPoint> copies;
-  if (profile_)
-    copies = profile_->onOtherSides (points);
-  else
-    std::transform (points.begin (), points.end (), std::back_inserter (copies),
-                    [this] (const OrientedPoint& p) { return turned (p); });
   SymmetricExtent more = *this;
   more.expect (points);
-  more.expect (copies);
+  more.expect (copiesOf (points));
   return more;
 }
 
@@ -263,18 +226,6 @@ SymmetricExtent::boundedBy (const std::vector<OrientedPoint>& walls, bool below_
   return prism;
 }
 
-std::optional<Eigen::Vector3d>
-SymmetricExtent::axisDirection () const
-{
-  return profile_ && !profile_->isBall () ? std::optional<Eigen::Vector3d> (profile_->direction ()) : std::nullopt;
-}
-
-double
-SymmetricExtent::wallThickness () const
-{
-  return profile_ && profile_->vessel () ? profile_->vessel ()->wallThickness () : 0.0;
-}
-
 SymmetricExtent
 SymmetricExtent::withoutFloor () const
 {
@@ -282,30 +233,6 @@ SymmetricExtent::withoutFloor () const
   if (profile_)
     open.profile_ = profile_->withoutFloor ();
   return open;
-}
-
-bool
-SymmetricExtent::holds (const Eigen::Vector3d& position) const
-{
-  return profile_ && profile_->holds (position);
-}
-
-double
-SymmetricExtent::depthInCavity (const Eigen::Vector3d& position) const
-{
-  return profile_ ? profile_->depthInCavity (position) : 0.0;
-}
-
-double
-SymmetricExtent::depthUnder (const Eigen::Vector3d& position) const
-{
-  return profile_ ? profile_->depthUnder (position) : 0.0;
-}
-
-VesselPart
-SymmetricExtent::partOf (const OrientedPoint& point) const
-{
-  return profile_ ? profile_->partOf (point) : VesselPart::Outer;
 }
 
 double
@@ -342,13 +269,6 @@ SymmetricExtent::within (const Eigen::AlignedBox3d& box) const
     least = std::max (least, n.dot (middle) - s - n.cwiseAbs ().dot (half_sizes));
   const double tolerance = rounding * (middle.norm () + half_sizes.norm ());
   SymmetricExtent needed;
-  needed.center_ = center_;
-  needed.profile_ = profile_;
-  needed.copies_alike_ = copies_alike_;
-  needed.standing_ = standing_;
-  needed.faceted_ = faceted_;
-  needed.turn_ = turn_;
-  needed.has_copies_ = has_copies_;
   for (const auto& [n, s] : half_spaces_)
     if (n.dot (middle) - s + n.cwiseAbs ().dot (half_sizes) >= least - tolerance)
       needed.half_spaces_.emplace_back (n, s);

@@ -1,6 +1,9 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "flat_faces.h"
+#include "profile_surface.h"
+
 #include <pcl/cosection/common/oriented_point.h>
 
 #include <Eigen/Geometry>
@@ -11,21 +14,6 @@
 #include <vector>
 
 namespace pcl::cosection {
-
-class PrismWalls;
-class ProfileSurface;
-
-/** \brief Parts of the surface of a hollow thing: a cup, a bowl or an open box. */
-enum class VesselPart
-{
-  Outer, ///< side of the wall
-  Inner, ///< side of the wall, and the floor
-  Rim,
-  Bottom
-};
-
-/** \brief Points of a vertical wall, one above the other. */
-using WallColumn = std::vector<OrientedPoint>;
 
 /** \brief The symmetry prior: the extent of an object whose hidden side resembles its visible side.
  *
@@ -49,12 +37,18 @@ public:
   /** \brief Without a support plane: copies by inversion in a point, unless there is a profile.
    * \param[in] points of the object, in one frame
    * \param[in] alone its surroundings are unknown: the rim of a dish may then determine its axis */
-  explicit SymmetricExtent (const std::vector<OrientedPoint>& points, bool alone = true);
+  explicit SymmetricExtent (const std::vector<OrientedPoint>& points, bool alone = true)
+  {
+    build (points, std::nullopt, alone);
+  }
 
   /** \brief With a support plane: copies by a half turn about its normal, unless there is a profile. If no observed
    * point comes down to the plane, the object touches it at the axis.
    * \param[in] plane (n, d) with n.x + d = 0, unit n towards the object */
-  SymmetricExtent (const std::vector<OrientedPoint>& points, const Eigen::Vector4d& plane);
+  SymmetricExtent (const std::vector<OrientedPoint>& points, const Eigen::Vector4d& plane)
+  {
+    build (points, plane, false);
+  }
 
   /** \brief Signed distance to the half-spaces, max_k (n_k.x - s_k): at most the distance to the plausible region,
    * negative inside; metres. */
@@ -64,7 +58,7 @@ public:
    * \param[out] values metres */
   void beyond (const Eigen::Vector3d& first, const Eigen::Vector3d& step, int count, float* values) const;
 
-  /** \brief An equal extent for places in a box, with as few half-spaces as are needed there. */
+  /** \brief The part of this for beyond () at places in a box: as few half-spaces as are needed there. */
   SymmetricExtent within (const Eigen::AlignedBox3d& box) const;
 
   /** \brief Points of the expected hidden side.
@@ -87,13 +81,19 @@ public:
   bool hasProfile () const { return profile_ != nullptr; }
 
   /** \brief Direction of the axis of revolution; nothing for a ball, which has many, and for other shapes. */
-  std::optional<Eigen::Vector3d> axisDirection () const;
+  std::optional<Eigen::Vector3d> axisDirection () const
+  {
+    return profile_ && !profile_->isBall () ? std::optional<Eigen::Vector3d> (profile_->direction ()) : std::nullopt;
+  }
 
   /** \brief Whether most of the points belong to a few flat faces. */
   bool isFaceted () const { return faceted_; }
 
   /** \brief Wall thickness of a vessel (a cup, a bowl or an open box), metres; 0 for other shapes. */
-  double wallThickness () const;
+  double wallThickness () const
+  {
+    return profile_ && profile_->vessel () ? profile_->vessel ()->wallThickness () : 0.0;
+  }
 
   /** \brief This extent with the vessel as a tube, open at both ends. */
   SymmetricExtent withoutFloor () const;
@@ -102,11 +102,18 @@ public:
    * tops; empty for other shapes.
    * \param[in] step_m between points
    * \param[in] of_copies use the outline of points and copies; otherwise of points, whose top must have been seen */
-  std::vector<WallColumn> verticalWalls (double step_m, bool of_copies) const;
+  std::vector<WallColumn> verticalWalls (double step_m, bool of_copies) const
+  {
+    const std::shared_ptr<const PrismWalls>& walls = of_copies ? walls_with_copies_ : walls_;
+    return walls ? walls->columns (step_m) : std::vector<WallColumn> ();
+  }
 
   /** \brief Walls of such a thing below the edges of its observed tops, which need not be convex; each down to the
    * plane or to a lower top. */
-  std::vector<WallColumn> wallsBelowEdges (double step_m) const;
+  std::vector<WallColumn> wallsBelowEdges (double step_m) const
+  {
+    return walls_ ? walls_->belowEdges (step_m) : std::vector<WallColumn> ();
+  }
 
   /** \brief The extent of an object for which further points are expected: hiddenSide () includes these \a points and
    * their copies. */
@@ -129,22 +136,27 @@ public:
   const std::vector<OrientedPoint>& continuation () const { return continuation_; }
 
   /** \brief Whether a place belongs to the shape with a profile, and not to a handle. */
-  bool holds (const Eigen::Vector3d& position) const;
+  bool holds (const Eigen::Vector3d& position) const { return profile_ && profile_->holds (position); }
 
   /** \brief Distance of a place in the cavity of a vessel from the wall (across the axis) or above the floor, the
    * smaller one; metres, 0 elsewhere. */
-  double depthInCavity (const Eigen::Vector3d& position) const;
+  double depthInCavity (const Eigen::Vector3d& position) const
+  {
+    return profile_ ? profile_->depthInCavity (position) : 0.0;
+  }
 
   /** \brief Distance of a place under a dish from its wall and foot, metres; 0 elsewhere, and for other vessels. */
-  double depthUnder (const Eigen::Vector3d& position) const;
+  double depthUnder (const Eigen::Vector3d& position) const { return profile_ ? profile_->depthUnder (position) : 0.0; }
 
   /** \brief The part of a vessel's surface to which a point, or a copy, belongs; the outer side for other shapes. */
-  VesselPart partOf (const OrientedPoint& point) const;
+  VesselPart partOf (const OrientedPoint& point) const
+  {
+    return profile_ ? profile_->partOf (point) : VesselPart::Outer;
+  }
 
 private:
   SymmetricExtent () = default;
-  /** \brief The copy of a point by the half turn or the inversion. */
-  OrientedPoint turned (OrientedPoint point) const;
+  std::vector<OrientedPoint> copiesOf (const std::vector<OrientedPoint>& points) const;
   void expect (const std::vector<OrientedPoint>& points);
   void build (const std::vector<OrientedPoint>& points, const std::optional<Eigen::Vector4d>& plane, bool alone);
 

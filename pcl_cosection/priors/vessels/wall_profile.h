@@ -1,14 +1,22 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "pcl_cosection/priors/shape/symmetric_extent.h"
-
 #include <Eigen/Core>
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 namespace pcl::cosection {
+
+/** \brief Parts of the surface of a hollow thing: a cup, a bowl or an open box. */
+enum class VesselPart
+{
+  Outer, ///< side of the wall
+  Inner, ///< side of the wall, and the floor
+  Rim,
+  Bottom
+};
 
 /** \brief A point in the half plane of the profile, which is bounded by the axis; for a box, the half plane across the
  * nearest wall. */
@@ -32,7 +40,7 @@ public:
   virtual ~WallProfile () = default;
 
   /** \brief Thickness of the wall, metres. */
-  virtual double wallThickness () const = 0;
+  double wallThickness () const { return wall_m_; }
 
   /** \brief This wall as that of a tube, open at both ends. */
   virtual std::shared_ptr<const WallProfile> withoutFloor () const = 0;
@@ -52,6 +60,24 @@ public:
 
   /** \brief Distance of a place under a dish from its wall and foot, metres; 0 elsewhere, and for other vessels. */
   virtual double depthUnder (const Eigen::Vector2d& /*position*/) const { return 0.0; }
+
+protected:
+  double wall_m_ = 0.0; // from side to side
 };
+
+/** \brief Fit the profile of a vessel whose wall was seen from both sides.
+ * \param[in] points of the whole surface
+ * \param[in] cell_m height of the bands in which the sides are compared
+ * \return null if it is not hollow, its walls differ in thickness, or both its ends are open */
+std::shared_ptr<const WallProfile> fitVessel (const std::vector<ProfilePoint>& points, double cell_m,
+                                              const std::optional<StandingPlane>& plane);
+
+/** \brief Fit the profile of a plate or bowl that showed only its inside, and perhaps the edge.
+ * \param[in] points of the whole surface
+ * \param[in] cell_m twice the length of the parts into which the profile is divided
+ * \return null if there is no rising border around a horizontal floor, or if more than the inside and the edge was
+ * seen */
+std::shared_ptr<const WallProfile> fitDish (const std::vector<ProfilePoint>& points, double cell_m,
+                                            const std::optional<StandingPlane>& plane);
 
 } // namespace pcl::cosection

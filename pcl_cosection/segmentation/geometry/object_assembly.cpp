@@ -1,10 +1,9 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "object_assembly.h"
 
-#include "divided_pieces.h"
 #include "object_pieces.h"
-#include "pcl_cosection/common/disjoint_sets.h"
-#include "piece_outline.h"
+
+#include <set>
 
 namespace pcl::cosection {
 namespace {
@@ -21,6 +20,104 @@ constexpr int standing_out_factor = 5;     ///< ... if it is smaller than so man
 constexpr float edge_share = 0.3f;         ///< of the outline of an edge of the room
 constexpr float hollow_convexity = -0.5f;
 constexpr float hollow_turning = 0.2f;
+constexpr int min_border_px = 8;        ///< along which the nearer thing hides each of the two
+constexpr int min_patch_px = 20;        ///< smaller patches have no reliable normal
+constexpr float same_direction = 0.91f; ///< cosine between the normals of two patches: 25 degrees
+constexpr float offset_sigmas = 4.0f;   ///< of one patch from the surface of the other
+constexpr float share_that_continues = 0.5f;
+
+/** \brief Whether two pieces are one surface behind something nearer: most patches of the smaller one continue a patch
+ * of the other one, as a plane or a round surface does, and all that is seen on the way between the two is in front of
+ * them. */
+class Continuation
+{
+public:
+  Continuation (const DepthGrid& grid, const PatchImage& patches, const std::vector<int>& piece_of_patch,
+                const std::vector<Piece>& pieces, float max_gap_m)
+      : grid_ (grid)
+      , patches_ (patches)
+      , piece_of_patch_ (piece_of_patch)
+      , pieces_ (pieces)
+      , max_gap_m_ (max_gap_m)
+      , pixel_ (patches.patches.size (), Eigen::Vector2f::Zero ())
+      , members_ (pieces.size ())
+  {
+    for (std::size_t i = 0; i < patches.patch_of.size (); ++i)
+      if (const int patch = patches.patch_of[i]; patch >= 0)
+        pixel_[patch] += Eigen::Vector2f (static_cast<float> (i % grid.width), static_cast<float> (i / grid.width)) /
+                         static_cast<float> (patches.patches[patch].pixels);
+    for (std::size_t k = 0; k < piece_of_patch.size (); ++k)
+      members_[piece_of_patch[k]].push_back (static_cast<int> (k));
+  }
+
+  bool joins (int first, int second) const
+  {
+    int all = 0, continued = 0;
+    const bool swap = pieces_[first].pixels > pieces_[second].pixels;
+    const std::vector<int>& others = members_[swap ? first : second];
+    for (const int a : members_[swap ? second : first])
+    {
+      if (!reliable (a))
+        continue;
+      all += patches_.patches[a].pixels;
+      if (std::any_of (others.begin (), others.end (),
+                       [&] (int b) { return reliable (b) && continues (a, b) && hiddenBetween (a, b); }))
+        continued += patches_.patches[a].pixels;
+    }
+    return (all > 0 && static_cast<float> (continued) >= share_that_continues * static_cast<float> (all));
+  }
+
+private:
+  bool reliable (int k) const
+  {
+    return (patches_.patches[k].pixels >= min_patch_px && patches_.patches[k].normal.squaredNorm () > 0.0f);
+  }
+
+  /** \brief On a plane and on a circle the chord is at right angles to the mean normal. */
+  bool continues (int i, int j) const
+  {
+    const SurfacePatch& a = patches_.patches[i];
+    const SurfacePatch& b = patches_.patches[j];
+    const Eigen::Vector3f chord = b.centre - a.centre;
+    if (a.normal.dot (b.normal) < same_direction || chord.squaredNorm () > max_gap_m_ * max_gap_m_)
+      return (false);
+    const auto sigma = static_cast<float> (depthNoiseSigma (std::max (a.centre.z (), b.centre.z ())));
+    return (std::abs ((a.normal + b.normal).normalized ().dot (chord)) < offset_sigmas * sigma);
+  }
+
+  /** \brief Whether all that is seen on the way is nearer than the surface, or a part of the two pieces. */
+  bool hiddenBetween (int i, int j) const
+  {
+    const float z_i = patches_.patches[i].centre.z (), z_j = patches_.patches[j].centre.z ();
+    const int steps = static_cast<int> ((pixel_[j] - pixel_[i]).cwiseAbs ().maxCoeff ()) + 1;
+    int hidden = 0;
+    for (int k = 0; k <= steps; ++k)
+    {
+      const float t = static_cast<float> (k) / static_cast<float> (steps);
+      const Eigen::Vector2f at = pixel_[i] + t * (pixel_[j] - pixel_[i]);
+      const int pixel = static_cast<int> (at.y () + 0.5f) * grid_.width + static_cast<int> (at.x () + 0.5f);
+      if (!grid_.valid (pixel))
+        continue;
+      const int patch = patches_.patch_of[pixel];
+      const int piece = patch < 0 ? -1 : piece_of_patch_[patch];
+      if (piece >= 0 && (piece == piece_of_patch_[i] || piece == piece_of_patch_[j]))
+        continue;
+      const float z = 1.0f / ((1.0f - t) / z_i + t / z_j);
+      if (grid_.points[pixel].z () > z - offset_sigmas * grid_.sigma (pixel))
+        return (false);
+      ++hidden;
+    }
+    return (hidden > 0);
+  }
+
+  const DepthGrid& grid_;
+  const PatchImage& patches_;
+  const std::vector<int>& piece_of_patch_;
+  const std::vector<Piece>& pieces_;
+  const float max_gap_m_;
+  std::vector<Eigen::Vector2f> pixel_;    ///< mean place of a patch in the image
+  std::vector<std::vector<int>> members_; ///< patches of a piece
+};
 
 /** \brief The pieces while they are being joined. */
 class Assembly
@@ -34,8 +131,6 @@ public:
   {
     measure ();
   }
-
-  const std::vector<Piece>& pieces () const { return (pieces_); }
 
   void joinFragments (float min_area_m2)
   {
@@ -77,9 +172,25 @@ public:
   /** \brief Pieces of one surface behind something nearer. */
   void joinDivided (float max_object_size_m)
   {
+    std::vector<std::vector<int>> behind (pieces_.size ()); // what a piece hides parts of
+    for (const auto& [pair, border] : borders_)
+    {
+      if (border.first_front >= min_border_px)
+        behind[pair.first].push_back (pair.second);
+      if (border.second_front >= min_border_px)
+        behind[pair.second].push_back (pair.first);
+    }
+    std::set<std::pair<int, int>> candidates;
+    for (const std::vector<int>& hidden : behind)
+      for (const int a : hidden)
+        for (const int b : hidden)
+          if (a < b)
+            candidates.emplace (a, b);
+    const Continuation continuation (grid_, patches_, piece_of_patch_, pieces_, 0.5f * max_object_size_m);
     DisjointSets sets (pieces_.size ());
-    for (const auto& [a, b] : findDividedPieces (grid_, patches_, piece_of_patch_, borders_, max_object_size_m))
-      sets.unite (static_cast<std::size_t> (a), static_cast<std::size_t> (b));
+    for (const auto& [a, b] : candidates)
+      if (continuation.joins (a, b))
+        sets.unite (static_cast<std::size_t> (a), static_cast<std::size_t> (b));
     join (sets);
   }
 
@@ -163,14 +274,14 @@ assembleObjects (const DepthGrid& grid, const Room& room, const PatchImage& patc
                  const ObjectSegmentationOptions& options, std::vector<int>& piece_of_patch)
 {
   const auto min_size = static_cast<float> (options.min_object_size_m);
+  const auto max_size = static_cast<float> (options.max_object_size_m);
   Assembly assembly (grid, room, patches, piece_of_patch);
   assembly.joinFragments (min_size * min_size);
   assembly.joinHollows ();
   assembly.joinParts ();
-  assembly.joinDivided (static_cast<float> (options.max_object_size_m));
+  assembly.joinDivided (max_size);
 
   const int min_pixels = min_pixels_vga * grid.width / 640 * grid.height / 480;
-  const auto max_size = static_cast<float> (options.max_object_size_m);
   return (assembly.keep (max_size, [&] (const Piece& piece, const PieceOutline& outline) {
     const int around = outline.free + outline.held;
     const bool small = piece.pixels < standing_out_factor * min_pixels;

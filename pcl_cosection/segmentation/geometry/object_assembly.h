@@ -1,13 +1,10 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "depth_grid.h"
-#include "pcl_cosection/segmentation/planes/room_regions.h"
+#include "room_regions.h"
 #include "surface_patches.h"
 
 #include <pcl/cosection/segmentation/geometric_segmentation.h>
-
-#include <vector>
 
 namespace pcl::cosection {
 

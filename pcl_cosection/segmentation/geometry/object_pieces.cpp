@@ -2,14 +2,19 @@
 #include "object_pieces.h"
 
 #include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
+
+#include <algorithm>
 
 namespace pcl::cosection {
 namespace {
 
 constexpr int bridge_px = 4;              ///< pixels of no piece that may lie between two that touch
-constexpr int shadow_share = 16;          ///< share of the image's width that the shadow beside a thing may have
 constexpr int edge_share = 128;           ///< share of the image's width in which what is seen ends raggedly
 constexpr float outline_margin_m = 0.02f; ///< how far beyond the seen part of a surface it still carries something
+constexpr float contact_sigmas = 3.0f;    ///< height over a surface of what touches it ...
+constexpr float contact_px = 1.5f;        ///< ... and the width of so many pixels
+constexpr int least_run_px = 3;           ///< readings of both in a row; where they alternate there is no outline
 
 /** \brief Sums over the places and normals of a piece. */
 struct Bend
@@ -64,13 +69,18 @@ struct SeenBox
   }
 };
 
-int
-countPieces (const std::vector<int>& piece_of)
+/** \brief Height of a pixel above the nearest support surface below it that carries it; negative if there is none. */
+float
+heightAboveSupport (const DepthGrid& grid, const std::vector<SupportSurface>& surfaces, int pixel)
 {
-  int count = 0;
-  for (const int piece : piece_of)
-    count = std::max (count, piece + 1);
-  return (count);
+  float height = -1.0f;
+  for (const SupportSurface& surface : surfaces)
+  {
+    const float h = surface.height (grid.points[pixel]);
+    if (h >= 0.0f && (height < 0.0f || h < height) && surface.carries (grid, pixel, outline_margin_m))
+      height = h;
+  }
+  return (height);
 }
 
 } // namespace
@@ -78,7 +88,7 @@ countPieces (const std::vector<int>& piece_of)
 std::vector<Piece>
 describePieces (const DepthGrid& grid, const std::vector<SupportSurface>& surfaces, const std::vector<int>& piece_of)
 {
-  const std::size_t count = static_cast<std::size_t> (countPieces (piece_of));
+  const std::size_t count = piece_of.empty () ? 0 : *std::max_element (piece_of.begin (), piece_of.end ()) + 1;
   std::vector<Piece> pieces (count);
   std::vector<Eigen::Vector3d> sum (count, Eigen::Vector3d::Zero ());
   std::vector<Eigen::Matrix3d> products (count, Eigen::Matrix3d::Zero ());
@@ -116,18 +126,13 @@ describePieces (const DepthGrid& grid, const std::vector<SupportSurface>& surfac
     pieces[k].carried /= static_cast<float> (n);
     bends[k].describe (pieces[k]);
   }
-  std::vector<Eigen::Vector3f> low (count, Eigen::Vector3f::Constant (1e9f)),
-      high (count, Eigen::Vector3f::Constant (-1e9f));
-  for (int i = 0; i < static_cast<int> (piece_of.size ()); ++i)
+  std::vector<Eigen::AlignedBox3f> boxes (count);
+  for (std::size_t i = 0; i < piece_of.size (); ++i)
     if (const int k = piece_of[i]; k >= 0)
-    {
-      const Eigen::Vector3f p = axes[k].transpose () * grid.points[i];
-      low[k] = low[k].cwiseMin (p);
-      high[k] = high[k].cwiseMax (p);
-    }
+      boxes[k].extend (axes[k].transpose () * grid.points[i]);
   for (std::size_t k = 0; k < count; ++k)
     if (pieces[k].pixels > 0)
-      pieces[k].length_m = (high[k] - low[k]).maxCoeff ();
+      pieces[k].length_m = boxes[k].sizes ().maxCoeff ();
   return (pieces);
 }
 
@@ -135,7 +140,7 @@ Borders
 findBorders (const DepthGrid& grid, const std::vector<SupportSurface>& surfaces, const std::vector<int>& piece_of)
 {
   Borders borders;
-  const auto follow = [&] (int first, int stride, int steps, int) {
+  forEachLine (grid, [&] (int first, int stride, int steps, int) {
     int last = -1, last_step = 0, last_other = -1;
     for (int k = 0; k < steps; ++k)
     {
@@ -145,7 +150,7 @@ findBorders (const DepthGrid& grid, const std::vector<SupportSurface>& surfaces,
         last_other = grid.valid (i) ? k : last_other;
         continue;
       }
-      const int bridge = last_other < last_step ? grid.width / shadow_share : bridge_px;
+      const int bridge = last_other < last_step ? grid.shadowWidth () : bridge_px;
       if (last >= 0 && k - last_step <= std::max (bridge, bridge_px) && piece_of[i] != piece_of[last])
       {
         const bool swapped = piece_of[i] > piece_of[last];
@@ -163,22 +168,57 @@ findBorders (const DepthGrid& grid, const std::vector<SupportSurface>& surfaces,
       last = i;
       last_step = k;
     }
-  };
-  forEachLine (grid, follow);
+  });
   return (borders);
 }
 
-float
-heightAboveSupport (const DepthGrid& grid, const std::vector<SupportSurface>& surfaces, int pixel)
+std::vector<PieceOutline>
+outlinePieces (const DepthGrid& grid, const Room& room, const std::vector<int>& piece_of, std::size_t pieces)
 {
-  float height = -1.0f;
-  for (const SupportSurface& surface : surfaces)
-  {
-    const float h = surface.height (grid.points[pixel]);
-    if (h >= 0.0f && (height < 0.0f || h < height) && surface.carries (grid, pixel, outline_margin_m))
-      height = h;
-  }
-  return (height);
+  std::vector<PieceOutline> outlines (pieces);
+  const auto meet = [&] (int i, int j) {
+    if (piece_of[i] < 0 || piece_of[j] >= 0)
+      return;
+    PieceOutline& outline = outlines[piece_of[i]];
+    const float z = grid.points[i].z ();
+    const float contact_m = contact_sigmas * grid.sigma (i) + contact_px * grid.pitch * z;
+    if (room.surface_of[j] < 0)
+      outline.free += grid.points[j].z () - z > contact_m;
+    else
+    {
+      const float height = room.surfaces[room.surface_of[j]].height (grid.points[i]);
+      if (height > contact_m)
+        ++outline.free;
+      else if (std::abs (grid.points[j].z () - z) < 4.0f * contact_m)
+      {
+        ++outline.held;
+        outline.edge += height < -0.3f * contact_m;
+      }
+    }
+  };
+  const auto sideOf = [&] (int i) { return (std::make_pair (piece_of[i], piece_of[i] < 0 ? room.surface_of[i] : -1)); };
+  forEachLine (grid, [&] (int first, int stride, int steps, int) {
+    int begin = -1, last = -1, length = 0, before = -1; // of the run; last of the run before, if it is long enough
+    for (int k = 0; k < steps; ++k)
+    {
+      const int i = first + k * stride;
+      if (!grid.valid (i))
+        continue;
+      if (last < 0 || sideOf (i) != sideOf (first + last * stride))
+      {
+        before = length >= least_run_px ? last : -1;
+        begin = k;
+        length = 0;
+      }
+      last = k;
+      if (++length == least_run_px && before >= 0 && begin - before <= grid.shadowWidth ())
+      {
+        meet (first + begin * stride, first + before * stride);
+        meet (first + before * stride, first + begin * stride);
+      }
+    }
+  });
+  return (outlines);
 }
 
 } // namespace pcl::cosection

@@ -1,8 +1,7 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "depth_grid.h"
-#include "support_surfaces.h"
+#include "room_regions.h"
 
 #include <map>
 #include <utility>
@@ -32,13 +31,20 @@ struct Border
   float touching_height_m = 0.0f; ///< sum of their heights above the support
   int first_front = 0;            ///< pixels where the first one is nearer, with a step in depth
   int second_front = 0;
-
-  int all () const { return (touching + first_front + second_front); }
 };
 
 using Borders = std::map<std::pair<int, int>, Border>; ///< of pairs of pieces, the smaller number first
 
-/** \param[in] piece_of one per pixel: its piece, -1 for none */
+/** \brief How the outline of a piece goes on in the image, in pixels. */
+struct PieceOutline
+{
+  int free = 0; ///< what is seen beside it is farther away, or lower
+  int held = 0; ///< it touches the room, on which it stands, or of which it is a part
+  int edge = 0; ///< of these: it falls off behind the surface that it touches
+};
+
+// In all of these, piece_of has one per pixel: its piece, -1 for none.
+
 std::vector<Piece> describePieces (const DepthGrid& grid, const std::vector<SupportSurface>& surfaces,
                                    const std::vector<int>& piece_of);
 
@@ -47,7 +53,8 @@ std::vector<Piece> describePieces (const DepthGrid& grid, const std::vector<Supp
 Borders findBorders (const DepthGrid& grid, const std::vector<SupportSurface>& surfaces,
                      const std::vector<int>& piece_of);
 
-/** \brief Height of a pixel above the nearest support surface below it that carries it; negative if there is none. */
-float heightAboveSupport (const DepthGrid& grid, const std::vector<SupportSurface>& surfaces, int pixel);
+/** \param[in] pieces number of them */
+std::vector<PieceOutline> outlinePieces (const DepthGrid& grid, const Room& room, const std::vector<int>& piece_of,
+                                         std::size_t pieces);
 
 } // namespace pcl::cosection

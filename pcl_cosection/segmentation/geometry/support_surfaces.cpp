@@ -2,7 +2,6 @@
 #include "support_surfaces.h"
 
 #include "pcl_cosection/common/convex_hull.h"
-#include "pcl_cosection/common/parallel.h"
 
 #include <Eigen/LU>
 
@@ -26,8 +25,8 @@ Eigen::Matrix<float, 6, 1>
 fitDistortion (const DepthGrid& grid, const BlockImage& image, const PlaneProposal& plane)
 {
   using Matrix6 = Eigen::Matrix<double, 6, 6>;
-  Matrix6 lhs = 1e-3 * static_cast<double> (plane.blocks.size ()) *
-                Matrix6::Identity (); // damped where the plane is not seen
+  // Damped where the plane is not seen.
+  Matrix6 lhs = 1e-3 * static_cast<double> (plane.blocks.size ()) * Matrix6::Identity ();
   Eigen::Matrix<double, 6, 1> rhs = Eigen::Matrix<double, 6, 1>::Zero ();
   for (const int i : plane.blocks)
   {
@@ -45,22 +44,16 @@ fitDistortion (const DepthGrid& grid, const BlockImage& image, const PlanePropos
 } // namespace
 
 float
-SupportSurface::height (const DepthGrid& grid, int u, int v) const
-{
-  const Eigen::Vector3f& p = grid.points[static_cast<std::size_t> (v) * grid.width + u];
-  const float limit = 3.0f * static_cast<float> (depthNoiseSigma (p.z ()));
-  return (height (p) - std::clamp (distortion.dot (quadricTerms (grid, static_cast<float> (u), static_cast<float> (v))),
-                                   -limit, limit));
-}
-
-float
 SupportSurface::distance (const DepthGrid& grid, int u, int v) const
 {
-  // A steep face keeps its lowest readings; along the plane there may be more of the sensor's distortion.
   const int i = v * grid.width + u;
+  const float limit = 3.0f * grid.sigma (i);
+  const float distorted = distortion.dot (quadricTerms (grid, static_cast<float> (u), static_cast<float> (v)));
+  const float height_m = height (grid.points[i]) - std::clamp (distorted, -limit, limit);
+  // A steep face keeps its lowest readings; along the plane there may be more of the sensor's distortion.
   const float cosine = grid.hasNormal (i) ? grid.normals[i].dot (normal) : 0.8f;
   const float sigmas = cosine > 0.9f ? 4.0f : cosine > 0.7f ? 3.0f : 1.5f;
-  return (std::abs (height (grid, u, v)) / (sigmas * grid.sigma (i)));
+  return (std::abs (height_m) / (sigmas * grid.sigma (i)));
 }
 
 bool
@@ -110,24 +103,6 @@ findSupportSurfaces (const DepthGrid& grid, float max_object_size_m, float min_a
     if (plane.large || (surfaces.empty () && plane.area_m2 >= min_area_m2))
       surfaces.push_back (makeSurface (grid, image, plane));
   return (surfaces);
-}
-
-std::vector<char>
-pixelsOnSurfaces (const DepthGrid& grid, const std::vector<SupportSurface>& surfaces, int threads)
-{
-  std::vector<char> on (grid.points.size (), 0);
-  parallelFor (0, grid.height, threads, [&] (int v) {
-    for (int u = 0; u < grid.width; ++u)
-    {
-      const int i = v * grid.width + u;
-      if (!grid.valid (i))
-        continue;
-      for (const SupportSurface& surface : surfaces)
-        if (surface.distance (grid, u, v) < 1.0f)
-          on[i] = 1;
-    }
-  });
-  return (on);
 }
 
 } // namespace pcl::cosection

@@ -1,12 +1,7 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "depth_grid.h"
-#include "pcl_cosection/segmentation/planes/planar_blocks.h"
-
-#include <Eigen/Core>
-
-#include <vector>
+#include "planar_blocks.h"
 
 namespace pcl::cosection {
 
@@ -25,10 +20,8 @@ struct SupportSurface
   /** \brief Height of a point above the plane. */
   float height (const Eigen::Vector3f& p) const { return (normal.dot (p) + offset); }
 
-  /** \brief Height of pixel (u, v) without the sensor's distortion. */
-  float height (const DepthGrid& grid, int u, int v) const;
-
-  /** \brief Distance of pixel (u, v) in multiples of what noise and its normal allow. */
+  /** \brief Distance of pixel (u, v) without the sensor's distortion, in multiples of what noise and its normal allow.
+   */
   float distance (const DepthGrid& grid, int u, int v) const;
 
   /** \brief Foot of a point in the plane's axes. */
@@ -45,8 +38,5 @@ SupportSurface makeSurface (const DepthGrid& grid, const BlockImage& image, cons
 /** \brief The planes of a view that are too large for an object, largest first. The first one may be as small as
  * \a min_area_m2, the others must be longer than \a max_object_size_m. */
 std::vector<SupportSurface> findSupportSurfaces (const DepthGrid& grid, float max_object_size_m, float min_area_m2);
-
-/** \brief One per pixel: whether it lies on one of the surfaces, within what noise and its normal allow. */
-std::vector<char> pixelsOnSurfaces (const DepthGrid& grid, const std::vector<SupportSurface>& surfaces, int threads);
 
 } // namespace pcl::cosection

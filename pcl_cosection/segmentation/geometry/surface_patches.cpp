@@ -1,11 +1,11 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "surface_patches.h"
 
-#include "pcl_cosection/common/disjoint_sets.h"
-
 #include "pcl_cosection/common/parallel.h"
 
 #include <limits>
+#include <queue>
+#include <tuple>
 
 namespace pcl::cosection {
 namespace {
@@ -158,24 +158,44 @@ private:
   std::vector<int> nearest_;
 };
 
+constexpr int bridge_px = 5;           ///< pixels without a normal that may lie between two patches
+constexpr int gap_px = 1;              ///< pixels of these that may show something farther away
+constexpr float behind_sigmas = 6.0f;  ///< by so much, seen through a gap
+constexpr float against_limit = -2.0f; ///< evidence of one pixel of a deep concave edge
+constexpr float step_evidence = -0.5f; ///< of one pixel of a step between parallel surfaces
+constexpr float smooth_bend = 0.7f;    ///< largest angle between neighbouring patches of one smooth surface
+constexpr float step_sigmas = 4.0f;    ///< height of such a step
+
+/** \brief Evidence per pixel of the border between two patches. */
+float
+evidenceOf (const SurfacePatch& a, const SurfacePatch& b, float concave_angle)
+{
+  const Eigen::Vector3f between = a.centre - b.centre;
+  const float angle = std::acos (std::clamp (a.normal.dot (b.normal), -1.0f, 1.0f));
+  if (angle < concave_angle)
+  {
+    const Eigen::Vector3f mean = (a.normal + b.normal).normalized ();
+    const float step = std::abs (mean.dot (between)) - 0.5f * std::tan (angle) * between.norm ();
+    if (step > step_sigmas * static_cast<float> (depthNoiseSigma (a.centre.z ())))
+      return (step_evidence);
+  }
+  const bool concave = between.dot (a.normal - b.normal) < 0.0f;
+  if (!concave)
+    return (1.0f);
+  // The inside of a bowl bends within its patches, too; at an edge the bend is between them.
+  const Eigen::Vector3f direction = between.normalized ();
+  const float bend = std::max (0.0f, std::min (-a.curvature (direction), -b.curvature (direction))) * between.norm ();
+  return (std::clamp (1.0f - (angle - std::min (bend, smooth_bend)) / concave_angle, against_limit, 1.0f));
+}
+
 } // namespace
 
 PatchImage
 computeSurfacePatches (const DepthGrid& grid, const std::vector<char>& used, int threads)
 {
   const std::vector<int> nearest = Clustering (grid, used, threads).run ();
-  DisjointSets sets (nearest.size ());
-  for (int v = 0; v < grid.height; ++v)
-    for (int u = 0; u < grid.width; ++u)
-    {
-      const int i = v * grid.width + u;
-      if (nearest[i] < 0)
-        continue;
-      if (u > 0 && nearest[i - 1] == nearest[i] && grid.continuous (i, i - 1))
-        sets.unite (i - 1, i);
-      if (v > 0 && nearest[i - grid.width] == nearest[i] && grid.continuous (i, i - grid.width))
-        sets.unite (i - grid.width, i);
-    }
+  DisjointSets sets = connectPixels (grid, 1,
+                                     [&] (int i, int j) { return nearest[i] >= 0 && nearest[i] == nearest[j]; });
   PatchImage image{sets.numbers ([&] (std::size_t i) { return nearest[i] >= 0; }), {}};
   for (int i = 0; i < static_cast<int> (nearest.size ()); ++i)
   {
@@ -204,6 +224,90 @@ computeSurfacePatches (const DepthGrid& grid, const std::vector<char>& used, int
       patch.bend += from_centre * (grid.normals[i] - patch.normal).transpose ();
     }
   return (image);
+}
+
+void
+removePatches (PatchImage& image, const std::vector<char>& gone)
+{
+  std::vector<int> number (image.patches.size (), -1);
+  std::vector<SurfacePatch> kept;
+  for (std::size_t k = 0; k < gone.size (); ++k)
+    if (!gone[k])
+    {
+      number[k] = static_cast<int> (kept.size ());
+      kept.push_back (image.patches[k]);
+    }
+  for (int& patch : image.patch_of)
+    patch = patch < 0 ? -1 : number[patch];
+  image.patches = std::move (kept);
+}
+
+PatchEvidence
+convexityEvidence (const DepthGrid& grid, const PatchImage& image, float concave_angle_rad)
+{
+  std::map<std::pair<int, int>, int> border; // pixels, the smaller number first
+  forEachLine (grid, [&] (int first, int stride, int steps, int) {
+    int last = -1, last_step = 0, gap = 0;
+    for (int k = 0; k < steps; ++k)
+    {
+      const int i = first + k * stride;
+      if (grid.valid (i) && last >= 0)
+        gap += grid.points[i].z () - grid.points[last].z () > behind_sigmas * grid.sigma (last);
+      if (image.patch_of[i] < 0 || !grid.hasNormal (i))
+        continue;
+      if (last >= 0 && gap <= gap_px && k - last_step <= bridge_px && image.patch_of[i] != image.patch_of[last] &&
+          grid.continuous (i, last, k - last_step))
+        ++border[std::minmax (image.patch_of[i], image.patch_of[last])];
+      last = i;
+      last_step = k;
+      gap = 0;
+    }
+  });
+
+  PatchEvidence evidence;
+  for (const auto& [pair, pixels] : border)
+    evidence[pair] = static_cast<float> (pixels) *
+                     evidenceOf (image.patches[pair.first], image.patches[pair.second], concave_angle_rad);
+  return (evidence);
+}
+
+std::vector<int>
+contractEdges (std::size_t patches, const PatchEvidence& evidence)
+{
+  std::vector<std::map<int, float>> neighbours (patches);
+  // Evidence and minus the numbers of a pair, the smaller one first: of equal evidence that of the smallest numbers.
+  std::priority_queue<std::tuple<float, int, int>> queue;
+  for (const auto& [pair, value] : evidence)
+  {
+    neighbours[pair.first][pair.second] = value;
+    neighbours[pair.second][pair.first] = value;
+    if (value > 0.0f)
+      queue.emplace (value, -pair.first, -pair.second);
+  }
+  DisjointSets sets (patches);
+  while (!queue.empty ())
+  {
+    const auto [best, minus_keep, minus_gone] = queue.top ();
+    queue.pop ();
+    const int keep = -minus_keep, gone = -minus_gone;
+    const auto edge = neighbours[keep].find (gone);
+    if (edge == neighbours[keep].end () || edge->second != best)
+      continue; // joined or changed since
+    sets.unite (keep, gone);
+    neighbours[keep].erase (gone);
+    for (const auto& [other, value] : neighbours[gone])
+    {
+      if (other == keep)
+        continue;
+      neighbours[other].erase (gone);
+      const float sum = neighbours[keep][other] += value;
+      neighbours[other][keep] = sum;
+      if (sum > 0.0f)
+        queue.emplace (sum, -std::min (keep, other), -std::max (keep, other));
+    }
+    neighbours[gone].clear ();
+  }
+  return sets.numbers ();
 }
 
 } // namespace pcl::cosection

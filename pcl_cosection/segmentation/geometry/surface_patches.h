@@ -5,6 +5,8 @@
 
 #include <Eigen/Core>
 
+#include <map>
+#include <utility>
 #include <vector>
 
 namespace pcl::cosection {
@@ -37,5 +39,21 @@ struct PatchImage
  * then connected pieces of each.
  * \param[in] used one per pixel: whether it takes part */
 PatchImage computeSurfacePatches (const DepthGrid& grid, const std::vector<char>& used, int threads);
+
+/** \brief Take patches out of the image. \param[in] gone one per patch */
+void removePatches (PatchImage& patches, const std::vector<char>& gone);
+
+/** \brief What speaks for two patches being parts of one object, in pixels of their common border; negative: against
+ * it. */
+using PatchEvidence = std::map<std::pair<int, int>, float>;
+
+/** \brief Evidence of all pairs of patches that touch: for, where they continue each other or meet at a convex edge,
+ * against, where they meet at an edge that is concave by more than \a concave_angle_rad. */
+PatchEvidence convexityEvidence (const DepthGrid& grid, const PatchImage& image, float concave_angle_rad);
+
+/** \brief Greedy additive edge contraction: joins the two sets with the most evidence for it, adding up what their
+ * members say about other sets, until none is left with evidence for it.
+ * \return one per patch: the number of its set, from 0 */
+std::vector<int> contractEdges (std::size_t patches, const PatchEvidence& evidence);
 
 } // namespace pcl::cosection

@@ -161,7 +161,7 @@ struct SmallMotion
 
 } // namespace
 
-BodyAlignment
+Eigen::Isometry3d
 alignBody (const BodySightings& body, const std::vector<Eigen::Isometry3d>& guesses)
 {
   std::vector<char> of_body (body.now.points.size (), 0);
@@ -181,25 +181,17 @@ alignBody (const BodySightings& body, const std::vector<Eigen::Isometry3d>& gues
     surface[i] = !body.then.room[i] && std::isfinite (body.then.points[i].z ());
 
   const SurfaceTerms forward (body.now, body.pixels, body.then, std::move (surface));
-  // What is gone and far from the body is another's.
-  const auto nearBody = [&] (const Eigen::Isometry3d& T_then_now) {
-    std::vector<int> near;
-    const Eigen::Isometry3d T_now_then = T_then_now.inverse ();
-    for (const int j : body.gone)
-      if (nearestBeside (body.now, (T_now_then * body.then.points[j].cast<double> ()).cast<float> (), of_body) >= 0)
-        near.push_back (j);
-    return near;
+  const auto costAt = [&] (const Eigen::Isometry3d& T) {
+    return forward.visit (T, first_gate_m, nullptr) / static_cast<double> (std::max<std::size_t> (1, forward.size ()));
   };
-  const auto costAt = [&] (const Eigen::Isometry3d& T, float gate_m) {
-    return forward.visit (T, gate_m, nullptr) / static_cast<double> (std::max<std::size_t> (1, forward.size ()));
-  };
-  const auto better = std::min_element (guesses.begin (), guesses.end (),
-                                        [&] (const Eigen::Isometry3d& a, const Eigen::Isometry3d& b) {
-                                          return costAt (a, first_gate_m) < costAt (b, first_gate_m);
-                                        });
-  BodyAlignment result{*better, 0.0};
-  Eigen::Isometry3d& T = result.T_then_now;
-  const SurfaceTerms backward (body.then, thinned (nearBody (T)), body.now, of_body);
+  Eigen::Isometry3d T = *std::min_element (guesses.begin (), guesses.end (),
+                                           [&] (const auto& a, const auto& b) { return costAt (a) < costAt (b); });
+  const Eigen::Isometry3d T_now_then = T.inverse ();
+  std::vector<int> near; // what is gone and far from the body is another's
+  for (const int j : body.gone)
+    if (nearestBeside (body.now, (T_now_then * body.then.points[j].cast<double> ()).cast<float> (), of_body) >= 0)
+      near.push_back (j);
+  const SurfaceTerms backward (body.then, thinned (near), body.now, of_body);
   double gate = first_gate_m;
   for (int n = 0; n < iterations; ++n)
   {
@@ -221,8 +213,7 @@ alignBody (const BodySightings& body, const std::vector<Eigen::Isometry3d>& gues
     if (step.norm () < converged && gate <= last_gate_m)
       break;
   }
-  result.cost = costAt (T, last_gate_m);
-  return result;
+  return T;
 }
 
 } // namespace pcl::cosection

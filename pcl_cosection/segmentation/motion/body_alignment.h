@@ -3,10 +3,6 @@
 
 #include "motion_view.h"
 
-#include <Eigen/Geometry>
-
-#include <vector>
-
 namespace pcl::cosection {
 
 /** \brief A part of a view that may move, and an earlier view of it. */
@@ -18,17 +14,12 @@ struct BodySightings
   const std::vector<int>& gone; ///< pixels of the earlier view that are seen through now: of this body or of others
 };
 
-struct BodyAlignment
-{
-  Eigen::Isometry3d T_then_now = Eigen::Isometry3d::Identity (); ///< sensor frames: where the body's points were
-  double cost = 0.0;                                             ///< per point, from 0 to 1
-};
-
 /** \brief Find where a body was, by Gauss-Newton on robust point-to-plane distances to the earlier view's surface.
  * Points that come to where the earlier view has seen through are drawn to its surface beside them, and what is gone
  * since to the body's: so the outline holds it where a surface slides in itself. What neither determines stays as it is
  * in the guess.
- * \param[in] guesses of T_then_now: the best is taken */
-BodyAlignment alignBody (const BodySightings& body, const std::vector<Eigen::Isometry3d>& guesses);
+ * \param[in] guesses of T_then_now: the best is taken
+ * \return T_then_now, sensor frames */
+Eigen::Isometry3d alignBody (const BodySightings& body, const std::vector<Eigen::Isometry3d>& guesses);
 
 } // namespace pcl::cosection

@@ -20,13 +20,14 @@ constexpr float noise_sigmas = 10.0f;      // larger differences are no noise
 constexpr float quartile_sigmas = 1.1503f; // three quarters of a normal distribution are within
 constexpr float aside_share = 0.002f; // of the depth: what a step to the next pixel counts beside a difference in depth
 
-} // namespace
-
+/** \brief Every how manieth pixel of a row or column is kept. */
 int
 reductionOf (const PinholeCamera& camera)
 {
   return std::max (1, static_cast<int> (std::lround (static_cast<double> (camera.width) / columns)));
 }
+
+} // namespace
 
 MotionView
 makeMotionView (const MotionFrame& frame)
@@ -57,9 +58,17 @@ analyse (MotionView& view, const MotionSegmentationOptions& options)
   OrganizedNormalsOptions normals;
   normals.threads = options.threads;
   view.normals = computeOrganizedNormals (view.points, view.camera.width, view.camera.height, {}, normals);
+  const DepthGrid grid = view.grid ();
   const std::vector<SupportSurface> surfaces = findSupportSurfaces (
-      view.grid (), static_cast<float> (options.max_object_size_m), min_area_m2);
-  view.room = pixelsOnSurfaces (view.grid (), surfaces, options.threads);
+      grid, static_cast<float> (options.max_object_size_m), min_area_m2);
+  view.room.assign (view.points.size (), 0);
+  parallelFor (0, grid.height, options.threads, [&] (int v) {
+    for (int u = 0; u < grid.width; ++u)
+      if (const int i = v * grid.width + u; grid.valid (i))
+        view.room[i] = std::any_of (surfaces.begin (), surfaces.end (), [&] (const SupportSurface& surface) {
+          return surface.distance (grid, u, v) < 1.0f;
+        });
+  });
 }
 
 Sighting

@@ -22,7 +22,6 @@ struct MotionView
   std::vector<std::uint32_t> bodies; ///< known ones, 0: none
   std::vector<std::uint32_t> found;  ///< all that were found; empty: this was not asked for
   std::map<std::uint32_t, Eigen::Isometry3d> T_world_body;
-  std::size_t index = 0; ///< of the frame
 
   DepthGrid grid () const
   {
@@ -31,9 +30,6 @@ struct MotionView
 
   bool hasNormal (int i) const { return std::isfinite (normals[i].x ()); }
 };
-
-/** \brief Every how manieth pixel of a row or column is kept. */
-int reductionOf (const PinholeCamera& camera);
 
 /** \brief A frame's pixels so reduced, not analysed. */
 MotionView makeMotionView (const MotionFrame& frame);

@@ -1,7 +1,7 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include <pcl/cosection/segmentation/instance_detector.h>
 
-#include "pcl_cosection/common/file_bytes.h"
+#include "pcl_cosection/common/files.h"
 
 #include <pcl/cosection/common/error.h>
 

@@ -3,7 +3,6 @@
 
 #include "pcl_cosection/common/console_errors.h"
 
-#include <pcl/impl/instantiate.hpp>
 #include <pcl/impl/pcl_base.hpp>
 #include <pcl/point_types.h>
 
@@ -80,6 +79,4 @@ InstanceSegmentationBase::segmentPicture (const Picture& picture, const Image<st
 
 } // namespace pcl::cosection
 
-#define PCL_INSTANTIATE_CosectionInstanceSegmentation(T) template class pcl::cosection::InstanceSegmentation<T>;
-PCL_INSTANTIATE (CosectionInstanceSegmentation,
-                 (pcl::PointXYZRGB) (pcl::PointXYZRGBA) (pcl::PointXYZRGBL) (pcl::PointXYZRGBNormal))
+BOOST_PP_SEQ_FOR_EACH (PCL_COSECTION_TEMPLATE, pcl::cosection::InstanceSegmentation, PCL_COSECTION_RGB_POINT_TYPES)

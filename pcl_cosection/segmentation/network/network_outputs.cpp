@@ -7,37 +7,21 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 
 namespace pcl::cosection {
 namespace {
 
 constexpr std::size_t most_candidates = 1000; ///< most that are compared with each other
-constexpr float most_classes = 1e6f;
 
-/** \brief "scores [100], masks [100 x 1 x 28 x 28]" */
-std::string
-describe (const std::vector<NetworkOutput>& outputs)
+double
+intersectionOverUnion (const Rectangle& a, const Rectangle& b)
 {
-  std::ostringstream text;
-  for (const NetworkOutput& output : outputs)
-  {
-    text << (&output == outputs.data () ? "" : ", ") << output.name << " [";
-    for (std::size_t n = 0; n < output.shape.size (); ++n)
-      text << (n == 0 ? "" : " x ") << output.shape[n];
-    text << ']';
-  }
-  return (outputs.empty () ? "there are none" : text.str ());
-}
-
-bool
-hasItsValues (const NetworkOutput& output)
-{
-  double count = 1.0;
-  for (const int size : output.shape)
-    count *= size;
-  return (count == static_cast<double> (output.values.size ()) &&
-          std::none_of (output.shape.begin (), output.shape.end (), [] (int size) { return (size < 0); }));
+  const double width = std::min (a.right, b.right) - std::max (a.left, b.left);
+  const double height = std::min (a.bottom, b.bottom) - std::max (a.top, b.top);
+  if (width <= 0.0 || height <= 0.0)
+    return (0.0);
+  const double both = width * height;
+  return (both / ((a.right - a.left) * (a.bottom - a.top) + (b.right - b.left) * (b.bottom - b.top) - both));
 }
 
 /** \brief Non-maximum suppression: keeps the first of overlapping boxes of a class. */
@@ -48,34 +32,69 @@ withoutDuplicates (const std::vector<Candidate>& sorted, double overlap_threshol
   for (const Candidate& candidate : sorted)
     if (std::none_of (kept.begin (), kept.end (), [&] (const Candidate& other) {
           return (other.class_id == candidate.class_id &&
-                  other.box.intersectionOverUnion (candidate.box) > overlap_threshold);
+                  intersectionOverUnion (other.box, candidate.box) > overlap_threshold);
         }))
       kept.push_back (candidate);
   return (kept);
 }
 
-struct Reading
+/** \brief First pixel whose middle is at or beyond \a edge, from 0 to \a size. */
+int
+firstPixel (double edge, int size)
 {
-  NetworkOutputForm form;
-  std::unique_ptr<OutputReader> reader;
+  return (static_cast<int> (std::clamp (std::ceil (edge - 0.5), 0.0, static_cast<double> (size))));
+}
+
+/** \brief Two cells and how much of the second, for the middle of a pixel. */
+struct Interpolation
+{
+  int first, second;
+  float share;
 };
 
-Reading
-readOutputs (const std::vector<NetworkOutput>& outputs, const ImagePlacement& placement)
+Interpolation
+interpolation (int pixel, double covered_from, double covered_to, int cells)
 {
-  if (std::all_of (outputs.begin (), outputs.end (), hasItsValues))
+  const double at = (pixel + 0.5 - covered_from) / (covered_to - covered_from) * cells - 0.5;
+  const double inside = std::clamp (at, 0.0, static_cast<double> (cells - 1));
+  const int first = static_cast<int> (inside);
+  return {first, std::min (first + 1, cells - 1), static_cast<float> (inside - first)};
+}
+
+float
+mix (float first, float second, float share)
+{
+  return (first + share * (second - first));
+}
+
+/** \brief Set the mask of an instance: pixels in \a box whose probability, interpolated between the middles of cells,
+ * reaches the threshold. The mask is empty if the box is not in the image. */
+void
+pasteMask (const SoftMask& soft, const Rectangle& box, const ImagePlacement& placement, double threshold,
+           DetectedInstance& instance)
+{
+  instance.left = firstPixel (box.left, placement.image_width);
+  instance.top = firstPixel (box.top, placement.image_height);
+  const int width = firstPixel (box.right, placement.image_width) - instance.left;
+  const int height = firstPixel (box.bottom, placement.image_height) - instance.top;
+  const Image<float>& p = soft.probabilities;
+  if (width <= 0 || height <= 0 || p.pixels.empty ())
+    return;
+  instance.mask = Image<std::uint8_t> (width, height, 0);
+  std::vector<Interpolation> columns;
+  for (int u = 0; u < width; ++u)
+    columns.push_back (interpolation (instance.left + u, soft.covered.left, soft.covered.right, p.width));
+  for (int v = 0; v < height; ++v)
   {
-    if (auto reader = readDetectionOut (outputs, placement))
-      return {NetworkOutputForm::DetectionOut, std::move (reader)};
-    if (auto reader = readPrototypes (outputs, placement))
-      return {NetworkOutputForm::Prototypes, std::move (reader)};
-    if (auto reader = readBoxList (outputs, placement))
-      return {NetworkOutputForm::BoxList, std::move (reader)};
+    const Interpolation row = interpolation (instance.top + v, soft.covered.top, soft.covered.bottom, p.height);
+    for (int u = 0; u < width; ++u)
+    {
+      const Interpolation& column = columns[u];
+      const float above = mix (p.at (column.first, row.first), p.at (column.second, row.first), column.share);
+      const float below = mix (p.at (column.first, row.second), p.at (column.second, row.second), column.share);
+      instance.mask.at (u, v) = mix (above, below, row.share) >= threshold ? 1 : 0;
+    }
   }
-  throw InvalidArgument ("the outputs are those of no known instance segmentation: " + describe (outputs) +
-                         "; they should be [1 x 1 x N x 7] and masks [N x C x h x w] (Mask R-CNN), or boxes [N x 4], "
-                         "labels [N], scores [N] "
-                         "and masks [N x 1 x h x w], or [1 x 4+C+K x A] and prototypes [1 x K x h x w] (YOLO)");
 }
 
 } // namespace
@@ -114,24 +133,10 @@ ImagePlacement::ImagePlacement (int image_width, int image_height, int input_wid
   top = (input_height - height) / 2;
 }
 
-std::optional<Candidate>
-makeCandidate (std::size_t index, float class_id, float score, const Rectangle& box, const ImagePlacement& placement,
-               const InstanceDecodingOptions& options)
-{
-  if (!(score > 0.0f && score >= options.score_threshold && std::isfinite (score)) ||
-      !(class_id >= 0.0f && class_id < most_classes))
-    return (std::nullopt);
-  const Candidate candidate = {index, static_cast<int> (std::lround (class_id)), std::min (score, 1.0f),
-                               toImage (box, placement)};
-  if (!candidate.box.isProper ())
-    return (std::nullopt);
-  return (candidate);
-}
-
 NetworkOutputForm
 outputForm (const std::vector<NetworkOutput>& outputs)
 {
-  return (readOutputs (outputs, ImagePlacement (1, 1, 1, 1, false)).form);
+  return (readOutputs (outputs, ImagePlacement (1, 1, 1, 1, false))->form);
 }
 
 std::vector<DetectedInstance>
@@ -139,12 +144,12 @@ decodeInstances (const std::vector<NetworkOutput>& outputs, const ImagePlacement
                  const InstanceDecodingOptions& options)
 {
   options.validate ();
-  const std::unique_ptr<OutputReader> reader = readOutputs (outputs, placement).reader;
+  const std::unique_ptr<OutputReader> reader = readOutputs (outputs, placement);
   std::vector<Candidate> candidates = reader->candidates (options);
   std::sort (candidates.begin (), candidates.end (), [] (const Candidate& a, const Candidate& b) {
     return (a.score != b.score ? a.score > b.score : a.index < b.index);
   });
-  if (reader->hasDuplicates ())
+  if (reader->form == NetworkOutputForm::Prototypes) // of which several may be of one thing
   {
     candidates.resize (std::min (candidates.size (), most_candidates), {});
     candidates = withoutDuplicates (candidates, options.overlap_threshold);

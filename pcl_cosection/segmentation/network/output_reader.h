@@ -1,16 +1,26 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "soft_mask.h"
-
 #include <pcl/cosection/segmentation/instance_detector.h>
 
 #include <cstddef>
 #include <memory>
-#include <optional>
 #include <vector>
 
 namespace pcl::cosection {
+
+/** \brief A rectangle; the pixel in column u covers [u, u + 1). */
+struct Rectangle
+{
+  double left, top, right, bottom;
+};
+
+/** \brief Probabilities that a thing is seen, on a grid of few cells. */
+struct SoftMask
+{
+  Image<float> probabilities;
+  Rectangle covered; ///< by the grid's cells, in the image
+};
 
 /** \brief A detection before non-maximum suppression. */
 struct Candidate
@@ -25,6 +35,7 @@ struct Candidate
 class OutputReader
 {
 public:
+  OutputReader (NetworkOutputForm form, const ImagePlacement& placement) : form (form), placement_ (placement) {}
   virtual ~OutputReader () = default;
 
   /** \brief The candidates with a sufficient score and a proper box, in any order. */
@@ -32,21 +43,13 @@ public:
 
   virtual SoftMask mask (const Candidate& candidate) const = 0;
 
-  /** \brief Whether several candidates may be of one thing. */
-  virtual bool hasDuplicates () const { return (false); }
+  const NetworkOutputForm form;
+
+protected:
+  const ImagePlacement placement_;
 };
 
-/** \brief A candidate with these values, if its score is sufficient and its box proper. \param[in] box in the input */
-std::optional<Candidate> makeCandidate (std::size_t index, float class_id, float score, const Rectangle& box,
-                                        const ImagePlacement& placement, const InstanceDecodingOptions& options);
-
-/** \brief A reader if the outputs are of its form, else null. */
-std::unique_ptr<OutputReader> readDetectionOut (const std::vector<NetworkOutput>& outputs,
-                                                const ImagePlacement& placement);
-
-std::unique_ptr<OutputReader> readBoxList (const std::vector<NetworkOutput>& outputs, const ImagePlacement& placement);
-
-std::unique_ptr<OutputReader> readPrototypes (const std::vector<NetworkOutput>& outputs,
-                                              const ImagePlacement& placement);
+/** \throws InvalidArgument saying what the outputs are and what they should be, if they are of no known form */
+std::unique_ptr<OutputReader> readOutputs (const std::vector<NetworkOutput>& outputs, const ImagePlacement& placement);
 
 } // namespace pcl::cosection

@@ -1,6 +1,5 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "analytic_shape.h"
-#include "lathe.h"
 #include "polygon.h"
 
 #include <pcl/cosection/common/error.h>
@@ -14,11 +13,12 @@
 namespace pcl::cosection {
 namespace {
 
+/** \brief Signed distance of a box whose sides a point is so far beyond. */
+template <typename Vector>
 double
-boxDistance (const Eigen::Vector3d& p, const Eigen::Vector3d& half)
+boxDistance (const Vector& beyond)
 {
-  const Eigen::Vector3d d = p.cwiseAbs () - half;
-  return d.cwiseMax (0.0).norm () + std::min (0.0, d.maxCoeff ());
+  return beyond.cwiseMax (0.0).norm () + std::min (0.0, beyond.maxCoeff ());
 }
 
 Eigen::Vector3d
@@ -60,7 +60,8 @@ public:
 
   double distance (const Eigen::Vector3d& p) const override
   {
-    return boxDistance (p, half_ - Eigen::Vector3d::Constant (rounding_)) - rounding_;
+    const Eigen::Vector3d half = half_ - Eigen::Vector3d::Constant (rounding_);
+    return boxDistance (Eigen::Vector3d (p.cwiseAbs () - half)) - rounding_;
   }
 
   TriangleMesh tessellate (double chord_m) const override
@@ -116,20 +117,20 @@ private:
 class Room : public AnalyticShape
 {
 public:
-  explicit Room (const Eigen::Vector3d& size) : size_ (size), half_ (halfOf (size)) {}
+  explicit Room (const Eigen::Vector3d& size) : box_ (size, 0.0) {}
 
-  double distance (const Eigen::Vector3d& p) const override { return -boxDistance (p, half_); }
+  double distance (const Eigen::Vector3d& p) const override { return -box_.distance (p); }
 
   TriangleMesh tessellate (double chord_m) const override
   {
-    TriangleMesh mesh = Box (size_, 0.0).tessellate (chord_m);
+    TriangleMesh mesh = box_.tessellate (chord_m);
     for (TriangleMesh::Triangle& t : mesh.triangles)
       std::swap (t[1], t[2]);
     return mesh;
   }
 
 private:
-  Eigen::Vector3d size_, half_;
+  Box box_;
 };
 
 class HalfSpace : public AnalyticShape
@@ -161,9 +162,8 @@ public:
 
   double distance (const Eigen::Vector3d& p) const override
   {
-    const Eigen::Vector2d d (polygonDistance (outline_, p.head<2> ()),
-                             std::abs (p.z () - 0.5 * height_) - 0.5 * height_);
-    return d.cwiseMax (0.0).norm () + std::min (0.0, d.maxCoeff ());
+    return boxDistance (
+        Eigen::Vector2d (polygonDistance (outline_, p.head<2> ()), std::abs (p.z () - 0.5 * height_) - 0.5 * height_));
   }
 
   TriangleMesh tessellate (double) const override

@@ -13,17 +13,13 @@ namespace pcl::cosection {
 namespace {
 
 constexpr double min_area_m2 = 1e-12;
+constexpr int min_segments = 12; // of a circle
+constexpr int max_segments = 4096;
 
 double
 cross (const Eigen::Vector2d& a, const Eigen::Vector2d& b)
 {
   return a.x () * b.y () - a.y () * b.x ();
-}
-
-double
-turn (const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Vector2d& c)
-{
-  return cross (b - a, c - b);
 }
 
 /** \brief Whether two segments share a point. */
@@ -50,13 +46,20 @@ inTriangle (const Eigen::Vector2d& p, const Eigen::Vector2d& a, const Eigen::Vec
 
 } // namespace
 
-double
-signedArea (const Polygon2d& polygon)
+Polygon2d
+arc (const Eigen::Vector2d& centre, double radius, double from_rad, double to_rad, double chord_m)
 {
-  double sum = 0.0;
-  for (std::size_t n = 0; n < polygon.size (); ++n)
-    sum += cross (polygon[n], polygon[(n + 1) % polygon.size ()]);
-  return 0.5 * sum;
+  const double cosine = 1.0 - std::min (chord_m / radius, 1.0);
+  const double segment_rad = std::clamp (2.0 * std::acos (cosine), 2.0 * M_PI / max_segments,
+                                         2.0 * M_PI / min_segments);
+  const int steps = std::max (1, static_cast<int> (std::ceil (std::abs (to_rad - from_rad) / segment_rad)));
+  Polygon2d points;
+  for (int n = 0; n <= steps; ++n)
+  {
+    const double angle = from_rad + (to_rad - from_rad) * n / steps;
+    points.push_back (centre + radius * Eigen::Vector2d (std::cos (angle), std::sin (angle)));
+  }
+  return points;
 }
 
 Polygon2d
@@ -82,7 +85,10 @@ simplePolygon (Polygon2d polygon, const char* what)
     if (cross (back, on) == 0.0 && back.dot (on) > 0.0)
       refuse ("turns back on itself at point " + std::to_string ((n + 1) % size));
   }
-  const double area = signedArea (polygon);
+  double area = 0.0; // positive if counter-clockwise
+  for (std::size_t n = 0; n < size; ++n)
+    area += cross (polygon[n], polygon[(n + 1) % size]);
+  area *= 0.5;
   if (!(std::abs (area) > min_area_m2))
     refuse ("has no area");
   if (area < 0.0)
@@ -119,7 +125,7 @@ triangulate (const Polygon2d& polygon)
   std::vector<std::array<std::uint32_t, 3>> triangles;
   const auto isEar = [&] (std::size_t n, bool strict) {
     const std::uint32_t a = left[(n + left.size () - 1) % left.size ()], b = left[n], c = left[(n + 1) % left.size ()];
-    const double area = turn (polygon[a], polygon[b], polygon[c]);
+    const double area = cross (polygon[b] - polygon[a], polygon[c] - polygon[b]);
     if (strict ? !(area > 0.0) : area < 0.0)
       return false;
     return std::none_of (left.begin (), left.end (), [&] (std::uint32_t m) {

@@ -9,12 +9,12 @@
 
 namespace pcl::cosection {
 
+/** \brief Points of an arc about \a centre, ends included, no chord of which is farther from it than \a chord_m. */
+Polygon2d arc (const Eigen::Vector2d& centre, double radius, double from_rad, double to_rad, double chord_m);
+
 /** \brief Counter-clockwise, checked. \throws InvalidArgument naming \a what if it is no simple polygon with an area.
  */
 Polygon2d simplePolygon (Polygon2d polygon, const char* what);
-
-/** \brief Signed area, positive if counter-clockwise. */
-double signedArea (const Polygon2d& polygon);
 
 /** \brief Signed distance of \a p, negative inside.
  * \param[in] open_at_axis edges with x = 0 at both ends are no boundary (the axis of a profile) */

@@ -1,6 +1,5 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "analytic_shape.h"
-#include "lathe.h"
 #include "polygon.h"
 
 #include <pcl/cosection/common/error.h>
@@ -12,6 +11,51 @@
 
 namespace pcl::cosection {
 namespace {
+
+/** \brief The surface that a profile (distance from the axis, z) leaves when it is turned about z.
+ * \param[in] profile counter-clockwise (matter on the left, seen with z up and the axis on the left); its edges on the
+ * axis are no surface
+ * \param[in] closed whether the last point is joined to the first
+ * \param[in] chord_m farthest that triangles may be from the surface */
+TriangleMesh
+turnedProfile (const Polygon2d& profile, bool closed, double chord_m)
+{
+  double radius = 0.0;
+  for (const Eigen::Vector2d& p : profile)
+    radius = std::max (radius, p.x ());
+  const auto segments = static_cast<std::uint32_t> (arc ({0.0, 0.0}, radius, 0.0, 2.0 * M_PI, chord_m).size () - 1);
+  TriangleMesh mesh;
+  std::vector<std::uint32_t> first; // vertex of each point; one on the axis, else segments
+  const auto onAxis = [&] (std::size_t n) { return profile[n].x () <= 0.0; };
+  for (std::size_t n = 0; n < profile.size (); ++n)
+  {
+    first.push_back (static_cast<std::uint32_t> (mesh.vertices.size ()));
+    for (std::uint32_t s = 0; s < (onAxis (n) ? 1u : segments); ++s)
+    {
+      const double angle = 2.0 * M_PI * s / segments;
+      mesh.vertices.emplace_back (static_cast<float> (profile[n].x () * std::cos (angle)),
+                                  static_cast<float> (profile[n].x () * std::sin (angle)),
+                                  static_cast<float> (profile[n].y ()));
+    }
+  }
+  for (std::size_t n = 0; n + (closed ? 0 : 1) < profile.size (); ++n)
+  {
+    const std::size_t m = (n + 1) % profile.size ();
+    if (onAxis (n) && onAxis (m))
+      continue;
+    for (std::uint32_t s = 0; s < segments; ++s)
+    {
+      const std::uint32_t next = (s + 1) % segments;
+      const std::uint32_t a = first[n] + (onAxis (n) ? 0 : s), b = first[n] + (onAxis (n) ? 0 : next);
+      const std::uint32_t c = first[m] + (onAxis (m) ? 0 : next), d = first[m] + (onAxis (m) ? 0 : s);
+      if (a != b)
+        mesh.triangles.push_back ({a, b, c});
+      if (c != d)
+        mesh.triangles.push_back ({a, c, d});
+    }
+  }
+  return mesh;
+}
 
 class Sphere : public AnalyticShape
 {

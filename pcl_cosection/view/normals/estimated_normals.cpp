@@ -1,7 +1,7 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "estimated_normals.h"
 
-#include "pcl_cosection/common/cell_key.h"
+#include "pcl_cosection/common/lattice_cells.h"
 #include "pcl_cosection/io/quiet_console.h"
 
 #include "pcl_cosection/common/parallel.h"
@@ -33,12 +33,19 @@ constexpr double thinning_cells = 100.0;               // along the longest side
 constexpr int neighbours_of_means = 2; // more than of points: noise spreads over several layers of cells
 constexpr std::size_t judged_points = 20000;
 
+/** \brief Points that stand for others. */
+struct ThinnedPoints
+{
+  std::vector<Eigen::Vector3f> points;
+  std::vector<std::uint32_t> of; ///< which one stands for each of the points that were given
+};
+
 /** \brief Means of points in cells, where points are so dense that the nearest ones would show noise alone; else the
  * points themselves. */
-EstimatedNormals
+ThinnedPoints
 thin (const std::vector<Eigen::Vector3f>& points)
 {
-  EstimatedNormals thinned;
+  ThinnedPoints thinned;
   thinned.of.resize (points.size ());
   if (points.size () <= dense_points)
   {
@@ -112,14 +119,18 @@ normalsOf (const PcdViewOptions& options, const std::vector<Eigen::Vector3f>& po
 
 } // namespace
 
-EstimatedNormals
-estimateNormals (const PcdViewOptions& options, const std::vector<Eigen::Vector3f>& positions)
+void
+addNormals (const PcdViewOptions& options, const std::vector<std::size_t>& indices, SensorCloud& cloud,
+            const std::function<void (const std::vector<Eigen::Vector3f>&, std::vector<Eigen::Vector3f>&)>& turn)
 {
-  EstimatedNormals estimated = thin (positions);
-  const bool dense = estimated.points.size () < positions.size ();
-  estimated.normals = normalsOf (options, estimated.points,
-                                 dense ? neighbours_of_means * options.normal_neighbours : options.normal_neighbours);
-  return estimated;
+  const ThinnedPoints thinned = thin (pick (cloud.positions, indices));
+  const bool dense = thinned.points.size () < indices.size ();
+  std::vector<Eigen::Vector3f> normals = normalsOf (
+      options, thinned.points, dense ? neighbours_of_means * options.normal_neighbours : options.normal_neighbours);
+  if (turn)
+    turn (thinned.points, normals);
+  for (std::size_t k = 0; k < indices.size (); ++k)
+    cloud.normals[indices[k]] = normals[thinned.of[k]];
 }
 
 std::vector<float>

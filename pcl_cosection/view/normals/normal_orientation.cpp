@@ -1,8 +1,8 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include <pcl/cosection/surface/normals.h>
 
+#include "pcl_cosection/common/directions.h"
 #include "pcl_cosection/common/disjoint_sets.h"
-#include "pcl_cosection/common/sphere_directions.h"
 
 #include <pcl/cosection/common/error.h>
 

@@ -5,7 +5,6 @@
 #include "pcl_cosection/common/console_errors.h"
 
 #include <pcl/filters/impl/filter_indices.hpp> // the base's own applyFilter (): libpcl_filters need not be loaded
-#include <pcl/impl/instantiate.hpp>
 #include <pcl/point_types.h>
 
 #include <cmath>
@@ -78,7 +77,4 @@ FreeSpaceFilterBase::contradicted (const std::vector<Eigen::Vector3f>& points) c
 
 } // namespace pcl::cosection
 
-#define PCL_INSTANTIATE_CosectionFreeSpaceFilter(T) template class pcl::cosection::FreeSpaceFilter<T>;
-PCL_INSTANTIATE (CosectionFreeSpaceFilter,
-                 (pcl::PointXYZ) (pcl::PointXYZI) (pcl::PointXYZRGB) (pcl::PointXYZRGBA) (pcl::PointXYZRGBL) (
-                     pcl::PointNormal) (pcl::PointXYZRGBNormal) (pcl::PointXYZINormal))
+BOOST_PP_SEQ_FOR_EACH (PCL_COSECTION_TEMPLATE, pcl::cosection::FreeSpaceFilter, PCL_COSECTION_XYZ_POINT_TYPES)

@@ -73,7 +73,7 @@ FreeSpaceView::FreeSpaceView (DepthView view) : view_ (std::move (view)), edge_ 
   const auto compare = [&] (int u, int v, int u2, int v2) {
     const float a = view_.at (u, v);
     const float b = view_.at (u2, v2);
-    if (!std::isfinite (a) || !std::isfinite (b))
+    if (!isReading (a) || !isReading (b))
       return;
     const double near = std::min (a, b);
     if (std::abs (a - b) > smallestEdgeStep (near))

@@ -15,6 +15,9 @@ namespace {
 constexpr double min_margin_m = 0.005;
 constexpr int max_footprint = 12; ///< pixels
 constexpr int min_support = 3;    ///< neighbours of the same depth, as many as a corner of a surface has
+constexpr std::size_t most_samples = 2000;
+constexpr double bad_views = 0.05;  // of all views, may contradict
+constexpr double least_asked = 0.1; // of the points, about which a view must say something
 
 /** \brief The votes of one view on points. */
 class Witness
@@ -111,6 +114,41 @@ addVotes (const std::vector<Eigen::Vector3f>& points, const FreeSpaceView& view,
                            std::to_string (points.size ()) + " points");
   const Witness witness (view, T_points_sensor, margin_m);
   parallelFor (0, static_cast<int> (points.size ()), threads, [&] (int i) { witness.vote (points[i], votes[i]); });
+}
+
+ViewAgreement::ViewAgreement (const std::vector<OrientedPoint>& points)
+{
+  const std::size_t stride = (points.size () + most_samples - 1) / most_samples;
+  for (std::size_t p = 0; p < points.size (); p += stride)
+    positions_.push_back (points[p].position);
+}
+
+void
+ViewAgreement::add (int number, const FreeSpaceView& view, const Eigen::Isometry3d& T_points_sensor, int threads)
+{
+  std::vector<FreeSpaceVotes> votes (positions_.size ());
+  addVotes (positions_, view, T_points_sensor, votes, 0.0, threads);
+  int free = 0, surface = 0;
+  for (const FreeSpaceVotes& vote : votes)
+  {
+    free += vote.free;
+    surface += vote.surface;
+  }
+  if (free + surface < least_asked * static_cast<double> (positions_.size ()))
+    return;
+  of_views_.push_back ({static_cast<double> (free) / (free + surface), number});
+}
+
+ViewAgreement::Contradiction
+ViewAgreement::worst () const
+{
+  if (of_views_.empty ())
+    return {};
+  std::vector<Contradiction> sorted = of_views_;
+  std::sort (sorted.begin (), sorted.end (), [] (const Contradiction& a, const Contradiction& b) {
+    return a.share > b.share || (a.share == b.share && a.view < b.view);
+  });
+  return sorted[static_cast<std::size_t> (bad_views * static_cast<double> (sorted.size ()))];
 }
 
 } // namespace pcl::cosection

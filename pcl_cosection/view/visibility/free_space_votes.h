@@ -2,10 +2,7 @@
 #pragma once
 
 #include "free_space_view.h"
-
-#include <Eigen/Geometry>
-
-#include <vector>
+#include <pcl/cosection/common/oriented_point.h>
 
 namespace pcl::cosection {
 
@@ -44,5 +41,29 @@ std::vector<FreeSpaceVotes> voteOnPoints (const std::vector<Eigen::Vector3f>& po
 void addVotes (const std::vector<Eigen::Vector3f>& points, const FreeSpaceView& view,
                const Eigen::Isometry3d& T_points_sensor, std::vector<FreeSpaceVotes>& votes, double margin_m = 0.0,
                int threads = 0);
+
+/** \brief How well depth views agree with the points of a body, some of which are asked about: a view whose pose is
+ * wrong looks through points that others have measured, and so does one of a thing that has moved. */
+class ViewAgreement
+{
+public:
+  explicit ViewAgreement (const std::vector<OrientedPoint>& points);
+
+  /** \param[in] number of the view */
+  void add (int number, const FreeSpaceView& view, const Eigen::Isometry3d& T_points_sensor, int threads);
+
+  struct Contradiction
+  {
+    double share = 0.0; ///< of the points that a view sees, or would see if it did not look through them: the latter
+    int view = 0;       ///< its number
+  };
+
+  /** \brief The largest; but of many views every twentieth may be worse. */
+  Contradiction worst () const;
+
+private:
+  std::vector<Eigen::Vector3f> positions_;
+  std::vector<Contradiction> of_views_;
+};
 
 } // namespace pcl::cosection

@@ -1,7 +1,6 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "key_bindings.h"
 #include "window_overlay.h"
 #include "window_scene.h"
 
@@ -9,9 +8,11 @@
 
 #include <vtkCommand.h>
 #include <vtkInteractorStyle.h>
+#include <vtkNew.h>
 #include <vtkRenderWindow.h>
 #include <vtkRenderWindowInteractor.h>
 #include <vtkRenderer.h>
+#include <vtkSliderRepresentation2D.h>
 #include <vtkSliderWidget.h>
 #include <vtkSmartPointer.h>
 
@@ -38,11 +39,19 @@ public:
 private:
   void makeSlider ();
   void observe ();
-  void perform (WindowAction action);
-  void performView (WindowAction action);
-  void performSlices (WindowAction action);
   void onTimer ();
   void takeScene (SceneUpdate update);
+  /** \brief All keys, as people call them, and what they do, in two columns. */
+  static std::string helpText ();
+  void play ();
+  void follow ();
+  void lookOver (double turn_rad, const char* line);
+  void toggle (bool& is_on, const std::string& what);
+  void toggleLines ();
+  void toggleHelp ();
+  void toggleSlices ();
+  void chooseSlice (int axis);
+  void moveSlice (double step);
   void nextSurface ();
   void nextColour ();
   void nextObject ();
@@ -76,6 +85,7 @@ private:
   vtkSmartPointer<vtkRenderer> renderer_;
   vtkSmartPointer<vtkRenderWindowInteractor> interactor_;
   vtkSmartPointer<vtkSliderWidget> slider_;
+  vtkNew<vtkSliderRepresentation2D> bar_;
   std::unique_ptr<WindowScene> actors_;
   std::unique_ptr<WindowOverlay> overlay_;
   std::vector<vtkSmartPointer<vtkCommand>> commands_;

@@ -1,11 +1,9 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
-
 // What the keys of the window do.
-
 #include "run_window_impl.h"
 
 #include "pcl_cosection/rendering/picture.h"
-#include "pcl_cosection/visualization/scene_caption.h"
+
 #include <pcl/cosection/common/error.h>
 
 #include <algorithm>
@@ -14,6 +12,9 @@
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
+#include <functional>
+#include <map>
+#include <utility>
 
 namespace pcl::cosection {
 namespace {
@@ -22,147 +23,163 @@ constexpr std::size_t far_frames = 10;
 constexpr double slice_step = 0.02; ///< of the box
 constexpr int surfaces = 3, colours = 5;
 
-const char*
+std::string
 onOff (bool is_on)
 {
-  return is_on ? "on" : "off";
+  return is_on ? " on" : " off";
 }
 
 } // namespace
+
+std::string
+RunWindow::Impl::helpText ()
+{
+  static const std::vector<std::pair<std::string, std::string>> help = {
+      {"space", "play, pause"},
+      {"left, right", "one frame back, on"},
+      {"page up, down", "ten frames back, on"},
+      {"Home, End, 0-9", "first, last frame, tenths of the run"},
+      {"m", "surfaces: completed, as seen, points of the frame"},
+      {"c", "colours: real, instance, provenance, confidence, error"},
+      {"mouse", "left: turn, middle: shift, right or wheel: zoom"},
+      {"f", "follow the camera, or let go of it"},
+      {"o, b", "overview, the same from behind"},
+      {"v, l", "save the viewpoint, load it"},
+      {"g", "background"},
+      {"k", "bounding volumes"},
+      {"t", "path of the camera and what it sees"},
+      {"s", "slices of the signed distance of an object"},
+      {"Tab", "the next object"},
+      {"x, y, z", "one of the slices: hide it, or choose it again"},
+      {"up, down", "move the chosen slice"},
+      {"p", "save a picture of the window"},
+      {"h", "this help"},
+      {"q, Escape", "close the window"}};
+  std::size_t width = 0;
+  for (const auto& [keys, meaning] : help)
+    width = std::max (width, keys.size ());
+  std::string text;
+  for (const auto& [keys, meaning] : help)
+    text += (text.empty () ? " " : "\n ") + keys + std::string (width + 2 - keys.size (), ' ') + meaning + " ";
+  return text;
+}
 
 void
 RunWindow::Impl::press (const std::string& key)
 {
   if (key.size () == 1 && std::isdigit (static_cast<unsigned char> (key[0])))
     return goTo (static_cast<std::size_t> (key[0] - '0') * (stamps_.size () - 1) / 10);
-  if (const std::optional<WindowAction> action = actionOf (key))
-    perform (*action);
-}
-
-void
-RunWindow::Impl::perform (WindowAction action)
-{
-  switch (action)
+  using Actions = std::map<std::string, std::function<void (Impl&)>>; // by the name that X gives a key
+  static const Actions actions = {
+      {"space", &Impl::play},
+      {"Right", [] (Impl& w) { w.goTo (w.frame_ + 1); }},
+      {"Left", [] (Impl& w) { w.goTo (w.frame_ - std::min<std::size_t> (w.frame_, 1)); }},
+      {"Next", [] (Impl& w) { w.goTo (w.frame_ + far_frames); }},                       // page down
+      {"Prior", [] (Impl& w) { w.goTo (w.frame_ - std::min (w.frame_, far_frames)); }}, // page up
+      {"Home", [] (Impl& w) { w.goTo (0); }},
+      {"End", [] (Impl& w) { w.goTo (w.stamps_.size () - 1); }},
+      {"m", &Impl::nextSurface},
+      {"c", &Impl::nextColour},
+      {"p", &Impl::savePicture},
+      {"q", [] (Impl& w) { w.interactor_->TerminateApp (); }},
+      {"Escape", [] (Impl& w) { w.interactor_->TerminateApp (); }}};
+  // After these, everything is drawn anew.
+  static const Actions settings = {{"f", &Impl::follow},
+                                   {"o", [] (Impl& w) { w.lookOver (0.0, "view from above"); }},
+                                   {"b", [] (Impl& w) { w.lookOver (M_PI, "view from behind"); }},
+                                   {"v", &Impl::saveViewpoint},
+                                   {"l", &Impl::loadViewpoint},
+                                   {"g", [] (Impl& w) { w.toggle (w.options_.view.background, "background"); }},
+                                   {"k", [] (Impl& w) { w.toggle (w.options_.view.boxes, "boxes"); }},
+                                   {"t", &Impl::toggleLines},
+                                   {"h", &Impl::toggleHelp},
+                                   {"Tab", &Impl::nextObject},
+                                   {"s", &Impl::toggleSlices},
+                                   {"x", [] (Impl& w) { w.chooseSlice (0); }},
+                                   {"y", [] (Impl& w) { w.chooseSlice (1); }},
+                                   {"z", [] (Impl& w) { w.chooseSlice (2); }},
+                                   {"Up", [] (Impl& w) { w.moveSlice (slice_step); }},
+                                   {"Down", [] (Impl& w) { w.moveSlice (-slice_step); }}};
+  if (const auto action = actions.find (key); action != actions.end ())
+    action->second (*this);
+  if (const auto setting = settings.find (key); setting != settings.end ())
   {
-  case WindowAction::Play:
-    playing_ = !playing_;
-    if (playing_ && frame_ + 1 == stamps_.size ())
-      goTo (0);
-    last_step_ = std::chrono::steady_clock::now ();
-    return say (playing_ ? "play" : "play paused", false);
-  case WindowAction::Forward:
-    return goTo (frame_ + 1);
-  case WindowAction::Back:
-    return goTo (frame_ - std::min<std::size_t> (frame_, 1));
-  case WindowAction::FarForward:
-    return goTo (frame_ + far_frames);
-  case WindowAction::FarBack:
-    return goTo (frame_ - std::min (frame_, far_frames));
-  case WindowAction::First:
-    return goTo (0);
-  case WindowAction::Last:
-    return goTo (stamps_.size () - 1);
-  case WindowAction::NextSurface:
-    return nextSurface ();
-  case WindowAction::NextColour:
-    return nextColour ();
-  case WindowAction::SavePicture:
-    return savePicture ();
-  case WindowAction::Help:
-    help_ = !help_;
-    overlay_->showHelp (help_);
-    say (std::string ("help ") + onOff (help_), false);
-    return draw ();
-  case WindowAction::Quit:
-    return interactor_->TerminateApp ();
-  case WindowAction::NextObject:
-  case WindowAction::Slices:
-  case WindowAction::SliceX:
-  case WindowAction::SliceY:
-  case WindowAction::SliceZ:
-  case WindowAction::SliceForward:
-  case WindowAction::SliceBack:
-    return performSlices (action);
-  default:
-    return performView (action);
+    setting->second (*this);
+    draw ();
   }
 }
 
 void
-RunWindow::Impl::performView (WindowAction action)
+RunWindow::Impl::play ()
+{
+  playing_ = !playing_;
+  if (playing_ && frame_ + 1 == stamps_.size ())
+    goTo (0);
+  last_step_ = std::chrono::steady_clock::now ();
+  say (playing_ ? "play" : "play paused", false);
+}
+
+void
+RunWindow::Impl::follow ()
+{
+  look (options_.view.viewpoint ? std::nullopt : std::optional<Viewpoint> (viewpoint ()));
+  say (options_.view.viewpoint ? "view is free" : "view follows the camera", true);
+}
+
+void
+RunWindow::Impl::lookOver (double turn_rad, const char* line)
+{
+  look (overview (*scene_, turn_rad));
+  say (line, true);
+}
+
+void
+RunWindow::Impl::toggle (bool& is_on, const std::string& what)
+{
+  is_on = !is_on;
+  say (what + onOff (is_on), false);
+}
+
+void
+RunWindow::Impl::toggleLines ()
 {
   SceneView& view = options_.view;
-  switch (action)
-  {
-  case WindowAction::Follow:
-    look (view.viewpoint ? std::nullopt : std::optional<Viewpoint> (viewpoint ()));
-    say (view.viewpoint ? "view is free" : "view follows the camera", true);
-    break;
-  case WindowAction::Overview:
-  case WindowAction::Behind:
-    look (overview (*scene_, action == WindowAction::Behind ? M_PI : 0.0));
-    say (action == WindowAction::Behind ? "view from behind" : "view from above", true);
-    break;
-  case WindowAction::SaveViewpoint:
-    saveViewpoint ();
-    break;
-  case WindowAction::LoadViewpoint:
-    loadViewpoint ();
-    break;
-  case WindowAction::Background:
-    view.background = !view.background;
-    say (std::string ("background ") + onOff (view.background), false);
-    break;
-  case WindowAction::Boxes:
-    view.boxes = !view.boxes;
-    say (std::string ("boxes ") + onOff (view.boxes), false);
-    break;
-  case WindowAction::Lines:
-    view.path = view.frustum = !(view.path || view.frustum);
-    say (std::string ("path ") + onOff (view.path), false);
-    break;
-  default:
-    break;
-  }
-  draw ();
+  view.path = view.path || view.frustum;
+  toggle (view.path, "path");
+  view.frustum = view.path;
 }
 
 void
-RunWindow::Impl::performSlices (WindowAction action)
+RunWindow::Impl::toggleHelp ()
 {
-  switch (action)
-  {
-  case WindowAction::NextObject:
-    nextObject ();
-    break;
-  case WindowAction::Slices:
-    slices_.shown = !slices_.shown;
-    say (std::string ("slices ") + onOff (slices_.shown) +
-             (slices_.shown ? " of object " + std::to_string (slices_.object) : ""),
-         true);
-    break;
-  case WindowAction::SliceX:
-  case WindowAction::SliceY:
-  case WindowAction::SliceZ:
-  {
-    const int axis = action == WindowAction::SliceX ? 0 : action == WindowAction::SliceY ? 1 : 2;
-    bool& is_shown = slices_.axes[static_cast<std::size_t> (axis)];
-    is_shown = !is_shown || chosen_axis_ != axis; // the first time, it is only chosen
-    chosen_axis_ = axis;
-    say ("slices across " + std::string (1, "xyz"[axis]) + " " + onOff (is_shown), true);
-    break;
-  }
-  default:
-  {
-    double& share = slices_.shares[static_cast<std::size_t> (chosen_axis_)];
-    share = std::clamp (share + (action == WindowAction::SliceForward ? slice_step : -slice_step), 0.0, 1.0);
-    say ("slices across " + std::string (1, "xyz"[chosen_axis_]) + " at " +
-             std::to_string (std::lround (100.0 * share)) + " %",
-         true);
-    break;
-  }
-  }
-  draw ();
+  toggle (help_, "help");
+  overlay_->showHelp (help_);
+}
+
+void
+RunWindow::Impl::toggleSlices ()
+{
+  slices_.shown = !slices_.shown;
+  say ("slices" + onOff (slices_.shown) + (slices_.shown ? " of object " + std::to_string (slices_.object) : ""), true);
+}
+
+void
+RunWindow::Impl::chooseSlice (int axis)
+{
+  bool& is_shown = slices_.axes[static_cast<std::size_t> (axis)];
+  is_shown = !is_shown || chosen_axis_ != axis; // the first time, it is only chosen
+  chosen_axis_ = axis;
+  say ("slices across " + std::string (1, "xyz"[axis]) + onOff (is_shown), true);
+}
+
+void
+RunWindow::Impl::moveSlice (double step)
+{
+  double& share = slices_.shares[static_cast<std::size_t> (chosen_axis_)];
+  share = std::clamp (share + step, 0.0, 1.0);
+  say ("slices across " + std::string (1, "xyz"[chosen_axis_]) + " at " + std::to_string (std::lround (100.0 * share)) +
+           " %",
+       true);
 }
 
 void

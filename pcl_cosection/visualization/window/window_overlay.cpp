@@ -1,9 +1,6 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "window_overlay.h"
 
-#include "key_bindings.h"
-#include "vtk_shapes.h"
-
 #include "pcl_cosection/evaluation/pictures/error_picture.h"
 
 #include <vtkCoordinate.h>
@@ -14,6 +11,7 @@
 #include <vtkPolyData.h>
 #include <vtkProperty2D.h>
 #include <vtkTextProperty.h>
+#include <vtkUnsignedCharArray.h>
 
 #include <algorithm>
 #include <array>
@@ -46,30 +44,9 @@ makeText (vtkRenderer& renderer, double x, double y, bool below)
   return text;
 }
 
-void
-setText (vtkTextActor& actor, const std::string& text)
-{
-  actor.SetInput (text.empty () ? " " : (" " + text + " ").c_str ());
-  actor.SetVisibility (!text.empty ());
-}
-
-/** \brief The keys in two columns. */
-std::string
-helpText ()
-{
-  std::size_t width = 0;
-  for (const KeyHelp& key : keyHelp ())
-    width = std::max (width, key.keys.size ());
-  std::string text;
-  for (const KeyHelp& key : keyHelp ())
-    text += (text.empty () ? "" : "\n") + std::string (" ") + key.keys +
-            std::string (width + 2 - key.keys.size (), ' ') + key.meaning + " ";
-  return text;
-}
-
 } // namespace
 
-WindowOverlay::WindowOverlay (vtkRenderer& renderer)
+WindowOverlay::WindowOverlay (vtkRenderer& renderer, const std::string& help)
     : caption_ (makeText (renderer, 0.012, 0.1, false))
     , message_ (makeText (renderer, 0.012, 0.15, false))
     , help_ (makeText (renderer, 0.012, 0.98, true))
@@ -78,7 +55,7 @@ WindowOverlay::WindowOverlay (vtkRenderer& renderer)
 {
   help_->GetTextProperty ()->SetFontFamilyToCourier ();
   help_->GetTextProperty ()->SetFontSize (text_px - 1);
-  help_->SetInput (helpText ().c_str ());
+  help_->SetInput (help.c_str ());
 
   scale_->SetPosition (0.9, 0.3);
   scale_->SetWidth (0.08);
@@ -86,14 +63,16 @@ WindowOverlay::WindowOverlay (vtkRenderer& renderer)
   scale_->SetNumberOfLabels (5);
   scale_->SetLabelFormat ("%.3g");
   scale_->UnconstrainedFontSizeOn ();
-  for (vtkTextProperty* property : {scale_->GetTitleTextProperty (), scale_->GetLabelTextProperty ()})
+  for (vtkTextProperty* property :
+       {scale_->GetTitleTextProperty (), scale_->GetLabelTextProperty (), entries_->GetEntryTextProperty ()})
   {
     property->SetColor (ink[0], ink[1], ink[2]);
-    property->SetFontSize (text_px);
     property->BoldOff ();
     property->ItalicOff ();
     property->ShadowOff ();
   }
+  scale_->GetTitleTextProperty ()->SetFontSize (text_px);
+  scale_->GetLabelTextProperty ()->SetFontSize (text_px);
   scale_->DrawBackgroundOn ();
   scale_->GetBackgroundProperty ()->SetColor (paper[0], paper[1], paper[2]);
   scale_->GetBackgroundProperty ()->SetOpacity (veil);
@@ -107,24 +86,15 @@ WindowOverlay::WindowOverlay (vtkRenderer& renderer)
   entries_->BorderOff ();
   entries_->ScalarVisibilityOn ();
   entries_->SetPadding (4);
-  entries_->GetEntryTextProperty ()->BoldOff ();
-  entries_->GetEntryTextProperty ()->ItalicOff ();
-  entries_->GetEntryTextProperty ()->ShadowOff ();
-  entries_->GetEntryTextProperty ()->SetColor (ink[0], ink[1], ink[2]);
   entries_->VisibilityOff ();
   renderer.AddViewProp (entries_);
 }
 
 void
-WindowOverlay::setCaption (const std::string& text)
+WindowOverlay::setText (vtkTextActor& actor, const std::string& text)
 {
-  setText (*caption_, text);
-}
-
-void
-WindowOverlay::setMessage (const std::string& text)
-{
-  setText (*message_, text);
+  actor.SetInput (text.empty () ? " " : (" " + text + " ").c_str ());
+  actor.SetVisibility (!text.empty ());
 }
 
 void
@@ -157,19 +127,17 @@ WindowOverlay::setLegend (const ColourLegend& legend)
     const LegendEntry& entry = legend.entries[static_cast<std::size_t> (n)];
     vtkNew<vtkPlaneSource> square; // which has the colour: that of the entry is the text's, too
     square->Update ();
-    square->GetOutput ()->GetPointData ()->SetScalars (toColours (std::vector<TriangleMesh::Colour> (4, entry.colour)));
+    vtkNew<vtkUnsignedCharArray> colours;
+    colours->SetNumberOfComponents (3);
+    for (int corner = 0; corner < 4; ++corner)
+      colours->InsertNextTypedTuple (entry.colour.data ());
+    square->GetOutput ()->GetPointData ()->SetScalars (colours);
     entries_->SetEntry (n, square->GetOutput (), entry.text.c_str (), text_colour.data ());
   }
   entries_->GetPositionCoordinate ()->SetCoordinateSystemToNormalizedViewport ();
   entries_->GetPositionCoordinate ()->SetValue (1.0 - margin - width_share, 1.0 - margin - line_share * count);
   entries_->GetPosition2Coordinate ()->SetCoordinateSystemToNormalizedViewport ();
   entries_->GetPosition2Coordinate ()->SetValue (width_share, line_share * count);
-}
-
-void
-WindowOverlay::showHelp (bool shown)
-{
-  help_->SetVisibility (shown);
 }
 
 } // namespace pcl::cosection

@@ -1,7 +1,7 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "pcl_cosection/visualization/scene_colours.h"
+#include "pcl_cosection/visualization/scene_legend.h"
 
 #include <vtkLegendBoxActor.h>
 #include <vtkRenderer.h>
@@ -17,19 +17,22 @@ namespace pcl::cosection {
 class WindowOverlay
 {
 public:
-  explicit WindowOverlay (vtkRenderer& renderer);
+  /** \param[in] help what showHelp () shows */
+  WindowOverlay (vtkRenderer& renderer, const std::string& help);
 
   /** \brief What is shown; empty: nothing. */
-  void setCaption (const std::string& text);
+  void setCaption (const std::string& text) { setText (*caption_, text); }
 
   /** \brief A line about what a key has done; empty: nothing. */
-  void setMessage (const std::string& text);
+  void setMessage (const std::string& text) { setText (*message_, text); }
 
   void setLegend (const ColourLegend& legend);
 
-  void showHelp (bool shown);
+  void showHelp (bool shown) { help_->SetVisibility (shown); }
 
 private:
+  static void setText (vtkTextActor& actor, const std::string& text);
+
   vtkSmartPointer<vtkTextActor> caption_, message_, help_;
   vtkSmartPointer<vtkScalarBarActor> scale_;
   vtkSmartPointer<vtkLegendBoxActor> entries_;

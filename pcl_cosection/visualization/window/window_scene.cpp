@@ -1,14 +1,20 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "window_scene.h"
 
-#include "vtk_shapes.h"
+#include "pcl_cosection/visualization/scene_legend.h"
+#include "pcl_cosection/visualization/scene_lines.h"
 
-#include "pcl_cosection/visualization/scene_colours.h"
-#include <pcl/cosection/common/error.h>
-
+#include <vtkCellArray.h>
+#include <vtkFloatArray.h>
+#include <vtkImageData.h>
+#include <vtkMatrix4x4.h>
+#include <vtkNew.h>
 #include <vtkPointData.h>
+#include <vtkPoints.h>
 #include <vtkPolyDataMapper.h>
 #include <vtkProperty.h>
+#include <vtkTexture.h>
+#include <vtkUnsignedCharArray.h>
 
 #include <algorithm>
 
@@ -17,8 +23,143 @@ namespace {
 
 constexpr double ambient_light = 0.35; ///< the rest comes from the head light, as in drawScene ()
 constexpr double seen_through = 0.25;  ///< opacity of the object that is cut
-constexpr float line_px = 2.0f;
-constexpr float point_px = 2.0f;
+constexpr float line_px = 2.0f;        ///< and of points
+
+vtkSmartPointer<vtkPoints>
+toPoints (const std::vector<Eigen::Vector3f>& points)
+{
+  auto result = vtkSmartPointer<vtkPoints>::New ();
+  result->SetDataTypeToFloat ();
+  result->SetNumberOfPoints (static_cast<vtkIdType> (points.size ()));
+  for (std::size_t n = 0; n < points.size (); ++n)
+    result->SetPoint (static_cast<vtkIdType> (n), points[n].x (), points[n].y (), points[n].z ());
+  return result;
+}
+
+/** \brief Pixels in the order of VTK's images. */
+vtkSmartPointer<vtkImageData>
+toImage (const Picture& picture)
+{
+  auto image = vtkSmartPointer<vtkImageData>::New ();
+  image->SetDimensions (picture.width, picture.height, 1);
+  image->AllocateScalars (VTK_UNSIGNED_CHAR, 3);
+  auto* out = static_cast<std::uint8_t*> (image->GetScalarPointer ());
+  for (const auto& pixel : picture.pixels)
+    out = std::copy_n (pixel.begin (), 3, out);
+  return image;
+}
+
+vtkSmartPointer<vtkUnsignedCharArray>
+toColours (const std::vector<TriangleMesh::Colour>& colours)
+{
+  auto result = vtkSmartPointer<vtkUnsignedCharArray>::New ();
+  result->SetName ("colours");
+  result->SetNumberOfComponents (3);
+  result->SetNumberOfTuples (static_cast<vtkIdType> (colours.size ()));
+  auto* out = result->GetPointer (0);
+  for (const TriangleMesh::Colour& colour : colours)
+    out = std::copy_n (colour.begin (), 3, out);
+  return result;
+}
+
+vtkSmartPointer<vtkPolyData>
+toPolyData (const TriangleMesh& mesh)
+{
+  auto data = vtkSmartPointer<vtkPolyData>::New ();
+  data->SetPoints (toPoints (mesh.vertices));
+  vtkNew<vtkCellArray> triangles;
+  triangles->AllocateExact (static_cast<vtkIdType> (mesh.triangles.size ()),
+                            3 * static_cast<vtkIdType> (mesh.triangles.size ()));
+  for (const TriangleMesh::Triangle& t : mesh.triangles)
+    triangles->InsertNextCell ({vtkIdType{t[0]}, vtkIdType{t[1]}, vtkIdType{t[2]}});
+  data->SetPolys (triangles);
+  if (mesh.normals.size () == mesh.vertices.size ())
+  {
+    vtkNew<vtkFloatArray> normals;
+    normals->SetNumberOfComponents (3);
+    normals->SetNumberOfTuples (static_cast<vtkIdType> (mesh.normals.size ()));
+    for (std::size_t n = 0; n < mesh.normals.size (); ++n)
+      normals->SetTypedTuple (static_cast<vtkIdType> (n), mesh.normals[n].data ());
+    data->GetPointData ()->SetNormals (normals);
+  }
+  return data;
+}
+
+vtkSmartPointer<vtkPolyData>
+toPolyData (const std::vector<SceneLine>& lines)
+{
+  std::vector<Eigen::Vector3f> points;
+  std::vector<TriangleMesh::Colour> colours;
+  vtkNew<vtkCellArray> cells;
+  for (const SceneLine& line : lines)
+  {
+    const auto first = static_cast<vtkIdType> (points.size ());
+    cells->InsertNextCell ({first, first + 1});
+    points.insert (points.end (), {line.begin.cast<float> (), line.end.cast<float> ()});
+    colours.insert (colours.end (), 2, line.colour);
+  }
+  auto data = vtkSmartPointer<vtkPolyData>::New ();
+  data->SetPoints (toPoints (points));
+  data->SetLines (cells);
+  data->GetPointData ()->SetScalars (toColours (colours));
+  return data;
+}
+
+vtkSmartPointer<vtkPolyData>
+toPolyData (const FramePoints& points)
+{
+  vtkNew<vtkCellArray> cells;
+  for (std::size_t n = 0; n < points.points.size (); ++n)
+    cells->InsertNextCell ({static_cast<vtkIdType> (n)});
+  auto data = vtkSmartPointer<vtkPolyData>::New ();
+  data->SetPoints (toPoints (points.points));
+  data->SetVerts (cells);
+  data->GetPointData ()->SetScalars (toColours (points.colours));
+  return data;
+}
+
+vtkSmartPointer<vtkMatrix4x4>
+toMatrix (const Eigen::Isometry3d& pose)
+{
+  auto matrix = vtkSmartPointer<vtkMatrix4x4>::New ();
+  for (int row = 0; row < 4; ++row)
+    for (int column = 0; column < 4; ++column)
+      matrix->SetElement (row, column, pose.matrix () (row, column));
+  return matrix;
+}
+
+vtkSmartPointer<vtkActor>
+makeActor (vtkPolyData* data)
+{
+  vtkNew<vtkPolyDataMapper> mapper;
+  mapper->SetInputData (data);
+  mapper->SetColorModeToDirectScalars ();
+  auto actor = vtkSmartPointer<vtkActor>::New ();
+  actor->SetMapper (mapper);
+  return actor;
+}
+
+vtkSmartPointer<vtkActor>
+makeActor (const SdfSlice& slice)
+{
+  vtkNew<vtkPolyData> data;
+  data->SetPoints (toPoints ({slice.corners.begin (), slice.corners.end ()}));
+  vtkNew<vtkCellArray> quad;
+  quad->InsertNextCell ({vtkIdType{0}, vtkIdType{1}, vtkIdType{2}, vtkIdType{3}});
+  data->SetPolys (quad);
+  vtkNew<vtkFloatArray> places;
+  places->SetNumberOfComponents (2);
+  for (const auto& [u, v] : {std::pair{0.0, 0.0}, {1.0, 0.0}, {1.0, 1.0}, {0.0, 1.0}})
+    places->InsertNextTuple2 (u, v);
+  data->GetPointData ()->SetTCoords (places);
+  vtkNew<vtkTexture> texture;
+  texture->SetInputData (toImage (slice.picture));
+  texture->InterpolateOn ();
+  vtkSmartPointer<vtkActor> actor = makeActor (data);
+  actor->SetTexture (texture);
+  actor->GetProperty ()->LightingOff ();
+  return actor;
+}
 
 } // namespace
 
@@ -61,30 +202,17 @@ WindowScene::surface (int id, SurfaceMode mode, ColourMode colour)
 }
 
 void
-WindowScene::showLines (double stamp, const SceneView& view)
+WindowScene::show (vtkPolyData* data, vtkSmartPointer<vtkActor>& actor)
 {
-  std::vector<SceneLine> lines;
-  const auto add = [&lines] (const std::vector<SceneLine>& more) {
-    lines.insert (lines.end (), more.begin (), more.end ());
-  };
-  const std::optional<Eigen::Isometry3d> camera = scene_->cameraAt (stamp);
-  if (view.path && view.viewpoint)
-    add (pathLines (*scene_, stamp));
-  if (view.frustum && view.viewpoint && camera)
-    add (frustumLines (*scene_, *camera));
-  if (view.boxes)
-    for (const SceneRecord::Object& object : scene_->run.objects)
-      add (boxLines (*scene_, object, view.surface, stamp));
-  const vtkSmartPointer<vtkPolyData> data = toPolyData (lines);
-  if (!lines_)
+  if (!actor)
   {
-    lines_ = makeActor (data);
-    lines_->GetProperty ()->SetLineWidth (line_px);
-    lines_->GetProperty ()->LightingOff ();
-    renderer_.AddActor (lines_);
+    actor = makeActor (data);
+    actor->GetProperty ()->SetLineWidth (line_px);
+    actor->GetProperty ()->SetPointSize (line_px);
+    actor->GetProperty ()->LightingOff ();
+    renderer_.AddActor (actor);
   }
-  vtkPolyDataMapper::SafeDownCast (lines_->GetMapper ())->SetInputData (data);
-  lines_->SetVisibility (!lines.empty ());
+  vtkPolyDataMapper::SafeDownCast (actor->GetMapper ())->SetInputData (data);
 }
 
 void
@@ -94,15 +222,7 @@ WindowScene::showPoints (const std::shared_ptr<const FramePoints>& points)
     points_->SetVisibility (points != nullptr);
   if (!points || points == shown_points_)
     return;
-  const vtkSmartPointer<vtkPolyData> data = toPolyData (*points);
-  if (!points_)
-  {
-    points_ = makeActor (data);
-    points_->GetProperty ()->SetPointSize (point_px);
-    points_->GetProperty ()->LightingOff ();
-    renderer_.AddActor (points_);
-  }
-  vtkPolyDataMapper::SafeDownCast (points_->GetMapper ())->SetInputData (data);
+  show (toPolyData (*points), points_);
   shown_points_ = points;
 }
 
@@ -120,15 +240,14 @@ WindowScene::showSlices (double stamp, const SliceChoice& slices, int threads)
     sdf_.emplace (mesh, 72, threads);
     sdf_object_ = slices.object;
   }
-  for (int axis = 0; axis < 3; ++axis)
+  for (std::size_t a = 0; a < slice_actors_.size (); ++a)
   {
-    vtkSmartPointer<vtkActor>& actor = slice_actors_[static_cast<std::size_t> (axis)];
-    const std::size_t a = static_cast<std::size_t> (axis);
+    vtkSmartPointer<vtkActor>& actor = slice_actors_[a];
     if (is_shown && pose && slices.axes[a] && (is_new || !actor || slices.shares[a] != drawn_slices_.shares[a]))
     {
       if (actor)
         renderer_.RemoveActor (actor);
-      actor = makeActor (sdf_->slice (axis, slices.shares[a]));
+      actor = makeActor (sdf_->slice (static_cast<int> (a), slices.shares[a]));
       drawn_slices_.shares[a] = slices.shares[a];
       renderer_.AddActor (actor);
     }
@@ -158,7 +277,9 @@ WindowScene::update (double stamp, const SceneView& view, const SliceChoice& sli
     actor->SetVisibility (true);
     actor->GetProperty ()->SetOpacity (slices.shown && slices.object == object.id ? seen_through : 1.0);
   }
-  showLines (stamp, view);
+  const std::vector<SceneLine> lines = linesOf (*scene_, stamp, view);
+  show (toPolyData (lines), lines_);
+  lines_->SetVisibility (!lines.empty ());
   showPoints (view.surface == SurfaceMode::Points ? points : std::shared_ptr<const FramePoints> ());
   showSlices (stamp, slices, threads);
 }

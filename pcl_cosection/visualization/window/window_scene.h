@@ -6,6 +6,7 @@
 #include <pcl/cosection/visualization/scene_picture.h>
 
 #include <vtkActor.h>
+#include <vtkPolyData.h>
 #include <vtkRenderer.h>
 #include <vtkSmartPointer.h>
 
@@ -48,7 +49,8 @@ private:
 
   /** \brief The actor of a surface, made when it is asked for; null: there is no such mesh. */
   vtkActor* surface (int id, SurfaceMode mode, ColourMode colour);
-  void showLines (double stamp, const SceneView& view);
+  /** \brief Show data with an actor, which is made when it is first needed. */
+  void show (vtkPolyData* data, vtkSmartPointer<vtkActor>& actor);
   void showPoints (const std::shared_ptr<const FramePoints>& points);
   void showSlices (double stamp, const SliceChoice& slices, int threads);
 

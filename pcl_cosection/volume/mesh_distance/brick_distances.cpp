@@ -2,11 +2,14 @@
 #include "brick_distances.h"
 
 #include "pcl_cosection/common/multiversion.h"
+#include "pcl_cosection/common/parallel.h"
 
 #include <algorithm>
 
 namespace pcl::cosection {
 namespace {
+
+constexpr int max_inside_distance = 16; // bricks
 
 /** \brief Each byte or that before or behind it by \a stride; \a count of them, in lines of \a length. */
 PCL_COSECTION_MULTIVERSION void
@@ -47,6 +50,26 @@ brickDistances (std::vector<std::uint8_t> marked, const Eigen::Vector3i& dims, i
     dilate (marked.data (), marked.size (), nz, nx * ny, other.data ());
     marked.swap (other);
   }
+}
+
+InsideBricks::InsideBricks (const SignedDistanceField& field, int threads)
+    : dims_ ((field.grid.dims.array () + (edge - 1)) / edge)
+    , last_voxel_ (field.grid.dims.cast<double> ().array () - 1.0)
+{
+  const VoxelGrid& grid = field.grid;
+  std::vector<std::uint8_t> inside (static_cast<std::size_t> (dims_.x ()) * dims_.y () * dims_.z (), 0);
+  parallelFor (0, dims_.z (), threadsForVoxels (threads, grid.size ()), [&] (int bk) {
+    for (int k = bk * edge; k < std::min ((bk + 1) * edge, grid.dims.z ()); ++k)
+      for (int j = 0; j < grid.dims.y (); ++j)
+      {
+        std::uint8_t* row = &inside[(static_cast<std::size_t> (bk) * dims_.y () + j / edge) * dims_.x ()];
+        const std::size_t first = grid.index (0, j, k);
+        for (int i = 0; i < grid.dims.x (); ++i)
+          row[i / edge] |= field.mayBeInside (first + i);
+      }
+  });
+  any_ = std::find (inside.begin (), inside.end (), 1) != inside.end ();
+  distances_ = brickDistances (std::move (inside), dims_, max_inside_distance);
 }
 
 } // namespace pcl::cosection

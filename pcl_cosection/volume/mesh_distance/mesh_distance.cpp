@@ -1,17 +1,15 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
+#include <pcl/cosection/volume/mesh_distance.h>
 
 #include "mesh_bodies.h"
-#include "pcl_cosection/mesh/mesh_checks.h"
-#include "pcl_cosection/mesh/mesh_cleaning.h"
-#include "pcl_cosection/mesh/mesh_parts.h"
 
 #include "pcl_cosection/common/parallel.h"
-#include <pcl/cosection/volume/mesh_distance.h>
+#include "pcl_cosection/mesh/mesh_checks.h"
+#include "pcl_cosection/mesh/mesh_cleaning.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 #include <string>
 #include <vector>
 
@@ -107,58 +105,30 @@ struct KnownVoxel
   float sign = 1.0f;
 };
 
-/** \brief Tells the inside of a closed surface. */
-class InsideTest
+/** \brief The sign of a closed surface at a voxel: -1 inside. \param[in] known a voxel near it, or any other */
+float
+signAt (const SearchableSurface& body, const VoxelGrid& grid, const Eigen::Vector3i& voxel, const NearestPoint& nearest,
+        double distance_m, const KnownVoxel& known)
 {
-public:
-  InsideTest (const SearchableSurface& body, const VoxelGrid& grid, bool is_room)
-      : body_ (body)
-      , grid_ (grid)
-      , matter_above_ (is_room ? -0.5 : 0.5)
-      , all_ (body.mesh.triangles.size ())
-  {
-    std::iota (all_.begin (), all_.end (), 0u);
-  }
-
-  /** \brief The sign at a voxel: -1 inside. \param[in] known a voxel near it, or any other */
-  float sign (const Eigen::Vector3i& voxel, const NearestPoint& nearest, double distance_m,
-              const KnownVoxel& known) const
-  {
-    if (const double side = sideOf (nearest); side != 0.0)
+  if (const double side = body.side (nearest); side != 0.0)
+    return side > 0.0 ? 1.0f : -1.0f;
+  // Too far from the surface, both of them together, for it to pass between them?
+  if (known.distance_m + distance_m > grid.voxel_size_m * (voxel - known.voxel).cast<double> ().norm ())
+    return known.sign;
+  const Eigen::Vector3d p = grid.center (voxel.x (), voxel.y (), voxel.z ());
+  if (!std::isfinite (nearest.squared_m2))
+    if (const double side = body.side (body.tree.nearest (p)); side != 0.0)
       return side > 0.0 ? 1.0f : -1.0f;
-    // Too far from the surface, both of them together, for it to pass between them?
-    if (known.distance_m + distance_m > grid_.voxel_size_m * (voxel - known.voxel).cast<double> ().norm ())
-      return known.sign;
-    const Eigen::Vector3d p = grid_.center (voxel.x (), voxel.y (), voxel.z ());
-    if (!std::isfinite (nearest.squared_m2))
-      if (const double side = sideOf (body_.tree.nearest (p)); side != 0.0)
-        return side > 0.0 ? 1.0f : -1.0f;
-    return windingNumber (body_.mesh, all_, p) > matter_above_ ? -1.0f : 1.0f;
-  }
-
-private:
-  /** \brief The side of the surface; 0 where the nearest point does not determine it. */
-  double sideOf (const NearestPoint& nearest) const
-  {
-    const bool known = std::isfinite (nearest.squared_m2) && body_.normals.isRegular (nearest);
-    return known ? body_.normals.side (nearest) : 0.0;
-  }
-
-  const SearchableSurface& body_;
-  const VoxelGrid& grid_;
-  double matter_above_; // winding numbers are 1 inside a body and 0 outside, -1 in a room and 0 in its matter
-  std::vector<std::uint32_t> all_;
-};
+  return body.isInMatter (p) ? -1.0f : 1.0f;
+}
 
 /** \brief Lower the values to the signed distance of a closed surface. */
 void
 addBody (const SearchableSurface& body, double band_m, int threads, SignedDistanceField& field)
 {
-  const bool is_room = computeMassProperties (body.mesh).volume_m3 < 0.0;
   const VoxelGrid& grid = field.grid;
-  const VoxelRange range = (is_room ? VoxelRange{Eigen::Vector3i::Zero (), grid.dims}
-                                    : voxelsAround (grid, body.box, band_m));
-  const InsideTest inside (body, grid, is_room);
+  const VoxelRange range = (body.is_room ? VoxelRange{Eigen::Vector3i::Zero (), grid.dims}
+                                         : voxelsAround (grid, body.box, band_m));
   forEachSlice (range, threads, [&] (int k) {
     RowWalker walker (grid, body.tree, band_m);
     KnownVoxel row_begin;
@@ -168,7 +138,7 @@ addBody (const SearchableSurface& body, double band_m, int threads, SignedDistan
       walker.walk (range.first.x (), range.last.x (), j, k,
                    [&] (int i, int next, const NearestPoint& nearest, double distance_m) {
                      const Eigen::Vector3i voxel (i, j, k);
-                     known = {voxel, distance_m, inside.sign (voxel, nearest, distance_m, known)};
+                     known = {voxel, distance_m, signAt (body, grid, voxel, nearest, distance_m, known)};
                      if (i == range.first.x ())
                        row_begin = known;
                      const float value = known.sign * static_cast<float> (std::min (distance_m, band_m));

@@ -1,5 +1,4 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
-
 // Written by hand, because VTK's cell locators do not say whether a face, an edge or a corner is nearest, which the
 // sign of the distance depends on.
 

@@ -69,12 +69,17 @@ collectReadings (const Image<float>& depth, int threads, Use&& use)
 }
 
 /** \brief Call visit (first voxel, distances, pixels, count) for each row of voxels that has some in view.
+ * \param[in] reach_m how far behind a reading voxels are of interest
  *
  * Slices are dealt out in strides, so that each thread gets near and far ones. */
 template <typename Visit>
 void
-forEachVisibleRow (const VoxelGrid& grid, const VoxelProjection& projection, int threads, Visit&& visit)
+forEachVisibleRow (const VoxelGrid& grid, const PinholeCamera& camera, const Eigen::Isometry3d& T_grid_sensor,
+                   const DepthReadings& readings, double reach_m, int threads, Visit&& visit)
 {
+  if (!(readings.farthest_m > 0.0f))
+    return;
+  const VoxelProjection projection (grid, camera, T_grid_sensor, readings, reach_m);
   const int slices = grid.dims.z ();
   int stride = std::max (1, static_cast<int> (0.618 * slices));
   while (std::gcd (stride, slices) != 1)
@@ -162,15 +167,11 @@ TsdfVolume::integrate (const Image<float>& depth, const PinholeCamera& camera, c
     const bool labelled = !pixels.labels || pixels.labels->pixels[i] == pixels.label;
     return labelled && (pixel_weights.empty () || pixel_weights[i] > 0.0f);
   });
-  if (!(readings.farthest_m > 0.0f))
-    return;
-
   const bool with_colour = pixels.colours && options_.colour;
   const auto truncation_m = static_cast<float> (truncation ());
   const float* weight_of_pixel = (pixel_weights.empty () ? nullptr : pixel_weights.data ());
-  const VoxelProjection projection (grid (), camera, T_grid_sensor, readings, truncation ());
   forEachVisibleRow (
-      grid (), projection, options_.threads,
+      grid (), camera, T_grid_sensor, readings, truncation (), options_.threads,
       [&] (std::size_t voxel, const float* distances, const int* indices, int count) {
         float* values = &field_.values[voxel];
         float* weights = &weights_[voxel];
@@ -192,12 +193,9 @@ TsdfVolume::integrateFreeSpace (const Image<float>& depth, const PinholeCamera& 
   checkSize (labels, camera, "image of labels");
   const DepthReadings readings = collectReadings (depth, options_.threads,
                                                   [&] (std::size_t i) { return labels.pixels[i] != label; });
-  if (!(readings.farthest_m > 0.0f))
-    return;
   const auto truncation_m = static_cast<float> (truncation ());
   const auto max_weight = static_cast<float> (options_.max_weight);
-  const VoxelProjection projection (grid (), camera, T_grid_sensor, readings, 0.0);
-  forEachVisibleRow (grid (), projection, options_.threads,
+  forEachVisibleRow (grid (), camera, T_grid_sensor, readings, 0.0, options_.threads,
                      [&] (std::size_t voxel, const float* distances, const int* indices, int count) {
                        averageRow (distances, indices, truncation_m, truncation_m, max_weight, count,
                                    &field_.values[voxel], &weights_[voxel]);
@@ -212,11 +210,8 @@ TsdfVolume::forget (const Image<float>& depth, const PinholeCamera& camera, cons
   checkSize (labels, camera, "image of labels");
   const DepthReadings readings = collectReadings (depth, options_.threads,
                                                   [&] (std::size_t i) { return labels.pixels[i] == label; });
-  if (!(readings.farthest_m > 0.0f))
-    return;
   const auto band_m = static_cast<float> (truncation ());
-  const VoxelProjection projection (grid (), camera, T_grid_sensor, readings, truncation ());
-  forEachVisibleRow (grid (), projection, options_.threads,
+  forEachVisibleRow (grid (), camera, T_grid_sensor, readings, truncation (), options_.threads,
                      [&] (std::size_t voxel, const float* distances, const int*, int count) {
                        for (int n = 0; n < count; ++n)
                          if (std::abs (distances[n]) <= band_m)
@@ -262,10 +257,7 @@ TsdfVolume::countForeground (const Image<float>& depth, const PinholeCamera& cam
   checkView (depth, camera, T_grid_sensor);
   checkSize (labels, camera, "image of labels");
   const DepthReadings readings = collectReadings (depth, options_.threads, [] (std::size_t) { return true; });
-  if (!(readings.farthest_m > 0.0f))
-    return;
-  const VoxelProjection projection (grid (), camera, T_grid_sensor, readings, truncation ());
-  forEachVisibleRow (grid (), projection, options_.threads,
+  forEachVisibleRow (grid (), camera, T_grid_sensor, readings, truncation (), options_.threads,
                      [&] (std::size_t voxel, const float* distances, const int* indices, int count) {
                        countLabels (voxel, distances, indices, count, labels, label);
                      });

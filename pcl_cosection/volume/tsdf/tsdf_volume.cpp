@@ -1,16 +1,22 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
-#include "pcl_cosection/common/parallel.h"
-#include <pcl/cosection/common/error.h>
 #include <pcl/cosection/volume/tsdf_volume.h>
+
+#include "pcl_cosection/common/parallel.h"
+
+#include <pcl/cosection/common/error.h>
+#include <pcl/cosection/volume/iso_surface.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <type_traits>
 
 namespace pcl::cosection {
 namespace {
 
 constexpr float unseen = std::numeric_limits<float>::quiet_NaN ();
+
+constexpr TriangleMesh::Colour colour_unknown = {128, 128, 128};
 
 constexpr double max_voxels = 1e12;      ///< more than any memory holds, and far from overflow
 constexpr double max_truncation_m = 1e9; ///< far from what stands for no distance
@@ -33,45 +39,6 @@ checkGrid (const VoxelGrid& grid, const TsdfOptions& options)
     throw InvalidArgument ("TSDF volume: the grid's origin must be finite");
   if (!(options.truncation_vox * grid.voxel_size_m <= max_truncation_m))
     throw InvalidArgument ("TSDF volume: the truncation distance must be at most 1e9 m");
-}
-
-/** \brief Where a grid's voxels are in another: voxel v is voxel v + offset there. */
-struct Placement
-{
-  Eigen::Vector3i from;
-  Eigen::Vector3i to;
-  Eigen::Vector3i offset;
-
-  /** \brief First voxel of \a from that is also in \a to. */
-  Eigen::Array3i begin () const { return (-offset.array ()).max (0); }
-
-  Eigen::Array3i end () const { return (to - offset).array ().min (from.array ()); }
-};
-
-/** \brief One value per voxel, moved to another grid; \a empty in voxels that were none. */
-template <typename Value>
-std::vector<Value>
-movedValues (const std::vector<Value>& values, const Placement& placement, const Value& empty, int threads)
-{
-  if (values.empty ())
-    return {};
-  VoxelGrid from;
-  VoxelGrid to;
-  from.dims = placement.from;
-  to.dims = placement.to;
-  std::vector<Value> moved (to.size (), empty);
-  const Eigen::Array3i begin = placement.begin ();
-  const Eigen::Array3i end = placement.end ();
-  if ((begin < end).all ())
-    parallelFor (begin.z (), end.z (), threadsForVoxels (threads, from.size ()), [&] (int k) {
-      for (int j = begin.y (); j < end.y (); ++j)
-      {
-        const Eigen::Vector3i target = Eigen::Vector3i (begin.x (), j, k) + placement.offset;
-        std::copy_n (&values[from.index (begin.x (), j, k)], end.x () - begin.x (),
-                     &moved[to.index (target.x (), target.y (), target.z ())]);
-      }
-    });
-  return moved;
 }
 
 } // namespace
@@ -125,12 +92,28 @@ TsdfVolume::reframe (const Eigen::Vector3i& offset, const Eigen::Vector3i& dims)
   moved.dims = dims;
   moved.origin_m -= moved.voxel_size_m * offset.cast<double> ();
   checkGrid (moved, options_);
-  // A shift beyond all voxels is as good as one by the size of the grid, and cannot overflow.
-  const Placement placement{grid ().dims, dims, offset.cwiseMax (-grid ().dims).cwiseMin (dims)};
-  auto values = movedValues (field_.values, placement, unseen, options_.threads);
-  auto weights = movedValues (weights_, placement, 0.0f, options_.threads);
-  auto colours = movedValues (colours_, placement, ColourVoxel (), options_.threads);
-  auto counts = movedValues (counts_, placement, LabelCounts (), options_.threads);
+  // Voxel v is voxel v + shift then. A shift beyond all voxels is as good as one by the size of the grid, and cannot
+  // overflow.
+  const Eigen::Vector3i shift = offset.cwiseMax (-grid ().dims).cwiseMin (dims);
+  const Eigen::Array3i begin = (-shift.array ()).max (0); // of the voxels that stay
+  const Eigen::Array3i end = (dims - shift).array ().min (grid ().dims.array ());
+  const auto movedValues = [&] (const auto& values, const auto& empty) {
+    std::decay_t<decltype (values)> result (values.empty () ? 0 : moved.size (), empty);
+    if (!values.empty () && (begin < end).all ())
+      parallelFor (begin.z (), end.z (), threadsForVoxels (options_.threads, grid ().size ()), [&] (int k) {
+        for (int j = begin.y (); j < end.y (); ++j)
+        {
+          const Eigen::Vector3i target = Eigen::Vector3i (begin.x (), j, k) + shift;
+          std::copy_n (&values[grid ().index (begin.x (), j, k)], end.x () - begin.x (),
+                       &result[moved.index (target.x (), target.y (), target.z ())]);
+        }
+      });
+    return result;
+  };
+  auto values = movedValues (field_.values, unseen);
+  auto weights = movedValues (weights_, 0.0f);
+  auto colours = movedValues (colours_, ColourVoxel ());
+  auto counts = movedValues (counts_, LabelCounts ());
   // From here on nothing can fail.
   field_.values.swap (values);
   weights_.swap (weights);
@@ -183,6 +166,28 @@ TsdfVolume::colour (const Eigen::Vector3d& p) const
   for (int channel = 0; channel < 3; ++channel)
     colour[channel] = static_cast<std::uint8_t> (std::min (255.0, sum[channel] / weights / 256.0 + 0.5));
   return colour;
+}
+
+TriangleMesh
+TsdfVolume::surfaceMesh (double min_weight) const
+{
+  if (!(min_weight >= 0.0))
+    throw InvalidArgument ("TSDF volume: the least weight of a surface must not be negative");
+  std::vector<std::uint8_t> supported (grid ().size ());
+  const std::size_t slice = static_cast<std::size_t> (grid ().dims.x ()) * grid ().dims.y ();
+  parallelFor (0, grid ().dims.z (), threadsForVoxels (options_.threads, grid ().size ()), [&] (int k) {
+    for (std::size_t v = k * slice; v < (k + 1) * slice; ++v)
+      supported[v] = static_cast<std::uint8_t> (weights_[v] > 0.0f && weights_[v] >= min_weight);
+  });
+  TriangleMesh mesh = extractOpenIsoSurface (field_, supported, options_.threads);
+  if (!colours_.empty ())
+  {
+    mesh.colours.resize (mesh.vertices.size ());
+    parallelFor (0, static_cast<int> (mesh.vertices.size ()), options_.threads, [&] (int v) {
+      mesh.colours[v] = colour (mesh.vertices[v].cast<double> ()).value_or (colour_unknown);
+    });
+  }
+  return mesh;
 }
 
 } // namespace pcl::cosection

@@ -7,8 +7,8 @@
 
 #include "benchmark_dataset.h"
 
+#include "fusion_command_line.h"
 #include "output_files.h"
-#include "segmenter_choice.h"
 
 #include <pcl/cosection/common/error.h>
 

@@ -4,9 +4,9 @@
 // stays as it is.
 
 #include "browser.h"
+#include "evaluation_output.h"
 #include "report_command_line.h"
 #include "report_scene.h"
-#include "text_table.h"
 
 #include <nlohmann/json.hpp>
 

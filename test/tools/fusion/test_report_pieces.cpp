@@ -3,13 +3,11 @@
 // What a report is made of: texts that end no script, meshes as letters, colours, sizes.
 
 #include "common/temporary_folder.h"
-#include "data_uri.h"
-#include "mesh_embedding.h"
+#include "embedding.h"
 #include "report_content.h"
 #include "scene_data.h"
-#include "scene_directions.h"
 
-#include "pcl_cosection/visualization/scene_colours.h"
+#include "pcl_cosection/visualization/scene_legend.h"
 
 #include <gtest/gtest.h>
 

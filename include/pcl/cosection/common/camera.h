@@ -44,11 +44,11 @@ struct PCL_COSECTION_EXPORT PinholeCamera
 struct PCL_COSECTION_EXPORT DepthView
 {
   PinholeCamera camera;     ///< of the image
-  std::vector<float> depth; ///< width * height, row by row, metres along the optical axis; NaN: no reading
+  std::vector<float> depth; ///< width * height, row by row, metres along the optical axis; NaN or 0: no reading
   Eigen::Isometry3d T_world_sensor = Eigen::Isometry3d::Identity (); ///< pose of the sensor, metres
   std::string name = {};                                             ///< used in warnings; empty: they give its number
 
-  /** \brief Depth at column \a u and row \a v, metres; NaN: no reading. */
+  /** \brief Depth at column \a u and row \a v, metres; NaN or 0: no reading. */
   float at (int u, int v) const { return depth[static_cast<std::size_t> (v) * camera.width + u]; }
 
   /** \brief Check all values. \throws InvalidArgument if the camera is not valid, there is not one depth per pixel, or

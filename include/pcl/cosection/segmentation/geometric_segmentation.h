@@ -1,7 +1,7 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <pcl/cosection/common/export.h>
+#include <pcl/cosection/common/point_types.h>
 
 #include <pcl/ModelCoefficients.h>
 #include <pcl/PointIndices.h>
@@ -179,26 +179,6 @@ GeometricSegmentation<PointT>::segment (pcl::PointCloud<pcl::Label>& labels,
                  label_indices);
 }
 
-} // namespace pcl::cosection
+BOOST_PP_SEQ_FOR_EACH (PCL_COSECTION_EXTERN_TEMPLATE, GeometricSegmentation, PCL_COSECTION_XYZ_POINT_TYPES)
 
-namespace pcl {
-struct PointXYZ;
-struct PointXYZI;
-struct PointXYZRGB;
-struct PointXYZRGBA;
-struct PointXYZRGBL;
-struct PointNormal;
-struct PointXYZRGBNormal;
-struct PointXYZINormal;
-} // namespace pcl
-
-namespace pcl::cosection {
-extern template class PCL_COSECTION_EXPORT GeometricSegmentation<pcl::PointXYZ>;
-extern template class PCL_COSECTION_EXPORT GeometricSegmentation<pcl::PointXYZI>;
-extern template class PCL_COSECTION_EXPORT GeometricSegmentation<pcl::PointXYZRGB>;
-extern template class PCL_COSECTION_EXPORT GeometricSegmentation<pcl::PointXYZRGBA>;
-extern template class PCL_COSECTION_EXPORT GeometricSegmentation<pcl::PointXYZRGBL>;
-extern template class PCL_COSECTION_EXPORT GeometricSegmentation<pcl::PointNormal>;
-extern template class PCL_COSECTION_EXPORT GeometricSegmentation<pcl::PointXYZRGBNormal>;
-extern template class PCL_COSECTION_EXPORT GeometricSegmentation<pcl::PointXYZINormal>;
 } // namespace pcl::cosection

@@ -1,8 +1,8 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <pcl/cosection/common/export.h>
 #include <pcl/cosection/common/image.h>
+#include <pcl/cosection/common/point_types.h>
 #include <pcl/cosection/segmentation/instance_detector.h>
 
 #include <pcl/PointIndices.h>
@@ -126,18 +126,6 @@ InstanceSegmentation<PointT>::segment (pcl::PointCloud<pcl::Label>& labels,
   segmentPicture (picture, readings, input_->header, labels, label_indices);
 }
 
-} // namespace pcl::cosection
+BOOST_PP_SEQ_FOR_EACH (PCL_COSECTION_EXTERN_TEMPLATE, InstanceSegmentation, PCL_COSECTION_RGB_POINT_TYPES)
 
-namespace pcl {
-struct PointXYZRGB;
-struct PointXYZRGBA;
-struct PointXYZRGBL;
-struct PointXYZRGBNormal;
-} // namespace pcl
-
-namespace pcl::cosection {
-extern template class PCL_COSECTION_EXPORT InstanceSegmentation<pcl::PointXYZRGB>;
-extern template class PCL_COSECTION_EXPORT InstanceSegmentation<pcl::PointXYZRGBA>;
-extern template class PCL_COSECTION_EXPORT InstanceSegmentation<pcl::PointXYZRGBL>;
-extern template class PCL_COSECTION_EXPORT InstanceSegmentation<pcl::PointXYZRGBNormal>;
 } // namespace pcl::cosection

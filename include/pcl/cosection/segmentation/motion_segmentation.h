@@ -2,7 +2,7 @@
 #pragma once
 
 #include <pcl/cosection/common/camera.h>
-#include <pcl/cosection/common/export.h>
+#include <pcl/cosection/common/point_types.h>
 
 #include <pcl/PointIndices.h>
 #include <pcl/pcl_base.h>
@@ -272,26 +272,6 @@ MotionSegmentation<PointT>::segment (pcl::PointCloud<pcl::Label>& labels, std::v
     segmentLast (input_->header, input_->width, input_->height, labels, label_indices);
 }
 
-} // namespace pcl::cosection
+BOOST_PP_SEQ_FOR_EACH (PCL_COSECTION_EXTERN_TEMPLATE, MotionSegmentation, PCL_COSECTION_XYZ_POINT_TYPES)
 
-namespace pcl {
-struct PointXYZ;
-struct PointXYZI;
-struct PointXYZRGB;
-struct PointXYZRGBA;
-struct PointXYZRGBL;
-struct PointNormal;
-struct PointXYZRGBNormal;
-struct PointXYZINormal;
-} // namespace pcl
-
-namespace pcl::cosection {
-extern template class PCL_COSECTION_EXPORT MotionSegmentation<pcl::PointXYZ>;
-extern template class PCL_COSECTION_EXPORT MotionSegmentation<pcl::PointXYZI>;
-extern template class PCL_COSECTION_EXPORT MotionSegmentation<pcl::PointXYZRGB>;
-extern template class PCL_COSECTION_EXPORT MotionSegmentation<pcl::PointXYZRGBA>;
-extern template class PCL_COSECTION_EXPORT MotionSegmentation<pcl::PointXYZRGBL>;
-extern template class PCL_COSECTION_EXPORT MotionSegmentation<pcl::PointNormal>;
-extern template class PCL_COSECTION_EXPORT MotionSegmentation<pcl::PointXYZRGBNormal>;
-extern template class PCL_COSECTION_EXPORT MotionSegmentation<pcl::PointXYZINormal>;
 } // namespace pcl::cosection

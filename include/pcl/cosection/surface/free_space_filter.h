@@ -2,7 +2,7 @@
 #pragma once
 
 #include <pcl/cosection/common/camera.h>
-#include <pcl/cosection/common/export.h>
+#include <pcl/cosection/common/point_types.h>
 
 #include <pcl/filters/filter_indices.h>
 
@@ -165,26 +165,6 @@ FreeSpaceFilter<PointT>::applyFilter (Indices& indices)
   *removed_indices_ = std::move (removed);
 }
 
-} // namespace pcl::cosection
+BOOST_PP_SEQ_FOR_EACH (PCL_COSECTION_EXTERN_TEMPLATE, FreeSpaceFilter, PCL_COSECTION_XYZ_POINT_TYPES)
 
-namespace pcl {
-struct PointXYZ;
-struct PointXYZI;
-struct PointXYZRGB;
-struct PointXYZRGBA;
-struct PointXYZRGBL;
-struct PointNormal;
-struct PointXYZRGBNormal;
-struct PointXYZINormal;
-} // namespace pcl
-
-namespace pcl::cosection {
-extern template class PCL_COSECTION_EXPORT FreeSpaceFilter<pcl::PointXYZ>;
-extern template class PCL_COSECTION_EXPORT FreeSpaceFilter<pcl::PointXYZI>;
-extern template class PCL_COSECTION_EXPORT FreeSpaceFilter<pcl::PointXYZRGB>;
-extern template class PCL_COSECTION_EXPORT FreeSpaceFilter<pcl::PointXYZRGBA>;
-extern template class PCL_COSECTION_EXPORT FreeSpaceFilter<pcl::PointXYZRGBL>;
-extern template class PCL_COSECTION_EXPORT FreeSpaceFilter<pcl::PointNormal>;
-extern template class PCL_COSECTION_EXPORT FreeSpaceFilter<pcl::PointXYZRGBNormal>;
-extern template class PCL_COSECTION_EXPORT FreeSpaceFilter<pcl::PointXYZINormal>;
 } // namespace pcl::cosection

@@ -3,7 +3,7 @@
 
 #include <pcl/cosection/common/camera.h>
 #include <pcl/cosection/common/error.h>
-#include <pcl/cosection/common/export.h>
+#include <pcl/cosection/common/point_types.h>
 #include <pcl/cosection/surface/co_section.h>
 #include <pcl/cosection/surface/options.h>
 #include <pcl/cosection/volume/signed_distance_field.h>
@@ -289,16 +289,6 @@ HessianIMLS<PointNT>::performReconstruction (pcl::PointCloud<PointNT>& points, s
     polygons[t].vertices.assign (mesh.triangles[t].begin (), mesh.triangles[t].end ());
 }
 
-} // namespace pcl::cosection
+BOOST_PP_SEQ_FOR_EACH (PCL_COSECTION_EXTERN_TEMPLATE, HessianIMLS, PCL_COSECTION_NORMAL_POINT_TYPES)
 
-namespace pcl {
-struct PointNormal;
-struct PointXYZRGBNormal;
-struct PointXYZINormal;
-} // namespace pcl
-
-namespace pcl::cosection {
-extern template class PCL_COSECTION_EXPORT HessianIMLS<pcl::PointNormal>;
-extern template class PCL_COSECTION_EXPORT HessianIMLS<pcl::PointXYZRGBNormal>;
-extern template class PCL_COSECTION_EXPORT HessianIMLS<pcl::PointXYZINormal>;
 } // namespace pcl::cosection

@@ -25,7 +25,7 @@ enum class HullDistance
 /** \brief How the energy is minimised. */
 enum class SolverType
 {
-  Multigrid,  ///< semismooth Newton method with conjugate gradients, preconditioned by a V-cycle
+  Multigrid,  ///< semismooth Newton method; steps by multigrid cycles and the last direction
   FastJacobi, ///< the paper's optimiser, coarse to fine
 };
 

@@ -1,7 +1,7 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <pcl/cosection/common/export.h>
+#include <pcl/cosection/common/point_types.h>
 #include <pcl/cosection/tracking/sdf_alignment.h>
 
 #include <pcl/common/transforms.h>
@@ -212,24 +212,6 @@ SdfRegistration<PointSource, PointTarget, Scalar>::computeTransformation (PointC
   pcl::transformPointCloud (output, output, final_transformation_);
 }
 
-} // namespace pcl::cosection
+BOOST_PP_SEQ_FOR_EACH (PCL_COSECTION_EXTERN_TEMPLATE, SdfRegistration, PCL_COSECTION_XYZ_POINT_TYPES)
 
-namespace pcl {
-struct PointXYZ;
-struct PointXYZI;
-struct PointXYZRGB;
-struct PointXYZRGBA;
-struct PointNormal;
-struct PointXYZRGBNormal;
-struct PointXYZINormal;
-} // namespace pcl
-
-namespace pcl::cosection {
-extern template class PCL_COSECTION_EXPORT SdfRegistration<pcl::PointXYZ>;
-extern template class PCL_COSECTION_EXPORT SdfRegistration<pcl::PointXYZI>;
-extern template class PCL_COSECTION_EXPORT SdfRegistration<pcl::PointXYZRGB>;
-extern template class PCL_COSECTION_EXPORT SdfRegistration<pcl::PointXYZRGBA>;
-extern template class PCL_COSECTION_EXPORT SdfRegistration<pcl::PointNormal>;
-extern template class PCL_COSECTION_EXPORT SdfRegistration<pcl::PointXYZRGBNormal>;
-extern template class PCL_COSECTION_EXPORT SdfRegistration<pcl::PointXYZINormal>;
 } // namespace pcl::cosection

@@ -1,7 +1,7 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <pcl/cosection/common/export.h>
+#include <pcl/cosection/common/point_types.h>
 #include <pcl/cosection/tracking/sdf_alignment.h>
 
 #include <pcl/tracking/tracker.h>
@@ -165,22 +165,6 @@ SdfTracker<PointInT, StateT>::computeTracking ()
   trackPoints (points);
 }
 
-} // namespace pcl::cosection
+BOOST_PP_SEQ_FOR_EACH (PCL_COSECTION_EXTERN_TEMPLATE, SdfTracker, PCL_COSECTION_XYZ_POINT_TYPES)
 
-namespace pcl {
-struct PointXYZ;
-struct PointXYZI;
-struct PointXYZRGB;
-struct PointXYZRGBA;
-struct PointNormal;
-struct PointXYZRGBNormal;
-} // namespace pcl
-
-namespace pcl::cosection {
-extern template class PCL_COSECTION_EXPORT SdfTracker<pcl::PointXYZ>;
-extern template class PCL_COSECTION_EXPORT SdfTracker<pcl::PointXYZI>;
-extern template class PCL_COSECTION_EXPORT SdfTracker<pcl::PointXYZRGB>;
-extern template class PCL_COSECTION_EXPORT SdfTracker<pcl::PointXYZRGBA>;
-extern template class PCL_COSECTION_EXPORT SdfTracker<pcl::PointNormal>;
-extern template class PCL_COSECTION_EXPORT SdfTracker<pcl::PointXYZRGBNormal>;
 } // namespace pcl::cosection

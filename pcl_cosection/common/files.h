@@ -1,0 +1,29 @@
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <pcl/cosection/common/export.h>
+
+#include <functional>
+#include <string>
+
+namespace pcl::cosection {
+
+/** \brief The file that \a path stands for: behind symbolic links, also behind one to a file that does
+ * not exist yet. \throws IoError if the links go round in circles */
+std::string followLinks (const std::string& path);
+
+/** \brief Let \a write fill a file of a temporary name beside \a path, then rename it to \a path.
+ * If \a write throws, or anything fails, the temporary file is removed and \a path is untouched.
+ * A symbolic link stays one: the file that it points to is replaced, or made.
+ * \throws IoError naming \a path and the system's reason */
+PCL_COSECTION_EXPORT void writeAtomically (const std::string& path,
+                                           const std::function<void (const std::string& temporary_path)>& write);
+
+/** \brief Replace the contents of a file. \throws std::system_error with the system's reason, which
+ * writeAtomically () turns into an IoError that names the final path. */
+PCL_COSECTION_EXPORT void writeBytes (const std::string& path, const std::string& bytes);
+
+/** \brief \throws IoError naming \a path and the system's reason */
+PCL_COSECTION_EXPORT std::string readBytes (const std::string& path);
+
+} // namespace pcl::cosection

@@ -1,0 +1,275 @@
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
+#include "energy_terms.h"
+
+#include "pcl_cosection/common/lattice_cells.h"
+#include "pcl_cosection/view/outliers/point_clusters.h"
+#include "pcl_cosection/view/visibility/free_space_votes.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <optional>
+#include <string>
+#include <unordered_map>
+#include <utility>
+
+namespace pcl::cosection {
+namespace {
+
+// A background point has moved if so many views look through it, and at least so large a share of all that see it.
+constexpr int least_free_views = 2;
+constexpr double free_share = 0.25;
+constexpr double max_contradicted_share = 0.1; // of an object's points; good poses leave 0.03 or less
+constexpr double residual_cell_m = 0.02;
+
+void
+readPoints (const SceneObject& object)
+{
+  BodyState& body = *object.body;
+  const std::vector<OrientedPoint>& all = object.input->points;
+  std::vector<OrientedPoint> fresh;
+  fresh.reserve (all.size () - body.points_read);
+  for (std::size_t p = body.points_read; p < all.size (); ++p)
+    if (!body.outliers[p])
+      fresh.push_back (all[p]);
+  if (!fresh.empty ())
+    body.evidence->addPoints (fresh);
+  body.points_read = all.size ();
+}
+
+/** \brief Decides whether a point belongs to the surface of a body, by the body's measured points. */
+class MeasuredSurface
+{
+public:
+  static constexpr double voxels_deep = 5.0; ///< largest depth_vox of has ()
+  static constexpr double voxels_beside = 2.0;
+
+  /** \param[in] points must outlive this */
+  MeasuredSurface (const std::vector<OrientedPoint>& points, double voxel_size_m)
+      : points_ (points)
+      , voxel_size_m_ (voxel_size_m)
+  {
+    for (std::size_t n = 0; n < points.size (); ++n)
+      if (const auto cell = cellOf (points[n].position.cast<double> () / (voxels_deep * voxel_size_m)))
+        cells_[keyOf (*cell)].push_back (static_cast<std::uint32_t> (n));
+  }
+
+  /** \brief Whether \a point lies near a point of the body whose normal differs by at most 60 degrees: up to
+   * voxels_beside from the line of that normal, and from voxels_beside above to \a depth_vox below it.
+   * \param[in] point the body's frame
+   * \param[in] depth_vox at most voxels_deep */
+  bool has (const OrientedPoint& point, double depth_vox) const
+  {
+    constexpr float same_side = 0.5f; // cosine between normals
+    const auto place = cellOf (point.position.cast<double> () / (voxels_deep * voxel_size_m_));
+    if (!place)
+      return false;
+    const auto deepest = static_cast<float> (-depth_vox * voxel_size_m_);
+    const auto beside = static_cast<float> (voxels_beside * voxel_size_m_);
+    const auto isBeside = [&] (std::uint32_t n) {
+      const OrientedPoint& own = points_[n];
+      const Eigen::Vector3f way = point.position - own.position;
+      const float height = own.normal.dot (way);
+      return height > deepest && height < beside && way.squaredNorm () - height * height < beside * beside &&
+             own.normal.dot (point.normal) > same_side;
+    };
+    for (int k = 0; k < 27; ++k)
+    {
+      const auto cell = cells_.find (keyOf (neighbourOf (*place, k)));
+      if (cell != cells_.end () && std::any_of (cell->second.begin (), cell->second.end (), isBeside))
+        return true;
+    }
+    return false;
+  }
+
+private:
+  const std::vector<OrientedPoint>& points_;
+  double voxel_size_m_;
+  std::unordered_map<std::uint64_t, std::vector<std::uint32_t>> cells_; // points by cell of voxels_deep
+};
+
+/** \brief Find background points on the object's surface at its pose in their view; for points before its first view,
+ * at its pose there. */
+void
+findPointsOf (const Scene& scene, const SceneObject& object, std::vector<bool>& found)
+{
+  const auto batches = scene.batches.find (0);
+  if (batches == scene.batches.end ())
+    return;
+  const MeasuredSurface surface (object.points (), object.observation->voxel_size_m);
+  const std::size_t first_view = firstView (*object.input);
+  std::size_t begin = 0;
+  for (const PointBatch& batch : batches->second)
+  {
+    const std::size_t end = begin + batch.count;
+    const bool was_known = batch.view >= static_cast<int> (first_view);
+    const Eigen::Isometry3d T_world_object = poseAt (*object.input,
+                                                     was_known ? static_cast<std::size_t> (batch.view) : first_view);
+    // Before its first view the object may have moved a little.
+    const double depth_vox = was_known ? MeasuredSurface::voxels_beside : MeasuredSurface::voxels_deep;
+    if (T_world_object.matrix ().allFinite ())
+    {
+      const Eigen::Isometry3f T = T_world_object.inverse ().cast<float> ();
+      for (std::size_t n = begin; n < end; ++n)
+      {
+        const OrientedPoint& point = scene.background[n];
+        found[n] = found[n] || surface.has ({T * point.position, T.linear () * point.normal}, depth_vox);
+      }
+    }
+    begin = end;
+  }
+}
+
+/** \brief The points of the background without those that moved. */
+std::vector<OrientedPoint>
+backgroundAtRest (const Scene& scene, const std::vector<SceneObject>& objects)
+{
+  std::vector<FreeSpaceView> views;
+  for (const SceneView& view : scene.views)
+    if (view.use != ViewUse::FreeSpace)
+      views.emplace_back (view.depth);
+  std::vector<Eigen::Vector3f> positions (scene.background.size ());
+  std::transform (scene.background.begin (), scene.background.end (), positions.begin (),
+                  [] (const OrientedPoint& point) { return point.position; });
+  const std::vector<FreeSpaceVotes> votes = voteOnPoints (positions, views, 0.0, scene.options.threads);
+  std::vector<bool> moved (votes.size ());
+  for (std::size_t n = 0; n < votes.size (); ++n)
+    moved[n] = votes[n].free >= least_free_views && votes[n].free >= free_share * votes[n].surface;
+  for (const SceneObject& object : objects)
+    findPointsOf (scene, object, moved);
+  addResidualClusters (scene.background, residual_cell_m, moved);
+  std::vector<OrientedPoint> at_rest;
+  for (std::size_t n = 0; n < moved.size (); ++n)
+    if (!moved[n])
+      at_rest.push_back (scene.background[n]);
+  return at_rest;
+}
+
+void
+readBackground (const Scene& scene, CompletionMode mode, const std::vector<SceneObject>& objects,
+                const std::vector<BodyState*>& background)
+{
+  const bool all = !scene.options.leave_out_moved || mode == CompletionMode::Incremental;
+  const std::vector<OrientedPoint> at_rest = all ? std::vector<OrientedPoint> () : backgroundAtRest (scene, objects);
+  for (BodyState* body : background)
+  {
+    if (all)
+      body->evidence->addPoints (
+          {scene.background.begin () + static_cast<std::ptrdiff_t> (body->points_read), scene.background.end ()});
+    else
+      body->evidence->addPoints (at_rest);
+    body->points_read = scene.background.size ();
+  }
+}
+
+/** \brief Warn if a view looks through many of the object's points. \return the contradicted share */
+double
+judgeAgreement (const Scene& scene, const SceneObject& object, const ViewAgreement& agreement, CompletionLog& log)
+{
+  const auto [share, view] = agreement.worst ();
+  if (share > max_contradicted_share)
+  {
+    const std::string& name = scene.views[static_cast<std::size_t> (view)].depth.name;
+    log.warn ("object " + std::to_string (object.input->id) + ": " +
+              (name.empty () ? "view " + std::to_string (view) : name) + " looks through " +
+              std::to_string (std::lround (100.0 * share)) +
+              " % of its points there: a pose may be wrong, or it has moved");
+  }
+  return share;
+}
+
+/** \brief A query whether a place (object frame) may belong to another object: it is in the box of that one's points.
+ */
+std::function<bool (const Eigen::Vector3d&)>
+placesOfOthers (const std::vector<SceneObject>& objects, std::size_t own, const CompletionLog& log)
+{
+  std::vector<std::pair<Eigen::AlignedBox3d, std::vector<Eigen::Isometry3d>>> others; // box, T_other_object
+  for (std::size_t o = 0; o < objects.size (); ++o)
+    if (o != own && !log.failed (objects[o].index))
+      others.emplace_back (objects[o].observation->box,
+                           relativePoses (*objects[own].input, objects[own].grid (), objects[o].input));
+  return [others] (const Eigen::Vector3d& p) {
+    return std::any_of (others.begin (), others.end (), [&p] (const auto& other) {
+      return std::any_of (other.second.begin (), other.second.end (), [&] (const Eigen::Isometry3d& T_other_object) {
+        return other.first.contains (T_other_object * p);
+      });
+    });
+  };
+}
+
+} // namespace
+
+std::vector<double>
+gatherEvidence (const Scene& scene, CompletionMode mode, const std::vector<SceneObject>& objects,
+                const std::vector<BodyState*>& background, CompletionLog& log)
+{
+  const bool use_hull = scene.options.use_hull;
+  log.timed ("data_term", [&] {
+    forEachObject (objects, log, [&] (std::size_t o) { readPoints (objects[o]); });
+    readBackground (scene, mode, objects, background);
+  });
+  return log.timed ("constraints", [&] {
+    std::vector<std::optional<ViewAgreement>> agreement (objects.size ());
+    if (mode == CompletionMode::Once && use_hull)
+      for (std::size_t o = 0; o < objects.size (); ++o)
+        agreement[o].emplace (objects[o].points ());
+    for (std::size_t v = 0; v < scene.views.size (); ++v)
+    {
+      const bool is_full = scene.views[v].use == ViewUse::Full;
+      const DepthView& depth = scene.views[v].depth;
+      std::optional<FreeSpaceView> view; // prepared on first use, and shared by all bodies that have not read it
+      const auto show = [&] (BodyState& body, std::optional<ViewAgreement>* with,
+                             const Eigen::Isometry3d& T_body_sensor) {
+        if (body.views_read > v)
+          return;
+        body.views_read = v + 1;
+        if (!T_body_sensor.matrix ().allFinite ())
+          return;
+        if (!view)
+          view.emplace (depth);
+        body.evidence->addView (*view, T_body_sensor, is_full);
+        if (with && *with)
+          (*with)->add (static_cast<int> (v), *view, T_body_sensor, scene.options.threads);
+      };
+      if (is_full)
+        for (BodyState* body : background)
+          show (*body, nullptr, depth.T_world_sensor);
+      if (use_hull)
+        forEachObject (objects, log, [&] (std::size_t o) {
+          show (*objects[o].body, &agreement[o], poseAt (*objects[o].input, v).inverse () * depth.T_world_sensor);
+        });
+      log.report ("free space", 0.05 * static_cast<double> (v + 1) / static_cast<double> (scene.views.size ()));
+    }
+    std::vector<double> contradicted (scene.objects.size (), 0.0);
+    for (std::size_t o = 0; o < objects.size (); ++o)
+      if (agreement[o] && !log.failed (objects[o].index))
+        contradicted[objects[o].index] = judgeAgreement (scene, objects[o], *agreement[o], log);
+    return contradicted;
+  });
+}
+
+std::vector<BodyEnergy>
+objectEnergies (const Scene& scene, CompletionMode mode, const std::vector<SceneObject>& objects, CompletionLog& log)
+{
+  std::vector<BodyEnergy> energies (objects.size ());
+  log.timed ("constraints", [&] {
+    forEachObject (objects, log, [&] (std::size_t o) {
+      const SceneObject& object = objects[o];
+      BodyState& body = *object.body;
+      BodyEnergy energy = makeBodyEnergy (*body.evidence);
+      if (mode == CompletionMode::Once)
+        body.evidence.reset ();
+      if (!energy.hasData ())
+        throw DegenerateInput ("no usable measurements: all of its points lie in space that was seen free");
+      ObjectSetting setting = settingOf (scene, *object.input, body);
+      setting.is_of_other = placesOfOthers (objects, o, log);
+      addPriors (*object.observation, setting, object.planes (), object.support->inferred, body.hidden, energy);
+      if (mode == CompletionMode::Once || object.observation->virtual_view)
+        body.hidden.clear ();
+      energies[o] = std::move (energy);
+    });
+  });
+  return energies;
+}
+
+} // namespace pcl::cosection
