@@ -19,7 +19,7 @@ run (int argc, const char* const* argv, Terminal& terminal)
   {
     std::cout << evaluationHelp () << std::flush;
     if (argc == 1)
-      throw UsageError ("a command is missing: mesh, trajectory or run");
+      throw UsageError ("a command is missing: mesh, trajectory, run or views");
     return;
   }
   if (word == "--version")
@@ -35,10 +35,10 @@ run (int argc, const char* const* argv, Terminal& terminal)
     words.push_back (command.word);
   }
   if (word[0] == '-')
-    throw UsageError ("the command must come first: mesh, trajectory or run; it is " + word);
+    throw UsageError ("the command must come first: mesh, trajectory, run or views; it is " + word);
   throw UsageError (
       "unknown command " + word +
-      (nearestName (word, words).empty () ? "; known are mesh, trajectory and run" : suggestion (word, words)));
+      (nearestName (word, words).empty () ? "; known are mesh, trajectory, run and views" : suggestion (word, words)));
 }
 
 } // namespace

@@ -133,6 +133,39 @@ simulate (const SimulateSettings& settings, Terminal& terminal)
   saveJson (summary, settings.json);
 }
 
+void
+simulateTables (const SimulateSettings& settings, Terminal& terminal)
+{
+  const pcl::StopWatch stopwatch;
+  if (!settings.json.empty ())
+    requireWritable (settings.json);
+  const int scenes = writeTableScenes (settings.meshes, settings.output, settings.table,
+                                       [&] (const std::string& stage, double fraction) {
+                                         terminal.progress (stage, fraction);
+                                         return (!interrupted ());
+                                       });
+  const TableSceneOptions& table = settings.table;
+  terminal.result ("wrote " + settings.output + ": " + counted (static_cast<std::size_t> (scenes), "scene") + " of " +
+                   counted (static_cast<std::size_t> (table.per_scene), "object") + " in " +
+                   counted (static_cast<std::size_t> (table.views), "view"));
+  if (settings.json.empty ())
+    return;
+  nlohmann::ordered_json summary;
+  summary["timings_s"] = {{"total", stopwatch.getTimeSeconds ()}};
+  summary["scenes"] = scenes;
+  summary["parameters"] = {{"meshes", settings.meshes},
+                           {"per_scene", table.per_scene},
+                           {"views", table.views},
+                           {"seed", table.seed},
+                           {"noise", table.noise},
+                           {"camera_height_m", table.camera_height_m},
+                           {"camera_distance_m", table.camera_distance_m},
+                           {"mask_dilation_px", table.mask_dilation_px},
+                           {"mask_shift_px", table.mask_shift_px},
+                           {"occluders", table.occluders}};
+  saveJson (summary, settings.json);
+}
+
 bool
 run (const SimulateSettings& settings, Terminal& terminal)
 {
@@ -145,7 +178,7 @@ run (const SimulateSettings& settings, Terminal& terminal)
   else
   {
     catchInterruptions ();
-    simulate (settings, terminal);
+    (settings.meshes.empty () ? simulate : simulateTables) (settings, terminal);
   }
   return (true);
 }

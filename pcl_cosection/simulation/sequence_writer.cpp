@@ -1,8 +1,7 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "sequence_writer.h"
 
-#include "pcl_cosection/common/files.h"
-
+#include "new_folder.h"
 #include "pcl_cosection/common/parallel.h"
 #include "pcl_cosection/io/image_io.h"
 #include "pcl_cosection/view/organized_cloud.h"
@@ -13,89 +12,15 @@
 #include <pcl/cosection/simulation/simulated_scene.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <cstdio>
-#include <cstdlib>
-#include <cstring>
-#include <filesystem>
 #include <locale>
 #include <sstream>
-#include <system_error>
-
-namespace fs = std::filesystem;
 
 namespace pcl::cosection {
 namespace {
 
 constexpr double truth_chord_m = 5e-5;
 constexpr double truth_share = 0.05; // of the progress
-
-/** \brief A folder under a temporary name, which gets its own name when all is in it. */
-class NewFolder
-{
-public:
-  explicit NewFolder (const std::string& path) : path_ (fs::path (path).lexically_normal ())
-  {
-    if (!path_.has_filename ())
-      path_ = path_.parent_path ();
-    std::error_code failure;
-    if (path_.filename () == "." || path_.filename () == ".." || path_.empty ())
-      throw IoError (path + ": cannot be replaced; give the name of a new folder");
-    if (fs::exists (fs::symlink_status (path_, failure)) &&
-        (!fs::is_directory (path_, failure) || !fs::is_empty (path_, failure)))
-      throw IoError (path + ": is there already; give the name of a new folder");
-    const fs::path parent = path_.has_parent_path () ? path_.parent_path () : fs::path (".");
-    fs::create_directories (parent, failure);
-    std::string name = (parent / ("." + path_.filename ().string () + "_XXXXXX")).string ();
-    if (!mkdtemp (name.data ()))
-      throw IoError (path + ": cannot be made: " + std::strerror (errno));
-    temporary_ = name;
-    fs::permissions (temporary_, fs::perms::all & ~(fs::perms::group_write | fs::perms::others_write), failure);
-  }
-
-  ~NewFolder ()
-  {
-    std::error_code ignored;
-    if (!temporary_.empty ())
-      fs::remove_all (temporary_, ignored);
-  }
-
-  NewFolder (const NewFolder&) = delete;
-  NewFolder& operator= (const NewFolder&) = delete;
-
-  std::string file (const std::string& name) const { return (temporary_ / name).string (); }
-
-  void makeFolder (const std::string& name) const
-  {
-    std::error_code failure;
-    fs::create_directory (temporary_ / name, failure);
-    if (failure)
-      throw IoError ((path_ / name).string () + ": cannot be made: " + failure.message ());
-  }
-
-  void keep ()
-  {
-    std::error_code failure;
-    fs::remove (path_, failure); // an empty folder
-    fs::rename (temporary_, path_, failure);
-    if (failure)
-      throw IoError (path_.string () + ": cannot be made: " + failure.message ());
-    temporary_.clear ();
-  }
-
-  /** \brief A message in which the temporary name is the folder's own. */
-  std::string named (std::string message) const
-  {
-    const std::string temporary = temporary_.string ();
-    for (std::size_t at; (at = message.find (temporary)) != std::string::npos;)
-      message.replace (at, temporary.size (), path_.string ());
-    return message;
-  }
-
-private:
-  fs::path path_;
-  fs::path temporary_;
-};
 
 std::string
 numbered (const char* name, int number, const char* extension)
@@ -162,21 +87,9 @@ private:
     out.precision (10);
     const PinholeCamera& c = scene_.camera;
     out << c.fx << ' ' << c.fy << ' ' << c.cx << ' ' << c.cy << ' ' << c.width << ' ' << c.height << '\n';
-    writeText ("calibration.txt", out.str ());
+    folder_.writeText ("calibration.txt", out.str ());
     if (!scene_.spec.empty ())
-      writeText ("scene.json", effectiveSpec (scene_));
-  }
-
-  void writeText (const std::string& name, const std::string& text) const
-  {
-    try
-    {
-      writeBytes (folder_.file (name), text);
-    }
-    catch (const std::system_error& error)
-    {
-      throw IoError (folder_.file (name) + ": cannot be written: " + error.code ().message ());
-    }
+      folder_.writeText ("scene.json", effectiveSpec (scene_));
   }
 
   void writeMotion (const KeyedMotion& motion, const std::string& name) const
@@ -250,15 +163,7 @@ writeSequence (const SimulatedScene& scene, const std::string& path, const Seque
     throw InvalidArgument ("frames " + std::to_string (chosen.first) + ":" + std::to_string (chosen.last) +
                            " are not there; the scene has 0:" + std::to_string (scene.frames));
   NewFolder folder (path);
-  try
-  {
-    SequenceWriter (scene, folder, chosen).write (progress);
-    folder.keep ();
-  }
-  catch (const IoError& error)
-  {
-    throw IoError (folder.named (error.what ()));
-  }
+  folder.fill ([&] { SequenceWriter (scene, folder, chosen).write (progress); });
 }
 
 } // namespace pcl::cosection

@@ -115,7 +115,7 @@ TEST_F (Evaluate, NeedsACommand)
   EXPECT_EQ (run ({"mehs", "a.ply", "b.ply"}), 2);
   expectOneLine ("did you mean mesh?");
   EXPECT_EQ (run ({"frobnicate"}), 2);
-  expectOneLine ("known are mesh, trajectory and run");
+  expectOneLine ("known are mesh, trajectory, run and views");
   EXPECT_EQ (run ({"--json", "a.json", "mesh"}), 2);
   expectOneLine ("the command must come first");
 }
@@ -332,4 +332,47 @@ TEST_F (Evaluate, EvaluatesARun)
   expectOneLine ("nowhere: is no folder");
   EXPECT_EQ (run ({"run", "dataset", "run"}), 1);
   expectOneLine ("is a dataset, not what a run wrote");
+}
+
+TEST_F (Evaluate, ComparesTheObjectsOfManyScenes)
+{
+  for (const char* folder : {"truth/a", "truth/b", "result/a", "result/b"})
+    std::filesystem::create_directories (folder_.file (folder));
+  save ("truth/a/truth_1.ply", sphereMesh (0.1, 24));
+  save ("truth/a/truth_2.ply", sphereMesh (0.05, 24));
+  writeFile (folder_.file ("truth/a/names.txt"), "1 ball\n2 marble\n");
+  save ("truth/b/truth_7_melon.ply", sphereMesh (0.12, 24));
+  save ("result/a/object_1.ply", sphereMesh (0.102, 24)); // 2 mm too large
+  save ("result/b/object_7.ply", sphereMesh (0.14, 24));  // 20 mm too large; the marble is missing
+  EXPECT_EQ (
+      run ({"views", "--json", "v.json", "--csv", "v.csv", "--pictures", "worst", "--worst", "1", "truth", "result"}),
+      0)
+      << errors_;
+  const nlohmann::json all = json ("v.json");
+  ASSERT_EQ (all["objects"].size (), 3u);
+  EXPECT_EQ (all["objects"][0]["name"], "ball");
+  EXPECT_NEAR (all["objects"][0]["accuracy_m"], 0.002, 2e-4);
+  EXPECT_EQ (all["objects"][0]["f_score_half"], 1.0);
+  EXPECT_NEAR (all["objects"][0]["volume_ratio"], std::pow (1.02, 3.0), 1e-3);
+  EXPECT_EQ (all["objects"][0]["gross"], false);
+  EXPECT_EQ (all["objects"][1]["missing"], true);
+  EXPECT_EQ (all["objects"][2]["name"], "melon");
+  EXPECT_EQ (all["objects"][2]["f_score"], 0.0);
+  EXPECT_EQ (all["summary"]["gross"], 2);
+  EXPECT_EQ (all["summary"]["missing"], 1);
+  EXPECT_EQ (all["summary"]["wrong_volume"], 1);
+  EXPECT_NEAR (all["summary"]["f_score"], 1.0 / 3.0, 1e-9);
+  EXPECT_NE (output_.find ("3 objects, 1 missing, 2 closed"), std::string::npos) << output_;
+  EXPECT_NE (readFile (folder_.file ("v.csv")).find ("\nb,7,melon,0,"), std::string::npos);
+  EXPECT_TRUE (std::filesystem::exists (folder_.file ("worst/01_b_7.png")));
+
+  writeFile (folder_.file ("result/b/object_7.ply"), "no mesh");
+  EXPECT_EQ (run ({"views", "truth", "result"}), 1);
+  EXPECT_NE (errors_.find ("object_7.ply"), std::string::npos) << errors_;
+  EXPECT_EQ (run ({"views", "result", "truth"}), 1);
+  expectOneLine ("has no SCENE/truth_LABEL.ply");
+  EXPECT_EQ (run ({"views", "nowhere", "result"}), 1);
+  expectOneLine ("nowhere: cannot be read");
+  EXPECT_EQ (run ({"views", "--gross", "0", "truth", "result"}), 2);
+  expectOneLine ("--gross");
 }

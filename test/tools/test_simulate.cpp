@@ -6,7 +6,12 @@
 #include "simulate_command_line.h"
 #include "tool_run.h"
 
+#include "pcl_cosection/evaluation/mesh_surface.h"
+#include <pcl/cosection/evaluation/mesh_comparison.h>
 #include <pcl/cosection/io/mesh_io.h>
+#include <pcl/cosection/simulation/simulated_scene.h>
+#include <pcl/io/pcd_io.h>
+#include <pcl/point_types.h>
 
 #include <nlohmann/json.hpp>
 
@@ -140,4 +145,61 @@ TEST_F (Simulate, BadInputIsOneLineAndWritesNothing)
   EXPECT_NE (failure ({"scene.json", "full"}, 1).find ("full: is there already"), std::string::npos);
   EXPECT_NE (failure ({"scene.json", "scene.json"}, 1).find ("scene.json: is there already"), std::string::npos);
   EXPECT_EQ (folder_.entries (), 6u); // three descriptions, a folder, and what the last run printed
+}
+
+TEST_F (Simulate, PutsMeshesOnATable)
+{
+  fs::create_directory (folder_.file ("things"));
+  saveMesh (makeBox ({0.1, 0.06, 0.2})->tessellate (0.001), folder_.file ("things/carton.ply"));
+  saveMesh (makeSphere (0.04)->tessellate (0.001), folder_.file ("things/ball.ply"));
+  std::ofstream (folder_.file ("things/notes.txt")) << "no mesh";
+  const auto simulate = [&] (std::vector<std::string> arguments) {
+    arguments.insert (arguments.begin (), {"--meshes", "things", "--per-scene", "2", "--views", "2"});
+    ToolRun run (arguments, folder_.file (""), {}, PCL_COSECTION_SIMULATE);
+    EXPECT_EQ (run.wait (), 0) << run.errors ();
+    return run.output ();
+  };
+  EXPECT_EQ (simulate ({"--json", "s.json", "out"}), "wrote out: 1 scene of 2 objects in 2 views\n");
+  std::ifstream list (folder_.file ("out/000/names.txt"));
+  std::string number, name;
+  list >> number >> name;
+  EXPECT_TRUE (name == "ball" || name == "carton") << name;
+
+  // The readings of each label lie on the mesh of that label; one thing may hide the other in one of the views.
+  for (const std::uint32_t label : {1u, 2u})
+  {
+    const SurfaceDistance surface (loadMesh (folder_.file ("out/000/truth_" + std::to_string (label) + ".ply")));
+    std::vector<Eigen::Vector3d> points;
+    for (const char* view : {"out/000/view0.pcd", "out/000/view1.pcd"})
+    {
+      pcl::PointCloud<pcl::PointXYZRGBL> cloud;
+      ASSERT_EQ (pcl::io::loadPCDFile (folder_.file (view), cloud), 0);
+      Eigen::Isometry3f pose (cloud.sensor_orientation_);
+      pose.translation () = cloud.sensor_origin_.head<3> ();
+      for (const auto& p : cloud)
+        if (p.label == label && p.getVector3fMap ().allFinite ())
+          points.push_back ((pose * p.getVector3fMap ()).cast<double> ());
+    }
+    ASSERT_GT (points.size (), 500u);
+    EXPECT_LT (errorStatistics (surface.of (points)).median, 0.002);
+  }
+
+  // The same seed gives the same bytes; labels may be wrong on purpose.
+  simulate ({"again"});
+  simulate ({"--mask-shift", "5", "shifted"});
+  const auto bytes = [&] (const std::string& file) {
+    std::ifstream in (folder_.file (file), std::ios::binary);
+    return std::string (std::istreambuf_iterator<char> (in), {});
+  };
+  EXPECT_EQ (bytes ("out/000/view1.pcd"), bytes ("again/000/view1.pcd"));
+  EXPECT_NE (bytes ("out/000/view1.pcd"), bytes ("shifted/000/view1.pcd"));
+
+  EXPECT_NE (failure ({"--meshes", "things", "--per-scene", "100", "full"}, 1).find ("no room for 100 things"),
+             std::string::npos);
+  EXPECT_FALSE (fs::exists (folder_.file ("full")));
+  fs::create_directory (folder_.file ("empty"));
+  EXPECT_NE (failure ({"--meshes", "empty", "x"}, 1).find ("empty: holds no meshes"), std::string::npos);
+  EXPECT_NE (failure ({"--meshes", "things", "--preset", "table", "x"}, 2).find ("--meshes excludes"),
+             std::string::npos);
+  EXPECT_NE (failure ({"--meshes", "things"}, 2).find ("OUTPUT is missing"), std::string::npos);
 }

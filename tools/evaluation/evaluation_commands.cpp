@@ -5,6 +5,7 @@
 #include "mesh_command.h"
 #include "run_command.h"
 #include "trajectory_command.h"
+#include "views_command.h"
 
 #include <deque>
 
@@ -17,7 +18,7 @@ evaluationText ()
       "pcl_cosection_evaluate",
       "compare reconstructed meshes and trajectories with the truth",
       "pcl_cosection_evaluate mesh|trajectory [OPTIONS] TRUTH ESTIMATE\n       pcl_cosection_evaluate run [OPTIONS] "
-      "OUTPUT DATASET",
+      "OUTPUT DATASET\n       pcl_cosection_evaluate views [OPTIONS] TRUTH RESULT",
       "Compares reconstructed meshes, trajectories and whole runs with the truth.",
       {"Lengths are in metres in options, JSON and CSV, and in millimetres on the terminal. An unknown command, file "
        "or option is refused; what cannot be measured is said."},
@@ -25,6 +26,7 @@ evaluationText ()
           {"pcl_cosection_evaluate mesh truth.ply cup.ply", "how near a mesh is to the true one"},
           {"pcl_cosection_evaluate trajectory groundtruth.txt camera.txt", "how near a trajectory is to the true one"},
           {"pcl_cosection_evaluate run output dataset", "all objects, the camera and the background of a run"},
+          {"pcl_cosection_evaluate views scenes completed", "the completed objects of many scenes"},
       },
       {"f-threshold = 0.005", "threads = 2"},
   };
@@ -53,7 +55,8 @@ struct DeclaredCommands
 const std::vector<EvaluationCommand>&
 evaluationCommands ()
 {
-  static const std::vector<EvaluationCommand> commands = {meshCommand (), trajectoryCommand (), runCommand ()};
+  static const std::vector<EvaluationCommand> commands = {meshCommand (), trajectoryCommand (), runCommand (),
+                                                          viewsCommand ()};
   return (commands);
 }
 

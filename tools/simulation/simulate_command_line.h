@@ -3,6 +3,8 @@
 
 #include "arguments.h"
 
+#include "pcl_cosection/simulation/table_scenes.h"
+
 #include <optional>
 #include <string>
 
@@ -18,6 +20,8 @@ struct SimulateSettings : GeneralOptions
   int last_frame = -1; ///< not rendered itself; -1: all
   std::optional<long> seed;
   std::optional<int> views_every;
+  std::string meshes; ///< folder; empty: no scenes of meshes
+  pcl::cosection::TableSceneOptions table;
 };
 
 /** \brief What pcl_cosection_simulate says about itself. */

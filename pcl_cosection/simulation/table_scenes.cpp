@@ -1,0 +1,296 @@
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
+#include "table_scenes.h"
+
+#include "new_folder.h"
+#include "pcl_cosection/io/lower_case.h"
+#include "pcl_cosection/view/organized_cloud.h"
+#include <pcl/cosection/evaluation/mesh_comparison.h>
+#include <pcl/cosection/io/mesh_io.h>
+#include <pcl/cosection/rendering/rasterizer.h>
+#include <pcl/cosection/simulation/simulated_scene.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <limits>
+#include <numeric>
+#include <random>
+#include <set>
+#include <sstream>
+
+namespace fs = std::filesystem;
+
+namespace pcl::cosection {
+namespace {
+
+const PinholeCamera camera{640, 480, 570.0, 570.0, 319.5, 239.5}; // of the PrimeSense sensors
+constexpr double gap_m = 0.005;                                   // between the circles around things
+constexpr int tries = 3000;                                       // places for each thing
+
+/** \brief Random numbers that are the same with every standard library. */
+class Random
+{
+public:
+  explicit Random (std::uint64_t seed) : engine_ (seed) {}
+
+  double in (double low, double high) { return low + (high - low) * static_cast<double> (engine_ () >> 11) * 0x1p-53; }
+
+  std::vector<std::size_t> permutation (std::size_t count)
+  {
+    std::vector<std::size_t> order (count);
+    std::iota (order.begin (), order.end (), 0);
+    for (std::size_t n = count; n > 1; --n)
+      std::swap (order[n - 1], order[engine_ () % n]);
+    return order;
+  }
+
+private:
+  std::mt19937_64 engine_;
+};
+
+bool
+isMeshFile (const fs::path& file)
+{
+  static const std::set<std::string> extensions = {".ply", ".obj", ".stl", ".off", ".vtk", ".vtp"};
+  return extensions.count (lowerCase (file.extension ().string ())) != 0;
+}
+
+void
+addBox (const Eigen::Vector3d& low, const Eigen::Vector3d& high, TriangleMesh& room)
+{
+  const Eigen::Isometry3d T (Eigen::Translation3d (0.5 * (low + high)));
+  const TriangleMesh box = transformMesh (makeBox (high - low)->tessellate (0.001), T);
+  const auto first = static_cast<std::uint32_t> (room.vertices.size ());
+  room.vertices.insert (room.vertices.end (), box.vertices.begin (), box.vertices.end ());
+  for (auto triangle : box.triangles)
+  {
+    for (auto& vertex : triangle)
+      vertex += first;
+    room.triangles.push_back (triangle);
+  }
+}
+
+/** \brief A camera that looks at the middle of the table, 5 cm above it. */
+Eigen::Isometry3d
+cameraAt (double azimuth, const TableSceneOptions& options)
+{
+  const Eigen::Vector3d eye (options.camera_distance_m * std::sin (azimuth),
+                             -options.camera_distance_m * std::cos (azimuth), options.camera_height_m);
+  // The horizontal axis of the picture also exists where the camera looks straight down.
+  const Eigen::Vector3d right (std::cos (azimuth), std::sin (azimuth), 0.0);
+  Eigen::Isometry3d T = Eigen::Isometry3d::Identity ();
+  T.linear ().col (0) = right;
+  T.linear ().col (2) = (Eigen::Vector3d (0.0, 0.0, 0.05) - eye).normalized ();
+  T.linear ().col (1) = T.linear ().col (2).cross (right);
+  T.translation () = eye;
+  return T;
+}
+
+/** \brief Turned about z, its middle over the origin, its lowest point on the table. */
+TriangleMesh
+standing (const TriangleMesh& mesh, double angle)
+{
+  TriangleMesh turned = transformMesh (mesh, Eigen::Isometry3d (Eigen::AngleAxisd (angle, Eigen::Vector3d::UnitZ ())));
+  Eigen::AlignedBox3d box;
+  for (const auto& vertex : turned.vertices)
+    box.extend (vertex.cast<double> ());
+  const Eigen::Vector3d foot (box.center ().x (), box.center ().y (), box.min ().z ());
+  return transformMesh (std::move (turned), Eigen::Isometry3d (Eigen::Translation3d (-foot)));
+}
+
+double
+radiusOf (const TriangleMesh& mesh)
+{
+  double radius = 0.0;
+  for (const auto& vertex : mesh.vertices)
+    radius = std::max (radius, static_cast<double> (vertex.head<2> ().norm ()));
+  return radius;
+}
+
+/** \brief Labels as a segmentation with these errors would give them: a label grows over neighbours, the smaller label
+ * first, or its border becomes background. */
+Image<std::uint16_t>
+withErrors (Image<std::uint16_t> labels, const TableSceneOptions& options)
+{
+  for (int step = 0; step < std::abs (options.mask_dilation_px); ++step)
+  {
+    const Image<std::uint16_t> before = labels;
+    for (int v = 0; v < labels.height; ++v)
+      for (int u = 0; u < labels.width; ++u)
+        for (const auto& [x, y] :
+             {std::pair (u - 1, v), std::pair (u + 1, v), std::pair (u, v - 1), std::pair (u, v + 1)})
+        {
+          if (x < 0 || y < 0 || x >= labels.width || y >= labels.height)
+            continue;
+          if (options.mask_dilation_px > 0 && labels.at (u, v) == 0)
+            labels.at (u, v) = before.at (x, y);
+          else if (options.mask_dilation_px < 0 && before.at (x, y) != before.at (u, v))
+            labels.at (u, v) = 0;
+        }
+  }
+  if (options.mask_shift_px == 0)
+    return labels;
+  Image<std::uint16_t> shifted (labels.width, labels.height, 0);
+  for (int v = 0; v < labels.height; ++v)
+    for (int u = 0; u < labels.width; ++u)
+      if (const int from = u - options.mask_shift_px; from >= 0 && from < labels.width)
+        shifted.at (u, v) = labels.at (from, v);
+  return shifted;
+}
+
+void
+writeView (const TableScene& scene, int view, std::uint64_t seed, const TableSceneOptions& options,
+           const std::string& path)
+{
+  Rasterizer rasterizer (camera, scene.cameras[view]);
+  rasterizer.draw (scene.room, 0);
+  for (std::size_t n = 0; n < scene.things.size (); ++n)
+    rasterizer.draw (scene.things[n], static_cast<int> (n + 1));
+  const RasterImage& image = rasterizer.image ();
+  Image<float> depth (camera.width, camera.height);
+  depth.pixels = image.depth;
+  if (options.noise)
+    depth = measureDepth (depth, image.normals, camera, DepthNoise (), seed, static_cast<std::uint64_t> (view));
+  Image<std::uint16_t> labels (camera.width, camera.height, 0);
+  std::transform (image.ids.begin (), image.ids.end (), labels.pixels.begin (),
+                  [] (std::int32_t id) { return static_cast<std::uint16_t> (std::max (id, 0)); });
+  Picture colours (camera.width, camera.height);
+  colours.pixels = image.colours;
+  saveLabelledCloud ({camera, depth.pixels, scene.cameras[view]}, withErrors (std::move (labels), options), colours,
+                     path);
+}
+
+} // namespace
+
+void
+TableSceneOptions::validate () const
+{
+  const auto require = [] (bool good, const char* name, const char* domain) {
+    if (!good)
+      throw InvalidArgument (std::string (name) + " must be " + domain);
+  };
+  require (scenes >= 0 && scenes <= 100000, "scenes", "0 to 100000");
+  require (per_scene >= 1 && per_scene <= 1000, "per_scene", "1 to 1000");
+  require (views >= 1 && views <= 1000, "views", "1 to 1000");
+  require (std::isfinite (camera_height_m) && camera_height_m > 0.0, "camera_height_m", "a positive length");
+  require (std::isfinite (camera_distance_m) && camera_distance_m >= 0.0, "camera_distance_m",
+           "a length that is not negative");
+  require (std::abs (mask_dilation_px) <= 100, "mask_dilation_px", "-100 to 100");
+  require (std::abs (mask_shift_px) <= 100, "mask_shift_px", "-100 to 100");
+  require (occluders >= 0 && occluders <= 100, "occluders", "0 to 100");
+}
+
+TableScene
+makeTableScene (const std::vector<std::string>& names, const std::vector<TriangleMesh>& meshes, int scene,
+                const TableSceneOptions& options)
+{
+  options.validate ();
+  std::vector<std::size_t> order (meshes.size ());
+  std::iota (order.begin (), order.end (), 0);
+  if (options.per_scene > 1)
+    order = Random (options.seed).permutation (meshes.size ());
+  Random random (options.seed * 1000003u + static_cast<std::uint64_t> (scene) + 1u);
+
+  TableScene result;
+  addBox ({-0.7, -0.5, -0.03}, {0.7, 0.5, 0.0}, result.room);  // table
+  addBox ({-2.0, -2.0, -0.75}, {2.0, 1.5, -0.7}, result.room); // floor
+  addBox ({-2.0, 1.4, -0.7}, {2.0, 1.5, 2.0}, result.room);    // wall
+  std::vector<std::pair<Eigen::Vector2d, double>> circles;
+  for (int k = 0; k < options.per_scene; ++k)
+  {
+    const std::size_t which = order[(static_cast<std::size_t> (scene) * options.per_scene + k) % order.size ()];
+    const TriangleMesh thing = standing (meshes[which], random.in (0.0, 2.0 * M_PI));
+    const double radius = radiusOf (thing);
+    Eigen::Vector2d place = Eigen::Vector2d::Zero ();
+    const auto isFree = [&] {
+      return std::all_of (circles.begin (), circles.end (), [&] (const auto& circle) {
+        return (place - circle.first).norm () > radius + circle.second + gap_m;
+      });
+    };
+    for (int n = 0; options.per_scene > 1 && (n == 0 || !isFree ()); ++n)
+    {
+      if (n == tries)
+        throw InvalidArgument ("there is no room for " + std::to_string (options.per_scene) +
+                               " things on the table; take less per scene, or smaller ones");
+      place = {random.in (-0.28, 0.28), random.in (-0.22, 0.25)};
+    }
+    circles.emplace_back (place, radius);
+    result.names.push_back (names[which]);
+    result.things.push_back (
+        transformMesh (thing, Eigen::Isometry3d (Eigen::Translation3d (place.x (), place.y (), 0.0))));
+  }
+
+  const double first = random.in (-0.3, 0.3);
+  for (int view = 0; view < options.views; ++view)
+    result.cameras.push_back (cameraAt (first + view * 2.0 * M_PI / options.views, options));
+  for (int k = 0; k < options.occluders; ++k)
+  {
+    // Between the first camera and the things; a post may hide all of a small thing.
+    const double half_width = random.in (0.005, 0.02), height = random.in (0.05, 0.15);
+    const Eigen::Vector2d place (random.in (-0.2, 0.2), random.in (-0.45, -0.35));
+    addBox ({place.x () - half_width, place.y () - half_width, 0.0},
+            {place.x () + half_width, place.y () + half_width, height}, result.room);
+  }
+  return result;
+}
+
+int
+writeTableScenes (const std::string& folder, const std::string& output, const TableSceneOptions& options,
+                  const ProgressCallback& progress)
+{
+  options.validate ();
+  std::vector<fs::path> files;
+  try
+  {
+    for (const auto& entry : fs::directory_iterator (folder))
+      if (entry.is_regular_file () && isMeshFile (entry.path ()))
+        files.push_back (entry.path ());
+  }
+  catch (const fs::filesystem_error& error)
+  {
+    throw IoError (folder + ": cannot be read: " + error.code ().message ());
+  }
+  if (files.empty ())
+    throw IoError (folder + ": holds no meshes");
+  std::sort (files.begin (), files.end ());
+  std::vector<std::string> names;
+  std::vector<TriangleMesh> meshes;
+  for (const fs::path& file : files)
+  {
+    names.push_back (file.stem ().string ());
+    meshes.push_back (loadMesh (file.string ()));
+    if (meshes.back ().triangles.empty ())
+      throw IoError (file.string () + ": has no triangles");
+  }
+
+  const int per_scene = options.per_scene;
+  const int scenes = options.scenes > 0 ? options.scenes
+                                        : (static_cast<int> (meshes.size ()) + per_scene - 1) / per_scene;
+  NewFolder written (output);
+  written.fill ([&] {
+    for (int s = 0; s < scenes; ++s)
+    {
+      if (progress && !progress ("scenes", static_cast<double> (s) / scenes))
+        throw Cancelled ("cancelled");
+      const TableScene scene = makeTableScene (names, meshes, s, options);
+      char name[16];
+      std::snprintf (name, sizeof name, "%03d", s);
+      written.makeFolder (name);
+      const std::string within = std::string (name) + "/";
+      std::ostringstream list;
+      for (std::size_t n = 0; n < scene.things.size (); ++n)
+      {
+        list << n + 1 << ' ' << scene.names[n] << '\n';
+        saveMesh (scene.things[n], written.file (within + "truth_" + std::to_string (n + 1) + ".ply"));
+      }
+      written.writeText (within + "names.txt", list.str ());
+      for (int view = 0; view < options.views; ++view)
+        writeView (scene, view, options.seed * 1000003u + static_cast<std::uint64_t> (s), options,
+                   written.file (within + "view" + std::to_string (view) + ".pcd"));
+    }
+  });
+  return scenes;
+}
+
+} // namespace pcl::cosection

@@ -1,0 +1,346 @@
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
+#include "views_command.h"
+
+#include "common_options.h"
+#include "evaluation_output.h"
+#include "option_values.h"
+#include "output_files.h"
+
+#include "pcl_cosection/evaluation/pictures/error_picture.h"
+#include "pcl_cosection/rendering/picture.h"
+#include <pcl/cosection/common/error.h>
+#include <pcl/cosection/io/mesh_io.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <numeric>
+
+namespace fs = std::filesystem;
+
+using namespace pcl::cosection;
+
+namespace {
+
+constexpr double volume_tolerance = 0.25; // relative
+
+struct ViewsSettings : CommonOptions, SurfaceOptions
+{
+  double gross_m = 0.006;
+  std::string pictures; ///< folder
+  int worst = 8;        ///< pictures
+};
+
+/** \brief One true object and what was made of it. */
+struct ViewedObject
+{
+  std::string scene, label, name;
+  std::string truth, result; ///< files
+  bool is_missing = true;
+  MeshComparison comparison; ///< at the threshold
+  double f_half = 0.0;       ///< F-score at half of the threshold
+  bool closed = false;
+  std::optional<double> volume_ratio;
+
+  double worse_m () const { return (std::max (comparison.accuracy.mean, comparison.completeness.mean)); }
+
+  bool isGross (double gross_m) const { return (is_missing || worse_m () > gross_m); }
+};
+
+const ProgramText&
+viewsText ()
+{
+  static const ProgramText text = {
+      "pcl_cosection_evaluate views",
+      "completed objects of many scenes against their true meshes",
+      "pcl_cosection_evaluate views [OPTIONS] TRUTH RESULT",
+      "Compares the completed objects of many scenes with their true meshes.",
+      {"TRUTH/SCENE/truth_LABEL.ply or truth_LABEL_NAME.ply are true meshes, as pcl_cosection_simulate --meshes writes "
+       "them (names also in names.txt); RESULT/SCENE/object_LABEL.ply are those of pcl_cosection, in the same frame. "
+       "An "
+       "object without a result, or worse than --gross in accuracy or completeness, is a gross error."},
+      {
+          {"pcl_cosection_evaluate views scenes completed", "a line for each object, and a summary"},
+          {"pcl_cosection_evaluate views --pictures worst --worst 10 scenes completed",
+           "also pictures of the ten worst objects"},
+      },
+      {"f-threshold = 0.01", "gross = 0.006"},
+  };
+  return (text);
+}
+
+std::vector<fs::path>
+sortedEntries (const std::string& folder)
+{
+  std::vector<fs::path> entries;
+  try
+  {
+    for (const auto& entry : fs::directory_iterator (folder))
+      entries.push_back (entry.path ());
+  }
+  catch (const fs::filesystem_error& error)
+  {
+    throw IoError (folder + ": cannot be read: " + error.code ().message ());
+  }
+  std::sort (entries.begin (), entries.end ());
+  return (entries);
+}
+
+/** \brief The second word of the line of names.txt that begins with \a label; else nothing. */
+std::string
+nameIn (const fs::path& scene, const std::string& label)
+{
+  std::ifstream file (scene / "names.txt");
+  for (std::string number, name; file >> number >> name;)
+    if (number == label)
+      return (name);
+  return ("");
+}
+
+std::vector<ViewedObject>
+findObjects (const std::string& truth, const std::string& result)
+{
+  const std::string prefix = "truth_";
+  std::vector<ViewedObject> objects;
+  for (const fs::path& scene : sortedEntries (truth))
+  {
+    if (!fs::is_directory (scene))
+      continue;
+    for (const fs::path& file : sortedEntries (scene.string ()))
+    {
+      const std::string stem = file.stem ().string ();
+      if (stem.compare (0, prefix.size (), prefix) != 0 || !endsWith (file.string (), ".ply"))
+        continue;
+      const std::size_t end = stem.find ('_', prefix.size ());
+      ViewedObject object;
+      object.scene = scene.filename ().string ();
+      object.label = stem.substr (prefix.size (), end == stem.npos ? stem.npos : end - prefix.size ());
+      object.name = end == stem.npos ? nameIn (scene, object.label) : stem.substr (end + 1);
+      object.truth = file.string ();
+      object.result = (fs::path (result) / object.scene / ("object_" + object.label + ".ply")).string ();
+      objects.push_back (object);
+    }
+  }
+  if (objects.empty ())
+    throw IoError (truth + ": has no SCENE/truth_LABEL.ply");
+  return (objects);
+}
+
+void
+compareObject (const ViewsSettings& settings, ViewedObject& object)
+{
+  const TriangleMesh truth = loadMesh (object.truth);
+  if (!fs::exists (object.result))
+    return;
+  const TriangleMesh mesh = loadMesh (object.result);
+  MeshComparisonOptions options = settings.comparison (settings.threads);
+  options.f_threshold_m *= 0.5;
+  object.f_half = compareMeshes (truth, mesh, options).f_score;
+  object.comparison = compareMeshes (truth, mesh, settings.comparison (settings.threads));
+  const MeshSummary expected = summarizeMesh (truth), found = summarizeMesh (mesh);
+  object.closed = found.topology.closed_manifold;
+  if (expected.volume_m3 && found.volume_m3 && *expected.volume_m3 > 0.0)
+    object.volume_ratio = *found.volume_m3 / *expected.volume_m3;
+  object.is_missing = false;
+}
+
+/** \brief What all objects are like; missing ones have no distances, and F-scores of 0. */
+struct Summary
+{
+  Summary (const std::vector<ViewedObject>& objects, double gross_m) : count (objects.size ())
+  {
+    std::vector<double> accuracies, completenesses;
+    for (const ViewedObject& object : objects)
+    {
+      gross += object.isGross (gross_m);
+      f_half += object.f_half / static_cast<double> (count);
+      f += object.comparison.f_score / static_cast<double> (count);
+      if (object.is_missing)
+      {
+        ++missing;
+        continue;
+      }
+      closed += object.closed;
+      wrong_volume += object.volume_ratio && std::abs (*object.volume_ratio - 1.0) > volume_tolerance;
+      accuracies.push_back (object.comparison.accuracy.mean);
+      completenesses.push_back (object.comparison.completeness.mean);
+    }
+    accuracy = errorStatistics (accuracies);
+    completeness = errorStatistics (completenesses);
+  }
+
+  std::size_t count, missing = 0, closed = 0, gross = 0, wrong_volume = 0;
+  double f_half = 0.0, f = 0.0;
+  ErrorStatistics accuracy, completeness; // of the objects' means
+};
+
+void
+print (const ViewsSettings& settings, const std::vector<ViewedObject>& objects, const Summary& summary,
+       Terminal& terminal)
+{
+  const std::string half = "F " + toShortText (500.0 * settings.f_threshold_m) + " mm";
+  const std::string whole = "F " + toShortText (1000.0 * settings.f_threshold_m) + " mm";
+  TextTable table ({"scene", "object", "accuracy", "completeness", half, whole, "volume", "(mm)"});
+  for (const ViewedObject& object : objects)
+  {
+    const std::string name = object.label + (object.name.empty () ? "" : " " + object.name);
+    if (object.is_missing)
+      table.add ({object.scene, name, "missing"});
+    else
+      table.add ({object.scene, name, inMillimetres (object.comparison.accuracy.mean),
+                  inMillimetres (object.comparison.completeness.mean), toText (object.f_half),
+                  toText (object.comparison.f_score), object.volume_ratio ? toText (*object.volume_ratio) : "",
+                  object.isGross (settings.gross_m) ? "gross"
+                  : object.closed                   ? ""
+                                                    : "open"});
+  }
+  table.print (terminal);
+  terminal.result ("");
+  terminal.result (counted (summary.count, "object") + ", " + std::to_string (summary.missing) + " missing, " +
+                   std::to_string (summary.closed) + " closed");
+  terminal.result ("accuracy " + inMillimetres (summary.accuracy.mean) + " mm, completeness " +
+                   inMillimetres (summary.completeness.mean) + " mm on average; medians " +
+                   inMillimetres (summary.accuracy.median) + " and " + inMillimetres (summary.completeness.median) +
+                   " mm");
+  terminal.result (half + ": " + toText (summary.f_half) + ", " + whole + ": " + toText (summary.f));
+  terminal.result (counted (summary.gross, "gross error") + ", over " + inMillimetres (settings.gross_m) +
+                   " mm either way or missing; " + std::to_string (summary.wrong_volume) +
+                   " with a volume off by more than " + inPercent (volume_tolerance));
+}
+
+Json
+toJson (const ViewsSettings& settings, const std::vector<ViewedObject>& objects, const Summary& summary)
+{
+  Json json;
+  json["objects"] = Json::array ();
+  for (const ViewedObject& object : objects)
+  {
+    Json entry = {{"scene", object.scene},
+                  {"label", object.label},
+                  {"name", object.name},
+                  {"missing", object.is_missing},
+                  {"gross", object.isGross (settings.gross_m)}};
+    if (!object.is_missing)
+    {
+      addComparison (object.comparison, settings.f_threshold_m, entry);
+      entry["f_score_half"] = object.f_half;
+      entry["closed"] = object.closed;
+      entry["volume_ratio"] = orNull (object.volume_ratio);
+    }
+    json["objects"].push_back (std::move (entry));
+  }
+  json["summary"] = {{"objects", summary.count},
+                     {"missing", summary.missing},
+                     {"closed", summary.closed},
+                     {"gross", summary.gross},
+                     {"wrong_volume", summary.wrong_volume},
+                     {"accuracy_m", summary.accuracy.mean},
+                     {"accuracy_median_m", summary.accuracy.median},
+                     {"completeness_m", summary.completeness.mean},
+                     {"completeness_median_m", summary.completeness.median},
+                     {"f_score_half", summary.f_half},
+                     {"f_score", summary.f}};
+  json["parameters"] = {{"samples", settings.samples},
+                        {"seed", settings.seed},
+                        {"f_threshold_m", settings.f_threshold_m},
+                        {"gross_m", settings.gross_m}};
+  return (json);
+}
+
+std::string
+toCsv (const std::vector<ViewedObject>& objects)
+{
+  std::string text = csvRow ({"scene", "label", "name", "missing", "accuracy_m", "completeness_m", "f_score_half",
+                              "f_score", "volume_ratio", "closed"});
+  for (const ViewedObject& object : objects)
+  {
+    const bool known = !object.is_missing;
+    const auto field = [&] (double value) { return (known ? toField (value) : std::string ()); };
+    text += csvRow ({object.scene, object.label, object.name, known ? "0" : "1",
+                     field (object.comparison.accuracy.mean), field (object.comparison.completeness.mean),
+                     field (object.f_half), field (object.comparison.f_score), toField (object.volume_ratio),
+                     known && object.closed ? "1" : "0"});
+  }
+  return (text);
+}
+
+/** \brief Error pictures of the worst objects that are there. */
+void
+drawWorst (const ViewsSettings& settings, const std::vector<ViewedObject>& objects, Terminal& terminal)
+{
+  std::vector<const ViewedObject*> order;
+  for (const ViewedObject& object : objects)
+    if (!object.is_missing)
+      order.push_back (&object);
+  std::stable_sort (order.begin (), order.end (),
+                    [] (const auto* a, const auto* b) { return (a->worse_m () > b->worse_m ()); });
+  order.resize (std::min<std::size_t> (order.size (), static_cast<std::size_t> (settings.worst)));
+  makeFolder (settings.pictures);
+  for (std::size_t n = 0; n < order.size (); ++n)
+  {
+    const ViewedObject& object = *order[n];
+    ErrorPictureOptions options;
+    options.error_max_m = roundErrorUp (std::max (object.comparison.accuracy.p95, object.comparison.completeness.p95));
+    options.threads = settings.threads;
+    const std::string number = std::to_string (n + 1);
+    const fs::path file = fs::path (settings.pictures) / (std::string (number.size () < 2 ? "0" : "") + number + "_" +
+                                                          object.scene + "_" + object.label + ".png");
+    writePng (drawErrorPicture (loadMesh (object.truth), loadMesh (object.result), options), file.string ());
+  }
+  terminal.result ("wrote " + counted (order.size (), "picture") + " into " + settings.pictures);
+}
+
+bool
+compare (const ViewsSettings& settings, Terminal& terminal)
+{
+  std::vector<ViewedObject> objects = findObjects (settings.paths[0], settings.paths[1]);
+  bool all_read = true;
+  for (std::size_t n = 0; n < objects.size (); ++n)
+  {
+    terminal.progress ("objects", static_cast<double> (n) / static_cast<double> (objects.size ()));
+    try
+    {
+      compareObject (settings, objects[n]);
+    }
+    catch (const Error& error)
+    {
+      terminal.warning (error.what ());
+      all_read = false;
+    }
+  }
+  const Summary summary (objects, settings.gross_m);
+  print (settings, objects, summary, terminal);
+  if (!settings.json.empty ())
+    saveJson (toJson (settings, objects, summary), settings.json);
+  if (!settings.csv.empty ())
+    saveText (toCsv (objects), settings.csv);
+  if (!settings.pictures.empty ())
+    drawWorst (settings, objects, terminal);
+  return (all_read);
+}
+
+void
+declareViewsOptions (CLI::App& app, ViewsSettings& settings)
+{
+  OptionGroup comparison (app, "Comparison"), output (app, "Output");
+  declareSurfaceOptions (comparison, settings);
+  comparison.add ("--gross METRES", settings.gross_m, positiveNumber (),
+                  "Mean distance beyond which an object counts as grossly wrong" + byDefault (settings.gross_m));
+  output.add ("--pictures FOLDER", settings.pictures, "Draw the worst objects, coloured by their errors");
+  output.add ("--worst N", settings.worst, wholeRange (1, 1000),
+              "Number of these pictures" + byDefault (settings.worst));
+  declareCommonOptions (app, settings);
+}
+
+} // namespace
+
+EvaluationCommand
+viewsCommand ()
+{
+  return (makeCommand<ViewsSettings> (
+      "views", viewsText (), "TRUTH", "RESULT", declareViewsOptions,
+      [] (const ViewsSettings& settings) {
+        refuseToOverwrite (settings.paths, {settings.json, settings.csv});
+      },
+      compare));
+}
