@@ -3,7 +3,6 @@
 
 #include "pcl_cosection/common/console_errors.h"
 
-#include <pcl/impl/instantiate.hpp>
 #include <pcl/point_types.h>
 
 namespace pcl::cosection {
@@ -146,5 +145,4 @@ HessianIMLSBase::reportMissingInput () const
 
 } // namespace pcl::cosection
 
-#define PCL_INSTANTIATE_CosectionHessianIMLS(T) template class pcl::cosection::HessianIMLS<T>;
-PCL_INSTANTIATE (CosectionHessianIMLS, (pcl::PointNormal) (pcl::PointXYZRGBNormal) (pcl::PointXYZINormal))
+BOOST_PP_SEQ_FOR_EACH (PCL_COSECTION_TEMPLATE, pcl::cosection::HessianIMLS, PCL_COSECTION_NORMAL_POINT_TYPES)

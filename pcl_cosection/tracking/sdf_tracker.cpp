@@ -1,7 +1,6 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include <pcl/cosection/tracking/sdf_tracker.h>
 
-#include <pcl/impl/instantiate.hpp>
 #include <pcl/point_types.h>
 
 namespace pcl::cosection {
@@ -74,6 +73,4 @@ SdfTrackerBase::trackPoints (const std::vector<Eigen::Vector3f>& points)
 
 } // namespace pcl::cosection
 
-#define PCL_INSTANTIATE_CosectionSdfTracker(T) template class pcl::cosection::SdfTracker<T>;
-PCL_INSTANTIATE (CosectionSdfTracker, (pcl::PointXYZ) (pcl::PointXYZI) (pcl::PointXYZRGB) (pcl::PointXYZRGBA) (
-                                          pcl::PointNormal) (pcl::PointXYZRGBNormal))
+BOOST_PP_SEQ_FOR_EACH (PCL_COSECTION_TEMPLATE, pcl::cosection::SdfTracker, PCL_COSECTION_XYZ_POINT_TYPES)

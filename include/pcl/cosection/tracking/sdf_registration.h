@@ -41,8 +41,7 @@ namespace pcl::cosection {
  *
  * Without a source, a volume or a usable guess align () says so through PCL's console, and hasConverged () is false.
  *
- * Compiled for pcl::PointXYZ, PointXYZI, PointXYZRGB, PointXYZRGBA, PointNormal, PointXYZRGBNormal and PointXYZINormal,
- * with the same type as source and target, and float; works for others. */
+ * Compiled for PCL_COSECTION_XYZ_POINT_TYPES, with the same type as source and target, and float; works for others. */
 template <typename PointSource, typename PointTarget = PointSource, typename Scalar = float>
 class PCL_COSECTION_EXPORT SdfRegistration : public Registration<PointSource, PointTarget, Scalar>,
                                              public SdfAlignmentBase

@@ -98,8 +98,7 @@ private:
  *
  * Without a cloud or a volume compute () says so through PCL's console, and the object is lost.
  *
- * Compiled for pcl::PointXYZ, PointXYZI, PointXYZRGB, PointXYZRGBA, PointNormal and PointXYZRGBNormal, with the state
- * pcl::tracking::ParticleXYZRPY; works for others. */
+ * Compiled for PCL_COSECTION_XYZ_POINT_TYPES, with the state pcl::tracking::ParticleXYZRPY; works for others. */
 template <typename PointInT, typename StateT = pcl::tracking::ParticleXYZRPY>
 class PCL_COSECTION_EXPORT SdfTracker : public pcl::tracking::Tracker<PointInT, StateT>, public SdfTrackerBase
 {
