@@ -58,15 +58,32 @@ sumAround (const VoxelSums& voxels, const VoxelGrid& grid, const Eigen::Vector3i
   return total;
 }
 
-/** \brief The vertices along edges of each vertex, those of edges of two triangles twice. */
-std::vector<std::vector<std::uint32_t>>
+/** \brief Vertices along edges of a mesh: those of vertex v are vertices[begin[v]] up to vertices[begin[v + 1]]. */
+struct VertexNeighbours
+{
+  std::vector<std::uint32_t> begin;
+  std::vector<std::uint32_t> vertices;
+};
+
+VertexNeighbours
 vertexNeighbours (const TriangleMesh& mesh)
 {
-  std::vector<std::vector<std::uint32_t>> neighbours (mesh.vertices.size ());
+  VertexNeighbours neighbours;
+  std::vector<std::uint32_t>& begin = neighbours.begin;
+  begin.assign (mesh.vertices.size () + 1, 0);
+  for (const auto& triangle : mesh.triangles)
+    for (const std::uint32_t v : triangle)
+      begin[v + 1] += 2;
+  for (std::size_t v = 0; v < mesh.vertices.size (); ++v)
+    begin[v + 1] += begin[v];
+  neighbours.vertices.resize (begin.back ());
+  std::vector<std::uint32_t> next (begin.begin (), begin.end () - 1);
   for (const auto& triangle : mesh.triangles)
     for (int c = 0; c < 3; ++c)
-      for (const int other : {(c + 1) % 3, (c + 2) % 3})
-        neighbours[triangle[c]].push_back (triangle[other]);
+    {
+      neighbours.vertices[next[triangle[c]]++] = triangle[(c + 1) % 3];
+      neighbours.vertices[next[triangle[c]]++] = triangle[(c + 2) % 3];
+    }
   return neighbours;
 }
 
@@ -128,12 +145,12 @@ transferAttributes (const std::vector<OrientedPoint>& points, const VoxelGrid& g
   }
 
   // Breadth first along the edges from all vertices near points at once.
-  const auto neighbours = vertexNeighbours (mesh);
+  const VertexNeighbours neighbours = vertexNeighbours (mesh);
   for (std::size_t head = 0; head < front.size (); ++head)
   {
     const std::uint32_t v = front[head];
-    for (const std::uint32_t other : neighbours[v])
-      if (!done[other])
+    for (std::uint32_t e = neighbours.begin[v]; e < neighbours.begin[v + 1]; ++e)
+      if (const std::uint32_t other = neighbours.vertices[e]; !done[other])
       {
         done[other] = true;
         if (coloured)
