@@ -139,11 +139,14 @@ simulateTables (const SimulateSettings& settings, Terminal& terminal)
   const pcl::StopWatch stopwatch;
   if (!settings.json.empty ())
     requireWritable (settings.json);
-  const int scenes = writeTableScenes (settings.meshes, settings.output, settings.table,
+  std::vector<std::string> warnings;
+  const int scenes = writeTableScenes (settings.meshes, settings.output, settings.table, warnings,
                                        [&] (const std::string& stage, double fraction) {
                                          terminal.progress (stage, fraction);
                                          return (!interrupted ());
                                        });
+  for (const std::string& warning : warnings)
+    terminal.warning (warning);
   const TableSceneOptions& table = settings.table;
   terminal.result ("wrote " + settings.output + ": " + counted (static_cast<std::size_t> (scenes), "scene") + " of " +
                    counted (static_cast<std::size_t> (table.per_scene), "object") + " in " +
@@ -163,6 +166,7 @@ simulateTables (const SimulateSettings& settings, Terminal& terminal)
                            {"mask_dilation_px", table.mask_dilation_px},
                            {"mask_shift_px", table.mask_shift_px},
                            {"occluders", table.occluders}};
+  summary["warnings"] = warnings;
   saveJson (summary, settings.json);
 }
 

@@ -1,24 +1,11 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
-#include <pcl/cosection/common/error.h>
 #include <pcl/cosection/surface/options.h>
 
+#include "pcl_cosection/common/require.h"
+
 #include <cmath>
-#include <sstream>
 
 namespace pcl::cosection {
-namespace {
-
-void
-require (bool ok, const char* name, double value, const char* domain)
-{
-  if (ok)
-    return;
-  std::ostringstream message;
-  message << name << " is " << value << "; it must be " << domain;
-  throw InvalidArgument (message.str ());
-}
-
-} // namespace
 
 CoSectionOptions
 CoSectionOptions::paper ()

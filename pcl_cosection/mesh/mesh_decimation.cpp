@@ -6,6 +6,7 @@
 #include "collapsible_mesh.h"
 #include "mesh_attributes.h"
 #include "mesh_checks.h"
+#include "pcl_cosection/common/require.h"
 #include "triangle_shape.h"
 
 #include <pcl/cosection/common/error.h>
@@ -360,18 +361,13 @@ private:
 void
 DecimationOptions::validate () const
 {
-  const auto require = [] (bool ok, const char* name, double value, const char* domain) {
-    if (ok)
-      return;
-    std::ostringstream message;
-    message << "decimate: " << name << " is " << value << "; it must be " << domain;
-    throw InvalidArgument (message.str ());
-  };
-  require (max_triangles >= 1, "largest number of triangles", static_cast<double> (max_triangles), "at least 1");
-  require (max_normal_turn_deg > 0.0 && max_normal_turn_deg <= 90.0, "largest turn of a normal", max_normal_turn_deg,
-           "positive and at most 90 degrees");
-  require (min_quality >= 0.0 && min_quality <= 1.0, "least quality of a triangle", min_quality, "between 0 and 1");
-  require (boundary_weight >= 0.0 && boundary_weight <= 1e6, "weight of the boundary", boundary_weight,
+  require (max_triangles >= 1, "decimate: largest number of triangles", static_cast<double> (max_triangles),
+           "at least 1");
+  require (max_normal_turn_deg > 0.0 && max_normal_turn_deg <= 90.0, "decimate: largest turn of a normal",
+           max_normal_turn_deg, "positive and at most 90 degrees");
+  require (min_quality >= 0.0 && min_quality <= 1.0, "decimate: least quality of a triangle", min_quality,
+           "between 0 and 1");
+  require (boundary_weight >= 0.0 && boundary_weight <= 1e6, "decimate: weight of the boundary", boundary_weight,
            "between 0 and 1e6");
 }
 

@@ -1,6 +1,7 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include <pcl/cosection/simulation/simulated_scene.h>
 
+#include "pcl_cosection/common/require.h"
 #include "pcl_cosection/simulation/shapes/sine_table.h"
 
 #include <pcl/cosection/common/error.h>
@@ -125,23 +126,19 @@ readBetween (const Image<float>& depth, double u, double v, double step)
 void
 DepthNoise::validate () const
 {
-  const auto require = [] (bool good, const char* name, const char* domain) {
-    if (!good)
-      throw InvalidArgument (std::string (name) + " must be " + domain);
-  };
   const auto length = [] (double x) { return std::isfinite (x) && x >= 0.0; };
   const auto probability = [] (double x) { return x >= 0.0 && x <= 1.0; };
-  require (length (baseline_m) && baseline_m > 0.0 && baseline_m <= 10.0, "baseline",
-           "a positive number of metres, 10 at most");
-  require (length (disparity_sigma_px), "disparity_sigma", "a number of pixels, not negative");
-  require (length (disparity_step_px), "disparity_step", "a number of pixels, not negative");
-  require (length (lateral_sigma_px) && lateral_sigma_px <= 10.0, "lateral_sigma", "a number of pixels, 0 to 10");
+  require (length (baseline_m) && baseline_m > 0.0 && baseline_m <= 10.0,
+           "baseline must be a positive number of metres, 10 at most");
+  require (length (disparity_sigma_px), "disparity_sigma must be a number of pixels, not negative");
+  require (length (disparity_step_px), "disparity_step must be a number of pixels, not negative");
+  require (length (lateral_sigma_px) && lateral_sigma_px <= 10.0, "lateral_sigma must be a number of pixels, 0 to 10");
   require (grazing_begin_rad >= 0.0 && grazing_begin_rad <= grazing_end_rad && grazing_end_rad <= M_PI_2 + 1e-9,
-           "grazing_begin_deg, grazing_end_deg", "ascending angles of 0 to 90 degrees");
-  require (probability (edge_dropout), "edge_dropout", "a probability");
-  require (length (edge_step) && edge_step > 0.0, "edge_step", "a positive fraction");
-  require (probability (dropout), "dropout", "a probability");
-  require (length (min_m) && max_m > min_m, "range", "two ascending numbers of metres");
+           "grazing_begin_deg, grazing_end_deg must be ascending angles of 0 to 90 degrees");
+  require (probability (edge_dropout), "edge_dropout must be a probability");
+  require (length (edge_step) && edge_step > 0.0, "edge_step must be a positive fraction");
+  require (probability (dropout), "dropout must be a probability");
+  require (length (min_m) && max_m > min_m, "range must be two ascending numbers of metres");
 }
 
 Image<float>

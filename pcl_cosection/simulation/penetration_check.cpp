@@ -70,8 +70,8 @@ void
 addEdges (const std::vector<Eigen::Vector3d>& vertices, const std::vector<TriangleMesh::Triangle>& triangles,
           Probe& probe)
 {
-  // Of the triangles at each edge.
-  std::map<std::pair<std::uint32_t, std::uint32_t>, std::vector<Eigen::Vector3d>> normals;
+  std::map<std::pair<std::uint32_t, std::uint32_t>, std::vector<Eigen::Vector3d>>
+      normals; // of the triangles at an edge
   for (const TriangleMesh::Triangle& t : triangles)
   {
     const Eigen::Vector3d n = areaVector (vertices[t[0]], vertices[t[1]], vertices[t[2]]).stableNormalized ();

@@ -4,6 +4,7 @@
 #include "pcl_cosection/common/parallel.h"
 #include <pcl/cosection/common/error.h>
 #include <pcl/cosection/common/image.h>
+#include <pcl/cosection/evaluation/mesh_comparison.h>
 #include <pcl/cosection/volume/iso_surface.h>
 
 #include <algorithm>
@@ -124,14 +125,7 @@ SceneBody::surface (double chord_m) const
 {
   TriangleMesh all;
   for (const BodyPart& part : parts)
-  {
-    TriangleMesh mesh = part.shape->tessellate (chord_m);
-    for (Eigen::Vector3f& v : mesh.vertices)
-      v = (part.T_body_part * v.cast<double> ()).cast<float> ();
-    for (Eigen::Vector3f& normal : mesh.normals)
-      normal = (part.T_body_part.linear () * normal.cast<double> ()).cast<float> ();
-    appendMesh (all, mesh);
-  }
+    appendMesh (all, transformMesh (part.shape->tessellate (chord_m), part.T_body_part));
   const bool analytic = std::all_of (parts.begin (), parts.end (),
                                      [] (const BodyPart& part) { return part.shape->isAnalytic (); });
   if (id == 0 || parts.size () == 1 || !analytic)

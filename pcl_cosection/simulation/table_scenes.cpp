@@ -2,7 +2,10 @@
 #include "table_scenes.h"
 
 #include "new_folder.h"
+#include "pcl_cosection/common/require.h"
 #include "pcl_cosection/io/lower_case.h"
+#include "pcl_cosection/rendering/picture.h"
+#include "pcl_cosection/view/look_at.h"
 #include "pcl_cosection/view/organized_cloud.h"
 #include <pcl/cosection/evaluation/mesh_comparison.h>
 #include <pcl/cosection/io/mesh_io.h>
@@ -53,22 +56,14 @@ bool
 isMeshFile (const fs::path& file)
 {
   static const std::set<std::string> extensions = {".ply", ".obj", ".stl", ".off", ".vtk", ".vtp"};
-  return extensions.count (lowerCase (file.extension ().string ())) != 0;
+  return extensions.count (lowerCaseExtension (file.string ())) != 0;
 }
 
 void
 addBox (const Eigen::Vector3d& low, const Eigen::Vector3d& high, TriangleMesh& room)
 {
   const Eigen::Isometry3d T (Eigen::Translation3d (0.5 * (low + high)));
-  const TriangleMesh box = transformMesh (makeBox (high - low)->tessellate (0.001), T);
-  const auto first = static_cast<std::uint32_t> (room.vertices.size ());
-  room.vertices.insert (room.vertices.end (), box.vertices.begin (), box.vertices.end ());
-  for (auto triangle : box.triangles)
-  {
-    for (auto& vertex : triangle)
-      vertex += first;
-    room.triangles.push_back (triangle);
-  }
+  appendMesh (room, transformMesh (makeBox (high - low)->tessellate (0.001), T));
 }
 
 /** \brief A camera that looks at the middle of the table, 5 cm above it. */
@@ -77,14 +72,10 @@ cameraAt (double azimuth, const TableSceneOptions& options)
 {
   const Eigen::Vector3d eye (options.camera_distance_m * std::sin (azimuth),
                              -options.camera_distance_m * std::cos (azimuth), options.camera_height_m);
-  // The horizontal axis of the picture also exists where the camera looks straight down.
-  const Eigen::Vector3d right (std::cos (azimuth), std::sin (azimuth), 0.0);
-  Eigen::Isometry3d T = Eigen::Isometry3d::Identity ();
-  T.linear ().col (0) = right;
-  T.linear ().col (2) = (Eigen::Vector3d (0.0, 0.0, 0.05) - eye).normalized ();
-  T.linear ().col (1) = T.linear ().col (2).cross (right);
-  T.translation () = eye;
-  return T;
+  // Upwards in the picture, also where the camera looks straight down.
+  const Eigen::Vector3d away (-std::sin (azimuth), std::cos (azimuth), 0.0);
+  const Eigen::Vector3d target (0.0, 0.0, 0.05);
+  return lookAt (eye, target, (eye.z () - target.z ()) * away + options.camera_distance_m * Eigen::Vector3d::UnitZ ());
 }
 
 /** \brief Turned about z, its middle over the origin, its lowest point on the table. */
@@ -139,7 +130,8 @@ withErrors (Image<std::uint16_t> labels, const TableSceneOptions& options)
   return shifted;
 }
 
-void
+/** \return which things have readings */
+std::vector<bool>
 writeView (const TableScene& scene, int view, std::uint64_t seed, const TableSceneOptions& options,
            const std::string& path)
 {
@@ -155,10 +147,13 @@ writeView (const TableScene& scene, int view, std::uint64_t seed, const TableSce
   Image<std::uint16_t> labels (camera.width, camera.height, 0);
   std::transform (image.ids.begin (), image.ids.end (), labels.pixels.begin (),
                   [] (std::int32_t id) { return static_cast<std::uint16_t> (std::max (id, 0)); });
-  Picture colours (camera.width, camera.height);
-  colours.pixels = image.colours;
-  saveLabelledCloud ({camera, depth.pixels, scene.cameras[view]}, withErrors (std::move (labels), options), colours,
-                     path);
+  std::vector<bool> is_seen (scene.things.size (), false);
+  for (std::size_t n = 0; n < labels.pixels.size (); ++n)
+    if (labels.pixels[n] > 0 && std::isfinite (depth.pixels[n]))
+      is_seen[labels.pixels[n] - 1] = true;
+  saveLabelledCloud ({camera, depth.pixels, scene.cameras[view]}, withErrors (std::move (labels), options),
+                     shade (image, camera), path);
+  return is_seen;
 }
 
 } // namespace
@@ -166,19 +161,15 @@ writeView (const TableScene& scene, int view, std::uint64_t seed, const TableSce
 void
 TableSceneOptions::validate () const
 {
-  const auto require = [] (bool good, const char* name, const char* domain) {
-    if (!good)
-      throw InvalidArgument (std::string (name) + " must be " + domain);
-  };
-  require (scenes >= 0 && scenes <= 100000, "scenes", "0 to 100000");
-  require (per_scene >= 1 && per_scene <= 1000, "per_scene", "1 to 1000");
-  require (views >= 1 && views <= 1000, "views", "1 to 1000");
-  require (std::isfinite (camera_height_m) && camera_height_m > 0.0, "camera_height_m", "a positive length");
-  require (std::isfinite (camera_distance_m) && camera_distance_m >= 0.0, "camera_distance_m",
-           "a length that is not negative");
-  require (std::abs (mask_dilation_px) <= 100, "mask_dilation_px", "-100 to 100");
-  require (std::abs (mask_shift_px) <= 100, "mask_shift_px", "-100 to 100");
-  require (occluders >= 0 && occluders <= 100, "occluders", "0 to 100");
+  require (scenes >= 0 && scenes <= 100000, "scenes must be 0 to 100000");
+  require (per_scene >= 1 && per_scene <= 1000, "per_scene must be 1 to 1000");
+  require (views >= 1 && views <= 1000, "views must be 1 to 1000");
+  require (std::isfinite (camera_height_m) && camera_height_m > 0.0, "camera_height_m must be a positive length");
+  require (std::isfinite (camera_distance_m) && camera_distance_m >= 0.0,
+           "camera_distance_m must be a length that is not negative");
+  require (std::abs (mask_dilation_px) <= 100, "mask_dilation_px must be -100 to 100");
+  require (std::abs (mask_shift_px) <= 100, "mask_shift_px must be -100 to 100");
+  require (occluders >= 0 && occluders <= 100, "occluders must be 0 to 100");
 }
 
 TableScene
@@ -237,7 +228,7 @@ makeTableScene (const std::vector<std::string>& names, const std::vector<Triangl
 
 int
 writeTableScenes (const std::string& folder, const std::string& output, const TableSceneOptions& options,
-                  const ProgressCallback& progress)
+                  std::vector<std::string>& warnings, const ProgressCallback& progress)
 {
   options.validate ();
   std::vector<fs::path> files;
@@ -285,9 +276,16 @@ writeTableScenes (const std::string& folder, const std::string& output, const Ta
         saveMesh (scene.things[n], written.file (within + "truth_" + std::to_string (n + 1) + ".ply"));
       }
       written.writeText (within + "names.txt", list.str ());
+      const std::uint64_t seed = options.seed * 1000003u + static_cast<std::uint64_t> (s);
       for (int view = 0; view < options.views; ++view)
-        writeView (scene, view, options.seed * 1000003u + static_cast<std::uint64_t> (s), options,
-                   written.file (within + "view" + std::to_string (view) + ".pcd"));
+      {
+        const std::string file = "view" + std::to_string (view) + ".pcd";
+        const std::vector<bool> is_seen = writeView (scene, view, seed, options, written.file (within + file));
+        for (std::size_t n = 0; n < is_seen.size (); ++n)
+          if (!is_seen[n])
+            warnings.push_back (within + file + ": shows nothing of " + scene.names[n] + ", label " +
+                                std::to_string (n + 1));
+      }
     }
   });
   return scenes;

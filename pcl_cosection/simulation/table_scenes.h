@@ -55,9 +55,10 @@ TableScene makeTableScene (const std::vector<std::string>& names, const std::vec
  *     SCENE/names.txt         LABEL NAME of each thing
  *
  * Nothing is left if it fails.
+ * \param[out] warnings a line for each view that has no reading of a thing
  * \return number of scenes
  * \throws IoError if there are no meshes, the output exists or cannot be written; Cancelled; InvalidArgument */
 int writeTableScenes (const std::string& meshes, const std::string& output, const TableSceneOptions& options,
-                      const ProgressCallback& progress = {});
+                      std::vector<std::string>& warnings, const ProgressCallback& progress = {});
 
 } // namespace pcl::cosection

@@ -73,7 +73,7 @@ moveToSensor (const std::string& path, const PcdViewOptions& options, const Loca
   const Eigen::Vector3d found = located.T_points_sensor.translation ();
   const Eigen::Isometry3d given = cloud.T_world_sensor;
   const auto isNear = [&] (const Eigen::Vector3d& place) { return (found - place).norm () < same_place * distance; };
-  // Of the points: their axes alone are others than the sensor's.
+  // The sensor may be at the origin of the points, and only their axes differ from its own.
   const bool at_origin = isNear (Eigen::Vector3d::Zero ());
   const bool in_world = !at_origin && cloud.has_viewpoint && !options.world_points && !options.viewpoint &&
                         isNear (given.translation ());

@@ -160,29 +160,38 @@ TEST_F (Simulate, PutsMeshesOnATable)
     return run.output ();
   };
   EXPECT_EQ (simulate ({"--json", "s.json", "out"}), "wrote out: 1 scene of 2 objects in 2 views\n");
+  std::ifstream summary_file (folder_.file ("s.json"));
+  const nlohmann::json summary = nlohmann::json::parse (summary_file);
   std::ifstream list (folder_.file ("out/000/names.txt"));
   std::string number, name;
   list >> number >> name;
   EXPECT_TRUE (name == "ball" || name == "carton") << name;
 
   // The readings of each label lie on the mesh of that label; one thing may hide the other in one of the views.
+  std::size_t unseen = 0;
   for (const std::uint32_t label : {1u, 2u})
   {
     const SurfaceDistance surface (loadMesh (folder_.file ("out/000/truth_" + std::to_string (label) + ".ply")));
     std::vector<Eigen::Vector3d> points;
+    bool is_in_all = true;
     for (const char* view : {"out/000/view0.pcd", "out/000/view1.pcd"})
     {
       pcl::PointCloud<pcl::PointXYZRGBL> cloud;
       ASSERT_EQ (pcl::io::loadPCDFile (folder_.file (view), cloud), 0);
       Eigen::Isometry3f pose (cloud.sensor_orientation_);
       pose.translation () = cloud.sensor_origin_.head<3> ();
+      const std::size_t before = points.size ();
       for (const auto& p : cloud)
         if (p.label == label && p.getVector3fMap ().allFinite ())
           points.push_back ((pose * p.getVector3fMap ()).cast<double> ());
+      is_in_all = is_in_all && points.size () > before;
     }
     ASSERT_GT (points.size (), 500u);
+    unseen += !is_in_all;
     EXPECT_LT (errorStatistics (surface.of (points)).median, 0.002);
   }
+
+  EXPECT_EQ (summary["warnings"].size (), unseen) << summary;
 
   // The same seed gives the same bytes; labels may be wrong on purpose.
   simulate ({"again"});

@@ -49,6 +49,7 @@ executeCommand (const CommonOptions& given, const std::string& first, const std:
     if (path.empty ())
       throw UsageError (first + " and " + second + " must not be empty");
   terminal.setVerbosity (verbosityOf (given));
+  refuseToOverwrite (given.paths, {given.json, given.csv});
   check ();
   bool whole = true;
   try

@@ -36,7 +36,8 @@ struct SurfaceOptions
 /** \brief Declare --samples, --seed and --f-threshold. */
 void declareSurfaceOptions (OptionGroup& group, SurfaceOptions& given);
 
-/** \brief Do the work of a command. If it throws, {"error": ...} is left in the JSON file, if that was asked for.
+/** \brief Do the work of a command, unless a path would be overwritten by --json or --csv. If it throws, {"error": ...}
+ * is left in the JSON file, if that was asked for.
  * \param[in] first, second what the two paths are \param[in] check \throws UsageError
  * \param[in] work returns whether every file that is there could be read
  * \throws UsageError, pcl::cosection::Error */
@@ -47,8 +48,8 @@ void executeCommand (const CommonOptions& given, const std::string& first, const
 template <typename Settings>
 EvaluationCommand
 makeCommand (const std::string& word, const ProgramText& text, const std::string& first, const std::string& second,
-             void (*declare) (CLI::App&, Settings&), void (*check) (const Settings&),
-             bool (*work) (const Settings&, Terminal&))
+             void (*declare) (CLI::App&, Settings&), bool (*work) (const Settings&, Terminal&),
+             void (*check) (const Settings&) = nullptr)
 {
   const auto for_help = std::make_shared<Settings> (); // options refer to it
   const auto run = [=, &text] (int argc, const char* const* argv, Terminal& terminal) {
@@ -57,7 +58,12 @@ makeCommand (const std::string& word, const ProgramText& text, const std::string
     declare (app, settings);
     if (parseArguments (app, text, argc, argv))
       executeCommand (
-          settings, first, second, [&] { check (settings); }, [&] { return (work (settings, terminal)); }, terminal);
+          settings, first, second,
+          [&] {
+            if (check)
+              check (settings);
+          },
+          [&] { return (work (settings, terminal)); }, terminal);
   };
   return {word, &text, [=] (CLI::App& app) { declare (app, *for_help); }, run};
 }

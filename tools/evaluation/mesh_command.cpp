@@ -314,5 +314,5 @@ EvaluationCommand
 meshCommand ()
 {
   return (
-      makeCommand<MeshSettings> ("mesh", meshText (), "TRUTH", "RECONSTRUCTION", declareMeshOptions, check, compare));
+      makeCommand<MeshSettings> ("mesh", meshText (), "TRUTH", "RECONSTRUCTION", declareMeshOptions, compare, check));
 }

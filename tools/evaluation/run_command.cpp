@@ -263,10 +263,5 @@ declareRunOptions (CLI::App& app, RunSettings& settings)
 EvaluationCommand
 runCommand ()
 {
-  return (makeCommand<RunSettings> (
-      "run", runText (), "OUTPUT", "DATASET", declareRunOptions,
-      [] (const RunSettings& settings) {
-        refuseToOverwrite (settings.paths, {settings.json, settings.csv});
-      },
-      evaluate));
+  return (makeCommand<RunSettings> ("run", runText (), "OUTPUT", "DATASET", declareRunOptions, evaluate));
 }

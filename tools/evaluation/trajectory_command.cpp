@@ -145,8 +145,5 @@ trajectoryCommand ()
         declareTrajectoryOptions (app, settings);
         declareCommonOptions (app, settings);
       },
-      [] (const TrajectoryCommandSettings& settings) {
-        refuseToOverwrite (settings.paths, {settings.json, settings.csv});
-      },
       compare));
 }

@@ -337,10 +337,5 @@ declareViewsOptions (CLI::App& app, ViewsSettings& settings)
 EvaluationCommand
 viewsCommand ()
 {
-  return (makeCommand<ViewsSettings> (
-      "views", viewsText (), "TRUTH", "RESULT", declareViewsOptions,
-      [] (const ViewsSettings& settings) {
-        refuseToOverwrite (settings.paths, {settings.json, settings.csv});
-      },
-      compare));
+  return (makeCommand<ViewsSettings> ("views", viewsText (), "TRUTH", "RESULT", declareViewsOptions, compare));
 }

@@ -11,7 +11,7 @@
 namespace pcl::cosection {
 namespace {
 
-// Of the background.
+// The volume of the background.
 constexpr double largest_voxel_m = 0.02;
 constexpr double smallest_voxel_m = 0.002;
 constexpr double first_share = 0.8;    // of the volume's side, the box of the first frame
@@ -21,7 +21,7 @@ constexpr std::size_t min_background_points = 50;
 constexpr int shift_step = 16;           // voxels
 constexpr double tolerated_share = 0.05; // of the volume's side that may be out of it before it is shifted
 
-// Of objects.
+// The volumes of objects.
 constexpr double placing_share = 0.1; // of the points, at either end of each axis
 constexpr double edge_factor = 2.0;
 constexpr double growing_share = 0.02;

@@ -5,6 +5,7 @@
 #include "pcl_cosection/common/console_errors.h"
 #include "pcl_cosection/common/parallel.h"
 #include "pcl_cosection/common/quantile.h"
+#include "pcl_cosection/common/require.h"
 
 #include <pcl/cosection/surface/normals.h>
 
@@ -62,10 +63,6 @@ pixelsAbove (const DepthGrid& grid, const Room& room, const ObjectSegmentationOp
 void
 ObjectSegmentationOptions::validate () const
 {
-  const auto require = [] (bool good, const std::string& message) {
-    if (!good)
-      throw InvalidArgument (message);
-  };
   require (std::isfinite (max_object_size_m) && max_object_size_m > 0.0,
            "segmentation: max_object_size_m must be positive and finite");
   require (min_object_size_m > 0.0 && min_object_size_m < max_object_size_m,

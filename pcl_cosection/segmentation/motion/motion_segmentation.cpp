@@ -3,6 +3,7 @@
 
 #include "motion_search.h"
 #include "pcl_cosection/common/console_errors.h"
+#include "pcl_cosection/common/require.h"
 
 #include <pcl/impl/pcl_base.hpp>
 #include <pcl/point_types.h>
@@ -15,13 +16,6 @@
 
 namespace pcl::cosection {
 namespace {
-
-void
-require (bool good, const std::string& message)
-{
-  if (!good)
-    throw InvalidArgument (message);
-}
 
 bool
 isRigid (const Eigen::Isometry3d& T)

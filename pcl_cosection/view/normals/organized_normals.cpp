@@ -2,6 +2,7 @@
 #include <pcl/cosection/surface/normals.h>
 
 #include "pcl_cosection/common/multiversion.h"
+#include "pcl_cosection/common/require.h"
 
 #include "pcl_cosection/common/parallel.h"
 #include "pcl_cosection/common/quantile.h"
@@ -318,10 +319,6 @@ private:
 void
 OrganizedNormalsOptions::validate () const
 {
-  const auto require = [] (bool good, const std::string& message) {
-    if (!good)
-      throw InvalidArgument (message);
-  };
   require (std::isfinite (radius_m) && radius_m > 0.0, "normals: radius_m must be positive and finite");
   require (min_radius_px >= 1, "normals: min_radius_px must be at least 1");
   require (max_radius_px >= min_radius_px && max_radius_px <= max_radius,

@@ -17,7 +17,7 @@ namespace pcl::cosection {
 enum class Provenance : std::uint8_t
 {
   Observed = 0,     ///< measured points nearby
-  Inferred = 1,     ///< continued by smoothness alone
+  Inferred = 1,     ///< neither seen nor bounded: by smoothness and priors
   Hull = 2,         ///< bounded by space that was seen free
   Intersection = 3, ///< bounded by another object or the background
 };
