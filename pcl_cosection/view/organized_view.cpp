@@ -6,6 +6,7 @@
 #include "pcl_cosection/io/place_text.h"
 #include "pcl_cosection/view/normals/estimated_normals.h"
 #include "pcl_cosection/view/outliers/mixed_pixels.h"
+#include "pcl_cosection/view/outliers/stray_patches.h"
 
 #include <pcl/cosection/surface/normals.h>
 
@@ -39,6 +40,7 @@ constexpr int reach_px = 20;         // how far the end of the plane is looked f
 constexpr float noise_sigmas = 4.0f; // there readings are on it, but for noise ...
 constexpr float slope_error = 0.2f;  // ... and this share of the way
 constexpr int most_beyond = 2;       // readings of other labels on it: it goes on there
+constexpr double much_elsewhere = 0.05; // of the points of a label
 constexpr double least_width_px = 1.6; // standard deviation across the alike pixels: a band of five has 1.4, of six 1.7
 
 /** \brief Root mean square distance of the points from their pixels under a camera. */
@@ -324,7 +326,15 @@ void
 completeOrganized (const std::string& path, const PcdViewOptions& options, SensorCloud& cloud, LabelledView& result)
 {
   if (const auto camera = findCamera (path, options, cloud, result))
+  {
     result.view = depthImage (*camera, cloud.positions, cloud.T_world_sensor);
+    for (const auto& [label, share] : relabelStrayPatches (*camera, membersOf (cloud), cloud))
+      if (share > much_elsewhere)
+        result.warnings.push_back (path + ": " + percentText (share) + " of the points of label " +
+                                   std::to_string (label) +
+                                   " are on other surfaces behind or before it, and count as part of those: the label "
+                                   "may be shifted, or too large");
+  }
   OrganizedNormalsOptions normal_options;
   normal_options.threads = options.threads;
   cloud.normals = computeOrganizedNormals (cloud.positions, cloud.width, cloud.height, cloud.labels, normal_options);
