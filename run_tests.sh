@@ -27,9 +27,9 @@ for argument in "$@"; do
     --all) labels=() ;;
     --sanitize)
       build=build-sanitize
-      # Debug keeps the assertions, also Eigen's.
+      # Debug keeps the assertions, also Eigen's. -O2 builds more slowly than -O1, and tests run in half the time.
       options=(-DPCL_COSECTION_SANITIZE=ON -DPCL_COSECTION_BUILD_BENCHMARKS=OFF
-        -DCMAKE_BUILD_TYPE=Debug "-DCMAKE_CXX_FLAGS_DEBUG=-O1 -g1")
+        -DCMAKE_BUILD_TYPE=Debug "-DCMAKE_CXX_FLAGS_DEBUG=-O2 -g1")
       ;;
     --help)
       usage
