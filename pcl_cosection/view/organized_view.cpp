@@ -40,8 +40,9 @@ constexpr int reach_px = 20;         // how far the end of the plane is looked f
 constexpr float noise_sigmas = 4.0f; // there readings are on it, but for noise ...
 constexpr float slope_error = 0.2f;  // ... and this share of the way
 constexpr int most_beyond = 2;       // readings of other labels on it: it goes on there
-constexpr double much_elsewhere = 0.05; // of the points of a label
 constexpr double least_width_px = 1.6; // standard deviation across the alike pixels: a band of five has 1.4, of six 1.7
+
+constexpr double much_elsewhere = 0.05; // of the points of a label; real labels have 1 to 3 % of something else
 
 /** \brief Root mean square distance of the points from their pixels under a camera. */
 double

@@ -32,6 +32,21 @@ only (const std::set<int>& bodies, int n)
   };
 }
 
+/** \brief One of three things before a wall begins to move, and so does the camera.
+ * \param[in] period_m of the pattern painted on everything; 0: one colour */
+TrackedRun
+runWithThingThatBeginsToMove (double period_m)
+{
+  TrackedScene scene (30, TrackedScene::Surroundings::Wall);
+  scene.moveCamera ({-0.12, -0.85, 0.35}, {0.12, -0.85, 0.4});
+  scene.addThing (1, along ({0.0}, {{-0.25, 0.1, 0.0}}));
+  scene.addThing (2, along ({0.0, 0.4, 1.0}, {{0.2, 0.0, 0.1}, {0.2, 0.0, 0.1}, {0.35, -0.05, 0.15}}));
+  scene.addThing (3, along ({0.0}, {{0.0, 0.2, 0.3}}));
+  if (period_m > 0.0)
+    scene.paint (period_m);
+  return scene.run (only ({1, 2, 3}, 10));
+}
+
 const MaskPolicy empty_first_mask = only ({}, std::numeric_limits<int>::max ());
 
 } // namespace
@@ -229,15 +244,17 @@ TEST (RobustTracking, ObjectsAtRestHoldTheCameraBeforeABareWall)
   EXPECT_LT (run.cameraError (), object_limit_m);
 }
 
+// Bistable: with slightly other motions, or other rounding, this object pulls the camera by up to 10 cm.
+TEST (RobustTracking, AnObjectThatBeginsToMoveBeforeABareWallDoesNotPullTheCamera)
+{
+  const TrackedRun run = runWithThingThatBeginsToMove (0.0);
+  EXPECT_EQ (run.framesWithCamera (), 30);
+  EXPECT_LT (run.cameraError (), 0.015);
+}
+
 TEST (RobustTracking, AnObjectThatBeginsToMoveBeforeAPatternDoesNotPullTheCamera)
 {
-  TrackedScene scene (30, TrackedScene::Surroundings::Wall);
-  scene.moveCamera ({-0.12, -0.85, 0.35}, {0.12, -0.85, 0.4});
-  scene.addThing (1, along ({0.0}, {{-0.25, 0.1, 0.0}}));
-  scene.addThing (2, along ({0.0, 0.4, 1.0}, {{0.2, 0.0, 0.1}, {0.2, 0.0, 0.1}, {0.35, -0.05, 0.15}}));
-  scene.addThing (3, along ({0.0}, {{0.0, 0.2, 0.3}}));
-  scene.paint (0.15);
-  const TrackedRun run = scene.run (only ({1, 2, 3}, 10));
+  const TrackedRun run = runWithThingThatBeginsToMove (0.15);
   EXPECT_EQ (run.framesWithCamera (), 30);
-  EXPECT_LT (run.cameraError (), object_limit_m);
+  EXPECT_LT (run.cameraError (), camera_limit_m);
 }

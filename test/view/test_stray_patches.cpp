@@ -11,6 +11,7 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
 #include <string>
 
 using namespace pcl::cosection;
@@ -100,6 +101,15 @@ TEST_F (StrayPatches, BothPartsOfWhatIsSeenBesideAnOccluderAreKept)
 {
   set (0, width, 30, 40, occluder_m, 2);
   EXPECT_EQ (read ().objects.at (1).readings, 40u * 40u);
+}
+
+TEST_F (StrayPatches, APartThatHardlyBordersOnAnythingIsKept)
+{
+  constexpr float none = std::numeric_limits<float>::quiet_NaN ();
+  set (88, 112, 28, 52, none, 0);
+  set (90, 110, 30, 50, wall_m, 1); // as far as the wall, but only one pixel beside it tells
+  set (110, 111, 40, 41, wall_m, 0);
+  EXPECT_EQ (read ().objects.at (1).readings, 40u * 50u + 20u * 20u);
 }
 
 TEST_F (StrayPatches, WithoutALabelAroundItNothingIsMoved)

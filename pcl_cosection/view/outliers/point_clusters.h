@@ -13,13 +13,13 @@
 
 namespace pcl::cosection {
 
-constexpr std::size_t no_patch = ~std::size_t (0); ///< of a point too far away
+constexpr std::size_t no_patch = ~std::size_t (0); ///< of a point that is too far from the middle, or not finite
 
 /** \brief The connected patch of each point. Points are connected if they are in the same cell of edge \a reach_m, or
  * in neighbouring ones.
  * \param[in] position (p): of the point \a p < \a count, metres
  * \param[in] middle of most points, metres
- * \return by point, a number less than \a count; no_patch if it is not finite */
+ * \return by point, a number less than \a count, or no_patch */
 template <typename Position>
 std::vector<std::size_t>
 connectedPatches (std::size_t count, Position&& position, const Eigen::Vector3d& middle, double reach_m)
