@@ -123,7 +123,8 @@ SceneObject::planes () const
 ObjectSetting
 settingOf (const Scene& scene, const ObjectInput& object, const BodyState& body)
 {
-  return {scene.hasNothingAround (), scene.background, firstPose (object).inverse (), body.hidden};
+  return {scene.hasNothingAround (), scene.background, firstPose (object).inverse (), body.hidden,
+          scene.options.activePriors ()};
 }
 
 std::vector<Eigen::Vector4d>
@@ -163,7 +164,7 @@ findObjectPlanes (const Scene& scene, const std::vector<Observation>& observatio
     support[o].planes = boundingPlanes (scene, object, observations[o]);
     warnIfCutByPlanes (scene, object, observations[o], support[o].planes, log);
     if (!support[o].planes.empty () || !scene.hasNothingAround () || !options.use_extent_prior || !options.use_planes ||
-        !options.use_symmetric_extent)
+        !options.use_symmetric_extent || !options.priors.plane)
       continue;
     const ObjectSetting setting = settingOf (scene, object, state.objects[object.id]);
     if (const auto plane = inferSupportPlane (observations[o], setting))

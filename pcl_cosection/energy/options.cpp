@@ -2,10 +2,69 @@
 #include <pcl/cosection/surface/options.h>
 
 #include "pcl_cosection/common/require.h"
+#include <pcl/cosection/common/error.h>
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <sstream>
 
 namespace pcl::cosection {
+namespace {
+
+struct NamedPrior
+{
+  const char* name;
+  bool Priors::*is_on;
+};
+
+constexpr NamedPrior all_priors[] = {{"extent", &Priors::extent},         {"symmetry", &Priors::symmetry},
+                                     {"revolution", &Priors::revolution}, {"vessels", &Priors::vessels},
+                                     {"walls", &Priors::walls},           {"contact", &Priors::contact},
+                                     {"plane", &Priors::plane},           {"rays", &Priors::rays}};
+
+} // namespace
+
+std::string
+Priors::names () const
+{
+  std::string names;
+  bool all = true;
+  for (const NamedPrior& prior : all_priors)
+  {
+    all = all && this->*prior.is_on;
+    if (this->*prior.is_on)
+      names += (names.empty () ? "" : ",") + std::string (prior.name);
+  }
+  return all ? "all" : names.empty () ? "none" : names;
+}
+
+Priors
+Priors::named (const std::string& names)
+{
+  if (names == "all")
+    return {};
+  Priors priors;
+  for (const NamedPrior& prior : all_priors)
+    priors.*prior.is_on = false;
+  if (names == "none")
+    return priors;
+  std::istringstream list (names + ",");
+  for (std::string name; std::getline (list, name, ',');)
+  {
+    const auto* const found = std::find_if (std::begin (all_priors), std::end (all_priors),
+                                            [&] (const NamedPrior& prior) { return name == prior.name; });
+    if (found == std::end (all_priors))
+      throw InvalidArgument ("unknown prior \"" + name + "\"; there are " + [] {
+        std::string known;
+        for (const NamedPrior& prior : all_priors)
+          known += std::string (prior.name) + ", ";
+        return known;
+      }() + "all and none");
+    priors.*found->is_on = true;
+  }
+  return priors;
+}
 
 CoSectionOptions
 CoSectionOptions::paper ()
@@ -28,6 +87,19 @@ CoSectionOptions::paper ()
   o.solver.type = SolverType::FastJacobi;
   o.solver.cycle_length = 20;
   return o;
+}
+
+Priors
+CoSectionOptions::activePriors () const
+{
+  Priors active = priors;
+  active.contact = priors.contact && use_contact_prior;
+  for (const auto part : {&Priors::symmetry, &Priors::revolution, &Priors::vessels, &Priors::walls, &Priors::plane})
+    active.*part = priors.*part && use_extent_prior && use_symmetric_extent;
+  active.plane = active.plane && use_planes;
+  active.extent = priors.extent && use_extent_prior;
+  active.rays = priors.rays && use_extent_prior;
+  return active;
 }
 
 void

@@ -51,9 +51,10 @@ hasFootNear (const Observation& object, const Eigen::Vector4d& plane, double rea
 SymmetricExtent
 fitExtent (const Observation& object, const ObjectSetting& setting, const std::optional<Eigen::Vector4d>& plane)
 {
+  const Profiles profiles{setting.priors.revolution, setting.priors.vessels};
   if (!plane)
-    return SymmetricExtent (object.points (), setting.is_alone);
-  const SymmetricExtent extent (object.points (), *plane);
+    return SymmetricExtent (object.points (), setting.is_alone, profiles);
+  const SymmetricExtent extent (object.points (), *plane, profiles);
   if (!(extent.wallThickness () > 0.0))
     return extent;
   const Eigen::Vector3d up = plane->head<3> ();
@@ -177,16 +178,23 @@ possibleWalls (const SymmetricExtent& extent, const UnseenPlaces& places, double
   return possible;
 }
 
-/** \brief The extent with its vertical walls; without vertical walls, with the walls that other things hide. */
-SymmetricExtent
+/** \brief The extent with its vertical walls; without vertical walls, with the walls that other things hide; nothing if
+ * neither a profile, copies nor walls are wanted, or known. */
+std::optional<SymmetricExtent>
 withHiddenWalls (const Observation& object, const SymmetricExtent& extent, const UnseenPlaces& places,
-                 const Eigen::Vector4d& plane, double step_m)
+                 const Eigen::Vector4d& plane, double step_m, const Priors& priors)
 {
   if (extent.wallThickness () > 0.0) // a vessel's profile already extends down to its bottom
     return extent;
+  const bool with_copies = priors.symmetry || extent.hasProfile ();
   for (const bool of_copies : {true, false})
-    if (const auto walls = possibleWalls (extent, places, step_m, of_copies))
-      return extent.boundedBy (*walls, !of_copies);
+    if (priors.walls && (with_copies || !of_copies))
+      if (const auto walls = possibleWalls (extent, places, step_m, of_copies))
+        return extent.boundedBy (*walls, !of_copies);
+  if (!with_copies)
+    return std::nullopt;
+  if (!priors.walls)
+    return extent;
   return extent.continuedBy (wallsBehindOthers (object.points (), plane, step_m, places));
 }
 
@@ -350,17 +358,22 @@ addPriors (const Observation& object, const ObjectSetting& setting, const std::v
   if (options.use_symmetric_extent)
   {
     for (const Eigen::Vector4d& plane : resting)
-      standing.push_back (withHiddenWalls (object, extentOf (object, setting, plane), places, plane, step_m));
-    if (standing.empty ())
-      standing.push_back (extentOf (object, setting, std::nullopt));
+      if (auto extent = withHiddenWalls (object, extentOf (object, setting, plane), places, plane, step_m,
+                                         setting.priors))
+        standing.push_back (std::move (*extent));
+    if (const SymmetricExtent* extent = resting.empty () ? &extentOf (object, setting, std::nullopt) : nullptr;
+        extent && (setting.priors.symmetry || extent->hasProfile ()))
+      standing.push_back (*extent);
   }
   const bool has_profile = std::any_of (standing.begin (), standing.end (),
                                         [] (const SymmetricExtent& extent) { return extent.hasProfile (); });
-  if (options.use_extent_prior && is_cut_out && !has_profile) // a profile is more reliable
+  if (options.use_extent_prior && setting.priors.rays && is_cut_out && !has_profile) // a profile is more reliable
     addRaysWithoutReturn (object, energy);
-  if (options.use_contact_prior && !plane_is_inferred) // observed points already end at an inferred plane
+  if (options.use_contact_prior && setting.priors.contact &&
+      !plane_is_inferred) // observed points already end at an inferred plane
     for (std::size_t n = 0; n < resting.size (); ++n)
-      addContactPrior (object, resting[n], standing.empty () ? object.box.center () : standing[n].center (), energy);
+      addContactPrior (object, resting[n],
+                       standing.size () < resting.size () ? object.box.center () : standing[n].center (), energy);
   if (!options.use_extent_prior)
     return;
   for (const SymmetricExtent& extent : standing)
@@ -371,7 +384,8 @@ addPriors (const Observation& object, const ObjectSetting& setting, const std::v
       if (extent.wallThickness () > 0.0)
         energy.facing = NormalBinOccupancy (energy.grid, object.points ());
     }
-  addExtentPrior (is_cut_out ? ExtentPrior::cutOut () : ExtentPrior (), object, hidden, standing, energy);
+  if (setting.priors.extent)
+    addExtentPrior (is_cut_out ? ExtentPrior::cutOut () : ExtentPrior (), object, hidden, standing, energy);
 }
 
 } // namespace pcl::cosection

@@ -6,6 +6,7 @@
 #include "pcl_cosection/priors/shape/symmetric_extent.h"
 #include <pcl/cosection/common/camera.h>
 #include <pcl/cosection/common/oriented_point.h>
+#include <pcl/cosection/surface/options.h>
 
 #include <Eigen/Geometry>
 
@@ -46,6 +47,7 @@ struct ObjectSetting
   const std::vector<OrientedPoint>& background;                       // world frame; empty: the object was cut out
   Eigen::Isometry3d T_object_world = Eigen::Isometry3d::Identity ();  // in its first view
   const OcclusionMap& hidden;                                         // occlusion of the object's volume by its views
+  Priors priors = {};                                                 // which ones are on
   std::function<bool (const Eigen::Vector3d&)> is_of_other = nullptr; // may another object be there? object frame
 };
 

@@ -109,6 +109,17 @@ TEST (CommandLine, PlainUse)
   EXPECT_EQ (parse ("a.pcd out --format obj").format, "obj");
 }
 
+TEST (CommandLine, PriorsThatAreListedAreOn)
+{
+  EXPECT_EQ (parse ("a.pcd out").method.activePriors ().names (), "all");
+  EXPECT_EQ (parse ("a.pcd out --priors none").method.activePriors ().names (), "none");
+  EXPECT_EQ (parse ("a.pcd out --priors walls,extent").method.activePriors ().names (), "extent,walls");
+  EXPECT_EQ (parse ("a.pcd out --no-planes").method.activePriors ().names (),
+             "extent,symmetry,revolution,vessels,walls,contact,rays");
+  EXPECT_EQ (parse ("a.pcd out --preset paper").method.activePriors ().names (), "none");
+  EXPECT_EQ (parse ("a.pcd out --preset paper --priors contact").method.activePriors ().names (), "contact");
+}
+
 TEST (CommandLine, OptionsReachTheMethod)
 {
   const Settings s = parse (
@@ -205,6 +216,8 @@ TEST (CommandLine, WrongUsageIsNamed)
   expect ("--threads 0 a.pcd out", "--threads");
   expect ("--constraints both a.pcd out", "--constraints");
   expect ("--solver gauss a.pcd out", "multigrid");
+  for (const char* list : {"wall", "walls,,contact", "walls,", "all,walls", "walls,none"})
+    expect (std::string ("a.pcd out --priors ") + list, "--priors: unknown prior");
   expect ("--preset mine a.pcd out", "paper");
   expect ("--format vtk a.pcd out", "--format");
   expect ("--format stl a.pcd out.ply", "contradicts");

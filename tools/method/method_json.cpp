@@ -83,6 +83,7 @@ addMethod (const CoSectionOptions& method, Json& result)
   result["padding"] = method.padding;
   result["background_voxel_size_m"] = method.background_voxel_size_m;
   result["constraints"] = constraintsOf (method);
+  result["priors"] = method.activePriors ().names ();
   result["find_planes"] = method.use_planes;
   result["alpha"] = method.alpha;
   result["beta_hull"] = method.beta_hull;

@@ -3,6 +3,7 @@
 
 #include "option_values.h"
 
+#include <pcl/cosection/common/error.h>
 #include <pcl/cosection/common/image.h>
 
 #include <algorithm>
@@ -35,6 +36,11 @@ declareMethodOptions (CLI::App& app, GivenMethod& given)
               "The parameters of the publication; other options override it");
   method.add ("--constraints none|hull|intersection|all", given.constraints,
               "What bounds hidden surfaces: seen free space (hull), other bodies (intersection)" + byDefault ("all"));
+  method.add (
+      "--priors LIST", given.priors,
+      "What is expected of hidden surfaces that nothing bounds: names separated by commas, of extent, symmetry, "
+      "revolution, vessels, walls, contact, plane, rays; or none" +
+          byDefault ("all"));
   method.add ("--alpha WEIGHT", given.alpha, positiveNumber (),
               "Weight of smoothness, relative to the voxel" + byDefault (defaults.alpha));
   method.add ("--beta-hull WEIGHT", given.beta_hull, numberRange (0, unlimited),
@@ -50,6 +56,21 @@ declareMethodOptions (CLI::App& app, GivenMethod& given)
   method.add ("--tolerance VOXELS", given.tolerance, positiveNumber (),
               "Stop when the surface is this near to the solution" + byDefault (defaults.solver.tolerance_vox));
 }
+
+namespace {
+
+Priors
+namedPriors (const std::string& names)
+try
+{
+  return (Priors::named (names));
+}
+catch (const InvalidArgument& error)
+{
+  throw UsageError (std::string ("--priors: ") + error.what ());
+}
+
+} // namespace
 
 CoSectionOptions
 methodOptions (GivenMethod given)
@@ -85,6 +106,11 @@ methodOptions (GivenMethod given)
   {
     options.use_hull = given.constraints == "hull" || given.constraints == "all";
     options.use_intersection = given.constraints == "intersection" || given.constraints == "all";
+  }
+  if (!given.priors.empty ())
+  {
+    options.priors = namedPriors (given.priors);
+    options.use_extent_prior = options.use_symmetric_extent = options.use_contact_prior = true; // the list decides
   }
   if (given.no_planes)
     options.use_planes = false;

@@ -96,7 +96,8 @@ profileSurfaceOf (const std::vector<OrientedPoint>& points, const std::vector<Ei
 } // namespace
 
 void
-SymmetricExtent::build (const std::vector<OrientedPoint>& all, const std::optional<Eigen::Vector4d>& plane, bool alone)
+SymmetricExtent::build (const std::vector<OrientedPoint>& all, const std::optional<Eigen::Vector4d>& plane, bool alone,
+                        const Profiles& profiles)
 {
   if (all.empty ())
     return;
@@ -119,6 +120,8 @@ SymmetricExtent::build (const std::vector<OrientedPoint>& all, const std::option
 
   const std::vector<Eigen::Vector3d> faces = faceNormals (points, even);
   profile_ = profileSurfaceOf (points, faces, plane, alone);
+  if (profile_ && !(profile_->vessel () ? profiles.hollow : profiles.solid))
+    profile_.reset ();
   if (profile_)
   {
     center_ = profile_->center ();

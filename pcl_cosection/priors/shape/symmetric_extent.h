@@ -15,6 +15,13 @@
 
 namespace pcl::cosection {
 
+/** \brief Which shapes with a profile are recognised. */
+struct Profiles
+{
+  bool solid = true;
+  bool hollow = true;
+};
+
 /** \brief The symmetry prior: the extent of an object whose hidden side resembles its visible side.
  *
  * Boxes, cans, bottles, bowls, vehicles: most things look from behind about as from the front. So the observed surface
@@ -37,17 +44,18 @@ public:
   /** \brief Without a support plane: copies by inversion in a point, unless there is a profile.
    * \param[in] points of the object, in one frame
    * \param[in] alone its surroundings are unknown: the rim of a dish may then determine its axis */
-  explicit SymmetricExtent (const std::vector<OrientedPoint>& points, bool alone = true)
+  explicit SymmetricExtent (const std::vector<OrientedPoint>& points, bool alone = true, const Profiles& profiles = {})
   {
-    build (points, std::nullopt, alone);
+    build (points, std::nullopt, alone, profiles);
   }
 
   /** \brief With a support plane: copies by a half turn about its normal, unless there is a profile. If no observed
    * point comes down to the plane, the object touches it at the axis.
    * \param[in] plane (n, d) with n.x + d = 0, unit n towards the object */
-  SymmetricExtent (const std::vector<OrientedPoint>& points, const Eigen::Vector4d& plane)
+  SymmetricExtent (const std::vector<OrientedPoint>& points, const Eigen::Vector4d& plane,
+                   const Profiles& profiles = {})
   {
-    build (points, plane, false);
+    build (points, plane, false, profiles);
   }
 
   /** \brief Signed distance to the half-spaces, max_k (n_k.x - s_k): at most the distance to the plausible region,
@@ -158,7 +166,8 @@ private:
   SymmetricExtent () = default;
   std::vector<OrientedPoint> copiesOf (const std::vector<OrientedPoint>& points) const;
   void expect (const std::vector<OrientedPoint>& points);
-  void build (const std::vector<OrientedPoint>& points, const std::optional<Eigen::Vector4d>& plane, bool alone);
+  void build (const std::vector<OrientedPoint>& points, const std::optional<Eigen::Vector4d>& plane, bool alone,
+              const Profiles& profiles);
 
   bool standing_ = false; // on a plane
   bool copies_alike_ = false;

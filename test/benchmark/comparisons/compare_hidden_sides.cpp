@@ -1,7 +1,7 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 
-// compare_hidden_sides [SCENES [FIRST_SEED]]: how well things on random tables, some of which hide others in part, are
-// completed from one view and from two; by kind.
+// compare_hidden_sides [SCENES [FIRST_SEED [PRIORS]]]: how well things on random tables, some of which hide others in
+// part, are completed from one view and from two; by kind.
 
 #include "random_table.h"
 #include "thing_scores.h"
@@ -44,9 +44,9 @@ add (CoSection& scene, std::vector<OrientedPoint>& background, std::map<int, std
 }
 
 std::vector<ObjectResult>
-complete (const fs::path& folder, int count)
+complete (const fs::path& folder, int count, const CoSectionOptions& options)
 {
-  CoSection scene;
+  CoSection scene (options);
   std::vector<OrientedPoint> background;
   std::map<int, std::vector<OrientedPoint>> objects;
   for (int v = 0; v < count; ++v)
@@ -83,11 +83,14 @@ main (int argc, char** argv)
 {
   const int scenes = argc > 1 ? std::atoi (argv[1]) : default_scenes;
   const int first = argc > 2 ? std::atoi (argv[2]) : 0;
-  if (scenes < 1 || first < 0 || argc > 3)
+  if (scenes < 1 || first < 0 || argc > 4)
   {
-    std::fprintf (stderr, "Usage: compare_hidden_sides [SCENES [FIRST_SEED]]\n");
+    std::fprintf (stderr, "Usage: compare_hidden_sides [SCENES [FIRST_SEED [PRIORS]]]\n");
     return 2;
   }
+  CoSectionOptions options;
+  if (argc > 3)
+    options.priors = Priors::named (argv[3]);
   const fs::path folder = fs::temp_directory_path () / ("compare_hidden_sides_" + std::to_string (::getpid ()));
   std::array<std::map<std::string, ThingScores>, views> scores;
   for (int s = first; s < first + scenes; ++s)
@@ -97,7 +100,7 @@ main (int argc, char** argv)
     ReadingNotes notes;
     const SceneRecord truth = readTruth (folder.string (), notes);
     for (int v = 0; v < views; ++v)
-      measureThings (truth, complete (folder, v + 1), scores[static_cast<std::size_t> (v)]);
+      measureThings (truth, complete (folder, v + 1, options), scores[static_cast<std::size_t> (v)]);
   }
   fs::remove_all (folder);
   print (scores);

@@ -29,6 +29,26 @@ enum class SolverType
   FastJacobi, ///< the paper's optimiser, coarse to fine
 };
 
+/** \brief The priors: what is expected where nothing was measured and no constraint decides. All but the contact need
+ * CoSectionOptions::use_extent_prior. */
+struct PCL_COSECTION_EXPORT Priors
+{
+  bool extent = true;     ///< the shape ends so far from what was seen of it; without it, a volume of fixed padding
+  bool symmetry = true;   ///< copies by a half turn, or by inversion in a point
+  bool revolution = true; ///< solid surfaces of revolution look the same from all sides
+  bool vessels = true;    ///< cups, bowls, plates and open boxes have walls of one thickness
+  bool walls = true;      ///< vertical walls go down to the plane, and go on behind other things
+  bool contact = true;    ///< what comes down to a support plane rests on it
+  bool plane = true;      ///< an object without known surroundings shows the plane on which it stands
+  bool rays = true;       ///< nothing is on rays without return beside an object that was cut out
+
+  /** \brief The names of those that are on, separated by commas: those of the members; or "all", or "none". */
+  std::string names () const;
+
+  /** \brief Those that are named, as names () has it. \throws InvalidArgument */
+  static Priors named (const std::string& names);
+};
+
 /** \brief Parameters of the minimisation. */
 struct PCL_COSECTION_EXPORT SolverOptions
 {
@@ -59,6 +79,7 @@ struct PCL_COSECTION_EXPORT CoSectionOptions
   bool use_extent_prior = true;     ///< remedy for swelling: a weak pull outside where nothing suggests the object
   bool use_symmetric_extent = true; ///< part of the extent prior: hidden parts extend as far as those seen do
   bool use_contact_prior = true;    ///< let objects that come down to a support plane rest on it where that is hidden
+  Priors priors;                    ///< which of the priors; those that the switches above turn off stay off
   bool carve_free_space = true; ///< with the hull: cut the result along the outlines seen by views, finer than a voxel
   bool revise_votes = true;     ///< free space can be revised by contradicting evidence
   bool intersect_solved = true; ///< neighbours act through their optimised fields (false: through their data alone, the
@@ -92,6 +113,9 @@ struct PCL_COSECTION_EXPORT CoSectionOptions
 
   /** \brief The parameters of the publication. */
   static CoSectionOptions paper ();
+
+  /** \brief The priors that neither \a priors nor another switch turns off. */
+  Priors activePriors () const;
 
   /** \brief Check all values. \throws InvalidArgument naming the first one outside its domain. */
   void validate () const;
