@@ -114,6 +114,7 @@ TEST (CommandLine, PriorsThatAreListedAreOn)
   EXPECT_EQ (parse ("a.pcd out").method.activePriors ().names (), "all");
   EXPECT_EQ (parse ("a.pcd out --priors none").method.activePriors ().names (), "none");
   EXPECT_EQ (parse ("a.pcd out --priors walls,extent").method.activePriors ().names (), "extent,walls");
+  EXPECT_EQ (parse ("a.pcd out --priors walls --priors extent").method.activePriors ().names (), "extent,walls");
   EXPECT_EQ (parse ("a.pcd out --no-planes").method.activePriors ().names (),
              "extent,symmetry,revolution,vessels,walls,contact,rays");
   EXPECT_EQ (parse ("a.pcd out --preset paper").method.activePriors ().names (), "none");
@@ -170,7 +171,7 @@ TEST (CommandLine, ConfigurationFile)
 {
   const ConfigFile file (
       "# a comment\nvoxel-size = 0.004\nplane = [0, 0, 1, 0.5, 1, 0, 0, 2]\nsolver = \"fast-jacobi\"\n"
-      "save-sdf = true\nno-planes = false\nworld-points\n");
+      "save-sdf = true\nno-planes = false\nworld-points\npriors = extent,walls\n");
   const Settings s = parse ("--config " + file.path + " a.pcd out --solver multigrid");
   EXPECT_EQ (s.method.voxel_size_m, 0.004);
   ASSERT_EQ (s.planes.size (), 2u);
@@ -179,6 +180,7 @@ TEST (CommandLine, ConfigurationFile)
   EXPECT_TRUE (s.save_sdf);
   EXPECT_TRUE (s.method.use_planes);
   EXPECT_TRUE (s.reading.world_points);
+  EXPECT_EQ (s.method.priors.names (), "extent,walls");
 }
 
 TEST (CommandLine, WrongConfigurationFiles)

@@ -59,10 +59,14 @@ declareMethodOptions (CLI::App& app, GivenMethod& given)
 
 namespace {
 
+/** \brief The priors of all lists. */
 Priors
-namedPriors (const std::string& names)
+namedPriors (const std::vector<std::string>& lists)
 try
 {
+  std::string names;
+  for (const std::string& list : lists)
+    names += (names.empty () ? "" : ",") + list;
   return (Priors::named (names));
 }
 catch (const InvalidArgument& error)

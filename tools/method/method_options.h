@@ -15,7 +15,8 @@ struct GivenMethod : GeneralOptions
 {
   std::optional<double> voxel_size, padding, background_voxel_size, alpha, beta_hull, beta_inter, sigma, tolerance;
   std::optional<int> resolution, max_iterations;
-  std::string constraints, priors, weighting, solver, preset, max_memory;
+  std::string constraints, weighting, solver, preset, max_memory;
+  std::vector<std::string> priors; // lists
   bool no_planes = false;
 };
 
