@@ -125,8 +125,7 @@ volumeBox (const Scene& scene, const ObjectInput& input, const Observation& obje
            const BodyState& body)
 {
   const CoSectionOptions& options = scene.options;
-  if (options.padding > 0.0 || !options.use_extent_prior || !options.priors.extent || !options.use_hull ||
-      object.views.empty ())
+  if (options.padding > 0.0 || !options.activePriors ().extent || !options.use_hull || object.views.empty ())
   {
     const double fraction = options.padding > 0.0 ? options.padding : default_padding;
     const Eigen::Vector3d pad = Eigen::Vector3d::Constant (fraction * object.box.sizes ().maxCoeff () +

@@ -163,8 +163,7 @@ findObjectPlanes (const Scene& scene, const std::vector<Observation>& observatio
     const ObjectInput& object = scene.objects[o];
     support[o].planes = boundingPlanes (scene, object, observations[o]);
     warnIfCutByPlanes (scene, object, observations[o], support[o].planes, log);
-    if (!support[o].planes.empty () || !scene.hasNothingAround () || !options.use_extent_prior || !options.use_planes ||
-        !options.use_symmetric_extent || !options.priors.plane)
+    if (!support[o].planes.empty () || !scene.hasNothingAround () || !options.activePriors ().plane)
       continue;
     const ObjectSetting setting = settingOf (scene, object, state.objects[object.id]);
     if (const auto plane = inferSupportPlane (observations[o], setting))

@@ -29,14 +29,11 @@ std::string
 Priors::names () const
 {
   std::string names;
-  bool all = true;
+  std::size_t count = 0;
   for (const NamedPrior& prior : all_priors)
-  {
-    all = all && this->*prior.is_on;
     if (this->*prior.is_on)
-      names += (names.empty () ? "" : ",") + std::string (prior.name);
-  }
-  return all ? "all" : names.empty () ? "none" : names;
+      names += (count++ > 0 ? "," : "") + std::string (prior.name);
+  return count == std::size (all_priors) ? "all" : count == 0 ? "none" : names;
 }
 
 Priors
@@ -45,8 +42,12 @@ Priors::named (const std::string& names)
   if (names == "all")
     return {};
   Priors priors;
+  std::string known;
   for (const NamedPrior& prior : all_priors)
+  {
     priors.*prior.is_on = false;
+    known += std::string (prior.name) + ", ";
+  }
   if (names == "none")
     return priors;
   std::istringstream list (names + ",");
@@ -55,12 +56,7 @@ Priors::named (const std::string& names)
     const auto* const found = std::find_if (std::begin (all_priors), std::end (all_priors),
                                             [&] (const NamedPrior& prior) { return name == prior.name; });
     if (found == std::end (all_priors))
-      throw InvalidArgument ("unknown prior \"" + name + "\"; there are " + [] {
-        std::string known;
-        for (const NamedPrior& prior : all_priors)
-          known += std::string (prior.name) + ", ";
-        return known;
-      }() + "all and none");
+      throw InvalidArgument ("unknown prior \"" + name + "\"; there are " + known + "and all or none alone");
     priors.*found->is_on = true;
   }
   return priors;

@@ -361,16 +361,16 @@ addPriors (const Observation& object, const ObjectSetting& setting, const std::v
       if (auto extent = withHiddenWalls (object, extentOf (object, setting, plane), places, plane, step_m,
                                          setting.priors))
         standing.push_back (std::move (*extent));
-    if (const SymmetricExtent* extent = resting.empty () ? &extentOf (object, setting, std::nullopt) : nullptr;
-        extent && (setting.priors.symmetry || extent->hasProfile ()))
-      standing.push_back (*extent);
+    if (resting.empty ())
+      if (const SymmetricExtent& extent = extentOf (object, setting, std::nullopt);
+          setting.priors.symmetry || extent.hasProfile ())
+        standing.push_back (extent);
   }
   const bool has_profile = std::any_of (standing.begin (), standing.end (),
                                         [] (const SymmetricExtent& extent) { return extent.hasProfile (); });
-  if (options.use_extent_prior && setting.priors.rays && is_cut_out && !has_profile) // a profile is more reliable
+  if (setting.priors.rays && is_cut_out && !has_profile) // a profile is more reliable
     addRaysWithoutReturn (object, energy);
-  if (options.use_contact_prior && setting.priors.contact &&
-      !plane_is_inferred) // observed points already end at an inferred plane
+  if (setting.priors.contact && !plane_is_inferred) // observed points already end at an inferred plane
     for (std::size_t n = 0; n < resting.size (); ++n)
       addContactPrior (object, resting[n],
                        standing.size () < resting.size () ? object.box.center () : standing[n].center (), energy);

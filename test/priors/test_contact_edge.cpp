@@ -62,9 +62,12 @@ onTable (const Distance& shape)
 
 /** \brief Complete object 1 from nothing but its own points. */
 TriangleMesh
-completeAlone (const AnalyticScene& scene, const std::vector<int>& sensors, const Eigen::Vector4d* plane = nullptr)
+completeAlone (const AnalyticScene& scene, const std::vector<int>& sensors, const Eigen::Vector4d* plane = nullptr,
+               const Priors& priors = {})
 {
-  CoSection task (optionsFor (0.0));
+  CoSectionOptions options = optionsFor (0.0);
+  options.priors = priors;
+  CoSection task (options);
   if (plane)
     task.addSupportPlane (*plane);
   std::vector<OrientedPoint> points;
@@ -162,4 +165,24 @@ TEST (RaysWithoutReturn, NothingIsExpectedWhereViewsLookedPast)
     EXPECT_LE (with_plane_m, with_table_m + 0.001);
     EXPECT_LE (alone_m, sensors.size () == 2 ? 0.0025 : 0.0014); // its support is unknown
   }
+}
+
+/** \brief Without the prior, a ball on a table goes on below it. */
+TEST (ContactEdge, IsFoundOnlyWithItsPrior)
+{
+  Priors others;
+  others.plane = false;
+  const AnalyticScene scene = onTable (ballAbove (0.0));
+  EXPECT_GT (lowest (completeAlone (scene, {0})), -0.004);
+  EXPECT_LT (lowest (completeAlone (scene, {0}, nullptr, others)), -0.03);
+}
+
+/** \brief Without the prior, a T on a given plane goes on where views looked past it. */
+TEST (RaysWithoutReturn, BoundOnlyWithTheirPrior)
+{
+  Priors others;
+  others.rays = false;
+  const AnalyticScene scene = onTable (brick);
+  EXPECT_GT (meanError (completeAlone (scene, {0, 1}, &table_plane, others), brick),
+             2.0 * meanError (completeAlone (scene, {0, 1}, &table_plane), brick));
 }

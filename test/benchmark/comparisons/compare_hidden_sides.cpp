@@ -7,6 +7,7 @@
 #include "thing_scores.h"
 
 #include "pcl_cosection/simulation/sequence_writer.h"
+#include <pcl/cosection/common/error.h>
 #include <pcl/cosection/evaluation/run_evaluation.h>
 #include <pcl/cosection/io/pcd_view.h>
 #include <pcl/cosection/simulation/simulated_scene.h>
@@ -89,8 +90,15 @@ main (int argc, char** argv)
     return 2;
   }
   CoSectionOptions options;
-  if (argc > 3)
-    options.priors = Priors::named (argv[3]);
+  try
+  {
+    options.priors = Priors::named (argc > 3 ? argv[3] : "all");
+  }
+  catch (const InvalidArgument& error)
+  {
+    std::fprintf (stderr, "compare_hidden_sides: %s\n", error.what ());
+    return 2;
+  }
   const fs::path folder = fs::temp_directory_path () / ("compare_hidden_sides_" + std::to_string (::getpid ()));
   std::array<std::map<std::string, ThingScores>, views> scores;
   for (int s = first; s < first + scenes; ++s)

@@ -9,8 +9,6 @@ using namespace pcl::cosection::test;
 
 namespace {
 
-constexpr double voxel_m = 0.005;
-
 /** \brief Mean distance from the true surface, metres. */
 double
 errorOf (Shape shape, const Priors& priors)
