@@ -513,35 +513,29 @@ def extent ():
 
 def symmetry ():
     f = Svg (880, 330)
-    f.text (150, 26, "half turn", 14, anchor="middle", bold=True)
-    f.path ([(80, 210), (80, 100), (220, 70)], OBSERVED, 4)
-    f.path ([(220, 70), (220, 180), (80, 210)], INFERRED, 3, dash="7 5")
-    f.line (80, 210, 220, 70, PALE, 1, "3 3")
-    f.dot (150, 140, 5)
-    f.text (158, 152, "c", 15, italic=True)
-    f.curve ("M128 118 A 31 31 0 0 1 176 122", INK, 1.5)
-    f.arrow (172, 116, 178, 126)
-    f.text (150, 244, "seen along the plane's normal: c is the middle", 11, PALE, "middle")
-    f.text (150, 259, "of the two points that are farthest apart", 11, PALE, "middle")
-    f.text (440, 26, "full turn", 14, anchor="middle", bold=True)
-    f.ring (440, 140, 66, INFERRED, 3, "7 5")
-    f.curve ("M374 140 A 66 66 0 0 1 440 74", OBSERVED, 5)
-    f.curve ("M374 140 A 66 66 0 0 0 392 185", OBSERVED, 5)
-    f.path ([(376, 122), (346, 116), (343, 150), (374, 152)], OBSERVED, 4)
-    f.dot (440, 140, 5)
-    f.text (450, 146, "axis", 13)
-    f.text (440, 244, "a surface of revolution, any axis;", 11, PALE, "middle")
-    f.text (440, 259, "a handle stays where it is", 11, PALE, "middle")
-    f.text (730, 26, "point inversion", 14, anchor="middle", bold=True)
-    f.path ([(650, 170), (650, 90), (700, 66), (790, 66)], OBSERVED, 4)
-    f.path ([(790, 66), (790, 146), (740, 170), (650, 170)], INFERRED, 3, dash="7 5")
-    f.line (650, 170, 790, 66, PALE, 1, "3 3")
-    f.dot (720, 118, 5)
-    f.text (728, 134, "c", 15, italic=True)
-    f.text (725, 244, "no plane known, and faces", 11, PALE, "middle")
-    f.text (725, 259, "at right angles", 11, PALE, "middle")
-    legend (f, 250, 296, [(OBSERVED, "points")])
-    legend (f, 360, 296, [(INFERRED, "copies: where hidden surface is expected")])
+    f.text (230, 26, "a box from above, and two mirror planes", 14, anchor="middle", bold=True)
+    f.path ([(110, 90), (110, 230), (330, 230)], OBSERVED, 4)
+    f.path ([(110, 90), (330, 90), (330, 230)], INFERRED, 3, dash="7 5")
+    f.line (220, 60, 220, 262, PALE, 1, "8 4 2 4")
+    f.line (80, 160, 370, 160, PALE, 1, "8 4 2 4")
+    f.dot (110, 200, 5)
+    f.arrow (118, 200, 322, 200, PALE, 1.2)
+    f.dot (330, 200, 5, INFERRED)
+    f.text (340, 205, "hidden: what it adds", 12)
+    f.dot (110, 120, 5, OBSERVED)
+    f.arrow (110, 192, 110, 128, PALE, 1.2)
+    f.text (122, 125, "on surface: supports", 12)
+    f.text (680, 26, "a plane that is not one", 14, anchor="middle", bold=True)
+    f.path ([(560, 90), (560, 230), (780, 230)], OBSERVED, 4)
+    f.line (520, 110, 800, 250, PALE, 1, "8 4 2 4")
+    f.dot (740, 230, 5)
+    f.dot (752, 218, 5, HULL)
+    f.dot (560, 200, 5)
+    f.arrow (566, 194, 600, 142, PALE, 1.2)
+    f.dot (604, 136, 5, HULL)
+    f.text (614, 136, "where a view looked through: contradicts", 12, HULL)
+    legend (f, 200, 306, [(OBSERVED, "points")])
+    legend (f, 320, 306, [(INFERRED, "copies where nothing was seen")])
     f.save ("method_symmetry.svg")
 
 
@@ -591,52 +585,25 @@ def open_box ():
     f.save ("method_open_box.svg")
 
 
-def walls ():
-    f = Svg (820, 320)
-    f.text (190, 26, "vertical walls around the outline", 14, anchor="middle", bold=True)
-    f.path ([(90, 100), (230, 70), (310, 110), (170, 146)], OBSERVED, 3, "#eeeeee", close=True)
-    f.path ([(90, 100), (170, 146), (170, 256), (90, 205)], OBSERVED, 3, "#e2e2e2", close=True)
-    f.path ([(170, 146), (310, 110), (310, 215), (170, 256)], INFERRED, 2, "#fbe9cc", close=True)
-    for k in range (1, 8):
-        x, y = 170 + 140 * k / 8, 146 - 36 * k / 8
-        f.line (x, y, x, 256 - 41 * k / 8, INFERRED, 1.2)
-    f.path ([(30, 236), (170, 290), (370, 238)], BODY, 1.5)
-    f.text (190, 308, "columns down to the plane; free space removes them", 12, PALE, "middle")
-    f.text (620, 26, "walls behind something else", 14, anchor="middle", bold=True)
-    f.line (440, 270, 800, 270, BODY, 2)
-    f.rect (530, 170, 70, 100, BODY, 2, TABLE)
-    f.path ([(620, 160), (620, 70), (740, 70)], OBSERVED, 4)
-    f.path ([(620, 160), (620, 270)], INFERRED, 3, dash="7 5")
-    f.path ([(740, 70), (740, 270)], INFERRED, 3, dash="7 5")
-    f.camera (466, 70, 0.42)
-    f.line (466, 70, 620, 194, HULL, 0.9, "4 4")
-    f.line (466, 70, 620, 150, HULL, 0.9, "4 4")
-    f.text (565, 225, "other", 13, BODY, "middle")
-    f.text (680, 120, "object", 13, anchor="middle")
-    f.text (620, 308, "a wall goes straight on where the other begins to hide it", 12, PALE, "middle")
-    f.save ("method_walls.svg")
-
-
-def contact ():
-    f = Svg (760, 280)
-    f.rect (60, 200, 640, 40, None, 0, TABLE)
-    f.line (60, 200, 700, 200, BODY, 2)
-    f.path ([(200, 188), (200, 70), (420, 70)], OBSERVED, 4)
-    f.path ([(420, 70), (420, 195)], INFERRED, 3, dash="7 5")
-    for x in range (210, 420, 20):
-        f.rect (x - 8, 184, 16, 16, INFERRED, 1, "#fbe9cc")
-        f.rect (x - 8, 200, 16, 16, INFERRED, 1, "#fbe9cc")
-    f.rect (190, 174, 20, 26, HULL, 2, "none")
-    f.rect (410, 174, 20, 26, HULL, 2, "none", "4 3")
-    f.line (310, 50, 310, 220, PALE, 1, "8 4 2 4")
-    f.text (180, 168, "K", 15, HULL, "end", italic=True)
-    f.text (436, 190, "K′", 15, HULL, italic=True)
-    f.text (310, 40, "axis", 13, PALE, "middle")
-    f.text (465, 100, "patch: voxels between K and its copy K′,", 13)
-    f.text (465, 120, "up to 2 voxels above and below the plane,", 13)
-    f.text (465, 140, "prefer u = −height, weight β_contact", 13)
-    f.text (80, 226, "support plane", 13, BODY)
-    f.save ("method_contact.svg")
+def extrusion ():
+    f = Svg (820, 300)
+    f.text (200, 26, "vertical walls: columns are filled", 14, anchor="middle", bold=True)
+    f.line (40, 250, 360, 250, BODY, 2)
+    for x in range (120, 281, 20):
+        f.line (x, 80, x, 250, INFERRED, 1.2)
+    f.path ([(110, 250), (110, 80), (290, 80)], OBSERVED, 4)
+    f.path ([(290, 80), (290, 250)], INFERRED, 3, dash="7 5")
+    f.camera (50, 50, 0.5)
+    f.text (200, 284, "a top, and nothing that shows free space below it", 12, PALE, "middle")
+    f.text (610, 26, "free space cuts columns: they are not", 14, anchor="middle", bold=True)
+    f.line (450, 250, 780, 250, BODY, 2)
+    f.curve ("M540 150 A 70 70 0 0 1 680 150", OBSERVED, 4)
+    f.curve ("M540 150 A 70 70 0 0 0 680 150", INFERRED, 3, dash="7 5")
+    f.camera (460, 180, 0.5)
+    f.line (460, 180, 600, 240, HULL, 0.9, "4 4")
+    f.line (460, 180, 560, 236, HULL, 0.9, "4 4")
+    f.text (610, 284, "a view looked below it", 12, PALE, "middle")
+    f.save ("method_extrusion.svg")
 
 
 def inferred_plane ():
@@ -773,6 +740,6 @@ def architecture ():
 
 
 if __name__ == "__main__":
-    for draw in (setup, data, hessian, hull, carving, intersection, support_plane, solver, extent, symmetry, vessel, open_box, walls, contact,
+    for draw in (setup, data, hessian, hull, carving, intersection, support_plane, solver, extent, symmetry, vessel, open_box, extrusion,
                  inferred_plane, no_return, provenance, front_end, architecture, constraints):
         draw ()

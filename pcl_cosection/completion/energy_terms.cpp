@@ -263,7 +263,7 @@ objectEnergies (const Scene& scene, CompletionMode mode, const std::vector<Scene
         throw DegenerateInput ("no usable measurements: all of its points lie in space that was seen free");
       ObjectSetting setting = settingOf (scene, *object.input, body);
       setting.is_of_other = placesOfOthers (objects, o, log);
-      addPriors (*object.observation, setting, object.planes (), object.support->inferred, body.hidden, energy);
+      addPriors (*object.observation, setting, object.planes (), body.hidden, energy);
       if (mode == CompletionMode::Once || object.observation->virtual_view)
         body.hidden.clear ();
       energies[o] = std::move (energy);

@@ -141,7 +141,7 @@ volumeBox (const Scene& scene, const ObjectInput& input, const Observation& obje
   return possibleBox (object, known, body.hidden, planes, options.threads);
 }
 
-/** \brief Voxel size of a vessel (SymmetricExtent::wallThickness ()): half of its wall thickness, if that is smaller
+/** \brief Voxel size of a vessel (ProfiledShape::wallThickness ()): half of its wall thickness, if that is smaller
  * than \a supported_m, but no less than half of \a supported_m and a 64th of the longest side. Voxels finer than the
  * points' spacing supports are possible, as points have copies on all sides. */
 double

@@ -215,7 +215,8 @@ solvedField (const BodyEnergy& energy, const BodySolution& solution)
   field.supported.resize (energy.grid.size ());
   forEachVoxel (energy, [&] (std::size_t n) {
     field.values[n] = static_cast<float> (carvedValue (energy, solution, n) * energy.grid.voxel_size_m);
-    field.supported[n] = !energy.free_space[n] && energy.data_distance_vox[n] <= energy.options.max_bound_vox;
+    field.supported[n] = !energy.free_space[n] && (energy.data_distance_vox[n] <= energy.options.max_bound_vox ||
+                                                   (!energy.expected.empty () && energy.expected[n]));
   });
   return field;
 }

@@ -33,6 +33,7 @@ struct BodyEnergy
   std::vector<std::uint8_t> free_space; // 1 where seen free: the complement of the hull
   std::vector<std::uint8_t> empty;      // 1 where seen free, and where a prior expects free space
   std::vector<std::uint8_t> data;       // 1 where points are near
+  std::vector<std::uint8_t> expected;   // 1 where a prior expects matter far from points; or empty
   std::vector<std::uint8_t> continued;  // 1 on continued planes; empty if there are no such planes
   std::vector<float> data_distance_vox; // to the nearest voxel with data
   std::vector<float> carved;            // signed distance to free space, voxels, finer than the votes; or empty
@@ -88,7 +89,7 @@ SolverSummary followSolution (const BodyEnergy& energy, BodySolution& solution, 
 /** \brief The carved minimiser max (u, c) at a voxel, in voxels. */
 float carvedValue (const BodyEnergy& energy, const BodySolution& solution, std::size_t voxel);
 
-/** \brief The carved minimiser, supported near data where not seen free. Metres. */
+/** \brief The carved minimiser, supported near data where not seen free, and where matter is expected. Metres. */
 SignedDistanceField solvedField (const BodyEnergy& energy, const BodySolution& solution);
 
 } // namespace pcl::cosection

@@ -18,10 +18,10 @@ struct NamedPrior
   bool Priors::*is_on;
 };
 
-constexpr NamedPrior all_priors[] = {{"extent", &Priors::extent},         {"symmetry", &Priors::symmetry},
-                                     {"revolution", &Priors::revolution}, {"vessels", &Priors::vessels},
-                                     {"walls", &Priors::walls},           {"contact", &Priors::contact},
-                                     {"plane", &Priors::plane},           {"rays", &Priors::rays}};
+constexpr NamedPrior all_priors[] = {
+    {"extent", &Priors::extent},   {"symmetry", &Priors::symmetry},   {"revolution", &Priors::revolution},
+    {"vessels", &Priors::vessels}, {"extrusion", &Priors::extrusion}, {"plane", &Priors::plane},
+    {"rays", &Priors::rays}};
 
 } // namespace
 
@@ -70,7 +70,6 @@ CoSectionOptions::paper ()
   o.background_voxel_size_m = 0.02;
   o.use_planes = false;
   o.use_extent_prior = false;
-  o.use_contact_prior = false;
   o.carve_free_space = false;
   o.revise_votes = false;
   o.intersect_solved = false;
@@ -89,8 +88,7 @@ Priors
 CoSectionOptions::activePriors () const
 {
   Priors active = priors;
-  active.contact = priors.contact && use_contact_prior;
-  for (const auto part : {&Priors::symmetry, &Priors::revolution, &Priors::vessels, &Priors::walls, &Priors::plane})
+  for (const auto part : {&Priors::symmetry, &Priors::revolution, &Priors::vessels, &Priors::extrusion, &Priors::plane})
     active.*part = priors.*part && use_extent_prior && use_symmetric_extent;
   active.plane = active.plane && use_planes;
   active.extent = priors.extent && use_extent_prior;
@@ -112,7 +110,6 @@ CoSectionOptions::validate () const
   require (beta_hull >= 0.0 && beta_hull <= 1e6, "beta-hull", beta_hull, "between 0 and 1e6");
   require (beta_inter >= 0.0 && beta_inter <= 1e6, "beta-inter", beta_inter, "between 0 and 1e6");
   require (beta_extent >= 0.0 && beta_extent <= 1e6, "beta-extent", beta_extent, "between 0 and 1e6");
-  require (beta_contact >= 0.0 && beta_contact <= 1e6, "beta-contact", beta_contact, "between 0 and 1e6");
   require (sigma_vox > 0.0 && sigma_vox <= 10.0, "sigma", sigma_vox, "positive and at most 10 voxels");
   require (max_bound_vox > 0.0 && max_bound_vox <= 100.0, "largest intersection distance", max_bound_vox,
            "positive and at most 100 voxels");

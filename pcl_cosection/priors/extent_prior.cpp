@@ -18,8 +18,7 @@ constexpr double high_percentile = 0.99;
 
 /** \brief Distances of a tile's voxels from the union of all plausible regions, voxels; negative inside. */
 std::vector<float>
-beyondAll (const VoxelGrid& grid, const VoxelTile& tile, const std::vector<SymmetricExtent>& plausible,
-           float margin_vox)
+beyondAll (const VoxelGrid& grid, const VoxelTile& tile, const std::vector<ProfiledShape>& plausible, float margin_vox)
 {
   const Eigen::Vector3i size = tile.end - tile.first;
   const auto width = static_cast<std::size_t> (size.x ());
@@ -28,14 +27,14 @@ beyondAll (const VoxelGrid& grid, const VoxelTile& tile, const std::vector<Symme
   std::vector<float> beyond_m (width);
   const Eigen::AlignedBox3d box (grid.center (tile.first.x (), tile.first.y (), tile.first.z ()),
                                  grid.center (tile.end.x () - 1, tile.end.y () - 1, tile.end.z () - 1));
-  for (const SymmetricExtent& everywhere : plausible)
+  for (const ProfiledShape& everywhere : plausible)
   {
-    const SymmetricExtent extent = everywhere.within (box);
+    const HalfSpaces region = everywhere.region ().within (box);
     float* row = beyond_vox.data ();
     for (int k = tile.first.z (); k < tile.end.z (); ++k)
       for (int j = tile.first.y (); j < tile.end.y (); ++j, row += width)
       {
-        extent.beyond (grid.center (tile.first.x (), j, k), grid.voxel_size_m * Eigen::Vector3d::UnitX (), size.x (),
+        region.beyond (grid.center (tile.first.x (), j, k), grid.voxel_size_m * Eigen::Vector3d::UnitX (), size.x (),
                        beyond_m.data ());
         for (std::size_t i = 0; i < width; ++i)
           row[i] = std::min (row[i], static_cast<float> (beyond_m[i] / grid.voxel_size_m) - margin_vox);
@@ -68,7 +67,7 @@ observedExtents (const std::vector<OrientedPoint>& points, int threads)
 std::vector<float>
 ExtentPrior::bounds (const VoxelGrid& grid, const std::vector<float>& data_distance_vox,
                      const std::vector<OrientedPoint>& points, const OcclusionMap::Views& views, int threads,
-                     const std::vector<SymmetricExtent>& plausible) const
+                     const std::vector<ProfiledShape>& plausible) const
 {
   OcclusionMap places;
   places.add (views, points, threads);
@@ -78,7 +77,7 @@ ExtentPrior::bounds (const VoxelGrid& grid, const std::vector<float>& data_dista
 std::vector<float>
 ExtentPrior::bounds (const VoxelGrid& grid, const std::vector<float>& data_distance_vox,
                      const Eigen::Vector3d& extents_m, OcclusionMap& places,
-                     const std::vector<SymmetricExtent>& plausible, const std::vector<std::uint8_t>& exempt,
+                     const std::vector<ProfiledShape>& plausible, const std::vector<std::uint8_t>& exempt,
                      int threads) const
 {
   const Eigen::Vector3d extents_vox = extents_m / grid.voxel_size_m;

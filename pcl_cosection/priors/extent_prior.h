@@ -2,7 +2,7 @@
 #pragma once
 
 #include "occlusion_map.h"
-#include "pcl_cosection/priors/shape/symmetric_extent.h"
+#include "pcl_cosection/priors/shape/profiled_shape.h"
 #include <pcl/cosection/common/camera.h>
 #include <pcl/cosection/common/oriented_point.h>
 #include <pcl/cosection/volume/signed_distance_field.h>
@@ -30,7 +30,7 @@ Eigen::Vector3d observedExtents (const std::vector<OrientedPoint>& points, int t
  *
  * The bound is the excess over this distance, for voxels that were not seen free, with a weak weight.
  *
- * If there is a plausible region (SymmetricExtent), a second bound is the distance of a voxel from that region, less
+ * If there is a plausible region (ProfiledShape), a second bound is the distance of a voxel from that region, less
  * max (\a symmetric_margin e2, \a least_depth e2 - e3), with e2 and e3 the middle and the smallest observed extent:
  * the region of a thing that showed one flat face is that face. It does not apply to voxels that something else hides.
  * The larger bound counts. */
@@ -67,14 +67,14 @@ struct ExtentPrior
    * bound */
   std::vector<float> bounds (const VoxelGrid& grid, const std::vector<float>& data_distance_vox,
                              const std::vector<OrientedPoint>& points, const OcclusionMap::Views& views,
-                             int threads = 0, const std::vector<SymmetricExtent>& plausible = {}) const;
+                             int threads = 0, const std::vector<ProfiledShape>& plausible = {}) const;
 
   /** \brief These bounds with the occlusion map \a places of the object's points and views.
    * \param[in] extents_m observedExtents () of its points
    * \param[in] exempt 1 for voxels that get no bound; or empty */
   std::vector<float> bounds (const VoxelGrid& grid, const std::vector<float>& data_distance_vox,
                              const Eigen::Vector3d& extents_m, OcclusionMap& places,
-                             const std::vector<SymmetricExtent>& plausible, const std::vector<std::uint8_t>& exempt,
+                             const std::vector<ProfiledShape>& plausible, const std::vector<std::uint8_t>& exempt,
                              int threads) const;
 };
 

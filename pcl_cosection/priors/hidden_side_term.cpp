@@ -19,10 +19,8 @@ constexpr float far_weight = 0.01f;      // sum of weights: a point within 2.1 s
 constexpr float gap_vox = 2.0f;          // the term applies at least so far from data
 constexpr double reach_vox = 0.7;        // depth of copies inside the plausible region; deeper ones may be of a cavity
 constexpr double profile_weight = 10.0;  // of shapes with a profile, in multiples of beta_extent, as those below
-constexpr double wall_weight = 5.0;      // of vertical walls
 constexpr double vessel_weight = 100.0;  // of a vessel's wall, which vanishes with less
 constexpr double empty_weight = 10.0;    // of its cavity and of the space beyond the vessel
-constexpr double below_top_vox = 1.5;    // free space at least so far below a top is beside it, not above it
 constexpr double least_wall = 0.6;       // least thickness of a wall, of its mean thickness: noise would make holes
 constexpr double least_wall_vox = 1.25;  // least thickness of a wall
 constexpr double empty_margin_vox = 1.0; // distance of expected empty space from the surface
@@ -103,21 +101,21 @@ struct PartOfWall
 /** \brief Add the term of a vessel. Its wall is the intersection of the insides of all parts of its surface: the
  * largest of their signed distances is the target. */
 void
-addVessel (BodyEnergy& energy, const SymmetricExtent& plausible, const std::vector<OrientedPoint>& measured,
+addVessel (BodyEnergy& energy, const ProfiledShape& shape, const std::vector<OrientedPoint>& measured,
            const std::vector<OrientedPoint>& expected)
 {
   const VoxelGrid& grid = energy.grid;
   const CoSectionOptions& options = energy.options;
-  const auto isOfWall = [&] (const OrientedPoint& p) { return plausible.holds (p.position.cast<double> ()); };
+  const auto isOfWall = [&] (const OrientedPoint& p) { return shape.holds (p.position.cast<double> ()); };
   const auto find = [&] (VesselPart part) {
-    const auto isOfPart = [&] (const OrientedPoint& p) { return plausible.partOf (p) == part; };
+    const auto isOfPart = [&] (const OrientedPoint& p) { return shape.partOf (p) == part; };
     return PartOfWall (energy, pick (measured, [&] (const OrientedPoint& p) { return isOfPart (p) && isOfWall (p); }),
                        pick (expected, isOfPart));
   };
   const PartOfWall outer = find (VesselPart::Outer), bottom = find (VesselPart::Bottom);
   const PartOfWall inner = find (VesselPart::Inner), rim = find (VesselPart::Rim);
   const ImlsDataTerm handles = termOf (energy, pick (measured, [&] (const OrientedPoint& p) { return !isOfWall (p); }));
-  const double wall_vox = std::max (least_wall * plausible.wallThickness () / grid.voxel_size_m, least_wall_vox);
+  const double wall_vox = std::max (least_wall * shape.wallThickness () / grid.voxel_size_m, least_wall_vox);
 
   const auto set = [&] (std::size_t n, double weight, double target) {
     energy.problem.weight[n] = static_cast<float> (weight);
@@ -127,8 +125,8 @@ addVessel (BodyEnergy& energy, const SymmetricExtent& plausible, const std::vect
     std::vector<float> beyond_m (static_cast<std::size_t> (grid.dims.x ())); // of a row
     for (int j = 0; j < grid.dims.y (); ++j)
     {
-      plausible.beyond (grid.center (0, j, k), grid.voxel_size_m * Eigen::Vector3d::UnitX (), grid.dims.x (),
-                        beyond_m.data ());
+      shape.region ().beyond (grid.center (0, j, k), grid.voxel_size_m * Eigen::Vector3d::UnitX (), grid.dims.x (),
+                              beyond_m.data ());
       for (int i = 0; i < grid.dims.x (); ++i)
       {
         const std::size_t n = grid.index (i, j, k);
@@ -151,7 +149,7 @@ addVessel (BodyEnergy& energy, const SymmetricExtent& plausible, const std::vect
         {
           const Eigen::Vector3d place = grid.center (i, j, k);
           const double clearance_m = std::max<double> (
-              {plausible.depthInCavity (place), plausible.depthUnder (place), beyond_m[static_cast<std::size_t> (i)]});
+              {shape.depthInCavity (place), shape.depthUnder (place), beyond_m[static_cast<std::size_t> (i)]});
           const double clearance_vox = clearance_m / grid.voxel_size_m;
           if (clearance_vox > empty_margin_vox)
             set (n, empty_weight * options.beta_extent, std::min (clearance_vox, empty_far_vox));
@@ -161,65 +159,28 @@ addVessel (BodyEnergy& energy, const SymmetricExtent& plausible, const std::vect
   });
 }
 
-/** \brief Expect free space below free space that is lower than the top: it is beside the vertical walls. */
-void
-emptyBesideTop (BodyEnergy& energy, const Eigen::Vector3d& up, double top_m)
-{
-  const VoxelGrid& grid = energy.grid;
-  EnergyProblem& problem = energy.problem;
-  const double highest_m = top_m - below_top_vox * grid.voxel_size_m;
-  std::vector<std::uint8_t> inside (grid.size (), 1);
-  parallelFor (0, grid.dims.z (), threadsForVoxels (energy.options.threads, grid.size ()), [&] (int k) {
-    for (int j = 0; j < grid.dims.y (); ++j)
-      for (int i = 0; i < grid.dims.x (); ++i)
-        for (Eigen::Vector3d p = grid.center (i, j, k); up.dot (p) < highest_m; p += grid.voxel_size_m * up)
-        {
-          const auto at = grid.nearest (p);
-          if (!at)
-            break;
-          const std::size_t above = grid.index (at->x (), at->y (), at->z ());
-          if (energy.data_distance_vox[above] < gap_vox)
-            break;
-          if (!energy.empty[above])
-            continue;
-          inside[grid.index (i, j, k)] = 0;
-          break;
-        }
-  });
-  const std::vector<float> distance = distanceTransform (grid.dims, inside, energy.options.threads);
-  for (std::size_t n = 0; n < grid.size (); ++n)
-    if (!energy.empty[n] && problem.weight[n] <= 0.0f && distance[n] > empty_margin_vox)
-    {
-      problem.weight[n] = static_cast<float> (empty_weight * energy.options.beta_extent);
-      problem.weighted_target[n] = problem.weight[n] * std::min (distance[n], static_cast<float> (empty_far_vox));
-    }
-}
-
 } // namespace
 
 void
-addHiddenSide (BodyEnergy& energy, const SymmetricExtent& plausible, const std::vector<OrientedPoint>& points)
+addHiddenSide (BodyEnergy& energy, const ProfiledShape& shape, const std::vector<OrientedPoint>& points)
 {
   const std::vector<OrientedPoint> few = thinned (energy.grid, points, std::max (1.0, energy.options.sigma_vox));
-  const std::vector<OrientedPoint> expected = plausible.hiddenSide (few, reach_vox * energy.grid.voxel_size_m);
+  const std::vector<OrientedPoint> expected = shape.hiddenSide (few, reach_vox * energy.grid.voxel_size_m);
   if (expected.empty ())
     return;
-  if (plausible.wallThickness () > 0.0)
+  if (shape.wallThickness () > 0.0)
   {
-    addVessel (energy, plausible, points, expected);
+    addVessel (energy, shape, points, expected);
     return;
   }
   const ImlsDataTerm term = termOf (energy, expected);
-  const double importance = plausible.hasProfile () ? profile_weight : plausible.isPrism () ? wall_weight : 1.0;
-  const auto weight = static_cast<float> (importance * energy.options.beta_extent);
+  const auto weight = static_cast<float> (profile_weight * energy.options.beta_extent);
   for (std::size_t n = 0; n < energy.grid.size (); ++n)
     if (!energy.empty[n] && energy.data_distance_vox[n] >= gap_vox && term.weight[n] >= near_weight)
     {
       energy.problem.weight[n] += weight;
       energy.problem.weighted_target[n] += weight * term.weighted_target[n] / term.weight[n];
     }
-  if (plausible.top ())
-    emptyBesideTop (energy, plausible.up (), *plausible.top ());
 }
 
 } // namespace pcl::cosection

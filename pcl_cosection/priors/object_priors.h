@@ -3,7 +3,7 @@
 
 #include "occlusion_map.h"
 #include "pcl_cosection/energy/body_energy.h"
-#include "pcl_cosection/priors/shape/symmetric_extent.h"
+#include "pcl_cosection/priors/shape/profiled_shape.h"
 #include <pcl/cosection/common/camera.h>
 #include <pcl/cosection/common/oriented_point.h>
 #include <pcl/cosection/surface/options.h>
@@ -19,8 +19,9 @@
 
 namespace pcl::cosection {
 
-/** \brief The symmetric extents of one object's points by support plane, each fitted once; zeros: without a plane. */
-using ShapeFits = std::map<std::array<double, 4>, SymmetricExtent>;
+/** \brief The shapes with a profile fitted to one object's points by support plane, each once; zeros: without a plane.
+ */
+using ShapeFits = std::map<std::array<double, 4>, ProfiledShape>;
 
 /** \brief The measurements of one object, in its frame, metres. */
 struct Observation
@@ -69,9 +70,9 @@ Eigen::AlignedBox3d boxDownToPlanes (const Observation& object, const ObjectSett
 
 /** \brief Add the terms of all priors that the options enable to an object's energy.
  * \param[in] planes on which it may stand
- * \param[in] plane_is_inferred the only plane is that of inferSupportPlane ()
- * \param[in,out] hidden occlusion of the object's volume by its views */
+ * \param[in,out] hidden occlusion of the object's volume by its views
+ * \param[in,out] energy with data term and free space */
 void addPriors (const Observation& object, const ObjectSetting& setting, const std::vector<Eigen::Vector4d>& planes,
-                bool plane_is_inferred, OcclusionMap& hidden, BodyEnergy& energy);
+                OcclusionMap& hidden, BodyEnergy& energy);
 
 } // namespace pcl::cosection

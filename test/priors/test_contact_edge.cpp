@@ -177,12 +177,14 @@ TEST (ContactEdge, IsFoundOnlyWithItsPrior)
   EXPECT_LT (lowest (completeAlone (scene, {0}, nullptr, others)), -0.03);
 }
 
-/** \brief Without the prior, a T on a given plane goes on where views looked past it. */
-TEST (RaysWithoutReturn, BoundOnlyWithTheirPrior)
+/** \brief Without the prior, evidence lacks where views looked past a T. */
+TEST (RaysWithoutReturn, TellOnlyWithTheirPrior)
 {
   Priors others;
   others.rays = false;
   const AnalyticScene scene = onTable (brick);
-  EXPECT_GT (meanError (completeAlone (scene, {0, 1}, &table_plane, others), brick),
-             2.0 * meanError (completeAlone (scene, {0, 1}, &table_plane), brick));
+  const double with_rays_m = meanError (completeAlone (scene, {0, 1}), brick);
+  const double without_m = meanError (completeAlone (scene, {0, 1}, nullptr, others), brick);
+  std::printf ("T, 2 views: mean error %.2f mm with rays, %.2f without\n", 1e3 * with_rays_m, 1e3 * without_m);
+  EXPECT_GT (without_m, 1.25 * with_rays_m);
 }

@@ -1,13 +1,13 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 
-// SymmetricExtent of plates and dishes, which show only their inside, and of things that are open at the bottom.
+// ProfiledShape of plates and dishes, which show only their inside, and of things that are open at the bottom.
 
 #include "completion/scenes/surrounding_views.h"
 #include "moved_points.h"
 #include "observed_box.h"
 #include "round_things.h"
 
-#include "pcl_cosection/priors/shape/symmetric_extent.h"
+#include "pcl_cosection/priors/shape/profiled_shape.h"
 
 #include <gtest/gtest.h>
 
@@ -79,7 +79,7 @@ wholeCup (double inner_end)
 
 /** \brief Number of expected points in a disc about the axis at a height, for a thing at \a pose. */
 std::ptrdiff_t
-discAt (double height, const SymmetricExtent& extent, const std::vector<OrientedPoint>& points,
+discAt (double height, const ProfiledShape& extent, const std::vector<OrientedPoint>& points,
         const Eigen::Isometry3d& pose = Eigen::Isometry3d::Identity ())
 {
   const std::vector<OrientedPoint> hidden = extent.hiddenSide (points, 0.002);
@@ -98,8 +98,8 @@ TEST (Dish, APlateIsAsThickAsItsFloorIsHigh)
     for (const double floor : {0.003, 0.006})
     {
       const std::vector<OrientedPoint> points = noisy (observedPlate (floor, depth));
-      const SymmetricExtent plate (points, ground);
-      ASSERT_TRUE (plate.hasProfile ()) << depth;
+      const ProfiledShape plate (points, ground);
+      ASSERT_TRUE (plate) << depth;
       EXPECT_NEAR (plate.wallThickness (), floor, 0.0005) << depth;
       EXPECT_LT (plate.center ().head<2> ().norm (), 0.001) << depth;
       // Under the middle of the wall its outer side is expected, a wall's thickness from the inner one.
@@ -121,14 +121,14 @@ TEST (Dish, APlateIsAsThickAsItsFloorIsHigh)
 
 TEST (Dish, WhatIsNoneIsLeftAlone)
 {
-  EXPECT_EQ (SymmetricExtent (observedTray (0.004, 0.02), ground).wallThickness (), 0.0);
-  EXPECT_EQ (SymmetricExtent (observedPlate (0.04, 0.02), ground).wallThickness (),
+  EXPECT_EQ (ProfiledShape (observedTray (0.004, 0.02), ground).wallThickness (), 0.0);
+  EXPECT_EQ (ProfiledShape (observedPlate (0.04, 0.02), ground).wallThickness (),
              0.0); // on something, or a solid pedestal
 }
 
 TEST (Dish, AloneItIsNoLid)
 {
-  EXPECT_EQ (SymmetricExtent (observedPlate (0.0, 0.02), false).wallThickness (),
+  EXPECT_EQ (ProfiledShape (observedPlate (0.0, 0.02), false).wallThickness (),
              0.0); // something is known around it, but no plane
   const Profile recess = [] (double /*height*/) { return std::pair (floor_radius, 0.0); };
   std::vector<OrientedPoint> tin = observedRound (recess, 0.0, 0.006, Eigen::Vector3d (0.3, 0.0, 1.0), -1.0);
@@ -137,7 +137,7 @@ TEST (Dish, AloneItIsNoLid)
       tin.push_back (
           pointAt ({radius * std::cos (angle), radius * std::sin (angle), radius > floor_radius ? 0.006 : 0.0},
                    Eigen::Vector3d::UnitZ ()));
-  EXPECT_EQ (SymmetricExtent (tin).wallThickness (), 0.0);
+  EXPECT_EQ (ProfiledShape (tin).wallThickness (), 0.0);
 }
 
 // Rings of equally many points on profiles with steps: some distant places have equal sums of radius and height.
@@ -165,7 +165,7 @@ TEST (Dish, AnyStepsWillDo)
                                    -along.y () * out + along.x () * Eigen::Vector3d::UnitZ ()));
       }
     }
-    for (const SymmetricExtent& extent : {SymmetricExtent (points), SymmetricExtent (points, ground)})
+    for (const ProfiledShape& extent : {ProfiledShape (points), ProfiledShape (points, ground)})
       for (const OrientedPoint& p : extent.hiddenSide (points, 0.002))
         ASSERT_TRUE (p.position.allFinite () && p.normal.allFinite ()) << thing;
   }
@@ -177,7 +177,7 @@ TEST (Dish, OnNothingThatIsKnownItsWallIsAsUsual)
        {Eigen::Isometry3d (Eigen::Isometry3d::Identity ()), Eigen::Isometry3d (anyPose ())})
   {
     const std::vector<OrientedPoint> points = moved (noisy (observedPlate (0.0, 0.02)), pose);
-    const SymmetricExtent plate (points);
+    const ProfiledShape plate (points);
     EXPECT_NEAR (plate.wallThickness (), 0.04 * rim_radius, 0.0005);
     EXPECT_GT (discAt (-plate.wallThickness (), plate, points, pose), 100);
   }
@@ -193,7 +193,7 @@ TEST (Dish, ARimMayBeLevel)
       points.push_back (
           pointAt ({radius * std::cos (angle), radius * std::sin (angle), floor + depth}, Eigen::Vector3d::UnitZ ()));
   points = noisy (points);
-  const SymmetricExtent plate (points, ground);
+  const ProfiledShape plate (points, ground);
   EXPECT_NEAR (plate.wallThickness (), floor, 0.0005);
   std::ptrdiff_t under = 0;
   for (const OrientedPoint& p : plate.hiddenSide (points, 0.002))
@@ -232,14 +232,14 @@ TEST (Vessel, UpsideDownItIsOpenBelow)
   {
     const std::vector<OrientedPoint> vertical = wholeCup (inner_end);
     const std::vector<OrientedPoint> points = moved (vertical, over);
-    for (const SymmetricExtent& extent : {SymmetricExtent (points), SymmetricExtent (points, ground)})
+    for (const ProfiledShape& extent : {ProfiledShape (points), ProfiledShape (points, ground)})
     {
       EXPECT_NEAR (extent.wallThickness (), 0.004, 0.0003);
       EXPECT_EQ (discAt (0.0, extent, points), 0);   // the mouth
       EXPECT_GT (discAt (0.09, extent, points), 50); // the bottom
       EXPECT_GT (extent.depthInCavity ({0.0, 0.0, 0.02}), 0.03);
     }
-    EXPECT_GT (discAt (0.0, SymmetricExtent (vertical, ground), vertical), 50);
+    EXPECT_GT (discAt (0.0, ProfiledShape (vertical, ground), vertical), 50);
   }
 }
 
@@ -250,7 +250,7 @@ TEST (Vessel, ATubeIsOneHoweverFarBelowItThePlaneIs)
   const std::vector<OrientedPoint> inner = observedRound (inside, 0.0, 0.09, {0.0, -0.8, 0.6}, -1.0);
   tube.insert (tube.end (), inner.begin (), inner.end ());
   for (const double below : {0.0, 0.0019, 0.0021, 0.004})
-    EXPECT_EQ (SymmetricExtent (tube, {0.0, 0.0, 1.0, below}).wallThickness (), 0.0) << below;
+    EXPECT_EQ (ProfiledShape (tube, {0.0, 0.0, 1.0, below}).wallThickness (), 0.0) << below;
 }
 
 TEST (Vessel, WhatTheTableIsSeenThroughHasNoFloor)
@@ -279,7 +279,7 @@ TEST (Vessel, PointsWithoutANormalSayNothing)
   std::vector<OrientedPoint> points = wholeCup (0.0899);
   points[points.size () / 2].normal.setConstant (std::numeric_limits<float>::quiet_NaN ());
   points.front ().position.setConstant (std::numeric_limits<float>::quiet_NaN ());
-  const SymmetricExtent extent (points, ground);
+  const ProfiledShape extent (points, ground);
   EXPECT_NEAR (extent.wallThickness (), 0.004, 0.0003);
   EXPECT_FALSE (extent.hiddenSide (points, 0.0).empty ()); // and ends
 }
@@ -303,6 +303,6 @@ TEST (Vessel, SlopesDoNotMakeWallsThicker)
         points.insert (points.end (), seen.begin (), seen.end ());
       }
     }
-    EXPECT_NEAR (SymmetricExtent (points, ground).wallThickness (), wall, 0.0003) << slope;
+    EXPECT_NEAR (ProfiledShape (points, ground).wallThickness (), wall, 0.0003) << slope;
   }
 }

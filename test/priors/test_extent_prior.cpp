@@ -58,7 +58,7 @@ silhouette (const DepthView& view, const Eigen::Isometry3d& T_grid_sensor, const
 
 std::vector<float>
 defined (const ExtentPrior& prior, const VoxelGrid& grid, const std::vector<float>& distance_vox,
-         const std::vector<OrientedPoint>& points, const Views& views, const std::vector<SymmetricExtent>& plausible)
+         const std::vector<OrientedPoint>& points, const Views& views, const std::vector<ProfiledShape>& plausible)
 {
   std::vector<std::vector<float>> silhouettes;
   for (const auto& [view, T] : views)
@@ -90,8 +90,8 @@ defined (const ExtentPrior& prior, const VoxelGrid& grid, const std::vector<floa
         const std::size_t n = grid.index (i, j, k);
         double bound = std::max (0.0, distance_vox[n] - factor * extents[1]);
         double beyond = plausible.empty () ? 0.0 : std::numeric_limits<double>::infinity ();
-        for (const SymmetricExtent& extent : plausible)
-          beyond = std::min (beyond, extent.beyond (p) / grid.voxel_size_m - margin);
+        for (const ProfiledShape& extent : plausible)
+          beyond = std::min (beyond, extent.region ().beyond (p) / grid.voxel_size_m - margin);
         if (evidence != occluded)
           bound = std::max (bound, beyond);
         bounds[n] = static_cast<float> (bound);
@@ -125,7 +125,7 @@ protected:
     distance_vox_ = distanceTransform (grid_.dims, data);
   }
 
-  void expectAsDefined (const std::vector<SymmetricExtent>& plausible) const
+  void expectAsDefined (const std::vector<ProfiledShape>& plausible) const
   {
     const ExtentPrior prior;
     const std::vector<float> expected = defined (prior, grid_, distance_vox_, points_, views_, plausible);
@@ -158,28 +158,28 @@ TEST_P (ExtentPriorTest, IsItsDefinition)
 
 TEST_P (ExtentPriorTest, IsItsDefinitionWithPlausibleRegions)
 {
-  expectAsDefined ({SymmetricExtent (points_, table_plane)});
-  expectAsDefined ({SymmetricExtent (points_, table_plane), SymmetricExtent (points_)});
+  expectAsDefined ({ProfiledShape (points_, table_plane)});
+  expectAsDefined ({ProfiledShape (points_, table_plane), ProfiledShape (points_)});
 }
 
 INSTANTIATE_TEST_SUITE_P (Views, ExtentPriorTest, testing::Values (0, 1, 3));
 
-TEST (SymmetricExtent, IsTheSameWithinABox)
+TEST (ProfiledShape, IsTheSameWithinABox)
 {
   AnalyticScene scene = tableScene (Shape::Cup);
   const std::vector<OrientedPoint> points = scene.render (tableCamera (), around (0)).points.at (1);
-  const SymmetricExtent extent (points, table_plane);
+  const ProfiledShape extent (points, table_plane);
   for (const double size_m : {0.0, 0.01, 0.1})
     for (const double x : {-0.1, 0.0, 0.05, 0.2})
     {
       const Eigen::AlignedBox3d box (Eigen::Vector3d (x, -0.02, 0.01),
                                      Eigen::Vector3d (x, -0.02, 0.01) + size_m * Eigen::Vector3d::Ones ());
-      const SymmetricExtent within = extent.within (box);
+      const HalfSpaces within = extent.region ().within (box);
       for (int n = 0; n < 27; ++n)
       {
         const Eigen::Vector3d p = box.min () +
                                   box.sizes ().cwiseProduct (Eigen::Vector3d (n % 3, n / 3 % 3, n / 9)) / 2.0;
-        EXPECT_EQ (within.beyond (p), extent.beyond (p));
+        EXPECT_EQ (within.beyond (p), extent.region ().beyond (p));
       }
     }
 }

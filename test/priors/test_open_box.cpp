@@ -6,7 +6,7 @@
 #include "moved_points.h"
 #include "round_things.h"
 
-#include "pcl_cosection/priors/shape/symmetric_extent.h"
+#include "pcl_cosection/priors/shape/profiled_shape.h"
 
 #include <gtest/gtest.h>
 
@@ -131,7 +131,7 @@ TEST_P (OpenBox, HasWallsAndAFloorInAnyPose)
     std::vector<OrientedPoint> points = moved (pointsOf (shape_, 1), T);
     if (is_noisy)
       points = noisy (points);
-    for (const SymmetricExtent& extent : {SymmetricExtent (points), SymmetricExtent (points, plane)})
+    for (const ProfiledShape& extent : {ProfiledShape (points), ProfiledShape (points, plane)})
     {
       EXPECT_NEAR (extent.wallThickness (), tray_.wall, 0.0025) << is_noisy;
       std::vector<OrientedPoint> hidden = extent.hiddenSide (points, 0.002);
@@ -195,8 +195,8 @@ TEST (OpenBoxes, ADeepOneShowsNoFloor)
       std::remove_if (points.begin (), points.end (),
                       [] (const OrientedPoint& p) { return p.normal.z () > 0.5f && p.position.z () < 0.05f; }),
       points.end ());
-  EXPECT_NEAR (SymmetricExtent (points, table_plane).wallThickness (), bin.wall, 0.003);
-  EXPECT_NEAR (SymmetricExtent (points).wallThickness (), bin.wall, 0.003);
+  EXPECT_NEAR (ProfiledShape (points, table_plane).wallThickness (), bin.wall, 0.003);
+  EXPECT_NEAR (ProfiledShape (points).wallThickness (), bin.wall, 0.003);
 }
 
 TEST (OpenBoxes, WhatIsOpenToASideIsNone)
@@ -221,8 +221,7 @@ TEST (OpenBoxes, WhatIsOpenToASideIsNone)
       {
         const Distance turned = placed (shape, Eigen::Isometry3d (Eigen::AngleAxisd (turn, Eigen::Vector3d::UnitZ ())));
         const std::vector<OrientedPoint> points = pointsOf (turned, views);
-        EXPECT_EQ (SymmetricExtent (points, table_plane).wallThickness (), 0.0)
-            << name << ", " << turn << ", " << views;
-        EXPECT_EQ (SymmetricExtent (points).wallThickness (), 0.0) << name << ", " << turn << ", " << views;
+        EXPECT_EQ (ProfiledShape (points, table_plane).wallThickness (), 0.0) << name << ", " << turn << ", " << views;
+        EXPECT_EQ (ProfiledShape (points).wallThickness (), 0.0) << name << ", " << turn << ", " << views;
       }
 }

@@ -1,13 +1,13 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 
-// SymmetricExtent of round vessels.
+// ProfiledShape of round vessels.
 
 #include "completion/scenes/surrounding_views.h"
 #include "moved_points.h"
 #include "observed_box.h"
 #include "round_things.h"
 
-#include "pcl_cosection/priors/shape/symmetric_extent.h"
+#include "pcl_cosection/priors/shape/profiled_shape.h"
 
 #include <gtest/gtest.h>
 
@@ -42,7 +42,7 @@ TEST_P (VesselInAnyPose, HasAFloorAndABottom)
   const double tolerance = GetParam () ? 0.002 : 0.0005;
   const Eigen::Vector3d up = anyPose ().linear () * Eigen::Vector3d::UnitZ ();
   const Eigen::Vector4d plane (up.x (), up.y (), up.z (), -up.dot (anyPose ().translation ()));
-  for (const SymmetricExtent& extent : {SymmetricExtent (points), SymmetricExtent (points, plane)})
+  for (const ProfiledShape& extent : {ProfiledShape (points), ProfiledShape (points, plane)})
   {
     ASSERT_NEAR (extent.wallThickness (), 0.004, 0.25 * tolerance + 0.0002);
     const std::vector<OrientedPoint> hidden = extent.hiddenSide (points, 0.001);
@@ -79,10 +79,10 @@ INSTANTIATE_TEST_SUITE_P (Measured, VesselInAnyPose, testing::Bool (),
 TEST (Vessel, TubesAndWhatIsSolidAreNoVessels)
 {
   const std::vector<OrientedPoint> tube = observedCup (0.0);
-  EXPECT_EQ (SymmetricExtent (tube, ground).wallThickness (), 0.0);
-  EXPECT_EQ (SymmetricExtent (tube).wallThickness (), 0.0);
+  EXPECT_EQ (ProfiledShape (tube, ground).wallThickness (), 0.0);
+  EXPECT_EQ (ProfiledShape (tube).wallThickness (), 0.0);
   const std::vector<OrientedPoint> solid = observedRound (can, 0.0, 0.09, {0.0, -0.8, 0.6});
-  EXPECT_EQ (SymmetricExtent (solid, ground).wallThickness (), 0.0);
+  EXPECT_EQ (ProfiledShape (solid, ground).wallThickness (), 0.0);
   // A ring: its inner and outer sides meet at both ends.
   constexpr double ring_radius = 0.05, radius = 0.015;
   const Eigen::Vector3d view (0.0, -0.8, 0.6);
@@ -96,8 +96,8 @@ TEST (Vessel, TubesAndWhatIsSolidAreNoVessels)
     const std::vector<OrientedPoint> seen = observedRound (half, -radius + 0.0005, radius - 0.0005, view, side);
     ring.insert (ring.end (), seen.begin (), seen.end ());
   }
-  EXPECT_EQ (SymmetricExtent (ring).wallThickness (), 0.0);
-  EXPECT_EQ (SymmetricExtent (ring, {0.0, 0.0, 1.0, radius}).wallThickness (), 0.0);
+  EXPECT_EQ (ProfiledShape (ring).wallThickness (), 0.0);
+  EXPECT_EQ (ProfiledShape (ring, {0.0, 0.0, 1.0, radius}).wallThickness (), 0.0);
 }
 
 // One view of a ring: the hole has no floor, and its inner and outer sides are not parallel.
@@ -116,7 +116,7 @@ TEST (Vessel, ARingIsNone)
           if (normal.dot (view) > 0.2)
             ring.push_back (pointAt (0.1 * out + tube * normal, normal));
         }
-      EXPECT_EQ (SymmetricExtent (noisy (ring)).wallThickness (), 0.0) << tube << ", " << rise;
+      EXPECT_EQ (ProfiledShape (noisy (ring)).wallThickness (), 0.0) << tube << ", " << rise;
     }
 }
 
@@ -126,7 +126,7 @@ TEST (Vessel, AFloorThatWasSeenIsWhereItWasSeen)
   for (double radius = 0.002; radius < 0.036; radius += 0.002)
     for (double angle = 0.0; angle < M_PI; angle += 0.002 / radius)
       points.push_back (pointAt ({radius * std::cos (angle), radius * std::sin (angle), 0.012}, {0.0, 0.0, 1.0}));
-  const SymmetricExtent extent (points, ground);
+  const ProfiledShape extent (points, ground);
   EXPECT_NEAR (extent.wallThickness (), 0.004, 0.0005);
   EXPECT_NEAR (extent.depthInCavity ({0.0, 0.0, 0.022}), 0.01, 0.0005);
 }

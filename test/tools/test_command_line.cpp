@@ -113,12 +113,13 @@ TEST (CommandLine, PriorsThatAreListedAreOn)
 {
   EXPECT_EQ (parse ("a.pcd out").method.activePriors ().names (), "all");
   EXPECT_EQ (parse ("a.pcd out --priors none").method.activePriors ().names (), "none");
-  EXPECT_EQ (parse ("a.pcd out --priors walls,extent").method.activePriors ().names (), "extent,walls");
-  EXPECT_EQ (parse ("a.pcd out --priors walls --priors extent").method.activePriors ().names (), "extent,walls");
+  EXPECT_EQ (parse ("a.pcd out --priors extrusion,extent").method.activePriors ().names (), "extent,extrusion");
+  EXPECT_EQ (parse ("a.pcd out --priors extrusion --priors extent").method.activePriors ().names (),
+             "extent,extrusion");
   EXPECT_EQ (parse ("a.pcd out --no-planes").method.activePriors ().names (),
-             "extent,symmetry,revolution,vessels,walls,contact,rays");
+             "extent,symmetry,revolution,vessels,extrusion,rays");
   EXPECT_EQ (parse ("a.pcd out --preset paper").method.activePriors ().names (), "none");
-  EXPECT_EQ (parse ("a.pcd out --preset paper --priors contact").method.activePriors ().names (), "contact");
+  EXPECT_EQ (parse ("a.pcd out --preset paper --priors rays").method.activePriors ().names (), "rays");
 }
 
 TEST (CommandLine, OptionsReachTheMethod)
@@ -171,7 +172,7 @@ TEST (CommandLine, ConfigurationFile)
 {
   const ConfigFile file (
       "# a comment\nvoxel-size = 0.004\nplane = [0, 0, 1, 0.5, 1, 0, 0, 2]\nsolver = \"fast-jacobi\"\n"
-      "save-sdf = true\nno-planes = false\nworld-points\npriors = extent,walls\n");
+      "save-sdf = true\nno-planes = false\nworld-points\npriors = extent,extrusion\n");
   const Settings s = parse ("--config " + file.path + " a.pcd out --solver multigrid");
   EXPECT_EQ (s.method.voxel_size_m, 0.004);
   ASSERT_EQ (s.planes.size (), 2u);
@@ -180,7 +181,7 @@ TEST (CommandLine, ConfigurationFile)
   EXPECT_TRUE (s.save_sdf);
   EXPECT_TRUE (s.method.use_planes);
   EXPECT_TRUE (s.reading.world_points);
-  EXPECT_EQ (s.method.priors.names (), "extent,walls");
+  EXPECT_EQ (s.method.priors.names (), "extent,extrusion");
 }
 
 TEST (CommandLine, WrongConfigurationFiles)
@@ -218,7 +219,7 @@ TEST (CommandLine, WrongUsageIsNamed)
   expect ("--threads 0 a.pcd out", "--threads");
   expect ("--constraints both a.pcd out", "--constraints");
   expect ("--solver gauss a.pcd out", "multigrid");
-  for (const char* list : {"wall", "walls,,contact", "walls,", "all,walls", "walls,none"})
+  for (const char* list : {"wall", "extrusion,,rays", "extrusion,", "all,extrusion", "extrusion,none"})
     expect (std::string ("a.pcd out --priors ") + list, "--priors: unknown prior");
   expect ("--preset mine a.pcd out", "paper");
   expect ("--format vtk a.pcd out", "--format");

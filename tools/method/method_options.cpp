@@ -39,7 +39,7 @@ declareMethodOptions (CLI::App& app, GivenMethod& given)
   method.add (
       "--priors LIST", given.priors,
       "What is expected of hidden surfaces that nothing bounds: names separated by commas, of extent, symmetry, "
-      "revolution, vessels, walls, contact, plane, rays; or none" +
+      "revolution, vessels, extrusion, plane, rays; or none" +
           byDefault ("all"));
   method.add ("--alpha WEIGHT", given.alpha, positiveNumber (),
               "Weight of smoothness, relative to the voxel" + byDefault (defaults.alpha));
@@ -114,7 +114,7 @@ methodOptions (GivenMethod given)
   if (!given.priors.empty ())
   {
     options.priors = namedPriors (given.priors);
-    options.use_extent_prior = options.use_symmetric_extent = options.use_contact_prior = true; // the list decides
+    options.use_extent_prior = options.use_symmetric_extent = true; // the list decides
   }
   if (given.no_planes)
     options.use_planes = false;

@@ -190,6 +190,22 @@ principalAxes (const std::vector<OrientedPoint>& points, const std::optional<Eig
   return axes;
 }
 
+Eigen::Matrix3d
+orientedAxes (const std::vector<OrientedPoint>& points, const std::optional<Eigen::Vector3d>& up)
+{
+  Eigen::Matrix3d axes = principalAxes (points, up);
+  const Eigen::Vector3d mean = scatterOf (points).mean;
+  for (int a = 0; a < (up ? 2 : 3); ++a)
+  {
+    double skewness = 0.0;
+    for (const OrientedPoint& point : points)
+      skewness += std::pow (axes.col (a).dot (point.position.cast<double> () - mean), 3);
+    if (skewness < 0.0)
+      axes.col (a) = -axes.col (a);
+  }
+  return axes;
+}
+
 NormalLines
 normalLinesOf (const std::vector<OrientedPoint>& points)
 {

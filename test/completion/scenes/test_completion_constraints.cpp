@@ -111,6 +111,7 @@ TEST (ConstraintsGiven, PlanesAndBodiesBound)
 {
   const RenderedView seen = tableScene (Shape::Box).render (tableCamera (), fromAbove ());
   CoSectionOptions options = optionsFor (voxel_m);
+  options.priors = Priors::named ("extent"); // others tell where it ends
   const auto below = [&] (auto&& constrain) {
     CoSection scene (options);
     scene.addView (seen.view);

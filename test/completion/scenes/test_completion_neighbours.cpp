@@ -17,9 +17,12 @@ TEST_P (Neighbours, EndWithHardlyAnyPenetration)
 {
   CoSectionOptions options = optionsFor (neighbour_voxel_m);
   const SceneResult result = complete (touchingBoxes (GetParam ()), options);
+  options.priors = Priors::named ("extent"); // others tell where they end
+  const SceneResult with_it = complete (touchingBoxes (GetParam ()), options);
   options.use_intersection = false;
   const SceneResult without = complete (touchingBoxes (GetParam ()), options);
   EXPECT_GT (deepestPenetration (without), 2.0);
+  EXPECT_LE (deepestPenetration (with_it), about_a_voxel);
   EXPECT_LE (deepestPenetration (result), about_a_voxel);
   for (const ObjectResult& object : result.objects)
   {

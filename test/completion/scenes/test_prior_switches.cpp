@@ -39,6 +39,6 @@ TEST (PriorSwitches, TakeAwayWhatThePriorExpects)
   const double ball_m = errorOf (Shape::Sphere, {}), cup_m = errorOf (Shape::Cup, {}), box_m = errorOf (Shape::Box, {});
   EXPECT_GT (errorOf (Shape::Sphere, allBut (&Priors::revolution, &Priors::symmetry)), 4.0 * ball_m);
   EXPECT_GT (errorOf (Shape::Cup, allBut (&Priors::vessels)), 4.0 * cup_m);
-  EXPECT_GT (errorOf (Shape::Box, allBut (&Priors::walls, &Priors::symmetry)), 4.0 * box_m);
+  EXPECT_GT (errorOf (Shape::Box, allBut (&Priors::extrusion, &Priors::symmetry)), 4.0 * box_m);
   EXPECT_GT (errorOf (Shape::Box, Priors::named ("none")), 6.0 * box_m);
 }

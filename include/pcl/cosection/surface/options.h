@@ -29,16 +29,15 @@ enum class SolverType
   FastJacobi, ///< the paper's optimiser, coarse to fine
 };
 
-/** \brief The priors: what is expected where nothing was measured and no constraint decides. All but the contact need
+/** \brief The priors: what is expected where nothing was measured and no constraint decides. They need
  * CoSectionOptions::use_extent_prior. */
 struct PCL_COSECTION_EXPORT Priors
 {
   bool extent = true;     ///< the shape ends so far from what was seen of it; without it, a volume of fixed padding
-  bool symmetry = true;   ///< copies by a half turn, or by inversion in a point
+  bool symmetry = true;   ///< copies by mirror planes, half turns and full turns for which the points are evidence
   bool revolution = true; ///< solid surfaces of revolution look the same from all sides
   bool vessels = true;    ///< cups, bowls, plates and open boxes have walls of one thickness
-  bool walls = true;      ///< vertical walls go down to the plane, and go on behind other things
-  bool contact = true;    ///< what comes down to a support plane rests on it
+  bool extrusion = true;  ///< what is hidden below an observed surface reaches the plane
   bool plane = true;      ///< an object without known surroundings shows the plane on which it stands
   bool rays = true;       ///< nothing is on rays without return beside an object that was cut out
 
@@ -78,7 +77,6 @@ struct PCL_COSECTION_EXPORT CoSectionOptions
   bool use_planes = true;           ///< find support planes in the background and continue them under the objects
   bool use_extent_prior = true;     ///< remedy for swelling: a weak pull outside where nothing suggests the object
   bool use_symmetric_extent = true; ///< part of the extent prior: hidden parts extend as far as those seen do
-  bool use_contact_prior = true;    ///< let objects that come down to a support plane rest on it where that is hidden
   Priors priors;                    ///< which of the priors; those that the switches above turn off stay off
   bool carve_free_space = true; ///< with the hull: cut the result along the outlines seen by views, finer than a voxel
   bool revise_votes = true;     ///< free space can be revised by contradicting evidence
@@ -89,7 +87,6 @@ struct PCL_COSECTION_EXPORT CoSectionOptions
   double beta_hull = 0.01;               ///< weight of the hull constraint
   double beta_inter = 0.04;              ///< weight of the intersection constraint
   double beta_extent = 0.001;            ///< weight of the pull that prevents swelling
-  double beta_contact = 0.007;           ///< weight of the contact with a support plane
   double sigma_vox = 1.0;                ///< width of a point's Gaussian; cut off at three times it
   double max_bound_vox = 5.0;            ///< cap of the intersection distance, and of the evidence behind data
   Weighting weighting = Weighting::Mean; ///< of the data term

@@ -20,7 +20,7 @@ constexpr double reaches_table_vox = 1.5;
 
 /** \brief A round thing that stands on z = 0; wider at the bottom by \a lean times its height. */
 Distance
-can (double radius, double height, double lean = 0.0)
+standingCan (double radius, double height, double lean = 0.0)
 {
   return [=] (const Eigen::Vector3d& p) {
     const double across = (p.head<2> ().norm () - radius - lean * (height - p.z ())) / std::hypot (1.0, lean);
@@ -108,7 +108,7 @@ TEST_F (HiddenWalls, OfAWedgeAreNoCopies)
 TEST_F (HiddenWalls, OfACanAreNoTube)
 {
   constexpr double radius = 0.05, height = 0.11;
-  see (can (radius, height), {-0.15, 0.0}, {0.15, 0.141}, 0.0025);
+  see (standingCan (radius, height), {-0.15, 0.0}, {0.15, 0.141}, 0.0025);
   ASSERT_GT (lowestSeen (), 0.08f);
   expectToStand ();
   const double truth = 1e3 * M_PI * radius * radius * height;
@@ -127,7 +127,7 @@ TEST_F (HiddenWalls, OfAnLFollowItsNotch)
 
 TEST_F (HiddenWalls, OfACanReachTheTable)
 {
-  see (can (0.05, 0.18), {-0.15, 0.0}, {0.15, 0.12});
+  see (standingCan (0.05, 0.18), {-0.15, 0.0}, {0.15, 0.12});
   ASSERT_GT (lowestSeen (), 0.05f);
   expectToStand ();
   const double truth = 1e3 * M_PI * 0.05 * 0.05 * 0.18;
@@ -136,7 +136,7 @@ TEST_F (HiddenWalls, OfACanReachTheTable)
 
 TEST_F (HiddenWalls, LeanAsTheyLeanWhereTheyWereSeen)
 {
-  see (can (0.035, 0.18, 0.15), {-0.15, 0.0}, {0.15, 0.11});
+  see (standingCan (0.035, 0.18, 0.15), {-0.15, 0.0}, {0.15, 0.11});
   ASSERT_GT (lowestSeen (), 0.04f);
   expectToStand ();
   const double a = 0.035, b = 0.035 + 0.15 * 0.18;

@@ -1,0 +1,33 @@
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Geometry>
+
+#include <utility>
+#include <vector>
+
+namespace pcl::cosection {
+
+/** \brief A convex region, the intersection of half-spaces { x : n_k.x <= s_k }; all of space without any. */
+class HalfSpaces
+{
+public:
+  /** \param[in] n unit normal, outwards \param[in] s metres */
+  void add (const Eigen::Vector3d& n, double s) { sides_.emplace_back (n, s); }
+
+  bool empty () const { return sides_.empty (); }
+
+  /** \brief max_k (n_k.x - s_k): at most the signed distance to the region, negative inside; metres. 0 without any. */
+  double beyond (const Eigen::Vector3d& x) const;
+
+  /** \brief beyond () at the places \a first + i * \a step, i = 0 ... \a count - 1. \param[out] values metres */
+  void beyond (const Eigen::Vector3d& first, const Eigen::Vector3d& step, int count, float* values) const;
+
+  /** \brief As few of these as are needed for beyond () at places in a box. */
+  HalfSpaces within (const Eigen::AlignedBox3d& box) const;
+
+private:
+  std::vector<std::pair<Eigen::Vector3d, double>> sides_; // n_k, s_k
+};
+
+} // namespace pcl::cosection

@@ -1,0 +1,177 @@
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
+#include "copies.h"
+
+#include "pcl_cosection/common/parallel.h"
+#include "pcl_cosection/priors/shape/axes.h"
+#include "pcl_cosection/priors/shape/flat_faces.h"
+#include "pcl_cosection/priors/shape/half_spaces.h"
+
+#include <algorithm>
+#include <functional>
+#include <limits>
+#include <utility>
+
+namespace pcl::cosection {
+namespace {
+
+constexpr float free_vox = 1.5f;       // a voxel at least so far from everything observed is free
+constexpr float gap_vox = 2.0f;        // nothing is expected nearer to data
+constexpr float far_vox = 6.0f;        // largest expected distance
+constexpr float copy_weight = 10.0f;   // in multiples of beta_extent
+constexpr std::size_t many = 4;        // of more motions, some may be wrong about a place
+constexpr double of_many = 0.7;        // quantile of the distances that they give; of fewer the largest one counts
+constexpr std::size_t least_known = 8; // of the motions: one in so many must know a place
+constexpr int directions = 162;
+constexpr std::size_t most_points = 2000; // for the convex hull
+constexpr double outlier_share = 0.005;   // of the points, beyond each side of the hull
+constexpr double hull_margin = 0.02;      // of the middle extent
+constexpr double least_depth = 0.25;      // of an object, of the middle extent
+constexpr double facing = -0.05;          // cosine from which a sensor sees where a side ends, or one of its copies
+constexpr double downwards = -0.05;       // component upwards of the normals of sides that do not bound what stands on
+                                          // a plane: other things may hide its foot
+
+/** \brief What the motions tell of one place. */
+struct CopiesAt
+{
+  double measured_sum = 0.0; // signed distances to copied surface, voxels
+  int measured = 0, free = 0;
+  std::vector<float> known; // signed distances of all motions that tell something
+
+  bool isSurface () const { return measured > 0 && free <= measured; }
+  float surfaceDistance () const { return static_cast<float> (measured_sum / measured); }
+
+  /** \brief Distance that the surface has at least; nothing is known: 0. */
+  float leastDistance (std::size_t motions)
+  {
+    if (known.empty () || (motions > many && known.size () * least_known < motions))
+      return 0.0f;
+    const std::size_t rank = motions > many ? static_cast<std::size_t> (of_many * static_cast<double> (known.size ()))
+                                            : known.size () - 1;
+    std::nth_element (known.begin (), known.begin () + static_cast<std::ptrdiff_t> (rank), known.end ());
+    return std::max (0.0f, known[rank]);
+  }
+};
+
+CopiesAt
+copiesAt (const BodyEnergy& energy, const MeasuredShape& shape, const Motions& motions, const Eigen::Vector3d& place)
+{
+  CopiesAt copies;
+  for (const Eigen::Affine3d& motion : motions)
+  {
+    const Eigen::Vector3d from = motion * place;
+    const auto at = energy.grid.nearest (from);
+    if (!at)
+      continue;
+    const std::size_t voxel = energy.grid.index (at->x (), at->y (), at->z ());
+    const auto value = shape.field.sample (from);
+    if (value && energy.data[voxel])
+    {
+      copies.measured_sum += *value;
+      ++copies.measured;
+    }
+    else if (shape.known[voxel] && shape.field.values[voxel] > free_vox)
+      ++copies.free;
+    if (value && shape.known[voxel])
+      copies.known.push_back (*value);
+  }
+  return copies;
+}
+
+/** \brief Unit vectors from the middle of an object to the sensors that saw it. */
+std::vector<Eigen::Vector3d>
+towardsSensors (const Observation& object)
+{
+  std::vector<Eigen::Vector3d> towards;
+  for (const auto& [view, T_object_sensor] : object.views)
+    towards.push_back ((T_object_sensor.translation () - object.box.center ()).normalized ());
+  return towards;
+}
+
+/** \brief Half-spaces n.x <= s that hold the points and their copies but for a few outliers, for those directions along
+ * which a sensor saw how far the object reaches, or how far a copy does. \param[in] up of what stands on a plane, or
+ * zeros */
+HalfSpaces
+hullOfCopies (const Observation& object, const Motions& motions, const Eigen::Vector3d& up)
+{
+  const std::vector<OrientedPoint>& points = object.points ();
+  std::vector<Eigen::Vector3d> some;
+  for (std::size_t p = 0; p < points.size (); p += points.size () / most_points + 1)
+    some.push_back (points[p].position.cast<double> ());
+  Motions all = motions;
+  all.push_back (Eigen::Affine3d::Identity ());
+  const std::vector<Eigen::Vector3d> towards = towardsSensors (object);
+  const auto rank = static_cast<std::ptrdiff_t> (outlier_share * static_cast<double> (some.size ()));
+  HalfSpaces hull;
+  std::vector<double> along (some.size ());
+  const Eigen::Matrix3d axes = principalAxes (points,
+                                              up.isZero () ? std::nullopt : std::optional<Eigen::Vector3d> (up));
+  for (const Eigen::Vector3d& n : evenDirections (directions, axes))
+  {
+    const bool seen = n.dot (up) >= downwards &&
+                      std::any_of (all.begin (), all.end (), [&] (const Eigen::Affine3d& motion) {
+                        const Eigen::Vector3d turned = motion.linear ().transpose () * n;
+                        return std::any_of (towards.begin (), towards.end (), [&] (const Eigen::Vector3d& sensor) {
+                          return turned.dot (sensor) > facing;
+                        });
+                      });
+    if (!seen)
+      continue;
+    double farthest = -std::numeric_limits<double>::infinity ();
+    for (const Eigen::Affine3d& motion : all)
+    {
+      const Eigen::Vector3d turned = motion.linear ().transpose () * n;
+      std::transform (some.begin (), some.end (), along.begin (),
+                      [&] (const Eigen::Vector3d& p) { return turned.dot (p); });
+      std::nth_element (along.begin (), along.begin () + rank, along.end (), std::greater<> ());
+      farthest = std::max (farthest, along[static_cast<std::size_t> (rank)] + n.dot (motion.translation ()));
+    }
+    hull.add (n, farthest);
+  }
+  return hull;
+}
+
+} // namespace
+
+void
+addCopies (const BodyEnergy& energy, const MeasuredShape& shape, const Symmetry& symmetry, const Observation& object,
+           const Eigen::Vector4d& plane, Proposal& proposal)
+{
+  const VoxelGrid& grid = energy.grid;
+  const Motions& motions = symmetry.motions;
+  const Eigen::Vector3d& extents_m = object.extents_m;
+  const HalfSpaces hull = hullOfCopies (object, motions, plane.head<3> ());
+  const double margin_m = std::max (hull_margin * extents_m[1], least_depth * extents_m[1] - extents_m[2]);
+  const float weight = copy_weight * static_cast<float> (energy.options.beta_extent);
+  parallelFor (0, grid.dims.z (), energy.options.threads, [&] (int k) {
+    std::vector<float> beyond_m (static_cast<std::size_t> (grid.dims.x ()));
+    for (int j = 0; j < grid.dims.y (); ++j)
+    {
+      hull.beyond (grid.center (0, j, k), grid.voxel_size_m * Eigen::Vector3d::UnitX (), grid.dims.x (),
+                   beyond_m.data ());
+      for (int i = 0; i < grid.dims.x (); ++i)
+      {
+        const std::size_t n = grid.index (i, j, k);
+        if (energy.empty[n])
+          continue;
+        const Eigen::Vector3d place = grid.center (i, j, k);
+        CopiesAt copies = copiesAt (energy, shape, motions, place);
+        proposal.surface[n] |= copies.isSurface ();
+        if (energy.data_distance_vox[n] >= gap_vox)
+        {
+          if (copies.isSurface ())
+          {
+            proposal.weight[n] = weight;
+            proposal.target[n] = std::min (copies.surfaceDistance (), far_vox);
+          }
+          else
+            proposal.least[n] = std::min (copies.leastDistance (motions.size ()), far_vox);
+        }
+        proposal.least[n] = std::max (
+            proposal.least[n],
+            static_cast<float> ((beyond_m[static_cast<std::size_t> (i)] - margin_m) / grid.voxel_size_m));
+      }
+    }
+  });
+}
+
+} // namespace pcl::cosection

@@ -1,0 +1,149 @@
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
+#include "volume/analytic_fields.h"
+
+#include "pcl_cosection/priors/symmetry/symmetry_search.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <string>
+
+using namespace pcl::cosection;
+using namespace pcl::cosection::test;
+
+namespace {
+
+constexpr double step_m = 0.003; // voxels, and distances between points
+const Eigen::Vector3d towards_sensor = Eigen::Vector3d (0.5, -1.0, 0.8).normalized ();
+
+/** \brief A shape on the plane through \a origin, as a distant sensor sees it. */
+struct Seen
+{
+  MeasuredShape shape;
+  std::vector<OrientedPoint> points;
+  Eigen::Vector4d plane;
+
+  CopyJudge judge () const { return {shape, points, plane, views}; }
+  std::optional<Symmetry> symmetry () const { return likeliest (findSymmetries (judge (), shape.field.grid, plane)); }
+
+  OcclusionMap::Views views = {};
+};
+
+Seen
+see (const Distance& at_origin, const Eigen::Vector3d& origin)
+{
+  const Distance distance = [=] (const Eigen::Vector3d& p) { return at_origin (p - origin); };
+  const auto isHidden = [&] (const Eigen::Vector3d& p) {
+    for (double along = step_m; along < 0.3; along += 0.5 * step_m)
+      if (distance (p + along * towards_sensor) < 0.0)
+        return true;
+    return false;
+  };
+  Seen seen;
+  seen.plane << 0.0, 0.0, 1.0, -origin.z ();
+  seen.shape.field = sampleField (distance, 0.15, step_m);
+  VoxelGrid& grid = seen.shape.field.grid;
+  grid.origin_m += origin;
+  for (int k = 0; k < grid.dims.z (); ++k)
+    for (int j = 0; j < grid.dims.y (); ++j)
+      for (int i = 0; i < grid.dims.x (); ++i)
+      {
+        const Eigen::Vector3d p = grid.center (i, j, k);
+        const double d = distance (p);
+        seen.shape.field.values[grid.index (i, j, k)] = static_cast<float> (d / step_m);
+        const bool near = std::abs (d) < step_m;
+        const Eigen::Vector3d lifted = near ? Eigen::Vector3d (p + (1.5 * step_m) * towards_sensor) : p;
+        const bool known = d > -step_m && p.z () > origin.z () && !isHidden (lifted);
+        seen.shape.known.push_back (known);
+        if (!(std::abs (d) < 0.5 * step_m) || !known)
+          continue;
+        Eigen::Vector3d n;
+        for (int a = 0; a < 3; ++a)
+          n[a] = distance (p + 1e-4 * Eigen::Vector3d::Unit (a)) - distance (p - 1e-4 * Eigen::Vector3d::Unit (a));
+        OrientedPoint point;
+        point.position = (p - d * n.normalized ()).cast<float> ();
+        point.normal = n.normalized ().cast<float> ();
+        seen.points.push_back (point);
+      }
+  return seen;
+}
+
+Distance
+standing (const Distance& shape, double height)
+{
+  return [=] (const Eigen::Vector3d& p) { return shape (p - Eigen::Vector3d (0.0, 0.0, 0.5 * height)); };
+}
+
+const Distance a_box = standing (
+    [] (const Eigen::Vector3d& p) {
+      const Eigen::Vector3d q = p.cwiseAbs () - Eigen::Vector3d (0.08, 0.05, 0.045);
+      return q.cwiseMax (0.0).norm () + std::min (q.maxCoeff (), 0.0);
+    },
+    0.09);
+
+const Distance a_can = standing (
+    [] (const Eigen::Vector3d& p) { return std::max (p.head<2> ().norm () - 0.05, std::abs (p.z ()) - 0.06); }, 0.12);
+
+const Eigen::Vector3d origins[] = {Eigen::Vector3d::Zero (), {0.4, -0.3, 1.6}};
+
+} // namespace
+
+/** \brief Wherever it stands, the mirror planes are in its middle, to less than a voxel. */
+TEST (SymmetrySearch, ABoxHasTwoMirrorPlanes)
+{
+  for (const Eigen::Vector3d& origin : origins)
+  {
+    const std::optional<Symmetry> symmetry = see (a_box, origin).symmetry ();
+    ASSERT_TRUE (symmetry);
+    EXPECT_EQ (symmetry->name, "two mirror planes");
+    ASSERT_EQ (symmetry->motions.size (), 3u);
+    for (const Eigen::Affine3d& motion : symmetry->motions)
+    {
+      EXPECT_LE ((motion * origin - origin).norm (), 1.5 * step_m); // twice the distance from a plane
+      EXPECT_LE ((motion.linear ().cwiseAbs () - Eigen::Matrix3d::Identity ()).cwiseAbs ().maxCoeff (), 0.1);
+    }
+  }
+}
+
+TEST (SymmetrySearch, ACanLooksTheSameFromAllSides)
+{
+  for (const Eigen::Vector3d& origin : origins)
+  {
+    const std::optional<Symmetry> symmetry = see (a_can, origin).symmetry ();
+    ASSERT_TRUE (symmetry);
+    EXPECT_EQ (symmetry->name, "full turn");
+    const Eigen::Vector3d on_axis = origin + Eigen::Vector3d (0.0, 0.0, 0.06);
+    for (const Eigen::Affine3d& motion : symmetry->motions)
+      EXPECT_LE ((motion * on_axis - on_axis).norm (), 2.0 * step_m);
+  }
+}
+
+TEST (SymmetrySearch, FewPointsHaveNone)
+{
+  Seen seen = see (a_box, Eigen::Vector3d::Zero ());
+  seen.points.resize (10);
+  EXPECT_FALSE (seen.symmetry ());
+  seen.points.clear ();
+  EXPECT_FALSE (seen.symmetry ());
+}
+
+/** \brief Copies support on the surface they came from, and contradict in free space and below the plane. */
+TEST (CopyEvidence, OfCopiesThatAreSeenAndHidden)
+{
+  const Seen seen = see (a_box, Eigen::Vector3d::Zero ());
+  const CopyJudge judge = seen.judge ();
+  const auto shifted = [&] (const Eigen::Vector3d& by) {
+    return judge.judge ({Eigen::Affine3d (Eigen::Translation3d (by))});
+  };
+  const CopyEvidence still = shifted (Eigen::Vector3d::Zero ());
+  EXPECT_GT (still.support, 0.6);
+  EXPECT_LT (still.contradiction, 0.05);
+  const CopyEvidence in_front = shifted (0.1 * towards_sensor);
+  EXPECT_LT (in_front.support, 0.1);
+  EXPECT_GT (in_front.contradiction, 0.8);
+  EXPECT_GT (shifted ({0.0, 0.0, -0.2}).contradiction, 0.99);
+  const CopyEvidence hidden = shifted (-0.03 * towards_sensor);
+  EXPECT_LT (hidden.contradiction, 0.5);
+}
