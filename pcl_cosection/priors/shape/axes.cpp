@@ -191,11 +191,11 @@ principalAxes (const std::vector<OrientedPoint>& points, const std::optional<Eig
 }
 
 Eigen::Matrix3d
-orientedAxes (const std::vector<OrientedPoint>& points, const std::optional<Eigen::Vector3d>& up)
+orientedAxes (const std::vector<OrientedPoint>& points, const Eigen::Vector3d& up)
 {
   Eigen::Matrix3d axes = principalAxes (points, up);
   const Eigen::Vector3d mean = scatterOf (points).mean;
-  for (int a = 0; a < (up ? 2 : 3); ++a)
+  for (int a = 0; a < 2; ++a)
   {
     double skewness = 0.0;
     for (const OrientedPoint& point : points)

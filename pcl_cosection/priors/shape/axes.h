@@ -25,7 +25,7 @@ Scatter scatterOf (const std::vector<OrientedPoint>& points);
 Eigen::Matrix3d principalAxes (const std::vector<OrientedPoint>& points, const std::optional<Eigen::Vector3d>& up);
 
 /** \brief Principal axes, each with the sense in which the points are skewed along it, but for \a up. */
-Eigen::Matrix3d orientedAxes (const std::vector<OrientedPoint>& points, const std::optional<Eigen::Vector3d>& up);
+Eigen::Matrix3d orientedAxes (const std::vector<OrientedPoint>& points, const Eigen::Vector3d& up);
 
 /** \brief The line of a point's normal, in Pluecker coordinates (normal, moment). */
 struct NormalLine

@@ -1,15 +1,15 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "symmetry_search.h"
 
+#include "climb.h"
+#include "footprint.h"
 #include "pcl_cosection/common/quantile.h"
 #include "pcl_cosection/priors/shape/axes.h"
 
 #include <Eigen/SVD>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <functional>
 #include <limits>
 #include <utility>
 
@@ -17,22 +17,13 @@ namespace pcl::cosection {
 namespace {
 
 constexpr std::size_t least_samples = 20;
-constexpr std::size_t coarse_stride = 3; // samples, in the search on a grid
-constexpr double cells_across = 24.0;    // of that grid, along the longer side of the footprint ...
-constexpr double reach = 0.75;           // ... to either side of its middle, of that side
 constexpr int mirror_angles = 60;
 constexpr int axis_heights = 11;
 constexpr int coarse_turns = 8, fine_turns = 12, all_turns = 32;
 constexpr std::size_t mirrors_to_pair = 6;
-constexpr double same_mirror = 0.3;    // radians
-constexpr double least_side = 0.05;    // of the samples, on either side of a mirror plane
-constexpr double mostly = 0.5;         // of the normals are those of walls at right angles
-constexpr int halvings = 5;            // of the steps of a refinement
-constexpr double least_gain = 1e-6;    // of a step
-constexpr double slack_vox = 0.5;      // evidence for a mirror plane is no more exact
-constexpr double about_as_good = 0.02; // difference of log-likelihood ratios
-constexpr double center_step = 0.25;   // of a refinement's first step
-constexpr int most_steps = 8, bisections = 6;
+constexpr double same_mirror = 0.3;          // radians
+constexpr double least_side = 0.05;          // of the samples, on either side of a mirror plane
+constexpr double slack_vox = 0.5;            // evidence for a mirror plane is no more exact
 constexpr double turn_weight = 4.0;          // independent motions of a full turn, ...
 constexpr double ball_weight = 9.0;          // ... of all turns, ...
 constexpr double mirrors_weight = 3.0;       // ... of two mirror planes at right angles, and ...
@@ -43,184 +34,12 @@ constexpr double sure_evidence = 1.0;      // half of the copies are on observed
 constexpr double most_contradiction = 0.1; // share of the copies
 constexpr double as_much = 0.8;            // of the largest value
 
-using Parameters = std::vector<double>;
-using MakeMotions = std::function<Motions (const Parameters&)>;
-
-/** \brief Values that parameters would have by other evidence than that of copies. */
-struct Wanted
-{
-  std::function<std::optional<double> (const Parameters&, std::size_t)> value; // of one of them, given all
-  Parameters slack;                                                            // how far it may be from the best
-};
-
-struct Candidate
-{
-  Parameters at;
-  double ratio = -std::numeric_limits<double>::infinity (); // log-likelihood
-};
-
-/** \brief The evidence for motions; no motions are impossible. */
-double
-ratioOf (const CopyJudge& judge, const Motions& motions, std::size_t stride = 1)
-{
-  return motions.empty () ? -std::numeric_limits<double>::infinity ()
-                          : judge.judge (motions, stride).logLikelihoodRatio ();
-}
-
-/** \brief The best of some parameters, judged coarsely; empty if all are impossible. */
-Candidate
-bestOf (const CopyJudge& judge, const MakeMotions& motions, const std::vector<Parameters>& all)
-{
-  Candidate best;
-  for (const Parameters& at : all)
-    if (const double ratio = ratioOf (judge, motions (at), coarse_stride); ratio > best.ratio)
-      best = {at, ratio};
-  return best;
-}
-
 bool
 isPossible (const Symmetry& symmetry)
 {
   return symmetry.evidence.logLikelihoodRatio () > least_evidence &&
          symmetry.evidence.contradiction < most_contradiction;
 }
-
-/** \brief How far a parameter can go until the evidence falls below a limit. \param[in] step with a sense */
-double
-reachOf (const CopyJudge& judge, const MakeMotions& motions, const Parameters& from, std::size_t k, double step,
-         double limit)
-{
-  const auto holds = [&] (double shift) {
-    Parameters next = from;
-    next[k] += shift;
-    return ratioOf (judge, motions (next)) >= limit;
-  };
-  double good = 0.0, bad = step;
-  for (; std::abs (bad) < most_steps * std::abs (step) && holds (bad); bad += step)
-    good = bad;
-  for (int round = 0; round < bisections; ++round)
-    (holds (0.5 * (good + bad)) ? good : bad) = 0.5 * (good + bad);
-  return good;
-}
-
-/** \brief Move each parameter within the range in which the evidence is about as good, to its middle or, within its
- * slack, nearer to what is wanted: points are on a surface as wide as a voxel, so the evidence has no sharp peak. */
-void
-center (const CopyJudge& judge, const MakeMotions& motions, const Parameters& steps, const Wanted& wanted,
-        Candidate& best)
-{
-  for (std::size_t k = 0; k < steps.size (); ++k)
-  {
-    const double limit = ratioOf (judge, motions (best.at)) - about_as_good;
-    const double low = reachOf (judge, motions, best.at, k, -steps[k], limit);
-    const double high = reachOf (judge, motions, best.at, k, steps[k], limit);
-    const std::optional<double> value = wanted.value ? wanted.value (best.at, k) : std::nullopt;
-    best.at[k] += value ? std::clamp (*value - best.at[k], std::max (low, -wanted.slack[k]),
-                                      std::min (high, wanted.slack[k]))
-                        : 0.5 * (low + high);
-  }
-}
-
-/** \brief Climb along each parameter, with steps that are halved when none helps any more. */
-void
-refine (const CopyJudge& judge, const MakeMotions& motions, Parameters steps, Candidate& best,
-        const Wanted& wanted = {})
-{
-  if (best.at.empty ())
-    return;
-  Parameters coarse = steps;
-  for (double& step : coarse)
-    step *= center_step;
-  best.ratio = ratioOf (judge, motions (best.at));
-  for (int round = 0; round < halvings; ++round)
-  {
-    for (bool moved = true; moved;)
-    {
-      moved = false;
-      for (std::size_t k = 0; k < steps.size (); ++k)
-        for (const double sense : {-1.0, 1.0})
-        {
-          Parameters next = best.at;
-          next[k] += sense * steps[k];
-          const double ratio = ratioOf (judge, motions (next));
-          if (ratio > best.ratio + least_gain)
-          {
-            best = {std::move (next), ratio};
-            moved = true;
-          }
-        }
-    }
-    for (double& step : steps)
-      step *= 0.5;
-  }
-  center (judge, motions, coarse, wanted, best);
-}
-
-/** \brief Axes of a plane, and the footprint on it of the samples. */
-class Footprint
-{
-public:
-  /** \param[in] plane unit normal, and offset */
-  Footprint (const std::vector<OrientedPoint>& samples, const VoxelGrid& grid, const Eigen::Vector4d& plane)
-      : voxel_size_m_ (grid.voxel_size_m)
-      , up_ (plane.head<3> ())
-  {
-    const Eigen::Matrix3d axes = orientedAxes (samples, up_);
-    a_ = axes.col (0);
-    b_ = axes.col (1);
-    Eigen::AlignedBox3d box;
-    for (const OrientedPoint& sample : samples)
-    {
-      const Eigen::Vector3d p = sample.position.cast<double> ();
-      box.extend (Eigen::Vector3d (a_.dot (p), b_.dot (p), up_.dot (p) + plane[3]));
-    }
-    bottom_ = box.min ().z ();
-    top_ = box.max ().z ();
-    origin_ = box.center ().x () * a_ + box.center ().y () * b_ - plane[3] * up_;
-    const double side = box.sizes ().head<2> ().maxCoeff ();
-    step_ = std::max (side / cells_across, 0.5 * grid.voxel_size_m);
-    steps_ = static_cast<int> (std::ceil (reach * side / step_));
-  }
-
-  const Eigen::Vector3d& up () const { return up_; }
-  double voxelSize () const { return voxel_size_m_; }
-  double step () const { return step_; }
-  int steps () const { return steps_; }
-  double bottom () const { return bottom_; }
-  double top () const { return top_; }
-
-  /** \brief A place on the plane, from below the middle. */
-  Eigen::Vector3d place (double x, double y) const { return origin_ + x * a_ + y * b_; }
-
-  Eigen::Vector3d direction (double angle) const { return std::cos (angle) * a_ + std::sin (angle) * b_; }
-
-  /** \brief The angle of walls at right angles to each other, if most normals are those of such walls: the one that
-   * maximises the sum of the fourth powers of the normals' components along it and across. */
-  std::optional<double> angleOfWalls (const std::vector<OrientedPoint>& samples) const
-  {
-    Eigen::Vector2d sum = Eigen::Vector2d::Zero ();
-    double weight = 0.0;
-    for (const OrientedPoint& sample : samples)
-    {
-      const Eigen::Vector3d n = sample.normal.cast<double> ();
-      const double x = a_.dot (n), y = b_.dot (n);
-      const double fourth_power = (x * x + y * y) * (x * x + y * y);
-      sum += fourth_power * Eigen::Vector2d (std::cos (4.0 * std::atan2 (y, x)), std::sin (4.0 * std::atan2 (y, x)));
-      weight += fourth_power;
-    }
-    return sum.norm () > mostly * weight ? std::optional<double> (0.25 * std::atan2 (sum.y (), sum.x ()))
-                                         : std::nullopt;
-  }
-
-  /** \brief The plane across a direction at a distance from the middle: n.x of its points. */
-  double across (const Eigen::Vector3d& n, double offset) const { return n.dot (origin_) + offset; }
-
-private:
-  double voxel_size_m_;
-  Eigen::Vector3d up_, a_, b_, origin_;          // the plane's place below the middle
-  double step_ = 0.0, bottom_ = 0.0, top_ = 0.0; // heights over the plane
-  int steps_ = 0;
-};
 
 Symmetry
 symmetryOf (const CopyJudge& judge, std::string name, double weight, Motions motions)
@@ -255,19 +74,12 @@ std::vector<Candidate>
 bestMirrors (const CopyJudge& judge, const Footprint& footprint)
 {
   const MakeMotions motions = mirrorPlane (judge, footprint);
-  std::vector<Candidate> all;
+  std::vector<Parameters> all;
   for (int i = 0; i < mirror_angles; ++i)
     for (int j = -footprint.steps (); j <= footprint.steps (); ++j)
-    {
-      const double angle = M_PI * i / mirror_angles;
-      Parameters at{angle, j * footprint.step ()};
-      const double ratio = ratioOf (judge, motions (at), coarse_stride);
-      all.push_back ({std::move (at), ratio});
-    }
-  std::stable_sort (all.begin (), all.end (),
-                    [] (const Candidate& a, const Candidate& b) { return a.ratio > b.ratio; });
+      all.push_back ({M_PI * i / mirror_angles, j * footprint.step ()});
   std::vector<Candidate> best;
-  for (const Candidate& mirror : all)
+  for (const Candidate& mirror : sortedByEvidence (judge, motions, std::move (all)))
   {
     const bool is_new = std::none_of (best.begin (), best.end (), [&] (const Candidate& other) {
       const double between = std::abs (mirror.at[0] - other.at[0]);
@@ -281,7 +93,7 @@ bestMirrors (const CopyJudge& judge, const Footprint& footprint)
   return best;
 }
 
-/** \brief Add the full turn about an axis across the footprint's plane. It lies in an vertical mirror plane. */
+/** \brief Add the full turn about an axis across the footprint's plane. It lies in a vertical mirror plane. */
 void
 addTurnAboutVertical (const CopyJudge& judge, const Footprint& footprint, const std::vector<Candidate>& mirrors,
                       double least, std::vector<Symmetry>& symmetries)
@@ -307,7 +119,7 @@ addTurnAboutVertical (const CopyJudge& judge, const Footprint& footprint, const 
     symmetries.push_back (symmetryOf (judge, "full turn", turn_weight, motions (all_turns) (best.at)));
 }
 
-/** \brief Add the full turn about an axis along the plane. It lies in an vertical mirror plane. */
+/** \brief Add the full turn about an axis along the plane. It lies in a vertical mirror plane. */
 void
 addTurnAboutHorizontal (const CopyJudge& judge, const Footprint& footprint, const std::vector<Candidate>& mirrors,
                         std::vector<Symmetry>& symmetries)
@@ -380,9 +192,7 @@ addMirrors (const CopyJudge& judge, const Footprint& footprint, const std::vecto
     symmetries.push_back (symmetryOf (judge, "mirror plane", 1.0, one (best_one.at)));
   if (best_two.ratio > least)
     symmetries.push_back (symmetryOf (judge, "two mirror planes", mirrors_weight, two (best_two.at)));
-  if (best_two.at.empty ())
-    return;
-  if (!with_level)
+  if (!with_level || best_two.at.empty ())
     return;
   const MakeMotions three = [&] (const Parameters& p) { // angle, offsets
     Motions motions = two ({p[0], p[1], p[2]});

@@ -34,7 +34,7 @@ enum class SolverType
 struct PCL_COSECTION_EXPORT Priors
 {
   bool extent = true;     ///< the shape ends so far from what was seen of it; without it, a volume of fixed padding
-  bool symmetry = true;   ///< copies by mirror planes, half turns and full turns for which the points are evidence
+  bool symmetry = true;   ///< copies by mirror planes and turns for which the points are evidence
   bool revolution = true; ///< solid surfaces of revolution look the same from all sides
   bool vessels = true;    ///< cups, bowls, plates and open boxes have walls of one thickness
   bool extrusion = true;  ///< what is hidden below an observed surface reaches the plane

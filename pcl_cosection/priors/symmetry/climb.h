@@ -1,0 +1,47 @@
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "copy_evidence.h"
+
+#include <functional>
+#include <limits>
+#include <optional>
+#include <vector>
+
+namespace pcl::cosection {
+
+using Parameters = std::vector<double>;
+using MakeMotions = std::function<Motions (const Parameters&)>; // none: the parameters are impossible
+
+/** \brief Values that parameters would have by other evidence than that of copies. */
+struct Wanted
+{
+  std::function<std::optional<double> (const Parameters&, std::size_t)> value; // of one of them, given all
+  Parameters slack;                                                            // how far it may be from the best
+};
+
+/** \brief Parameters of motions, and the evidence for these. */
+struct Candidate
+{
+  Parameters at;
+  double ratio = -std::numeric_limits<double>::infinity (); // log-likelihood
+};
+
+/** \brief The evidence for motions; minus infinity without any. \param[in] stride as CopyJudge::judge () has it */
+double ratioOf (const CopyJudge& judge, const Motions& motions, std::size_t stride = 1);
+
+/** \brief The best of some parameters, judged by a part of the samples; empty if all are impossible. */
+Candidate bestOf (const CopyJudge& judge, const MakeMotions& motions, const std::vector<Parameters>& all);
+
+/** \brief Evidence of \a all, judged by a part of the samples, the best first. */
+std::vector<Candidate> sortedByEvidence (const CopyJudge& judge, const MakeMotions& motions,
+                                         std::vector<Parameters> all);
+
+/** \brief Climb along each parameter, with steps that are halved when none helps any more. Then move each within the
+ * range in which the evidence is about as good, to its middle or, within its slack, nearer to what is wanted: points
+ * are on a surface as wide as a voxel, so the evidence has no sharp peak.
+ * \param[in,out] best where to start, and where it ends; nothing is done if it is empty */
+void refine (const CopyJudge& judge, const MakeMotions& motions, Parameters steps, Candidate& best,
+             const Wanted& wanted = {});
+
+} // namespace pcl::cosection
