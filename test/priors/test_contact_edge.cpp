@@ -177,14 +177,24 @@ TEST (ContactEdge, IsFoundOnlyWithItsPrior)
   EXPECT_LT (lowest (completeAlone (scene, {0}, nullptr, others)), -0.03);
 }
 
-/** \brief Without the prior, evidence lacks where views looked past a T. */
-TEST (RaysWithoutReturn, TellOnlyWithTheirPrior)
+/** \brief Without the prior, an L and a small table on a given plane go on where views looked past. */
+TEST (RaysWithoutReturn, BoundOnlyWithTheirPrior)
 {
+  const Distance l = [] (const Eigen::Vector3d& p) {
+    return std::min (boxDistance (p, {0.0, 0.0, 0.015}, {0.08, 0.02, 0.015}),
+                     boxDistance (p, {-0.06, 0.0, 0.06}, {0.02, 0.02, 0.06}));
+  };
+  const Distance table = [] (const Eigen::Vector3d& p) {
+    return std::min ({boxDistance (p, {0.0, 0.0, 0.09}, {0.09, 0.06, 0.01}),
+                      boxDistance (p, {-0.08, 0.0, 0.045}, {0.01, 0.06, 0.045}),
+                      boxDistance (p, {0.08, 0.0, 0.045}, {0.01, 0.06, 0.045})});
+  };
   Priors others;
   others.rays = false;
-  const AnalyticScene scene = onTable (brick);
-  const double with_rays_m = meanError (completeAlone (scene, {0, 1}), brick);
-  const double without_m = meanError (completeAlone (scene, {0, 1}, nullptr, others), brick);
-  std::printf ("T, 2 views: mean error %.2f mm with rays, %.2f without\n", 1e3 * with_rays_m, 1e3 * without_m);
-  EXPECT_GT (without_m, 1.25 * with_rays_m);
+  for (const Distance& shape : {l, table})
+  {
+    const AnalyticScene scene = onTable (shape);
+    EXPECT_GT (meanError (completeAlone (scene, {0, 1}, &table_plane, others), shape),
+               2.0 * meanError (completeAlone (scene, {0, 1}, &table_plane), shape));
+  }
 }
