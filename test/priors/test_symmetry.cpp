@@ -120,6 +120,23 @@ TEST (SymmetrySearch, ACanLooksTheSameFromAllSides)
   }
 }
 
+/** \brief Without a plane, three mirror planes tell of the hidden corner. */
+TEST (SymmetrySearch, ABoxAloneHasThreeMirrorPlanes)
+{
+  for (const Eigen::Vector3d& origin : origins)
+  {
+    Seen seen = see (a_box, origin);
+    seen.plane.setZero ();
+    const std::optional<Symmetry> symmetry = seen.symmetry ();
+    ASSERT_TRUE (symmetry);
+    EXPECT_EQ (symmetry->name, "three mirror planes");
+    ASSERT_EQ (symmetry->motions.size (), 7u);
+    const Eigen::Vector3d middle = origin + Eigen::Vector3d (0.0, 0.0, 0.045);
+    for (const Eigen::Affine3d& motion : symmetry->motions)
+      EXPECT_LE ((motion * middle - middle).norm (), 2.0 * step_m);
+  }
+}
+
 TEST (SymmetrySearch, FewPointsHaveNone)
 {
   Seen seen = see (a_box, Eigen::Vector3d::Zero ());
