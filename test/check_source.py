@@ -6,6 +6,7 @@ Usage: check_source.py [--help]      exit status 0: none, 1: some, 2: wrong usag
 * no line of a source file is longer than 120 columns;
 * no folder has more than 25 sources, and there are no more than 45 public headers;
 * no function is longer than 80 lines, kernels apart, and no class has more than 20 private functions;
+* no two headers define a class of the same name;
 * a room includes only itself, rooms below it and public headers;
 * sources and documents use the words of the field.
 """
@@ -123,6 +124,22 @@ def check_rooms(path, text):
             yield f"{path}: the room {parts[1]} includes the room {included}, which is not below it"
 
 
+def classes_of(text):
+    """Names of the classes that a header defines in its namespace, not in another class or in templates."""
+    return re.findall(r"^(?:struct|class)(?: [A-Z_]+_EXPORT)? (\w+)(?!\w|::)[^;()]*$", text, re.MULTILINE)
+
+
+def check_names(headers):
+    """Two classes of one name in one namespace make a program that crashes, where both are used in some template."""
+    where = collections.defaultdict(list)
+    for path, text in headers:
+        for space in re.findall(r"^namespace ([\w:]+)\s*{", text, re.MULTILINE)[:1]:
+            for name in classes_of(text):
+                where[space, name].append(str(path))
+    return [f"{space}::{name}: defined in {', '.join(paths)}" for (space, name), paths in where.items()
+            if len(paths) > 1]
+
+
 def check_words(path, lines):
     for number, line in enumerate(lines, 1):
         for word, better in WORDS.items():
@@ -136,7 +153,8 @@ def main():
         print(__doc__)
         return 0 if sys.argv[1:] == ["--help"] else 2
     sources = tracked("*.h", "*.hpp", "*.cpp")
-    violations = []
+    violations = check_names([(path, path.read_text()) for path in sources
+                              if path.suffix == ".h" and path.parts[0] != "test"])
     for path in sources:
         text = path.read_text()
         lines = text.split("\n")

@@ -125,7 +125,7 @@ std::vector<OrientedPoint>
 backgroundAtRest (const Scene& scene, const std::vector<SceneObject>& objects)
 {
   std::vector<FreeSpaceView> views;
-  for (const SceneView& view : scene.views)
+  for (const UsedView& view : scene.views)
     if (view.use != ViewUse::FreeSpace)
       views.emplace_back (view.depth);
   std::vector<Eigen::Vector3f> positions (scene.background.size ());

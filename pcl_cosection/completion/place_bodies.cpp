@@ -301,7 +301,7 @@ bytesInUse (const Scene& scene, const SceneState& state, const std::vector<Obser
   for (const auto& [id, body] : state.objects)
     bytes += (body.grid ? estimateBytes (*body.grid) : 0) + body.hidden.bytes ();
   std::size_t largest_view = 0;
-  for (const SceneView& view : scene.views)
+  for (const UsedView& view : scene.views)
   {
     bytes += view.depth.depth.size () * sizeof (float);
     largest_view = std::max (largest_view, view.depth.depth.size ());

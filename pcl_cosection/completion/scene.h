@@ -36,7 +36,7 @@ struct PointBatch
 };
 
 /** \brief A depth view of the scene. */
-struct SceneView
+struct UsedView
 {
   DepthView depth;
   ViewUse use = ViewUse::Full;
@@ -46,7 +46,7 @@ struct SceneView
 struct Scene
 {
   CoSectionOptions options;
-  std::vector<SceneView> views;
+  std::vector<UsedView> views;
   std::vector<OrientedPoint> background; // world frame
   std::vector<ObjectInput> objects;
   std::vector<Eigen::Vector4d> planes; // unit normals, world frame

@@ -34,8 +34,8 @@ reachOf (const CopyJudge& judge, const MakeMotions& motions, const Parameters& f
 }
 
 void
-center (const CopyJudge& judge, const MakeMotions& motions, const Parameters& steps, const Wanted& wanted,
-        Candidate& best)
+center (const CopyJudge& judge, const MakeMotions& motions, const Parameters& steps, const WantedParameters& wanted,
+        RatedParameters& best)
 {
   for (std::size_t k = 0; k < steps.size (); ++k)
   {
@@ -58,29 +58,30 @@ ratioOf (const CopyJudge& judge, const Motions& motions, std::size_t stride)
                           : judge.judge (motions, stride).logLikelihoodRatio ();
 }
 
-std::vector<Candidate>
+std::vector<RatedParameters>
 sortedByEvidence (const CopyJudge& judge, const MakeMotions& motions, std::vector<Parameters> all)
 {
-  std::vector<Candidate> candidates;
+  std::vector<RatedParameters> candidates;
   for (Parameters& at : all)
   {
     const double ratio = ratioOf (judge, motions (at), coarse_stride);
     candidates.push_back ({std::move (at), ratio});
   }
   std::stable_sort (candidates.begin (), candidates.end (),
-                    [] (const Candidate& a, const Candidate& b) { return a.ratio > b.ratio; });
+                    [] (const RatedParameters& a, const RatedParameters& b) { return a.ratio > b.ratio; });
   return candidates;
 }
 
-Candidate
+RatedParameters
 bestOf (const CopyJudge& judge, const MakeMotions& motions, const std::vector<Parameters>& all)
 {
-  const std::vector<Candidate> sorted = sortedByEvidence (judge, motions, all);
-  return sorted.empty () || !std::isfinite (sorted.front ().ratio) ? Candidate () : sorted.front ();
+  const std::vector<RatedParameters> sorted = sortedByEvidence (judge, motions, all);
+  return sorted.empty () || !std::isfinite (sorted.front ().ratio) ? RatedParameters () : sorted.front ();
 }
 
 void
-refine (const CopyJudge& judge, const MakeMotions& motions, Parameters steps, Candidate& best, const Wanted& wanted)
+refine (const CopyJudge& judge, const MakeMotions& motions, Parameters steps, RatedParameters& best,
+        const WantedParameters& wanted)
 {
   if (best.at.empty ())
     return;

@@ -14,14 +14,14 @@ using Parameters = std::vector<double>;
 using MakeMotions = std::function<Motions (const Parameters&)>; // none: the parameters are impossible
 
 /** \brief Values that parameters would have by other evidence than that of copies. */
-struct Wanted
+struct WantedParameters
 {
   std::function<std::optional<double> (const Parameters&, std::size_t)> value; // of one of them, given all
   Parameters slack;                                                            // how far it may be from the best
 };
 
 /** \brief Parameters of motions, and the evidence for these. */
-struct Candidate
+struct RatedParameters
 {
   Parameters at;
   double ratio = -std::numeric_limits<double>::infinity (); // log-likelihood
@@ -31,17 +31,17 @@ struct Candidate
 double ratioOf (const CopyJudge& judge, const Motions& motions, std::size_t stride = 1);
 
 /** \brief The best of some parameters, judged by a part of the samples; empty if all are impossible. */
-Candidate bestOf (const CopyJudge& judge, const MakeMotions& motions, const std::vector<Parameters>& all);
+RatedParameters bestOf (const CopyJudge& judge, const MakeMotions& motions, const std::vector<Parameters>& all);
 
 /** \brief Evidence of \a all, judged by a part of the samples, the best first. */
-std::vector<Candidate> sortedByEvidence (const CopyJudge& judge, const MakeMotions& motions,
-                                         std::vector<Parameters> all);
+std::vector<RatedParameters> sortedByEvidence (const CopyJudge& judge, const MakeMotions& motions,
+                                               std::vector<Parameters> all);
 
 /** \brief Climb along each parameter, with steps that are halved when none helps any more. Then move each within the
  * range in which the evidence is about as good, to its middle or, within its slack, nearer to what is wanted: points
  * are on a surface as wide as a voxel, so the evidence has no sharp peak.
  * \param[in,out] best where to start, and where it ends; nothing is done if it is empty */
-void refine (const CopyJudge& judge, const MakeMotions& motions, Parameters steps, Candidate& best,
-             const Wanted& wanted = {});
+void refine (const CopyJudge& judge, const MakeMotions& motions, Parameters steps, RatedParameters& best,
+             const WantedParameters& wanted = {});
 
 } // namespace pcl::cosection

@@ -70,7 +70,7 @@ mirrorPlane (const CopyJudge& judge, const Footprint& footprint)
 }
 
 /** \brief The best mirror planes, of clearly different directions. */
-std::vector<Candidate>
+std::vector<RatedParameters>
 bestMirrors (const CopyJudge& judge, const Footprint& footprint)
 {
   const MakeMotions motions = mirrorPlane (judge, footprint);
@@ -78,10 +78,10 @@ bestMirrors (const CopyJudge& judge, const Footprint& footprint)
   for (int i = 0; i < mirror_angles; ++i)
     for (int j = -footprint.steps (); j <= footprint.steps (); ++j)
       all.push_back ({M_PI * i / mirror_angles, j * footprint.step ()});
-  std::vector<Candidate> best;
-  for (const Candidate& mirror : sortedByEvidence (judge, motions, std::move (all)))
+  std::vector<RatedParameters> best;
+  for (const RatedParameters& mirror : sortedByEvidence (judge, motions, std::move (all)))
   {
-    const bool is_new = std::none_of (best.begin (), best.end (), [&] (const Candidate& other) {
+    const bool is_new = std::none_of (best.begin (), best.end (), [&] (const RatedParameters& other) {
       const double between = std::abs (mirror.at[0] - other.at[0]);
       return std::min (between, M_PI - between) < same_mirror;
     });
@@ -95,7 +95,7 @@ bestMirrors (const CopyJudge& judge, const Footprint& footprint)
 
 /** \brief Add the full turn about an axis across the footprint's plane. It lies in a vertical mirror plane. */
 void
-addTurnAboutVertical (const CopyJudge& judge, const Footprint& footprint, const std::vector<Candidate>& mirrors,
+addTurnAboutVertical (const CopyJudge& judge, const Footprint& footprint, const std::vector<RatedParameters>& mirrors,
                       double least, std::vector<Symmetry>& symmetries)
 {
   const auto motions = [&] (int count) -> MakeMotions {
@@ -104,14 +104,14 @@ addTurnAboutVertical (const CopyJudge& judge, const Footprint& footprint, const 
     };
   };
   std::vector<Parameters> axes;
-  for (const Candidate& mirror : mirrors)
+  for (const RatedParameters& mirror : mirrors)
     for (int j = -footprint.steps (); j <= footprint.steps (); ++j)
     {
       const double c = std::cos (mirror.at[0]), s = std::sin (mirror.at[0]);
       const double along = j * footprint.step ();
       axes.push_back ({c * mirror.at[1] - s * along, s * mirror.at[1] + c * along});
     }
-  Candidate best = bestOf (judge, motions (coarse_turns), axes);
+  RatedParameters best = bestOf (judge, motions (coarse_turns), axes);
   if (best.at.empty ())
     return;
   refine (judge, motions (fine_turns), {0.5 * footprint.step (), 0.5 * footprint.step ()}, best);
@@ -121,7 +121,7 @@ addTurnAboutVertical (const CopyJudge& judge, const Footprint& footprint, const 
 
 /** \brief Add the full turn about an axis along the plane. It lies in a vertical mirror plane. */
 void
-addTurnAboutHorizontal (const CopyJudge& judge, const Footprint& footprint, const std::vector<Candidate>& mirrors,
+addTurnAboutHorizontal (const CopyJudge& judge, const Footprint& footprint, const std::vector<RatedParameters>& mirrors,
                         std::vector<Symmetry>& symmetries)
 {
   const auto motions = [&] (int count) -> MakeMotions {
@@ -131,10 +131,10 @@ addTurnAboutHorizontal (const CopyJudge& judge, const Footprint& footprint, cons
     };
   };
   std::vector<Parameters> axes;
-  for (const Candidate& mirror : mirrors)
+  for (const RatedParameters& mirror : mirrors)
     for (int k = 1; k <= axis_heights; ++k)
       axes.push_back ({mirror.at[0], mirror.at[1], footprint.top () * k / (axis_heights + 1)});
-  Candidate best = bestOf (judge, motions (coarse_turns), axes);
+  RatedParameters best = bestOf (judge, motions (coarse_turns), axes);
   if (best.at.empty ())
     return;
   refine (judge, motions (fine_turns),
@@ -146,8 +146,8 @@ addTurnAboutHorizontal (const CopyJudge& judge, const Footprint& footprint, cons
 /** \brief Add a mirror plane, and two at right angles. \param[in] with_level also three, of which one
  * is level \param[in] least evidence for one or two */
 void
-addMirrors (const CopyJudge& judge, const Footprint& footprint, const std::vector<Candidate>& mirrors, bool with_level,
-            double least, std::vector<Symmetry>& symmetries)
+addMirrors (const CopyJudge& judge, const Footprint& footprint, const std::vector<RatedParameters>& mirrors,
+            bool with_level, double least, std::vector<Symmetry>& symmetries)
 {
   const MakeMotions one = mirrorPlane (judge, footprint);
   const MakeMotions two = [&] (const Parameters& p) { // angle, offsets
@@ -162,7 +162,7 @@ addMirrors (const CopyJudge& judge, const Footprint& footprint, const std::vecto
   const std::optional<double> across = footprint.angleOfWalls (judge.samples ());
   const double turn = M_PI_2 / mirror_angles, shift = 0.5 * footprint.step (),
                slack_m = slack_vox * footprint.voxelSize ();
-  Wanted wanted;
+  WantedParameters wanted;
   wanted.slack = {2.0 * turn, slack_m, slack_m, slack_m};
   wanted.value = [&] (const Parameters& p, std::size_t k) -> std::optional<double> {
     if (k == 0)
@@ -173,17 +173,17 @@ addMirrors (const CopyJudge& judge, const Footprint& footprint, const std::vecto
       along.push_back (n.dot (sample.position.cast<double> ()) - footprint.across (n, 0.0));
     return 0.5 * (quantile (along, 0.01) + quantile (along, 0.99));
   };
-  Candidate best_one, best_two;
-  for (const Candidate& coarse : mirrors)
+  RatedParameters best_one, best_two;
+  for (const RatedParameters& coarse : mirrors)
   {
     std::vector<Parameters> pairs;
     for (int j = -footprint.steps (); j <= footprint.steps (); ++j)
       pairs.push_back ({coarse.at[0], coarse.at[1], j * footprint.step ()});
-    Candidate pair = bestOf (judge, two, pairs);
+    RatedParameters pair = bestOf (judge, two, pairs);
     refine (judge, two, {turn, shift, shift}, pair, wanted);
     if (pair.ratio > best_two.ratio)
       best_two = std::move (pair);
-    Candidate single = coarse;
+    RatedParameters single = coarse;
     refine (judge, one, {turn, shift}, single, wanted);
     if (single.ratio > best_one.ratio)
       best_one = std::move (single);
@@ -208,7 +208,7 @@ addMirrors (const CopyJudge& judge, const Footprint& footprint, const std::vecto
   std::vector<Parameters> threes;
   for (double height = footprint.bottom (); height <= footprint.top (); height += footprint.step ())
     threes.push_back ({best_two.at[0], best_two.at[1], best_two.at[2], height});
-  Candidate best = bestOf (judge, three, threes);
+  RatedParameters best = bestOf (judge, three, threes);
   if (best.at.empty ())
     return;
   refine (judge, three, {turn, shift, shift, shift}, best, wanted);
@@ -243,7 +243,7 @@ addSymmetriesAlong (const CopyJudge& judge, const Footprint& footprint, bool has
 {
   // Without a plane, there are three directions to choose from, and less was seen free that could refute a symmetry.
   const double least = has_plane ? -std::numeric_limits<double>::infinity () : sure_evidence;
-  const std::vector<Candidate> mirrors = bestMirrors (judge, footprint);
+  const std::vector<RatedParameters> mirrors = bestMirrors (judge, footprint);
   addTurnAboutVertical (judge, footprint, mirrors, least, symmetries);
   addMirrors (judge, footprint, mirrors, !has_plane, least, symmetries);
   if (has_plane)
