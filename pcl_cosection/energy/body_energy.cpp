@@ -123,6 +123,24 @@ makeBodyEnergy (const ShapeEvidence& evidence, const std::vector<PlaneContinuati
   return energy;
 }
 
+BodyEnergy
+withExpectedPoints (const BodyEnergy& energy, const std::vector<OrientedPoint>& points)
+{
+  BodyEnergy with = energy;
+  ImlsDataTerm term;
+  term.add (energy.grid, points, energy.options.sigma_vox, energy.options.threads);
+  std::vector<float> weight, target;
+  term.average (energy.options.weighting, weight, target, energy.options.threads);
+  forEachVoxel (energy, [&] (std::size_t n) {
+    if (energy.data[n] || energy.free_space[n] || term.weight[n] < observed_weight)
+      return;
+    with.problem.weight[n] = weight[n];
+    with.problem.weighted_target[n] = target[n];
+    with.data[n] = 1;
+  });
+  return with;
+}
+
 std::size_t
 estimateBytes (const VoxelGrid& grid)
 {

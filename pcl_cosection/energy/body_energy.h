@@ -45,6 +45,10 @@ struct BodyEnergy
 /** \brief E_data of equation (2), with data terms on continued planes, and E_hull of equation (3). */
 BodyEnergy makeBodyEnergy (const ShapeEvidence& evidence, const std::vector<PlaneContinuation>& planes = {});
 
+/** \brief The energy with the data term of \a points, too, where it has no data. The distance to data is still that to
+ * the measured ones. */
+BodyEnergy withExpectedPoints (const BodyEnergy& energy, const std::vector<OrientedPoint>& points);
+
 /** \brief Upper bound of the bytes that a body on such a grid needs at its peak. */
 std::size_t estimateBytes (const VoxelGrid& grid);
 

@@ -1,6 +1,7 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "object_priors.h"
 
+#include "continuation.h"
 #include "extent_prior.h"
 #include "extrusion.h"
 #include "hidden_side_term.h"
@@ -31,6 +32,7 @@ constexpr double hidden_foot_vox = 6.0;        // height of the lowest points fr
 constexpr double wall_end_vox = 3.0;           // above the lowest points: their normals tell how a wall goes on ...
 constexpr double steep = 0.7;                  // ... if the component of the normal across is larger
 constexpr float expected_bound_weight = 10.0f; // of expected free space, in multiples of beta_extent
+constexpr std::size_t many_motions = 4;        // of a full turn: it tells what others hide, too
 constexpr double same_resting_cosine = 0.995;  // planes of two views on which the object rests in the same way
 
 double
@@ -318,12 +320,38 @@ proposalOf (const Observation& object, const Priors& priors, const std::vector<E
       addFoot (object, plane, profiled.front (), energy, proposal);
     return proposal;
   }
-  if (symmetry)
-    addCopies (energy, shape, *symmetry, object, plane, proposal);
-  if (priors.extrusion && !resting.empty ())
+  Motions motions = symmetry ? symmetry->motions : Motions ();
+  const bool extrudes = priors.extrusion && !resting.empty ();
+  Continuation continued;
+  if (extrudes)
+    continued = continuedBehindOthers (object, plane);
+  // A turn that moves the direction tells how far the object reaches along it; mirror planes do not.
+  if (motions.size () >= many_motions &&
+      std::any_of (motions.begin (), motions.end (), [&] (const Eigen::Affine3d& motion) {
+        return (motion.linear () * continued.direction).dot (continued.direction) < along_axis;
+      }))
+    continued = {};
+  Observation whole = object;
+  if (!continued.points.empty ())
   {
-    const Extrusion extrusion (energy, object.points (), plane);
-    if (!symmetry || symmetry->motions.size () == 1) // several motions tell how far it reaches on all sides
+    whole.inliers = object.points ();
+    whole.inliers.insert (whole.inliers.end (), continued.points.begin (), continued.points.end ());
+    const BodyEnergy of_whole = withExpectedPoints (energy, continued.points);
+    const MeasuredShape shape_of_whole = measuredShape (of_whole);
+    motions.clear ();
+    if (priors.symmetry)
+      if (const auto found = likeliest (
+              findSymmetries (CopyJudge (shape_of_whole, whole.points (), plane, object.views), energy.grid, plane)))
+        motions = found->motions;
+    motions.push_back (Eigen::Affine3d::Identity ());
+    addCopies (of_whole, shape_of_whole, motions, whole, plane, proposal);
+  }
+  else if (symmetry)
+    addCopies (energy, shape, motions, object, plane, proposal);
+  if (extrudes)
+  {
+    const Extrusion extrusion (energy, whole.points (), plane);
+    if (motions.size () <= 1) // several motions tell how far it reaches on all sides
       extrusion.emptyBesideTops (proposal);
     extrusion.addTo (proposal);
   }
@@ -381,6 +409,10 @@ boxDownToPlanes (const Observation& object, const ObjectSetting& setting, const 
         if (setting.hidden.isBehindOther (foot))
           box.extend (foot);
       }
+  if (setting.priors.extrusion)
+    for (const Eigen::Vector4d& plane : planes)
+      for (const OrientedPoint& point : continuedBehindOthers (object, plane).points)
+        box.extend (point.position.cast<double> ());
   return box;
 }
 

@@ -133,11 +133,10 @@ hullOfCopies (const Observation& object, const Motions& motions, const Eigen::Ve
 } // namespace
 
 void
-addCopies (const BodyEnergy& energy, const MeasuredShape& shape, const Symmetry& symmetry, const Observation& object,
+addCopies (const BodyEnergy& energy, const MeasuredShape& shape, const Motions& motions, const Observation& object,
            const Eigen::Vector4d& plane, Proposal& proposal)
 {
   const VoxelGrid& grid = energy.grid;
-  const Motions& motions = symmetry.motions;
   const Eigen::Vector3d& extents_m = object.extents_m;
   const HalfSpaces hull = hullOfCopies (object, motions, plane.head<3> ());
   const double margin_m = std::max (hull_margin * extents_m[1], least_depth * extents_m[1] - extents_m[2]);
