@@ -17,7 +17,7 @@ namespace {
 
 constexpr double plane_inlier_voxels = 2.0;
 constexpr double min_plane_inlier_m = 0.004;
-constexpr double hidden_plane_reach = 2.0; // of the longest side: wider search for support, if none is visible nearby
+constexpr double hidden_plane_reach = 4.0; // of the longest side: wider search for support, if none is visible nearby
 constexpr double same_plane_cosine = 0.999;
 constexpr double same_plane_m = 0.005;
 constexpr std::size_t most_samples = 2000; // of an object's points

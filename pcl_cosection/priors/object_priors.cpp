@@ -24,8 +24,6 @@ constexpr double along_axis = 0.9;         // cosine: a round object stands on a
 // Heights of the lowest points over a plane, of the middle observed extent: the object rests on the plane ...
 constexpr double resting_reach = 0.15;         // ... in any case
 constexpr double hidden_foot_reach = 0.5;      // ... unless free space or another body was observed between them
-constexpr double lowest_plane_reach = 2.0;     // ... if its foot is behind other things
-constexpr double lowest_share = 0.1;           // of the points: what hides those below them hides the foot
 constexpr double resting_share = 0.01;         // of the points: outliers among the lowest ones
 constexpr std::ptrdiff_t least_ground = 20;    // background points seen in the cavity, which make a vessel a tube
 constexpr double hidden_foot_vox = 6.0;        // height of the lowest points from which a foot is hidden
@@ -113,32 +111,14 @@ footIsHidden (const Observation& object, const ObjectSetting& setting, const Bod
   return true;
 }
 
-/** \brief Whether something else hides what is below most of the lowest points. */
-bool
-otherHidesBelow (const Observation& object, const ObjectSetting& setting, const Eigen::Vector4d& plane)
-{
-  std::vector<double> heights_m;
-  for (const OrientedPoint& p : object.points ())
-    heights_m.push_back (heightOver (plane, p.position.cast<double> ()));
-  const double low_m = quantile (heights_m, lowest_share);
-  std::size_t low = 0, hidden = 0;
-  for (const OrientedPoint& point : object.points ())
-  {
-    const Eigen::Vector3d p = point.position.cast<double> ();
-    const double height_m = heightOver (plane, p);
-    if (height_m > low_m)
-      continue;
-    ++low;
-    hidden += setting.hidden.isBehindOther (p - 0.5 * height_m * plane.head<3> ());
-  }
-  return 2 * hidden > low;
-}
-
 /** \brief The planes on which the object rests in some view. */
 std::vector<Eigen::Vector4d>
-restingPlanes (const Observation& object, const ObjectSetting& setting, const std::vector<Eigen::Vector4d>& planes,
+restingPlanes (const Observation& object, const ObjectSetting& setting, std::vector<Eigen::Vector4d> planes,
                const BodyEnergy& energy)
 {
+  std::stable_sort (planes.begin (), planes.end (), [&] (const Eigen::Vector4d& a, const Eigen::Vector4d& b) {
+    return heightOver (a, object.box.center ()) < heightOver (b, object.box.center ()); // the nearest one
+  });
   std::vector<Eigen::Vector4d> resting;
   for (const Eigen::Vector4d& plane : planes)
   {
@@ -148,17 +128,11 @@ restingPlanes (const Observation& object, const ObjectSetting& setting, const st
     if (known)
       continue;
     if (hasFootNear (object, plane, resting_reach) ||
-        (hasFootNear (object, plane, hidden_foot_reach) && footIsHidden (object, setting, energy, plane)))
+        (footIsHidden (object, setting, energy, plane) &&
+         (hasFootNear (object, plane, hidden_foot_reach) || Extrusion (energy, object.points (), plane).hasWalls ())))
       resting.push_back (plane);
   }
-  if (!resting.empty ())
-    return resting;
-  const auto goes_down_behind_others = [&] (const Eigen::Vector4d& plane) {
-    return hasFootNear (object, plane, lowest_plane_reach) && footIsHidden (object, setting, energy, plane) &&
-           otherHidesBelow (object, setting, plane);
-  };
-  const auto plane = std::find_if (planes.begin (), planes.end (), goes_down_behind_others);
-  return plane == planes.end () ? resting : std::vector<Eigen::Vector4d>{*plane};
+  return resting;
 }
 
 /** \brief Mark voxels on rays without return as empty, for an object that was cut out of its scene. */
@@ -256,17 +230,6 @@ addFoot (const Observation& object, const Eigen::Vector4d& plane, const Profiled
   const double lowest_m = quantile (heights_m, resting_share);
   if (lowest_m < hidden_foot_vox * step_m)
     return;
-  const Eigen::Vector3d up = plane.head<3> ();
-  for (std::size_t p = 0, all = points.size (); p < all; ++p)
-  {
-    const Eigen::Vector3d normal = points[p].normal.cast<double> ();
-    const Eigen::Vector3d down = normal.dot (up) * normal - up;
-    if (heights_m[p] > lowest_m + wall_end_vox * step_m || down.norm () < steep)
-      continue;
-    for (double depth_m = step_m; depth_m < heights_m[p]; depth_m += step_m)
-      points.push_back ({(points[p].position.cast<double> () + depth_m / down.squaredNorm () * down).cast<float> (),
-                         points[p].normal});
-  }
   points.insert (points.end (), object.points ().begin (), object.points ().end ());
   const Extrusion extrusion (energy, points, plane);
   if (extrusion.hasWalls ())
@@ -401,14 +364,13 @@ boxDownToPlanes (const Observation& object, const ObjectSetting& setting, const 
 {
   Eigen::AlignedBox3d box = object.box;
   for (const Eigen::Vector4d& plane : planes)
-    if (hasFootNear (object, plane, lowest_plane_reach))
-      for (int c = 0; c < 8; ++c)
-      {
-        const Eigen::Vector3d corner = object.box.corner (static_cast<Eigen::AlignedBox3d::CornerType> (c));
-        const Eigen::Vector3d foot = corner - heightOver (plane, corner) * plane.head<3> ();
-        if (setting.hidden.isBehindOther (foot))
-          box.extend (foot);
-      }
+    for (std::size_t p = 0; p < object.points ().size (); p += object.points ().size () / most_points + 1)
+    {
+      const Eigen::Vector3d place = object.points ()[p].position.cast<double> ();
+      const Eigen::Vector3d foot = place - heightOver (plane, place) * plane.head<3> ();
+      if (setting.hidden.at (foot) != Hidden::Nothing)
+        box.extend (foot);
+    }
   if (setting.priors.extrusion)
     for (const Eigen::Vector4d& plane : planes)
       for (const OrientedPoint& point : continuedBehindOthers (object, plane).points)

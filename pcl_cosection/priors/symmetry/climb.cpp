@@ -8,22 +8,28 @@
 namespace pcl::cosection {
 namespace {
 
-constexpr std::size_t coarse_stride = 3; // samples, among many candidates
-constexpr int halvings = 5;              // of the steps of a refinement
-constexpr double least_gain = 1e-6;      // of a step
-constexpr double about_as_good = 0.02;   // difference of log-likelihood ratios
-constexpr double center_step = 0.25;     // of a refinement's first step
+constexpr std::size_t coarse_stride = 3;    // samples, among many candidates
+constexpr int halvings = 5;                 // of the steps of a refinement
+constexpr double least_gain = 1e-6;         // of a step
+constexpr double about_as_good = 0.9;       // of the best log-likelihood ratio
+constexpr double more_contradiction = 0.02; // share of the copies, than at the best place
+constexpr double center_step = 0.25;        // of a refinement's first step
 constexpr int most_steps = 8, bisections = 6;
 
-/** \brief How far a parameter can go until the evidence falls below a limit. \param[in] step with a sense */
+/** \brief How far a parameter can go until the evidence falls below a limit, or too many copies contradict.
+ * \param[in] step with a sense */
 double
 reachOf (const CopyJudge& judge, const MakeMotions& motions, const Parameters& from, std::size_t k, double step,
-         double limit)
+         double limit, double most_contradiction)
 {
   const auto holds = [&] (double shift) {
     Parameters next = from;
     next[k] += shift;
-    return ratioOf (judge, motions (next)) >= limit;
+    const Motions at_next = motions (next);
+    if (at_next.empty ())
+      return false;
+    const CopyEvidence evidence = judge.judge (at_next);
+    return evidence.logLikelihoodRatio () >= limit && evidence.contradiction <= most_contradiction;
   };
   double good = 0.0, bad = step;
   for (; std::abs (bad) < most_steps * std::abs (step) && holds (bad); bad += step)
@@ -34,17 +40,18 @@ reachOf (const CopyJudge& judge, const MakeMotions& motions, const Parameters& f
 }
 
 void
-center (const CopyJudge& judge, const MakeMotions& motions, const Parameters& steps, const WantedParameters& wanted,
+center (const CopyJudge& judge, const MakeMotions& motions, const Parameters& steps, const WantedFirst& wanted,
         RatedParameters& best)
 {
   for (std::size_t k = 0; k < steps.size (); ++k)
   {
-    const double limit = ratioOf (judge, motions (best.at)) - about_as_good;
-    const double low = reachOf (judge, motions, best.at, k, -steps[k], limit);
-    const double high = reachOf (judge, motions, best.at, k, steps[k], limit);
-    const std::optional<double> value = wanted.value ? wanted.value (best.at, k) : std::nullopt;
-    best.at[k] += value ? std::clamp (*value - best.at[k], std::max (low, -wanted.slack[k]),
-                                      std::min (high, wanted.slack[k]))
+    const CopyEvidence evidence = judge.judge (motions (best.at));
+    const double limit = about_as_good * evidence.logLikelihoodRatio ();
+    const double contradiction = evidence.contradiction + more_contradiction;
+    const double low = reachOf (judge, motions, best.at, k, -steps[k], limit, contradiction);
+    const double high = reachOf (judge, motions, best.at, k, steps[k], limit, contradiction);
+    const std::optional<double> value = k == 0 && wanted.first ? wanted.first (best.at[0]) : std::nullopt;
+    best.at[k] += value ? std::clamp (*value - best.at[k], std::max (low, -wanted.slack), std::min (high, wanted.slack))
                         : 0.5 * (low + high);
   }
 }
@@ -81,7 +88,7 @@ bestOf (const CopyJudge& judge, const MakeMotions& motions, const std::vector<Pa
 
 void
 refine (const CopyJudge& judge, const MakeMotions& motions, Parameters steps, RatedParameters& best,
-        const WantedParameters& wanted)
+        const WantedFirst& wanted)
 {
   if (best.at.empty ())
     return;

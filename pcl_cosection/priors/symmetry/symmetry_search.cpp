@@ -3,7 +3,6 @@
 
 #include "climb.h"
 #include "footprint.h"
-#include "pcl_cosection/common/quantile.h"
 #include "pcl_cosection/priors/shape/axes.h"
 
 #include <Eigen/SVD>
@@ -23,22 +22,21 @@ constexpr int coarse_turns = 8, fine_turns = 12, all_turns = 32;
 constexpr std::size_t mirrors_to_pair = 6;
 constexpr double same_mirror = 0.3;          // radians
 constexpr double least_side = 0.05;          // of the samples, on either side of a mirror plane
-constexpr double slack_vox = 0.5;            // evidence for a mirror plane is no more exact
 constexpr double turn_weight = 4.0;          // independent motions of a full turn, ...
 constexpr double ball_weight = 9.0;          // ... of all turns, ...
 constexpr double mirrors_weight = 3.0;       // ... of two mirror planes at right angles, and ...
 constexpr double three_mirrors_weight = 7.0; // ... of three
 constexpr int axis_rounds = 20;
-constexpr double least_evidence = 0.3;     // log-likelihood ratio per copy
+constexpr double least_value = 0.5;        // log-likelihood ratio of a group
 constexpr double sure_evidence = 1.0;      // half of the copies are on observed surface
 constexpr double most_contradiction = 0.1; // share of the copies
+constexpr double parallel = 0.9;           // cosine of two axes
 constexpr double as_much = 0.8;            // of the largest value
 
 bool
 isPossible (const Symmetry& symmetry)
 {
-  return symmetry.evidence.logLikelihoodRatio () > least_evidence &&
-         symmetry.evidence.contradiction < most_contradiction;
+  return symmetry.value () > least_value && symmetry.evidence.contradiction < most_contradiction;
 }
 
 Symmetry
@@ -57,6 +55,16 @@ isAmidst (const std::vector<OrientedPoint>& samples, const Eigen::Vector3d& norm
   });
   const double share = static_cast<double> (beyond) / static_cast<double> (samples.size ());
   return share > least_side && share < 1.0 - least_side;
+}
+
+/** \brief Whether two full turns are about parallel axes. */
+bool
+isAboutSameAxis (const Symmetry& a, const Symmetry& b)
+{
+  if (a.motions.size () != all_turns - 1 || b.motions.size () != all_turns - 1)
+    return false;
+  const auto axis = [] (const Symmetry& s) { return Eigen::AngleAxisd (s.motions.front ().linear ()).axis (); };
+  return std::abs (axis (a).dot (axis (b))) > parallel;
 }
 
 MakeMotions
@@ -160,18 +168,11 @@ addMirrors (const CopyJudge& judge, const Footprint& footprint, const std::vecto
     return motions;
   };
   const std::optional<double> across = footprint.angleOfWalls (judge.samples ());
-  const double turn = M_PI_2 / mirror_angles, shift = 0.5 * footprint.step (),
-               slack_m = slack_vox * footprint.voxelSize ();
-  WantedParameters wanted;
-  wanted.slack = {2.0 * turn, slack_m, slack_m, slack_m};
-  wanted.value = [&] (const Parameters& p, std::size_t k) -> std::optional<double> {
-    if (k == 0)
-      return across ? std::optional<double> (*across + M_PI_2 * std::round ((p[0] - *across) / M_PI_2)) : std::nullopt;
-    const Eigen::Vector3d n = k == 3 ? footprint.up () : footprint.direction (p[0] + (k == 2 ? M_PI_2 : 0.0));
-    std::vector<double> along;
-    for (const OrientedPoint& sample : judge.samples ())
-      along.push_back (n.dot (sample.position.cast<double> ()) - footprint.across (n, 0.0));
-    return 0.5 * (quantile (along, 0.01) + quantile (along, 0.99));
+  const double turn = M_PI_2 / mirror_angles, shift = 0.5 * footprint.step ();
+  WantedFirst wanted;
+  wanted.slack = 2.0 * turn;
+  wanted.first = [&] (double angle) {
+    return across ? std::optional<double> (*across + M_PI_2 * std::round ((angle - *across) / M_PI_2)) : std::nullopt;
   };
   RatedParameters best_one, best_two;
   for (const RatedParameters& coarse : mirrors)
@@ -305,6 +306,8 @@ likeliest (const std::vector<Symmetry>& symmetries)
 bool
 isAsLikely (const Symmetry& symmetry, const Symmetry& best)
 {
+  if (isAboutSameAxis (symmetry, best))
+    return isPossible (symmetry);
   return isPossible (symmetry) && symmetry.value () > as_much * best.value ();
 }
 
