@@ -3,11 +3,11 @@
 
 #include "extent_prior.h"
 #include "extrusion.h"
-#include "hidden_side_term.h"
 #include "inferred_support_plane.h"
 #include "pcl_cosection/common/quantile.h"
 #include "pcl_cosection/priors/proposal.h"
 #include "pcl_cosection/priors/symmetry/copies.h"
+#include "pcl_cosection/priors/vessels/vessel_term.h"
 #include "pcl_cosection/volume/distance_transform.h"
 
 #include <algorithm>
@@ -175,8 +175,7 @@ addRaysWithoutReturn (const Observation& object, BodyEnergy& energy)
  * \param[in] unbounded 1 where it does not apply, or empty */
 void
 addExtentPrior (const ExtentPrior& prior, const Observation& object, OcclusionMap& hidden,
-                const std::vector<ProfiledShape>& plausible, const std::vector<float>& expected_vox,
-                const std::vector<std::uint8_t>& unbounded, BodyEnergy& energy)
+                const std::vector<float>& expected_vox, const std::vector<std::uint8_t>& unbounded, BodyEnergy& energy)
 {
   const VoxelGrid& grid = energy.grid;
   const CoSectionOptions& options = energy.options;
@@ -185,8 +184,7 @@ addExtentPrior (const ExtentPrior& prior, const Observation& object, OcclusionMa
   std::vector<std::uint8_t> bounded (grid.size ());
   for (std::size_t n = 0; n < grid.size (); ++n)
     bounded[n] = static_cast<bool> (exterior[n]) || (!unbounded.empty () && unbounded[n]);
-  std::vector<float> bounds = prior.bounds (grid, expected_vox, object.extents_m, hidden, plausible, bounded,
-                                            options.threads);
+  std::vector<float> bounds = prior.bounds (grid, expected_vox, object.extents_m, hidden, bounded, options.threads);
   if (energy.empty != energy.free_space)
   {
     // The bound on a ray without return is at most the distance to the nearest voxel that is not on such a ray.
@@ -234,21 +232,20 @@ distanceToExpected (const Proposal& proposal, const BodyEnergy& energy)
   return distanceTransform (energy.grid.dims, expected, energy.options.threads);
 }
 
-/** \brief Let a shape with a profile reach the plane, if something hides its foot on all sides: its walls go on. */
+/** \brief Let a surface of revolution reach the plane, if something hides its foot on all sides: its walls go on. */
 void
-addFoot (const Observation& object, const Eigen::Vector4d& plane, const ProfiledShape& shape, const BodyEnergy& energy,
+addFoot (const Observation& object, const Eigen::Vector4d& plane, const Motions& turns, const BodyEnergy& energy,
          Proposal& proposal)
 {
   const double step_m = energy.grid.voxel_size_m;
-  std::vector<OrientedPoint> points = shape.hiddenSide (object.points (), step_m);
+  std::vector<OrientedPoint> points;
   std::vector<double> heights_m;
-  for (const OrientedPoint& point : points)
-  {
-    const Eigen::Vector3d place = point.position.cast<double> ();
-    heights_m.push_back (heightOver (plane, place));
-    if (const auto at = energy.grid.nearest (place))
-      proposal.surface[energy.grid.index (at->x (), at->y (), at->z ())] = 1;
-  }
+  for (const Eigen::Affine3d& turn : turns)
+    for (const OrientedPoint& point : object.points ())
+    {
+      points.push_back (moved (point, turn));
+      heights_m.push_back (heightOver (plane, points.back ().position.cast<double> ()));
+    }
   if (heights_m.empty ())
     return;
   const double lowest_m = quantile (heights_m, resting_share);
@@ -285,12 +282,13 @@ profiledShapes (const Observation& object, const ObjectSetting& setting, const s
   return shapes;
 }
 
-/** \brief What symmetry and extrusion expect.
+/** \brief What symmetry, revolution and extrusion expect.
  * \param[in] resting planes on which the object rests, of all \a planes
- * \param[in,out] profiled shapes with a profile; those whose turns are less likely than another symmetry are removed */
+ * \param[in] round surfaces of revolution */
 Proposal
 proposalOf (const Observation& object, const Priors& priors, const std::vector<Eigen::Vector4d>& resting,
-            const std::vector<Eigen::Vector4d>& planes, std::vector<ProfiledShape>& profiled, const BodyEnergy& energy)
+            const std::vector<Eigen::Vector4d>& planes, const std::vector<ProfiledShape>& round,
+            const BodyEnergy& energy)
 {
   const Eigen::Vector4d plane = !resting.empty ()  ? resting.front ()
                                 : !planes.empty () ? planes.front ()
@@ -301,32 +299,31 @@ proposalOf (const Observation& object, const Priors& priors, const std::vector<E
   if (priors.symmetry)
     symmetries = findSymmetries (judge, energy.grid, plane);
   std::vector<Symmetry> turns;
-  for (const ProfiledShape& round : profiled)
-    turns.push_back (givenTurn (judge, round.center (), round.axisDirection ().value_or (Eigen::Vector3d::Zero ())));
+  for (const ProfiledShape& surface : round)
+    turns.push_back (
+        givenTurn (judge, surface.center (), surface.axisDirection ().value_or (Eigen::Vector3d::Zero ())));
   symmetries.insert (symmetries.end (), turns.begin (), turns.end ());
-  const std::optional<Symmetry> symmetry = likeliest (symmetries);
-  std::vector<ProfiledShape> likely;
-  for (std::size_t t = 0; t < turns.size (); ++t)
-    if (symmetry && isAsLikely (turns[t], *symmetry))
-      likely.push_back (profiled[t]);
-  profiled = std::move (likely);
+  std::optional<Symmetry> symmetry = likeliest (symmetries);
+  // The axis by all normals is more exact than one by a search.
+  const auto turn = std::find_if (turns.begin (), turns.end (),
+                                  [&] (const Symmetry& other) { return symmetry && isAsLikely (other, *symmetry); });
+  if (turn != turns.end ())
+    symmetry = *turn;
 
   Proposal proposal (energy.grid.size ());
-  if (!profiled.empty ()) // a profile tells more than copies and columns, but of what is hidden all around
-  {
-    if (priors.extrusion && !resting.empty ())
-      addFoot (object, plane, profiled.front (), energy, proposal);
-    return proposal;
-  }
   if (symmetry)
     addCopies (energy, shape, *symmetry, object, plane, proposal);
-  if (priors.extrusion && !resting.empty ())
+  if (!priors.extrusion || resting.empty ())
+    return proposal;
+  if (turn != turns.end ())
   {
-    const Extrusion extrusion (energy, object.points (), plane);
-    if (!symmetry || symmetry->motions.size () == 1) // several motions tell how far it reaches on all sides
-      extrusion.emptyBesideTops (proposal);
-    extrusion.addTo (proposal);
+    addFoot (object, plane, symmetry->motions, energy, proposal);
+    return proposal;
   }
+  const Extrusion extrusion (energy, object.points (), plane);
+  if (!symmetry || symmetry->motions.size () == 1) // several motions tell how far it reaches on all sides
+    extrusion.emptyBesideTops (proposal);
+  extrusion.addTo (proposal);
   return proposal;
 }
 
@@ -405,12 +402,13 @@ addPriors (const Observation& object, const ObjectSetting& setting, const std::v
     return;
   for (const ProfiledShape& shape : profiled)
   {
-    addHiddenSide (energy, shape, object.points ());
-    if (shape.wallThickness () > 0.0)
-      energy.facing = NormalBinOccupancy (energy.grid, object.points ());
+    if (!(shape.wallThickness () > 0.0))
+      continue;
+    addVessel (energy, shape, object.points ());
+    energy.facing = NormalBinOccupancy (energy.grid, object.points ());
   }
   if (priors.extent)
-    addExtentPrior (is_cut_out ? ExtentPrior::cutOut () : ExtentPrior (), object, hidden, profiled,
+    addExtentPrior (is_cut_out ? ExtentPrior::cutOut () : ExtentPrior (), object, hidden,
                     distanceToExpected (proposal, energy), proposal.unbounded, energy);
   if (!proposal.empty ())
     addProposal (proposal, energy);
