@@ -355,10 +355,9 @@ inferSupportPlane (const Observation& object, const ObjectSetting& setting)
   for (std::size_t p = 0; p < all.size (); p += all.size () / most_points + 1)
     if (all[p].position.allFinite () && all[p].normal.allFinite ())
       points.push_back (all[p]);
-  std::optional<Eigen::Vector4d> plane = inferredSupportPlane (points);
-  if (plane || shape.isFaceted ()) // flat faces end at edges, so their ends show no contact
-    return plane;
-  plane = contactBoundaryPlane (points, object.views);
+  if (shape.isFaceted ()) // flat faces end at edges, so their ends show no contact
+    return std::nullopt;
+  std::optional<Eigen::Vector4d> plane = contactBoundaryPlane (points, object.views);
   if (const std::optional<Eigen::Vector3d> axis = shape.axisDirection ();
       plane && axis && std::abs (axis->dot (plane->head<3> ())) < along_axis)
     plane.reset ();
