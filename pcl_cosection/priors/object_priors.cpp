@@ -389,23 +389,24 @@ addPriors (const Observation& object, const ObjectSetting& setting, const std::v
   std::vector<ProfiledShape> profiled;
   if (priors.revolution || priors.vessels)
     profiled = profiledShapes (object, setting, resting);
+  const auto first_vessel = std::partition (
+      profiled.begin (), profiled.end (), [] (const ProfiledShape& shape) { return !(shape.wallThickness () > 0.0); });
+  const std::vector<ProfiledShape> vessels (first_vessel, profiled.end ());
   const bool is_cut_out = setting.background.empty ();
-  if (priors.rays && is_cut_out && profiled.empty ()) // a profile is more reliable
+  if (priors.rays && is_cut_out && vessels.empty ()) // they have no thin walls
     addRaysWithoutReturn (object, energy);
-  const bool is_vessel = std::any_of (profiled.begin (), profiled.end (),
-                                      [] (const ProfiledShape& shape) { return shape.wallThickness () > 0.0; });
   Proposal proposal;
-  if (!is_vessel && (priors.symmetry || priors.extrusion || !profiled.empty ()))
+  if (vessels.empty () && (priors.symmetry || priors.extrusion || !profiled.empty ()))
     proposal = proposalOf (object, priors, resting, planes, profiled, energy);
   if (!(energy.options.beta_extent > 0.0))
     return;
-  for (const ProfiledShape& shape : profiled)
+  if (!vessels.empty ())
   {
-    if (!(shape.wallThickness () > 0.0))
-      continue;
-    addVessel (energy, shape, object.points ());
+    proposal = Proposal (energy.grid.size ());
     energy.facing = NormalBinOccupancy (energy.grid, object.points ());
   }
+  for (const ProfiledShape& vessel : vessels)
+    addVessel (energy, vessel, object.points (), proposal);
   if (priors.extent)
     addExtentPrior (is_cut_out ? ExtentPrior::cutOut () : ExtentPrior (), object, hidden,
                     distanceToExpected (proposal, energy), proposal.unbounded, energy);

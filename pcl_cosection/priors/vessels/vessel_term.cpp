@@ -19,10 +19,10 @@ constexpr float far_weight = 0.01f;      // sum of weights: a point within 2.1 s
 constexpr float gap_vox = 2.0f;          // the term applies at least so far from data
 constexpr double step_vox = 0.7;         // between points of the unseen parts
 constexpr double vessel_weight = 100.0;  // of a wall, in multiples of beta_extent; it vanishes with less
-constexpr double empty_weight = 10.0;    // of its cavity and of the space beyond the vessel
+constexpr double empty_weight = 10.0;    // of its cavity
 constexpr double least_wall = 0.6;       // least thickness of a wall, of its mean thickness: noise would make holes
 constexpr double least_wall_vox = 1.25;  // least thickness of a wall
-constexpr double empty_margin_vox = 1.0; // distance of expected empty space from the surface
+constexpr float empty_margin_vox = 1.0f; // distance of expected empty space from the surface
 constexpr double empty_far_vox = 6.0;    // largest expected signed distance
 
 /** \brief One point per cube of half the width of the Gaussians: enough for a weak term, whatever the number of views.
@@ -100,7 +100,8 @@ struct PartOfWall
 } // namespace
 
 void
-addVessel (BodyEnergy& energy, const ProfiledShape& shape, const std::vector<OrientedPoint>& measured)
+addVessel (BodyEnergy& energy, const ProfiledShape& shape, const std::vector<OrientedPoint>& measured,
+           Proposal& proposal)
 {
   const std::vector<OrientedPoint> few = thinned (energy.grid, measured, std::max (1.0, energy.options.sigma_vox));
   const std::vector<OrientedPoint> expected = shape.hiddenSide (few, step_vox * energy.grid.voxel_size_m);
@@ -130,6 +131,8 @@ addVessel (BodyEnergy& energy, const ProfiledShape& shape, const std::vector<Ori
       for (int i = 0; i < grid.dims.x (); ++i)
       {
         const std::size_t n = grid.index (i, j, k);
+        const auto beyond_vox = static_cast<float> (beyond_m[static_cast<std::size_t> (i)] / grid.voxel_size_m);
+        proposal.least[n] = std::max (proposal.least[n], beyond_vox - empty_margin_vox);
         if (energy.empty[n] || handles.weight[n] >= near_weight)
           continue;
         const PartOfWall& outside = outer.distance[n] > bottom.distance[n] ? outer : bottom;
@@ -148,9 +151,8 @@ addVessel (BodyEnergy& energy, const ProfiledShape& shape, const std::vector<Ori
         else if (energy.problem.weight[n] <= 0.0f)
         {
           const Eigen::Vector3d place = grid.center (i, j, k);
-          const double clearance_m = std::max<double> (
-              {shape.depthInCavity (place), shape.depthUnder (place), beyond_m[static_cast<std::size_t> (i)]});
-          const double clearance_vox = clearance_m / grid.voxel_size_m;
+          const double clearance_vox = std::max (shape.depthInCavity (place), shape.depthUnder (place)) /
+                                       grid.voxel_size_m;
           if (clearance_vox > empty_margin_vox)
             set (n, empty_weight * options.beta_extent, std::min (clearance_vox, empty_far_vox));
         }
