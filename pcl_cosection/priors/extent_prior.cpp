@@ -8,40 +8,12 @@
 #include <Eigen/Eigenvalues>
 
 #include <functional>
-#include <limits>
 
 namespace pcl::cosection {
 namespace {
 
 constexpr double low_percentile = 0.01;
 constexpr double high_percentile = 0.99;
-
-/** \brief Distances of a tile's voxels from the union of all plausible regions, voxels; negative inside. */
-std::vector<float>
-beyondAll (const VoxelGrid& grid, const VoxelTile& tile, const std::vector<ProfiledShape>& plausible, float margin_vox)
-{
-  const Eigen::Vector3i size = tile.end - tile.first;
-  const auto width = static_cast<std::size_t> (size.x ());
-  std::vector<float> beyond_vox (width * size.y () * size.z (),
-                                 plausible.empty () ? 0.0f : std::numeric_limits<float>::infinity ());
-  std::vector<float> beyond_m (width);
-  const Eigen::AlignedBox3d box (grid.center (tile.first.x (), tile.first.y (), tile.first.z ()),
-                                 grid.center (tile.end.x () - 1, tile.end.y () - 1, tile.end.z () - 1));
-  for (const ProfiledShape& everywhere : plausible)
-  {
-    const HalfSpaces region = everywhere.region ().within (box);
-    float* row = beyond_vox.data ();
-    for (int k = tile.first.z (); k < tile.end.z (); ++k)
-      for (int j = tile.first.y (); j < tile.end.y (); ++j, row += width)
-      {
-        region.beyond (grid.center (tile.first.x (), j, k), grid.voxel_size_m * Eigen::Vector3d::UnitX (), size.x (),
-                       beyond_m.data ());
-        for (std::size_t i = 0; i < width; ++i)
-          row[i] = std::min (row[i], static_cast<float> (beyond_m[i] / grid.voxel_size_m) - margin_vox);
-      }
-  }
-  return beyond_vox;
-}
 
 } // namespace
 
@@ -66,23 +38,19 @@ observedExtents (const std::vector<OrientedPoint>& points, int threads)
 
 std::vector<float>
 ExtentPrior::bounds (const VoxelGrid& grid, const std::vector<float>& data_distance_vox,
-                     const std::vector<OrientedPoint>& points, const OcclusionMap::Views& views, int threads,
-                     const std::vector<ProfiledShape>& plausible) const
+                     const std::vector<OrientedPoint>& points, const OcclusionMap::Views& views, int threads) const
 {
   OcclusionMap places;
   places.add (views, points, threads);
-  return bounds (grid, data_distance_vox, observedExtents (points, threads), places, plausible, {}, threads);
+  return bounds (grid, data_distance_vox, observedExtents (points, threads), places, {}, threads);
 }
 
 std::vector<float>
 ExtentPrior::bounds (const VoxelGrid& grid, const std::vector<float>& data_distance_vox,
-                     const Eigen::Vector3d& extents_m, OcclusionMap& places,
-                     const std::vector<ProfiledShape>& plausible, const std::vector<std::uint8_t>& exempt,
+                     const Eigen::Vector3d& extents_m, OcclusionMap& places, const std::vector<std::uint8_t>& exempt,
                      int threads) const
 {
   const Eigen::Vector3d extents_vox = extents_m / grid.voxel_size_m;
-  const auto margin_vox = static_cast<float> (
-      std::max (symmetric_margin * extents_vox[1], least_depth * extents_vox[1] - extents_vox[2]));
   const auto allowed = [&] (Hidden hidden) {
     return static_cast<float> (allowedFactor (*this, hidden) * extents_vox[1]);
   };
@@ -101,19 +69,15 @@ ExtentPrior::bounds (const VoxelGrid& grid, const std::vector<float>& data_dista
           for (int i = tile.first.x (); i < tile.end.x (); ++i, ++position)
             f (grid.index (i, j, k), position);
     };
-    const std::vector<float> beyond_vox = beyondAll (grid, tile, plausible, margin_vox);
-    std::vector<std::uint8_t> wanted (beyond_vox.size ());
+    const Eigen::Vector3i size = tile.end - tile.first;
+    std::vector<std::uint8_t> wanted (static_cast<std::size_t> (size.prod ()));
     forEachVoxel ([&] (std::size_t n, std::size_t position) {
-      wanted[position] = (data_distance_vox[n] > unquestioned || beyond_vox[position] > 0.0f) &&
-                         (exempt.empty () || !exempt[n]);
+      wanted[position] = data_distance_vox[n] > unquestioned && (exempt.empty () || !exempt[n]);
     });
     const std::vector<Hidden> hidden = places.find (tile, wanted);
     forEachVoxel ([&] (std::size_t n, std::size_t position) {
-      if (!wanted[position])
-        return;
-      bounds[n] = std::max (0.0f, data_distance_vox[n] - allowed (hidden[position]));
-      if (hidden[position] != Hidden::ByOther) // the extent of an occluded object was not observed
-        bounds[n] = std::max (bounds[n], beyond_vox[position]);
+      if (wanted[position])
+        bounds[n] = std::max (0.0f, data_distance_vox[n] - allowed (hidden[position]));
     });
   });
   places.end ();

@@ -2,7 +2,6 @@
 #pragma once
 
 #include "occlusion_map.h"
-#include "pcl_cosection/priors/shape/profiled_shape.h"
 #include <pcl/cosection/common/camera.h>
 #include <pcl/cosection/common/oriented_point.h>
 #include <pcl/cosection/volume/signed_distance_field.h>
@@ -28,19 +27,12 @@ Eigen::Vector3d observedExtents (const std::vector<OrientedPoint>& points, int t
  *     behind the surface of something else (occluded):                \a occluded_factor
  *     elsewhere (missing readings, out of view):                      \a side_factor
  *
- * The bound is the excess over this distance, for voxels that were not seen free, with a weak weight.
- *
- * If there is a plausible region (ProfiledShape), a second bound is the distance of a voxel from that region, less
- * max (\a symmetric_margin e2, \a least_depth e2 - e3), with e2 and e3 the middle and the smallest observed extent:
- * the region of a thing that showed one flat face is that face. It does not apply to voxels that something else hides.
- * The larger bound counts. */
+ * The bound is the excess over this distance, for voxels that were not seen free, with a weak weight. */
 struct ExtentPrior
 {
-  double depth_factor = 0.75;     ///< of the middle observed extent
-  double occluded_factor = 0.5;   ///< of the middle observed extent
-  double side_factor = 0.15;      ///< of the middle observed extent
-  double symmetric_margin = 0.02; ///< around the plausible region, of the middle observed extent
-  double least_depth = 0.25;      ///< assumed least depth of an object, of the middle observed extent
+  double depth_factor = 0.75;   ///< of the middle observed extent
+  double occluded_factor = 0.5; ///< of the middle observed extent
+  double side_factor = 0.15;    ///< of the middle observed extent
 
   /** \brief Parameters for an object whose points were cut out of a scene: its surroundings are unknown, and a missing
    * reading beside it suggests no matter. */
@@ -62,20 +54,17 @@ struct ExtentPrior
    * \param[in] data_distance_vox distance to the nearest voxel with data
    * \param[in] points of the object, the grid's frame
    * \param[in] views depth views and their sensors' poses in the grid's frame; if empty, every voxel counts as
-   * behind an observed surface
-   * \param[in] plausible regions of which any may hold the object, the grid's frame; if empty, there is no second
-   * bound */
+   * behind an observed surface */
   std::vector<float> bounds (const VoxelGrid& grid, const std::vector<float>& data_distance_vox,
                              const std::vector<OrientedPoint>& points, const OcclusionMap::Views& views,
-                             int threads = 0, const std::vector<ProfiledShape>& plausible = {}) const;
+                             int threads = 0) const;
 
   /** \brief These bounds with the occlusion map \a places of the object's points and views.
    * \param[in] extents_m observedExtents () of its points
    * \param[in] exempt 1 for voxels that get no bound; or empty */
   std::vector<float> bounds (const VoxelGrid& grid, const std::vector<float>& data_distance_vox,
                              const Eigen::Vector3d& extents_m, OcclusionMap& places,
-                             const std::vector<ProfiledShape>& plausible, const std::vector<std::uint8_t>& exempt,
-                             int threads) const;
+                             const std::vector<std::uint8_t>& exempt, int threads) const;
 };
 
 /** \brief Allowed distance of a voxel from the nearest data, as a fraction of the middle observed extent. */

@@ -3,13 +3,11 @@
 
 #include "pcl_cosection/common/directions.h"
 #include "pcl_cosection/common/quantile.h"
-#include "pcl_cosection/common/robust_weights.h"
 #include "pcl_cosection/priors/shape/axes.h"
 #include "pcl_cosection/priors/shape/footprint_axis.h"
 #include "pcl_cosection/view/visibility/visibility.h"
 
 #include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 
 #include <algorithm>
@@ -18,67 +16,35 @@
 #include <cstddef>
 #include <limits>
 #include <map>
-#include <numeric>
 #include <tuple>
 
 namespace pcl::cosection {
 namespace {
 
 // "Of the size" is relative to NormalLines::size.
-constexpr int sectors = 36;            // around the middle
-constexpr double outlier_share = 0.01; // of all points: those that may lie below the plane
-
-// An open thing.
-constexpr std::size_t least_points = 50;
-constexpr double usual_wall = 0.04;  // of the radius
-constexpr double lid_rise = 0.12;    // of the radius: a thing with a lower border may be a lid
-constexpr double facing_down = -0.3; // component of a normal upwards
-constexpr double down_share = 0.05;  // of all points: an open thing shows no more that face down
-constexpr double floor_level = 0.9;  // component of a floor's normal upwards
-constexpr double floor_radius = 0.5; // of the radius: points of the floor are nearer to the middle
-constexpr std::size_t least_floor = 10;
-constexpr double rim_radius = 0.8;   // of the farthest point in a sector: points farther out are near the rim
-constexpr double rim_outliers = 0.1; // of those: points that may be higher than the rim
-constexpr int higher_sectors = 27;   // least number with a rim higher than the floor
-
-// The contact boundary.
-constexpr double cell_size = 0.06; // of the size
-constexpr double largest_cell = 0.16;
-constexpr double cell_growth = 1.3;
-constexpr double points_per_cell = 2.0;              // with more, an empty cell is a hole and no gap between points
-constexpr double neighbour_reach = 2.3;              // cells
-constexpr std::size_t least_neighbours = 4;          // a cell with fewer is an outlier
-constexpr double open_angle = 2.3;                   // radians: a gap in the neighbours that makes a border cell
-constexpr std::array<double, 2> beyond = {1.0, 1.6}; // distances at which the surface would continue, cells
-constexpr double least_facing = 0.4;                 // cosine at which a sensor sees a surface well
-constexpr double flat_ridge = 0.5;                   // cells squared: damps curvature fitted to few neighbours
+constexpr int sectors = 36;                 // around the middle
+constexpr double outlier_share = 0.01;      // of all points: those that may lie below the plane
+constexpr double cell_size = 0.08;          // of the size
+constexpr double points_per_cell = 2.0;     // with fewer, an empty cell may be a gap between points
+constexpr double neighbour_reach = 2.3;     // cells
+constexpr std::size_t least_neighbours = 4; // a cell with fewer is an outlier
+constexpr double open_angle = 2.3;          // radians: a gap in the neighbours that makes a border cell
+constexpr double beyond = 1.6;              // distance at which the surface would continue, cells
+constexpr double least_facing = 0.4;        // cosine at which a sensor sees a surface well
+constexpr double mean_facing = 0.53;        // along the contact
+constexpr double flat_ridge = 0.5;          // cells squared: damps curvature fitted to few neighbours
 constexpr int directions = 800;
-constexpr double rough_reach = 0.12; // of the size
-constexpr double reach = 1.2;        // cells, from the plane to the centre of a cell that touches it
+constexpr double rough_reach = 2.0; // cells, from a first guess of the plane
+constexpr double reach = 1.2;       // cells, from the plane to the centre of a cell that touches it
 constexpr int rounds = 8;
-constexpr int fit_rounds = 6;      // of reweighting
-constexpr double fit_scale = 0.02; // of the size: a distance from the plane with half weight
-constexpr std::size_t least_cells = 6;
-constexpr double least_spread = 0.1; // of the size, in both directions along the plane
 constexpr int least_sectors = 9;
-constexpr double other_sectors = 0.2;    // of those: largest share in which the surface ends elsewhere
-constexpr double silhouette_rise = 0.8;  // height of all sensors over the plane, of their distances
-constexpr double least_height = 0.15;    // of the size: a flatter plane may be a face of the object
-constexpr double edge_level = 0.7;       // component of a normal upwards: such a surface may end at a sharp edge
-constexpr double underside = -0.5;       // component of a normal upwards
-constexpr double underside_share = 0.02; // of all points: a standing object shows no more from below
+constexpr double other_share = 0.2;   // of those: largest share in which the surface ends elsewhere
+constexpr double roughness = 0.5;     // cells: largest root mean square distance of the ends from the plane
+constexpr double least_height = 0.15; // of the size: a flatter plane may be a face of the object
+constexpr double edge_level = 0.7;    // component of a normal upwards: such a surface may end at a sharp edge
+constexpr double underside = -0.5;    // component of a normal upwards: a standing object shows no such points
 // Least height of a sensor over the plane, of its distance: an edge that hides the object may make a plane through it.
 constexpr double least_rise = 0.15;
-
-struct Demand // on contact
-{
-  double roughness; // upper limit of the root mean square distance of the ends from the plane, of the size
-  double facing;    // lower limit of the mean facing
-};
-
-constexpr Demand of_one_sensor = {0.028, 0.53};
-constexpr Demand of_several = {0.04, 0.5}; // silhouettes of several sensors lie on no common plane
-constexpr Demand of_silhouettes = {0.028, 0.7};
 
 /** \brief A plane in the frame of NormalLines. */
 struct Plane
@@ -105,76 +71,6 @@ heightAlong (const Eigen::Vector3d& up, const std::vector<NormalLine>& lines, do
   return quantile (heights, share);
 }
 
-/** \brief Whether more than a share of the normals have an upward component of less than \a facing. */
-bool
-showsUnderside (const Eigen::Vector3d& up, const std::vector<NormalLine>& lines, double facing, double share)
-{
-  const auto down = std::count_if (lines.begin (), lines.end (),
-                                   [&] (const NormalLine& line) { return up.dot (line.normal) < facing; });
-  return static_cast<double> (down) > share * static_cast<double> (lines.size ());
-}
-
-/** \brief The points around a vertical axis, by sector. */
-class Surroundings
-{
-public:
-  Surroundings (const std::vector<NormalLine>& lines, const Eigen::Vector3d& up) : lines_ (lines), up_ (up)
-  {
-    const std::vector<std::size_t> rim = outermost (lines, up);
-    for (const std::size_t n : rim)
-      center_ += lines[n].position / static_cast<double> (rim.size ());
-    for (const std::size_t n : rim)
-      radius_ += radiusOf (lines[n].position) / static_cast<double> (rim.size ());
-  }
-
-  double radius () const { return radius_; }
-
-  /** \brief Points with vertical normals in the middle. */
-  std::vector<Eigen::Vector3d> floor () const
-  {
-    std::vector<Eigen::Vector3d> floor;
-    for (const NormalLine& line : lines_)
-      if (up_.dot (line.normal) > floor_level && radiusOf (line.position) < floor_radius * radius_)
-        floor.push_back (line.position);
-    return floor;
-  }
-
-  /** \brief Number of sectors whose rim is higher than \a height. */
-  std::ptrdiff_t sectorsHigherThan (double height) const
-  {
-    const Sectors numbers (up_, sectors);
-    std::array<std::vector<Eigen::Vector3d>, sectors> around;
-    std::array<double, sectors> reach{};
-    for (const NormalLine& line : lines_)
-    {
-      const std::size_t s = numbers.of (line.position - center_);
-      around[s].push_back (line.position);
-      reach[s] = std::max (reach[s], radiusOf (line.position));
-    }
-    std::ptrdiff_t count = 0;
-    for (std::size_t s = 0; s < sectors; ++s)
-    {
-      std::size_t near = 0, higher = 0;
-      for (const Eigen::Vector3d& p : around[s])
-        if (radiusOf (p) > rim_radius * reach[s])
-        {
-          ++near;
-          higher += up_.dot (p) > height;
-        }
-      count += near > 0 && static_cast<double> (higher) > rim_outliers * static_cast<double> (near);
-    }
-    return count;
-  }
-
-private:
-  double radiusOf (const Eigen::Vector3d& p) const { return up_.cross (p - center_).norm (); }
-
-  const std::vector<NormalLine>& lines_;
-  Eigen::Vector3d up_;
-  Eigen::Vector3d center_ = Eigen::Vector3d::Zero ();
-  double radius_ = 0.0; // mean over directions of the largest distance from the axis
-};
-
 struct Cell
 {
   Eigen::Vector3d position = Eigen::Vector3d::Zero ();
@@ -190,12 +86,12 @@ struct Cell
 };
 
 std::vector<Cell>
-cellsOf (const std::vector<NormalLine>& lines, double edge)
+cellsOf (const std::vector<NormalLine>& lines)
 {
   std::map<std::tuple<int, int, int>, Cell> cells;
   for (const NormalLine& line : lines)
   {
-    const Eigen::Vector3i at = (line.position / edge).array ().floor ().cast<int> ();
+    const Eigen::Vector3i at = (line.position / cell_size).array ().floor ().cast<int> ();
     Cell& cell = cells[{at.x (), at.y (), at.z ()}];
     cell.position += line.position;
     cell.normal += line.normal;
@@ -215,8 +111,9 @@ cellsOf (const std::vector<NormalLine>& lines, double edge)
 /** \brief The middle of the largest gap between the directions of a cell's neighbours along the surface; nothing if
  * there is no large gap. */
 std::optional<Eigen::Vector3d>
-wayOut (const Cell& cell, const std::vector<Cell>& cells, double radius)
+wayOut (const Cell& cell, const std::vector<Cell>& cells)
 {
+  const double radius = neighbour_reach * cell_size;
   const Eigen::Vector3d x = cell.normal.unitOrthogonal ();
   const Eigen::Vector3d y = cell.normal.cross (x);
   std::vector<double> turns;
@@ -244,29 +141,20 @@ public:
   {
     for (const auto& [view, T_object_sensor] : views)
       sensors_.push_back ((T_object_sensor.translation () - normals.origin) / normals.size);
-    for (edge_ = cell_size; edge_ < largest_cell; edge_ *= cell_growth)
-    {
-      cells_ = cellsOf (lines_, edge_);
-      if (points_per_cell * static_cast<double> (cells_.size ()) < static_cast<double> (lines_.size ()))
-        break;
+    cells_ = cellsOf (lines_);
+    if (points_per_cell * static_cast<double> (cells_.size ()) > static_cast<double> (lines_.size ()))
       cells_.clear ();
-    }
     for (Cell& cell : cells_)
-      if (const auto out = wayOut (cell, cells_, neighbour_reach * edge_))
+      if (const auto out = wayOut (cell, cells_))
         for (std::size_t v = 0; v < views.size (); ++v)
         {
-          const auto visibility = [&] (double cells) {
-            const Eigen::Vector3d p = normals.origin + normals.size * (cell.position + cells * edge_ * *out);
-            return visibilityOf (views[v].second.inverse () * p, *views[v].first, normals.size * edge_);
-          };
-          // Whether a view would see a surface there: no reading lies in front of it by more than a cell.
-          const auto is_open = [&] (double cells) {
-            return visibility (cells) != PointVisibility::Outside && visibility (cells) != PointVisibility::Occluded;
-          };
+          const Eigen::Vector3d p = normals.origin + normals.size * (cell.position + beyond * cell_size * *out);
+          const PointVisibility there = visibilityOf (views[v].second.inverse () * p, *views[v].first,
+                                                      normals.size * cell_size);
           const double cosine = facingBeyond (cell, *out, sensors_[v]);
           // A reading just there without a reliable normal is no point, but the surface does not end in front of it.
-          if (cosine > std::max (least_facing, cell.facing) && std::all_of (beyond.begin (), beyond.end (), is_open) &&
-              visibility (beyond.back ()) != PointVisibility::AtSurface)
+          if (cosine > std::max (least_facing, cell.facing) && there != PointVisibility::Outside &&
+              there != PointVisibility::Occluded && there != PointVisibility::AtSurface)
             cell.facing = cosine;
         }
   }
@@ -275,7 +163,7 @@ public:
   {
     std::optional<Plane> plane = roughPlane ();
     for (int r = 0; r < rounds && plane; ++r)
-      plane = through (endsNear (*plane, r < rounds / 2 ? rough_reach : reach * edge_), *plane);
+      plane = through (endsNear (*plane, r < rounds / 2 ? rough_reach : reach), *plane);
     return plane && isContact (*plane) ? plane : std::nullopt;
   }
 
@@ -284,13 +172,13 @@ private:
    * with its curvature. At silhouettes the surface bends away. */
   double facingBeyond (const Cell& cell, const Eigen::Vector3d& out, const Eigen::Vector3d& sensor) const
   {
-    const double radius = neighbour_reach * edge_;
+    const double radius = neighbour_reach * cell_size;
     Eigen::Matrix2d left = Eigen::Matrix2d::Zero ();
     Eigen::Vector2d right = Eigen::Vector2d::Zero ();
     for (const Cell& other : cells_)
       if (const Eigen::Vector3d q = other.position - cell.position; q.squaredNorm () < radius * radius)
       {
-        const Eigen::Vector2d row (1.0, out.dot (q) / edge_);
+        const Eigen::Vector2d row (1.0, out.dot (q) / cell_size);
         left += row * row.transpose ();
         right += other.normal.dot ((sensor - other.position).normalized ()) * row;
       }
@@ -298,11 +186,10 @@ private:
     return left.ldlt ().solve (right).sum ();
   }
 
-  /** \brief Whether all sensors are higher than a plane by more than a share of their distances. */
-  bool isSeenFrom (const Plane& plane, double rise) const
+  bool isSeenFromAbove (const Plane& plane) const
   {
     return std::all_of (sensors_.begin (), sensors_.end (), [&] (const Eigen::Vector3d& sensor) {
-      return plane.up.dot (sensor) - plane.height > rise * sensor.norm ();
+      return plane.up.dot (sensor) - plane.height > least_rise * sensor.norm ();
     });
   }
 
@@ -316,7 +203,7 @@ private:
   {
     std::vector<const Cell*> near;
     for (const Cell& cell : cells_)
-      if (mayEnd (cell, plane) && plane.up.dot (cell.position) - plane.height < distance)
+      if (mayEnd (cell, plane) && plane.up.dot (cell.position) - plane.height < distance * cell_size)
         near.push_back (&cell);
     return near;
   }
@@ -332,7 +219,7 @@ private:
       for (const Cell& cell : cells_)
         lowest = std::min (lowest, up.dot (cell.position));
       const Plane plane{up, lowest};
-      if (!isSeenFrom (plane, least_rise))
+      if (!isSeenFromAbove (plane))
         continue;
       if (const std::size_t count = endsNear (plane, rough_reach).size (); count > most)
       {
@@ -343,42 +230,24 @@ private:
     return best;
   }
 
-  /** \brief The plane nearest to the lowest points of some cells, if it is below all points. */
+  /** \brief The plane along the lowest points of some cells, below all points. */
   std::optional<Plane> through (const std::vector<const Cell*>& cells, const Plane& before) const
   {
-    if (cells.size () < least_cells)
+    if (cells.size () < least_sectors)
       return std::nullopt;
     std::vector<Eigen::Vector3d> ends;
     for (const Cell* cell : cells)
       ends.push_back (cell->lowest (before.up));
-    std::vector<double> weights (ends.size (), 1.0);
-    Plane plane = before;
-    for (int r = 0; r < fit_rounds; ++r)
-    {
-      const double all = std::accumulate (weights.begin (), weights.end (), 0.0);
-      Eigen::Vector3d middle = Eigen::Vector3d::Zero ();
-      for (std::size_t n = 0; n < ends.size (); ++n)
-        middle += weights[n] / all * ends[n];
-      Eigen::Matrix3d spread = Eigen::Matrix3d::Zero ();
-      for (std::size_t n = 0; n < ends.size (); ++n)
-        spread += weights[n] / all * (ends[n] - middle) * (ends[n] - middle).transpose ();
-      const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver (spread);
-      if (!(solver.eigenvalues ()[1] > least_spread * least_spread))
-        return std::nullopt;
-      const Eigen::Vector3d normal = solver.eigenvectors ().col (0);
-      plane.up = normal.dot (before.up) < 0.0 ? Eigen::Vector3d (-normal) : normal;
-      for (std::size_t n = 0; n < ends.size (); ++n)
-        weights[n] = cauchyWeight (plane.up.dot (ends[n] - middle) / fit_scale);
-    }
-    plane.height = heightAlong (plane.up, lines_, outlier_share);
-    return plane;
+    const Eigen::Vector3d up = planeNormal (ends, before.up);
+    return Plane{up, heightAlong (up, lines_, outlier_share)};
   }
 
   bool isContact (const Plane& plane) const
   {
-    if (!isSeenFrom (plane, least_rise) ||
-        heightAlong (plane.up, lines_, 1.0 - outlier_share) - plane.height < least_height ||
-        showsUnderside (plane.up, lines_, underside, underside_share))
+    const auto under = std::count_if (lines_.begin (), lines_.end (),
+                                      [&] (const NormalLine& line) { return plane.up.dot (line.normal) < underside; });
+    if (!isSeenFromAbove (plane) || heightAlong (plane.up, lines_, 1.0 - outlier_share) - plane.height < least_height ||
+        static_cast<double> (under) > outlier_share * static_cast<double> (lines_.size ()))
       return false;
     const Sectors around (plane.up, sectors);
     std::array<const Cell*, sectors> lowest{};
@@ -394,7 +263,7 @@ private:
     {
       if (!cell || !mayEnd (*cell, plane))
         continue;
-      if (plane.up.dot (cell->position) - plane.height < reach * edge_)
+      if (plane.up.dot (cell->position) - plane.height < reach * cell_size)
       {
         ++touching;
         cosines += cell->facing;
@@ -403,45 +272,16 @@ private:
       else
         ++other;
     }
-    const Demand& demand = isSeenFrom (plane, silhouette_rise) ? of_silhouettes
-                           : sensors_.size () > 1              ? of_several
-                                                               : of_one_sensor;
-    return touching >= least_sectors && other <= other_sectors * touching &&
-           squares < demand.roughness * demand.roughness * touching && cosines > demand.facing * touching;
+    return touching >= least_sectors && other <= other_share * touching &&
+           squares < roughness * roughness * cell_size * cell_size * touching && cosines > mean_facing * touching;
   }
 
   const std::vector<NormalLine>& lines_;
   std::vector<Eigen::Vector3d> sensors_;
-  double edge_ = 0.0;
   std::vector<Cell> cells_;
 };
 
 } // namespace
-
-std::optional<Eigen::Vector4d>
-inferredSupportPlane (const std::vector<OrientedPoint>& points)
-{
-  if (points.size () < least_points)
-    return std::nullopt;
-  const NormalLines normals = normalLinesOf (points);
-  std::optional<Eigen::Vector3d> up = normals.lines.empty () ? std::nullopt : rimNormal (normals.lines);
-  if (!up)
-    return std::nullopt;
-  if (const std::vector<Eigen::Vector3d> floor = Surroundings (normals.lines, *up).floor ();
-      floor.size () >= least_floor)
-    up = planeNormal (floor, *up);
-  const Surroundings around (normals.lines, *up);
-  std::vector<double> heights;
-  for (const Eigen::Vector3d& p : around.floor ())
-    heights.push_back (up->dot (p));
-  if (heights.size () < least_floor || showsUnderside (*up, normals.lines, facing_down, down_share))
-    return std::nullopt;
-  const double floor = quantile (heights, 0.5);
-  const double wall = usual_wall * around.radius ();
-  if (around.sectorsHigherThan (floor + std::max (wall, lid_rise * around.radius ())) < higher_sectors)
-    return std::nullopt;
-  return inMetres ({*up, std::min (floor - wall, heightAlong (*up, normals.lines, outlier_share))}, normals);
-}
 
 std::optional<Eigen::Vector4d>
 contactBoundaryPlane (const std::vector<OrientedPoint>& points, const OcclusionMap::Views& views)

@@ -12,13 +12,6 @@
 
 namespace pcl::cosection {
 
-/** \brief The support plane of an open thing that showed hardly more than its inside: a tray, a crate, a bowl.
- *
- * Its rim is higher than its floor all around. The plane is below its lowest points, and below the floor by the usual
- * thickness of crockery.
- * \return n.x + d = 0 with unit n upwards; nothing if the thing is not open */
-std::optional<Eigen::Vector4d> inferredSupportPlane (const std::vector<OrientedPoint>& points);
-
 /** \brief The contact boundary plane: the plane at which the observed surface of an object ends although its sensors
  * would have seen it continue.
  *

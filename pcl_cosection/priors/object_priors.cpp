@@ -4,11 +4,11 @@
 #include "continuation.h"
 #include "extent_prior.h"
 #include "extrusion.h"
-#include "hidden_side_term.h"
 #include "inferred_support_plane.h"
 #include "pcl_cosection/common/quantile.h"
 #include "pcl_cosection/priors/proposal.h"
 #include "pcl_cosection/priors/symmetry/copies.h"
+#include "pcl_cosection/priors/vessels/vessel_term.h"
 #include "pcl_cosection/volume/distance_transform.h"
 
 #include <algorithm>
@@ -151,8 +151,7 @@ addRaysWithoutReturn (const Observation& object, BodyEnergy& energy)
  * \param[in] unbounded 1 where it does not apply, or empty */
 void
 addExtentPrior (const ExtentPrior& prior, const Observation& object, OcclusionMap& hidden,
-                const std::vector<ProfiledShape>& plausible, const std::vector<float>& expected_vox,
-                const std::vector<std::uint8_t>& unbounded, BodyEnergy& energy)
+                const std::vector<float>& expected_vox, const std::vector<std::uint8_t>& unbounded, BodyEnergy& energy)
 {
   const VoxelGrid& grid = energy.grid;
   const CoSectionOptions& options = energy.options;
@@ -161,8 +160,7 @@ addExtentPrior (const ExtentPrior& prior, const Observation& object, OcclusionMa
   std::vector<std::uint8_t> bounded (grid.size ());
   for (std::size_t n = 0; n < grid.size (); ++n)
     bounded[n] = static_cast<bool> (exterior[n]) || (!unbounded.empty () && unbounded[n]);
-  std::vector<float> bounds = prior.bounds (grid, expected_vox, object.extents_m, hidden, plausible, bounded,
-                                            options.threads);
+  std::vector<float> bounds = prior.bounds (grid, expected_vox, object.extents_m, hidden, bounded, options.threads);
   if (energy.empty != energy.free_space)
   {
     // The bound on a ray without return is at most the distance to the nearest voxel that is not on such a ray.
@@ -210,21 +208,20 @@ distanceToExpected (const Proposal& proposal, const BodyEnergy& energy)
   return distanceTransform (energy.grid.dims, expected, energy.options.threads);
 }
 
-/** \brief Let a shape with a profile reach the plane, if something hides its foot on all sides: its walls go on. */
+/** \brief Let a surface of revolution reach the plane, if something hides its foot on all sides: its walls go on. */
 void
-addFoot (const Observation& object, const Eigen::Vector4d& plane, const ProfiledShape& shape, const BodyEnergy& energy,
+addFoot (const Observation& object, const Eigen::Vector4d& plane, const Motions& turns, const BodyEnergy& energy,
          Proposal& proposal)
 {
   const double step_m = energy.grid.voxel_size_m;
-  std::vector<OrientedPoint> points = shape.hiddenSide (object.points (), step_m);
+  std::vector<OrientedPoint> points;
   std::vector<double> heights_m;
-  for (const OrientedPoint& point : points)
-  {
-    const Eigen::Vector3d place = point.position.cast<double> ();
-    heights_m.push_back (heightOver (plane, place));
-    if (const auto at = energy.grid.nearest (place))
-      proposal.surface[energy.grid.index (at->x (), at->y (), at->z ())] = 1;
-  }
+  for (const Eigen::Affine3d& turn : turns)
+    for (const OrientedPoint& point : object.points ())
+    {
+      points.push_back (moved (point, turn));
+      heights_m.push_back (heightOver (plane, points.back ().position.cast<double> ()));
+    }
   if (heights_m.empty ())
     return;
   const double lowest_m = quantile (heights_m, resting_share);
@@ -250,12 +247,13 @@ profiledShapes (const Observation& object, const ObjectSetting& setting, const s
   return shapes;
 }
 
-/** \brief What symmetry and extrusion expect.
+/** \brief What symmetry, revolution and extrusion expect.
  * \param[in] resting planes on which the object rests, of all \a planes
- * \param[in,out] profiled shapes with a profile; those whose turns are less likely than another symmetry are removed */
+ * \param[in] round surfaces of revolution */
 Proposal
 proposalOf (const Observation& object, const Priors& priors, const std::vector<Eigen::Vector4d>& resting,
-            const std::vector<Eigen::Vector4d>& planes, std::vector<ProfiledShape>& profiled, const BodyEnergy& energy)
+            const std::vector<Eigen::Vector4d>& planes, const std::vector<ProfiledShape>& round,
+            const BodyEnergy& energy)
 {
   const Eigen::Vector4d plane = !resting.empty ()  ? resting.front ()
                                 : !planes.empty () ? planes.front ()
@@ -266,23 +264,18 @@ proposalOf (const Observation& object, const Priors& priors, const std::vector<E
   if (priors.symmetry)
     symmetries = findSymmetries (judge, energy.grid, plane);
   std::vector<Symmetry> turns;
-  for (const ProfiledShape& round : profiled)
-    turns.push_back (givenTurn (judge, round.center (), round.axisDirection ().value_or (Eigen::Vector3d::Zero ())));
+  for (const ProfiledShape& surface : round)
+    turns.push_back (
+        givenTurn (judge, surface.center (), surface.axisDirection ().value_or (Eigen::Vector3d::Zero ())));
   symmetries.insert (symmetries.end (), turns.begin (), turns.end ());
-  const std::optional<Symmetry> symmetry = likeliest (symmetries);
-  std::vector<ProfiledShape> likely;
-  for (std::size_t t = 0; t < turns.size (); ++t)
-    if (symmetry && isAsLikely (turns[t], *symmetry))
-      likely.push_back (profiled[t]);
-  profiled = std::move (likely);
+  std::optional<Symmetry> symmetry = likeliest (symmetries);
+  // The axis by all normals is more exact than one by a search.
+  const auto turn = std::find_if (turns.begin (), turns.end (),
+                                  [&] (const Symmetry& other) { return symmetry && isAsLikely (other, *symmetry); });
+  if (turn != turns.end ())
+    symmetry = *turn;
 
   Proposal proposal (energy.grid.size ());
-  if (!profiled.empty ()) // a profile tells more than copies and columns, but of what is hidden all around
-  {
-    if (priors.extrusion && !resting.empty ())
-      addFoot (object, plane, profiled.front (), energy, proposal);
-    return proposal;
-  }
   Motions motions = symmetry ? symmetry->motions : Motions ();
   const bool extrudes = priors.extrusion && !resting.empty ();
   Continuation continued;
@@ -311,13 +304,17 @@ proposalOf (const Observation& object, const Priors& priors, const std::vector<E
   }
   else if (symmetry)
     addCopies (energy, shape, motions, object, plane, proposal);
-  if (extrudes)
+  if (!extrudes)
+    return proposal;
+  if (turn != turns.end () && continued.points.empty ())
   {
-    const Extrusion extrusion (energy, whole.points (), plane);
-    if (motions.size () <= 1) // several motions tell how far it reaches on all sides
-      extrusion.emptyBesideTops (proposal);
-    extrusion.addTo (proposal);
+    addFoot (object, plane, motions, energy, proposal);
+    return proposal;
   }
+  const Extrusion extrusion (energy, whole.points (), plane);
+  if (motions.size () <= 1) // several motions tell how far it reaches on all sides
+    extrusion.emptyBesideTops (proposal);
+  extrusion.addTo (proposal);
   return proposal;
 }
 
@@ -349,10 +346,9 @@ inferSupportPlane (const Observation& object, const ObjectSetting& setting)
   for (std::size_t p = 0; p < all.size (); p += all.size () / most_points + 1)
     if (all[p].position.allFinite () && all[p].normal.allFinite ())
       points.push_back (all[p]);
-  std::optional<Eigen::Vector4d> plane = inferredSupportPlane (points);
-  if (plane || shape.isFaceted ()) // flat faces end at edges, so their ends show no contact
-    return plane;
-  plane = contactBoundaryPlane (points, object.views);
+  if (shape.isFaceted ()) // flat faces end at edges, so their ends show no contact
+    return std::nullopt;
+  std::optional<Eigen::Vector4d> plane = contactBoundaryPlane (points, object.views);
   if (const std::optional<Eigen::Vector3d> axis = shape.axisDirection ();
       plane && axis && std::abs (axis->dot (plane->head<3> ())) < along_axis)
     plane.reset ();
@@ -387,24 +383,26 @@ addPriors (const Observation& object, const ObjectSetting& setting, const std::v
   std::vector<ProfiledShape> profiled;
   if (priors.revolution || priors.vessels)
     profiled = profiledShapes (object, setting, resting);
+  const auto first_vessel = std::partition (
+      profiled.begin (), profiled.end (), [] (const ProfiledShape& shape) { return !(shape.wallThickness () > 0.0); });
+  const std::vector<ProfiledShape> vessels (first_vessel, profiled.end ());
   const bool is_cut_out = setting.background.empty ();
-  if (priors.rays && is_cut_out && profiled.empty ()) // a profile is more reliable
+  if (priors.rays && is_cut_out && vessels.empty ()) // they have no thin walls
     addRaysWithoutReturn (object, energy);
-  const bool is_vessel = std::any_of (profiled.begin (), profiled.end (),
-                                      [] (const ProfiledShape& shape) { return shape.wallThickness () > 0.0; });
   Proposal proposal;
-  if (!is_vessel && (priors.symmetry || priors.extrusion || !profiled.empty ()))
+  if (vessels.empty () && (priors.symmetry || priors.extrusion || !profiled.empty ()))
     proposal = proposalOf (object, priors, resting, planes, profiled, energy);
   if (!(energy.options.beta_extent > 0.0))
     return;
-  for (const ProfiledShape& shape : profiled)
+  if (!vessels.empty ())
   {
-    addHiddenSide (energy, shape, object.points ());
-    if (shape.wallThickness () > 0.0)
-      energy.facing = NormalBinOccupancy (energy.grid, object.points ());
+    proposal = Proposal (energy.grid.size ());
+    energy.facing = NormalBinOccupancy (energy.grid, object.points ());
   }
+  for (const ProfiledShape& vessel : vessels)
+    addVessel (energy, vessel, object.points (), proposal);
   if (priors.extent)
-    addExtentPrior (is_cut_out ? ExtentPrior::cutOut () : ExtentPrior (), object, hidden, profiled,
+    addExtentPrior (is_cut_out ? ExtentPrior::cutOut () : ExtentPrior (), object, hidden,
                     distanceToExpected (proposal, energy), proposal.unbounded, energy);
   if (!proposal.empty ())
     addProposal (proposal, energy);

@@ -58,13 +58,12 @@ silhouette (const DepthView& view, const Eigen::Isometry3d& T_grid_sensor, const
 
 std::vector<float>
 defined (const ExtentPrior& prior, const VoxelGrid& grid, const std::vector<float>& distance_vox,
-         const std::vector<OrientedPoint>& points, const Views& views, const std::vector<ProfiledShape>& plausible)
+         const std::vector<OrientedPoint>& points, const Views& views)
 {
   std::vector<std::vector<float>> silhouettes;
   for (const auto& [view, T] : views)
     silhouettes.push_back (silhouette (*view, T, points));
   const Eigen::Vector3d extents = observedExtents (points) / grid.voxel_size_m;
-  const double margin = std::max (prior.symmetric_margin * extents[1], prior.least_depth * extents[1] - extents[2]);
   std::vector<float> bounds (grid.size ());
   for (int k = 0; k < grid.dims.z (); ++k)
     for (int j = 0; j < grid.dims.y (); ++j)
@@ -88,13 +87,7 @@ defined (const ExtentPrior& prior, const VoxelGrid& grid, const std::vector<floa
                               : evidence == occluded ? prior.occluded_factor
                                                      : prior.side_factor;
         const std::size_t n = grid.index (i, j, k);
-        double bound = std::max (0.0, distance_vox[n] - factor * extents[1]);
-        double beyond = plausible.empty () ? 0.0 : std::numeric_limits<double>::infinity ();
-        for (const ProfiledShape& extent : plausible)
-          beyond = std::min (beyond, extent.region ().beyond (p) / grid.voxel_size_m - margin);
-        if (evidence != occluded)
-          bound = std::max (bound, beyond);
-        bounds[n] = static_cast<float> (bound);
+        bounds[n] = static_cast<float> (std::max (0.0, distance_vox[n] - factor * extents[1]));
       }
   return bounds;
 }
@@ -125,23 +118,6 @@ protected:
     distance_vox_ = distanceTransform (grid_.dims, data);
   }
 
-  void expectAsDefined (const std::vector<ProfiledShape>& plausible) const
-  {
-    const ExtentPrior prior;
-    const std::vector<float> expected = defined (prior, grid_, distance_vox_, points_, views_, plausible);
-    const std::vector<float> bounds = prior.bounds (grid_, distance_vox_, points_, views_, 0, plausible);
-    EXPECT_EQ (bounds, prior.bounds (grid_, distance_vox_, points_, views_, 1, plausible)) << "depends on the threads";
-    ASSERT_EQ (bounds.size (), expected.size ());
-    std::size_t bounded = 0;
-    for (std::size_t n = 0; n < bounds.size (); ++n)
-    {
-      ASSERT_NEAR (bounds[n], expected[n], 1e-3) << "voxel " << n;
-      bounded += expected[n] > 0.0f;
-    }
-    EXPECT_GT (bounded, bounds.size () / 20);
-    EXPECT_LT (bounded, bounds.size ());
-  }
-
   std::vector<RenderedView> seen_;
   std::vector<OrientedPoint> points_;
   Views views_;
@@ -153,33 +129,19 @@ protected:
 
 TEST_P (ExtentPriorTest, IsItsDefinition)
 {
-  expectAsDefined ({});
-}
-
-TEST_P (ExtentPriorTest, IsItsDefinitionWithPlausibleRegions)
-{
-  expectAsDefined ({ProfiledShape (points_, table_plane)});
-  expectAsDefined ({ProfiledShape (points_, table_plane), ProfiledShape (points_)});
+  const ExtentPrior prior;
+  const std::vector<float> expected = defined (prior, grid_, distance_vox_, points_, views_);
+  const std::vector<float> bounds = prior.bounds (grid_, distance_vox_, points_, views_);
+  EXPECT_EQ (bounds, prior.bounds (grid_, distance_vox_, points_, views_, 1)) << "depends on the threads";
+  ASSERT_EQ (bounds.size (), expected.size ());
+  std::size_t bounded = 0;
+  for (std::size_t n = 0; n < bounds.size (); ++n)
+  {
+    ASSERT_NEAR (bounds[n], expected[n], 1e-3) << "voxel " << n;
+    bounded += expected[n] > 0.0f;
+  }
+  EXPECT_GT (bounded, bounds.size () / 20);
+  EXPECT_LT (bounded, bounds.size ());
 }
 
 INSTANTIATE_TEST_SUITE_P (Views, ExtentPriorTest, testing::Values (0, 1, 3));
-
-TEST (ProfiledShape, IsTheSameWithinABox)
-{
-  AnalyticScene scene = tableScene (Shape::Cup);
-  const std::vector<OrientedPoint> points = scene.render (tableCamera (), around (0)).points.at (1);
-  const ProfiledShape extent (points, table_plane);
-  for (const double size_m : {0.0, 0.01, 0.1})
-    for (const double x : {-0.1, 0.0, 0.05, 0.2})
-    {
-      const Eigen::AlignedBox3d box (Eigen::Vector3d (x, -0.02, 0.01),
-                                     Eigen::Vector3d (x, -0.02, 0.01) + size_m * Eigen::Vector3d::Ones ());
-      const HalfSpaces within = extent.region ().within (box);
-      for (int n = 0; n < 27; ++n)
-      {
-        const Eigen::Vector3d p = box.min () +
-                                  box.sizes ().cwiseProduct (Eigen::Vector3d (n % 3, n / 3 % 3, n / 9)) / 2.0;
-        EXPECT_EQ (within.beyond (p), extent.region ().beyond (p));
-      }
-    }
-}

@@ -57,8 +57,6 @@ TEST_P (RoundInAnyPose, BottleIsRoundAllAround)
     wrong += std::abs (p.head<2> ().norm () - bottle (p.z ()).first) > tolerance;
   }
   EXPECT_LT (wrong, hidden.size () / 50);
-  EXPECT_LE (extent.region ().beyond (anyPose () * Eigen::Vector3d (0.0, 0.037, 0.1)), tolerance);
-  EXPECT_NEAR (extent.region ().beyond (anyPose () * Eigen::Vector3d (0.0, 0.07, 0.1)), 0.03, 0.004 + tolerance);
 }
 
 INSTANTIATE_TEST_SUITE_P (Measured, RoundInAnyPose, testing::Bool (),
@@ -98,20 +96,6 @@ TEST (RoundExtent, HandlesAreNotTurned)
   ASSERT_FALSE (hidden.empty ());
   for (const OrientedPoint& p : hidden)
     EXPECT_LT (p.position.head<2> ().norm (), 0.045f);
-  EXPECT_LE (extent.region ().beyond ({0.07, 0.0, 0.045}), 0.001); // the handle itself
-  EXPECT_GT (extent.region ().beyond ({-0.07, 0.0, 0.045}), 0.02);
-}
-
-TEST (RoundExtent, CansEndInAFlatFaceUnlessAPlaneIsKnown)
-{
-  const std::vector<OrientedPoint> points = observedRound (can, 0.0, 0.1, {0.0, -1.0, 0.0});
-  const auto facesDown = [] (const OrientedPoint& p) { return p.normal.z () < -0.9f; };
-  const std::vector<OrientedPoint> alone = ProfiledShape (points).hiddenSide (points, reach);
-  EXPECT_GT (std::count_if (alone.begin (), alone.end (), facesDown), 100);
-  for (const OrientedPoint& p : alone)
-    EXPECT_TRUE (!facesDown (p) || std::abs (p.position.z ()) < 0.003f);
-  const std::vector<OrientedPoint> standing = ProfiledShape (points, ground).hiddenSide (points, reach);
-  EXPECT_EQ (std::count_if (standing.begin (), standing.end (), facesDown), 0);
 }
 
 TEST (RoundExtent, BallsAreRoundBelowToo)
@@ -130,7 +114,6 @@ TEST (RoundExtent, BallsAreRoundBelowToo)
                             [&] (const OrientedPoint& p) { return p.position.z () < -0.95 * radius; }));
   for (const OrientedPoint& p : hidden)
     EXPECT_NEAR (p.position.norm (), radius, 0.002);
-  EXPECT_NEAR (extent.region ().beyond ({0.0, 0.0, -radius - 0.03}), 0.03, 0.003);
 }
 
 TEST (RoundExtent, NoiseHidesNoBall)
@@ -154,7 +137,6 @@ TEST (RoundExtent, NoiseHidesNoBall)
   {
     ASSERT_TRUE (extent);
     EXPECT_LT (extent.center ().norm (), 0.003);
-    EXPECT_NEAR (extent.region ().beyond (-(radius + 0.03) * view), 0.03, 0.006);
     const std::vector<OrientedPoint> hidden = extent.hiddenSide (points, 0.01);
     const auto behind = [&] (const OrientedPoint& p) { return p.position.cast<double> ().dot (view) < -0.8 * radius; };
     EXPECT_GT (std::count_if (hidden.begin (), hidden.end (), behind), 20);
@@ -203,17 +185,10 @@ TEST (RoundExtent, BowlsAndDomesAreNoBalls)
 
 TEST (RoundExtent, WhatTellsNothingIsNotRound)
 {
-  const auto finite = [] (const std::vector<OrientedPoint>& points) {
-    return std::isfinite (ProfiledShape (points).region ().beyond ({0.1, 0.2, 0.3})) &&
-           std::isfinite (ProfiledShape (points, ground).region ().beyond ({0.1, 0.2, 0.3}));
-  };
   const std::vector<OrientedPoint> one_place (100, pointAt ({0.1, 0.1, 0.1}, {0.0, 0.0, 1.0}));
-  EXPECT_TRUE (finite (one_place));
   EXPECT_FALSE (ProfiledShape (one_place));
   const std::vector<OrientedPoint> plate = observedBox ({0.1, 0.1, 0.001}, {0.0, 0.0, 1.0});
-  EXPECT_TRUE (finite (plate));
   EXPECT_FALSE (ProfiledShape (plate));
   const std::vector<OrientedPoint> strip = observedRound (can, 0.0, 0.1, {0.0, -0.1155, 0.0}); // 60 degrees of a can
-  EXPECT_TRUE (finite (strip));
   EXPECT_FALSE (ProfiledShape (strip));
 }

@@ -5,12 +5,6 @@
 #include <limits>
 
 namespace pcl::cosection {
-namespace {
-
-constexpr double rounding = 1e-6; // relative bound of the rounding errors of a row's values
-
-} // namespace
-
 double
 HalfSpaces::beyond (const Eigen::Vector3d& x) const
 {
@@ -33,22 +27,6 @@ HalfSpaces::beyond (const Eigen::Vector3d& first, const Eigen::Vector3d& step, i
       values[i] = values[i] < value ? value : values[i];
     }
   }
-}
-
-HalfSpaces
-HalfSpaces::within (const Eigen::AlignedBox3d& box) const
-{
-  const Eigen::Vector3d middle = box.center ();
-  const Eigen::Vector3d half_sizes = 0.5 * box.sizes ();
-  double least = -std::numeric_limits<double>::infinity (); // lower bound of the maximum over k in the box
-  for (const auto& [n, s] : sides_)
-    least = std::max (least, n.dot (middle) - s - n.cwiseAbs ().dot (half_sizes));
-  const double tolerance = rounding * (middle.norm () + half_sizes.norm ());
-  HalfSpaces needed;
-  for (const auto& [n, s] : sides_)
-    if (n.dot (middle) - s + n.cwiseAbs ().dot (half_sizes) >= least - tolerance)
-      needed.add (n, s);
-  return needed;
 }
 
 } // namespace pcl::cosection

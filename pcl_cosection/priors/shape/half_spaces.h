@@ -23,9 +23,6 @@ public:
   /** \brief beyond () at the places \a first + i * \a step, i = 0 ... \a count - 1. \param[out] values metres */
   void beyond (const Eigen::Vector3d& first, const Eigen::Vector3d& step, int count, float* values) const;
 
-  /** \brief As few of these as are needed for beyond () at places in a box. */
-  HalfSpaces within (const Eigen::AlignedBox3d& box) const;
-
 private:
   std::vector<std::pair<Eigen::Vector3d, double>> sides_; // n_k, s_k
 };

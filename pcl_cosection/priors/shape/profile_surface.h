@@ -53,10 +53,6 @@ public:
   /** \brief Copies of all points on other sides of the axis. */
   std::vector<OrientedPoint> onOtherSides (const std::vector<OrientedPoint>& points) const;
 
-  /** \brief Points of flat faces at those ends of the axis to which a straight wall leads, such as the hidden bottom of
-   * a can. */
-  virtual std::vector<OrientedPoint> flatEnds () const { return {}; }
-
   /** \brief The profile of its wall; null if it is no vessel. */
   const WallProfile* vessel () const { return vessel_.get (); }
 

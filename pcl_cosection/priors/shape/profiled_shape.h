@@ -25,10 +25,7 @@ struct Profiles
  * walls).
  *
  * The observed profile is copied to all sides: by all turns about the axis, or by reflection in the middle planes of an
- * open box. A handle or a spout, which was seen in less than 50 degrees, is not copied. The plausible region is the
- * convex hull of the points and these copies, as the intersection of half-spaces { x : n_k.x <= s_k } of fixed
- * directions n_k and of the normals of large faces; s_k is the largest n_k.p over all points p, except for 0.2 % of
- * outliers, and their copies. */
+ * open box. A handle or a spout, which was seen in less than 50 degrees, is not copied. */
 class ProfiledShape
 {
 public:
@@ -50,12 +47,13 @@ public:
   /** \brief Whether there is a profile. All that follows is about it. */
   explicit operator bool () const { return profile_ != nullptr; }
 
-  /** \brief The plausible region. */
+  /** \brief The convex hull of a vessel: of its points and their copies, as the intersection of half-spaces
+   * { x : n_k.x <= s_k } of fixed directions n_k and of the normals of large faces; s_k is the largest n_k.p over all
+   * points p, except for 0.2 % of outliers, and their copies. */
   const HalfSpaces& region () const { return region_; }
 
   /** \brief Copies of points on all sides, including those of cavities. For a vessel, also points of the parts that
-   * views see least, in steps of \a step_m: the lower parts of both sides, floor and bottom. For other shapes without a
-   * support plane, also flat faces at the ends of straight walls. */
+   * views see least, in steps of \a step_m: the lower parts of both sides, floor and bottom. */
   std::vector<OrientedPoint> hiddenSide (const std::vector<OrientedPoint>& points, double step_m) const;
 
   /** \brief A point of the axis. */
@@ -103,7 +101,6 @@ private:
   void build (const std::vector<OrientedPoint>& points, const std::optional<Eigen::Vector4d>& plane, bool alone,
               const Profiles& profiles);
 
-  bool standing_ = false; // on a plane
   bool faceted_ = false;
   std::shared_ptr<const ProfileSurface> profile_; // null without a profile
   HalfSpaces region_;

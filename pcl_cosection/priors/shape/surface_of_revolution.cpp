@@ -16,14 +16,9 @@ namespace pcl::cosection {
 namespace {
 
 constexpr std::size_t least_points = 50;
-constexpr double round_share = 0.75;    // of all points
-constexpr double sunk = 0.1;            // of the radius: largest depth of a ball in its support plane
-constexpr int seen_sectors = 8;         // next to each other: if fewer were seen, the thing may have any shape
-constexpr double straight_length = 0.5; // of the radius: a straight wall of this length ends in a flat face
-constexpr double straight_sine = 0.2;   // between the wall and the axis
-constexpr double straight_share = 0.8;  // of the wall's points
-constexpr double outer_wall = 0.9;      // of the radius
-constexpr int disc_rings = 24;
+constexpr double round_share = 0.75; // of all points
+constexpr double sunk = 0.1;         // of the radius: largest depth of a ball in its support plane
+constexpr int seen_sectors = 8;      // next to each other: if fewer were seen, the thing may have any shape
 constexpr double slender_wall = 0.2; // of the radius
 constexpr double thick_wall = 0.3;
 constexpr double better = 1.02;   // an axis by the rim must hold so many times the points of another axis
@@ -228,41 +223,6 @@ public:
   }
 
   bool isBall () const override { return is_ball_; }
-
-  std::vector<OrientedPoint> flatEnds () const override
-  {
-    std::vector<OrientedPoint> discs;
-    const Eigen::Vector3d x = direction_.unitOrthogonal ();
-    const Eigen::Vector3d y = direction_.cross (x);
-    for (const double sense : {-1.0, 1.0})
-    {
-      const double end = sense * extent (sense * direction_);
-      double radius = 0.0;
-      for (const ProfilePoint& p : profile_)
-        if (std::abs (p.position.x () - end) < cell_m_)
-          radius = std::max (radius, p.position.y ());
-      std::size_t near = 0, straight = 0; // of the outer wall
-      for (const ProfilePoint& p : profile_)
-        if (std::abs (p.position.x () - end) < straight_length * radius && p.position.y () > outer_wall * radius)
-        {
-          ++near;
-          straight += std::abs (p.normal.x ()) < straight_sine;
-        }
-      if (near == 0 || static_cast<double> (straight) < straight_share * static_cast<double> (near))
-        continue;
-      const double step = radius / disc_rings;
-      for (int j = -disc_rings; j <= disc_rings; ++j)
-        for (int i = -disc_rings; i <= disc_rings; ++i)
-          if (i * i + j * j <= disc_rings * disc_rings)
-          {
-            OrientedPoint p;
-            p.position = (center_ + end * direction_ + step * (i * x + j * y)).cast<float> ();
-            p.normal = (sense * direction_).cast<float> ();
-            discs.push_back (p);
-          }
-    }
-    return discs;
-  }
 
 private:
   /** \brief Fit with a known axis.

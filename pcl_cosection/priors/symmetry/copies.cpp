@@ -107,13 +107,15 @@ hullOfCopies (const Observation& object, const Motions& motions, const Eigen::Ve
                                               up.isZero () ? std::nullopt : std::optional<Eigen::Vector3d> (up));
   for (const Eigen::Vector3d& n : evenDirections (directions, axes))
   {
-    const bool seen = n.dot (up) >= downwards &&
-                      std::any_of (all.begin (), all.end (), [&] (const Eigen::Affine3d& motion) {
-                        const Eigen::Vector3d turned = motion.linear ().transpose () * n;
-                        return std::any_of (towards.begin (), towards.end (), [&] (const Eigen::Vector3d& sensor) {
-                          return turned.dot (sensor) > facing;
-                        });
-                      });
+    const bool is_round = up.isZero () && motions.size () > many; // its profile was seen, ends and all
+    const bool seen = is_round ||
+                      (n.dot (up) >= downwards &&
+                       std::any_of (all.begin (), all.end (), [&] (const Eigen::Affine3d& motion) {
+                         const Eigen::Vector3d turned = motion.linear ().transpose () * n;
+                         return std::any_of (towards.begin (), towards.end (), [&] (const Eigen::Vector3d& sensor) {
+                           return turned.dot (sensor) > facing;
+                         });
+                       }));
     if (!seen)
       continue;
     double farthest = -std::numeric_limits<double>::infinity ();

@@ -1,6 +1,8 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <pcl/cosection/common/oriented_point.h>
+
 #include <Eigen/Geometry>
 
 #include <cmath>
@@ -10,6 +12,14 @@ namespace pcl::cosection {
 
 /** \brief Isometries, reflections among them, that may take an object to itself. */
 using Motions = std::vector<Eigen::Affine3d>;
+
+inline OrientedPoint
+moved (OrientedPoint point, const Eigen::Affine3d& motion)
+{
+  point.position = (motion * point.position.cast<double> ()).cast<float> ();
+  point.normal = (motion.linear () * point.normal.cast<double> ()).cast<float> ();
+  return point;
+}
 
 /** \brief The reflection in the plane n.x = d, unit n. */
 inline Eigen::Affine3d

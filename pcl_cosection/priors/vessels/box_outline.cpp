@@ -235,52 +235,32 @@ outlineByWalls (const std::vector<BoxPoint>& points, const Eigen::Array2d& half_
 }
 
 double
-RoundedRectangle::distance (const Eigen::Vector2d& q) const
+RectangularOutline::distance (const Eigen::Vector2d& q) const
 {
-  const Eigen::Array2d beyond = q.array ().abs () - half_sizes_ + corner_; // relative to the centre of the corner
-  return beyond.max (0.0).matrix ().norm () + std::min (beyond.maxCoeff (), 0.0) - corner_ + halfWidth ();
+  return (q.array ().abs () - half_sizes_).maxCoeff () + half_sizes_.minCoeff ();
 }
 
 Eigen::Vector2d
-RoundedRectangle::away (const Eigen::Vector2d& q) const
+RectangularOutline::away (const Eigen::Vector2d& q) const
 {
-  const Eigen::Array2d beyond = q.array ().abs () - half_sizes_ + corner_;
-  const Eigen::Array2d sense = (q.array () < 0.0).select (Eigen::Array2d::Constant (-1.0), Eigen::Array2d::Ones ());
-  if ((beyond > 0.0).all ())
-    return (sense * beyond).matrix ().normalized ();
-  return beyond.x () > beyond.y () ? Eigen::Vector2d (sense.x (), 0.0) : Eigen::Vector2d (0.0, sense.y ());
-}
-
-double
-RoundedRectangle::reach (const Eigen::Vector2d& n, double distance) const
-{
-  const double radius = corner_ + distance - halfWidth ();
-  const Eigen::Array2d half = (half_sizes_ - corner_ + std::min (radius, 0.0)).max (0.0);
-  return n.cwiseAbs ().dot (half.matrix ()) + std::max (radius, 0.0) * n.norm ();
+  Eigen::Index axis;
+  (q.array ().abs () - half_sizes_).maxCoeff (&axis);
+  return (q[axis] < 0.0 ? -1.0 : 1.0) * Eigen::Vector2d::Unit (axis);
 }
 
 std::vector<Eigen::Vector2d>
-RoundedRectangle::outline (double distance, double step) const
+RectangularOutline::outline (double distance, double step) const
 {
-  const double radius = corner_ + distance - halfWidth ();
-  const Eigen::Array2d half = (half_sizes_ - corner_ + std::min (radius, 0.0)).max (0.0);
-  const double arc = 0.5 * M_PI * std::max (radius, 0.0);
+  const Eigen::Array2d half = halfSizesAt (distance);
   std::vector<Eigen::Vector2d> points;
-  for (int side = 0; side < 4; ++side)
+  for (const Eigen::Index axis : {0, 1})
   {
-    const Eigen::Vector2d out (side == 0 ? 1.0 : side == 2 ? -1.0 : 0.0, side == 1 ? 1.0 : side == 3 ? -1.0 : 0.0);
-    const Eigen::Vector2d along (-out.y (), out.x ());
-    const double from = half[side % 2], length = half[1 - side % 2]; // distance and half length of the side
+    const double length = half[1 - axis];
     const int steps = std::max (1, static_cast<int> (std::ceil (2.0 * length / step)));
-    for (int i = 0; i < steps; ++i)
-      points.push_back ((from + std::max (radius, 0.0)) * out + (2.0 * i / steps - 1.0) * length * along);
-    const int turns = std::max (1, static_cast<int> (std::ceil (arc / step)));
-    for (int i = 0; i < turns; ++i)
-    {
-      const double angle = 0.5 * M_PI * i / turns;
-      points.push_back (from * out + length * along +
-                        std::max (radius, 0.0) * (std::cos (angle) * out + std::sin (angle) * along));
-    }
+    for (const double sense : {1.0, -1.0})
+      for (int i = 0; i < steps; ++i)
+        points.push_back (sense * (half[axis] * Eigen::Vector2d::Unit (axis) +
+                                   (2.0 * i / steps - 1.0) * length * Eigen::Vector2d::Unit (1 - axis)));
   }
   return points;
 }

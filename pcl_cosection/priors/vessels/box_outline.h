@@ -32,15 +32,14 @@ struct BoxOutline
 std::optional<BoxOutline> outlineByWalls (const std::vector<BoxPoint>& points, const Eigen::Array2d& half_sizes,
                                           const std::optional<double>& bottom);
 
-/** \brief A rectangle about the origin, along the axes, with rounded corners; and the outlines parallel to it, inside
- * and outside. */
-class RoundedRectangle
+/** \brief A rectangle about the origin, along the axes; and the outlines parallel to it, inside and outside. */
+class RectangularOutline
 {
 public:
-  RoundedRectangle () = default;
+  RectangularOutline () = default;
 
-  /** \param[in] half_sizes positive \param[in] corner radius of the corners, at most the smaller of them */
-  RoundedRectangle (const Eigen::Array2d& half_sizes, double corner) : half_sizes_ (half_sizes), corner_ (corner) {}
+  /** \param[in] half_sizes positive */
+  explicit RectangularOutline (const Eigen::Array2d& half_sizes) : half_sizes_ (half_sizes) {}
 
   /** \brief Distance from its middle line: constant along parallel outlines, 0 on the middle line, and the smaller half
    * size on its outline. */
@@ -50,16 +49,21 @@ public:
   Eigen::Vector2d away (const Eigen::Vector2d& q) const;
 
   /** \brief Support function of the parallel outline at a distance, along \a n. */
-  double reach (const Eigen::Vector2d& n, double distance) const;
+  double reach (const Eigen::Vector2d& n, double distance) const
+  {
+    return n.cwiseAbs ().dot (halfSizesAt (distance).matrix ());
+  }
 
   /** \brief Points of the parallel outline at a distance. */
   std::vector<Eigen::Vector2d> outline (double distance, double step) const;
 
 private:
-  double halfWidth () const { return half_sizes_.minCoeff (); }
+  Eigen::Array2d halfSizesAt (double distance) const
+  {
+    return (half_sizes_ + distance - half_sizes_.minCoeff ()).max (0.0);
+  }
 
   Eigen::Array2d half_sizes_ = Eigen::Array2d::Zero ();
-  double corner_ = 0.0;
 };
 
 } // namespace pcl::cosection

@@ -8,10 +8,8 @@
 #include <Eigen/Geometry>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <complex>
-#include <limits>
 
 namespace pcl::cosection {
 namespace {
@@ -22,54 +20,35 @@ constexpr double sideways = 0.5;          // least component of a wall's normal 
 constexpr double least_sideways = 0.05;   // of all points
 constexpr double least_rectangular = 0.4; // length of the mean of exp (4 i angle) over walls; 0 for a round wall
 constexpr double outlier_share = 0.004;   // of the points: outliers that lie farther out
-constexpr double turn_step = 0.0044;      // radians, a quarter of a degree
-constexpr int turn_steps = 24;            // in either sense, the largest error of normals
-constexpr int wall_rounds = 2;
-constexpr double level = 0.9;               // component of a floor's normal upwards
-constexpr double same_axis = 0.98;          // cosine
+constexpr double floor_reach = 0.08; // of the size: range of heights of a floor, with an axis by inaccurate normals
+constexpr double level = 0.9;        // component of a floor's normal upwards
+constexpr double same_axis = 0.98;   // cosine
 constexpr double right_angle_cosine = 0.15; // between walls
 constexpr double least_inner = 0.05;        // share of the wall points that face inwards
-constexpr double floor_reach = 0.08; // of the size: range of heights of a floor, with an axis by inaccurate normals
-constexpr double same_floor = 0.97;  // least cosine between the mean normal and that of the fitted plane
 constexpr std::size_t least_floor = 10;
-constexpr double blurred = 0.15;   // so much less sideways than other wall normals are those where wall and floor meet
 constexpr double along_wall = 0.4; // largest component of a normal along the wall
 constexpr double narrowest = 0.1;  // least width, of the length
-constexpr std::array<double, 5> corners = {0.0, 0.15, 0.3, 0.5, 0.75}; // of the half width
 
-/** \brief The normal of the floor from a plane fit to its points, which is more precise than their normals; nothing if
- * the points lie on no plane with about that normal.
- *
- * The rim faces the same way; the larger one of the two is used. */
-std::optional<Eigen::Vector3d>
+/** \brief The normal of a plane fit to the floor or the rim, whichever is larger: it is more precise than the normals
+ * of their points. */
+Eigen::Vector3d
 acrossFloor (const std::vector<NormalLine>& lines, const Eigen::Vector3d& up)
 {
-  std::vector<const NormalLine*> level_lines;
+  std::vector<Eigen::Vector3d> level_points, floor;
   std::vector<double> heights;
   for (const NormalLine& line : lines)
     if (up.dot (line.normal) > level)
     {
-      level_lines.push_back (&line);
+      level_points.push_back (line.position);
       heights.push_back (up.dot (line.position));
     }
   if (heights.size () < least_floor)
     return up;
-  std::sort (heights.begin (), heights.end ());
-  double middle = 0.0;
-  std::ptrdiff_t most = 0;
-  for (auto first = heights.begin (); first != heights.end (); ++first)
-    if (const std::ptrdiff_t count = std::upper_bound (first, heights.end (), *first + 2.0 * floor_reach) - first;
-        count > most)
-    {
-      most = count;
-      middle = *(first + count / 2);
-    }
-  std::vector<Eigen::Vector3d> floor;
-  for (const NormalLine* line : level_lines)
-    if (std::abs (up.dot (line->position) - middle) < floor_reach)
-      floor.push_back (line->position);
-  const Eigen::Vector3d normal = planeNormal (floor, up);
-  return normal.dot (up) > same_floor ? std::optional<Eigen::Vector3d> (normal) : std::nullopt;
+  const double middle = quantile (heights, 0.5);
+  for (const Eigen::Vector3d& p : level_points)
+    if (std::abs (up.dot (p) - middle) < floor_reach)
+      floor.push_back (p);
+  return planeNormal (floor, up);
 }
 
 /** \brief Directions that may be upwards, if some of the faces are walls. */
@@ -90,43 +69,7 @@ acrossWalls (const std::vector<Eigen::Vector3d>& faces)
   return axes;
 }
 
-struct Rectangle
-{
-  Eigen::Vector2d middle;
-  Eigen::Vector2d along; // unit, along its first sides
-  Eigen::Array2d half_sizes;
-};
-
-/** \brief The smallest rectangle around all points without outliers.
- * \param[in] angle between the first axis and a side, by normals: approximate */
-Rectangle
-leastRectangle (const std::vector<Eigen::Vector2d>& points, double angle)
-{
-  Rectangle least;
-  double least_area = std::numeric_limits<double>::infinity ();
-  std::vector<double> ahead (points.size ()), aside (points.size ());
-  for (int step = -turn_steps; step <= turn_steps; ++step)
-  {
-    const double turned = angle + step * turn_step;
-    const Eigen::Vector2d u (std::cos (turned), std::sin (turned)), v (-u.y (), u.x ());
-    for (std::size_t n = 0; n < points.size (); ++n)
-    {
-      ahead[n] = u.dot (points[n]);
-      aside[n] = v.dot (points[n]);
-    }
-    const Eigen::Array2d low (quantile (ahead, outlier_share), quantile (aside, outlier_share));
-    const Eigen::Array2d high (quantile (ahead, 1.0 - outlier_share), quantile (aside, 1.0 - outlier_share));
-    if (const double area = (high - low).prod (); area < least_area)
-    {
-      least_area = area;
-      const Eigen::Array2d middle = 0.5 * (low + high);
-      least = {middle.x () * u + middle.y () * v, u, 0.5 * (high - low)};
-    }
-  }
-  return least;
-}
-
-/** \brief An open box: a hollow thing with a rectangular outline, perhaps with rounded corners, such as a tray, a box
+/** \brief An open box: a hollow thing with a rectangular outline, such as a tray, a box
  * without lid or a bin. Its walls are equal on all four sides. */
 class OpenBox : public ProfileSurface
 {
@@ -139,23 +82,13 @@ public:
   {
     const NormalLines normals = normalLinesOf (points);
     const bool is_standing = plane && plane->head<3> ().dot (up) > vertical_cosine;
-    const std::optional<Eigen::Vector3d> direction = is_standing ? plane->head<3> () : acrossFloor (normals.lines, up);
-    if (!direction)
-      return nullptr;
     const Ptr box = std::make_shared<OpenBox> ();
-    box->direction_ = *direction;
+    box->direction_ = is_standing ? Eigen::Vector3d (plane->head<3> ()) : acrossFloor (normals.lines, up);
     if (!box->findOutline (points, plane))
       return nullptr;
-    std::vector<double> across;
-    for (const OrientedPoint& p : points)
-      if (const double component = box->flat (p).normal.norm (); component > sideways)
-        across.push_back (component);
-    const double steep = quantile (across, 0.5) - blurred;
     std::vector<OrientedPoint> alike;
-    std::copy_if (points.begin (), points.end (), std::back_inserter (alike), [&] (const OrientedPoint& p) {
-      const FlatPoint f = box->flat (p);
-      return box->isAlongWall (f) && (f.normal.norm () < sideways || f.normal.norm () > steep);
-    });
+    std::copy_if (points.begin (), points.end (), std::back_inserter (alike),
+                  [&] (const OrientedPoint& p) { return box->isAlongWall (box->flat (p)); });
     if (!box->findProfile (alike, normals.size, 0) ||
         static_cast<double> (box->profile_.size ()) < box_share * static_cast<double> (points.size ()))
       return nullptr;
@@ -191,12 +124,8 @@ private:
     x_ = direction_.unitOrthogonal ();
     y_ = direction_.cross (x_);
     Eigen::Vector2d mean = Eigen::Vector2d::Zero ();
-    std::vector<Eigen::Vector2d> flat_points;
     for (const OrientedPoint& point : points)
-    {
-      flat_points.push_back (flat (point).position);
-      mean += flat_points.back () / static_cast<double> (points.size ());
-    }
+      mean += flat (point).position / static_cast<double> (points.size ());
     std::complex<double> sum = 0.0;
     double walls = 0.0, inner = 0.0;
     for (const OrientedPoint& point : points)
@@ -209,55 +138,39 @@ private:
     if (inner < least_inner * walls || // no inside was seen
         walls < least_sideways * static_cast<double> (points.size ()) || std::abs (sum) < least_rectangular * walls)
       return false;
-
-    const Rectangle about = leastRectangle (flat_points, 0.25 * std::arg (sum));
-    Eigen::Array2d half_sizes = about.half_sizes;
+    const double turn = 0.25 * std::arg (sum);
+    x_ = std::cos (turn) * x_ + std::sin (turn) * y_;
+    y_ = direction_.cross (x_);
+    Eigen::Array2d half_sizes, middle;
+    for (int axis = 0; axis < 2; ++axis)
+    {
+      std::vector<double> along;
+      for (const OrientedPoint& point : points)
+        along.push_back (flat (point).position[axis]);
+      const double low = quantile (along, outlier_share), high = quantile (along, 1.0 - outlier_share);
+      middle[axis] = 0.5 * (low + high);
+      half_sizes[axis] = 0.5 * (high - low);
+    }
     if (half_sizes.minCoeff () < narrowest * half_sizes.maxCoeff () || !(half_sizes.minCoeff () > 0.0))
       return false;
-    center_ += about.middle.x () * x_ + about.middle.y () * y_;
-    x_ = about.along.x () * x_ + about.along.y () * y_;
-    y_ = direction_.cross (x_);
-    for (int r = 0; r < wall_rounds; ++r)
+    center_ += middle.x () * x_ + middle.y () * y_;
+    std::vector<BoxPoint> box_points;
+    for (const OrientedPoint& p : points)
     {
-      std::vector<BoxPoint> box_points;
-      for (const OrientedPoint& p : points)
-      {
-        const Eigen::Vector3d q = p.position.cast<double> () - center_, n = p.normal.cast<double> ();
-        box_points.push_back (
-            {{x_.dot (q), y_.dot (q), direction_.dot (q)}, {x_.dot (n), y_.dot (n), direction_.dot (n)}});
-      }
-      std::optional<double> bottom;
-      if (plane && plane->head<3> ().dot (direction_) > vertical_cosine)
-        bottom = -plane->head<3> ().dot (center_) - (*plane)[3];
-      const std::optional<BoxOutline> by_walls = outlineByWalls (box_points, half_sizes, bottom);
-      if (!by_walls)
-        return false;
-      center_ += by_walls->middle.x () * x_ + by_walls->middle.y () * y_;
-      half_sizes = by_walls->half_sizes;
-      walls_ = by_walls->walls;
+      const Eigen::Vector3d q = p.position.cast<double> () - center_, n = p.normal.cast<double> ();
+      box_points.push_back (
+          {{x_.dot (q), y_.dot (q), direction_.dot (q)}, {x_.dot (n), y_.dot (n), direction_.dot (n)}});
     }
-    return findCorners (points, half_sizes);
-  }
-
-  bool findCorners (const std::vector<OrientedPoint>& points, const Eigen::Array2d& half_sizes)
-  {
-    const auto is_on_wall = [this] (const OrientedPoint& p) {
-      const FlatPoint f = flat (p);
-      return f.normal.norm () > sideways && isAlongWall (f);
-    };
-    std::ptrdiff_t most = 0;
-    RoundedRectangle best;
-    for (const double corner : corners)
-    {
-      outline_ = RoundedRectangle (half_sizes, corner * half_sizes.minCoeff ());
-      if (const std::ptrdiff_t count = std::count_if (points.begin (), points.end (), is_on_wall); count > most)
-      {
-        most = count;
-        best = outline_;
-      }
-    }
-    outline_ = best;
-    return most > 0;
+    std::optional<double> bottom;
+    if (plane && plane->head<3> ().dot (direction_) > vertical_cosine)
+      bottom = -plane->head<3> ().dot (center_) - (*plane)[3];
+    const std::optional<BoxOutline> by_walls = outlineByWalls (box_points, half_sizes, bottom);
+    if (!by_walls)
+      return false;
+    center_ += by_walls->middle.x () * x_ + by_walls->middle.y () * y_;
+    outline_ = RectangularOutline (by_walls->half_sizes);
+    walls_ = by_walls->walls;
+    return true;
   }
 
   FlatPoint flat (const OrientedPoint& point) const
@@ -308,7 +221,7 @@ private:
   }
 
   Eigen::Vector3d x_ = Eigen::Vector3d::UnitX (), y_ = Eigen::Vector3d::UnitY (); // along its walls
-  RoundedRectangle outline_;
+  RectangularOutline outline_;
   std::size_t walls_ = 0; // number of walls that were seen
 };
 

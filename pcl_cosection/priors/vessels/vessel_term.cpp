@@ -1,5 +1,5 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
-#include "hidden_side_term.h"
+#include "vessel_term.h"
 
 #include "pcl_cosection/common/parallel.h"
 #include "pcl_cosection/energy/data/imls_data_term.h"
@@ -17,13 +17,12 @@ namespace {
 constexpr float near_weight = 0.3f;      // sum of weights: a point within 1.1 sigma
 constexpr float far_weight = 0.01f;      // sum of weights: a point within 2.1 sigma
 constexpr float gap_vox = 2.0f;          // the term applies at least so far from data
-constexpr double reach_vox = 0.7;        // depth of copies inside the plausible region; deeper ones may be of a cavity
-constexpr double profile_weight = 10.0;  // of shapes with a profile, in multiples of beta_extent, as those below
-constexpr double vessel_weight = 100.0;  // of a vessel's wall, which vanishes with less
-constexpr double empty_weight = 10.0;    // of its cavity and of the space beyond the vessel
+constexpr double step_vox = 0.7;         // between points of the unseen parts
+constexpr double vessel_weight = 100.0;  // of a wall, in multiples of beta_extent; it vanishes with less
+constexpr double empty_weight = 10.0;    // of its cavity
 constexpr double least_wall = 0.6;       // least thickness of a wall, of its mean thickness: noise would make holes
 constexpr double least_wall_vox = 1.25;  // least thickness of a wall
-constexpr double empty_margin_vox = 1.0; // distance of expected empty space from the surface
+constexpr float empty_margin_vox = 1.0f; // distance of expected empty space from the surface
 constexpr double empty_far_vox = 6.0;    // largest expected signed distance
 
 /** \brief One point per cube of half the width of the Gaussians: enough for a weak term, whatever the number of views.
@@ -98,12 +97,14 @@ struct PartOfWall
   }
 };
 
-/** \brief Add the term of a vessel. Its wall is the intersection of the insides of all parts of its surface: the
- * largest of their signed distances is the target. */
+} // namespace
+
 void
 addVessel (BodyEnergy& energy, const ProfiledShape& shape, const std::vector<OrientedPoint>& measured,
-           const std::vector<OrientedPoint>& expected)
+           Proposal& proposal)
 {
+  const std::vector<OrientedPoint> few = thinned (energy.grid, measured, std::max (1.0, energy.options.sigma_vox));
+  const std::vector<OrientedPoint> expected = shape.hiddenSide (few, step_vox * energy.grid.voxel_size_m);
   const VoxelGrid& grid = energy.grid;
   const CoSectionOptions& options = energy.options;
   const auto isOfWall = [&] (const OrientedPoint& p) { return shape.holds (p.position.cast<double> ()); };
@@ -130,6 +131,8 @@ addVessel (BodyEnergy& energy, const ProfiledShape& shape, const std::vector<Ori
       for (int i = 0; i < grid.dims.x (); ++i)
       {
         const std::size_t n = grid.index (i, j, k);
+        const auto beyond_vox = static_cast<float> (beyond_m[static_cast<std::size_t> (i)] / grid.voxel_size_m);
+        proposal.least[n] = std::max (proposal.least[n], beyond_vox - empty_margin_vox);
         if (energy.empty[n] || handles.weight[n] >= near_weight)
           continue;
         const PartOfWall& outside = outer.distance[n] > bottom.distance[n] ? outer : bottom;
@@ -148,39 +151,14 @@ addVessel (BodyEnergy& energy, const ProfiledShape& shape, const std::vector<Ori
         else if (energy.problem.weight[n] <= 0.0f)
         {
           const Eigen::Vector3d place = grid.center (i, j, k);
-          const double clearance_m = std::max<double> (
-              {shape.depthInCavity (place), shape.depthUnder (place), beyond_m[static_cast<std::size_t> (i)]});
-          const double clearance_vox = clearance_m / grid.voxel_size_m;
+          const double clearance_vox = std::max (shape.depthInCavity (place), shape.depthUnder (place)) /
+                                       grid.voxel_size_m;
           if (clearance_vox > empty_margin_vox)
             set (n, empty_weight * options.beta_extent, std::min (clearance_vox, empty_far_vox));
         }
       }
     }
   });
-}
-
-} // namespace
-
-void
-addHiddenSide (BodyEnergy& energy, const ProfiledShape& shape, const std::vector<OrientedPoint>& points)
-{
-  const std::vector<OrientedPoint> few = thinned (energy.grid, points, std::max (1.0, energy.options.sigma_vox));
-  const std::vector<OrientedPoint> expected = shape.hiddenSide (few, reach_vox * energy.grid.voxel_size_m);
-  if (expected.empty ())
-    return;
-  if (shape.wallThickness () > 0.0)
-  {
-    addVessel (energy, shape, points, expected);
-    return;
-  }
-  const ImlsDataTerm term = termOf (energy, expected);
-  const auto weight = static_cast<float> (profile_weight * energy.options.beta_extent);
-  for (std::size_t n = 0; n < energy.grid.size (); ++n)
-    if (!energy.empty[n] && energy.data_distance_vox[n] >= gap_vox && term.weight[n] >= near_weight)
-    {
-      energy.problem.weight[n] += weight;
-      energy.problem.weighted_target[n] += weight * term.weighted_target[n] / term.weight[n];
-    }
 }
 
 } // namespace pcl::cosection
