@@ -123,6 +123,7 @@ TEST_F (PclCosection, LabelledSceneGivesAMeshPerObject)
     EXPECT_EQ (mesh.colours.size (), mesh.vertices.size ());
     EXPECT_EQ (mesh.provenance.size (), mesh.vertices.size ());
     EXPECT_EQ (mesh.confidence.size (), mesh.vertices.size ());
+    EXPECT_EQ (mesh.sigma_m.size (), mesh.vertices.size ());
   }
   const MassProperties ball = computeMassProperties (loadPlyMesh (path ("out/object_1.ply")));
   EXPECT_NEAR (ball.volume_m3, 0.0009, 0.0003);
