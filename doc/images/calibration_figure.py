@@ -8,7 +8,7 @@ import json, math, sys
 
 from method_figures import BODY, GRID, HULL, INFERRED, INK, PALE, Svg, legend
 
-LEAST_MM, MOST_MM = 1.0, 50.0
+LEAST_MM, MOST_MM = 0.5, 50.0
 LEFT, TOP, SIDE = 90, 30, 380
 
 
@@ -24,7 +24,7 @@ def main (arguments):
     if not arguments or not all ("=" in argument for argument in arguments):
         sys.exit (__doc__)
     f = Svg (760, 480)
-    for mm in (1, 2, 5, 10, 20, 50):
+    for mm in (0.5, 1, 2, 5, 10, 20, 50):
         f.line (*place (mm, LEAST_MM), *place (mm, MOST_MM), GRID, 1)
         f.line (*place (LEAST_MM, mm), *place (MOST_MM, mm), GRID, 1)
         x, y = place (mm, LEAST_MM)

@@ -26,8 +26,9 @@ distanceToPoints (const BodyEnergy& energy, const std::vector<OrientedPoint>& po
     if (const auto at = energy.grid.nearest (point.position.cast<double> ()))
       occupied[energy.grid.index (at->x (), at->y (), at->z ())] = 1;
   distance.values = distanceTransform (energy.grid.dims, occupied, energy.options.threads);
+  const auto farthest_vox = static_cast<float> (energy.grid.dims.sum ()); // finite also where there is no point at all
   for (float& value : distance.values)
-    value *= static_cast<float> (energy.grid.voxel_size_m);
+    value = std::min (value, farthest_vox) * static_cast<float> (energy.grid.voxel_size_m);
   return distance;
 }
 
@@ -80,7 +81,6 @@ errorSources (const BodyEnergy& energy, const std::vector<OrientedPoint>& points
   std::vector<ErrorSources> sources (mesh.vertices.size ());
   parallelFor (0, static_cast<int> (sources.size ()), energy.options.threads, [&] (int v) {
     const Eigen::Vector3d place = mesh.vertices[v].cast<double> ();
-    // A body without points in its grid, such as a piece of a continued plane, may be wrong by all of its size.
     const double data_distance_m = distance.sample (place).value_or (std::numeric_limits<float>::infinity ());
     sources[v] = {noiseAt (place, views), energy.grid.voxel_size_m, data_distance_m, size_m, hasTarget (energy, place)};
   });

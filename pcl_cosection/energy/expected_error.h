@@ -37,7 +37,7 @@ struct SizeShares
  * with the voxel size h, the distance d to the nearest measured point, and the longest observed extent L. The truth
  * goes through the measured points, so no error is larger than d and the noise: two sigma are d near the points. Far
  * from them an error is at most a share s of the size of the body, which is smaller where a prior has evidence. The two
- * shares are fitted by test/benchmark/comparisons/fit_expected_error.py. */
+ * shares are fitted by the program fit_expected_error (test/benchmark/comparisons). */
 double expectedError (const ErrorSources& sources, const SizeShares& shares = {});
 
 /** \brief Depth views of a body and the poses of their sensors in its frame. */

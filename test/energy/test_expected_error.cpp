@@ -94,6 +94,13 @@ TEST (ErrorSources, HaveTheDistanceToTheNearestPoint)
   }
 }
 
+TEST (ErrorSources, AreFiniteWithoutPoints)
+{
+  const TriangleMesh mesh = meshOf ({{0.1f, 0.1f, 0.1f}, {0.103f, 0.107f, 0.101f}});
+  for (const ErrorSources& source : errorSources (smallBody (), {}, {}, size_m, mesh))
+    EXPECT_LE (expectedError (source), size_m);
+}
+
 TEST (ErrorSources, HaveTheNoiseOfTheNearestViewThatShowsThePlace)
 {
   DepthView view;

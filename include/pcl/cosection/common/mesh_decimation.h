@@ -40,8 +40,8 @@ struct PCL_COSECTION_EXPORT DecimationOptions
  * that fall onto each other, or be turned inside out, more triangles are left.
  *
  * Normals are computed anew, from the triangles and their angles at each vertex. Colours, intensity, confidence and
- * sigma_m are interpolated along the collapsed edges, provenance is that of the nearer end. Empty arrays stay empty. Vertices that
- * no triangle uses are left out.
+ * sigma_m are interpolated along the collapsed edges, provenance is that of the nearer end. Empty arrays stay empty.
+ * Vertices that no triangle uses are left out.
  *
  * A mesh that has no more than \a max_triangles is returned as it is.
  * The result is the same whenever the input is. O (n log n) time; runs on the calling thread.
