@@ -149,7 +149,8 @@ TEST_F (PclCosection, LabelledSceneGivesAMeshPerObject)
   const nlohmann::json& object = summary["objects"][0];
   EXPECT_EQ (keys (object), (std::set<std::string>{"id", "label", "voxel_size_m", "dimensions", "vertices", "closed",
                                                    "euler", "volume_m3", "centroid_m", "inertia", "provenance",
-                                                   "penetration_m", "solver", "outlier_points", "contradicted_share"}));
+                                                   "mean_sigma_m", "penetration_m", "solver", "outlier_points",
+                                                   "contradicted_share"}));
   EXPECT_EQ (keys (object["solver"]), (std::set<std::string>{"iterations", "converged", "energy"}));
   EXPECT_EQ (object["label"], 1);
   EXPECT_EQ (object["closed"], true);
