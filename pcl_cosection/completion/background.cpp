@@ -3,6 +3,7 @@
 
 #include "pcl_cosection/common/boxes.h"
 #include "pcl_cosection/energy/body_mesh.h"
+#include "pcl_cosection/energy/expected_error.h"
 #include "pcl_cosection/mesh/mesh_attributes.h"
 #include "place_bodies.h"
 
@@ -94,6 +95,17 @@ backgroundVoxelSize (const Scene& scene, const std::vector<SceneObject>& objects
   while (voxelsOf (voxel) > most_whole_voxels)
     voxel *= 2.0;
   return voxel;
+}
+
+/** \brief The views from which the background has points. */
+SensorViews
+sensorViews (const Scene& scene)
+{
+  SensorViews views;
+  for (const UsedView& view : scene.views)
+    if (view.use == ViewUse::Full)
+      views.emplace_back (&view.depth, view.depth.T_world_sensor);
+  return views;
 }
 
 /** \brief The support planes of all objects, each in the region where its object may be. The last plane counts where
@@ -189,6 +201,8 @@ solveBackground (const Scene& scene, const std::vector<SceneObject>& objects, Co
       log.timed ("mesh", [&] {
         TriangleMesh mesh = trimmedMesh (energy, body.solution, scene.background);
         transferAttributes (scene.background, energy.grid, mesh);
+        const double size_m = boxOf (energy.grid).sizes ().maxCoeff ();
+        attachExpectedErrors (errorSources (energy, scene.background, sensorViews (scene), size_m, mesh), mesh);
         appendMesh (background.mesh, mesh);
       });
     piece.signed_distance = std::make_shared<SignedDistanceField> (solvedField (energy, body.solution));

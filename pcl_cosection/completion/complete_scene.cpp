@@ -50,7 +50,7 @@ completeScene (const Scene& scene, CompletionMode mode, UpdateOutput output, con
   const std::vector<SignedDistanceField::ConstPtr> background_fields = background.fields ();
   const std::vector<SolverSummary> solvers = solveJointly (scene, objects, background_fields, obstacles, energies, log);
 
-  // Zero sets with provenance and confidence, inner and outer bounds, penetration.
+  // Zero sets with provenance, confidence and expected errors, inner and outer bounds, penetration.
   std::vector<ObjectResult> finished = log.timed ("mesh", [&] {
     return finishObjects (scene, objects, energies, background_fields, obstacles, output, used_bytes, log);
   });

@@ -178,6 +178,15 @@ judgeAgreement (const Scene& scene, const SceneObject& object, const ViewAgreeme
   return share;
 }
 
+/** \brief Mark where priors have added targets. \param[in] measured the weights before */
+void
+markTargets (const std::vector<float>& measured, BodyEnergy& energy)
+{
+  energy.expects_distance.resize (measured.size ());
+  std::transform (measured.begin (), measured.end (), energy.problem.weight.begin (), energy.expects_distance.begin (),
+                  [] (float before, float after) { return after != before; });
+}
+
 /** \brief A query whether a place (object frame) may belong to another object: it is in the box of that one's points.
  */
 std::function<bool (const Eigen::Vector3d&)>
@@ -263,7 +272,9 @@ objectEnergies (const Scene& scene, CompletionMode mode, const std::vector<Scene
         throw DegenerateInput ("no usable measurements: all of its points lie in space that was seen free");
       ObjectSetting setting = settingOf (scene, *object.input, body);
       setting.is_of_other = placesOfOthers (objects, o, log);
+      const std::vector<float> measured = energy.problem.weight;
       addPriors (*object.observation, setting, object.planes (), body.hidden, energy);
+      markTargets (measured, energy);
       if (mode == CompletionMode::Once || object.observation->virtual_view)
         body.hidden.clear ();
       energies[o] = std::move (energy);

@@ -4,6 +4,7 @@
 #include "hulls.h"
 #include "joint_solve.h"
 #include "pcl_cosection/energy/body_mesh.h"
+#include "pcl_cosection/energy/expected_error.h"
 #include "pcl_cosection/mesh/mesh_attributes.h"
 #include "place_bodies.h"
 
@@ -32,6 +33,14 @@ markInferred (const SceneObject& object, TriangleMesh& mesh)
 
 } // namespace
 
+std::vector<ErrorSources>
+errorSourcesOf (const SceneObject& object, const BodyEnergy& energy, const TriangleMesh& mesh)
+{
+  const Observation& observation = *object.observation;
+  const SensorViews views = observation.virtual_view ? SensorViews () : observation.views;
+  return errorSources (energy, object.points (), views, observation.extents_m[0], mesh);
+}
+
 std::vector<ObjectResult>
 finishObjects (const Scene& scene, const std::vector<SceneObject>& objects, const std::vector<BodyEnergy>& energies,
                const std::vector<SignedDistanceField::ConstPtr>& background, const std::vector<Obstacle>& obstacles,
@@ -50,6 +59,7 @@ finishObjects (const Scene& scene, const std::vector<SceneObject>& objects, cons
       throw DegenerateInput ("its measurements determine no closed surface, or lie inside another body");
     markInferred (object, result.mesh);
     transferAttributes (object.points (), energies[o].grid, result.mesh);
+    attachExpectedErrors (errorSourcesOf (object, energies[o], result.mesh), result.mesh);
     if (scene.options.compute_bounds)
       result.inner_bound = innerMesh (energies[o], solution, object.points ());
   });

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "background.h"
+#include "pcl_cosection/energy/expected_error.h"
 #include "surroundings.h"
 
 #include <cstddef>
@@ -9,7 +10,12 @@
 
 namespace pcl::cosection {
 
-/** \brief Fields, meshes with provenance and confidence, bounds and penetration of all objects that were solved.
+/** \brief What the errors of an object's mesh depend on. */
+std::vector<ErrorSources> errorSourcesOf (const SceneObject& object, const BodyEnergy& energy,
+                                          const TriangleMesh& mesh);
+
+/** \brief Fields, meshes with provenance, confidence and expected errors, bounds and penetration of all objects that
+ * were solved.
  * \param[in] used_bytes memory in use, without obstacles and fields */
 std::vector<ObjectResult> finishObjects (const Scene& scene, const std::vector<SceneObject>& objects,
                                          const std::vector<BodyEnergy>& energies,

@@ -34,6 +34,7 @@ constexpr float far_vox = 3.0f;         // distances are clamped to this
 constexpr float border_vox = 2.0f;      // distance of a closed surface from the border of its volume
 constexpr float beside_vox = 1.5f;      // distance within which free space or a plane counts as bounding the surface
 constexpr double confidence_scale_vox = 5.0;
+constexpr float sigmas = 2.0f; // of the expected error, by which the outer bound is outside of the mesh
 
 /** \brief Height above the lowest of the planes, voxels. */
 float
@@ -99,7 +100,7 @@ connectedWith (const std::vector<std::uint8_t>& seeds, const std::vector<std::ui
  * surfaces within which space is not seen free. On a table a layer of that thickness remains unseen; the hull does not
  * extend along it away from the object.
  *
- * Use: add () every view; then finish (); then mesh () or meshWith (). Everything is in the object's frame. */
+ * Use: add () every view; then finish (); then mesh () or meshAround (). Everything is in the object's frame. */
 class ObjectHull
 {
 public:
@@ -159,11 +160,8 @@ public:
     hull_.grid = grid_;
     hull_.values.resize (grid_.size ());
     forEachVoxel (grid_, threads, [&] (std::size_t n, int i, int j, int k) {
-      const int border = std::min (
-          {i, j, k, grid_.dims.x () - 1 - i, grid_.dims.y () - 1 - j, grid_.dims.z () - 1 - k});
       const float reach_vox = low[n] ? std::max (around_core_vox, layer_reach * layer_vox_) : around_core_vox;
-      const float outside_vox = std::max (
-          {value[n], away_vox[n] - reach_vox, border_vox - static_cast<float> (border)});
+      const float outside_vox = std::max ({value[n], away_vox[n] - reach_vox, offBorder (i, j, k)});
       hull_.values[n] = static_cast<float> (std::min (outside_vox, far_vox) * grid_.voxel_size_m);
     });
   }
@@ -171,18 +169,57 @@ public:
   /** \brief The hull as a closed mesh with provenance and confidence. */
   TriangleMesh mesh () const { return meshOf (hull_); }
 
-  /** \brief The union of the hull and a body as a closed mesh with provenance and confidence. */
-  TriangleMesh meshWith (const SignedDistanceField& body) const
+  /** \brief The union of the hull, a body, and its mesh moved outward by two sigma, as a closed mesh with provenance
+   * and confidence. Beyond the hull the mesh moves no farther than twice its least sigma, which is that of the noise:
+   * an error is not expected where views looked through. */
+  TriangleMesh meshAround (const SignedDistanceField& body, const TriangleMesh& mesh) const
   {
+    const std::vector<float> moved_m = distanceToMoved (mesh);
+    const float noise_m = mesh.sigma_m.empty () ? 0.0f : *std::min_element (mesh.sigma_m.begin (), mesh.sigma_m.end ());
     SignedDistanceField both = hull_;
     forEachVoxel (grid_, options_.threads, [&] (std::size_t n, int i, int j, int k) {
-      if (const auto value = body.sample (grid_.center (i, j, k)))
-        both.values[n] = std::min (both.values[n], *value);
+      float& value = both.values[n];
+      value = std::min (value, std::max (moved_m[n], value - sigmas * noise_m));
+      if (const auto of_body = body.sample (grid_.center (i, j, k)))
+        value = std::min (value, *of_body);
+      value = std::max (value, offBorder (i, j, k) * static_cast<float> (grid_.voxel_size_m));
     });
     return meshOf (both);
   }
 
 private:
+  /** \brief Voxels by which a closed surface would be too near to the border of the volume. */
+  float offBorder (int i, int j, int k) const
+  {
+    return border_vox - static_cast<float> (std::min (
+                            {i, j, k, grid_.dims.x () - 1 - i, grid_.dims.y () - 1 - j, grid_.dims.z () - 1 - k}));
+  }
+
+  /** \brief Signed distance to the union of balls of two sigma around the vertices, metres; where it is larger than a
+   * voxel, any larger value. */
+  std::vector<float> distanceToMoved (const TriangleMesh& mesh) const
+  {
+    const auto voxel_m = static_cast<float> (grid_.voxel_size_m);
+    std::vector<float> distance_m (grid_.size (), far_vox * voxel_m);
+    for (std::size_t v = 0; v < mesh.sigma_m.size (); ++v)
+    {
+      const float radius_m = sigmas * mesh.sigma_m[v];
+      const Eigen::Vector3d at = grid_.toVoxel (mesh.vertices[v].cast<double> ());
+      const double reach_vox = radius_m / voxel_m + 1.0;
+      const Eigen::Vector3i first = (at.array () - reach_vox).ceil ().cast<int> ().max (0);
+      const Eigen::Vector3i last = (at.array () + reach_vox).floor ().cast<int> ().min (grid_.dims.array () - 1);
+      for (int k = first.z (); k <= last.z (); ++k)
+        for (int j = first.y (); j <= last.y (); ++j)
+          for (int i = first.x (); i <= last.x (); ++i)
+          {
+            float& least_m = distance_m[grid_.index (i, j, k)];
+            least_m = std::min (least_m,
+                                voxel_m * static_cast<float> ((Eigen::Vector3d (i, j, k) - at).norm ()) - radius_m);
+          }
+    }
+    return distance_m;
+  }
+
   TriangleMesh meshOf (const SignedDistanceField& field) const
   {
     const IsoSurfaceOptions closed{true, options_.threads};
@@ -314,7 +351,7 @@ addHulls (const Scene& scene, const std::vector<SceneObject>& objects, std::size
     if (options.compute_hull)
       results[o].hull = hull.mesh ();
     if (options.compute_bounds)
-      results[o].outer_bound = hull.meshWith (*results[o].signed_distance);
+      results[o].outer_bound = hull.meshAround (*results[o].signed_distance, results[o].mesh);
   });
 }
 

@@ -17,7 +17,7 @@ namespace {
 constexpr float observed_weight = 0.3f; // sum of weights that makes a voxel one with data: a point within 1.1 sigma
 constexpr double continued_plane_weight = 0.5;  // of the data term on a continued plane: that of dense measurements
 constexpr double continued_plane_gap_vox = 2.0; // planes are continued where no data is nearer
-constexpr std::size_t bytes_per_voxel = 94;
+constexpr std::size_t bytes_per_voxel = 95;
 constexpr float carving_reach_vox = 1.5f; // from the boundary of free space into the hull
 // Local solutions after new evidence extend so far beyond the supported region.
 constexpr double follow_margin_vox = 3.0;

@@ -29,15 +29,16 @@ struct BodyEnergy
 {
   VoxelGrid grid;
   CoSectionOptions options;
-  EnergyProblem problem;                // equation (1): W and C of (2), the bounds of (3) and (5)
-  std::vector<std::uint8_t> free_space; // 1 where seen free: the complement of the hull
-  std::vector<std::uint8_t> empty;      // 1 where seen free, and where a prior expects free space
-  std::vector<std::uint8_t> data;       // 1 where points are near
-  std::vector<std::uint8_t> expected;   // 1 where a prior expects matter far from points; or empty
-  std::vector<std::uint8_t> continued;  // 1 on continued planes; empty if there are no such planes
-  std::vector<float> data_distance_vox; // to the nearest voxel with data
-  std::vector<float> carved;            // signed distance to free space, voxels, finer than the votes; or empty
-  NormalBinOccupancy facing;            // for thin walls, whose two sides are near each other; or empty
+  EnergyProblem problem;                      // equation (1): W and C of (2), the bounds of (3) and (5)
+  std::vector<std::uint8_t> free_space;       // 1 where seen free: the complement of the hull
+  std::vector<std::uint8_t> empty;            // 1 where seen free, and where a prior expects free space
+  std::vector<std::uint8_t> data;             // 1 where points are near
+  std::vector<std::uint8_t> expected;         // 1 where a prior expects matter far from points; or empty
+  std::vector<std::uint8_t> expects_distance; // 1 where a prior has a target; or empty
+  std::vector<std::uint8_t> continued;        // 1 on continued planes; empty if there are no such planes
+  std::vector<float> data_distance_vox;       // to the nearest voxel with data
+  std::vector<float> carved;                  // signed distance to free space, voxels, finer than the votes; or empty
+  NormalBinOccupancy facing;                  // for thin walls, whose two sides are near each other; or empty
 
   bool hasData () const { return std::find (data.begin (), data.end (), 1) != data.end (); }
 };

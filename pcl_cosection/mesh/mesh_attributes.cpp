@@ -172,6 +172,7 @@ blendAttributes (TriangleMesh& mesh, std::uint32_t u, std::uint32_t v, double t)
   blend (mesh.colours);
   blend (mesh.intensity);
   blend (mesh.confidence);
+  blend (mesh.sigma_m);
   blend (mesh.provenance);
 }
 

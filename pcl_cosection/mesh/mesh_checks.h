@@ -17,7 +17,7 @@ checkMesh (const TriangleMesh& mesh)
     if (*std::max_element (triangle.begin (), triangle.end ()) >= mesh.vertices.size ())
       throw InvalidArgument ("mesh: a triangle refers to a vertex that does not exist");
   for (const std::size_t size : {mesh.normals.size (), mesh.colours.size (), mesh.intensity.size (),
-                                 mesh.confidence.size (), mesh.provenance.size ()})
+                                 mesh.confidence.size (), mesh.sigma_m.size (), mesh.provenance.size ()})
     if (size != 0 && size != mesh.vertices.size ())
       throw InvalidArgument ("mesh: a vertex property must have one value per vertex");
 }

@@ -155,6 +155,7 @@ extractTriangles (const TriangleMesh& mesh, const std::vector<bool>& keep)
   result.colours = select (mesh.colours, kept);
   result.intensity = select (mesh.intensity, kept);
   result.confidence = select (mesh.confidence, kept);
+  result.sigma_m = select (mesh.sigma_m, kept);
   result.provenance = select (mesh.provenance, kept);
   for (std::size_t t = 0; t < keep.size (); ++t)
     if (keep[t])
@@ -183,6 +184,7 @@ appendMesh (TriangleMesh& mesh, const TriangleMesh& other)
   appendProperty (mesh.colours, offset, other.colours, added);
   appendProperty (mesh.intensity, offset, other.intensity, added);
   appendProperty (mesh.confidence, offset, other.confidence, added);
+  appendProperty (mesh.sigma_m, offset, other.sigma_m, added);
   appendProperty (mesh.provenance, offset, other.provenance, added);
   mesh.vertices.insert (mesh.vertices.end (), other.vertices.begin (), other.vertices.end ());
   mesh.triangles.reserve (mesh.triangles.size () + other.triangles.size ());
@@ -223,6 +225,8 @@ toPolygonMesh (const TriangleMesh& mesh, pcl::PolygonMesh& output)
     add (mesh.intensity, {"intensity"});
   if (!mesh.confidence.empty ())
     add (mesh.confidence, {"confidence"});
+  if (!mesh.sigma_m.empty ())
+    add (mesh.sigma_m, {"sigma_m"});
   if (!mesh.provenance.empty ())
     add (mesh.provenance, {"provenance"}, PCLPointField::UINT8);
 

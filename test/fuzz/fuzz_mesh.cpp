@@ -24,8 +24,8 @@ check (const TriangleMesh& mesh)
   for (const TriangleMesh::Triangle& triangle : mesh.triangles)
     fuzz::require (*std::max_element (triangle.begin (), triangle.end ()) < mesh.vertices.size (),
                    "triangles are of vertices that there are");
-  for (const std::size_t size :
-       {mesh.normals.size (), mesh.colours.size (), mesh.confidence.size (), mesh.provenance.size ()})
+  for (const std::size_t size : {mesh.normals.size (), mesh.colours.size (), mesh.confidence.size (),
+                                 mesh.sigma_m.size (), mesh.provenance.size ()})
     fuzz::require (size == 0 || size == mesh.vertices.size (), "a property has a value for every vertex");
   computeTopology (mesh);
 }
@@ -110,6 +110,7 @@ fuzz::dictionary ()
                            "obj_info",
                            "vertex_indices",
                            "confidence",
+                           "sigma_m",
                            "provenance",
                            "end_header", // PLY
                            "solid",

@@ -35,7 +35,7 @@ tetrahedron (const std::string& real, const std::string& index, const std::strin
     bytes += "property " + real + " " + name + "\n";
   if (properties)
     for (const char* name : {"float nx", "float ny", "float nz", "uchar red", "uchar green", "uchar blue",
-                             "float confidence", "uchar provenance", "int unknown"})
+                             "float confidence", "float sigma_m", "uchar provenance", "int unknown"})
       bytes += std::string ("property ") + name + "\n";
   bytes += "element face 4\nproperty list uchar " + index + " " + corners_name + "\n";
   if (properties)
@@ -46,7 +46,7 @@ tetrahedron (const std::string& real, const std::string& index, const std::strin
     for (const float value : corner)
       put (bytes, static_cast<Real> (value));
     if (properties)
-      bytes.append (3 * sizeof (float) + 3 + sizeof (float) + 1 + sizeof (int), '\1');
+      bytes.append (3 * sizeof (float) + 3 + 2 * sizeof (float) + 1 + sizeof (int), '\1');
   }
   for (const auto& face : faces)
   {

@@ -35,6 +35,7 @@ fullTetrahedron ()
   mesh.normals = {{1, 0, 0}, {0, 1, 0}, {0, 0, -1}, {0.6f, 0, 0.8f}};
   mesh.colours = {{1, 2, 3}, {255, 0, 128}, {10, 13, 26}, {0, 0, 0}}; // among them line ends
   mesh.confidence = {0.0f, 0.25f, 1.0f, 0.125f};
+  mesh.sigma_m = {0.001f, 0.002f, 0.5f, 1e-9f};
   mesh.provenance = {0, 1, 2, 3};
   return mesh;
 }
@@ -47,6 +48,7 @@ expectEqual (const TriangleMesh& a, const TriangleMesh& b)
   EXPECT_EQ (a.normals, b.normals);
   EXPECT_EQ (a.colours, b.colours);
   EXPECT_EQ (a.confidence, b.confidence);
+  EXPECT_EQ (a.sigma_m, b.sigma_m);
   EXPECT_EQ (a.provenance, b.provenance);
 }
 
@@ -88,7 +90,7 @@ TEST (MeshIo, PlyHeaderIsTheDocumentedOne)
   const auto bytes = readFile (folder.file ("mesh.ply"));
   EXPECT_EQ (bytes.rfind ("ply\nformat binary_little_endian 1.0\nelement vertex 4\n", 0), 0u);
   for (const char* line : {"property float nx\n", "property uchar red\n", "property float confidence\n",
-                           "property uchar provenance\n", "element face 4\n"})
+                           "property float sigma_m\n", "property uchar provenance\n", "element face 4\n"})
     EXPECT_NE (bytes.find (line), std::string::npos) << line;
 }
 
@@ -237,6 +239,9 @@ TEST (MeshIo, RefusesWhatItCannotWrite)
   EXPECT_THROW (saveMesh (broken, folder.file ("mesh.ply")), InvalidArgument);
   auto uneven = tetrahedron ();
   uneven.confidence = {1.0f};
+  EXPECT_THROW (saveMesh (uneven, folder.file ("mesh.ply")), InvalidArgument);
+  uneven = tetrahedron ();
+  uneven.sigma_m = {0.001f};
   EXPECT_THROW (saveMesh (uneven, folder.file ("mesh.ply")), InvalidArgument);
   EXPECT_THROW (saveMesh (tetrahedron (), folder.file ("no/mesh.ply")), IoError);
   EXPECT_THROW (loadPlyMesh (folder.file ("none.ply")), IoError);

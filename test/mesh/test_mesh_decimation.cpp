@@ -175,6 +175,7 @@ TEST (MeshDecimation, CarriesAttributes)
   for (const auto& v : mesh.vertices)
   {
     mesh.confidence.push_back (brightness (v));
+    mesh.sigma_m.push_back (0.01f * brightness (v));
     mesh.colours.push_back ({static_cast<std::uint8_t> (std::lround (255 * brightness (v))), 7, 200});
     mesh.provenance.push_back (static_cast<std::uint8_t> (v.z () > 0.0f ? Provenance::Observed : Provenance::Hull));
   }
@@ -182,12 +183,14 @@ TEST (MeshDecimation, CarriesAttributes)
   const std::size_t n = result.vertices.size ();
   ASSERT_EQ (result.normals.size (), n);
   ASSERT_EQ (result.confidence.size (), n);
+  ASSERT_EQ (result.sigma_m.size (), n);
   ASSERT_EQ (result.colours.size (), n);
   ASSERT_EQ (result.provenance.size (), n);
   for (std::size_t v = 0; v < n; ++v)
   {
     const Eigen::Vector3f& p = result.vertices[v];
     EXPECT_NEAR (result.confidence[v], brightness (p), 0.03f);
+    EXPECT_NEAR (result.sigma_m[v], 0.01f * brightness (p), 0.0003f);
     EXPECT_NEAR (result.colours[v][0], 255 * brightness (p), 0.03f * 255);
     EXPECT_EQ (result.colours[v][1], 7);
     EXPECT_EQ (result.colours[v][2], 200);
@@ -209,6 +212,7 @@ TEST (MeshDecimation, LeavesEmptyArraysEmpty)
   EXPECT_TRUE (result.normals.empty ());
   EXPECT_TRUE (result.colours.empty ());
   EXPECT_TRUE (result.confidence.empty ());
+  EXPECT_TRUE (result.sigma_m.empty ());
   EXPECT_TRUE (result.provenance.empty ());
 }
 

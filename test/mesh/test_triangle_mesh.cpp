@@ -19,6 +19,7 @@ annotatedBox ()
     mesh.normals.emplace_back (static_cast<float> (v), 0, 0);
     mesh.colours.push_back ({static_cast<std::uint8_t> (v), 0, 0});
     mesh.confidence.push_back (static_cast<float> (v));
+    mesh.sigma_m.push_back (static_cast<float> (2 * v));
     mesh.provenance.push_back (static_cast<std::uint8_t> (v % 4));
   }
   return mesh;
@@ -32,6 +33,7 @@ TEST (ExtractTriangles, KeepsVerticesInOrderWithTheirProperties)
   keep[2] = keep[3] = true; // the top: 4 5 6, 5 7 6
   const auto top = extractTriangles (annotatedBox (), keep);
   EXPECT_EQ (top.confidence, (std::vector<float>{4, 5, 6, 7}));
+  EXPECT_EQ (top.sigma_m, (std::vector<float>{8, 10, 12, 14}));
   EXPECT_EQ (top.provenance, (std::vector<std::uint8_t>{0, 1, 2, 3}));
   EXPECT_EQ (top.normals[3].x (), 7.0f);
   EXPECT_EQ (top.colours[1][0], 5);
@@ -58,6 +60,7 @@ TEST (AppendMesh, ShiftsIndicesAndKeepsCommonProperties)
   EXPECT_EQ (mesh.normals.size (), 16u);
   EXPECT_TRUE (mesh.colours.empty ());
   EXPECT_EQ (mesh.confidence[9], 1.0f);
+  EXPECT_EQ (mesh.sigma_m[9], 2.0f);
   appendMesh (mesh, test::boxMesh ({0, 0, 0}, {1, 1, 1}));
   EXPECT_TRUE (mesh.normals.empty ());
   EXPECT_TRUE (mesh.provenance.empty ());

@@ -366,6 +366,25 @@ TEST_F (Evaluate, ComparesTheObjectsOfManyScenes)
   EXPECT_NE (readFile (folder_.file ("v.csv")).find ("\nb,7,melon,0,"), std::string::npos);
   EXPECT_TRUE (std::filesystem::exists (folder_.file ("worst/01_b_7.png")));
 
+  EXPECT_EQ (all.count ("expected_errors"), 0u); // these results have none
+
+  TriangleMesh sure = sphereMesh (0.102, 24);
+  sure.provenance.assign (sure.vertices.size (), 1);
+  sure.sigma_m.assign (sure.vertices.size (), 0.0015f); // vertices are on the ball: 2 mm outside
+  save ("result/a/object_1.ply", sure);
+  save ("result/a/object_1_outer.ply", sphereMesh (0.13, 24));
+  save ("result/b/object_7_outer.ply", sphereMesh (0.05, 24));
+  EXPECT_EQ (run ({"views", "--json", "v.json", "truth", "result"}), 0) << errors_;
+  const nlohmann::json certain = json ("v.json");
+  EXPECT_EQ (certain["expected_errors"]["vertices"], sure.vertices.size ());
+  EXPECT_EQ (certain["expected_errors"]["within_sigma"], 0.0);
+  EXPECT_EQ (certain["expected_errors"]["within_two_sigma"], 1.0);
+  EXPECT_EQ (certain["expected_errors"]["provenance"]["inferred"]["vertices"], sure.vertices.size ());
+  EXPECT_EQ (certain["expected_errors"]["curve"].size (), 8u);
+  EXPECT_EQ (certain["objects"][0]["inside_outer_bound"], 1.0);
+  EXPECT_EQ (certain["objects"][2]["inside_outer_bound"], 0.0);
+  EXPECT_NE (output_.find ("50.0 % of the truth is inside the outer bound"), std::string::npos) << output_;
+
   writeFile (folder_.file ("result/b/object_7.ply"), "no mesh");
   EXPECT_EQ (run ({"views", "truth", "result"}), 1);
   EXPECT_NE (errors_.find ("object_7.ply"), std::string::npos) << errors_;

@@ -123,6 +123,7 @@ TEST_F (PclCosection, LabelledSceneGivesAMeshPerObject)
     EXPECT_EQ (mesh.colours.size (), mesh.vertices.size ());
     EXPECT_EQ (mesh.provenance.size (), mesh.vertices.size ());
     EXPECT_EQ (mesh.confidence.size (), mesh.vertices.size ());
+    EXPECT_EQ (mesh.sigma_m.size (), mesh.vertices.size ());
   }
   const MassProperties ball = computeMassProperties (loadPlyMesh (path ("out/object_1.ply")));
   EXPECT_NEAR (ball.volume_m3, 0.0009, 0.0003);
@@ -146,9 +147,10 @@ TEST_F (PclCosection, LabelledSceneGivesAMeshPerObject)
              (std::set<std::string>{"read", "data_term", "constraints", "solve", "mesh", "total"}));
   ASSERT_EQ (summary["objects"].size (), 2u);
   const nlohmann::json& object = summary["objects"][0];
-  EXPECT_EQ (keys (object), (std::set<std::string>{"id", "label", "voxel_size_m", "dimensions", "vertices", "closed",
-                                                   "euler", "volume_m3", "centroid_m", "inertia", "provenance",
-                                                   "penetration_m", "solver", "outlier_points", "contradicted_share"}));
+  EXPECT_EQ (keys (object),
+             (std::set<std::string>{"id", "label", "voxel_size_m", "dimensions", "vertices", "closed", "euler",
+                                    "volume_m3", "centroid_m", "inertia", "provenance", "mean_sigma_m", "penetration_m",
+                                    "solver", "outlier_points", "contradicted_share"}));
   EXPECT_EQ (keys (object["solver"]), (std::set<std::string>{"iterations", "converged", "energy"}));
   EXPECT_EQ (object["label"], 1);
   EXPECT_EQ (object["closed"], true);

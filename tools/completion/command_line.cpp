@@ -56,7 +56,8 @@ declareOutput (CLI::App& app, Given& given)
                   "Write each object's hull: all that may be it, as no view saw it free (_hull)");
   output.addFlag (
       "--save-bounds", given.save_bounds,
-      "Write bounds for collision checks: matter surely there (_inner), and the mesh with its hull (_outer)");
+      "Write bounds for collision checks: matter surely there (_inner), and the hull with the mesh, two sigma larger "
+      "(_outer)");
   output.addFlag ("--save-sdf", given.save_sdf, "Write each object's signed distance beside its mesh (.vti)");
   output.add ("--json FILE", given.json, "Write a summary for programs");
 }

@@ -1,11 +1,13 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "views_command.h"
 
+#include "certainty.h"
 #include "common_options.h"
 #include "evaluation_output.h"
 #include "option_values.h"
 #include "output_files.h"
 
+#include "pcl_cosection/evaluation/mesh_surface.h"
 #include "pcl_cosection/evaluation/pictures/error_picture.h"
 #include "pcl_cosection/rendering/picture.h"
 #include <pcl/cosection/common/error.h>
@@ -22,7 +24,8 @@ using namespace pcl::cosection;
 
 namespace {
 
-constexpr double volume_tolerance = 0.25; // relative
+constexpr double volume_tolerance = 0.25;   // relative
+constexpr double bound_tolerance_m = 0.001; // truth so near to an outer bound is inside: the noise of a reading
 
 struct ViewsSettings : CommonOptions, SurfaceOptions
 {
@@ -41,6 +44,8 @@ struct ViewedObject
   double f_half = 0.0;       ///< F-score at half of the threshold
   bool closed = false;
   std::optional<double> volume_ratio;
+  std::vector<VertexError> errors; ///< beside the expected ones, if the result has those
+  std::optional<double> in_outer;  ///< share of the truth inside the outer bound, if there is one
 
   double worse_m () const { return (std::max (comparison.accuracy.mean, comparison.completeness.mean)); }
 
@@ -58,7 +63,9 @@ viewsText ()
       {"TRUTH/SCENE/truth_LABEL.ply or truth_LABEL_NAME.ply are true meshes, as pcl_cosection_simulate --meshes writes "
        "them (names also in names.txt); RESULT/SCENE/object_LABEL.ply are those of pcl_cosection, in the same frame. "
        "An "
-       "object without a result, or worse than --gross in accuracy or completeness, is a gross error."},
+       "object without a result, or worse than --gross in accuracy or completeness, is a gross error. If results have "
+       "sigma_m, the errors of their vertices are compared with it; outer bounds, object_LABEL_outer.ply, with the "
+       "truth."},
       {
           {"pcl_cosection_evaluate views scenes completed", "a line for each object, and a summary"},
           {"pcl_cosection_evaluate views --pictures worst --worst 10 scenes completed",
@@ -126,6 +133,18 @@ findObjects (const std::string& truth, const std::string& result)
   return (objects);
 }
 
+/** \brief Compare the expected errors of a result with the true ones, and its outer bound with the truth. */
+void
+checkCertainty (const ViewsSettings& settings, const TriangleMesh& truth, ViewedObject& object)
+{
+  object.errors = vertexErrors (SurfaceDistance (truth), loadPlyMesh (object.result), settings.threads);
+  const fs::path result = object.result;
+  const fs::path outer = result.parent_path () / (result.stem ().string () + "_outer.ply");
+  if (fs::exists (outer))
+    object.in_outer = shareInside (truth, loadPlyMesh (outer.string ()), bound_tolerance_m, settings.samples,
+                                   settings.seed);
+}
+
 void
 compareObject (const ViewsSettings& settings, ViewedObject& object)
 {
@@ -141,6 +160,7 @@ compareObject (const ViewsSettings& settings, ViewedObject& object)
   object.closed = found.topology.closed_manifold;
   if (expected.volume_m3 && found.volume_m3 && *expected.volume_m3 > 0.0)
     object.volume_ratio = *found.volume_m3 / *expected.volume_m3;
+  checkCertainty (settings, truth, object);
   object.is_missing = false;
 }
 
@@ -160,6 +180,9 @@ struct Summary
         ++missing;
         continue;
       }
+      errors.insert (errors.end (), object.errors.begin (), object.errors.end ());
+      if (object.in_outer)
+        in_outer.push_back (*object.in_outer);
       closed += object.closed;
       wrong_volume += object.volume_ratio && std::abs (*object.volume_ratio - 1.0) > volume_tolerance;
       accuracies.push_back (object.comparison.accuracy.mean);
@@ -172,6 +195,8 @@ struct Summary
   std::size_t count, missing = 0, closed = 0, gross = 0, wrong_volume = 0;
   double f_half = 0.0, f = 0.0;
   ErrorStatistics accuracy, completeness; // of the objects' means
+  std::vector<VertexError> errors;        // of all vertices
+  std::vector<double> in_outer;           // of the objects that have an outer bound
 };
 
 void
@@ -206,6 +231,7 @@ print (const ViewsSettings& settings, const std::vector<ViewedObject>& objects, 
   terminal.result (counted (summary.gross, "gross error") + ", over " + inMillimetres (settings.gross_m) +
                    " mm either way or missing; " + std::to_string (summary.wrong_volume) +
                    " with a volume off by more than " + inPercent (volume_tolerance));
+  printCertainty (summary.errors, summary.in_outer, terminal);
 }
 
 Json
@@ -226,6 +252,10 @@ toJson (const ViewsSettings& settings, const std::vector<ViewedObject>& objects,
       entry["f_score_half"] = object.f_half;
       entry["closed"] = object.closed;
       entry["volume_ratio"] = orNull (object.volume_ratio);
+      if (!object.errors.empty ())
+        entry["expected_errors"] = coverageJson (errorCoverage (object.errors));
+      if (object.in_outer)
+        entry["inside_outer_bound"] = *object.in_outer;
     }
     json["objects"].push_back (std::move (entry));
   }
@@ -240,6 +270,8 @@ toJson (const ViewsSettings& settings, const std::vector<ViewedObject>& objects,
                      {"completeness_median_m", summary.completeness.median},
                      {"f_score_half", summary.f_half},
                      {"f_score", summary.f}};
+  if (!summary.errors.empty ())
+    json["expected_errors"] = certaintyJson (summary.errors);
   json["parameters"] = {{"samples", settings.samples},
                         {"seed", settings.seed},
                         {"f_threshold_m", settings.f_threshold_m},

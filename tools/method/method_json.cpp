@@ -7,6 +7,7 @@
 #include <pcl/cosection/common/triangle_mesh.h>
 
 #include <algorithm>
+#include <numeric>
 #include <utility>
 
 using namespace pcl::cosection;
@@ -34,6 +35,14 @@ provenanceShares (const TriangleMesh& mesh)
                                                           static_cast<std::uint8_t> (kind))) /
                              static_cast<double> (mesh.provenance.size ());
   return (shares);
+}
+
+double
+meanOf (const std::vector<float>& values)
+{
+  return (values.empty ()
+              ? 0.0
+              : std::accumulate (values.begin (), values.end (), 0.0) / static_cast<double> (values.size ()));
 }
 
 } // namespace
@@ -66,6 +75,7 @@ objectJson (const ObjectResult& object)
   result["inertia"] = Json::array (
       {toJson (mass.inertia.row (0)), toJson (mass.inertia.row (1)), toJson (mass.inertia.row (2))});
   result["provenance"] = provenanceShares (object.mesh);
+  result["mean_sigma_m"] = meanOf (object.mesh.sigma_m);
   result["penetration_m"] = object.penetration_m;
   result["outlier_points"] = object.outlier_points;
   result["contradicted_share"] = object.contradicted_share;

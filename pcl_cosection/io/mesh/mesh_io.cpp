@@ -52,6 +52,8 @@ encodePly (const TriangleMesh& mesh)
     header << "property float intensity\n";
   if (!mesh.confidence.empty ())
     header << "property float confidence\n";
+  if (!mesh.sigma_m.empty ())
+    header << "property float sigma_m\n";
   if (!mesh.provenance.empty ())
     header << "property uchar provenance\n";
   header << "element face " << mesh.triangles.size () << "\nproperty list uchar int vertex_indices\nend_header\n";
@@ -65,6 +67,7 @@ encodePly (const TriangleMesh& mesh)
     appendValue (bytes, mesh.colours, v);
     appendValue (bytes, mesh.intensity, v);
     appendValue (bytes, mesh.confidence, v);
+    appendValue (bytes, mesh.sigma_m, v);
     appendValue (bytes, mesh.provenance, v);
   }
   for (std::size_t t = 0; t < mesh.triangles.size (); ++t)

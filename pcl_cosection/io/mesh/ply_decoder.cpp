@@ -173,6 +173,8 @@ vertexSetter (const std::string& name, std::size_t count, TriangleMesh& mesh)
     return real (mesh.intensity);
   if (name == "confidence")
     return real (mesh.confidence);
+  if (name == "sigma_m")
+    return real (mesh.sigma_m);
   if (name != "provenance")
     return {};
   mesh.provenance.resize (count);

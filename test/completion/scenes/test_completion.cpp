@@ -80,6 +80,27 @@ TEST_P (Completion, AttributesMatchTheMesh)
   EXPECT_GT (observed, mesh.vertices.size () / 5);
 }
 
+TEST_P (Completion, SaysHowSureItIs)
+{
+  const TriangleMesh& mesh = object ().mesh;
+  ASSERT_EQ (mesh.sigma_m.size (), mesh.vertices.size ());
+  double within = 0.0, observed_m = 0.0, hidden_m = 0.0;
+  std::size_t observed = 0;
+  for (std::size_t v = 0; v < mesh.vertices.size (); ++v)
+  {
+    EXPECT_GT (mesh.sigma_m[v], 0.0f);
+    within += std::abs (scene_.shape (1) (mesh.vertices[v].cast<double> ())) <= 2.0 * mesh.sigma_m[v];
+    const bool is_observed = mesh.provenance[v] == static_cast<std::uint8_t> (Provenance::Observed);
+    observed += is_observed;
+    (is_observed ? observed_m : hidden_m) += mesh.sigma_m[v];
+  }
+  // 0.95 on average over many things; the errors of a single one depend on each other.
+  EXPECT_GE (within, 0.8 * static_cast<double> (mesh.vertices.size ()));
+  EXPECT_LT (1.5 * observed_m / static_cast<double> (observed),
+             hidden_m / static_cast<double> (mesh.vertices.size () - observed));
+  EXPECT_EQ (result_.background.sigma_m.size (), result_.background.vertices.size ());
+}
+
 INSTANTIATE_TEST_SUITE_P (Table, Completion, completionCases (), completionCaseName);
 
 /** \brief The visible hole of a ring and the hollow of a cup stay open. */

@@ -27,7 +27,8 @@ sameMesh (const TriangleMesh& a, const TriangleMesh& b)
 {
   return sameBytes (a.vertices, b.vertices) && sameBytes (a.triangles, b.triangles) &&
          sameBytes (a.normals, b.normals) && sameBytes (a.colours, b.colours) &&
-         sameBytes (a.confidence, b.confidence) && sameBytes (a.provenance, b.provenance);
+         sameBytes (a.confidence, b.confidence) && sameBytes (a.sigma_m, b.sigma_m) &&
+         sameBytes (a.provenance, b.provenance);
 }
 
 class Invariance : public testing::TestWithParam<Shape>

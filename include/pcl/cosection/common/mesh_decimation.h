@@ -39,9 +39,9 @@ struct PCL_COSECTION_EXPORT DecimationOptions
  * the smallest that was reached. Of a closed mesh whose volume would shrink to less than a tenth, as with thin walls
  * that fall onto each other, or be turned inside out, more triangles are left.
  *
- * Normals are computed anew, from the triangles and their angles at each vertex. Colours, intensity and confidence are
- * interpolated along the collapsed edges, provenance is that of the nearer end. Empty arrays stay empty. Vertices that
- * no triangle uses are left out.
+ * Normals are computed anew, from the triangles and their angles at each vertex. Colours, intensity, confidence and
+ * sigma_m are interpolated along the collapsed edges, provenance is that of the nearer end. Empty arrays stay empty.
+ * Vertices that no triangle uses are left out.
  *
  * A mesh that has no more than \a max_triangles is returned as it is.
  * The result is the same whenever the input is. O (n log n) time; runs on the calling thread.

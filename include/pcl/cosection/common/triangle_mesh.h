@@ -38,6 +38,7 @@ struct PCL_COSECTION_EXPORT TriangleMesh
   std::vector<Colour> colours;           ///< red, green, blue
   std::vector<float> intensity;          ///< as the points'
   std::vector<float> confidence;         ///< exp (-d / 5), d: voxels to the nearest data
+  std::vector<float> sigma_m;            ///< expected error: the truth is within two of it for 95 % of the vertices
   std::vector<std::uint8_t> provenance;  ///< Provenance
 
   /** \brief Whether there is no triangle. */
@@ -79,8 +80,8 @@ PCL_COSECTION_EXPORT TriangleMesh extractTriangles (const TriangleMesh& mesh, co
 /** \brief Append \a other to \a mesh; a per-vertex array missing in one of them is dropped. */
 PCL_COSECTION_EXPORT void appendMesh (TriangleMesh& mesh, const TriangleMesh& other);
 
-/** \brief As PCL's mesh: fields x y z, normal_x normal_y normal_z, rgb, intensity, confidence (float) and provenance
- * (unsigned char), as far as \a mesh has them. The header is left alone.
+/** \brief As PCL's mesh: fields x y z, normal_x normal_y normal_z, rgb, intensity, confidence, sigma_m (float) and
+ * provenance (unsigned char), as far as \a mesh has them. The header is left alone.
  * \throws InvalidArgument if the vertices need more than 4 GiB, PCL's limit */
 PCL_COSECTION_EXPORT void toPolygonMesh (const TriangleMesh& mesh, pcl::PolygonMesh& output);
 

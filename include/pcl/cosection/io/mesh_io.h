@@ -11,8 +11,8 @@ namespace pcl::cosection {
 
 /** \brief Write a mesh; the format follows the extension, through a temporary name.
  *
- * `.ply`: binary little endian; normals, colours, `intensity`, `confidence` (float) and `provenance` (uchar) as
- * vertex properties where the mesh has them. `.stl`: binary. `.obj`: with normals.
+ * `.ply`: binary little endian; normals, colours, `intensity`, `confidence`, `sigma_m` (float) and `provenance` (uchar)
+ * as vertex properties where the mesh has them. `.stl`: binary. `.obj`: with normals.
  * \throws IoError, InvalidArgument for an unknown extension */
 PCL_COSECTION_EXPORT void saveMesh (const TriangleMesh& mesh, const std::string& path);
 

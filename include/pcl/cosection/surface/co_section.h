@@ -39,7 +39,7 @@ struct PCL_COSECTION_EXPORT ObjectResult
    * support planes, as far as it is connected with the object's points and lies no farther from them than the longest
    * side of their box (in the object's volume if there are no views or no background, a padding is given, or memory
    * allows no more). It shrinks as views are added, also with their points, but for noise. The inner bound is where
-   * measured surfaces imply matter, a layer of three voxels behind them; the outer bound is the mesh and the hull.
+   * measured surfaces imply matter, three voxels deep; the outer bound is the hull with the mesh moved by two sigma_m.
    * Up to a quarter of a voxel, inner_bound lies inside mesh, and mesh inside outer_bound; both are right to about a
    * voxel and a half at sharp edges. */
   TriangleMesh hull;

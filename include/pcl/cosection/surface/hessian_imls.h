@@ -94,7 +94,7 @@ public:
   /** \brief The signed distance of the last reconstruct (), object frame; null if it failed. */
   SignedDistanceField::ConstPtr getSignedDistance () const { return result_.signed_distance; }
 
-  /** \brief The mesh of the last reconstruct (), with provenance and confidence; empty if it failed. */
+  /** \brief The mesh of the last reconstruct (), with provenance, confidence and sigma_m; empty if it failed. */
   const TriangleMesh& getTriangleMesh () const { return result_.mesh; }
 
   /** \brief What the solver did in the last reconstruct (). */
