@@ -227,10 +227,26 @@ addFoot (const Observation& object, const Eigen::Vector4d& plane, const Motions&
   const double lowest_m = quantile (heights_m, resting_share);
   if (lowest_m < hidden_foot_vox * step_m)
     return;
+  const Eigen::Vector3d up = plane.head<3> ();
+  std::vector<OrientedPoint> leaning = object.points ();
+  for (std::size_t p = 0; p < points.size (); ++p)
+  {
+    leaning.push_back (points[p]);
+    const Eigen::Vector3d normal = points[p].normal.cast<double> ();
+    const Eigen::Vector3d down = normal.dot (up) * normal - up;
+    if (heights_m[p] > lowest_m + wall_end_vox * step_m || down.norm () < steep)
+      continue;
+    for (double depth_m = step_m; depth_m < heights_m[p]; depth_m += step_m)
+      leaning.push_back ({(points[p].position.cast<double> () + depth_m / down.squaredNorm () * down).cast<float> (),
+                          points[p].normal});
+  }
   points.insert (points.end (), object.points ().begin (), object.points ().end ());
-  const Extrusion extrusion (energy, points, plane);
-  if (extrusion.hasWalls ())
-    extrusion.addTo (proposal, lowest_m - step_m);
+  for (const auto* walls : {&leaning, &points}) // vertical ones if free space cuts those that lean
+    if (const Extrusion extrusion (energy, *walls, plane); extrusion.hasWalls ())
+    {
+      extrusion.addTo (proposal, lowest_m - step_m);
+      return;
+    }
 }
 
 /** \brief The shapes with a profile on the planes on which an object rests, or one without a plane. */

@@ -144,6 +144,42 @@ TEST_F (HiddenWalls, LeanAsTheyLeanWhereTheyWereSeen)
   EXPECT_NEAR (litres (), truth, 0.12 * truth);
 }
 
+/** \brief Something nearer hides one end of a long box: it goes on half of the way that is hidden. */
+TEST_F (HiddenWalls, GoOnBehindWhatIsNearer)
+{
+  const auto farthest = [] (const TriangleMesh& mesh) {
+    float most = -1.0f;
+    for (const Eigen::Vector3f& p : mesh.vertices)
+      most = std::max (most, p.x ());
+    return most;
+  };
+  see (placed (box ({0.12, 0.025, 0.025}), Eigen::Vector3d (0.0, 0.0, 0.025)), {0.03, 0.0}, {0.2, 0.13});
+  EXPECT_NEAR (farthest (mesh ()), 0.12f, 0.03f);
+  CoSectionOptions options = optionsFor (voxel_m);
+  options.priors.extrusion = false;
+  EXPECT_LT (farthest (complete (seen_, options).objects.at (0).mesh), 0.08f);
+}
+
+/** \brief Seen on both sides of what hides its middle, a face goes on. */
+TEST_F (HiddenWalls, GoOnToWhereTheyAreSeenAgain)
+{
+  see (placed (box ({0.12, 0.025, 0.025}), Eigen::Vector3d (0.0, 0.0, 0.025)), {-0.03, 0.0}, {0.03, 0.13}, 0.0025);
+  const double truth = 8e3 * 0.12 * 0.025 * 0.025;
+  EXPECT_NEAR (litres (), truth, 0.1 * truth);
+}
+
+/** \brief From straight above only its top shows how far a box reaches down: to the table. */
+TEST_F (HiddenWalls, OfABoxSeenFromAboveReachTheTable)
+{
+  scene_.add (0, halfSpace (table_plane));
+  scene_.add (thing, placed (box ({0.05, 0.035, 0.07}), Eigen::Vector3d (0.0, 0.0, 0.07)));
+  const Eigen::Isometry3d above = lookAt ({0.0, -0.02, 0.85}, {0.0, 0.0, 0.05});
+  result_ = complete (scene_.render (tableCamera (), above), optionsFor (0.0025));
+  expectToStand ();
+  const double truth = 8e3 * 0.05 * 0.035 * 0.07;
+  EXPECT_NEAR (litres (), truth, 0.2 * truth); // readings at the edges of its top are left out
+}
+
 /** \brief Behind the board is the edge of a shelf, not a standing thing: the table is visible below it. */
 TEST_F (HiddenWalls, EndWhereTheTableIsSeenBelow)
 {

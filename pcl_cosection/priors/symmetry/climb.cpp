@@ -13,46 +13,51 @@ constexpr int halvings = 5;                 // of the steps of a refinement
 constexpr double least_gain = 1e-6;         // of a step
 constexpr double about_as_good = 0.9;       // of the best log-likelihood ratio
 constexpr double more_contradiction = 0.02; // share of the copies, than at the best place
+constexpr double hardly_less = 0.02;        // difference of the log-likelihood ratios
 constexpr double center_step = 0.25;        // of a refinement's first step
 constexpr int most_steps = 8, bisections = 6;
 
-/** \brief How far a parameter can go until the evidence falls below a limit, or too many copies contradict.
+/** \brief How far a parameter can go until more copies contradict, while the evidence is about as good. If the evidence
+ * ends first, nothing bounds the parameter on this side, and it can go only as far as hardly any is lost.
  * \param[in] step with a sense */
 double
-reachOf (const CopyJudge& judge, const MakeMotions& motions, const Parameters& from, std::size_t k, double step,
-         double limit, double most_contradiction)
+reachOf (const CopyJudge& judge, const MakeMotions& motions, const Parameters& from, std::size_t k, double step)
 {
-  const auto holds = [&] (double shift) {
+  const CopyEvidence best = judge.judge (motions (from));
+  bool contradicted = false;
+  const auto holds = [&] (double shift, double least) {
     Parameters next = from;
     next[k] += shift;
-    const Motions at_next = motions (next);
-    if (at_next.empty ())
-      return false;
-    const CopyEvidence evidence = judge.judge (at_next);
-    return evidence.logLikelihoodRatio () >= limit && evidence.contradiction <= most_contradiction;
+    const Motions there = motions (next);
+    const CopyEvidence evidence = there.empty () ? CopyEvidence () : judge.judge (there);
+    contradicted = evidence.contradiction > best.contradiction + more_contradiction;
+    return !there.empty () && !contradicted && evidence.logLikelihoodRatio () >= least;
   };
-  double good = 0.0, bad = step;
-  for (; std::abs (bad) < most_steps * std::abs (step) && holds (bad); bad += step)
-    good = bad;
-  for (int round = 0; round < bisections; ++round)
-    (holds (0.5 * (good + bad)) ? good : bad) = 0.5 * (good + bad);
-  return good;
+  const auto reach = [&] (double least) {
+    double good = 0.0, bad = step;
+    for (; std::abs (bad) < most_steps * std::abs (step) && holds (bad, least); bad += step)
+      good = bad;
+    for (int round = 0; round < bisections; ++round)
+      (holds (0.5 * (good + bad), least) ? good : bad) = 0.5 * (good + bad);
+    holds (bad, least);
+    return good;
+  };
+  const double far = reach (about_as_good * best.logLikelihoodRatio ());
+  return contradicted ? far : reach (best.logLikelihoodRatio () - hardly_less);
 }
 
 void
-center (const CopyJudge& judge, const MakeMotions& motions, const Parameters& steps, const WantedFirst& wanted,
+center (const CopyJudge& judge, const MakeMotions& motions, const Parameters& steps, const WantedParameters& wanted,
         RatedParameters& best)
 {
   for (std::size_t k = 0; k < steps.size (); ++k)
   {
-    const CopyEvidence evidence = judge.judge (motions (best.at));
-    const double limit = about_as_good * evidence.logLikelihoodRatio ();
-    const double contradiction = evidence.contradiction + more_contradiction;
-    const double low = reachOf (judge, motions, best.at, k, -steps[k], limit, contradiction);
-    const double high = reachOf (judge, motions, best.at, k, steps[k], limit, contradiction);
-    const std::optional<double> value = k == 0 && wanted.first ? wanted.first (best.at[0]) : std::nullopt;
-    best.at[k] += value ? std::clamp (*value - best.at[k], std::max (low, -wanted.slack), std::min (high, wanted.slack))
-                        : 0.5 * (low + high);
+    const double low = reachOf (judge, motions, best.at, k, -steps[k]);
+    const double high = reachOf (judge, motions, best.at, k, steps[k]);
+    const std::optional<double> value = wanted.value ? wanted.value (best.at, k) : std::nullopt;
+    const double middle = 0.5 * (low + high);
+    const double shift = value ? std::clamp (*value - best.at[k] - middle, -wanted.slack[k], wanted.slack[k]) : 0.0;
+    best.at[k] += std::clamp (middle + shift, low, high);
   }
 }
 
@@ -88,7 +93,7 @@ bestOf (const CopyJudge& judge, const MakeMotions& motions, const std::vector<Pa
 
 void
 refine (const CopyJudge& judge, const MakeMotions& motions, Parameters steps, RatedParameters& best,
-        const WantedFirst& wanted)
+        const WantedParameters& wanted)
 {
   if (best.at.empty ())
     return;

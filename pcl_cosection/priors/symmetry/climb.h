@@ -13,11 +13,11 @@ namespace pcl::cosection {
 using Parameters = std::vector<double>;
 using MakeMotions = std::function<Motions (const Parameters&)>; // none: the parameters are impossible
 
-/** \brief A value that the first parameter would have by other evidence than that of copies. */
-struct WantedFirst
+/** \brief Values that parameters would have by other evidence than that of copies. */
+struct WantedParameters
 {
-  std::function<std::optional<double> (double)> first; // given what it is
-  double slack = 0.0;                                  // how far it may be from the best
+  std::function<std::optional<double> (const Parameters&, std::size_t)> value; // of one of them, given all
+  Parameters slack;                                                            // how far it may be from the best
 };
 
 /** \brief Parameters of motions, and the evidence for these. */
@@ -38,11 +38,11 @@ std::vector<RatedParameters> sortedByEvidence (const CopyJudge& judge, const Mak
                                                std::vector<Parameters> all);
 
 /** \brief Climb along each parameter, with steps that are halved when none helps any more. Then move each to the middle
- * of the range in which the evidence is about as good and hardly more copies contradict. Copies that land where nothing
- * was seen take away support but do not contradict: the far edges of a thing are often lost, so the best support alone
- * has mirror planes too near to the sensor.
+ * of the range in which the evidence is about as good and hardly more copies contradict, and from there, within its
+ * slack, nearer to what is wanted. Copies that land where nothing was seen take away support but do not contradict: the
+ * far edges of a thing are often lost, so the best support alone has mirror planes too near to the sensor.
  * \param[in,out] best where to start, and where it ends; nothing is done if it is empty */
 void refine (const CopyJudge& judge, const MakeMotions& motions, Parameters steps, RatedParameters& best,
-             const WantedFirst& wanted = {});
+             const WantedParameters& wanted = {});
 
 } // namespace pcl::cosection

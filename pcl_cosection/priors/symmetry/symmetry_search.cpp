@@ -3,6 +3,7 @@
 
 #include "climb.h"
 #include "footprint.h"
+#include "pcl_cosection/common/quantile.h"
 #include "pcl_cosection/priors/shape/axes.h"
 
 #include <Eigen/SVD>
@@ -22,6 +23,7 @@ constexpr int coarse_turns = 8, fine_turns = 12, all_turns = 32;
 constexpr std::size_t mirrors_to_pair = 6;
 constexpr double same_mirror = 0.3;          // radians
 constexpr double least_side = 0.05;          // of the samples, on either side of a mirror plane
+constexpr double slack_vox = 0.25;           // evidence for a mirror plane is no more exact
 constexpr double turn_weight = 4.0;          // independent motions of a full turn, ...
 constexpr double ball_weight = 9.0;          // ... of all turns, ...
 constexpr double mirrors_weight = 3.0;       // ... of two mirror planes at right angles, and ...
@@ -168,11 +170,18 @@ addMirrors (const CopyJudge& judge, const Footprint& footprint, const std::vecto
     return motions;
   };
   const std::optional<double> across = footprint.angleOfWalls (judge.samples ());
-  const double turn = M_PI_2 / mirror_angles, shift = 0.5 * footprint.step ();
-  WantedFirst wanted;
-  wanted.slack = 2.0 * turn;
-  wanted.first = [&] (double angle) {
-    return across ? std::optional<double> (*across + M_PI_2 * std::round ((angle - *across) / M_PI_2)) : std::nullopt;
+  const double turn = M_PI_2 / mirror_angles, shift = 0.5 * footprint.step (),
+               slack_m = slack_vox * footprint.voxelSize ();
+  WantedParameters wanted;
+  wanted.slack = {2.0 * turn, slack_m, slack_m, slack_m};
+  wanted.value = [&] (const Parameters& p, std::size_t k) -> std::optional<double> {
+    if (k == 0)
+      return across ? std::optional<double> (*across + M_PI_2 * std::round ((p[0] - *across) / M_PI_2)) : std::nullopt;
+    const Eigen::Vector3d n = k == 3 ? footprint.up () : footprint.direction (p[0] + (k == 2 ? M_PI_2 : 0.0));
+    std::vector<double> along;
+    for (const OrientedPoint& sample : judge.samples ())
+      along.push_back (n.dot (sample.position.cast<double> ()) - footprint.across (n, 0.0));
+    return 0.5 * (quantile (along, 0.01) + quantile (along, 0.99));
   };
   RatedParameters best_one, best_two;
   for (const RatedParameters& coarse : mirrors)
