@@ -8,42 +8,29 @@
 namespace pcl::cosection {
 namespace {
 
-constexpr std::size_t coarse_stride = 3;    // samples, among many candidates
-constexpr int halvings = 5;                 // of the steps of a refinement
-constexpr double least_gain = 1e-6;         // of a step
-constexpr double about_as_good = 0.9;       // of the best log-likelihood ratio
-constexpr double more_contradiction = 0.02; // share of the copies, than at the best place
-constexpr double hardly_less = 0.02;        // difference of the log-likelihood ratios
-constexpr double center_step = 0.25;        // of a refinement's first step
+constexpr std::size_t coarse_stride = 3; // samples, among many candidates
+constexpr int halvings = 5;              // of the steps of a refinement
+constexpr double least_gain = 1e-6;      // of a step
+constexpr double about_as_good = 0.02;   // difference of log-likelihood ratios
+constexpr double center_step = 0.25;     // of a refinement's first step
 constexpr int most_steps = 8, bisections = 6;
 
-/** \brief How far a parameter can go until more copies contradict, while the evidence is about as good. If the evidence
- * ends first, nothing bounds the parameter on this side, and it can go only as far as hardly any is lost.
- * \param[in] step with a sense */
+/** \brief How far a parameter can go until the evidence falls below a limit. \param[in] step with a sense */
 double
-reachOf (const CopyJudge& judge, const MakeMotions& motions, const Parameters& from, std::size_t k, double step)
+reachOf (const CopyJudge& judge, const MakeMotions& motions, const Parameters& from, std::size_t k, double step,
+         double limit)
 {
-  const CopyEvidence best = judge.judge (motions (from));
-  bool contradicted = false;
-  const auto holds = [&] (double shift, double least) {
+  const auto holds = [&] (double shift) {
     Parameters next = from;
     next[k] += shift;
-    const Motions there = motions (next);
-    const CopyEvidence evidence = there.empty () ? CopyEvidence () : judge.judge (there);
-    contradicted = evidence.contradiction > best.contradiction + more_contradiction;
-    return !there.empty () && !contradicted && evidence.logLikelihoodRatio () >= least;
+    return ratioOf (judge, motions (next)) >= limit;
   };
-  const auto reach = [&] (double least) {
-    double good = 0.0, bad = step;
-    for (; std::abs (bad) < most_steps * std::abs (step) && holds (bad, least); bad += step)
-      good = bad;
-    for (int round = 0; round < bisections; ++round)
-      (holds (0.5 * (good + bad), least) ? good : bad) = 0.5 * (good + bad);
-    holds (bad, least);
-    return good;
-  };
-  const double far = reach (about_as_good * best.logLikelihoodRatio ());
-  return contradicted ? far : reach (best.logLikelihoodRatio () - hardly_less);
+  double good = 0.0, bad = step;
+  for (; std::abs (bad) < most_steps * std::abs (step) && holds (bad); bad += step)
+    good = bad;
+  for (int round = 0; round < bisections; ++round)
+    (holds (0.5 * (good + bad)) ? good : bad) = 0.5 * (good + bad);
+  return good;
 }
 
 void
@@ -52,12 +39,13 @@ center (const CopyJudge& judge, const MakeMotions& motions, const Parameters& st
 {
   for (std::size_t k = 0; k < steps.size (); ++k)
   {
-    const double low = reachOf (judge, motions, best.at, k, -steps[k]);
-    const double high = reachOf (judge, motions, best.at, k, steps[k]);
+    const double limit = ratioOf (judge, motions (best.at)) - about_as_good;
+    const double low = reachOf (judge, motions, best.at, k, -steps[k], limit);
+    const double high = reachOf (judge, motions, best.at, k, steps[k], limit);
     const std::optional<double> value = wanted.value ? wanted.value (best.at, k) : std::nullopt;
-    const double middle = 0.5 * (low + high);
-    const double shift = value ? std::clamp (*value - best.at[k] - middle, -wanted.slack[k], wanted.slack[k]) : 0.0;
-    best.at[k] += std::clamp (middle + shift, low, high);
+    best.at[k] += value ? std::clamp (*value - best.at[k], std::max (low, -wanted.slack[k]),
+                                      std::min (high, wanted.slack[k]))
+                        : 0.5 * (low + high);
   }
 }
 

@@ -82,9 +82,8 @@ CopyJudge::CopyJudge (const MeasuredShape& shape, const std::vector<OrientedPoin
     nearest_m_.emplace_back (static_cast<std::size_t> (view->camera.width) * view->camera.height, 0.0f);
   }
   const VoxelGrid& grid = shape.field.grid;
-  Eigen::AlignedBox3d box;
-  for (const OrientedPoint& point : points)
-    box.extend (point.position.cast<double> ());
+  const Eigen::Vector3d middle = 0.5 *
+                                 (grid.dims.cast<double> () - Eigen::Vector3d::Ones ()); // cells move with the grid
   for (double cell_vox = first_cell_vox;;
        cell_vox *= std::max (1.05, std::sqrt (static_cast<double> (samples_.size ()) / most_samples)))
   {
@@ -95,7 +94,7 @@ CopyJudge::CopyJudge (const MeasuredShape& shape, const std::vector<OrientedPoin
       const Eigen::Vector3d p = point.position.cast<double> ();
       if (!grid.nearest (p))
         continue;
-      const auto cell = cellOf ((p - box.center ()) / (cell_vox * grid.voxel_size_m)); // cells move with the points
+      const auto cell = cellOf ((grid.toVoxel (p) - middle) / cell_vox);
       const std::size_t before = cells.size ();
       if (cell && cells.add (*cell) == before)
         samples_.push_back (point);
