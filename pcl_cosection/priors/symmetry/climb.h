@@ -37,10 +37,9 @@ RatedParameters bestOf (const CopyJudge& judge, const MakeMotions& motions, cons
 std::vector<RatedParameters> sortedByEvidence (const CopyJudge& judge, const MakeMotions& motions,
                                                std::vector<Parameters> all);
 
-/** \brief Climb along each parameter, with steps that are halved when none helps any more. Then move each to the middle
- * of the range in which the evidence is about as good and hardly more copies contradict, and from there, within its
- * slack, nearer to what is wanted. Copies that land where nothing was seen take away support but do not contradict: the
- * far edges of a thing are often lost, so the best support alone has mirror planes too near to the sensor.
+/** \brief Climb along each parameter, with steps that are halved when none helps any more. Then move each within the
+ * range in which the evidence is about as good, to its middle or, within its slack, nearer to what is wanted: points
+ * are on a surface as wide as a voxel, so the evidence has no sharp peak.
  * \param[in,out] best where to start, and where it ends; nothing is done if it is empty */
 void refine (const CopyJudge& judge, const MakeMotions& motions, Parameters steps, RatedParameters& best,
              const WantedParameters& wanted = {});
