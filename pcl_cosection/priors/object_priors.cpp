@@ -383,6 +383,15 @@ boxDownToPlanes (const Observation& object, const ObjectSetting& setting, const 
       if (setting.hidden.at (foot) != Hidden::Nothing)
         box.extend (foot);
     }
+  const Eigen::AlignedBox3d known = box;
+  for (const Eigen::Vector4d& plane : planes)
+    for (int c = 0; c < 8; ++c)
+    {
+      const Eigen::Vector3d corner = known.corner (static_cast<Eigen::AlignedBox3d::CornerType> (c));
+      const Eigen::Vector3d foot = corner - heightOver (plane, corner) * plane.head<3> ();
+      if (setting.hidden.isBehindOther (foot))
+        box.extend (foot);
+    }
   if (setting.priors.extrusion)
     for (const Eigen::Vector4d& plane : planes)
       for (const OrientedPoint& point : continuedBehindOthers (object, plane).points)
