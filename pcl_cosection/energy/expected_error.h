@@ -2,13 +2,10 @@
 #pragma once
 
 #include "body_energy.h"
-#include <pcl/cosection/common/camera.h>
+#include "pcl_cosection/view/sensor_views.h"
 #include <pcl/cosection/common/oriented_point.h>
 #include <pcl/cosection/common/triangle_mesh.h>
 
-#include <Eigen/Geometry>
-
-#include <utility>
 #include <vector>
 
 namespace pcl::cosection {
@@ -39,9 +36,6 @@ struct SizeShares
  * from them an error is at most a share s of the size of the body, which is smaller where a prior has evidence. The two
  * shares are fitted by the program fit_expected_error (test/benchmark/comparisons). */
 double expectedError (const ErrorSources& sources, const SizeShares& shares = {});
-
-/** \brief Depth views of a body and the poses of their sensors in its frame. */
-using SensorViews = std::vector<std::pair<const DepthView*, Eigen::Isometry3d>>;
 
 /** \brief The sources of error of each vertex of a body's mesh.
  * \param[in] points the measurements of the body

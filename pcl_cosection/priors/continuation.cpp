@@ -147,7 +147,7 @@ shownBy (const std::vector<ObjectView>& views, const OrientedPoint& point)
 }
 
 OrientedPoint
-moved (const OrientedPoint& point, const Eigen::Vector3f& by)
+shifted (const OrientedPoint& point, const Eigen::Vector3f& by)
 {
   return {point.position + by, point.normal};
 }
@@ -171,7 +171,7 @@ sharesOf (const std::vector<ObjectView>& views, const std::vector<OrientedPoint>
   std::array<std::size_t, 6> counts{};
   for (const OrientedPoint& point : points)
   {
-    Shown shown = shownBy (views, moved (point, by));
+    Shown shown = shownBy (views, shifted (point, by));
     if (shown == Shown::Object && std::abs (point.normal.dot (by)) > across_cosine * by.norm ())
       shown = Shown::Turned; // it would be another part of the surface
     ++counts[static_cast<std::size_t> (shown)];
@@ -216,7 +216,7 @@ public:
     std::vector<bool> in_end (cells_.size (), false);
     for (std::size_t p = 0; p < points_.size (); ++p)
     {
-      const OrientedPoint copy = moved (points_[p], by);
+      const OrientedPoint copy = shifted (points_[p], by);
       if (shownBy (views_, copy) == Shown::BehindOther &&
           std::any_of (views_.begin (), views_.end (),
                        [&] (const ObjectView& view) { return view.isBehindNearer (copy, points_[p]); }))
@@ -246,7 +246,7 @@ directionOf (const std::vector<ObjectView>& views, const Ends& ends, const Eigen
     std::vector<OrientedPoint> end;
   };
   std::vector<Candidate> candidates;
-  std::size_t largest = least_points;
+  std::size_t largest = 0;
   for (int d = 0; d < directions; ++d)
   {
     const double angle = 2.0 * M_PI * d / directions;
@@ -259,7 +259,8 @@ directionOf (const std::vector<ObjectView>& views, const Ends& ends, const Eigen
   double most_ratio = least_ratio;
   for (const auto& [direction, end] : candidates)
   {
-    if (2 * end.size () < largest || sharesOf (views, end, 2.0f * step_m * direction).hiddenElsewhere () < least_hidden)
+    if (end.size () < least_points || 2 * end.size () < largest ||
+        sharesOf (views, end, 2.0f * step_m * direction).hiddenElsewhere () < least_hidden)
       continue;
     CopyEvidence evidence;
     for (int n = 1; n <= copies; ++n)
@@ -319,7 +320,7 @@ continuedBehindOthers (const Observation& object, const Eigen::Vector4d& plane)
   const int steps = stepsOf (views, end, step, extentAlong (points, direction));
   for (int n = 1; n <= steps; ++n)
     for (const OrientedPoint& point : end)
-      if (const OrientedPoint copy = moved (point, static_cast<float> (n) * step);
+      if (const OrientedPoint copy = shifted (point, static_cast<float> (n) * step);
           shownBy (views, copy) == Shown::BehindOther)
         continuation.points.push_back (copy);
   return continuation;

@@ -10,6 +10,7 @@
 #include "pcl_cosection/priors/symmetry/copies.h"
 #include "pcl_cosection/priors/vessels/vessel_term.h"
 #include "pcl_cosection/volume/distance_transform.h"
+#include "resting_planes.h"
 
 #include <algorithm>
 #include <cmath>
@@ -19,36 +20,16 @@
 namespace pcl::cosection {
 namespace {
 
-constexpr std::size_t most_points = 10000; // even subset of the points for inferring a plane
-constexpr double along_axis = 0.9;         // cosine: a round object stands on a plane across its axis
-// Heights of the lowest points over a plane, of the middle observed extent: the object rests on the plane ...
-constexpr double resting_reach = 0.15;         // ... in any case
-constexpr double hidden_foot_reach = 0.5;      // ... unless free space or another body was observed between them
-constexpr double resting_share = 0.01;         // of the points: outliers among the lowest ones
+constexpr std::size_t most_points = 10000;     // even subset of the points for inferring a plane
+constexpr double along_axis = 0.9;             // cosine: a round object stands on a plane across its axis
 constexpr std::ptrdiff_t least_ground = 20;    // background points seen in the cavity, which make a vessel a tube
+constexpr double lowest_share = 0.01;          // of the points: outliers among the lowest ones
 constexpr double hidden_foot_vox = 6.0;        // height of the lowest points from which a foot is hidden
 constexpr double wall_end_vox = 3.0;           // above the lowest points: their normals tell how a wall goes on ...
 constexpr double steep = 0.7;                  // ... if the component of the normal across is larger
 constexpr float expected_bound_weight = 10.0f; // of expected free space, in multiples of beta_extent
-constexpr std::size_t many_motions = 4;        // of a full turn: it tells what others hide, too
-constexpr double same_resting_cosine = 0.995;  // planes of two views on which the object rests in the same way
-
-double
-heightOver (const Eigen::Vector4d& plane, const Eigen::Vector3d& p)
-{
-  return plane.head<3> ().dot (p) + plane[3];
-}
-
-/** \brief Whether the lowest points are nearer to a plane than \a reach of the middle extent. */
-bool
-hasFootNear (const Observation& object, const Eigen::Vector4d& plane, double reach)
-{
-  const std::vector<OrientedPoint>& points = object.points ();
-  const std::ptrdiff_t lower = std::count_if (points.begin (), points.end (), [&] (const OrientedPoint& p) {
-    return heightOver (plane, p.position.cast<double> ()) < reach * object.extents_m[1];
-  });
-  return lower > static_cast<std::ptrdiff_t> (resting_share * static_cast<double> (points.size ()));
-}
+constexpr std::size_t many_motions = 4;        // of a full turn; mirror planes have at most three on a plane
+constexpr double unmoved = 0.9;                // cosine of a direction with itself, moved
 
 /** \brief The shape with a profile that the points show; without floor if background was seen where a vessel would have
  * its floor.
@@ -86,53 +67,6 @@ shapeOf (const Observation& object, const ObjectSetting& setting, const std::opt
   const auto found = object.fits->find (key);
   return found != object.fits->end () ? found->second
                                       : object.fits->emplace (key, fitShape (object, setting, plane)).first->second;
-}
-
-/** \brief Whether neither free space nor another body was observed between the foot of the object's middle on a plane
- * and the height of the lowest point. */
-bool
-footIsHidden (const Observation& object, const ObjectSetting& setting, const BodyEnergy& energy,
-              const Eigen::Vector4d& plane)
-{
-  const Eigen::Vector3d up = plane.head<3> ();
-  double lowest_m = std::numeric_limits<double>::infinity ();
-  for (const OrientedPoint& p : object.points ())
-    lowest_m = std::min (lowest_m, heightOver (plane, p.position.cast<double> ()));
-  const Eigen::Vector3d middle = object.box.center ();
-  const Eigen::Vector3d foot = middle - heightOver (plane, middle) * up;
-  for (double height_m = 0.0; height_m < lowest_m; height_m += 0.5 * energy.grid.voxel_size_m)
-  {
-    const Eigen::Vector3d place = foot + height_m * up;
-    const auto at = energy.grid.nearest (place);
-    if ((at && energy.free_space[energy.grid.index (at->x (), at->y (), at->z ())]) ||
-        (setting.is_of_other && setting.is_of_other (place)))
-      return false;
-  }
-  return true;
-}
-
-/** \brief The planes on which the object rests in some view. */
-std::vector<Eigen::Vector4d>
-restingPlanes (const Observation& object, const ObjectSetting& setting, std::vector<Eigen::Vector4d> planes,
-               const BodyEnergy& energy)
-{
-  std::stable_sort (planes.begin (), planes.end (), [&] (const Eigen::Vector4d& a, const Eigen::Vector4d& b) {
-    return heightOver (a, object.box.center ()) < heightOver (b, object.box.center ()); // the nearest one
-  });
-  std::vector<Eigen::Vector4d> resting;
-  for (const Eigen::Vector4d& plane : planes)
-  {
-    const bool known = std::any_of (resting.begin (), resting.end (), [&] (const Eigen::Vector4d& other) {
-      return plane.head<3> ().dot (other.head<3> ()) > same_resting_cosine;
-    });
-    if (known)
-      continue;
-    if (hasFootNear (object, plane, resting_reach) ||
-        (footIsHidden (object, setting, energy, plane) &&
-         (hasFootNear (object, plane, hidden_foot_reach) || Extrusion (energy, object.points (), plane).hasWalls ())))
-      resting.push_back (plane);
-  }
-  return resting;
 }
 
 /** \brief Mark voxels on rays without return as empty, for an object that was cut out of its scene. */
@@ -224,7 +158,7 @@ addFoot (const Observation& object, const Eigen::Vector4d& plane, const Motions&
     }
   if (heights_m.empty ())
     return;
-  const double lowest_m = quantile (heights_m, resting_share);
+  const double lowest_m = quantile (heights_m, lowest_share);
   if (lowest_m < hidden_foot_vox * step_m)
     return;
   const Eigen::Vector3d up = plane.head<3> ();
@@ -263,18 +197,35 @@ profiledShapes (const Observation& object, const ObjectSetting& setting, const s
   return shapes;
 }
 
-/** \brief What symmetry, revolution and extrusion expect.
- * \param[in] resting planes on which the object rests, of all \a planes
- * \param[in] round surfaces of revolution */
-Proposal
-proposalOf (const Observation& object, const Priors& priors, const std::vector<Eigen::Vector4d>& resting,
-            const std::vector<Eigen::Vector4d>& planes, const std::vector<ProfiledShape>& round,
-            const BodyEnergy& energy)
+/** \brief Whether motions tell how far an object reaches along a direction: a full turn does that moves it, mirror
+ * planes do not. */
+bool
+tellExtentAlong (const Eigen::Vector3d& direction, const Motions& motions)
 {
-  const Eigen::Vector4d plane = !resting.empty ()  ? resting.front ()
-                                : !planes.empty () ? planes.front ()
-                                                   : Eigen::Vector4d (Eigen::Vector4d::Zero ());
-  const MeasuredShape shape = measuredShape (energy);
+  return motions.size () >= many_motions &&
+         std::any_of (motions.begin (), motions.end (), [&] (const Eigen::Affine3d& motion) {
+           return (motion.linear () * direction).dot (direction) < unmoved;
+         });
+}
+
+/** \brief Add what columns below the points expect. \param[in] motions number of those that take the object to itself
+ */
+void
+addColumns (const BodyEnergy& energy, const std::vector<OrientedPoint>& points, const Eigen::Vector4d& plane,
+            std::size_t motions, Proposal& proposal)
+{
+  const Extrusion extrusion (energy, points, plane);
+  if (motions <= 1) // several motions tell how far it reaches on all sides
+    extrusion.emptyBesideTops (proposal);
+  extrusion.addTo (proposal);
+}
+
+/** \brief The likeliest symmetry, and whether its axis or centre was fitted to the normals.
+ * \param[in] round surfaces of revolution */
+std::pair<std::optional<Symmetry>, bool>
+symmetryOf (const Observation& object, const Priors& priors, const Eigen::Vector4d& plane,
+            const std::vector<ProfiledShape>& round, const MeasuredShape& shape, const BodyEnergy& energy)
+{
   const CopyJudge judge (shape, object.points (), plane, object.views);
   std::vector<Symmetry> symmetries;
   if (priors.symmetry)
@@ -291,46 +242,46 @@ proposalOf (const Observation& object, const Priors& priors, const std::vector<E
   if (turn != turns.end ())
     symmetry = *turn;
 
-  Proposal proposal (energy.grid.size ());
-  Motions motions = symmetry ? symmetry->motions : Motions ();
+  return {symmetry, turn != turns.end ()};
+}
+
+/** \brief What symmetry, revolution and extrusion expect.
+ * \param[in] resting planes on which the object rests, of all \a planes
+ * \param[in] round surfaces of revolution */
+Proposal
+proposalOf (const Observation& object, const Priors& priors, const std::vector<Eigen::Vector4d>& resting,
+            const std::vector<Eigen::Vector4d>& planes, const std::vector<ProfiledShape>& round,
+            const BodyEnergy& energy)
+{
+  const Eigen::Vector4d plane = !resting.empty ()  ? resting.front ()
+                                : !planes.empty () ? planes.front ()
+                                                   : Eigen::Vector4d (Eigen::Vector4d::Zero ());
   const bool extrudes = priors.extrusion && !resting.empty ();
-  Continuation continued;
-  if (extrudes)
-    continued = continuedBehindOthers (object, plane);
-  // A turn that moves the direction tells how far the object reaches along it; mirror planes do not.
-  if (motions.size () >= many_motions &&
-      std::any_of (motions.begin (), motions.end (), [&] (const Eigen::Affine3d& motion) {
-        return (motion.linear () * continued.direction).dot (continued.direction) < along_axis;
-      }))
-    continued = {};
+  const MeasuredShape shape = measuredShape (energy);
+  const auto [symmetry, is_fitted] = symmetryOf (object, priors, plane, round, shape, energy);
+  Motions motions = symmetry ? symmetry->motions : Motions ();
+  Proposal proposal (energy.grid.size ());
+  const Continuation continued = extrudes ? continuedBehindOthers (object, plane) : Continuation ();
+  if (continued.points.empty () || tellExtentAlong (continued.direction, motions))
+  {
+    if (symmetry)
+      addCopies (energy, shape, motions, object, plane, proposal);
+    if (extrudes && is_fitted)
+      addFoot (object, plane, motions, energy, proposal);
+    else if (extrudes)
+      addColumns (energy, object.points (), plane, motions.size (), proposal);
+    return proposal;
+  }
   Observation whole = object;
-  if (!continued.points.empty ())
-  {
-    whole.inliers = object.points ();
-    whole.inliers.insert (whole.inliers.end (), continued.points.begin (), continued.points.end ());
-    const BodyEnergy of_whole = withExpectedPoints (energy, continued.points);
-    const MeasuredShape shape_of_whole = measuredShape (of_whole);
-    motions.clear ();
-    if (priors.symmetry)
-      if (const auto found = likeliest (
-              findSymmetries (CopyJudge (shape_of_whole, whole.points (), plane, object.views), energy.grid, plane)))
-        motions = found->motions;
-    motions.push_back (Eigen::Affine3d::Identity ());
-    addCopies (of_whole, shape_of_whole, motions, whole, plane, proposal);
-  }
-  else if (symmetry)
-    addCopies (energy, shape, motions, object, plane, proposal);
-  if (!extrudes)
-    return proposal;
-  if (turn != turns.end () && continued.points.empty ())
-  {
-    addFoot (object, plane, motions, energy, proposal);
-    return proposal;
-  }
-  const Extrusion extrusion (energy, whole.points (), plane);
-  if (motions.size () <= 1) // several motions tell how far it reaches on all sides
-    extrusion.emptyBesideTops (proposal);
-  extrusion.addTo (proposal);
+  whole.inliers = object.points ();
+  whole.inliers.insert (whole.inliers.end (), continued.points.begin (), continued.points.end ());
+  const BodyEnergy of_whole = withExpectedPoints (energy, continued.points);
+  const MeasuredShape shape_of_whole = measuredShape (of_whole);
+  const std::optional<Symmetry> symmetry_of_whole = symmetryOf (whole, priors, plane, {}, shape_of_whole, energy).first;
+  motions = symmetry_of_whole ? symmetry_of_whole->motions : Motions ();
+  motions.push_back (Eigen::Affine3d::Identity ());
+  addCopies (of_whole, shape_of_whole, motions, whole, plane, proposal);
+  addColumns (energy, whole.points (), plane, motions.size (), proposal);
   return proposal;
 }
 
@@ -339,16 +290,7 @@ proposalOf (const Observation& object, const Priors& priors, const std::vector<E
 double
 wallThickness (const Observation& object, const ObjectSetting& setting, const std::vector<Eigen::Vector4d>& planes)
 {
-  std::optional<Eigen::Vector4d> nearest;
-  double least_m = std::numeric_limits<double>::infinity ();
-  for (const Eigen::Vector4d& plane : planes)
-    if (const double height_m = heightOver (plane, object.box.center ());
-        height_m < least_m && hasFootNear (object, plane, hidden_foot_reach))
-    {
-      least_m = height_m;
-      nearest = plane;
-    }
-  return shapeOf (object, setting, nearest).wallThickness ();
+  return shapeOf (object, setting, nearestPlaneBelow (object, planes)).wallThickness ();
 }
 
 std::optional<Eigen::Vector4d>
@@ -374,24 +316,7 @@ inferSupportPlane (const Observation& object, const ObjectSetting& setting)
 Eigen::AlignedBox3d
 boxDownToPlanes (const Observation& object, const ObjectSetting& setting, const std::vector<Eigen::Vector4d>& planes)
 {
-  Eigen::AlignedBox3d box = object.box;
-  for (const Eigen::Vector4d& plane : planes)
-    for (std::size_t p = 0; p < object.points ().size (); p += object.points ().size () / most_points + 1)
-    {
-      const Eigen::Vector3d place = object.points ()[p].position.cast<double> ();
-      const Eigen::Vector3d foot = place - heightOver (plane, place) * plane.head<3> ();
-      if (setting.hidden.at (foot) != Hidden::Nothing)
-        box.extend (foot);
-    }
-  const Eigen::AlignedBox3d known = box;
-  for (const Eigen::Vector4d& plane : planes)
-    for (int c = 0; c < 8; ++c)
-    {
-      const Eigen::Vector3d corner = known.corner (static_cast<Eigen::AlignedBox3d::CornerType> (c));
-      const Eigen::Vector3d foot = corner - heightOver (plane, corner) * plane.head<3> ();
-      if (setting.hidden.isBehindOther (foot))
-        box.extend (foot);
-    }
+  Eigen::AlignedBox3d box = boxWithFeet (object, setting, planes);
   if (setting.priors.extrusion)
     for (const Eigen::Vector4d& plane : planes)
       for (const OrientedPoint& point : continuedBehindOthers (object, plane).points)

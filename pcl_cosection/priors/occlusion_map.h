@@ -1,6 +1,7 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "pcl_cosection/view/sensor_views.h"
 #include <pcl/cosection/common/camera.h>
 #include <pcl/cosection/common/oriented_point.h>
 #include <pcl/cosection/volume/signed_distance_field.h>
@@ -9,7 +10,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <utility>
 #include <vector>
 
 namespace pcl::cosection {
@@ -93,7 +93,7 @@ std::vector<VoxelTile> tilesOf (const VoxelGrid& grid);
 class OcclusionMap
 {
 public:
-  using Views = std::vector<std::pair<const DepthView*, Eigen::Isometry3d>>;
+  using Views = SensorViews;
 
   /** \brief Add new views and points. Starts again if there are fewer of either than at the last call, or if poses have
    * changed.

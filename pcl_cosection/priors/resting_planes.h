@@ -1,0 +1,35 @@
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "object_priors.h"
+
+#include <Eigen/Geometry>
+
+#include <optional>
+#include <vector>
+
+namespace pcl::cosection {
+
+// On which planes an object rests. Planes are n.x + d = 0, unit n towards the object, in its frame.
+
+inline double
+heightOver (const Eigen::Vector4d& plane, const Eigen::Vector3d& p)
+{
+  return plane.head<3> ().dot (p) + plane[3];
+}
+
+/** \brief The plane nearest to the object's middle of those that its lowest points come near to. */
+std::optional<Eigen::Vector4d> nearestPlaneBelow (const Observation& object,
+                                                  const std::vector<Eigen::Vector4d>& planes);
+
+/** \brief The planes on which the object rests in some view: those that its lowest points come near to, and those to
+ * which nothing shows that it does not reach. Of parallel ones, the nearest. */
+std::vector<Eigen::Vector4d> restingPlanes (const Observation& object, const ObjectSetting& setting,
+                                            const std::vector<Eigen::Vector4d>& planes, const BodyEnergy& energy);
+
+/** \brief Box of the points and of their feet on the planes where these are hidden. Of parallel planes, the nearest
+ * counts. */
+Eigen::AlignedBox3d boxWithFeet (const Observation& object, const ObjectSetting& setting,
+                                 const std::vector<Eigen::Vector4d>& planes);
+
+} // namespace pcl::cosection
