@@ -39,6 +39,8 @@ public:
   /** \brief Evenly spread points of the object, at most some three hundred. */
   const std::vector<OrientedPoint>& samples () const { return samples_; }
 
+  bool onPlane () const { return !plane_.head<3> ().isZero (); }
+
   /** \param[in] stride only every stride-th sample */
   CopyEvidence judge (const Motions& motions, std::size_t stride = 1) const;
 

@@ -29,7 +29,8 @@ constexpr double ball_weight = 9.0;          // ... of all turns, ...
 constexpr double mirrors_weight = 3.0;       // ... of two mirror planes at right angles, and ...
 constexpr double three_mirrors_weight = 7.0; // ... of three
 constexpr int axis_rounds = 20;
-constexpr double least_evidence = 0.3;     // log-likelihood ratio per copy
+constexpr double least_value = 0.5;        // log-likelihood ratio of a group on a plane, and ...
+constexpr double least_evidence = 0.3;     // ... per copy without one: less was seen that could refute it
 constexpr double sure_evidence = 1.0;      // half of the copies are on observed surface
 constexpr double most_contradiction = 0.1; // share of the copies
 constexpr double parallel = 0.9;           // cosine of two axes
@@ -38,15 +39,16 @@ constexpr double as_much = 0.8;            // of the largest value
 bool
 isPossible (const Symmetry& symmetry)
 {
-  return symmetry.evidence.logLikelihoodRatio () > least_evidence &&
-         symmetry.evidence.contradiction < most_contradiction;
+  return symmetry.evidence.contradiction < most_contradiction &&
+         (symmetry.on_plane ? symmetry.value () > least_value
+                            : symmetry.evidence.logLikelihoodRatio () > least_evidence);
 }
 
 Symmetry
 symmetryOf (const CopyJudge& judge, std::string name, double weight, Motions motions)
 {
   const CopyEvidence evidence = judge.judge (motions);
-  return {std::move (name), std::move (motions), weight, evidence};
+  return {std::move (name), std::move (motions), weight, evidence, judge.onPlane ()};
 }
 
 /** \brief Whether a plane has samples on both sides. A mirror plane behind all that was seen could not be refuted. */

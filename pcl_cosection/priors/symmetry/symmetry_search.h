@@ -16,6 +16,7 @@ struct Symmetry
   Motions motions;     ///< without the identity; several of a full turn
   double weight = 1.0; ///< independent motions of the group
   CopyEvidence evidence;
+  bool on_plane = false; ///< copies below a plane contradicted
 
   /** \brief Log-likelihood ratio of the whole group, per sample. */
   double value () const { return weight * evidence.logLikelihoodRatio (); }
