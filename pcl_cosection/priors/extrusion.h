@@ -17,7 +17,7 @@ namespace pcl::cosection {
  * The observed points are a height map over the plane. Space below it, down to the plane, that nothing shows to be free
  * is exempt from the extent prior: the surface above it hides it. If hardly any column of the height map was seen free
  * further down, the object has vertical walls, and is expected to fill these columns. If these are columns of
- * level tops, what is hidden below free space beside them is outside the object. */
+ * level tops at one height, what is hidden below free space beside them is outside the object. */
 class Extrusion
 {
 public:

@@ -125,6 +125,18 @@ TEST_F (HiddenWalls, OfAnLFollowItsNotch)
   EXPECT_NEAR (litres (), truth, 0.2 * truth); // without that 1.28
 }
 
+/** \brief The lower top goes on behind what stands on it: the free space over it is beside the upper one only. */
+TEST_F (HiddenWalls, BelowALowerTopAreFilled)
+{
+  Eigen::Isometry3d pose (Eigen::AngleAxisd (0.3, Eigen::Vector3d::UnitZ ()));
+  const Distance lower = placed (box ({0.08, 0.06, 0.05}), Eigen::Vector3d (0.0, 0.0, 0.05));
+  const Distance upper = placed (box ({0.04, 0.03, 0.025}), Eigen::Vector3d (-0.02, -0.02, 0.125));
+  see (placed ([=] (const Eigen::Vector3d& p) { return std::min (lower (p), upper (p)); }, pose), {-0.02, 0.0},
+       {0.02, 0.02}, 0.004);
+  const double truth = 8e3 * (0.08 * 0.06 * 0.05 + 0.04 * 0.03 * 0.025);
+  EXPECT_NEAR (litres (), truth, 0.1 * truth); // with the lower top as a wall's 0.83
+}
+
 TEST_F (HiddenWalls, OfACanReachTheTable)
 {
   see (standingCan (0.05, 0.18), {-0.15, 0.0}, {0.15, 0.12});

@@ -29,8 +29,7 @@ constexpr double ball_weight = 9.0;          // ... of all turns, ...
 constexpr double mirrors_weight = 3.0;       // ... of two mirror planes at right angles, and ...
 constexpr double three_mirrors_weight = 7.0; // ... of three
 constexpr int axis_rounds = 20;
-constexpr double least_value = 0.5;        // log-likelihood ratio of a group on a plane, and ...
-constexpr double least_evidence = 0.3;     // ... per copy without one: less was seen that could refute it
+constexpr double least_evidence = 0.3;     // log-likelihood ratio; without a plane, per copy
 constexpr double sure_evidence = 1.0;      // half of the copies are on observed surface
 constexpr double most_contradiction = 0.1; // share of the copies
 constexpr double parallel = 0.9;           // cosine of two axes
@@ -40,8 +39,7 @@ bool
 isPossible (const Symmetry& symmetry)
 {
   return symmetry.evidence.contradiction < most_contradiction &&
-         (symmetry.on_plane ? symmetry.value () > least_value
-                            : symmetry.evidence.logLikelihoodRatio () > least_evidence);
+         (symmetry.on_plane ? symmetry.value () : symmetry.evidence.logLikelihoodRatio ()) > least_evidence;
 }
 
 Symmetry
