@@ -36,7 +36,16 @@ transformRow (const std::uint8_t* mask, float* squared, int n)
 class LowerEnvelope
 {
 public:
-  explicit LowerEnvelope (int length) : length_ (length), apex_ (length), height_ (length), begin_ (length + 1) {}
+  explicit LowerEnvelope (int length)
+      : length_ (length)
+      , apex_ (length)
+      , height_ (length)
+      , begin_ (length + 1)
+      , half_reciprocal_ (length)
+  {
+    for (int n = 1; n < length; ++n)
+      half_reciprocal_[n] = 0.5 / n;
+  }
 
   /** \brief f (q) := min_p (q - p)^2 + f (p), in place. */
   void transform (float* f)
@@ -51,7 +60,7 @@ public:
       while (last >= 0)
       {
         // where the new parabola falls below the last one
-        begin = (height - height_[last]) / (2.0 * (q - apex_[last]));
+        begin = (height - height_[last]) * half_reciprocal_[q - apex_[last]];
         if (begin > begin_[last])
           break;
         --last;
@@ -79,6 +88,7 @@ private:
   std::vector<int> apex_;
   std::vector<double> height_; // f (apex) + apex^2
   std::vector<double> begin_;  // where each parabola becomes the lowest
+  std::vector<double> half_reciprocal_;
 };
 
 /** \brief Transform \a columns neighbouring lines whose samples are \a stride apart, through a

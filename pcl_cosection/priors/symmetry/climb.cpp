@@ -12,7 +12,7 @@ constexpr std::size_t coarse_stride = 3; // samples, among many candidates
 constexpr int halvings = 5;              // of the steps of a refinement
 constexpr double least_gain = 1e-6;      // of a step
 constexpr double about_as_good = 0.02;   // difference of log-likelihood ratios
-constexpr double center_step = 0.25;     // of a refinement's first step
+constexpr double center_step = 0.25;     // of a climb's first step
 constexpr int most_steps = 8, bisections = 6;
 
 /** \brief How far a parameter can go until the evidence falls below a limit. \param[in] step with a sense */
@@ -31,22 +31,6 @@ reachOf (const CopyJudge& judge, const MakeMotions& motions, const Parameters& f
   for (int round = 0; round < bisections; ++round)
     (holds (0.5 * (good + bad)) ? good : bad) = 0.5 * (good + bad);
   return good;
-}
-
-void
-center (const CopyJudge& judge, const MakeMotions& motions, const Parameters& steps, const WantedParameters& wanted,
-        RatedParameters& best)
-{
-  for (std::size_t k = 0; k < steps.size (); ++k)
-  {
-    const double limit = ratioOf (judge, motions (best.at)) - about_as_good;
-    const double low = reachOf (judge, motions, best.at, k, -steps[k], limit);
-    const double high = reachOf (judge, motions, best.at, k, steps[k], limit);
-    const std::optional<double> value = wanted.value ? wanted.value (best.at, k) : std::nullopt;
-    best.at[k] += value ? std::clamp (*value - best.at[k], std::max (low, -wanted.slack[k]),
-                                      std::min (high, wanted.slack[k]))
-                        : 0.5 * (low + high);
-  }
 }
 
 } // namespace
@@ -80,14 +64,10 @@ bestOf (const CopyJudge& judge, const MakeMotions& motions, const std::vector<Pa
 }
 
 void
-refine (const CopyJudge& judge, const MakeMotions& motions, Parameters steps, RatedParameters& best,
-        const WantedParameters& wanted)
+climb (const CopyJudge& judge, const MakeMotions& motions, Parameters steps, RatedParameters& best)
 {
   if (best.at.empty ())
     return;
-  Parameters coarse = steps;
-  for (double& step : coarse)
-    step *= center_step;
   best.ratio = ratioOf (judge, motions (best.at));
   for (int round = 0; round < halvings; ++round)
   {
@@ -110,7 +90,24 @@ refine (const CopyJudge& judge, const MakeMotions& motions, Parameters steps, Ra
     for (double& step : steps)
       step *= 0.5;
   }
-  center (judge, motions, coarse, wanted, best);
+}
+
+void
+center (const CopyJudge& judge, const MakeMotions& motions, const Parameters& steps, RatedParameters& best,
+        const WantedParameters& wanted)
+{
+  if (best.ratio < 0.0)
+    return;
+  for (std::size_t k = 0; k < steps.size (); ++k)
+  {
+    const double limit = ratioOf (judge, motions (best.at)) - about_as_good, step = center_step * steps[k];
+    const double low = reachOf (judge, motions, best.at, k, -step, limit);
+    const double high = reachOf (judge, motions, best.at, k, step, limit);
+    const std::optional<double> value = wanted.value ? wanted.value (best.at, k) : std::nullopt;
+    best.at[k] += value ? std::clamp (*value - best.at[k], std::max (low, -wanted.slack[k]),
+                                      std::min (high, wanted.slack[k]))
+                        : 0.5 * (low + high);
+  }
 }
 
 } // namespace pcl::cosection

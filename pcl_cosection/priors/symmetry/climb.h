@@ -37,11 +37,15 @@ RatedParameters bestOf (const CopyJudge& judge, const MakeMotions& motions, cons
 std::vector<RatedParameters> sortedByEvidence (const CopyJudge& judge, const MakeMotions& motions,
                                                std::vector<Parameters> all);
 
-/** \brief Climb along each parameter, with steps that are halved when none helps any more. Then move each within the
- * range in which the evidence is about as good, to its middle or, within its slack, nearer to what is wanted: points
- * are on a surface as wide as a voxel, so the evidence has no sharp peak.
+/** \brief Climb along each parameter, with steps that are halved when none helps any more.
  * \param[in,out] best where to start, and where it ends; nothing is done if it is empty */
-void refine (const CopyJudge& judge, const MakeMotions& motions, Parameters steps, RatedParameters& best,
+void climb (const CopyJudge& judge, const MakeMotions& motions, Parameters steps, RatedParameters& best);
+
+/** \brief Move each parameter within the range in which the evidence is about as good, to its middle or, within its
+ * slack, nearer to what is wanted: points are on a surface as wide as a voxel, so the evidence has no sharp peak.
+ * \param[in] steps as for the climb \param[in,out] best where the climb ended; nothing is done if its evidence is
+ * negative, or it is empty */
+void center (const CopyJudge& judge, const MakeMotions& motions, const Parameters& steps, RatedParameters& best,
              const WantedParameters& wanted = {});
 
 } // namespace pcl::cosection

@@ -52,26 +52,30 @@ struct CopiesAt
   }
 };
 
+/** \brief What motions in voxel coordinates tell of a voxel. */
 CopiesAt
-copiesAt (const BodyEnergy& energy, const MeasuredShape& shape, const Motions& motions, const Eigen::Vector3d& place)
+copiesAt (const BodyEnergy& energy, const MeasuredShape& shape, const Motions& motions, const Eigen::Vector3d& voxel)
 {
   CopiesAt copies;
+  const Eigen::Array3d end = energy.grid.dims.cast<double> ().array () - 0.5;
   for (const Eigen::Affine3d& motion : motions)
   {
-    const Eigen::Vector3d from = motion * place;
-    const auto at = energy.grid.nearest (from);
-    if (!at)
+    const Eigen::Vector3d from = motion * voxel;
+    if (!((from.array () >= -0.5).all () && (from.array () < end).all ()))
       continue;
-    const std::size_t voxel = energy.grid.index (at->x (), at->y (), at->z ());
-    const auto value = shape.field.sample (from);
-    if (value && energy.data[voxel])
+    const Eigen::Array3i at = (from.array () + 0.5).cast<int> ();
+    const std::size_t n = energy.grid.index (at.x (), at.y (), at.z ());
+    if (!energy.data[n] && !shape.known[n])
+      continue;
+    const auto value = shape.field.sampleVoxel (from);
+    if (value && energy.data[n])
     {
       copies.measured_sum += *value;
       ++copies.measured;
     }
-    else if (shape.known[voxel] && shape.field.values[voxel] > free_vox)
+    else if (shape.known[n] && shape.field.values[n] > free_vox)
       ++copies.free;
-    if (value && shape.known[voxel])
+    if (value && shape.known[n])
       copies.known.push_back (*value);
   }
   return copies;
@@ -143,6 +147,12 @@ addCopies (const BodyEnergy& energy, const MeasuredShape& shape, const Motions& 
   const HalfSpaces hull = hullOfCopies (object, motions, plane.head<3> ());
   const double margin_m = std::max (hull_margin * extents_m[1], least_depth * extents_m[1] - extents_m[2]);
   const float weight = copy_weight * static_cast<float> (energy.options.beta_extent);
+  Eigen::Affine3d T_object_voxel = Eigen::Affine3d::Identity ();
+  T_object_voxel.linear () *= grid.voxel_size_m;
+  T_object_voxel.translation () = grid.origin_m;
+  Motions in_voxels;
+  for (const Eigen::Affine3d& motion : motions)
+    in_voxels.push_back (T_object_voxel.inverse () * motion * T_object_voxel);
   parallelFor (0, grid.dims.z (), energy.options.threads, [&] (int k) {
     std::vector<float> beyond_m (static_cast<std::size_t> (grid.dims.x ()));
     for (int j = 0; j < grid.dims.y (); ++j)
@@ -154,8 +164,7 @@ addCopies (const BodyEnergy& energy, const MeasuredShape& shape, const Motions& 
         const std::size_t n = grid.index (i, j, k);
         if (energy.empty[n])
           continue;
-        const Eigen::Vector3d place = grid.center (i, j, k);
-        CopiesAt copies = copiesAt (energy, shape, motions, place);
+        CopiesAt copies = copiesAt (energy, shape, in_voxels, Eigen::Vector3d (i, j, k));
         proposal.surface[n] |= copies.isSurface ();
         if (energy.data_distance_vox[n] >= gap_vox)
         {

@@ -6,6 +6,7 @@
 #include "pcl_cosection/view/visibility/visibility.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -29,9 +30,23 @@ constexpr double across_weight = 0.5; // of a copy on surface across it, as a co
 /** \brief What a measured shape says of a place, interpolated between voxels. */
 struct Interpolated
 {
-  double distance_vox = 0.0;
-  Eigen::Vector3d gradient = Eigen::Vector3d::Zero (); // unit length
-  double known = 0.0;                                  // share of the voxels around that are; 0 outside the grid
+  double distance_vox = 0.0, known = 0.0; // known: share of the voxels around that are; 0 outside the grid
+  std::array<double, 8> values{};
+  Eigen::Array3d share = Eigen::Array3d::Zero ();
+
+  /** \brief Of unit length. */
+  Eigen::Vector3d gradient () const
+  {
+    const auto difference = [&] (int along, int u, int v) {
+      double sum = 0.0;
+      for (const int i : {0, 1})
+        for (const int j : {0, 1})
+          sum += (i ? share[u] : 1.0 - share[u]) * (j ? share[v] : 1.0 - share[v]) *
+                 (values[(1 << along) + (i << u) + (j << v)] - values[(i << u) + (j << v)]);
+      return sum;
+    };
+    return Eigen::Vector3d (difference (0, 1, 2), difference (1, 0, 2), difference (2, 0, 1)).normalized ();
+  }
 };
 
 Interpolated
@@ -42,22 +57,21 @@ interpolate (const MeasuredShape& shape, const Eigen::Vector3d& place)
   if (!((at.array () >= 0.0).all () && (at.array () < (grid.dims.array () - 1).cast<double> ()).all ()))
     return {};
   const Eigen::Vector3i low = at.cast<int> ();
-  const Eigen::Vector3d share = at - low.cast<double> ();
   Interpolated result;
+  result.share = at - low.cast<double> ();
+  const Eigen::Array3d rest = 1.0 - result.share;
+  const std::size_t first = grid.index (low.x (), low.y (), low.z ()), row = static_cast<std::size_t> (grid.dims.x ()),
+                    layer = row * static_cast<std::size_t> (grid.dims.y ());
   for (int corner = 0; corner < 8; ++corner)
   {
-    const Eigen::Vector3i bit (corner & 1, corner >> 1 & 1, corner >> 2);
-    const Eigen::Vector3d w = (bit.array () > 0).select (share, Eigen::Vector3d::Ones () - share);
-    const Eigen::Vector3i voxel = low + bit;
-    const std::size_t n = grid.index (voxel.x (), voxel.y (), voxel.z ());
-    const double value = shape.field.values[n];
-    result.distance_vox += w.prod () * value;
-    result.known += w.prod () * shape.known[n];
-    result.gradient += value * (2 * bit - Eigen::Vector3i::Ones ())
-                                   .cast<double> ()
-                                   .cwiseProduct (Eigen::Vector3d (w.y () * w.z (), w.x () * w.z (), w.x () * w.y ()));
+    const bool x = (corner & 1) != 0, y = (corner & 2) != 0, z = (corner & 4) != 0;
+    const std::size_t n = first + (x ? 1 : 0) + (y ? row : 0) + (z ? layer : 0);
+    const double weight = (x ? result.share.x () : rest.x ()) * (y ? result.share.y () : rest.y ()) *
+                          (z ? result.share.z () : rest.z ());
+    result.values[corner] = shape.field.values[n];
+    result.distance_vox += weight * result.values[corner];
+    result.known += weight * shape.known[n];
   }
-  result.gradient.normalize ();
   return result;
 }
 
@@ -156,14 +170,15 @@ CopyJudge::judge (const OrientedPoint& sample, const Eigen::Affine3d& motion, Co
     sums.contradiction += free;
     return;
   }
-  const auto [distance_vox, gradient, known] = interpolate (shape_, copy);
+  const Interpolated measured = interpolate (shape_, copy);
+  const double distance_vox = measured.distance_vox, known = measured.known;
   if (!(known > 0.0))
     return;
   sums.contradiction += known * std::clamp ((distance_vox - surely_free_vox) / free_range_vox, 0.0, 1.0);
   if (!(std::abs (distance_vox) < surface_vox))
     return;
   const double nearness = known * tukeyWeight (distance_vox / surface_vox);
-  const double cosine = (motion.linear () * sample.normal.cast<double> ()).dot (gradient);
+  const double cosine = (motion.linear () * sample.normal.cast<double> ()).dot (measured.gradient ());
   sums.support += nearness * ramp (cosine, alike_cosine);
   sums.contradiction += across_weight * nearness * (1.0 - ramp (cosine, across_cosine)) * ramp (cosine, other_side);
 }

@@ -125,7 +125,9 @@ addTurnAboutVertical (const CopyJudge& judge, const Footprint& footprint, const 
   RatedParameters best = bestOf (judge, motions (coarse_turns), axes);
   if (best.at.empty ())
     return;
-  refine (judge, motions (fine_turns), {0.5 * footprint.step (), 0.5 * footprint.step ()}, best);
+  const Parameters steps = {0.5 * footprint.step (), 0.5 * footprint.step ()};
+  climb (judge, motions (fine_turns), steps, best);
+  center (judge, motions (fine_turns), steps, best);
   if (best.ratio > least)
     symmetries.push_back (symmetryOf (judge, "full turn", turn_weight, motions (all_turns) (best.at)));
 }
@@ -148,8 +150,9 @@ addTurnAboutHorizontal (const CopyJudge& judge, const Footprint& footprint, cons
   RatedParameters best = bestOf (judge, motions (coarse_turns), axes);
   if (best.at.empty ())
     return;
-  refine (judge, motions (fine_turns),
-          {M_PI_2 / mirror_angles, footprint.step (), 0.5 * footprint.top () / (axis_heights + 1)}, best);
+  const Parameters steps = {M_PI_2 / mirror_angles, footprint.step (), 0.5 * footprint.top () / (axis_heights + 1)};
+  climb (judge, motions (fine_turns), steps, best);
+  center (judge, motions (fine_turns), steps, best);
   symmetries.push_back (
       symmetryOf (judge, "full turn about a horizontal axis", turn_weight, motions (all_turns) (best.at)));
 }
@@ -184,6 +187,8 @@ addMirrors (const CopyJudge& judge, const Footprint& footprint, const std::vecto
       along.push_back (n.dot (sample.position.cast<double> ()) - footprint.across (n, 0.0));
     return 0.5 * (quantile (along, 0.01) + quantile (along, 0.99));
   };
+  const Parameters steps_of_one = {turn, shift}, steps_of_two = {turn, shift, shift},
+                   steps_of_three = {turn, shift, shift, shift};
   RatedParameters best_one, best_two;
   for (const RatedParameters& coarse : mirrors)
   {
@@ -191,14 +196,16 @@ addMirrors (const CopyJudge& judge, const Footprint& footprint, const std::vecto
     for (int j = -footprint.steps (); j <= footprint.steps (); ++j)
       pairs.push_back ({coarse.at[0], coarse.at[1], j * footprint.step ()});
     RatedParameters pair = bestOf (judge, two, pairs);
-    refine (judge, two, {turn, shift, shift}, pair, wanted);
+    climb (judge, two, steps_of_two, pair);
     if (pair.ratio > best_two.ratio)
       best_two = std::move (pair);
     RatedParameters single = coarse;
-    refine (judge, one, {turn, shift}, single, wanted);
+    climb (judge, one, steps_of_one, single);
     if (single.ratio > best_one.ratio)
       best_one = std::move (single);
   }
+  center (judge, one, steps_of_one, best_one, wanted);
+  center (judge, two, steps_of_two, best_two, wanted);
   if (best_one.ratio > least)
     symmetries.push_back (symmetryOf (judge, "mirror plane", 1.0, one (best_one.at)));
   if (best_two.ratio > least)
@@ -222,7 +229,8 @@ addMirrors (const CopyJudge& judge, const Footprint& footprint, const std::vecto
   RatedParameters best = bestOf (judge, three, threes);
   if (best.at.empty ())
     return;
-  refine (judge, three, {turn, shift, shift, shift}, best, wanted);
+  climb (judge, three, steps_of_three, best);
+  center (judge, three, steps_of_three, best, wanted);
   symmetries.push_back (symmetryOf (judge, "three mirror planes", three_mirrors_weight, three (best.at)));
 }
 

@@ -70,6 +70,9 @@ struct PCL_COSECTION_EXPORT SignedDistanceField
    * centres' box. */
   std::optional<float> sample (const Eigen::Vector3d& p) const;
 
+  /** \brief As sample (), at voxel coordinates. */
+  std::optional<float> sampleVoxel (const Eigen::Vector3d& v) const;
+
   /** \brief As sample (), and nothing where the nearest voxel is not supported. */
   std::optional<float> sampleSupported (const Eigen::Vector3d& p) const;
 
@@ -85,10 +88,6 @@ struct PCL_COSECTION_EXPORT SignedDistanceField
     return (supported.empty () || supported[n] != 0) &&
            !(values[n] > surely_outside_voxels * static_cast<float> (grid.voxel_size_m));
   }
-
-private:
-  /** \brief As sample (), at voxel coordinates. */
-  std::optional<float> sampleVoxel (const Eigen::Vector3d& v) const;
 };
 
 /** \brief The eight voxels around a point, and the trilinear function between their centres.
