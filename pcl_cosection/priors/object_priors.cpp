@@ -208,6 +208,19 @@ tellExtentAlong (const Eigen::Vector3d& direction, const Motions& motions)
          });
 }
 
+/** \brief Whether motions take most of some points to observed surface: then copies are there already. */
+bool
+explain (const Motions& motions, const std::vector<OrientedPoint>& points, const BodyEnergy& energy)
+{
+  const auto isCopied = [&] (const OrientedPoint& point) {
+    return std::any_of (motions.begin (), motions.end (), [&] (const Eigen::Affine3d& motion) {
+      const auto at = energy.grid.nearest (motion * point.position.cast<double> ());
+      return at && energy.data[energy.grid.index (at->x (), at->y (), at->z ())];
+    });
+  };
+  return 2 * std::count_if (points.begin (), points.end (), isCopied) > static_cast<std::ptrdiff_t> (points.size ());
+}
+
 /** \brief Add what columns below the points expect. \param[in] motions number of those that take the object to itself
  */
 void
@@ -262,7 +275,8 @@ proposalOf (const Observation& object, const Priors& priors, const std::vector<E
   Motions motions = symmetry ? symmetry->motions : Motions ();
   Proposal proposal (energy.grid.size ());
   const Continuation continued = extrudes ? continuedBehindOthers (object, plane) : Continuation ();
-  if (continued.points.empty () || tellExtentAlong (continued.direction, motions))
+  if (continued.points.empty () || tellExtentAlong (continued.direction, motions) ||
+      explain (motions, continued.points, energy))
   {
     if (symmetry)
       addCopies (energy, shape, motions, object, plane, proposal);

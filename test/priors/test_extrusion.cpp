@@ -172,6 +172,16 @@ TEST_F (HiddenWalls, GoOnBehindWhatIsNearer)
   EXPECT_LT (farthest (complete (seen_, options).objects.at (0).mesh), 0.08f);
 }
 
+/** \brief What copies by mirror planes fill does not go on elsewhere. */
+TEST_F (HiddenWalls, OfABoxAreCopiedWhereACornerIsHidden)
+{
+  Eigen::Isometry3d pose (Eigen::AngleAxisd (0.6, Eigen::Vector3d::UnitZ ()));
+  pose.pretranslate (Eigen::Vector3d (0.0, 0.0, 0.02));
+  see (placed (box ({0.11, 0.08, 0.02}), pose), {0.06, 0.0}, {0.2, 0.14}, 0.003);
+  const double truth = 8e3 * 0.11 * 0.08 * 0.02;
+  EXPECT_NEAR (litres (), truth, 0.06 * truth);
+}
+
 /** \brief Seen on both sides of what hides its middle, a face goes on. */
 TEST_F (HiddenWalls, GoOnToWhereTheyAreSeenAgain)
 {
