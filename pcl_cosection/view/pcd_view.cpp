@@ -95,6 +95,7 @@ readPcdView (const std::string& path, const PcdViewOptions& options)
   options.validate ();
   SensorCloud cloud = readSensorCloud (path, options);
   LabelledView result;
+  result.warnings = cloud.warnings;
   checkExtent (path, options, cloud, result);
   result.organized = cloud.height > 1;
   result.has_labels = cloud.has_labels;

@@ -186,6 +186,63 @@ TEST_F (PcdView, NormalsOfTheFileAreKept)
   EXPECT_TRUE (view.objects.at (1).points[0].position.isApprox (Eigen::Vector3f (1, -2, 2), 1e-6f));
 }
 
+TEST_F (PcdView, CoordinatesMayBeIntegers)
+{
+  PcdViewOptions options;
+  options.scale = 0.001;
+  for (const std::string size : {"2 4 8", "2 2 2", "8 8 8"})
+  {
+    const LabelledView view = readPcdView (
+        write (header (2, 1, "ascii", "x y z normal_x normal_y normal_z", size + " 1 1 1", "I I I I I I") +
+               "-100 200 1500 0 0 -1\n0 0 0 0 0 -1\n"),
+        options);
+    EXPECT_EQ (view.objects.at (1).readings, 1u); // (0, 0, 0) is no reading
+    ASSERT_EQ (view.objects.at (1).points.size (), 1u);
+    EXPECT_TRUE (view.objects.at (1).points[0].position.isApprox (Eigen::Vector3f (-0.1f, 0.2f, 1.5f), 1e-6f));
+  }
+}
+
+TEST_F (PcdView, NormalsMayHaveAnyLength)
+{
+  for (const char* normal : {"0.6 0 -0.8", "0.0006 0 -0.0008", "6e-7 0 -8e-7", "6e15 0 -8e15", "6e-39 0 -8e-39"})
+  {
+    SCOPED_TRACE (normal);
+    const LabelledView view = readPcdView (write (
+        header (1, 1, "ascii", "x y z normal_x normal_y normal_z", "4 4 4 4 4 4", "F F F F F F") + "1 2 3 " + normal));
+    ASSERT_EQ (view.objects.at (1).points.size (), 1u);
+    EXPECT_TRUE (view.objects.at (1).points[0].normal.isApprox (Eigen::Vector3f (0.6f, 0.0f, -0.8f), 1e-5f));
+  }
+}
+
+TEST_F (PcdView, LabelsMayHaveOtherNames)
+{
+  const auto file = [this] (const std::string& name, const std::string& values = "3 4") {
+    return write (header (2, 1, "ascii", "x y z " + name, "4 4 4 4", "F F F F") + "1 2 3 " + values.substr (0, 1) +
+                  "\n4 5 6 " + values.substr (2) + "\n");
+  };
+  for (const char* name : {"Classification", "scalar_label", "CLASS", "scalar_Classification", "Label"})
+  {
+    SCOPED_TRACE (name);
+    const LabelledView view = readPcdView (file (name));
+    EXPECT_TRUE (view.has_labels);
+    EXPECT_EQ (view.objects.count (3) + view.objects.count (4), 2u);
+    ASSERT_FALSE (view.warnings.empty ());
+    EXPECT_NE (view.warnings[0].find (name + std::string (" is taken")), std::string::npos);
+  }
+  PcdViewOptions options;
+  options.label_field = "part";
+  EXPECT_EQ (readPcdView (file ("part"), options).objects.count (4), 1u);
+  EXPECT_NE (failure<IoError> (file ("piece"), options).find ("has no field part; its fields are x y z piece"),
+             std::string::npos);
+  const LabelledView unread = readPcdView (file ("piece"));
+  EXPECT_FALSE (unread.has_labels);
+  ASSERT_FALSE (unread.warnings.empty ());
+  EXPECT_NE (unread.warnings[0].find ("piece, give --label-field NAME"), std::string::npos);
+  EXPECT_FALSE (readPcdView (file ("class", "3 4.5")).has_labels);
+  for (const std::string& warning : readPcdView (file ("height", "3 4.5")).warnings)
+    EXPECT_EQ (warning.find ("--label-field"), std::string::npos) << warning;
+}
+
 TEST_F (PcdView, LabelsOfAnyTypeAndDoubles)
 {
   const auto read = [this] (const std::string& label, const std::string& size, const std::string& type) {
@@ -224,8 +281,9 @@ TEST_F (PcdView, BadFilesAreRefusedInOneLine)
              std::string::npos);
   EXPECT_NE (failure<IoError> (write (header (1, 1, "ascii", "x y w") + "1 2 3\n")).find ("no field z"),
              std::string::npos);
-  EXPECT_NE (failure<IoError> (write (header (1, 1, "ascii", "x y z", "4 4 4", "I I I") + "1 2 3\n")).find ("TYPE F"),
-             std::string::npos);
+  std::string twice = header (1, 1) + "1 2 3 4\n";
+  twice.replace (twice.find ("COUNT 1 1 1"), 11, "COUNT 1 1 2");
+  EXPECT_NE (failure<IoError> (write (twice)).find ("field z must be one number"), std::string::npos);
   EXPECT_NE (failure<IoError> (write (header (1, 1, "ascii", "x y z label", "4 4 4 4", "F F F F") + "1 2 3 4.5\n"))
                  .find ("label 4.5, which is not an integer"),
              std::string::npos);

@@ -24,6 +24,8 @@ declareInput (CLI::App& app, Given& given)
              "Camera in pixels, for organised clouds that no pinhole fits");
   input.add ("--scale FACTOR", given.reading.scale, positiveNumber (),
              "Multiplies all coordinates: 0.001 for millimetres");
+  input.add ("--label-field NAME", given.reading.label_field,
+             "Field that says to which object a point belongs (default: label, else class or classification)");
   input.add ("--object-trajectory ID=FILE", given.trajectory_values,
              "Poses of object ID in the world, for views in which it moved: lines \"view tx ty tz qx qy qz qw\", views "
              "from 0; repeatable");

@@ -7,6 +7,7 @@
 
 #include "pcd_file.h"
 #include "pcl_cosection/common/byte_text.h"
+#include "pcl_cosection/io/lower_case.h"
 
 #include <pcl/cosection/common/error.h>
 #include <pcl/cosection/common/image.h>
@@ -17,6 +18,7 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <set>
 #include <sstream>
 
 namespace pcl::cosection {
@@ -61,6 +63,8 @@ public:
     }
   }
 
+  double number (std::size_t i) const { return type_ == 'F' ? real (i) : static_cast<double> (integer (i)); }
+
   std::uint32_t bits (std::size_t i) const { return (load<std::uint32_t> (i)); }
 
 private:
@@ -79,13 +83,13 @@ private:
 };
 
 const PcdField&
-requireReal (const std::string& path, const PcdHeader& header, const std::string& name)
+requireNumber (const std::string& path, const PcdHeader& header, const std::string& name)
 {
   const PcdField* field = header.find (name);
   if (!field)
     throw IoError (path + ": has no field " + name + "; fields x, y and z are needed");
-  if (field->type != 'F' || field->count != 1)
-    throw IoError (path + ": field " + name + " must be one floating point number (TYPE F, COUNT 1)");
+  if (field->count != 1)
+    throw IoError (path + ": field " + name + " must be one number (COUNT 1)");
   return (*field);
 }
 
@@ -94,13 +98,13 @@ std::vector<Eigen::Vector3f>
 readVectors (const std::string& path, const PcdHeader& header, const PCLPointCloud2& cloud,
              const std::array<std::string, 3>& names, const Eigen::Affine3d& transform)
 {
-  const std::array<Column, 3> columns = {Column (path, cloud, requireReal (path, header, names[0])),
-                                         Column (path, cloud, requireReal (path, header, names[1])),
-                                         Column (path, cloud, requireReal (path, header, names[2]))};
+  const std::array<Column, 3> columns = {Column (path, cloud, requireNumber (path, header, names[0])),
+                                         Column (path, cloud, requireNumber (path, header, names[1])),
+                                         Column (path, cloud, requireNumber (path, header, names[2]))};
   std::vector<Eigen::Vector3f> vectors (header.points);
   for (std::size_t i = 0; i < vectors.size (); ++i)
   {
-    const Eigen::Vector3d v (columns[0].real (i), columns[1].real (i), columns[2].real (i));
+    const Eigen::Vector3d v (columns[0].number (i), columns[1].number (i), columns[2].number (i));
     vectors[i] = (transform * v).cast<float> ();
     if (v.isZero (0.0) || !std::isfinite (vectors[i].squaredNorm ())) // some sensors write a missing reading as zero
       vectors[i].setConstant (nan_value);
@@ -122,11 +126,73 @@ checkMemory (const std::string& path, const PcdHeader& header, std::size_t limit
                              " are left of what is allowed: thin the cloud (pcl_voxel_grid) or allow more memory");
 }
 
+constexpr std::size_t most_labels = 256; // that are looked for in fields of other names
+
+/** \brief How many different whole numbers a field holds, at most most_labels + 1; 0 if there are other numbers. NaN is
+ * none. */
+std::size_t
+wholeNumbers (const std::string& path, const PcdHeader& header, const PCLPointCloud2& cloud, const PcdField& field)
+{
+  if (field.isPadding () || field.count != 1)
+    return 0;
+  const Column column (path, cloud, field);
+  std::set<double> values;
+  for (std::size_t i = 0; i < header.points; ++i)
+    if (const double value = column.number (i); std::isnan (value))
+      continue;
+    else if (value != std::trunc (value))
+      return 0;
+    else if (values.size () <= most_labels)
+      values.insert (value);
+  return values.size ();
+}
+
+/** \brief The field with the labels: the one that is wanted, or label, or one of the names that other programs give it;
+ * nullptr if there is none. \throws IoError if the wanted one is missing */
+const PcdField*
+labelField (const std::string& path, const PcdHeader& header, const PCLPointCloud2& cloud, const std::string& wanted)
+{
+  const PcdField* named = header.find (wanted.empty () ? "label" : wanted);
+  if (named)
+    return named;
+  if (!wanted.empty ())
+  {
+    std::string names;
+    for (const PcdField& field : header.fields)
+      names += " " + printable (field.name);
+    throw IoError (path + ": has no field " + printable (wanted) + "; its fields are" + names);
+  }
+  for (const PcdField& field : header.fields)
+  {
+    std::string name = lowerCase (field.name);
+    if (constexpr std::string_view prefix = "scalar_"; name.compare (0, prefix.size (), prefix) == 0)
+      name.erase (0, prefix.size ());
+    if ((name == "label" || name == "labels" || name == "class" || name == "classification") &&
+        wholeNumbers (path, header, cloud, field) > 0)
+      return &field;
+  }
+  return nullptr;
+}
+
+/** \brief Names of fields that hold a few whole numbers, as labels do, with a space before each. */
+std::string
+fieldsLikeLabels (const std::string& path, const PcdHeader& header, const PCLPointCloud2& cloud)
+{
+  const std::set<std::string> others = {"x",         "y",   "z",    "normal_x",  "normal_y", "normal_z",
+                                        "curvature", "rgb", "rgba", "intensity", "ring"};
+  std::string names;
+  for (const PcdField& field : header.fields)
+    if (others.count (field.name) == 0)
+      if (const std::size_t count = wholeNumbers (path, header, cloud, field); count > 1 && count <= most_labels)
+        names += " " + printable (field.name);
+  return names;
+}
+
 void
 readLabels (const std::string& path, const PCLPointCloud2& cloud, const PcdField& field, SensorCloud& result)
 {
   if (field.count != 1)
-    throw IoError (path + ": field label must be one integer (COUNT 1)");
+    throw IoError (path + ": field " + printable (field.name) + " must be one integer (COUNT 1)");
   const Column column (path, cloud, field);
   const auto labelOf = [&] (std::size_t i) -> std::int64_t {
     if (field.type != 'F')
@@ -165,7 +231,7 @@ readSensorCloud (const std::string& path, const PcdViewOptions& options, bool wi
 {
   const PcdHeader header = readPcdHeader (path);
   for (const char* name : {"x", "y", "z"})
-    requireReal (path, header, name);
+    requireNumber (path, header, name);
   checkMemory (path, header, options.max_memory_bytes);
   const PCLPointCloud2 cloud = readPcdPoints (path, header);
 
@@ -188,12 +254,19 @@ readSensorCloud (const std::string& path, const PcdViewOptions& options, bool wi
     result.normals = readVectors (
         path, header, cloud, {"normal_x", "normal_y", "normal_z"},
         Eigen::Affine3d (Eigen::Affine3d::MatrixType (Eigen::Isometry3d (T_sensor_points.rotation ()).matrix ())));
+  for (Eigen::Vector3f& normal : result.normals) // of any length, as of a program that scaled them with the points
+    normal.stableNormalize ();
   result.labels.assign (header.points, 1);
-  if (const PcdField* label = with_labels ? header.find ("label") : nullptr)
+  if (const PcdField* label = with_labels ? labelField (path, header, cloud, options.label_field) : nullptr)
   {
     result.has_labels = true;
+    if (options.label_field.empty () && label->name != "label")
+      result.warnings.push_back (path + ": has no field label; " + printable (label->name) + " is taken for it");
     readLabels (path, cloud, *label, result);
   }
+  else if (const std::string names = with_labels ? fieldsLikeLabels (path, header, cloud) : ""; !names.empty ())
+    result.warnings.push_back (path + ": has no field label, so all points are object 1; if labels are in" + names +
+                               ", give --label-field NAME");
   const PcdField* colour = header.find ("rgb") ? header.find ("rgb") : header.find ("rgba");
   if (colour && colour->size == 4 && colour->count == 1)
   {
@@ -213,7 +286,7 @@ readSensorCloud (const std::string& path, const PcdViewOptions& options, bool wi
     result.intensities.resize (header.points);
     for (std::size_t i = 0; i < result.intensities.size (); ++i)
     {
-      const double value = intensity->type == 'F' ? column.real (i) : static_cast<double> (column.integer (i));
+      const double value = column.number (i);
       result.intensities[i] = std::isfinite (static_cast<float> (value)) ? static_cast<float> (value) : nan_value;
     }
   }

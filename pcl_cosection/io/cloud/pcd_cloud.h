@@ -26,7 +26,8 @@ struct SensorCloud
   Eigen::Isometry3d T_world_sensor = Eigen::Isometry3d::Identity ();
   bool has_viewpoint = false; ///< the file's is not the default one
   bool has_labels = false;
-  std::size_t ignored = 0; ///< points of a negative label, or of ignored_label
+  std::size_t ignored = 0;           ///< points of a negative label, or of ignored_label
+  std::vector<std::string> warnings; ///< of the fields, one line each
 };
 
 /** \brief Read the points of a PCD file; see readPcdView () for the fields and the errors. \param[in] with_labels else

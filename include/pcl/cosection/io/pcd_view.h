@@ -23,9 +23,11 @@ struct PCL_COSECTION_EXPORT PcdViewOptions
   std::optional<std::array<double, 3>> viewpoint;  ///< where the sensor stood, world frame, metres, instead of the
                                                    ///< header's VIEWPOINT; the points are in the world frame
   std::optional<std::array<double, 4>> intrinsics; ///< fx, fy, cx, cy in pixels, where no pinhole fits the points
-  int normal_neighbours = 20;                      ///< nearest points for the normals of an unorganised cloud
-  std::size_t max_memory_bytes = 0;                ///< refuse clouds that need more; 0: no limit
-  int threads = 0;                                 ///< 0: all
+  std::string label_field;    ///< name of the field with the labels; empty: label, or else, in upper or lower case and
+                              ///< with scalar_ before it or not, labels, class or classification
+  int normal_neighbours = 20; ///< nearest points for the normals of an unorganised cloud
+  std::size_t max_memory_bytes = 0; ///< refuse clouds that need more; 0: no limit
+  int threads = 0;                  ///< 0: all
 
   /** \brief Check all values. \throws InvalidArgument naming the first one outside its domain. */
   void validate () const;
@@ -59,8 +61,9 @@ struct PCL_COSECTION_EXPORT LabelledView
  * (toDepthView ()) and shows which readings are mixed from two surfaces and so have no reliable one; else so
  * that neighbours agree and bodies are on their inner side. If the points are in another frame
  * after all, the sensor is at the VIEWPOINT if they were seen from there, or where the pixels of an organised cloud or
- * the order of an unorganised one put it. Fields: x y z (floating point), label (integer; negative or 65535: ignored),
- * rgb or rgba, intensity (a number), normal_x normal_y normal_z; others are skipped.
+ * the order of an unorganised one put it. Fields: x y z (of any type), label (integer; negative or 65535: ignored;
+ * or PcdViewOptions::label_field), rgb or rgba, intensity (a number), normal_x normal_y normal_z (of any length but 0);
+ * others are skipped, and a warning tells of those that look like missing labels.
  *
  * \code
  * const LabelledView view = readPcdView ("table.pcd");
