@@ -17,8 +17,8 @@ namespace {
 
 constexpr double plane_inlier_voxels = 2.0;
 constexpr double min_plane_inlier_m = 0.004;
-// Of the longest side: wider search for support, if none is visible nearby. What is seen of a bottle from straight
-// above is a quarter as wide as it is high.
+// Of the longest side: a support plane is searched so far away if none is visible near the object. What a camera above
+// sees of a bottle is a quarter as wide as the bottle is high.
 constexpr double hidden_plane_reach = 4.0;
 constexpr double same_plane_cosine = 0.999;
 constexpr double same_plane_m = 0.005;

@@ -13,10 +13,11 @@ namespace pcl::cosection {
 namespace {
 
 constexpr int border_cells = 3;
-constexpr int least_around = 4;           // of nine cells with points: a cell is inside
-constexpr double near_plane_vox = 3.0;    // free space so near to the plane or to the surface is not observable
+constexpr int least_around = 4;        // of nine cells with points: a cell is inside
+constexpr double near_plane_vox = 3.0; // free space so near to the plane or to the surface is not observable ...
+// ... and level tops whose heights differ by less are one
 constexpr double most_cut = 0.2;          // of the columns: vertical walls
-constexpr float level = 0.95f;            // component upwards of the normals of a level top; all at one height
+constexpr float level = 0.95f;            // component upwards of the normals of a level top
 constexpr int beside_cells = 2;           // walls are in columns so near to a level top
 constexpr double least_level = 0.8;       // of the columns: all but the walls below the top
 constexpr float gap_vox = 2.0f;           // nothing is expected nearer to data

@@ -23,7 +23,6 @@ namespace {
 constexpr std::size_t most_points = 10000;     // even subset of the points for inferring a plane
 constexpr double along_axis = 0.9;             // cosine: a round object stands on a plane across its axis
 constexpr std::ptrdiff_t least_ground = 20;    // background points seen in the cavity, which make a vessel a tube
-constexpr double lowest_share = 0.01;          // of the points: outliers among the lowest ones
 constexpr double hidden_foot_vox = 6.0;        // height of the lowest points from which a foot is hidden
 constexpr double wall_end_vox = 3.0;           // above the lowest points: their normals tell how a wall goes on ...
 constexpr double steep = 0.7;                  // ... if the component of the normal across is larger

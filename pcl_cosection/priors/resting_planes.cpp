@@ -14,7 +14,6 @@ constexpr std::size_t most_feet = 10000; // even subset of the points
 // Heights of the lowest points over a plane, of the middle observed extent: the object rests on the plane ...
 constexpr double resting_reach = 0.15;    // ... in any case
 constexpr double hidden_foot_reach = 0.5; // ... unless free space or another body was observed between them
-constexpr double resting_share = 0.01;    // of the points: outliers among the lowest ones
 constexpr double parallel = 0.995;        // cosine of planes on which the object rests in the same way
 
 /** \brief Whether the lowest points are nearer to a plane than \a reach of the middle extent. */
@@ -25,7 +24,7 @@ hasFootNear (const Observation& object, const Eigen::Vector4d& plane, double rea
   const std::ptrdiff_t lower = std::count_if (points.begin (), points.end (), [&] (const OrientedPoint& p) {
     return heightOver (plane, p.position.cast<double> ()) < reach * object.extents_m[1];
   });
-  return lower > static_cast<std::ptrdiff_t> (resting_share * static_cast<double> (points.size ()));
+  return lower > static_cast<std::ptrdiff_t> (lowest_share * static_cast<double> (points.size ()));
 }
 
 /** \brief Whether neither free space nor another body was observed between the foot of the object's middle on a plane

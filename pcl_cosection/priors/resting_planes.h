@@ -12,6 +12,8 @@ namespace pcl::cosection {
 
 // On which planes an object rests. Planes are n.x + d = 0, unit n towards the object, in its frame.
 
+constexpr double lowest_share = 0.01; // of an object's points: outliers among the lowest ones
+
 inline double
 heightOver (const Eigen::Vector4d& plane, const Eigen::Vector3d& p)
 {

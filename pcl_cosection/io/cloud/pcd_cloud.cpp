@@ -265,8 +265,7 @@ readSensorCloud (const std::string& path, const PcdViewOptions& options, bool wi
     readLabels (path, cloud, *label, result);
   }
   else if (const std::string names = with_labels ? fieldsLikeLabels (path, header, cloud) : ""; !names.empty ())
-    result.warnings.push_back (path + ": has no field label, so all points are object 1; if labels are in" + names +
-                               ", give --label-field NAME");
+    result.warnings.push_back (path + ": has no field label; if labels are in" + names + ", give --label-field NAME");
   const PcdField* colour = header.find ("rgb") ? header.find ("rgb") : header.find ("rgba");
   if (colour && colour->size == 4 && colour->count == 1)
   {

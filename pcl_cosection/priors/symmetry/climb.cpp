@@ -9,7 +9,7 @@ namespace pcl::cosection {
 namespace {
 
 constexpr std::size_t coarse_stride = 3; // samples, among many candidates
-constexpr int halvings = 5;              // of the steps of a refinement
+constexpr int halvings = 5;              // of the steps of a climb
 constexpr double least_gain = 1e-6;      // of a step
 constexpr double about_as_good = 0.02;   // difference of log-likelihood ratios
 constexpr double center_step = 0.25;     // of a climb's first step

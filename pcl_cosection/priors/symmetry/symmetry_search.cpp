@@ -204,10 +204,12 @@ addMirrors (const CopyJudge& judge, const Footprint& footprint, const std::vecto
     if (single.ratio > best_one.ratio)
       best_one = std::move (single);
   }
-  center (judge, one, steps_of_one, best_one, wanted);
   center (judge, two, steps_of_two, best_two, wanted);
   if (best_one.ratio > least)
+  {
+    center (judge, one, steps_of_one, best_one, wanted);
     symmetries.push_back (symmetryOf (judge, "mirror plane", 1.0, one (best_one.at)));
+  }
   if (best_two.ratio > least)
     symmetries.push_back (symmetryOf (judge, "two mirror planes", mirrors_weight, two (best_two.at)));
   if (!with_level || best_two.at.empty ())
