@@ -2,7 +2,7 @@
 #include "surroundings.h"
 
 #include "pcl_cosection/common/boxes.h"
-#include "pcl_cosection/energy/constraints/support_plane.h"
+#include "pcl_cosection/view/support_plane.h"
 #include "place_bodies.h"
 #include <pcl/cosection/volume/mesh_distance.h>
 

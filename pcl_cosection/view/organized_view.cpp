@@ -4,9 +4,10 @@
 #include "camera_resection.h"
 #include "pcl_cosection/common/parallel.h"
 #include "pcl_cosection/io/place_text.h"
+#include "pcl_cosection/view/labels/label_growth.h"
+#include "pcl_cosection/view/labels/stray_patches.h"
 #include "pcl_cosection/view/normals/estimated_normals.h"
 #include "pcl_cosection/view/outliers/mixed_pixels.h"
-#include "pcl_cosection/view/outliers/stray_patches.h"
 
 #include <pcl/cosection/surface/normals.h>
 
@@ -321,6 +322,27 @@ addGrazingNormals (int threads, const Members& members, SensorCloud& cloud)
       cloud.normals[candidates[k]] = steep[candidates[k]];
 }
 
+/** \brief Labels that end within their objects, or reach beyond them, are made to fit. */
+void
+mendLabels (const std::string& path, const PinholeCamera& camera, SensorCloud& cloud, LabelledView& result)
+{
+  const auto warn = [&] (double share, std::uint32_t label, const std::string& what) {
+    result.warnings.push_back (path + ": " + percentText (share) + " of the points of label " + std::to_string (label) +
+                               ' ' + what);
+  };
+  const std::map<std::uint32_t, double> added = growLabels (camera, membersOf (cloud), cloud);
+  const std::map<std::uint32_t, double> moved = relabelStrayPatches (camera, membersOf (cloud), cloud);
+  for (const auto& [label, share] : added)
+    if (const auto away = moved.find (label);
+        share - (away != moved.end () ? away->second : 0.0) > much_elsewhere) // what is moved may have grown, too
+      warn (share, label, "were around it, without a label, on the same surface: the label may be too small");
+  for (const auto& [label, share] : moved)
+    if (share > much_elsewhere)
+      warn (share, label,
+            "are on other surfaces behind or before it, and count as part of those: the label may be shifted, or too "
+            "large");
+}
+
 } // namespace
 
 void
@@ -329,12 +351,7 @@ completeOrganized (const std::string& path, const PcdViewOptions& options, Senso
   if (const auto camera = findCamera (path, options, cloud, result))
   {
     result.view = depthImage (*camera, cloud.positions, cloud.T_world_sensor);
-    for (const auto& [label, share] : relabelStrayPatches (*camera, membersOf (cloud), cloud))
-      if (share > much_elsewhere)
-        result.warnings.push_back (path + ": " + percentText (share) + " of the points of label " +
-                                   std::to_string (label) +
-                                   " are on other surfaces behind or before it, and count as part of those: the label "
-                                   "may be shifted, or too large");
+    mendLabels (path, *camera, cloud, result);
   }
   OrganizedNormalsOptions normal_options;
   normal_options.threads = options.threads;

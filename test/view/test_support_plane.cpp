@@ -1,7 +1,7 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "priors/moved_points.h"
 
-#include "pcl_cosection/energy/constraints/support_plane.h"
+#include "pcl_cosection/view/support_plane.h"
 
 #include <gtest/gtest.h>
 

@@ -1,9 +1,7 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "stray_patches.h"
 
-#include "pcl_cosection/common/quantile.h"
-#include "pcl_cosection/view/visibility/depth_edges.h"
-#include "point_clusters.h"
+#include "label_patches.h"
 
 #include <algorithm>
 #include <cmath>
@@ -14,13 +12,6 @@
 
 namespace pcl::cosection {
 namespace {
-
-// Share of a patch's outline on which another surface goes on: of labels of real and rendered scenes, wrong patches
-// have 0.65 and more, parts that an occluder cuts off 0.54 and less.
-constexpr double mostly = 0.6;
-// Length of the outline that borders on readings of other labels, in sides of a square of as many pixels: with less, as
-// among missing readings, nothing is known of what is beside a patch.
-constexpr double least_side = 1.0;
 
 /** \brief The outline of a patch towards readings of other labels, counted in pairs of pixels. */
 struct Outline
@@ -33,9 +24,7 @@ struct Outline
   {
     const auto most = std::max_element (continued.begin (), continued.end (),
                                         [] (const auto& a, const auto& b) { return a.second < b.second; });
-    const bool is_long = static_cast<double> (all) >= least_side * std::sqrt (static_cast<double> (pixels));
-    return is_long && most != continued.end () &&
-                   static_cast<double> (most->second) >= mostly * static_cast<double> (all)
+    return most != continued.end () && goesOnBeyond (most->second, all, pixels)
                ? std::optional<std::uint32_t> (most->first)
                : std::nullopt;
   }
@@ -57,8 +46,7 @@ outlinesOf (const PinholeCamera& camera, const SensorCloud& cloud, const std::ve
       if (!inside || cloud.labels[there] == cloud.labels[here] || !cloud.positions[there].allFinite ())
         return;
       ++outline.all;
-      const double a = cloud.positions[here].z (), b = cloud.positions[there].z (), nearer = std::min (a, b);
-      if (std::abs (a - b) <= largestSurfaceStep (nearer, nearer / camera.fx))
+      if (onOneSurface (camera, cloud.positions[here].z (), cloud.positions[there].z ()))
         ++outline.continued[cloud.labels[there]];
     };
     visit (u > 0, here - 1);
@@ -80,29 +68,17 @@ relabelStrayPatches (const PinholeCamera& camera, const Members& members, Sensor
   {
     if (label == 0 || readings.empty ())
       continue;
-    const std::vector<Eigen::Vector3f> points = pick (cloud.positions, readings);
-    std::vector<float> depths (points.size ());
-    std::transform (points.begin (), points.end (), depths.begin (), [] (const auto& p) { return p.z (); });
-    const double depth_m = upperMedian (depths);
-    // Neighbours in cells may be twice the width of a cell apart.
-    const double reach_m = 0.5 * largestSurfaceStep (depth_m, depth_m / camera.fx);
-    const std::vector<std::size_t> patch_of = connectedPatches (
-        points.size (), [&] (std::size_t p) { return points[p]; }, points.front ().cast<double> (), reach_m);
-    std::vector<std::size_t> sizes (readings.size (), 0); // by patch
-    for (const std::size_t patch : patch_of)
-      if (patch != no_patch)
-        ++sizes[patch];
-    const std::vector<Outline> outlines = outlinesOf (camera, cloud, readings, patch_of);
+    const LabelPatches patches = patchesOf (camera, cloud, readings);
+    const std::vector<Outline> outlines = outlinesOf (camera, cloud, readings, patches.patch_of);
     std::vector<std::uint32_t> owners (readings.size (), label); // by patch
-    const auto main = static_cast<std::size_t> (std::max_element (sizes.begin (), sizes.end ()) - sizes.begin ());
     for (std::size_t patch = 0; patch < owners.size (); ++patch)
-      if (patch != main)
-        owners[patch] = outlines[patch].owner (sizes[patch]).value_or (label);
+      if (patch != patches.largest)
+        owners[patch] = outlines[patch].owner (patches.sizes[patch]).value_or (label);
     std::size_t count = 0;
     for (std::size_t r = 0; r < readings.size (); ++r)
-      if (patch_of[r] != no_patch && owners[patch_of[r]] != label)
+      if (const std::size_t patch = patches.patch_of[r]; patch != no_patch && owners[patch] != label)
       {
-        labels[readings[r]] = owners[patch_of[r]];
+        labels[readings[r]] = owners[patch];
         ++count;
       }
     if (count > 0)
