@@ -5,6 +5,7 @@
 #include "pcl_cosection/energy/constraints/intersection_constraint.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <map>
 #include <optional>
 #include <string>
@@ -28,6 +29,22 @@ struct PassProgress
 constexpr PassProgress half_progress{0.3, 0.45, 0.5};
 constexpr PassProgress full_progress{0.5, 0.8, 0.95};
 
+/** \brief 1 for each row of voxels with values below zero, 2 for one with others, 3 for one with both. */
+std::vector<std::uint8_t>
+signsOfRows (const SignedDistanceField& field, int threads)
+{
+  const auto length = static_cast<std::size_t> (field.grid.dims.x ());
+  std::vector<std::uint8_t> signs (static_cast<std::size_t> (field.grid.dims.y ()) * field.grid.dims.z ());
+  parallelFor (0, static_cast<int> (signs.size ()), threads, [&] (int r) {
+    const float* row = field.values.data () + r * length;
+    int below = 0;
+    for (std::size_t i = 0; i < length; ++i)
+      below += row[i] < 0.0f;
+    signs[r] = static_cast<std::uint8_t> ((below > 0 ? 1 : 0) | (below < static_cast<int> (length) ? 2 : 0));
+  });
+  return signs;
+}
+
 /** \brief Largest depthAt (place) over the places where a field's zero set crosses edges of its grid; 0 if all are
  * outside. */
 template <typename DepthAt>
@@ -35,6 +52,7 @@ double
 deepest (const SignedDistanceField& field, int threads, DepthAt&& depthAt)
 {
   const VoxelGrid& grid = field.grid;
+  const std::vector<std::uint8_t> signs = signsOfRows (field, threads);
   std::vector<double> deepest (grid.dims.z (), 0.0);
   parallelFor (0, grid.dims.z (), threads, [&] (int k) {
     const auto edge = [&] (int i, int j, int axis, float here, float there) {
@@ -47,6 +65,11 @@ deepest (const SignedDistanceField& field, int threads, DepthAt&& depthAt)
     const bool has_above = k + 1 < grid.dims.z ();
     for (int j = 0; j < grid.dims.y (); ++j)
     {
+      const std::size_t r = static_cast<std::size_t> (k) * grid.dims.y () + j;
+      const int around = signs[r] | (j + 1 < grid.dims.y () ? signs[r + 1] : 0) |
+                         (has_above ? signs[r + grid.dims.y ()] : 0);
+      if (around != 3)
+        continue;
       const float* row = field.values.data () + grid.index (0, j, k);
       const float* next_row = j + 1 < grid.dims.y () ? field.values.data () + grid.index (0, j + 1, k)
                                                      : row; // itself: no crossing

@@ -164,6 +164,11 @@ addCopies (const BodyEnergy& energy, const MeasuredShape& shape, const Motions& 
         const std::size_t n = grid.index (i, j, k);
         if (energy.empty[n])
           continue;
+        const auto beyond_vox = static_cast<float> ((beyond_m[static_cast<std::size_t> (i)] - margin_m) /
+                                                    grid.voxel_size_m);
+        proposal.least[n] = std::max (proposal.least[n], beyond_vox);
+        if (beyond_vox >= far_vox) // there is no copy
+          continue;
         CopiesAt copies = copiesAt (energy, shape, in_voxels, Eigen::Vector3d (i, j, k));
         proposal.surface[n] |= copies.isSurface ();
         if (energy.data_distance_vox[n] >= gap_vox)
@@ -174,11 +179,9 @@ addCopies (const BodyEnergy& energy, const MeasuredShape& shape, const Motions& 
             proposal.target[n] = std::min (copies.surfaceDistance (), far_vox);
           }
           else
-            proposal.least[n] = std::min (copies.leastDistance (motions.size ()), far_vox);
+            proposal.least[n] = std::max (proposal.least[n],
+                                          std::min (copies.leastDistance (motions.size ()), far_vox));
         }
-        proposal.least[n] = std::max (
-            proposal.least[n],
-            static_cast<float> ((beyond_m[static_cast<std::size_t> (i)] - margin_m) / grid.voxel_size_m));
       }
     }
   });

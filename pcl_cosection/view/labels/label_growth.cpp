@@ -13,6 +13,7 @@
 namespace pcl::cosection {
 namespace {
 
+constexpr double least_of_grown = 0.3;         // as goesOnBeyond () has it, once a label is known to be too small
 constexpr int margins_across = 80;             // the largest margin, in parts of the image's width
 constexpr double plane_sigmas = 4.0;           // of depth noise: nearer to a plane, readings are of it
 constexpr double plane_reach = 2.0;            // of the object's length: of a tall one, only the top may be seen
@@ -113,7 +114,8 @@ public:
         outline.push_back (i);
     }
     label.outline = std::move (outline);
-    if (!goesOnBeyond (continued, all, label.pixels))
+    if (!(label.grown_px == 0 ? goesOnBeyond (continued, all, label.pixels)
+                              : goesOnBeyond (continued, all, label.pixels, least_of_grown)))
       ring.clear ();
     return ring;
   }

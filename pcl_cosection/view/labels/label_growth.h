@@ -12,8 +12,8 @@ namespace pcl::cosection {
  *
  * What a label leaves out of its object would else be background, which bounds it. An object ends in depth edges, and
  * where it meets its support planes (findSupportPlanes ()). Where the surface goes on beyond most of a label's outline,
- * the label grows by a pixel, and again, until that is so no more, but by no more than an 80th of the image's width:
- * nobody draws a larger margin by mistake. A label without support planes is left as it is.
+ * the label grows by a pixel, and again, while it does so beyond a part of it, but by no more than an 80th of the
+ * image's width: nobody leaves out more by mistake. A label without support planes is left as it is.
  *
  * \param[in] camera of the cloud \param[in] members the readings of each label
  * \param[in,out] cloud organised, in the frame of its sensor

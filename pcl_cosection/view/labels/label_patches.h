@@ -27,14 +27,13 @@ onOneSurface (const PinholeCamera& camera, double a_m, double b_m)
  *
  * \param[in] continued pairs of readings on the two sides of the outline that are on one surface
  * \param[in] all pairs: with few, as among missing readings, nothing is known of what is beside it
- * \param[in] pixels within the outline */
+ * \param[in] pixels within the outline \param[in] least share of the pairs that are on one surface */
 inline bool
-goesOnBeyond (std::size_t continued, std::size_t all, std::size_t pixels)
+goesOnBeyond (std::size_t continued, std::size_t all, std::size_t pixels, double least = 0.6)
 {
-  constexpr double mostly = 0.6;
   constexpr double least_side = 1.0; // in sides of a square of as many pixels
   return static_cast<double> (all) >= least_side * std::sqrt (static_cast<double> (pixels)) &&
-         static_cast<double> (continued) >= mostly * static_cast<double> (all);
+         static_cast<double> (continued) >= least * static_cast<double> (all);
 }
 
 /** \brief The parts of a label that depth edges separate. */

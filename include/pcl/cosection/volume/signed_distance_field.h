@@ -44,7 +44,7 @@ struct VoxelGrid
     const Eigen::Array3d v = toVoxel (p).array ();
     if (!((v >= -0.5).all () && (v < dims.cast<double> ().array () - 0.5).all ()))
       return std::nullopt;
-    return Eigen::Vector3i (v.round ().cast<int> ().max (0).min (dims.array () - 1));
+    return Eigen::Vector3i ((v + 0.5).cast<int> ().min (dims.array () - 1)); // none is negative
   }
 
   /** \brief Whether voxel (i, j, k) is in the grid. */
