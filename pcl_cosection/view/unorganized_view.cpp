@@ -3,6 +3,7 @@
 
 #include "pcl_cosection/view/normals/estimated_normals.h"
 #include "pcl_cosection/view/outliers/mixed_pixels.h"
+#include "pcl_cosection/view/outliers/repeated_points.h"
 #include "range_image.h"
 
 #include <pcl/cosection/surface/normals.h>
@@ -173,6 +174,8 @@ dropUnfilledNormals (SensorCloud& cloud)
 void
 completeUnorganized (const std::string& path, const PcdViewOptions& options, SensorCloud& cloud, LabelledView& result)
 {
+  if (const double repeated = leaveOutRepeated (options.threads, cloud); repeated > worth_saying)
+    result.warnings.push_back (path + ": " + percentText (repeated) + " of its points repeat others, and are left out");
   const Members members = membersOf (cloud);
   result.view = viewFromSensor (path, options, members, cloud, result);
   dropUnfilledNormals (cloud);
