@@ -176,7 +176,7 @@ TEST_F (HostilePcd, NormalsOfPointsAbsurdlyFarApart)
 {
   std::string lines = "1 0 0\n0 0 1\n0 3e13 0\n";
   for (int i = 0; i < 16; ++i)
-    lines += "0 1e-30 0\n";
+    lines += "0 " + std::to_string (i + 1) + "e-30 0\n";
   const LabelledView view = read ("FIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nWIDTH 19\nHEIGHT 1\nPOINTS 19\nDATA ascii\n" +
                                   lines);
   EXPECT_EQ (view.objects.at (1).readings, 19u);
