@@ -2,14 +2,7 @@
 
 // Labels that reach beyond their objects, onto what is behind or before them.
 
-#include "common/temporary_folder.h"
-
-#include <pcl/cosection/io/pcd_view.h>
-
-#include <pcl/io/pcd_io.h>
-#include <pcl/point_types.h>
-
-#include <gtest/gtest.h>
+#include "labelled_image.h"
 
 #include <limits>
 #include <string>
@@ -23,48 +16,20 @@ constexpr float focal = 150.0f;
 constexpr float wall_m = 1.2f, object_m = 0.8f, occluder_m = 0.6f;
 
 /** \brief An object before a wall, columns 40 to 79 and rows 20 to 69. */
-class StrayPatches : public testing::Test
+class StrayPatches : public pcl::cosection::test::LabelledImage
 {
 protected:
-  StrayPatches ()
+  StrayPatches () : LabelledImage (width, height, focal)
   {
-    cloud_.resize (static_cast<std::size_t> (width) * height);
-    cloud_.width = width;
-    cloud_.height = height;
     set (0, width, 0, height, wall_m, 0);
     set (40, 80, 20, 70, object_m, 1);
   }
 
-  void set (int left, int right, int top, int bottom, float depth_m, std::uint32_t label)
+  void set (int left, int right, int top, int bottom, float depth_m, std::uint32_t of_label)
   {
-    for (int v = top; v < bottom; ++v)
-      for (int u = left; u < right; ++u)
-      {
-        pcl::PointXYZL& p = cloud_.at (u, v);
-        p.x = (static_cast<float> (u) - 59.5f) / focal * depth_m;
-        p.y = (static_cast<float> (v) - 44.5f) / focal * depth_m;
-        p.z = depth_m;
-        p.label = label;
-      }
+    LabelledImage::set (left, right, top, bottom, depth_m);
+    label (left, right, top, bottom, of_label);
   }
-
-  void label (int left, int right, int top, int bottom, std::uint32_t label)
-  {
-    for (int v = top; v < bottom; ++v)
-      for (int u = left; u < right; ++u)
-        cloud_.at (u, v).label = label;
-  }
-
-  LabelledView read () const
-  {
-    const std::string path = folder_.file ("cloud.pcd");
-    pcl::io::savePCDFileBinary (path, cloud_);
-    return readPcdView (path, {});
-  }
-
-private:
-  pcl::PointCloud<pcl::PointXYZL> cloud_;
-  pcl::cosection::test::TemporaryFolder folder_;
 };
 
 } // namespace

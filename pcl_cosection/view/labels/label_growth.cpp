@@ -19,22 +19,6 @@ constexpr double plane_sigmas = 4.0;           // of depth noise: nearer to a pl
 constexpr double plane_reach = 2.0;            // of the object's length: of a tall one, only the top may be seen
 constexpr std::size_t most_for_planes = 20000; // points of the background or an object that are looked at for planes
 
-/** \brief Call \a visit (j) for the pixels beside \a i. */
-template <typename Visit>
-void
-visitBeside (const SensorCloud& cloud, std::size_t i, Visit&& visit)
-{
-  const auto width = static_cast<std::size_t> (cloud.width);
-  if (i % width > 0)
-    visit (i - 1);
-  if (i % width + 1 < width)
-    visit (i + 1);
-  if (i >= width)
-    visit (i - width);
-  if (i + width < cloud.positions.size ())
-    visit (i + width);
-}
-
 /** \brief The readings of a label without parts, besides the largest, that are no wider than the largest margin: of a
  * label that is too large, they may be on what is behind its object. */
 std::vector<std::size_t>

@@ -41,18 +41,13 @@ outlinesOf (const PinholeCamera& camera, const SensorCloud& cloud, const std::ve
       continue;
     Outline& outline = outlines[patch_of[r]];
     const std::size_t here = readings[r];
-    const auto u = static_cast<int> (here % cloud.width), v = static_cast<int> (here / cloud.width);
-    const auto visit = [&] (bool inside, std::size_t there) {
-      if (!inside || cloud.labels[there] == cloud.labels[here] || !cloud.positions[there].allFinite ())
+    visitBeside (cloud, here, [&] (std::size_t there) {
+      if (cloud.labels[there] == cloud.labels[here] || !cloud.positions[there].allFinite ())
         return;
       ++outline.all;
       if (onOneSurface (camera, cloud.positions[here].z (), cloud.positions[there].z ()))
         ++outline.continued[cloud.labels[there]];
-    };
-    visit (u > 0, here - 1);
-    visit (u + 1 < cloud.width, here + 1);
-    visit (v > 0, here - cloud.width);
-    visit (v + 1 < cloud.height, here + cloud.width);
+    });
   }
   return outlines;
 }
