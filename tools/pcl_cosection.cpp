@@ -9,6 +9,8 @@
 #include "run_program.h"
 #include "scene_input.h"
 
+#include "pcl_cosection/io/place_text.h"
+
 #include <pcl/cosection/common/error.h>
 #include <pcl/cosection/common/mesh_decimation.h>
 #include <pcl/cosection/surface/co_section.h>
@@ -42,7 +44,7 @@ toScene (const Settings& settings, SceneInput input)
   for (auto& [label, object] : input.objects)
     scene.addObject (std::move (object));
   for (const Eigen::Vector4d& plane : settings.planes)
-    scene.addSupportPlane (plane);
+    scene.addSupportPlane (relativeTo (input.origin, plane));
   for (TriangleMesh& obstacle : input.obstacles)
     scene.addObstacle (std::move (obstacle));
   return (scene);
@@ -92,21 +94,27 @@ parameters (const Settings& settings)
   result["scale"] = settings.reading.scale;
   result["world_points"] = settings.reading.world_points;
   result["viewpoints"] = settings.viewpoints;
+  result["axes"] = settings.axes;
+  result["background"] = settings.reading.background_labels;
+  result["ignore"] = settings.reading.ignored_labels;
   return (result);
 }
 
 Json
-summaryJson (const Settings& settings, const SceneResult& result, const std::map<std::string, double>& timings_s,
-             const std::vector<std::string>& warnings)
+summaryJson (const Settings& settings, const SceneResult& result, const Eigen::Vector3d& origin,
+             const std::map<std::string, double>& timings_s, const std::vector<std::string>& warnings)
 {
   Json summary;
   summary["timings_s"] = timings_s;
   summary["parameters"] = parameters (settings);
+  if (!origin.isZero (0.0))
+    summary["origin_m"] = {origin.x (), origin.y (), origin.z ()};
   summary["objects"] = Json::array ();
   summary["failed"] = Json::array ();
   for (const ObjectResult& object : result.objects)
     if (object.error.empty ())
-      summary["objects"].push_back (objectJson (object));
+      summary["objects"].push_back (
+          objectJson (object, settings.object_trajectories.count (object.id) == 0 ? origin : Eigen::Vector3d::Zero ()));
     else
       summary["failed"].push_back ({{"id", object.id}, {"error", object.error}});
   summary["warnings"] = warnings;
@@ -123,7 +131,10 @@ complete (const Settings& settings, const OutputTarget& target, std::vector<std:
     return (!interrupted ());
   });
   const double read_s = total.getTimeSeconds ();
+  const Eigen::Vector3d origin = input.origin;
   warnings = input.warnings;
+  if (!origin.isZero (0.0) && settings.format == "stl")
+    warnings.push_back ("STL files have single precision: coordinates in them are relative to " + placeText (origin));
   for (const std::string& warning : warnings)
     terminal.warning (warning);
 
@@ -151,14 +162,14 @@ complete (const Settings& settings, const OutputTarget& target, std::vector<std:
     warnings.push_back ("object " + std::to_string (object.id) + ": " + object.error);
     terminal.error (warnings.back ());
   }
-  for (const std::string& file : target.write (result))
+  for (const std::string& file : target.write (result, origin))
     terminal.result ("wrote " + file);
 
   std::map<std::string, double> timings_s = result.timings_s;
   timings_s["read"] = read_s;
   timings_s["total"] = total.getTimeSeconds ();
   if (!settings.json.empty ())
-    saveJson (summaryJson (settings, result, timings_s, warnings), settings.json);
+    saveJson (summaryJson (settings, result, origin, timings_s, warnings), settings.json);
   for (const auto& [stage, seconds] : timings_s)
     terminal.detail (stage + ": " + std::to_string (seconds) + " s");
   return (all_good);

@@ -2,6 +2,7 @@
 #include <pcl/cosection/evaluation/mesh_comparison.h>
 
 #include "mesh_surface.h"
+#include "point_set.h"
 #include <pcl/cosection/common/error.h>
 
 #include <algorithm>
@@ -54,12 +55,17 @@ MeshComparison
 compareMeshes (const TriangleMesh& truth, const TriangleMesh& reconstruction, const MeshComparisonOptions& options)
 {
   options.validate ();
-  requireSurface (truth, "truth");
-  requireSurface (reconstruction, "reconstruction");
-  const auto to_truth = SurfaceDistance (truth).of (sampleSurface (reconstruction, options.samples, options.seed),
-                                                    options.threads);
-  const auto to_reconstruction = SurfaceDistance (reconstruction)
-                                     .of (sampleSurface (truth, options.samples, options.seed), options.threads);
+  for (const auto& [mesh, name] : {std::pair (&truth, "truth"), std::pair (&reconstruction, "reconstruction")})
+    if (!isPointSet (*mesh))
+      requireSurface (*mesh, name);
+  const auto distances = [&] (const TriangleMesh& from, const TriangleMesh& to) {
+    const std::vector<Eigen::Vector3d> points = isPointSet (from) ? somePoints (from, options.samples)
+                                                                  : sampleSurface (from, options.samples, options.seed);
+    return isPointSet (to) ? distancesToPoints (to, points, 1, options.threads)
+                           : SurfaceDistance (to).of (points, options.threads);
+  };
+  const std::vector<double> to_truth = distances (reconstruction, truth);
+  const std::vector<double> to_reconstruction = distances (truth, reconstruction);
 
   MeshComparison result;
   result.accuracy = errorStatistics (to_truth);
@@ -74,8 +80,15 @@ compareMeshes (const TriangleMesh& truth, const TriangleMesh& reconstruction, co
 MeshSummary
 summarizeMesh (const TriangleMesh& mesh)
 {
-  requireSurface (mesh, "summarizeMesh");
   MeshSummary summary;
+  if (isPointSet (mesh))
+  {
+    summary.vertices = mesh.vertices.size ();
+    summary.point_spacing_m = spacingOf (mesh);
+    summary.box = vertexBox (mesh);
+    return summary;
+  }
+  requireSurface (mesh, "summarizeMesh");
   summary.triangles = mesh.triangles.size ();
   summary.topology = computeTopology (mesh);
   summary.area_m2 = surfaceArea (mesh);

@@ -6,18 +6,26 @@
 #include <Eigen/Core>
 
 #include <cmath>
+#include <iomanip>
 #include <sstream>
 #include <string>
 
 namespace pcl::cosection {
 
-/** \brief "(0.5, -1.25, 2)"; micrometres are zero */
+/** \brief "(0.5, -1.25, 2)", to three digits or whole numbers; millionths are zero */
 inline std::string
 placeText (const Eigen::Vector3d& place)
 {
   std::ostringstream text;
-  text.precision (3);
-  const auto rounded = [] (double x) { return std::abs (x) < 1e-6 ? 0.0 : x; };
+  const auto rounded = [] (double x) {
+    constexpr double large = 1000.0; // of which three digits would say little
+    std::ostringstream number;
+    number << std::setprecision (std::abs (x) < large ? 3 : 15)
+           << (std::abs (x) < 1e-6    ? 0.0
+               : std::abs (x) < large ? x
+                                      : std::round (x));
+    return number.str ();
+  };
   text << '(' << rounded (place.x ()) << ", " << rounded (place.y ()) << ", " << rounded (place.z ()) << ')';
   return text.str ();
 }

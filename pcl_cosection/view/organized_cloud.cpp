@@ -1,8 +1,8 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "organized_cloud.h"
 
-#include "pcl_cosection/io/cloud/pcd_cloud.h"
-#include "pcl_cosection/io/cloud/pcd_file.h"
+#include "pcl_cosection/io/cloud/cloud_file.h"
+#include "pcl_cosection/io/cloud/sensor_cloud.h"
 #include "pcl_cosection/io/quiet_console.h"
 
 #include "pcl_cosection/common/files.h"
@@ -16,6 +16,9 @@
 
 #include <algorithm>
 #include <cstring>
+#include <limits>
+#include <locale>
+#include <sstream>
 
 namespace pcl::cosection {
 namespace {
@@ -24,7 +27,7 @@ constexpr std::size_t label_bytes = sizeof (std::uint32_t);
 
 /** \brief The cloud without padding, and with these labels. */
 PCLPointCloud2
-withLabels (const PCLPointCloud2& cloud, const PcdHeader& header, const std::vector<std::uint32_t>& labels)
+withLabels (const PCLPointCloud2& cloud, const CloudHeader& header, const std::vector<std::uint32_t>& labels)
 {
   struct Copy
   {
@@ -49,7 +52,7 @@ withLabels (const PCLPointCloud2& cloud, const PcdHeader& header, const std::vec
   };
   for (const PCLPointField& field : cloud.fields)
   {
-    const PcdField* const described = header.find (field.name);
+    const CloudField* const described = header.find (field.name);
     if (described == nullptr || described->isPadding ())
       continue;
     if (field.name == "label")
@@ -102,17 +105,34 @@ writePcd (const std::string& path, Write&& write)
   });
 }
 
+/** \brief Replace the viewpoint of a PCD file, which PCL writes in single precision. */
+void
+writeViewpoint (const std::string& path, const std::array<double, 7>& viewpoint)
+{
+  std::string bytes = readBytes (path);
+  const std::size_t begin = bytes.find ("VIEWPOINT");
+  const std::size_t end = bytes.find ('\n', begin);
+  if (begin == std::string::npos || end == std::string::npos)
+    throw IoError (path + ": has no VIEWPOINT");
+  std::ostringstream line;
+  line.imbue (std::locale::classic ());
+  line.precision (std::numeric_limits<double>::digits10);
+  line << "VIEWPOINT";
+  for (const double value : viewpoint)
+    line << ' ' << value;
+  writeBytes (path, bytes.replace (begin, end - begin, line.str ()));
+}
+
 } // namespace
 
 OrganizedCloud
 readOrganizedCloud (const std::string& path, const PcdViewOptions& options)
 {
   options.validate ();
-  const PcdHeader header = readPcdHeader (path);
-  if (header.height < 2 || header.width < 2)
-    throw IoError (path + ": is not organised (WIDTH " + std::to_string (header.width) + ", HEIGHT " +
-                   std::to_string (header.height) + "); an image of points is needed, as the sensor's driver gives it");
   SensorCloud cloud = readSensorCloud (path, options, false);
+  if (cloud.height < 2 || cloud.width < 2)
+    throw IoError (path + ": is not organised (WIDTH " + std::to_string (cloud.width) + ", HEIGHT " +
+                   std::to_string (cloud.height) + "); an image of points is needed, as the sensor's driver gives it");
   if (std::none_of (cloud.positions.begin (), cloud.positions.end (),
                     [] (const Eigen::Vector3f& p) { return (p.allFinite ()); }))
     throw DegenerateInput (path + ": holds no finite point");
@@ -137,17 +157,18 @@ readOrganizedCloud (const std::string& path, const PcdViewOptions& options)
 void
 copyWithLabels (const std::string& input, const std::vector<std::uint32_t>& labels, const std::string& output)
 {
-  const PcdHeader header = readPcdHeader (input);
+  CloudHeader header = readCloudHeader (input);
   if (labels.size () != header.points)
     throw InvalidArgument (input + ": there must be one label per point");
-  const PCLPointCloud2 cloud = withLabels (readPcdPoints (input, header), header, labels);
-  const auto& v = header.viewpoint;
-  const Eigen::Vector4f origin (static_cast<float> (v[0]), static_cast<float> (v[1]), static_cast<float> (v[2]), 0.0f);
-  const Eigen::Quaternionf orientation (static_cast<float> (v[3]), static_cast<float> (v[4]), static_cast<float> (v[5]),
-                                        static_cast<float> (v[6]));
+  const PCLPointCloud2 points = readCloudPoints (input, header);
+  const PCLPointCloud2 cloud = withLabels (points, header, labels);
   writePcd (output, [&] (const std::string& temporary) {
     const QuietConsole quiet;
-    return pcl::PCDWriter ().writeBinaryCompressed (temporary, cloud, origin, orientation);
+    const int failed = pcl::PCDWriter ().writeBinaryCompressed (temporary, cloud, Eigen::Vector4f::Zero (),
+                                                                Eigen::Quaternionf::Identity ());
+    if (failed == 0)
+      writeViewpoint (temporary, header.viewpoint);
+    return failed;
   });
 }
 

@@ -79,8 +79,7 @@ moveToSensor (const std::string& path, const PcdViewOptions& options, const Loca
   const auto isNear = [&] (const Eigen::Vector3d& place) { return (found - place).norm () < same_place * distance; };
   // The sensor may be at the origin of the points, and only their axes differ from its own.
   const bool at_origin = isNear (Eigen::Vector3d::Zero ());
-  const bool in_world = !at_origin && cloud.has_viewpoint && !options.world_points && !options.viewpoint &&
-                        isNear (given.translation ());
+  const bool in_world = !at_origin && cloud.has_viewpoint && !cloud.in_world && isNear (given.translation ());
   cloud.T_world_sensor = in_world ? located.T_points_sensor : given * located.T_points_sensor;
   if (in_world)
     result.warnings.push_back (path + ": its VIEWPOINT is where its points were seen from if they are in the world "
@@ -92,7 +91,8 @@ moveToSensor (const std::string& path, const PcdViewOptions& options, const Loca
   else if (!at_origin)
     result.warnings.push_back (
         path + ": its points are not in the frame of their sensor; their pixels tell that it stood at " +
-        placeText (cloud.T_world_sensor.translation ()) + ", which is used instead of " + sourceOfViewpoint (options));
+        placeText (cloud.origin + cloud.T_world_sensor.translation ()) + ", which is used instead of " +
+        sourceOfViewpoint (options));
 }
 
 /** \brief The camera of the cloud, which is taken to its frame. */

@@ -1,6 +1,7 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include <pcl/cosection/io/pcd_view.h>
 
+#include "given_ground.h"
 #include "sensor_view.h"
 
 #include <pcl/cosection/common/error.h>
@@ -85,6 +86,11 @@ PcdViewOptions::validate () const
     throw InvalidArgument ("viewpoint must be at most 1e15 m away along each axis");
   if (normal_neighbours < 3 || normal_neighbours > 1000)
     throw InvalidArgument ("normal_neighbours must be between 3 and 1000");
+  if (origin && !std::all_of (origin->begin (), origin->end (), [] (double x) { return std::isfinite (x); }))
+    throw InvalidArgument ("origin must be finite");
+  for (const auto& [a, b, c, d] : planes)
+    if (!std::isfinite (a + b + c + d) || (a == 0.0 && b == 0.0 && c == 0.0))
+      throw InvalidArgument ("a plane must be finite, with a normal that is not zero");
   if (intrinsics)
     PinholeCamera{1, 1, (*intrinsics)[0], (*intrinsics)[1], (*intrinsics)[2], (*intrinsics)[3]}.validate ();
 }
@@ -97,13 +103,15 @@ readPcdView (const std::string& path, const PcdViewOptions& options)
   LabelledView result;
   result.warnings = cloud.warnings;
   checkExtent (path, options, cloud, result);
+  result.origin = cloud.origin;
   result.organized = cloud.height > 1;
   result.has_labels = cloud.has_labels;
   result.has_colour = !cloud.colours.empty ();
   result.has_intensity = !cloud.intensities.empty ();
   if (cloud.ignored > 0)
-    result.warnings.push_back (path + ": " + std::to_string (cloud.ignored) +
-                               " points of a negative label, or of 65535, are ignored");
+    result.warnings.push_back (path + ": " + std::to_string (cloud.ignored) + " points of a negative label, or of " +
+                               (options.ignored_labels.empty () ? "65535" : "one that is ignored") + ", are ignored");
+  labelGround (options, cloud);
   if (cloud.height > 1)
     completeOrganized (path, options, cloud, result);
   else

@@ -200,7 +200,7 @@ viewFromSensor (const std::string& path, const PcdViewOptions& options, const Me
     sight.image->view.T_world_sensor = T_world_points * sight.image->view.T_world_sensor;
     return std::move (sight.image->view);
   };
-  const bool header_tells = cloud.has_viewpoint || (!options.world_points && asBeforeACamera (cloud));
+  const bool header_tells = cloud.has_viewpoint || (!cloud.in_world && asBeforeACamera (cloud));
   Sight sight;
   if (header_tells)
   {
@@ -212,7 +212,7 @@ viewFromSensor (const std::string& path, const PcdViewOptions& options, const Me
           of_core.isTheirs ())
         return viewOf (of_core, cloud.T_world_sensor);
   }
-  if (cloud.has_viewpoint && !options.world_points && !options.viewpoint)
+  if (cloud.has_viewpoint && !cloud.in_world && options.axes == SensorAxes::Optical)
     if (Sight other = lookFrom (cloud.T_world_sensor.translation (), members, cloud, max_hidden_of_label_from_guess);
         other.isTheirs (max_hidden_from_guess))
     {
@@ -227,8 +227,8 @@ viewFromSensor (const std::string& path, const PcdViewOptions& options, const Me
     const Eigen::Isometry3d T_world_points = cloud.T_world_sensor;
     moveToSensor (T_world_points, Eigen::Isometry3d (Eigen::Translation3d (found->place)), cloud);
     result.warnings.push_back (path + ": the order of its points tells that they were seen from " +
-                               placeText (cloud.T_world_sensor.translation ()) + ", which is used instead of " +
-                               sourceOfViewpoint (options));
+                               placeText (cloud.origin + cloud.T_world_sensor.translation ()) +
+                               ", which is used instead of " + sourceOfViewpoint (options));
     return viewOf (found->sight, T_world_points);
   }
   if (cloud.has_viewpoint && cloud.positions.size () >= RangeImage::min_points)

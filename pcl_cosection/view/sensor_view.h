@@ -1,7 +1,7 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "pcl_cosection/io/cloud/pcd_cloud.h"
+#include "pcl_cosection/io/cloud/sensor_cloud.h"
 
 #include <pcl/cosection/io/pcd_view.h>
 

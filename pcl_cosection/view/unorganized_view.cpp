@@ -2,6 +2,7 @@
 #include "sensor_view.h"
 
 #include "pcl_cosection/view/normals/estimated_normals.h"
+#include "pcl_cosection/view/normals/normal_agreement.h"
 #include "pcl_cosection/view/outliers/mixed_pixels.h"
 #include "pcl_cosection/view/outliers/repeated_points.h"
 #include "range_image.h"
@@ -11,6 +12,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <set>
 
 namespace pcl::cosection {
 namespace {
@@ -18,6 +20,8 @@ namespace {
 constexpr float away_cosine = -0.2f;  // of a normal that clearly points away from the viewpoint
 constexpr double least_filled = 0.01; // share of normals with a direction, of which fields have some
 constexpr double worth_saying = 0.02; // share of the normals
+// Share of pairs of neighbours, about that at the border between halves of a few thousand points.
+constexpr double least_contradicting = 0.005;
 constexpr double surely_inward = 0.3; // outward share of a body whose normals are flipped
 // Length of the mean normal of a background that has a side; of random ones to one side, 0.5.
 constexpr float one_sided = 0.7f;
@@ -55,7 +59,7 @@ facingShare (const Surroundings& objects, const std::vector<Eigen::Vector3f>& po
   return near.isKnown () ? near.get () : all.get ();
 }
 
-/** \brief How much of a piece of an object faces away from the background. */
+/** \brief How much of a piece of an object faces away from what it stands on; zero: not known. */
 double
 awayShare (const Eigen::Vector3f& away, const std::vector<Eigen::Vector3f>& points,
            const std::vector<Eigen::Vector3f>& normals)
@@ -64,6 +68,32 @@ awayShare (const Eigen::Vector3f& away, const std::vector<Eigen::Vector3f>& poin
   for (const Eigen::Vector3f& normal : normals)
     share.add (normal.dot (away));
   return std::max (share.get (), 1.0 - share.get ()) >= decisive ? share.get () : outwardShare (points, normals);
+}
+
+/** \brief The direction away from the nearest of the planes on which things stand, at an object; zero without any. */
+Eigen::Vector3f
+awayFromPlane (const PcdViewOptions& options, const std::vector<std::size_t>& indices, const SensorCloud& cloud)
+{
+  const Eigen::Isometry3d T = Eigen::Translation3d (cloud.origin) * cloud.T_world_sensor; // of the planes' world
+  Eigen::Vector3d away = Eigen::Vector3d::Zero ();
+  double nearest = std::numeric_limits<double>::infinity ();
+  for (const auto& [a, b, c, d] : options.planes)
+  {
+    const Eigen::Vector3d normal (a, b, c);
+    double sum = 0.0, sum_of_sizes = 0.0;
+    for (const std::size_t i : indices)
+    {
+      const double height = normal.dot (T * cloud.positions[i].cast<double> ()) + d;
+      sum += height;
+      sum_of_sizes += std::abs (height);
+    }
+    if (const double distance = sum_of_sizes / normal.norm (); distance < nearest)
+    {
+      nearest = distance;
+      away = std::copysign (1.0, sum) * (T.linear ().transpose () * normal.normalized ());
+    }
+  }
+  return away.cast<float> ();
 }
 
 /** \brief The side of the background near an object on which that is; zero if it has none, as a bin's walls. */
@@ -84,30 +114,73 @@ sideOf (const Eigen::AlignedBox3f& surroundings, const Members& members, const S
   return sum.normalized ().cast<float> ();
 }
 
-/** \brief Estimate the normals of an unorganised cloud of which it is not known where it was seen from.
+/** \brief Calls orient (label, indices, rightShare) for the background and then for each object, where it is not known
+ * where they were seen from.
  *
- * Those of neighbours agree (orientConsistently ()). The background faces the objects near it, and these face away from
- * it, as all that was seen of them, also the inside of a bowl, was seen from its outer side; where that does not say
- * enough, bodies are on the inner side. Scattered points of the background near objects, mixed pixels between these and
- * what is behind them, get no normals. */
+ * The background faces the objects near it. These face away from a plane that is given, or from the background, as all
+ * that was seen of them, also the inside of a bowl, was seen from its outer side; where that does not say enough,
+ * bodies are on the inner side. Scattered points of the background near objects, mixed pixels between these and what is
+ * behind them, lose their normals. */
+template <typename Orient>
 void
-addConsistentNormals (const PcdViewOptions& options, const Members& members, SensorCloud& cloud)
+orientParts (const PcdViewOptions& options, const Members& members, SensorCloud& cloud, Orient&& orient)
 {
   const Surroundings objects = surroundingsOf (members, cloud);
-  const auto add = [&] (const std::vector<std::size_t>& indices, const auto& rightShare) {
-    addNormals (options, indices, cloud,
-                [&] (const auto& points, auto& normals) { orientConsistently (points, normals, rightShare); });
-  };
   const BackgroundParts background = partsOfBackground (objects, members, cloud);
   for (const std::vector<std::size_t>* part : {&background.near, &background.far})
-    add (*part, [&] (const auto& points, const auto& normals) { return facingShare (objects, points, normals); });
+    orient (0, *part, [&] (const auto& points, const auto& normals) { return facingShare (objects, points, normals); });
   leaveOutScattered (options, objects, background.near, cloud);
   for (const auto& [label, indices] : members)
     if (label != 0)
     {
-      const Eigen::Vector3f away = sideOf (objects.at (label), members, cloud);
-      add (indices, [&away] (const auto& points, const auto& normals) { return awayShare (away, points, normals); });
+      const Eigen::Vector3f away = options.planes.empty () ? sideOf (objects.at (label), members, cloud)
+                                                           : awayFromPlane (options, indices, cloud);
+      orient (label, indices,
+              [&away] (const auto& points, const auto& normals) { return awayShare (away, points, normals); });
     }
+}
+
+/** \brief Estimate the normals of an unorganised cloud of which it is not known where it was seen from; those of
+ * neighbours agree (orientConsistently ()). */
+void
+addConsistentNormals (const PcdViewOptions& options, const Members& members, SensorCloud& cloud)
+{
+  orientParts (options, members, cloud, [&] (std::uint32_t, const auto& indices, const auto& rightShare) {
+    addNormals (options, indices, cloud,
+                [&] (const auto& points, auto& normals) { orientConsistently (points, normals, rightShare); });
+  });
+}
+
+/** \brief Labels of whose normals neighbours contradict each other. */
+std::set<std::uint32_t>
+contradictingLabels (const Members& members, const SensorCloud& cloud)
+{
+  std::set<std::uint32_t> labels;
+  for (const auto& [label, indices] : members)
+    if (contradictingShare (pick (cloud.positions, indices), pick (cloud.normals, indices)) > least_contradicting)
+      labels.insert (label);
+  return labels;
+}
+
+/** \brief Turn normals of the file so that neighbours agree. \return the share that was turned */
+double
+mendContradictions (const PcdViewOptions& options, const std::set<std::uint32_t>& labels, const Members& members,
+                    SensorCloud& cloud)
+{
+  std::size_t turned = 0, all = 0;
+  orientParts (options, members, cloud, [&] (std::uint32_t label, const auto& indices, const auto& rightShare) {
+    all += indices.size ();
+    if (labels.count (label) == 0)
+      return;
+    std::vector<Eigen::Vector3f> normals = pick (cloud.normals, indices);
+    orientConsistently (pick (cloud.positions, indices), normals, rightShare);
+    for (std::size_t k = 0; k < indices.size (); ++k)
+    {
+      turned += normals[k].dot (cloud.normals[indices[k]]) < 0.0f;
+      cloud.normals[indices[k]] = normals[k];
+    }
+  });
+  return all == 0 ? 0.0 : static_cast<double> (turned) / static_cast<double> (all);
 }
 
 /** \brief Turn normals that clearly point away from the viewpoint, which is the origin. \return their share */
@@ -141,13 +214,15 @@ turnTowardsViewpoint (float away, SensorCloud& cloud)
 
 /** \brief Check normals of the file against the shape, where no viewpoint gives their sign. */
 void
-checkWithoutViewpoint (const std::string& path, const Members& members, SensorCloud& cloud, LabelledView& result)
+checkWithoutViewpoint (const std::string& path, const PcdViewOptions& options, const Members& members,
+                       SensorCloud& cloud, LabelledView& result)
 {
   for (const auto& [label, indices] : members)
   {
     if (label == 0 || indices.size () < RangeImage::min_points)
       continue;
-    const double outward = outwardShare (pick (cloud.positions, indices), pick (cloud.normals, indices));
+    const Eigen::Vector3f away = awayFromPlane (options, indices, cloud);
+    const double outward = awayShare (away, pick (cloud.positions, indices), pick (cloud.normals, indices));
     if (outward >= surely_inward)
       continue;
     for (const std::size_t i : indices)
@@ -183,8 +258,17 @@ completeUnorganized (const std::string& path, const PcdViewOptions& options, Sen
   if (!given)
     cloud.normals.assign (cloud.positions.size (),
                           Eigen::Vector3f::Constant (std::numeric_limits<float>::quiet_NaN ()));
+  const std::set<std::uint32_t> contradicting = given ? contradictingLabels (members, cloud)
+                                                      : std::set<std::uint32_t> ();
   if (!result.view && given)
-    checkWithoutViewpoint (path, members, cloud, result);
+  {
+    if (const double turned = contradicting.empty () ? 0.0
+                                                     : mendContradictions (options, contradicting, members, cloud);
+        turned > 0.0)
+      result.warnings.push_back (path + ": normals of neighbours contradict each other; " + percentText (turned) +
+                                 " of all were turned so that they agree");
+    checkWithoutViewpoint (path, options, members, cloud, result);
+  }
   else if (!result.view)
   {
     addConsistentNormals (options, members, cloud);
@@ -209,7 +293,8 @@ completeUnorganized (const std::string& path, const PcdViewOptions& options, Sen
       if (label != 0)
         addNormals (options, indices, cloud);
   }
-  if (const double turned = turnTowardsViewpoint (given ? away_cosine : 0.0f, cloud); given && turned > worth_saying)
+  if (const double turned = turnTowardsViewpoint (given && contradicting.empty () ? away_cosine : 0.0f, cloud);
+      given && turned > worth_saying)
     result.warnings.push_back (path + ": " + percentText (turned) +
                                " of the normals point away from the VIEWPOINT; they were turned");
   for (const auto& [label, indices] : members)

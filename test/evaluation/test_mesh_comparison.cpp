@@ -136,9 +136,7 @@ TEST (MeshComparison, DoesNotDependOnThreads)
 TEST (MeshComparison, RefusesWhatIsNoSurface)
 {
   const TriangleMesh good = planeMesh (1.0, 2);
-  TriangleMesh points = good;
-  points.triangles.clear ();
-  EXPECT_NE (messageOf<DegenerateInput> ([&] { compareMeshes (good, points); }).find ("reconstruction"),
+  EXPECT_NE (messageOf<DegenerateInput> ([&] { compareMeshes (good, TriangleMesh ()); }).find ("reconstruction"),
              std::string::npos);
   EXPECT_NE (messageOf<DegenerateInput> ([&] { compareMeshes (TriangleMesh (), good); }).find ("truth"),
              std::string::npos);
@@ -157,6 +155,34 @@ TEST (MeshComparison, RefusesWhatIsNoSurface)
   MeshComparisonOptions options;
   options.samples = 0;
   EXPECT_THROW (compareMeshes (good, good, options), InvalidArgument);
+}
+
+TEST (MeshComparison, OfAScanIsThatOfItsPoints)
+{
+  const TriangleMesh plane = planeMesh (1.0, 1);
+  TriangleMesh scan; // 5 mm above it, every centimetre
+  for (int i = 0; i <= 100; ++i)
+    for (int j = 0; j <= 100; ++j)
+      scan.vertices.emplace_back (plane.vertices[0] + Eigen::Vector3f (0.01f * i, 0.01f * j, 0.005f));
+  MeshComparisonOptions options;
+  options.samples = 5000;
+  for (const bool is_truth : {true, false})
+  {
+    const MeshComparison comparison = is_truth ? compareMeshes (scan, plane, options)
+                                               : compareMeshes (plane, scan, options);
+    const ErrorStatistics& of_points = is_truth ? comparison.completeness : comparison.accuracy;
+    const ErrorStatistics& of_mesh = is_truth ? comparison.accuracy : comparison.completeness;
+    EXPECT_NEAR (of_points.mean, 0.005, 1e-6); // to the mesh exactly
+    EXPECT_NEAR (of_points.max, 0.005, 1e-6);
+    EXPECT_GT (of_mesh.mean, 0.005); // to the nearest of points with a spacing
+    EXPECT_LE (of_mesh.max, std::sqrt (0.005 * 0.005 * 3.0) + 1e-6);
+  }
+  const MeshSummary summary = summarizeMesh (scan);
+  EXPECT_EQ (summary.vertices, scan.vertices.size ());
+  EXPECT_NEAR (*summary.point_spacing_m, 0.01, 1e-5);
+  EXPECT_FALSE (summary.volume_m3);
+  scan.vertices[3].x () = std::numeric_limits<float>::quiet_NaN ();
+  EXPECT_THROW (compareMeshes (plane, scan), InvalidArgument);
 }
 
 TEST (MeshSummary, KnowsVolumesOfClosedMeshesOnly)

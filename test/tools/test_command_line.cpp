@@ -203,7 +203,7 @@ TEST (CommandLine, WrongUsageIsNamed)
     const std::string message = usageError (arguments);
     EXPECT_NE (message.find (part), std::string::npos) << arguments << ": " << message;
   };
-  expect ("", "INPUT.pcd and OUTPUT are missing");
+  expect ("", "INPUT and OUTPUT are missing");
   expect ("a.pcd", "OUTPUT is missing");
   expect ("a.pcd b.pcd", "point cloud");
   expect ("--voxelsize 1 a.pcd out", "did you mean --voxel-size?");

@@ -213,7 +213,7 @@ TEST_F (PclCosection, BadInputsAreRefused)
   write ("truncated.pcd", read ("sphere.pcd").substr (0, 20000));
   expectFailure ({"missing.pcd", "out"}, 1, "missing.pcd: no such file");
   expectFailure ({".", "out"}, 1, "directory");
-  expectFailure ({"text.pcd", "out"}, 1, "not a PCD");
+  expectFailure ({"text.pcd", "out"}, 1, "neither a PCD nor a PLY file");
   expectFailure ({"empty.pcd", "out"}, 1, "no points");
   expectFailure ({"nan.pcd", "out"}, 1, "finite");
   expectFailure ({"one.pcd", "out"}, 1, "at least 100");
@@ -249,9 +249,9 @@ TEST_F (PclCosection, LabelWithoutEnoughPointsIsSkipped)
 TEST_F (PclCosection, SummaryOfARunThatFails)
 {
   write ("broken.pcd", "no cloud");
-  expectFailure ({"--json", "s.json", "broken.pcd", "out"}, 1, "broken.pcd: is not a PCD file");
+  expectFailure ({"--json", "s.json", "broken.pcd", "out"}, 1, "broken.pcd: is neither a PCD nor a PLY file");
   const nlohmann::json summary = nlohmann::json::parse (read ("s.json"));
-  EXPECT_EQ (summary["error"], "broken.pcd: is not a PCD file");
+  EXPECT_EQ (summary["error"].get<std::string> ().rfind ("broken.pcd: is neither a PCD nor a PLY file", 0), 0u);
   EXPECT_TRUE (summary["objects"].empty ());
   EXPECT_EQ (summary["parameters"]["constraints"], "all");
 }

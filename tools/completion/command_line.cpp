@@ -26,6 +26,13 @@ declareInput (CLI::App& app, Given& given)
              "Multiplies all coordinates: 0.001 for millimetres");
   input.add ("--label-field NAME", given.reading.label_field,
              "Field that says to which object a point belongs (default: label, else class or classification)");
+  input.add ("--background LABEL", given.reading.background_labels, wholeRange (0, 4294967295),
+             "Label of the background" + byDefault (0) + "; repeatable");
+  input.add ("--ignore LABEL", given.reading.ignored_labels, wholeRange (0, 4294967295),
+             "Label of points that are left out, beside negative ones and 65535; repeatable");
+  input.add ("--axes optical|opengl", given.axes,
+             "Axes of the sensor's frame: x right, y down, z forward, or x right, y up, z backward" +
+                 byDefault ("optical"));
   input.add ("--object-trajectory ID=FILE", given.trajectory_values,
              "Poses of object ID in the world, for views in which it moved: lines \"view tx ty tz qx qy qz qw\", views "
              "from 0; repeatable");
@@ -67,7 +74,7 @@ declareOutput (CLI::App& app, Given& given)
 void
 setPaths (Settings& settings)
 {
-  requirePaths (settings.paths, "INPUT.pcd", "OUTPUT", true);
+  requirePaths (settings.paths, "INPUT", "OUTPUT", true);
   settings.inputs.assign (settings.paths.begin (), settings.paths.end () - 1);
   settings.output = settings.paths.back ();
   const std::string possible = "; it must be a folder, or a file ending in .ply, .stl or .obj";
@@ -132,6 +139,10 @@ interpret (Settings& settings)
   setPlanes (settings);
   settings.reading.threads = settings.method.threads;
   settings.reading.max_memory_bytes = settings.method.max_memory_bytes;
+  if (settings.axes == "opengl")
+    settings.reading.axes = SensorAxes::OpenGl;
+  for (const Eigen::Vector4d& plane : settings.planes)
+    settings.reading.planes.push_back ({plane[0], plane[1], plane[2], plane[3]});
   setViewpoints (settings);
   settings.reading.intrinsics = parseIntrinsics (settings.intrinsics);
 }
@@ -144,11 +155,13 @@ completionText ()
   static const ProgramText text = {
       "pcl_cosection",
       "complete the hidden surfaces of objects in point clouds",
-      "pcl_cosection [OPTIONS] INPUT.pcd [INPUT.pcd ...] OUTPUT",
+      "pcl_cosection [OPTIONS] INPUT [INPUT ...] OUTPUT",
       "Completes the hidden surfaces of objects in point clouds: closed meshes that keep clear of seen free space and "
       "of each other.",
-      {"INPUT is a view: points in the sensor frame; VIEWPOINT of the header is the pose of the sensor. An integer "
-       "field \"label\" says which object a point belongs to, 0 is the background; without it, everything is object 1. "
+      {"INPUT is a view, a PCD or PLY file: points in the sensor frame; VIEWPOINT of the header is the pose of the "
+       "sensor. An "
+       "integer field \"label\" says which object a point belongs to, 0 is the background; without it, everything is "
+       "object 1. "
        "Organised clouds, and others that were seen from their viewpoint, also show which space is free.",
        "OUTPUT ending in .ply, .stl or .obj is one file with the meshes of all objects, without the background; "
        "anything else is a folder for background.ply and object_LABEL.ply. Meshes are in metres, in the world frame, "

@@ -24,6 +24,7 @@ struct Given : GivenMethod
   std::vector<std::string> plane_values, viewpoint_values, intrinsics, trajectory_values;
   std::vector<std::string> free_space; ///< views of which nothing else is used
   std::vector<std::string> obstacles;  ///< mesh files
+  std::string axes = "optical";        ///< of the sensor
   std::string format;                  ///< extension of the meshes
   std::string json;                    ///< empty: no summary
   std::size_t max_faces = 0;           ///< of each mesh; 0: as many as there are

@@ -115,11 +115,14 @@ OutputTarget::refuseToOverwrite () const
 }
 
 std::vector<std::string>
-OutputTarget::write (const SceneResult& result) const
+OutputTarget::write (const SceneResult& result, const Eigen::Vector3d& origin) const
 {
+  const auto originOf = [&] (const ObjectResult& object) { // those with a trajectory are in a frame of their own
+    return settings_.object_trajectories.count (object.id) == 0 ? origin : Eigen::Vector3d::Zero ();
+  };
   std::vector<std::string> files;
-  const auto save = [&files] (const TriangleMesh& mesh, const std::string& path) {
-    saveMesh (mesh, path);
+  const auto save = [&] (const TriangleMesh& mesh, const std::string& path, const Eigen::Vector3d& origin_of_mesh) {
+    saveMesh (mesh, path, origin_of_mesh);
     files.push_back (path);
   };
   TriangleMesh all;
@@ -128,25 +131,25 @@ OutputTarget::write (const SceneResult& result) const
     if (!object.error.empty ())
       continue;
     else if (!single_file_)
-      save (object.mesh, objectPath (object, settings_.format, only));
+      save (object.mesh, objectPath (object, settings_.format, only), originOf (object));
     else if (all.empty ())
       all = object.mesh;
     else
       appendMesh (all, object.mesh);
   if (single_file_ && !all.empty ())
-    save (all, settings_.output);
+    save (all, settings_.output, origin);
   if (!single_file_ && !result.background.empty ())
-    save (result.background, (fs::path (settings_.output) / ("background." + settings_.format)).string ());
+    save (result.background, (fs::path (settings_.output) / ("background." + settings_.format)).string (), origin);
   for (const ObjectResult& object : result.objects)
     for (const auto& [mesh, suffix] : {std::pair{&object.hull, "_hull"}, std::pair{&object.inner_bound, "_inner"},
                                        std::pair{&object.outer_bound, "_outer"}})
       if (!mesh->empty ())
-        save (*mesh, objectPath (object, settings_.format, only, suffix));
+        save (*mesh, objectPath (object, settings_.format, only, suffix), originOf (object));
   for (const ObjectResult& object : result.objects) // last: they are large, and the disk may be full
     if (settings_.save_sdf && object.error.empty () && object.signed_distance)
     {
       files.push_back (objectPath (object, "vti", only));
-      saveSignedDistance (*object.signed_distance, files.back ());
+      saveSignedDistance (*object.signed_distance, files.back (), originOf (object));
     }
   return (files);
 }

@@ -22,9 +22,10 @@ public:
    * \throws pcl::cosection::IoError */
   explicit OutputTarget (const Settings& settings);
 
-  /** \brief Write what succeeded. \return the files, in the order written
+  /** \brief Write what succeeded. \param[in] origin of the frame of the meshes, in the world \return the files, in the
+   * order written
    * \throws pcl::cosection::IoError */
-  std::vector<std::string> write (const pcl::cosection::SceneResult& result) const;
+  std::vector<std::string> write (const pcl::cosection::SceneResult& result, const Eigen::Vector3d& origin) const;
 
 private:
   /** \brief Whether a file of this name in the folder of the output may be written. */

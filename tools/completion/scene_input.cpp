@@ -149,6 +149,15 @@ readPoses (const std::map<int, std::string>& files, std::size_t views)
   return (T_world_object);
 }
 
+ObjectPoses
+relativeTo (const Eigen::Vector3d& origin, ObjectPoses poses)
+{
+  for (auto& [label, T_world_object] : poses)
+    for (Eigen::Isometry3d& pose : T_world_object)
+      pose.translation () -= origin;
+  return poses;
+}
+
 /** \brief Empty for an object that rests. */
 std::vector<Eigen::Isometry3d>
 posesOf (const ObjectPoses& poses, std::uint32_t label)
@@ -185,9 +194,9 @@ merge (const std::string& path, std::size_t index, LabelledView& view, const Obj
 }
 
 TriangleMesh
-readObstacle (const std::string& path, std::vector<std::string>& warnings)
+readObstacle (const std::string& path, const Eigen::Vector3d& origin, std::vector<std::string>& warnings)
 {
-  TriangleMesh mesh = loadMesh (path);
+  TriangleMesh mesh = loadMesh (path, origin);
   Eigen::AlignedBox3f box;
   for (const Eigen::Vector3f& v : mesh.vertices)
     box.extend (v);
@@ -220,14 +229,37 @@ optionsOf (std::size_t view, const Settings& settings, const Labels& labels)
   return (options);
 }
 
+/** \brief A warning of an object that extends about all the others, if there is no background: it may be that. */
+std::optional<std::string>
+objectLikeBackground (const SceneInput& scene)
+{
+  if (!scene.background.empty () || scene.objects.size () < 2)
+    return std::nullopt;
+  for (const auto& [id, object] : scene.objects)
+  {
+    std::vector<OrientedPoint> others;
+    for (const auto& [other_id, other] : scene.objects)
+      if (other_id != id)
+        others.insert (others.end (), other.points.begin (), other.points.end ());
+    if (extentOf (object.points).norm () > extentOf (others).norm ())
+      return "object " + std::to_string (id) + " extends farther than all others together; if it is the background, " +
+             "give --background " + std::to_string (id);
+  }
+  return std::nullopt;
+}
+
 } // namespace
+
+Eigen::Vector4d
+relativeTo (const Eigen::Vector3d& origin, const Eigen::Vector4d& plane)
+{
+  return {plane[0], plane[1], plane[2], plane[3] + plane.head<3> ().dot (origin)};
+}
 
 SceneInput
 readScene (const Settings& settings, const ProgressCallback& progress)
 {
   SceneInput scene;
-  for (const std::string& file : settings.obstacles)
-    scene.obstacles.push_back (readObstacle (file, scene.warnings));
   const std::size_t files = settings.inputs.size () + settings.free_space.size ();
   const ObjectPoses poses = readPoses (settings.object_trajectories, files);
   Labels labels;
@@ -236,7 +268,11 @@ readScene (const Settings& settings, const ProgressCallback& progress)
     if (!progress ("reading " + std::filesystem::path (path).filename ().string (),
                    static_cast<double> (begun) / static_cast<double> (files)))
       throw Cancelled ("interrupted");
-    LabelledView view = readPcdView (path, optionsOf (begun++, settings, labels));
+    PcdViewOptions options = optionsOf (begun++, settings, labels);
+    if (begun > 1)
+      options.origin = {scene.origin.x (), scene.origin.y (), scene.origin.z ()};
+    LabelledView view = readPcdView (path, options);
+    scene.origin = view.origin;
     std::move (view.warnings.begin (), view.warnings.end (), std::back_inserter (scene.warnings));
     return (view);
   };
@@ -246,7 +282,7 @@ readScene (const Settings& settings, const ProgressCallback& progress)
     if (isWholeImage (view))
       scene.warnings.push_back (path + ": has no field label, so all that it shows is taken as one object; " +
                                 "if it shows several, give them labels or cut one out");
-    merge (path, begun - 1, view, poses, labels, scene.warnings);
+    merge (path, begun - 1, view, relativeTo (scene.origin, poses), labels, scene.warnings);
     if (view.view)
       scene.views.push_back (std::move (*view.view));
     else if (!poses.empty ()) // they come one per view
@@ -260,6 +296,9 @@ readScene (const Settings& settings, const ProgressCallback& progress)
                              ": shows no free space: it is no image of a pinhole camera, nor seen from its VIEWPOINT");
     scene.free_space.push_back (std::move (*view.view));
   }
+  for (const std::string& file : settings.obstacles)
+    scene.obstacles.push_back (readObstacle (file, scene.origin, scene.warnings));
+  const ObjectPoses relative_poses = relativeTo (scene.origin, poses);
 
   for (auto& [label, object] : labels)
   {
@@ -272,7 +311,7 @@ readScene (const Settings& settings, const ProgressCallback& progress)
     {
       if (const auto warning = tooLong (label, object.points))
         scene.warnings.push_back (*warning);
-      scene.objects[id] = {id, std::move (object.points), posesOf (poses, label)};
+      scene.objects[id] = {id, std::move (object.points), posesOf (relative_poses, label)};
     }
   }
   if (scene.objects.empty ())
@@ -284,8 +323,9 @@ readScene (const Settings& settings, const ProgressCallback& progress)
       reason += ": " + scene.warnings.back ();
     throw DegenerateInput (reason);
   }
-  if (const auto warning = smallBackground (scene))
-    scene.warnings.push_back (*warning);
+  for (const auto& warning : {smallBackground (scene), objectLikeBackground (scene)})
+    if (warning)
+      scene.warnings.push_back (*warning);
   for (const auto& [label, file] : settings.object_trajectories)
     if (labels.count (static_cast<std::uint32_t> (label)) == 0)
       scene.warnings.push_back (file + ": is not used, there is no object " + std::to_string (label));

@@ -19,8 +19,12 @@ struct SceneInput
   std::vector<pcl::cosection::DepthView> views;        ///< of the INPUTs
   std::vector<pcl::cosection::DepthView> free_space;   ///< further views, of which nothing else is used
   std::vector<pcl::cosection::TriangleMesh> obstacles; ///< world frame
+  Eigen::Vector3d origin = Eigen::Vector3d::Zero ();   ///< of the frame of all this, in the world
   std::vector<std::string> warnings;
 };
+
+/** \brief A plane of the world in a frame with another origin. */
+Eigen::Vector4d relativeTo (const Eigen::Vector3d& origin, const Eigen::Vector4d& plane);
 
 /** \brief Read and merge the views; labels of too few points are dropped with a warning.
  * \throws pcl::cosection::Error also if no object is left, or if \a progress returns false */

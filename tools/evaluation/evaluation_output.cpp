@@ -60,6 +60,8 @@ toJson (const MeshSummary& summary)
   json["parts"] = summary.topology.components;
   json["area_m2"] = summary.area_m2;
   json["volume_m3"] = orNull (summary.volume_m3);
+  if (summary.point_spacing_m)
+    json["point_spacing_m"] = *summary.point_spacing_m;
   return (json);
 }
 

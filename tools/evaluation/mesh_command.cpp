@@ -8,7 +8,9 @@
 
 #include "pcl_cosection/evaluation/mesh_surface.h"
 #include "pcl_cosection/evaluation/pictures/error_picture.h"
+#include "pcl_cosection/evaluation/point_set.h"
 #include "pcl_cosection/evaluation/rigid_alignment.h"
+#include "pcl_cosection/io/cloud/surface_file.h"
 #include "pcl_cosection/rendering/picture.h"
 #include <pcl/cosection/common/error.h>
 #include <pcl/cosection/evaluation/mesh_comparison.h>
@@ -18,10 +20,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 using namespace pcl::cosection;
 
 namespace {
+
+constexpr std::size_t all_vertices = std::numeric_limits<std::size_t>::max ();
 
 const ProgramText&
 meshText ()
@@ -33,7 +38,11 @@ meshText ()
       "Compares a reconstructed mesh with the true one.",
       {"Accuracy is the mean distance of points of the reconstruction to the truth, completeness that of points of the "
        "truth to the reconstruction: points are uniform by area, distances exact. Both meshes are in one frame and in "
-       "metres: .ply, .stl, .obj, .off, .vtk or .vtp. They may be open; the volume is that of closed meshes."},
+       "metres: .ply, .stl, .obj, .off, .vtk or .vtp. They may be open; the volume is that of closed meshes.",
+       "Either may be a scan, points without faces in a .ply or .pcd file: then its points are compared as they are, "
+       "and "
+       "distances to it are those to its nearest point, no smaller than about half of their spacing, which is "
+       "printed."},
       {
           {"pcl_cosection_evaluate mesh truth.ply cup.ply", "the table on the terminal"},
           {"pcl_cosection_evaluate mesh --error-picture cup.png truth.ply cup.ply",
@@ -81,13 +90,22 @@ Refinement
 alignByIcp (const TriangleMesh& truth, int threads, TriangleMesh& reconstruction)
 {
   constexpr std::size_t points = 5000;
-  constexpr double search_share = 0.1; // of the true mesh's diagonal
+  constexpr double search_share = 0.1; // of the truth's diagonal
   RefinementOptions options;
   options.max_distance_m = search_share * summarizeMesh (truth).box.diagonal ().norm ();
   options.max_translation_m = options.max_distance_m;
   options.max_rotation_rad = 0.5;
   options.threads = threads;
-  const Refinement result = refineAlignment (sampleSurface (reconstruction, points), SurfaceDistance (truth), options);
+  Refinement result;
+  if (!isPointSet (truth))
+    result = refineAlignment (isPointSet (reconstruction) ? somePoints (reconstruction, points)
+                                                          : sampleSurface (reconstruction, points),
+                              SurfaceDistance (truth), options);
+  else // a plane at the nearest place is that of a triangle
+  {
+    result = refineAlignment (somePoints (truth, points), SurfaceDistance (reconstruction), options);
+    result.correction = result.correction.inverse ();
+  }
   reconstruction = transformMesh (std::move (reconstruction), result.correction);
   return (result);
 }
@@ -109,6 +127,7 @@ struct MeshReport
   std::optional<Refinement> refinement;
   Eigen::Isometry3d T_truth_reconstruction = Eigen::Isometry3d::Identity ();
   Surroundings surroundings;
+  Eigen::Vector3d origin = Eigen::Vector3d::Zero (); ///< of the coordinates of both
   std::vector<std::string> warnings, notes;
   double read_s = 0.0, compare_s = 0.0, total_s = 0.0;
 };
@@ -118,7 +137,11 @@ noteVolumes (MeshReport& report)
 {
   for (const auto& [name, summary] :
        {std::pair{"truth", &report.truth}, std::pair{"reconstruction", &report.reconstruction}})
-    if (!summary->volume_m3)
+    if (summary->point_spacing_m)
+      report.notes.push_back (
+          std::string ("the ") + name + " is a set of points, " + inMillimetres (*summary->point_spacing_m) +
+          " mm apart (median): distances to it are those to its nearest point, and it has no volume");
+    else if (!summary->volume_m3)
       report.notes.push_back (std::string ("the ") + name + " is " +
                               (summary->topology.boundary_edges > 0 ? "open" : "not a manifold") +
                               " and has no volume");
@@ -130,6 +153,9 @@ void
 print (const MeshSettings& settings, const MeshReport& report, Terminal& terminal)
 {
   const auto line = [&] (const std::string& name, const MeshSummary& summary) {
+    if (summary.point_spacing_m)
+      return terminal.result (name + std::to_string (summary.vertices) + " points, " +
+                              inMillimetres (*summary.point_spacing_m) + " mm apart");
     terminal.result (name + std::to_string (summary.triangles) + " triangles, " + describeTopology (summary.topology) +
                      (summary.volume_m3 ? ", " + inMillilitres (*summary.volume_m3) + " ml" : ""));
   };
@@ -215,11 +241,30 @@ writeErrors (const MeshSettings& settings, const MeshReport& report, const Trian
   }
   if (!settings.error_mesh.empty ())
   {
-    reconstruction.colours = errorColours (vertexDistances (reconstruction, SurfaceDistance (truth), settings.threads),
-                                           error_max_m);
-    saveMesh (reconstruction, settings.error_mesh);
+    const std::vector<double> distances = isPointSet (truth)
+                                              ? distancesToPoints (truth, somePoints (reconstruction, all_vertices), 1,
+                                                                   settings.threads)
+                                              : vertexDistances (reconstruction, SurfaceDistance (truth),
+                                                                 settings.threads);
+    reconstruction.colours = errorColours (distances, error_max_m);
+    saveMesh (reconstruction, settings.error_mesh, report.origin);
     terminal.result ("wrote " + settings.error_mesh + ", red at " + inMillimetres (error_max_m) + " mm");
   }
+}
+
+/** \brief Refuse what only meshes can show. */
+void
+requireMeshes (const MeshSettings& settings, const TriangleMesh& truth, const TriangleMesh& reconstruction)
+{
+  const bool any = isPointSet (truth) || isPointSet (reconstruction),
+             all = isPointSet (truth) && isPointSet (reconstruction);
+  const std::string reason = " needs meshes, and " + settings.paths[isPointSet (truth) ? 0 : 1] + " holds points alone";
+  if (any && !settings.error_picture.empty ())
+    throw UsageError ("--error-picture" + reason);
+  if (all && settings.align == "icp")
+    throw UsageError ("--align icp" + reason + ", as the other file does");
+  if (isPointSet (reconstruction) && (!settings.obstacles.empty () || !settings.error_mesh.empty ()))
+    throw UsageError (std::string (settings.error_mesh.empty () ? "--obstacle" : "--error-mesh") + reason);
 }
 
 bool
@@ -227,11 +272,16 @@ compare (const MeshSettings& settings, Terminal& terminal)
 {
   const pcl::StopWatch total;
   MeshReport report;
-  const TriangleMesh truth = loadMesh (settings.paths[0]);
-  TriangleMesh reconstruction = loadMesh (settings.paths[1]);
+  const SurfaceFile truth_file = loadSurface (settings.paths[0]);
+  const TriangleMesh& truth = truth_file.mesh;
+  report.origin = truth_file.origin;
+  SurfaceFile reconstruction_file = loadSurface (settings.paths[1]);
+  TriangleMesh& reconstruction = reconstruction_file.mesh;
+  requireMeshes (settings, truth, reconstruction);
   report.read_s = total.getTimeSeconds ();
 
-  report.T_truth_reconstruction = poseOf (settings.pose);
+  const Eigen::Translation3d truth_origin (report.origin), reconstruction_origin (reconstruction_file.origin);
+  report.T_truth_reconstruction = truth_origin.inverse () * poseOf (settings.pose) * reconstruction_origin;
   reconstruction = transformMesh (std::move (reconstruction), report.T_truth_reconstruction);
   report.warnings = frameWarnings (summarizeMesh (truth), summarizeMesh (reconstruction));
   if (settings.align == "icp")
@@ -242,6 +292,7 @@ compare (const MeshSettings& settings, Terminal& terminal)
       report.warnings.emplace_back (
           "icp wants to move the reconstruction farther than is allowed: give a better --pose");
   }
+  report.T_truth_reconstruction = truth_origin * report.T_truth_reconstruction * reconstruction_origin.inverse ();
   report.truth = summarizeMesh (truth);
   report.reconstruction = summarizeMesh (reconstruction);
   noteVolumes (report);
@@ -249,7 +300,7 @@ compare (const MeshSettings& settings, Terminal& terminal)
   const pcl::StopWatch comparing;
   report.comparison = compareMeshes (truth, reconstruction, settings.comparison (settings.threads));
   report.compare_s = comparing.getTimeSeconds ();
-  report.surroundings = measureSurroundings (settings, reconstruction, report.warnings);
+  report.surroundings = measureSurroundings (settings, report.origin, reconstruction, report.warnings);
 
   for (const std::string& warning : report.warnings)
     terminal.warning (warning);

@@ -14,7 +14,8 @@ using namespace pcl::cosection;
 namespace {
 
 std::vector<Surroundings::Obstacle>
-measureObstacles (const MeshSettings& settings, const TriangleMesh& reconstruction, std::vector<std::string>& warnings)
+measureObstacles (const MeshSettings& settings, const Eigen::Vector3d& origin, const TriangleMesh& reconstruction,
+                  std::vector<std::string>& warnings)
 {
   std::vector<Surroundings::Obstacle> obstacles;
   if (settings.obstacles.empty ())
@@ -26,7 +27,7 @@ measureObstacles (const MeshSettings& settings, const TriangleMesh& reconstructi
   const PenetrationBody body (reconstruction, options);
   for (const std::string& file : settings.obstacles)
   {
-    const PenetrationBody obstacle (loadMesh (file), options);
+    const PenetrationBody obstacle (loadMesh (file, origin), options);
     Surroundings::Obstacle result;
     result.file = file;
     result.is_open = obstacle.isOpen ();
@@ -41,11 +42,13 @@ measureObstacles (const MeshSettings& settings, const TriangleMesh& reconstructi
 }
 
 FreeSpaceViolation
-measureFreeSpace (const MeshSettings& settings, const TriangleMesh& reconstruction, std::vector<std::string>& warnings)
+measureFreeSpace (const MeshSettings& settings, const Eigen::Vector3d& origin, const TriangleMesh& reconstruction,
+                  std::vector<std::string>& warnings)
 {
   std::vector<DepthView> views;
   PcdViewOptions options;
   options.threads = settings.threads;
+  options.origin = {origin.x (), origin.y (), origin.z ()};
   for (const std::string& file : settings.views)
   {
     LabelledView view = readPcdView (file, options);
@@ -74,13 +77,13 @@ Surroundings::penetration_m () const
 }
 
 Surroundings
-measureSurroundings (const MeshSettings& settings, const TriangleMesh& reconstruction,
+measureSurroundings (const MeshSettings& settings, const Eigen::Vector3d& origin, const TriangleMesh& reconstruction,
                      std::vector<std::string>& warnings)
 {
   Surroundings surroundings;
-  surroundings.obstacles = measureObstacles (settings, reconstruction, warnings);
+  surroundings.obstacles = measureObstacles (settings, origin, reconstruction, warnings);
   if (!settings.views.empty ())
-    surroundings.free_space = measureFreeSpace (settings, reconstruction, warnings);
+    surroundings.free_space = measureFreeSpace (settings, origin, reconstruction, warnings);
   return (surroundings);
 }
 

@@ -28,8 +28,10 @@ struct Surroundings
   double penetration_m () const;
 };
 
-/** \brief Read obstacles and views, and measure them. \throws pcl::cosection::Error */
-Surroundings measureSurroundings (const MeshSettings& settings, const pcl::cosection::TriangleMesh& reconstruction,
+/** \brief Read obstacles and views, and measure them.
+ * \param[in] origin of the reconstruction \throws pcl::cosection::Error */
+Surroundings measureSurroundings (const MeshSettings& settings, const Eigen::Vector3d& origin,
+                                  const pcl::cosection::TriangleMesh& reconstruction,
                                   std::vector<std::string>& warnings);
 
 void print (const Surroundings& surroundings, Terminal& terminal);

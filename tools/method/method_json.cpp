@@ -54,7 +54,7 @@ solverJson (const SolverSummary& solver)
 }
 
 Json
-objectJson (const ObjectResult& object)
+objectJson (const ObjectResult& object, const Eigen::Vector3d& origin)
 {
   const MeshTopology topology = computeTopology (object.mesh);
   const MassProperties mass = computeMassProperties (object.mesh);
@@ -71,7 +71,7 @@ objectJson (const ObjectResult& object)
   result["closed"] = topology.closed_manifold;
   result["euler"] = topology.euler;
   result["volume_m3"] = mass.volume_m3;
-  result["centroid_m"] = toJson (mass.centroid_m);
+  result["centroid_m"] = toJson (mass.centroid_m + origin);
   result["inertia"] = Json::array (
       {toJson (mass.inertia.row (0)), toJson (mass.inertia.row (1)), toJson (mass.inertia.row (2))});
   result["provenance"] = provenanceShares (object.mesh);
@@ -80,7 +80,10 @@ objectJson (const ObjectResult& object)
   result["outlier_points"] = object.outlier_points;
   result["contradicted_share"] = object.contradicted_share;
   if (object.guessed_plane)
-    result["guessed_plane"] = std::vector<double> (object.guessed_plane->data (), object.guessed_plane->data () + 4);
+  {
+    const Eigen::Vector4d& plane = *object.guessed_plane;
+    result["guessed_plane"] = {plane[0], plane[1], plane[2], plane[3] - plane.head<3> ().dot (origin)};
+  }
   result["solver"] = solverJson (object.solver);
   return (result);
 }

@@ -10,8 +10,9 @@
 
 nlohmann::ordered_json solverJson (const pcl::cosection::SolverSummary& solver);
 
-/** \brief A completed object in a summary for programs. */
-nlohmann::ordered_json objectJson (const pcl::cosection::ObjectResult& object);
+/** \brief A completed object in a summary for programs. \param[in] origin of the frame of its mesh */
+nlohmann::ordered_json objectJson (const pcl::cosection::ObjectResult& object,
+                                   const Eigen::Vector3d& origin = Eigen::Vector3d::Zero ());
 
 /** \brief Add the parameters of the method. */
 void addMethod (const pcl::cosection::CoSectionOptions& method, nlohmann::ordered_json& parameters);

@@ -1,15 +1,12 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
-#include "pcd_file.h"
+#include "cloud_decoders.h"
 
 #include <pcl/cosection/common/error.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <cmath>
 #include <cstdlib>
-#include <cstring>
-#include <filesystem>
-#include <fstream>
+#include <istream>
 #include <iterator>
 #include <set>
 #include <sstream>
@@ -17,11 +14,13 @@
 namespace pcl::cosection {
 namespace {
 
-constexpr std::size_t max_header_bytes = 1 << 16;
 constexpr std::size_t max_elements = 1 << 12; ///< in one field; descriptors have some hundreds
 constexpr std::uint64_t max_points = 0x7fffffff;
 constexpr double max_viewpoint = 1e15;       ///< in any unit; beyond it sums of squares overflow a float
 constexpr std::uint64_t max_lzf_ratio = 264; ///< longest match of LZF; bounds what a compressed block can hold
+
+const std::string unknown_format = "is neither a PCD nor a PLY file; convert it to one of them, for example with "
+                                   "CloudCompare or MeshLab";
 
 using Tokens = std::vector<std::string>;
 
@@ -54,7 +53,7 @@ class HeaderParser
 public:
   explicit HeaderParser (const std::string& path) : path_ (path) {}
 
-  PcdHeader parse (const std::string& text)
+  CloudHeader parse (const std::string& text)
   {
     for (std::size_t begin = 0, end = text.find ('\n'); end != text.npos; end = text.find ('\n', begin))
     {
@@ -70,7 +69,7 @@ public:
         return (header_);
       }
     }
-    fail (path_, known_lines_ == 0 ? "is not a PCD file" : "the PCD header has no DATA line");
+    fail (path_, known_lines_ == 0 ? unknown_format : "the PCD header has no DATA line");
   }
 
 private:
@@ -85,12 +84,12 @@ private:
       for (std::size_t i = 1; i < tokens.size (); ++i)
         header_.fields.push_back ({tokens[i], 0, 0, 1});
     else if (key == "SIZE")
-      perField (tokens, [&] (PcdField& f, const std::string& t) { f.size = parseCount (path_, key, t, 8); });
+      perField (tokens, [&] (CloudField& f, const std::string& t) { f.size = parseCount (path_, key, t, 8); });
     else if (key == "TYPE")
-      perField (tokens, [] (PcdField& f, const std::string& t) { f.type = t[0]; });
+      perField (tokens, [] (CloudField& f, const std::string& t) { f.type = t[0]; });
     else if (key == "COUNT")
       perField (tokens,
-                [&] (PcdField& f, const std::string& t) { f.count = parseCount (path_, key, t, max_elements); });
+                [&] (CloudField& f, const std::string& t) { f.count = parseCount (path_, key, t, max_elements); });
     else if (key == "WIDTH" || key == "HEIGHT" || key == "POINTS")
     {
       if (tokens.size () != 2)
@@ -105,7 +104,7 @@ private:
       parseEncoding (tokens);
     else
       fail (path_,
-            known_lines_ == 0 ? "is not a PCD file" : "the PCD header has an unknown line \"" + printable (key) + "\"");
+            known_lines_ == 0 ? unknown_format : "the PCD header has an unknown line \"" + printable (key) + "\"");
     ++known_lines_;
   }
 
@@ -137,11 +136,11 @@ private:
   {
     const std::string name = tokens.size () == 2 ? tokens[1] : "";
     if (name == "ascii")
-      header_.encoding = PcdEncoding::Ascii;
+      header_.encoding = CloudEncoding::Ascii;
     else if (name == "binary")
-      header_.encoding = PcdEncoding::Binary;
+      header_.encoding = CloudEncoding::Binary;
     else if (name == "binary_compressed")
-      header_.encoding = PcdEncoding::BinaryCompressed;
+      header_.encoding = CloudEncoding::BinaryCompressed;
     else
       fail (path_, "DATA is \"" + printable (name) + "\", it must be ascii, binary or binary_compressed");
   }
@@ -150,7 +149,7 @@ private:
   {
     if (header_.fields.empty ())
       fail (path_, "the PCD header has no FIELDS");
-    for (const PcdField& field : header_.fields)
+    for (const CloudField& field : header_.fields)
     {
       const bool integer = field.type == 'I' || field.type == 'U';
       const bool good = (integer && (field.size == 1 || field.size == 2)) ||
@@ -171,7 +170,7 @@ private:
   }
 
   const std::string path_;
-  PcdHeader header_;
+  CloudHeader header_;
   int known_lines_ = 0;
   std::set<std::string> seen_;
 };
@@ -184,7 +183,7 @@ failTruncated (const std::string& path, std::uint64_t needed, std::uint64_t foun
 }
 
 void
-checkCompressed (const std::string& path, const PcdHeader& header, std::istream& file, std::uint64_t found)
+checkCompressed (const std::string& path, const CloudHeader& header, std::istream& file, std::uint64_t found)
 {
   std::array<std::uint32_t, 2> sizes{}; // compressed, uncompressed
   file.seekg (static_cast<std::streamoff> (header.data_offset));
@@ -192,75 +191,27 @@ checkCompressed (const std::string& path, const PcdHeader& header, std::istream&
     failTruncated (path, sizeof (sizes), found);
   if (sizes[0] > found - sizeof (sizes))
     failTruncated (path, sizes[0], found - sizeof (sizes));
-  if (sizes[1] != header.points * header.pointBytes (PcdPadding::Excluded) || sizes[1] > sizes[0] * max_lzf_ratio)
+  if (sizes[1] != header.points * header.pointBytes (CloudPadding::Excluded) || sizes[1] > sizes[0] * max_lzf_ratio)
     fail (path, "its compressed points do not have the size that its header announces");
 }
 
 } // namespace
 
-const PcdField*
-PcdHeader::find (const std::string& name) const
+CloudHeader
+parsePcdHeader (const std::string& path, const std::string& text, std::istream& file, std::uint64_t size)
 {
-  const auto found = std::find_if (fields.begin (), fields.end (),
-                                   [&] (const PcdField& f) { return (f.name == name); });
-  return (found == fields.end () ? nullptr : &*found);
-}
-
-std::uint64_t
-PcdHeader::pointBytes (PcdPadding padding) const
-{
-  std::uint64_t bytes = 0;
-  for (const PcdField& field : fields)
-    if (padding == PcdPadding::Included || !field.isPadding ())
-      bytes += field.size * field.count;
-  return (bytes);
-}
-
-std::string
-printable (const std::string& text)
-{
-  std::string result;
-  for (const char c : text.substr (0, 24))
-    result += (c >= ' ' && c <= '~') ? c : '?';
-  return (result);
-}
-
-PcdHeader
-readPcdHeader (const std::string& path)
-{
-  std::error_code failure;
-  const auto status = std::filesystem::status (path, failure);
-  if (status.type () == std::filesystem::file_type::not_found)
-    fail (path, "no such file");
-  if (std::filesystem::is_directory (status))
-    fail (path, "is a directory, not a PCD file");
-  if (failure || !std::filesystem::is_regular_file (status))
-    fail (path, "is not a regular file");
-  std::ifstream file (path, std::ios::binary);
-  if (!file)
-    fail (path, std::string ("cannot be read: ") + std::strerror (errno));
-  const std::uint64_t size = std::filesystem::file_size (path, failure);
-  if (failure)
-    fail (path, "cannot be read: " + failure.message ());
-  if (size == 0)
-    fail (path, "is empty, not a PCD file");
-
-  std::string text (std::min<std::uint64_t> (size, max_header_bytes), '\0');
-  if (!file.read (&text[0], static_cast<std::streamsize> (text.size ())))
-    fail (path, "cannot be read");
-  PcdHeader header = HeaderParser (path).parse (text);
-
+  CloudHeader header = HeaderParser (path).parse (text);
   const std::uint64_t found = size - header.data_offset;
   std::uint64_t shortest = header.points * header.pointBytes ();
-  if (header.encoding == PcdEncoding::Ascii)
+  if (header.encoding == CloudEncoding::Ascii)
   {
     std::uint64_t values = 0;
-    for (const PcdField& field : header.fields)
+    for (const CloudField& field : header.fields)
       values += field.count;
     shortest = 2 * values * header.points - 1; // a digit and a separator each
   }
   file.clear ();
-  if (header.encoding == PcdEncoding::BinaryCompressed)
+  if (header.encoding == CloudEncoding::BinaryCompressed)
     checkCompressed (path, header, file, found);
   else if (found < shortest)
     failTruncated (path, shortest, found);

@@ -1,5 +1,5 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
-#include "pcd_file.h"
+#include "cloud_decoders.h"
 
 #include <pcl/cosection/common/error.h>
 
@@ -15,28 +15,6 @@
 namespace pcl::cosection {
 namespace {
 
-/** \brief A cloud with the fields of the header and zeros for the points. */
-PCLPointCloud2
-emptyCloud (const PcdHeader& header, PcdPadding padding)
-{
-  PCLPointCloud2 cloud;
-  std::uint32_t offset = 0;
-  for (const PcdField& field : header.fields)
-  {
-    if (padding == PcdPadding::Excluded && field.isPadding ())
-      continue;
-    PCLPointField described;
-    described.name = field.name;
-    described.offset = offset;
-    described.count = static_cast<std::uint32_t> (field.count);
-    cloud.fields.push_back (described);
-    offset += static_cast<std::uint32_t> (field.size * field.count);
-  }
-  cloud.point_step = offset;
-  cloud.data.resize (header.points * offset);
-  return (cloud);
-}
-
 void
 readBytes (const std::string& path, std::istream& file, void* bytes, std::size_t size)
 {
@@ -46,9 +24,9 @@ readBytes (const std::string& path, std::istream& file, void* bytes, std::size_t
 
 /** \brief Field after field instead of point after point, compressed by LZF. */
 PCLPointCloud2
-readCompressed (const std::string& path, const PcdHeader& header, std::istream& file)
+readCompressed (const std::string& path, const CloudHeader& header, std::istream& file)
 {
-  PCLPointCloud2 cloud = emptyCloud (header, PcdPadding::Excluded);
+  PCLPointCloud2 cloud = emptyCloud (header, CloudPadding::Excluded);
   std::array<std::uint32_t, 2> sizes{}; // compressed, uncompressed
   readBytes (path, file, sizes.data (), sizeof (sizes));
   std::vector<char> packed (sizes[0]), columns (cloud.data.size ());
@@ -58,7 +36,7 @@ readCompressed (const std::string& path, const PcdHeader& header, std::istream& 
     throw IoError (path + ": its points cannot be decoded; the file is damaged");
   const char* source = columns.data ();
   std::size_t offset = 0;
-  for (const PcdField& field : header.fields)
+  for (const CloudField& field : header.fields)
   {
     if (field.isPadding ())
       continue;
@@ -70,63 +48,20 @@ readCompressed (const std::string& path, const PcdHeader& header, std::istream& 
   return (cloud);
 }
 
-template <typename T>
-bool
-store (double value, std::uint8_t* target)
-{
-  T typed = 0;
-  if constexpr (std::numeric_limits<T>::is_integer)
-  {
-    const double rounded = std::isnan (value) ? 0.0 : std::trunc (value);
-    const double end = std::ldexp (1.0, std::numeric_limits<T>::digits); // one more than the largest
-    if (!(rounded < end && rounded >= (std::numeric_limits<T>::is_signed ? -end : 0.0)))
-      return (false);
-    typed = static_cast<T> (rounded);
-  }
-  else if (std::abs (value) > std::numeric_limits<T>::max ())
-    typed = static_cast<T> (std::copysign (std::numeric_limits<T>::infinity (), value));
-  else
-    typed = static_cast<T> (value);
-  std::memcpy (target, &typed, sizeof (T));
-  return (true);
-}
-
-using Store = bool (*) (double, std::uint8_t*);
-
-/** \brief A function that writes a number as an element of \a field and returns whether the number fits. */
-Store
-storeFor (const PcdField& field)
-{
-  const bool is_signed = field.type == 'I';
-  if (field.type == 'F')
-    return (field.size == 4 ? store<float> : store<double>);
-  switch (field.size)
-  {
-  case 1:
-    return (is_signed ? store<std::int8_t> : store<std::uint8_t>);
-  case 2:
-    return (is_signed ? store<std::int16_t> : store<std::uint16_t>);
-  case 4:
-    return (is_signed ? store<std::int32_t> : store<std::uint32_t>);
-  default:
-    return (is_signed ? store<std::int64_t> : store<std::uint64_t>);
-  }
-}
-
 /** \brief One number of a point: where it goes. */
 struct Element
 {
-  const PcdField* field;
-  Store store;
+  const CloudField* field;
+  StoreNumber store;
   std::size_t offset;
 };
 
 std::vector<Element>
-elementsOf (const PcdHeader& header)
+elementsOf (const CloudHeader& header)
 {
   std::vector<Element> elements;
   std::size_t offset = 0;
-  for (const PcdField& field : header.fields)
+  for (const CloudField& field : header.fields)
     for (std::size_t n = 0; n < field.count; ++n, offset += field.size)
       elements.push_back ({&field, storeFor (field), offset});
   return (elements);
@@ -136,10 +71,10 @@ elementsOf (const PcdHeader& header)
 class AsciiDecoder
 {
 public:
-  AsciiDecoder (const std::string& path, const PcdHeader& header)
+  AsciiDecoder (const std::string& path, const CloudHeader& header)
       : path_ (path)
       , elements_ (elementsOf (header))
-      , cloud_ (emptyCloud (header, PcdPadding::Included))
+      , cloud_ (emptyCloud (header, CloudPadding::Included))
   {}
 
   PCLPointCloud2 decode (std::istream& file, std::size_t points)
@@ -214,17 +149,17 @@ private:
 } // namespace
 
 PCLPointCloud2
-readPcdPoints (const std::string& path, const PcdHeader& header)
+readPcdPoints (const std::string& path, const CloudHeader& header)
 {
   std::ifstream file (path, std::ios::binary);
   file.seekg (static_cast<std::streamoff> (header.data_offset));
   if (!file)
     throw IoError (path + ": cannot be read");
-  if (header.encoding == PcdEncoding::Ascii)
+  if (header.encoding == CloudEncoding::Ascii)
     return (AsciiDecoder (path, header).decode (file, header.points));
-  if (header.encoding == PcdEncoding::BinaryCompressed)
+  if (header.encoding == CloudEncoding::BinaryCompressed)
     return (readCompressed (path, header, file));
-  PCLPointCloud2 cloud = emptyCloud (header, PcdPadding::Included);
+  PCLPointCloud2 cloud = emptyCloud (header, CloudPadding::Included);
   readBytes (path, file, cloud.data.data (), cloud.data.size ());
   return (cloud);
 }

@@ -12,7 +12,7 @@ namespace pcl::cosection {
 /** \brief Polygons as files have them, unchecked: any number of corners, indices that may not exist. */
 struct PolygonSoup
 {
-  std::vector<Eigen::Vector3f> points;
+  std::vector<Eigen::Vector3d> points;
   std::vector<std::int64_t> corners; ///< indices of points, those of one polygon behind those of another
   std::vector<std::size_t> ends;     ///< where each polygon ends in \a corners
 
@@ -40,8 +40,8 @@ struct PolygonSoup
 
 /** \brief The mesh of a PLY file that saveMesh () wrote, or of another one of triangles: text or either byte order,
  * properties and indices of any type; properties that it does not know are skipped.
- * All decoders throw IoError, whose message is only the reason. */
-TriangleMesh decodePly (const std::string& bytes);
+ * All decoders throw IoError, whose message is only the reason. \param[in] origin is subtracted from the vertices */
+TriangleMesh decodePly (const std::string& bytes, const Eigen::Vector3d& origin);
 
 /** \brief Faces of a PLY file, ASCII or binary of either byte order: polygons and triangle strips. */
 PolygonSoup decodePlyPolygons (const std::string& bytes);

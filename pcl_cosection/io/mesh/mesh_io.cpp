@@ -38,12 +38,14 @@ appendValue (std::string& bytes, const std::vector<T>& values, std::size_t index
 
 /** \brief Binary little-endian PLY with all vertex properties of the mesh. */
 std::string
-encodePly (const TriangleMesh& mesh)
+encodePly (const TriangleMesh& mesh, const Eigen::Vector3d& origin)
 {
+  const bool in_doubles = !origin.isZero (0.0);
+  const std::string real = in_doubles ? "double" : "float";
   std::ostringstream header;
   header.imbue (std::locale::classic ());
-  header << "ply\nformat binary_little_endian 1.0\nelement vertex " << mesh.vertices.size ()
-         << "\nproperty float x\nproperty float y\nproperty float z\n";
+  header << "ply\nformat binary_little_endian 1.0\nelement vertex " << mesh.vertices.size () << "\nproperty " << real
+         << " x\nproperty " << real << " y\nproperty " << real << " z\n";
   if (!mesh.normals.empty ())
     header << "property float nx\nproperty float ny\nproperty float nz\n";
   if (!mesh.colours.empty ())
@@ -62,7 +64,10 @@ encodePly (const TriangleMesh& mesh)
   bytes.reserve (bytes.size () + mesh.vertices.size () * 32 + mesh.triangles.size () * 13);
   for (std::size_t v = 0; v < mesh.vertices.size (); ++v)
   {
-    appendValue (bytes, mesh.vertices, v);
+    if (const Eigen::Vector3d p = mesh.vertices[v].cast<double> () + origin; in_doubles)
+      bytes.append (reinterpret_cast<const char*> (p.data ()), sizeof (p));
+    else
+      appendValue (bytes, mesh.vertices, v);
     appendValue (bytes, mesh.normals, v);
     appendValue (bytes, mesh.colours, v);
     appendValue (bytes, mesh.intensity, v);
@@ -81,7 +86,7 @@ encodePly (const TriangleMesh& mesh)
 /** \brief Binary STL: 80 bytes of title, the number of triangles, and for each one its normal, its
  * corners and two unused bytes. */
 std::string
-encodeStl (const TriangleMesh& mesh)
+encodeStl (const TriangleMesh& mesh, const Eigen::Vector3d& /*origin*/)
 {
   constexpr std::size_t header_size = 84;
   constexpr std::size_t triangle_size = 50;
@@ -115,27 +120,30 @@ appendNumber (std::string& text, T value)
   text.append (digits.data (), result.ptr);
 }
 
+template <typename Vector>
 void
-appendVectors (std::string& text, const char* keyword, const std::vector<Eigen::Vector3f>& vectors)
+appendVector (std::string& text, const char* keyword, const Vector& v)
 {
-  for (const auto& v : vectors)
+  text += keyword;
+  for (int axis = 0; axis < 3; ++axis)
   {
-    text += keyword;
-    for (int axis = 0; axis < 3; ++axis)
-    {
-      text += ' ';
-      appendNumber (text, v[axis]);
-    }
-    text += '\n';
+    text += ' ';
+    appendNumber (text, v[axis]);
   }
+  text += '\n';
 }
 
 std::string
-encodeObj (const TriangleMesh& mesh)
+encodeObj (const TriangleMesh& mesh, const Eigen::Vector3d& origin)
 {
   std::string text = "# metres\n";
-  appendVectors (text, "v", mesh.vertices);
-  appendVectors (text, "vn", mesh.normals);
+  for (const Eigen::Vector3f& v : mesh.vertices)
+    if (origin.isZero (0.0))
+      appendVector (text, "v", v);
+    else
+      appendVector (text, "v", (v.cast<double> () + origin).eval ());
+  for (const Eigen::Vector3f& normal : mesh.normals)
+    appendVector (text, "vn", normal);
   for (const auto& triangle : mesh.triangles)
   {
     text += 'f';
@@ -154,7 +162,7 @@ encodeObj (const TriangleMesh& mesh)
   return text;
 }
 
-using Encoder = std::string (*) (const TriangleMesh&);
+using Encoder = std::string (*) (const TriangleMesh&, const Eigen::Vector3d& origin);
 
 Encoder
 encoderFor (const std::string& path)
@@ -183,17 +191,17 @@ addArray (vtkImageData& image, const char* name, const std::vector<T>& values)
 } // namespace
 
 void
-saveMesh (const TriangleMesh& mesh, const std::string& path)
+saveMesh (const TriangleMesh& mesh, const std::string& path, const Eigen::Vector3d& origin)
 {
   const Encoder encode = encoderFor (path);
   checkMesh (mesh);
   if (mesh.vertices.size () > std::numeric_limits<std::int32_t>::max ())
     throw InvalidArgument ("cannot write '" + path + "': too many vertices for the format's 32-bit indices");
-  writeAtomically (path, [&] (const std::string& temporary) { writeBytes (temporary, encode (mesh)); });
+  writeAtomically (path, [&] (const std::string& temporary) { writeBytes (temporary, encode (mesh, origin)); });
 }
 
 void
-saveSignedDistance (const SignedDistanceField& field, const std::string& path)
+saveSignedDistance (const SignedDistanceField& field, const std::string& path, const Eigen::Vector3d& origin)
 {
   const VoxelGrid& grid = field.grid;
   if (grid.dims.minCoeff () < 1 || field.values.size () != grid.size () ||
@@ -203,7 +211,8 @@ saveSignedDistance (const SignedDistanceField& field, const std::string& path)
   vtkNew<vtkImageData> image;
   image->SetDimensions (grid.dims.x (), grid.dims.y (), grid.dims.z ());
   image->SetSpacing (grid.voxel_size_m, grid.voxel_size_m, grid.voxel_size_m);
-  image->SetOrigin (grid.origin_m.x (), grid.origin_m.y (), grid.origin_m.z ());
+  const Eigen::Vector3d first = grid.origin_m + origin;
+  image->SetOrigin (first.x (), first.y (), first.z ());
   addArray<vtkFloatArray> (*image, "signed_distance", field.values);
   if (!field.supported.empty ())
     addArray<vtkUnsignedCharArray> (*image, "supported", field.supported);

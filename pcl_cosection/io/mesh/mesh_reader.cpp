@@ -3,6 +3,7 @@
 
 #include "mesh_decoders.h"
 #include "pcl_cosection/common/files.h"
+#include "pcl_cosection/common/round_origin.h"
 #include "pcl_cosection/io/lower_case.h"
 #include "pcl_cosection/io/text_scanner.h"
 #include "pcl_cosection/mesh/mesh_cleaning.h"
@@ -15,6 +16,9 @@
 #include <vtkPoints.h>
 #include <vtkPolygon.h>
 
+#include <Eigen/Geometry>
+
+#include <cmath>
 #include <limits>
 
 namespace pcl::cosection {
@@ -77,7 +81,7 @@ check (const PolygonSoup& soup)
   {
     if (corner < 0 || corner >= count)
       throw IoError ("a face refers to a vertex that does not exist");
-    if (!soup.points[static_cast<std::size_t> (corner)].allFinite ())
+    if (!soup.points[static_cast<std::size_t> (corner)].cast<float> ().allFinite ())
       throw IoError ("vertex " + std::to_string (corner) + " (from 0) is not finite");
   }
 }
@@ -97,7 +101,7 @@ addTriangles (const PolygonSoup& soup, std::size_t begin, std::size_t end, vtkPo
   scratch.GetPointIds ()->SetNumberOfIds (static_cast<vtkIdType> (size));
   for (std::size_t n = 0; n < size; ++n)
   {
-    const Eigen::Vector3d p = soup.points[corner (n)].cast<double> ();
+    const Eigen::Vector3d& p = soup.points[corner (n)];
     scratch.GetPoints ()->SetPoint (static_cast<vtkIdType> (n), p.data ());
     scratch.GetPointIds ()->SetId (static_cast<vtkIdType> (n), static_cast<vtkIdType> (n));
   }
@@ -117,11 +121,13 @@ addTriangles (const PolygonSoup& soup, std::size_t begin, std::size_t end, vtkPo
  * (cleanMesh ()), and triangles are turned to agree and face outward (orientTriangles ()).
  * \throws IoError, whose message is only the reason */
 TriangleMesh
-makeMesh (const PolygonSoup& soup)
+makeMesh (const PolygonSoup& soup, const Eigen::Vector3d& origin)
 {
   check (soup);
   TriangleMesh mesh;
-  mesh.vertices = soup.points;
+  mesh.vertices.reserve (soup.points.size ());
+  for (const Eigen::Vector3d& point : soup.points)
+    mesh.vertices.push_back ((point - origin).cast<float> ());
   mesh.triangles.reserve (soup.ends.size ());
   vtkNew<vtkPolygon> scratch;
   for (std::size_t n = 0; n < soup.ends.size (); ++n)
@@ -137,7 +143,7 @@ makeMesh (const PolygonSoup& soup)
 
 /** \brief Calls decode (bytes) with the bytes of a file, and names the file in its errors. */
 template <typename Decode>
-TriangleMesh
+auto
 load (const std::string& path, Decode&& decode)
 {
   const std::string bytes = readBytes (path);
@@ -154,15 +160,33 @@ load (const std::string& path, Decode&& decode)
 } // namespace
 
 TriangleMesh
-loadMesh (const std::string& path)
+loadMesh (const std::string& path, const Eigen::Vector3d& origin)
 {
-  return load (path, [&] (const std::string& bytes) { return makeMesh (decode (bytes, lowerCaseExtension (path))); });
+  return load (path,
+               [&] (const std::string& bytes) { return makeMesh (decode (bytes, lowerCaseExtension (path)), origin); });
+}
+
+Eigen::Vector3d
+localOrigin (const std::string& path)
+{
+  const PolygonSoup soup = load (path,
+                                 [&] (const std::string& bytes) { return decode (bytes, lowerCaseExtension (path)); });
+  Eigen::AlignedBox3d box;
+  for (const Eigen::Vector3d& point : soup.points)
+    if (point.allFinite ())
+      box.extend (point);
+  if (box.isEmpty () || !(box.sizes ().maxCoeff () > 0.0))
+    return Eigen::Vector3d::Zero ();
+  const double longest = box.sizes ().maxCoeff ();
+  const double spacing = longest / std::sqrt (static_cast<double> (soup.points.size ()));
+  return needsLocalOrigin (box.center (), longest, spacing) ? roundOrigin (box.center (), longest)
+                                                            : Eigen::Vector3d::Zero ();
 }
 
 TriangleMesh
-loadPlyMesh (const std::string& path)
+loadPlyMesh (const std::string& path, const Eigen::Vector3d& origin)
 {
-  return load (path, decodePly);
+  return load (path, [&] (const std::string& bytes) { return decodePly (bytes, origin); });
 }
 
 } // namespace pcl::cosection

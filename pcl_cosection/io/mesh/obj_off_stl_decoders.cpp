@@ -16,12 +16,12 @@ namespace pcl::cosection {
 namespace {
 
 /** \brief The next three words as coordinates. */
-Eigen::Vector3f
+Eigen::Vector3d
 nextPoint (TextScanner& words)
 {
-  Eigen::Vector3f p;
+  Eigen::Vector3d p;
   for (int axis = 0; axis < 3; ++axis)
-    p[axis] = static_cast<float> (toReal (words.word ()));
+    p[axis] = toReal (words.word ());
   return p;
 }
 
@@ -154,7 +154,9 @@ decodeStlBinary (const std::string& bytes)
   for (std::size_t n = 0; n < soup.points.size (); ++n)
   {
     const std::size_t place = stl_header_size + stl_triangle_size * (n / 3) + sizeof (float) * 3 * (1 + n % 3);
-    std::memcpy (soup.points[n].data (), bytes.data () + place, 3 * sizeof (float));
+    Eigen::Vector3f point;
+    std::memcpy (point.data (), bytes.data () + place, 3 * sizeof (float));
+    soup.points[n] = point.cast<double> ();
     soup.corners.push_back (static_cast<std::int64_t> (n));
     if (n % 3 == 2)
       soup.endPolygon ();

@@ -4,6 +4,7 @@
 // takes as much memory as a header claims.
 
 #include "mesh_decoders.h"
+#include "ply_header.h"
 #include "value_reader.h"
 
 #include <pcl/cosection/common/error.h>
@@ -11,128 +12,9 @@
 #include <algorithm>
 #include <array>
 #include <functional>
-#include <optional>
-#include <sstream>
 
 namespace pcl::cosection {
 namespace {
-
-struct PlyProperty
-{
-  std::string name;
-  ScalarType type = ScalarType::Float32;
-  std::optional<ScalarType> count_type; ///< of lists
-};
-
-struct PlyElement
-{
-  std::string name;
-  std::uint64_t count = 0;
-  std::vector<PlyProperty> properties;
-};
-
-struct PlyHeader
-{
-  Encoding encoding = Encoding::Ascii;
-  std::vector<PlyElement> elements;
-};
-
-ScalarType
-scalarType (const std::string& name)
-{
-  static constexpr std::pair<const char*, ScalarType> names[] = {
-      {"char", ScalarType::Int8},      {"int8", ScalarType::Int8},       {"uchar", ScalarType::UInt8},
-      {"uint8", ScalarType::UInt8},    {"short", ScalarType::Int16},     {"int16", ScalarType::Int16},
-      {"ushort", ScalarType::UInt16},  {"uint16", ScalarType::UInt16},   {"int", ScalarType::Int32},
-      {"int32", ScalarType::Int32},    {"uint", ScalarType::UInt32},     {"uint32", ScalarType::UInt32},
-      {"float", ScalarType::Float32},  {"float32", ScalarType::Float32}, {"double", ScalarType::Float64},
-      {"float64", ScalarType::Float64}};
-  for (const auto& [known, type] : names)
-    if (name == known)
-      return type;
-  throw IoError ("a property of the PLY header has an unknown type");
-}
-
-Encoding
-encodingOf (const std::string& format)
-{
-  if (format == "ascii")
-    return Encoding::Ascii;
-  if (format == "binary_little_endian")
-    return Encoding::LittleEndian;
-  if (format == "binary_big_endian")
-    return Encoding::BigEndian;
-  throw IoError ("PLY format " + quoted (format) +
-                 " is not supported, only ascii, binary_little_endian and binary_big_endian");
-}
-
-PlyProperty
-parseProperty (std::istringstream& words)
-{
-  PlyProperty property;
-  std::string type;
-  words >> type;
-  if (type == "list")
-  {
-    words >> type;
-    property.count_type = scalarType (type);
-    type.clear ();
-    words >> type;
-  }
-  property.type = scalarType (type);
-  if (!(words >> property.name))
-    throw IoError ("a property of the PLY header has no name");
-  return property;
-}
-
-/** \brief Reads the header; \a scanner is behind it then. */
-PlyHeader
-parsePlyHeader (TextScanner& scanner)
-{
-  PlyHeader header;
-  bool has_format = false;
-  for (int line_number = 0;; ++line_number)
-  {
-    if (scanner.left ().find ('\n') == std::string_view::npos)
-      throw IoError (line_number == 0 ? "not a PLY file" : "the PLY header does not end");
-    std::istringstream words{std::string (scanner.line ())};
-    std::string keyword;
-    words >> keyword;
-    if (line_number == 0)
-    {
-      if (keyword != "ply")
-        throw IoError ("not a PLY file");
-      continue;
-    }
-    if (keyword == "end_header")
-      break;
-    if (keyword == "format")
-    {
-      std::string format;
-      words >> format;
-      header.encoding = encodingOf (format);
-      has_format = true;
-    }
-    else if (keyword == "element")
-    {
-      PlyElement element;
-      if (!(words >> element.name >> element.count))
-        throw IoError ("an element of the PLY header has no count");
-      header.elements.push_back (element);
-    }
-    else if (keyword == "property")
-    {
-      if (header.elements.empty ())
-        throw IoError ("a property of the PLY header belongs to no element");
-      header.elements.back ().properties.push_back (parseProperty (words));
-    }
-    else if (keyword != "comment" && keyword != "obj_info" && !keyword.empty ())
-      throw IoError ("unknown keyword in the PLY header");
-  }
-  if (!has_format)
-    throw IoError ("the PLY header names no format");
-  return header;
-}
 
 /** \brief Puts the value of one property where that of vertex v belongs. */
 using Setter = std::function<void (std::size_t v, double value)>;
@@ -143,10 +25,18 @@ toByte (double value)
   return static_cast<std::uint8_t> (value >= 0.0 ? std::min (value, 255.0) : 0.0);
 }
 
+/** \brief The properties of the vertices but their positions, and the faces with these. */
+struct PlyContents
+{
+  TriangleMesh mesh;
+  PolygonSoup faces;
+};
+
 /** \brief The setter of a property, for which it makes room in the mesh; empty if the name is not known. */
 Setter
-vertexSetter (const std::string& name, std::size_t count, TriangleMesh& mesh)
+vertexSetter (const std::string& name, std::size_t count, PlyContents& contents)
 {
+  TriangleMesh& mesh = contents.mesh;
   const auto real = [count] (std::vector<float>& values) -> Setter {
     values.resize (count);
     return [&values] (std::size_t v, double value) { values[v] = static_cast<float> (value); };
@@ -161,7 +51,10 @@ vertexSetter (const std::string& name, std::size_t count, TriangleMesh& mesh)
   for (int axis = 0; axis < 3; ++axis)
   {
     if (name == positions[axis])
-      return component (mesh.vertices, axis);
+    {
+      contents.faces.points.resize (count, Eigen::Vector3d::Zero ());
+      return [&contents, axis] (std::size_t v, double value) { contents.faces.points[v][axis] = value; };
+    }
     if (name == normals[axis])
       return component (mesh.normals, axis);
     if (name != colours[axis])
@@ -181,20 +74,13 @@ vertexSetter (const std::string& name, std::size_t count, TriangleMesh& mesh)
   return [&mesh] (std::size_t v, double value) { mesh.provenance[v] = toByte (value); };
 }
 
-/** \brief The vertices, with their properties, and the faces as they are. */
-struct PlyContents
-{
-  TriangleMesh mesh;
-  PolygonSoup faces;
-};
-
 /** \brief Reads the elements of a file one after the other. */
 class PlyReader
 {
 public:
   PlyReader (TextScanner& scanner, Encoding encoding) : values_ (scanner, encoding, "PLY") {}
 
-  void readVertices (const PlyElement& element, TriangleMesh& mesh)
+  void readVertices (const PlyElement& element, PlyContents& contents)
   {
     for (const char* name : {"x", "y", "z"})
       if (std::none_of (element.properties.begin (), element.properties.end (),
@@ -203,7 +89,7 @@ public:
     require (element);
     std::vector<Setter> setters;
     for (const PlyProperty& property : element.properties)
-      setters.push_back (property.count_type ? Setter () : vertexSetter (property.name, element.count, mesh));
+      setters.push_back (property.count_type ? Setter () : vertexSetter (property.name, element.count, contents));
     for (std::size_t v = 0; v < element.count; ++v)
       for (std::size_t p = 0; p < setters.size (); ++p)
       {
@@ -307,7 +193,7 @@ decode (const std::string& bytes)
     const bool is_vertices = element.name == "vertex";
     left -= is_vertices || isFaces (element);
     if (is_vertices && !has_vertices)
-      reader.readVertices (element, contents.mesh);
+      reader.readVertices (element, contents);
     else if (isFaces (element))
       reader.readFaces (element, element.name == "tristrips", contents.faces);
     else
@@ -325,10 +211,12 @@ decode (const std::string& bytes)
 } // namespace
 
 TriangleMesh
-decodePly (const std::string& bytes)
+decodePly (const std::string& bytes, const Eigen::Vector3d& origin)
 {
   PlyContents contents = decode (bytes);
   TriangleMesh& mesh = contents.mesh;
+  for (const Eigen::Vector3d& point : contents.faces.points)
+    mesh.vertices.push_back ((point - origin).cast<float> ());
   const auto count = static_cast<std::int64_t> (mesh.vertices.size ());
   std::size_t begin = 0;
   for (const std::size_t end : contents.faces.ends)
@@ -352,9 +240,7 @@ decodePly (const std::string& bytes)
 PolygonSoup
 decodePlyPolygons (const std::string& bytes)
 {
-  PlyContents contents = decode (bytes);
-  contents.faces.points = std::move (contents.mesh.vertices);
-  return std::move (contents.faces);
+  return decode (bytes).faces;
 }
 
 } // namespace pcl::cosection

@@ -112,9 +112,9 @@ private:
     const ScalarType scalar = type ();
     values_.require (points, 3 * sizeOf (scalar), 3);
     soup_.points.resize (points);
-    for (Eigen::Vector3f& p : soup_.points)
+    for (Eigen::Vector3d& p : soup_.points)
       for (int axis = 0; axis < 3; ++axis)
-        p[axis] = static_cast<float> (values_.next (scalar));
+        p[axis] = values_.next (scalar);
   }
 
   /** \brief Calls \a add with the indices of each cell. */

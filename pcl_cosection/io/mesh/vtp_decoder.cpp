@@ -269,8 +269,7 @@ addPiece (const ArrayReader& reader, vtkXMLDataElement& piece, PolygonSoup& soup
       throw IoError ("the VTK file has points without their array");
     const auto values = reader.read (*points->GetNestedElement (0), static_cast<std::uint64_t> (3 * count));
     for (vtkIdType n = 0; n < 3 * count; n += 3)
-      soup.points.push_back (
-          Eigen::Vector3d (values->GetTuple1 (n), values->GetTuple1 (n + 1), values->GetTuple1 (n + 2)).cast<float> ());
+      soup.points.emplace_back (values->GetTuple1 (n), values->GetTuple1 (n + 1), values->GetTuple1 (n + 2));
   }
   const auto shift = [&] (std::vector<std::int64_t> corners) {
     for (std::int64_t& corner : corners)

@@ -1,6 +1,7 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include <pcl/cosection/surface/normals.h>
 
+#include "normal_agreement.h"
 #include "pcl_cosection/common/directions.h"
 #include "pcl_cosection/common/disjoint_sets.h"
 
@@ -153,6 +154,30 @@ outwardShare (const std::vector<Eigen::Vector3f>& points, const std::vector<Eige
     all += std::abs (sum);
   }
   return all > 0.0 ? outward / all : 0.5;
+}
+
+double
+contradictingShare (const std::vector<Eigen::Vector3f>& points, const std::vector<Eigen::Vector3f>& normals,
+                    int neighbours)
+{
+  checkSizes (points, normals);
+  std::size_t opposed = 0, behind = 0, before = 0;
+  const std::vector<Edge> edges = neighbourGraph (points, normals, neighbours);
+  for (const auto& [cost, a, b] : edges)
+  {
+    if (agreement (points[a], normals[a], points[b], normals[b]) >= 0.0f)
+      continue;
+    ++opposed;
+    const Eigen::Vector3f d = points[b] - points[a];
+    const bool b_behind = d.dot (normals[a]) < 0.0f;
+    const bool a_behind = d.dot (normals[b]) > 0.0f;
+    behind += b_behind && a_behind;
+    before += !b_behind && !a_behind;
+  }
+  const std::size_t unexplained = opposed - std::max (behind, before);
+  return 2 * unexplained < opposed || edges.empty ()
+             ? 0.0
+             : static_cast<double> (unexplained) / static_cast<double> (edges.size ());
 }
 
 void

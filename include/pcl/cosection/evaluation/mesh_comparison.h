@@ -59,6 +59,9 @@ struct PCL_COSECTION_EXPORT MeshComparison
  * std::cout << comparison.accuracy.mean << " m, " << comparison.completeness.mean << " m, " << comparison.f_score;
  * \endcode
  *
+ * A mesh of vertices without triangles, as a scan, is a set of points: its samples are points of it, evenly along their
+ * order, and distances to it are those to its nearest point, which are no smaller than about half of their spacing.
+ *
  * Both meshes are in one frame; they may be open. The result is the same for any number of threads.
  * \throws InvalidArgument if a triangle refers to no vertex, a vertex is not finite, or an option is outside its domain
  * \throws DegenerateInput if a mesh has no area */
@@ -68,15 +71,16 @@ PCL_COSECTION_EXPORT MeshComparison compareMeshes (const TriangleMesh& truth, co
 /** \brief What a mesh is like by itself. */
 struct PCL_COSECTION_EXPORT MeshSummary
 {
-  std::size_t vertices = 0;        ///< that triangles refer to
-  std::size_t triangles = 0;       ///< number of them
-  MeshTopology topology;           ///< what the connectivity says
-  double area_m2 = 0.0;            ///< of all triangles
-  std::optional<double> volume_m3; ///< of a closed manifold only
-  Eigen::AlignedBox3d box;         ///< metres
+  std::size_t vertices = 0;              ///< that triangles refer to
+  std::size_t triangles = 0;             ///< number of them
+  MeshTopology topology;                 ///< what the connectivity says
+  double area_m2 = 0.0;                  ///< of all triangles
+  std::optional<double> volume_m3;       ///< of a closed manifold only
+  std::optional<double> point_spacing_m; ///< of a set of points: median distance to the nearest other one
+  Eigen::AlignedBox3d box;               ///< metres
 };
 
-/** \brief Describe a mesh. \throws InvalidArgument, DegenerateInput as compareMeshes () */
+/** \brief Describe a mesh, or a set of points. \throws InvalidArgument, DegenerateInput as compareMeshes () */
 PCL_COSECTION_EXPORT MeshSummary summarizeMesh (const TriangleMesh& mesh);
 
 /** \brief Lines that say why a comparison may mean nothing: the boxes do not overlap, or one mesh is about a thousand

@@ -21,17 +21,20 @@ struct SensorCloud
   std::vector<Eigen::Vector3f> positions; ///< NaN: no reading
   std::vector<Eigen::Vector3f> normals;   ///< empty if the file has none
   std::vector<std::uint32_t> labels;
-  std::vector<std::array<std::uint8_t, 3>> colours; ///< empty if the file has none
-  std::vector<float> intensities;                   ///< empty if the file has none
-  Eigen::Isometry3d T_world_sensor = Eigen::Isometry3d::Identity ();
-  bool has_viewpoint = false; ///< the file's is not the default one
+  std::vector<std::array<std::uint8_t, 3>> colours;                  ///< empty if the file has none
+  std::vector<float> intensities;                                    ///< empty if the file has none
+  Eigen::Isometry3d T_world_sensor = Eigen::Isometry3d::Identity (); ///< relative to the origin
+  Eigen::Vector3d origin = Eigen::Vector3d::Zero ();                 ///< in the world frame of the file, metres
+  bool has_viewpoint = false;                                        ///< the file's is not the default one
+  bool in_world = false; ///< the file's points are in the world frame, not in the sensor's
+  Eigen::Isometry3d T_points_sensor = Eigen::Isometry3d::Identity (); ///< else: the sensor's axes in the file's
   bool has_labels = false;
   std::size_t ignored = 0;           ///< points of a negative label, or of ignored_label
   std::vector<std::string> warnings; ///< of the fields, one line each
 };
 
-/** \brief Read the points of a PCD file; see readPcdView () for the fields and the errors. \param[in] with_labels else
- * they are not looked at */
+/** \brief Read the points of a PCD or PLY file; see readPcdView () for the fields and the errors. \param[in]
+ * with_labels else they are not looked at */
 SensorCloud readSensorCloud (const std::string& path, const PcdViewOptions& options, bool with_labels = true);
 
 } // namespace pcl::cosection

@@ -11,8 +11,8 @@
 
 namespace pcl::cosection {
 
-/** \brief One field of a PCD file. */
-struct PcdField
+/** \brief One field of the points of a file. */
+struct CloudField
 {
   std::string name;
   std::size_t size = 0;  ///< bytes of one element
@@ -23,51 +23,59 @@ struct PcdField
   bool isPadding () const { return (name == "_"); }
 };
 
-enum class PcdEncoding
+enum class CloudEncoding
 {
   Ascii,
   Binary,
   BinaryCompressed,
+  Ply, ///< of any encoding
 };
 
-enum class PcdPadding
+enum class CloudPadding
 {
   Included,
   Excluded,
 };
 
-/** \brief The header of a PCD file. */
-struct PcdHeader
+/** \brief What a PCD or PLY file says of its points. */
+struct CloudHeader
 {
-  std::vector<PcdField> fields;
+  std::vector<CloudField> fields;
   std::uint64_t width = 0;
   std::uint64_t height = 0;
   std::uint64_t points = 0;
   std::array<double, 7> viewpoint = {0, 0, 0, 1, 0, 0, 0}; ///< tx ty tz qw qx qy qz
-  PcdEncoding encoding = PcdEncoding::Ascii;
-  std::size_t data_offset = 0; ///< bytes before the points
+  CloudEncoding encoding = CloudEncoding::Ascii;
+  std::size_t data_offset = 0; ///< bytes before the points, of a PCD file
+  bool has_faces = false;      ///< of a PLY file
 
   /** \brief The field of this name, or nullptr. */
-  const PcdField* find (const std::string& name) const;
+  const CloudField* find (const std::string& name) const;
+
+  /** \brief The first field whose name is one of these, in upper or lower case, with scalar_ before it or not, and
+   * whatever its underscores, or nullptr. */
+  const CloudField* findAlike (const std::vector<std::string>& names) const;
 
   /** \brief Bytes of a point in a binary file. */
-  std::uint64_t pointBytes (PcdPadding padding = PcdPadding::Included) const;
+  std::uint64_t pointBytes (CloudPadding padding = CloudPadding::Included) const;
 };
 
-/** \brief Read the header of a PCD file and check it against the size of the file, so that a reader
- * that trusts the header neither leaves the file nor allocates more than a small multiple of it.
+/** \brief Read the header of a PCD or PLY file and check it against the size of the file, so that a reader that trusts
+ * the header neither leaves the file nor allocates more than a small multiple of it.
  * \throws IoError for anything but a well formed file, DegenerateInput if it holds no points */
-PcdHeader readPcdHeader (const std::string& path);
+CloudHeader readCloudHeader (const std::string& path);
 
-/** \brief Read the points that \a header, from readPcdHeader (), describes.
+/** \brief Read the points that \a header, from readCloudHeader (), describes.
  *
  * pcl::PCDReader is not used: it reads the header again by rules of its own, for example lines of it that
  * stand in the wrong order or among the points, and then writes beyond the points' memory.
  *
+ * Colours in three fields, of integers up to 255 or of real numbers up to 1, come in a further field rgb, too.
+ * \param[in,out] header of a PLY file, it gets the camera that stands behind the points, and of either the field rgb
  * \return the fields of the header (of a compressed file, those that are no padding) and the bytes of
  * the points; its other members are not set
  * \throws IoError if the points are not what the header announces */
-PCLPointCloud2 readPcdPoints (const std::string& path, const PcdHeader& header);
+PCLPointCloud2 readCloudPoints (const std::string& path, CloudHeader& header);
 
 /** \brief Text of a file fit for a message: short, and without what is not printable. */
 std::string printable (const std::string& text);
