@@ -12,21 +12,14 @@
 #include <vtkNew.h>
 #include <vtkPNGReader.h>
 
-#include <algorithm>
+#include <array>
+#include <map>
 #include <string_view>
 
 namespace pcl::cosection {
 namespace {
 
 const std::string png_signature = "\x89PNG\r\n\x1a\n";
-
-template <typename Number>
-void
-copyRows (const Number* from, Image<std::uint16_t>& mask)
-{
-  for (int v = mask.height - 1; v >= 0; --v, from += mask.width) // VTK's first row is the lowest
-    std::copy_n (from, mask.width, mask.pixels.begin () + static_cast<std::ptrdiff_t> (v) * mask.width);
-}
 
 std::uint64_t
 bigEndian32 (std::string_view bytes, std::size_t at)
@@ -35,6 +28,65 @@ bigEndian32 (std::string_view bytes, std::size_t at)
   for (const char byte : bytes.substr (at, 4))
     value = value << 8 | static_cast<unsigned char> (byte);
   return value;
+}
+
+/** \brief Calls value (pixel), with the channels of each, for the mask. */
+template <typename Number, typename Value>
+void
+copyRows (const Number* from, int channels, Image<std::uint16_t>& mask, Value&& value)
+{
+  for (int v = mask.height - 1; v >= 0; --v) // VTK's first row is the lowest
+    for (int u = 0; u < mask.width; ++u, from += channels)
+      mask.at (u, v) = value (from);
+}
+
+/** \brief Numbers of the colours of a palette, which vtkPNGReader replaces by these; empty if the PNG has none. Of
+ * equal colours the first counts. */
+std::map<std::array<std::uint8_t, 3>, std::uint16_t>
+paletteOf (std::string_view bytes)
+{
+  constexpr std::size_t colour_type = 25, header = 33; // places: of a byte of IHDR, and behind it
+  constexpr std::size_t overhead = 12;
+  std::map<std::array<std::uint8_t, 3>, std::uint16_t> numbers;
+  if (bytes.size () < header || bytes[colour_type] != 3)
+    return numbers;
+  for (std::size_t at = header; at + overhead <= bytes.size ();)
+  {
+    const std::uint64_t length = bigEndian32 (bytes, at);
+    if (bytes.substr (at + 4, 4) == "PLTE")
+      for (std::uint16_t n = 0; 3u * n + 3 <= length; ++n)
+      {
+        std::array<std::uint8_t, 3> colour;
+        for (std::size_t channel = 0; channel < 3; ++channel)
+          colour[channel] = static_cast<std::uint8_t> (bytes[at + 8 + 3 * n + channel]);
+        numbers.emplace (colour, n);
+      }
+    at += overhead + length;
+  }
+  return numbers;
+}
+
+/** \brief Read one channel, several that are equal, or the numbers of a palette; alpha is not used. */
+template <typename Number>
+void
+copyMask (const std::string& path, const std::string& bytes, const Number* from, int channels,
+          Image<std::uint16_t>& mask)
+{
+  const auto palette = paletteOf (bytes);
+  copyRows (from, channels, mask, [&] (const Number* pixel) -> std::uint16_t {
+    if (channels < 3)
+      return pixel[0];
+    if (!palette.empty ())
+    {
+      const auto found = palette.find ({static_cast<std::uint8_t> (pixel[0]), static_cast<std::uint8_t> (pixel[1]),
+                                        static_cast<std::uint8_t> (pixel[2])});
+      return found == palette.end () ? std::uint16_t{0} : found->second;
+    }
+    if (pixel[0] != pixel[1] || pixel[0] != pixel[2])
+      throw IoError (path + ": is not a mask: its channels differ; it must have one channel of 8 or 16 bits, or a "
+                            "palette, whose numbers are those of instances");
+    return pixel[0];
+  });
 }
 
 /** \brief Whether the chunks of a PNG (length, name, data, checksum) are whole, and their image is not absurdly large.
@@ -87,13 +139,14 @@ loadMaskImage (const std::string& path)
   const int type = image->GetScalarType ();
   if (errors->failed () || image->GetNumberOfPoints () == 0)
     throw IoError (path + ": is not an image that can be read");
-  if (image->GetNumberOfScalarComponents () != 1 || (type != VTK_UNSIGNED_CHAR && type != VTK_UNSIGNED_SHORT))
-    throw IoError (path + ": is not a mask: it must have one channel of 8 or 16 bits");
+  if (type != VTK_UNSIGNED_CHAR && type != VTK_UNSIGNED_SHORT)
+    throw IoError (path + ": is not a mask: it must have channels of 8 or 16 bits");
+  const int channels = image->GetNumberOfScalarComponents ();
   Image<std::uint16_t> mask (image->GetDimensions ()[0], image->GetDimensions ()[1]);
   if (type == VTK_UNSIGNED_SHORT)
-    copyRows (static_cast<const std::uint16_t*> (image->GetScalarPointer ()), mask);
+    copyMask (path, bytes, static_cast<const std::uint16_t*> (image->GetScalarPointer ()), channels, mask);
   else
-    copyRows (static_cast<const std::uint8_t*> (image->GetScalarPointer ()), mask);
+    copyMask (path, bytes, static_cast<const std::uint8_t*> (image->GetScalarPointer ()), channels, mask);
   return mask;
 }
 

@@ -14,7 +14,8 @@ namespace pcl::cosection {
  * absurd size. Libraries print lines of their own about such files, or crash. */
 PCL_COSECTION_EXPORT bool isDamagedPng (std::string_view bytes);
 
-/** \brief Read ids of instances from a PNG of one channel of 8 or 16 bits. \throws IoError */
+/** \brief Read ids of instances from a PNG of 8 or 16 bits: of one channel, of several equal ones, or of a palette,
+ * whose numbers they are; transparency is not used. \throws IoError */
 PCL_COSECTION_EXPORT Image<std::uint16_t> loadMaskImage (const std::string& path);
 
 } // namespace pcl::cosection

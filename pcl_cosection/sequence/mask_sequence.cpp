@@ -2,34 +2,100 @@
 #include <pcl/cosection/io/rgbd_sequence.h>
 
 #include "numbered_files.h"
-#include "pcl_cosection/io/image_io.h"
+#include "pcl_cosection/io/mask_image.h"
 #include "stamp_matching.h"
 
 #include <pcl/cosection/common/error.h>
 
+#include <algorithm>
+#include <cmath>
+#include <set>
+
 namespace pcl::cosection {
+namespace {
+
+constexpr double largest_instance = 65533.0; // from 0; 65535 has a meaning of its own
+
+/** \brief Whether names of two numbers are those of a frame and an instance: several files have the same second number
+ * or do not match a frame by it, and all match one by the first. */
+bool
+arePerInstance (const std::vector<PairedFile>& files, std::size_t all, const std::vector<double>& stamps, double limit)
+{
+  if (files.empty () || files.size () < all)
+    return false;
+  std::set<double> second;
+  std::size_t matched = 0;
+  for (const PairedFile& file : files)
+  {
+    if (!nearestStamp (stamps, file.first, limit) || file.second > largest_instance ||
+        file.second != std::floor (file.second))
+      return false;
+    second.insert (file.second);
+    matched += nearestStamp (stamps, file.second, limit).has_value ();
+  }
+  return second.size () < files.size () || matched < files.size ();
+}
+
+/** \brief The nearest pixels of an image of another resolution. */
+Image<std::uint16_t>
+resized (const Image<std::uint16_t>& mask, int width, int height)
+{
+  Image<std::uint16_t> result (width, height);
+  for (int v = 0; v < height; ++v)
+    for (int u = 0; u < width; ++u)
+      result.at (u, v) = mask.at (static_cast<int> ((2LL * u + 1) * mask.width / (2LL * width)),
+                                  static_cast<int> ((2LL * v + 1) * mask.height / (2LL * height)));
+  return result;
+}
+
+} // namespace
 
 MaskSequence::MaskSequence (const std::string& folder, const RgbdSequence& sequence)
     : half_period_ (0.5 * sequence.period ())
     , width_ (sequence.camera ().width)
     , height_ (sequence.camera ().height)
 {
-  for (NumberedFile& file : numberedFiles (folder, fileNames (folder), {{}, {".png"}}, warnings_))
+  const std::vector<std::string> endings = {".png"};
+  const std::vector<std::string> names = fileNames (folder);
+  const std::vector<double> stamps = sequence.stamps ();
+  std::vector<std::string> odd;
+  const std::vector<NumberedFile> numbered = numberedFiles (folder, names, {{}, endings}, odd);
+  const std::vector<PairedFile> paired = pairedFiles (folder, names, endings);
+  const auto pngs = static_cast<std::size_t> (
+      std::count_if (names.begin (), names.end (), [] (const std::string& name) {
+        return name.size () > 4 && name.compare (name.size () - 4, 4, ".png") == 0;
+      }));
+  per_instance_ = arePerInstance (paired, pngs, stamps, half_period_);
+  const auto add = [&] (double stamp, const InstanceFile& file) {
+    if (stamps_.empty () || stamps_.back () != stamp)
+    {
+      stamps_.push_back (stamp);
+      files_.emplace_back ();
+    }
+    files_.back ().push_back (file);
+  };
+  if (per_instance_)
+    for (const PairedFile& file : paired)
+      add (file.first, {file.path, static_cast<std::uint16_t> (file.second + 1.0)});
+  else
   {
-    stamps_.push_back (file.number);
-    paths_.push_back (std::move (file.path));
+    warnings_ = odd;
+    for (const NumberedFile& file : numbered)
+      add (file.number, {file.path, 0});
   }
-  if (paths_.empty ())
-    throw IoError (folder + ": has no masks; their names should be MaskNNNN.png, or end in a frame's stamp");
-  std::vector<bool> matches (paths_.size ());
-  for (const double stamp : sequence.stamps ())
+  if (files_.empty ())
+    throw IoError (folder +
+                   ": has no masks; their names should be MaskNNNN.png, FRAME_INSTANCE.png, or end in a frame's "
+                   "stamp");
+  std::vector<bool> matches (files_.size ());
+  for (const double stamp : stamps)
     if (const auto nearest = nearestStamp (stamps_, stamp, half_period_))
       matches[*nearest] = true;
   std::vector<std::string> unmatched;
-  for (std::size_t n = 0; n < paths_.size (); ++n)
+  for (std::size_t n = 0; n < files_.size (); ++n)
     if (!matches[n])
-      unmatched.push_back (paths_[n]);
-  if (unmatched.size () == paths_.size ())
+      unmatched.push_back (files_[n].front ().path);
+  if (unmatched.size () == files_.size ())
     throw IoError (folder + ": no mask matches a frame; the masks have the stamps " +
                    stampSpan (stamps_.front (), stamps_.back ()) + ", the frames " +
                    stampSpan (sequence.stamp (0), sequence.stamp (sequence.size () - 1)));
@@ -43,20 +109,43 @@ MaskSequence::file (double stamp) const
   const auto nearest = nearestStamp (stamps_, stamp, half_period_);
   if (!nearest)
     return std::nullopt;
-  return paths_[*nearest];
+  return files_[*nearest].front ().path;
+}
+
+Image<std::uint16_t>
+MaskSequence::readFile (const std::string& path) const
+{
+  Image<std::uint16_t> mask = loadMaskImage (path);
+  if (mask.width == width_ && mask.height == height_)
+    return mask;
+  if (static_cast<long long> (mask.width) * height_ == static_cast<long long> (mask.height) * width_)
+    return resized (mask, width_, height_);
+  throw IoError (path + ": has " + std::to_string (mask.width) + " x " + std::to_string (mask.height) +
+                 " pixels, but the depth images have " + std::to_string (width_) + " x " + std::to_string (height_));
 }
 
 std::optional<Image<std::uint16_t>>
 MaskSequence::read (double stamp) const
 {
-  const std::optional<std::string> path = file (stamp);
-  if (!path)
+  const auto nearest = nearestStamp (stamps_, stamp, half_period_);
+  if (!nearest)
     return std::nullopt;
-  Image<std::uint16_t> mask = loadMaskImage (*path);
-  if (mask.width != width_ || mask.height != height_)
-    throw IoError (*path + ": has " + std::to_string (mask.width) + " x " + std::to_string (mask.height) +
-                   " pixels, but the depth images have " + std::to_string (width_) + " x " + std::to_string (height_));
-  return mask;
+  const std::vector<InstanceFile>& files = files_[*nearest];
+  if (files.front ().instance == 0)
+    return readFile (files.front ().path);
+  Image<std::uint16_t> all (width_, height_);
+  std::vector<bool> taken (all.pixels.size ());
+  for (const InstanceFile& file : files)
+  {
+    const Image<std::uint16_t> mask = readFile (file.path);
+    for (std::size_t n = 0; n < taken.size (); ++n)
+      if (mask.pixels[n] != 0)
+      {
+        all.pixels[n] = taken[n] ? 0 : file.instance; // which one is in front is not known
+        taken[n] = true;
+      }
+  }
+  return all;
 }
 
 } // namespace pcl::cosection

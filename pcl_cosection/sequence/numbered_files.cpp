@@ -10,6 +10,7 @@
 #include <filesystem>
 #include <optional>
 #include <system_error>
+#include <tuple>
 
 namespace fs = std::filesystem;
 
@@ -50,6 +51,22 @@ numberBegin (const std::string& text)
   if (begin < 2 || begin == text.size () || text[begin - 1] != '.' || !isDigit (text[begin - 2]))
     return begin;
   return digitsBegin (begin - 1);
+}
+
+/** \brief The number of digits, maybe with a fraction; of as many digits as times since 1970 in micro- or nanoseconds
+ * have, seconds. Nothing if there are more than 15 digits otherwise. */
+std::optional<double>
+numberOf (std::string_view digits)
+{
+  constexpr std::size_t of_microseconds = 16, of_nanoseconds = 19;
+  const double number = toReal (digits);
+  if (number < largest_number)
+    return number;
+  if (digits.size () == of_microseconds)
+    return 1e-6 * number;
+  if (digits.size () == of_nanoseconds)
+    return 1e-9 * number;
+  return std::nullopt;
 }
 
 } // namespace
@@ -97,8 +114,8 @@ numberedFiles (const std::string& folder, const std::vector<std::string>& names,
     const std::string path = (fs::path (folder) / name).string ();
     if (begin == stem->size ())
       without_number.push_back (path);
-    else if (const double number = toReal (std::string_view (*stem).substr (begin)); number < largest_number)
-      files.push_back ({number, path});
+    else if (const auto number = numberOf (std::string_view (*stem).substr (begin)))
+      files.push_back ({*number, path});
     else
       too_large.push_back (path);
   }
@@ -114,10 +131,37 @@ numberedFiles (const std::string& folder, const std::vector<std::string>& names,
   if (!without_number.empty ())
     warnings.push_back (firstAndMore (without_number) + ": left out; a name must end in a number");
   if (!too_large.empty ())
-    warnings.push_back (firstAndMore (too_large) + ": left out; the number in the name has more than 15 digits");
+    warnings.push_back (firstAndMore (too_large) +
+                        ": left out; the number in the name has more than 15 digits, and is no time in micro- or "
+                        "nanoseconds");
   if (!again.empty ())
     warnings.push_back (firstAndMore (again) + ": left out; another file has the same number");
   return unique;
+}
+
+std::vector<PairedFile>
+pairedFiles (const std::string& folder, const std::vector<std::string>& names, const std::vector<std::string>& endings)
+{
+  std::vector<PairedFile> files;
+  for (const std::string& name : names)
+  {
+    const std::optional<std::string> stem = withoutEnding (lowerCase (name), endings);
+    const std::size_t second = stem ? numberBegin (*stem) : 0;
+    if (second < 2 || second == stem->size () || ((*stem)[second - 1] != '_' && (*stem)[second - 1] != '-'))
+      continue;
+    const std::string before = stem->substr (0, second - 1);
+    const std::size_t first = numberBegin (before);
+    if (first == before.size ())
+      continue;
+    const auto a = numberOf (std::string_view (before).substr (first));
+    const auto b = numberOf (std::string_view (*stem).substr (second));
+    if (a && b)
+      files.push_back ({*a, *b, (fs::path (folder) / name).string ()});
+  }
+  std::stable_sort (files.begin (), files.end (), [] (const PairedFile& x, const PairedFile& y) {
+    return std::tie (x.first, x.second) < std::tie (y.first, y.second);
+  });
+  return files;
 }
 
 std::string

@@ -20,13 +20,27 @@ struct NumberedFile
   std::string path;
 };
 
+/** \brief A file with two numbers in its name: FRAME_INSTANCE. */
+struct PairedFile
+{
+  double first = 0.0;
+  double second = 0.0;
+  std::string path;
+};
+
+/** \brief The files of these endings whose names end in two numbers with _ or - between them, by ascending numbers;
+ * others are left out. */
+std::vector<PairedFile> pairedFiles (const std::string& folder, const std::vector<std::string>& names,
+                                     const std::vector<std::string>& endings);
+
 /** \brief The names of the files in a folder, sorted, without hidden ones and folders. \throws IoError if it cannot be
  * listed */
 std::vector<std::string> fileNames (const std::string& folder);
 
 /** \brief The files of a series, by ascending numbers, which may have a fraction (0.033333.png). Those without a
- * number, with one of more than 15 digits before the point, or one that another file has too, are left out, with a
- * message in \a warnings.
+ * number, with one of more than 15 digits before the point (but for
+ * 16 and 19, which are micro- and nanoseconds, and become seconds), or one that another file has too, are left out,
+ * with a message in \a warnings.
  * \param[in] names of the files in \a folder, sorted */
 std::vector<NumberedFile> numberedFiles (const std::string& folder, const std::vector<std::string>& names,
                                          const NumberedNames& series, std::vector<std::string>& warnings);

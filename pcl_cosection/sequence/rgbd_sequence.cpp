@@ -1,6 +1,7 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include <pcl/cosection/io/rgbd_sequence.h>
 
+#include "camera_file.h"
 #include "pcl_cosection/common/files.h"
 #include "pcl_cosection/common/quantile.h"
 #include "pcl_cosection/io/image_io.h"
@@ -29,6 +30,9 @@ constexpr double millimetres = 1000.0;
 constexpr double nearest_median_m = 0.05;
 constexpr double farthest_median_m = 100.0;
 constexpr double largest_size_px = 32768.0;
+constexpr double far_off_centre = 0.25;        // a principal point, of the image's size
+constexpr double outside = 0.5;                // of the image, likewise
+constexpr std::size_t most_to_judge_size = 10; // depth images
 constexpr double largest_focal_length_px = 1e6;
 constexpr double shortest_focal_length = 0.05;    // of the image's size: a field of view of 169 degrees
 constexpr double longest_focal_length = 100.0;    // half a degree
@@ -110,18 +114,41 @@ readDepth (const std::string& path, double scale, SequenceFormat format)
   return depth;
 }
 
-/** \brief The calibration of a folder, or of the one around it for a sequence of 7-Scenes; empty if there is none. */
+/** \brief The file that tells the camera, of a folder, or of the one around it for a sequence of 7-Scenes; empty if
+ * there is none. */
 std::string
-calibrationFile (const std::string& folder, SequenceFormat format)
+cameraFile (const std::string& folder, SequenceFormat format)
 {
   std::vector<fs::path> places = {fs::path (folder)};
   if (format == SequenceFormat::SevenScenes)
     places.push_back (fs::path (folder) / "..");
   std::error_code ignored;
   for (const fs::path& place : places)
-    if (fs::exists (place / "calibration.txt", ignored))
-      return (place / "calibration.txt").string ();
+    for (const std::string& name : cameraFileNames ())
+      if (fs::exists (place / name, ignored))
+        return (place / name).string ();
   return {};
+}
+
+/** \brief How far a principal point is from the middle of an image, of its size. */
+double
+offCentre (const PinholeCamera& camera, const ImageSize& image)
+{
+  return std::max (std::abs ((camera.cx + 0.5) / image.width - 0.5), std::abs ((camera.cy + 0.5) / image.height - 0.5));
+}
+
+bool
+haveSameShape (const ImageSize& a, const ImageSize& b)
+{
+  return static_cast<long long> (a.width) * b.height == static_cast<long long> (a.height) * b.width;
+}
+
+/** \brief The camera of images of another resolution. */
+PinholeCamera
+scaled (const PinholeCamera& camera, const ImageSize& from, const ImageSize& to)
+{
+  const double x = static_cast<double> (to.width) / from.width, y = static_cast<double> (to.height) / from.height;
+  return {to.width, to.height, x * camera.fx, y * camera.fy, x * (camera.cx + 0.5) - 0.5, y * (camera.cy + 0.5) - 0.5};
 }
 
 std::string
@@ -130,12 +157,6 @@ pairText (double a, double b)
   std::ostringstream out;
   out << a << " and " << b;
   return out.str ();
-}
-
-bool
-isSize (double pixels)
-{
-  return pixels >= 1.0 && pixels <= largest_size_px && pixels == std::floor (pixels);
 }
 
 /** \brief What is implausible about a camera, whose size may be 0 (unknown); empty if nothing is. */
@@ -162,46 +183,6 @@ implausibleIntrinsics (const PinholeCamera& camera)
   if (std::abs (cx) > farthest_principal_point * width || std::abs (cy) > farthest_principal_point * height)
     return "has a principal point cx, cy of " + pairText (cx, cy) + image + "; it must be in the image, or near it";
   return {};
-}
-
-/** \brief Read "fx fy cx cy [width height]", in pixels; lines that begin with # are skipped.
- * \return of size 0 x 0 if the file has none
- * \throws IoError if it cannot be read or is no plausible camera */
-PinholeCamera
-readCalibration (const std::string& path)
-{
-  const std::string bytes = readBytes (path);
-  std::vector<double> numbers;
-  try
-  {
-    TextScanner scanner (bytes);
-    while (!scanner.left ().empty ())
-    {
-      TextScanner line (scanner.line ());
-      for (std::string_view word = line.word (); !word.empty () && word[0] != '#'; word = line.word ())
-        numbers.push_back (toReal (word));
-    }
-  }
-  catch (const IoError& error)
-  {
-    throw IoError (path + ": must be 'fx fy cx cy [width height]' in pixels, but " + error.what ());
-  }
-  if (numbers.size () != 4 && numbers.size () != 6)
-    throw IoError (path + ": must be 'fx fy cx cy [width height]' in pixels, but has " +
-                   std::to_string (numbers.size ()) + " numbers");
-  PinholeCamera camera = {0, 0, numbers[0], numbers[1], numbers[2], numbers[3]};
-  if (numbers.size () == 6)
-  {
-    if (!isSize (numbers[4]) || !isSize (numbers[5]))
-      throw IoError (path + ": has a width and height of " + pairText (numbers[4], numbers[5]) +
-                     "; they must be whole numbers of pixels");
-    camera.width = static_cast<int> (numbers[4]);
-    camera.height = static_cast<int> (numbers[5]);
-  }
-  const std::string fault = implausibleIntrinsics (camera);
-  if (!fault.empty ())
-    throw IoError (path + ": " + fault);
-  return camera;
 }
 
 /** \brief Read a pose as 7-Scenes has it: the 16 numbers of a 4 x 4 matrix, row by row. What rounding took from the
@@ -272,54 +253,128 @@ RgbdSequence::RgbdSequence (const std::string& folder, const SequenceSource& sou
 void
 RgbdSequence::setCamera (const std::string& folder, const SequenceSource& source)
 {
-  const std::string calibration = calibrationFile (folder, format_);
+  const std::string file = cameraFile (folder, format_);
+  std::string name = file;
   if (source.intrinsics)
   {
     const auto& [fx, fy, cx, cy] = *source.intrinsics;
     camera_ = {0, 0, fx, fy, cx, cy};
+    name = "--intrinsics";
   }
-  else if (!calibration.empty ())
+  else if (!file.empty ())
   {
-    requireFile (calibration);
-    camera_ = readCalibration (calibration);
-    size_source_ = calibration;
+    requireFile (file);
+    const CameraFile read = readCameraFile (file);
+    camera_ = read.camera;
+    if (read.depth_scale && !(source.depth_scale > 0.0))
+      depth_scale_ = *read.depth_scale;
+    size_source_ = file;
   }
   else if (format_ == SequenceFormat::SevenScenes)
   {
     camera_ = {640, 480, 585.0, 585.0, 320.0, 240.0};
-    size_source_ = "the camera of 7-Scenes";
+    name = size_source_ = "the camera of 7-Scenes";
   }
   else
     throw IoError (folder +
-                   ": has no calibration.txt with 'fx fy cx cy [width height]'; write one, or give --intrinsics");
-  if (camera_.width == 0)
-    takeSizeOfFirstDepth (folder);
-  const std::string fault = implausibleIntrinsics (camera_);
-  if (!fault.empty () && source.intrinsics)
-    throw InvalidArgument ("intrinsics fx, fy, cx, cy: the camera " + fault);
-  if (!fault.empty ())
-    throw IoError (calibration + ": " + fault);
+                   ": has no calibration.txt with 'fx fy cx cy [width height]', nor another file of a camera (" +
+                   "cam_K.txt, camera_intrinsic.json, scene_camera.json); write one, or give --intrinsics");
+  const auto check = [&] {
+    const std::string fault = implausibleIntrinsics (camera_);
+    if (!fault.empty () && source.intrinsics)
+      throw InvalidArgument ("intrinsics fx, fy, cx, cy: the camera " + fault);
+    if (!fault.empty ())
+      throw IoError (name + ": " + fault);
+  };
+  check ();
+  fitCameraToDepth (folder, name, source.intrinsics.has_value ());
+  check ();
 }
 
 void
-RgbdSequence::takeSizeOfFirstDepth (const std::string& folder)
+RgbdSequence::fitCameraToDepth (const std::string& folder, const std::string& name, bool is_given)
 {
+  const bool has_size = camera_.width > 0;
+  const std::vector<ImageSize> sizes = depthSizes (folder, has_size);
+  if (sizes.empty ())
+    return;
+  const ImageSize depth = sizes.front ();
+  const auto scaleFrom = [&] (const ImageSize& from, const std::string& what) {
+    camera_ = scaled (camera_, from, depth);
+    size_source_ = files_.front ().depth;
+    warnings_.push_back (name + ": is the camera of " + what + " of " + sizeText (from.width, from.height) +
+                         "; it is scaled to the " + sizeText (depth.width, depth.height) + " of the depth images");
+  };
+  if (has_size)
+  {
+    const ImageSize own = {camera_.width, camera_.height};
+    const bool fits = std::any_of (sizes.begin (), sizes.end (), [&] (const ImageSize& size) {
+      return size.width == own.width && size.height == own.height;
+    });
+    if (!fits && haveSameShape (own, depth))
+      scaleFrom (own, "images");
+    return;
+  }
+  const double off_depth = offCentre (camera_, depth);
+  if (off_depth > far_off_centre)
+    if (const auto colour = colourSize (); colour && haveSameShape (*colour, depth) && colour->width != depth.width &&
+                                           offCentre (camera_, *colour) < std::min (far_off_centre, off_depth))
+      return scaleFrom (*colour, "colour images");
+  camera_.width = depth.width;
+  camera_.height = depth.height;
+  if (off_depth <= outside)
+    return;
+  const std::string fault = name + ": has a principal point of " + pairText (camera_.cx, camera_.cy) +
+                            ", outside the depth images of " + sizeText (depth.width, depth.height);
+  if (!is_given)
+    throw IoError (fault + "; is it that of another resolution? Then scale it, or add the size of its images: "
+                           "'fx fy cx cy width height'");
+  warnings_.push_back (fault);
+}
+
+std::vector<ImageSize>
+RgbdSequence::depthSizes (const std::string& folder, bool may_fail)
+{
+  std::vector<ImageSize> sizes;
   std::string first_failure;
   for (const FrameFiles& files : files_)
     try
     {
       const Image<float> depth = readDepth (files.depth, depth_scale_, format_);
-      camera_.width = depth.width;
-      camera_.height = depth.height;
-      size_source_ = files.depth;
-      return;
+      sizes.push_back ({depth.width, depth.height});
+      if (!may_fail) // the first one counts
+        size_source_ = files.depth;
+      const bool fits = depth.width == camera_.width && depth.height == camera_.height;
+      if (!may_fail || fits || sizes.size () == most_to_judge_size)
+        return sizes;
     }
     catch (const IoError& error)
     {
       if (first_failure.empty ())
         first_failure = error.what ();
     }
-  throw IoError (folder + ": no depth image can be read; the first: " + first_failure);
+  if (sizes.empty () && !may_fail)
+    throw IoError (folder + ": no depth image can be read; the first: " + first_failure);
+  return sizes;
+}
+
+std::optional<ImageSize>
+RgbdSequence::colourSize () const
+{
+  for (const FrameFiles& files : files_)
+    try
+    {
+      if (files.colour.empty ())
+        continue;
+      requireFile (files.colour);
+      const Picture colour = loadColourImage (files.colour);
+      return ImageSize{colour.width, colour.height};
+    }
+    catch (const IoError&)
+    {
+      // the next one
+    }
+  return std::nullopt;
 }
 
 std::vector<double>

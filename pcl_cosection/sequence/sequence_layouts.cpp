@@ -21,9 +21,8 @@ namespace fs = std::filesystem;
 namespace pcl::cosection {
 namespace {
 
-const NumberedNames co_fusion_depth = {{"depth", ""}, {".exr", ".png"}};
-const NumberedNames co_fusion_colour = {{"color", "colour", ""},
-                                        {".png", ".jpg", ".jpeg", ".bmp", ".ppm", ".tif", ".tiff"}};
+const NumberedNames co_fusion_depth = {{}, {".exr", ".png"}};
+const NumberedNames co_fusion_colour = {{}, {".png", ".jpg", ".jpeg", ".bmp", ".ppm", ".tif", ".tiff"}};
 const NumberedNames seven_scenes_depth = {{"frame-"}, {".depth.png", ".depth.exr"}};
 const NumberedNames seven_scenes_colour = {{"frame-"}, {".color.png", ".color.jpg", ".color.jpeg"}};
 const NumberedNames seven_scenes_pose = {{"frame-"}, {".pose.txt"}};
@@ -90,20 +89,9 @@ coFusionDepth (const std::string& folder, const std::string& asked, std::vector<
     if (!depth.empty ())
       return depth;
     if (!asked.empty () || choice == "depth" || !isThere (inFolder (folder, "depth")))
-      throw IoError (path + ": has no depth images; their names should be DepthNNNN.exr or DepthNNNN.png");
+      throw IoError (path + ": has no depth images; their names should end in a number, as DepthNNNN.exr or .png");
   }
   throw IoError (folder + ": has no folder depth_noise or depth; another one can be given with --depth-dir");
-}
-
-void
-listCoFusion (const SequenceSource& source, SequenceListing& listing)
-{
-  const std::vector<NumberedFile> depth = coFusionDepth (listing.folder, source.depth_folder, listing.warnings);
-  std::vector<NumberedFile> colour;
-  for (const char* name : {"colour", "color"})
-    if (const std::string path = inFolder (listing.folder, name); colour.empty () && isFolder (path))
-      colour = numberedFiles (path, fileNames (path), co_fusion_colour, listing.warnings);
-  listing.files = joinByNumber (depth, colour, {});
 }
 
 void
@@ -236,6 +224,34 @@ associate (std::vector<FrameFiles>& frames, std::vector<StampedFile> colours)
       frames[frame].colour = colours[colour].name;
       taken[colour] = true;
     }
+}
+
+/** \brief Whether numbers have fractions, as times in seconds have. */
+bool
+isTime (const std::vector<NumberedFile>& files)
+{
+  return std::any_of (files.begin (), files.end (),
+                      [] (const NumberedFile& file) { return file.number != std::floor (file.number); });
+}
+
+void
+listCoFusion (const SequenceSource& source, SequenceListing& listing)
+{
+  const std::vector<NumberedFile> depth = coFusionDepth (listing.folder, source.depth_folder, listing.warnings);
+  std::vector<NumberedFile> colour;
+  for (const char* name : {"colour", "color", "rgb"})
+    if (const std::string path = inFolder (listing.folder, name); colour.empty () && isFolder (path))
+      colour = numberedFiles (path, fileNames (path), co_fusion_colour, listing.warnings);
+  listing.files = joinByNumber (depth, colour, {});
+  const auto without = std::count_if (listing.files.begin (), listing.files.end (),
+                                      [] (const FrameFiles& files) { return files.colour.empty (); });
+  if (2 * static_cast<std::size_t> (without) <= listing.files.size () || colour.empty ())
+    return;
+  std::vector<StampedFile> stamped; // of two cameras, that are not triggered together
+  for (const NumberedFile& file : colour)
+    stamped.push_back ({file.number, file.path});
+  if (isTime (depth) && isTime (colour))
+    associate (listing.files, stamped);
 }
 
 /** \brief The frames of TUM's layout, in the order of the lists; depth may be without colour. \throws IoError */

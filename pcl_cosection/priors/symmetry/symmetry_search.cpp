@@ -29,11 +29,12 @@ constexpr double ball_weight = 9.0;          // ... of all turns, ...
 constexpr double mirrors_weight = 3.0;       // ... of two mirror planes at right angles, and ...
 constexpr double three_mirrors_weight = 7.0; // ... of three
 constexpr int axis_rounds = 20;
-constexpr double least_evidence = 0.3;     // log-likelihood ratio; without a plane, per copy
-constexpr double sure_evidence = 1.0;      // half of the copies are on observed surface
-constexpr double most_contradiction = 0.1; // share of the copies
-constexpr double parallel = 0.9;           // cosine of two axes
-constexpr double as_much = 0.8;            // of the largest value
+constexpr double least_evidence = 0.3;      // log-likelihood ratio; without a plane, per copy
+constexpr double sure_evidence = 1.0;       // half of the copies are on observed surface
+constexpr double most_contradiction = 0.1;  // share of the copies
+constexpr double parallel = 0.9;            // cosine of two axes
+constexpr double as_much = 0.8;             // of the largest value, where more motions are preferred ...
+constexpr double more_contradiction = 0.05; // ... though they are contradicted as much more often
 
 bool
 isPossible (const Symmetry& symmetry)
@@ -310,13 +311,17 @@ givenTurn (const CopyJudge& judge, const Eigen::Vector3d& center, const Eigen::V
 std::optional<Symmetry>
 likeliest (const std::vector<Symmetry>& symmetries)
 {
-  double largest = 0.0;
+  double largest = 0.0, contradiction = 0.0; // of the one with the largest value
   for (const Symmetry& s : symmetries)
-    if (isPossible (s))
-      largest = std::max (largest, s.value ());
+    if (isPossible (s) && s.value () > largest)
+    {
+      largest = s.value ();
+      contradiction = s.evidence.contradiction;
+    }
   std::optional<Symmetry> best;
   for (const Symmetry& s : symmetries)
     if (isPossible (s) && s.value () >= as_much * largest &&
+        s.evidence.contradiction <= contradiction + more_contradiction &&
         (!best || s.motions.size () > best->motions.size () ||
          (s.motions.size () == best->motions.size () && s.value () > best->value ())))
       best = s;

@@ -23,12 +23,19 @@
 
 namespace pcl::cosection {
 
+/** \brief Pixels. */
+struct ImageSize
+{
+  int width = 0;
+  int height = 0;
+};
+
 /** \brief How the files of a sequence are laid out. */
 enum class SequenceFormat
 {
   Detect,
-  CoFusion, ///< colour|color/ColorNNNN.*, depth_noise/ or depth/ with DepthNNNN.exr (metres) or .png, calibration.txt
-  Tum,      ///< associations.txt, or depth.txt and rgb.txt
+  CoFusion,    ///< colour|color|rgb/ColorNNNN.* or NNNN.*, depth_noise/ or depth/ with DepthNNNN.exr (metres) or .png
+  Tum,         ///< associations.txt, or depth.txt and rgb.txt
   SevenScenes, ///< frame-NNNNNN.color.*, frame-NNNNNN.depth.*, frame-NNNNNN.pose.txt
 };
 
@@ -69,8 +76,13 @@ struct PCL_COSECTION_EXPORT RgbdFrame
  * * A list of TUM's layout has lines "stamp file", associations.txt "stamp file stamp file" with colour and depth in
  * either order. Without it, a depth image has the colour image nearest in time, up to 0.02 s, and none has two. The
  * stamp of a frame is that of its depth.
- * * calibration.txt is "fx fy cx cy [width height]" in pixels; without a size, that of the first depth image that can
- * be read is taken. 7-Scenes' layout does without: 585 585 320 240 640 480.
+ * * Numbers of 16 or 19 digits are times in micro- or nanoseconds. Where the depth images' numbers are not those of the
+ * colour images but times, they are associated as in TUM's layout.
+ * * The camera is in calibration.txt, "fx fy cx cy [width height]" in pixels, or in cam_K.txt (3 x 3),
+ * camera_intrinsic.json (Open3D) or scene_camera.json (BOP), which also tells the scale. Without a size, that of the
+ * first depth image that can be read is taken. One of another resolution is scaled, if sizes tell it: its own, or that
+ * of the colour images where its principal point is in the middle of these. 7-Scenes' layout does without: 585 585 320
+ * 240 640 480.
  * * In 7-Scenes' layout a depth of 65535 is no reading.
  *
  * \code
@@ -134,7 +146,14 @@ public:
 private:
   void setCamera (const std::string& folder, const SequenceSource& source);
 
-  void takeSizeOfFirstDepth (const std::string& folder);
+  /** \brief Bring the camera to the size of the depth images, where it tells another, or its principal point is that of
+   * the colour images. \param[in] name of where the camera is from \param[in] is_given by the user */
+  void fitCameraToDepth (const std::string& folder, const std::string& name, bool is_given);
+
+  /** \brief The sizes of the first depth images that can be read, or of one. */
+  std::vector<ImageSize> depthSizes (const std::string& folder, bool may_fail);
+
+  std::optional<ImageSize> colourSize () const;
 
   SequenceFormat format_ = SequenceFormat::Detect;
   double depth_scale_ = 1000.0;
@@ -219,9 +238,12 @@ private:
   std::thread thread_; // last: it uses the rest
 };
 
-/** \brief Masks of instances for the frames of a sequence: a folder of PNGs of one channel of 8 or 16 bits, a file per
- * frame that has one. A pixel is the number of an instance, 0 none. A name ends in the frame's number or stamp:
- * Mask0003.png, 0.033333.png. Several threads may read.
+/** \brief Masks of instances for the frames of a sequence: a folder of PNGs of one channel of 8 or 16 bits (or several
+ * equal ones, or a palette), a file per
+ * frame that has one, or one per instance of it. A pixel is the number of an instance, 0 none. A name ends in the
+ * frame's number or stamp: Mask0003.png, 0.033333.png; or in that and the instance's, from 0, as the BOP benchmark has
+ * it: 000003_000001.png, whose pixels that are not 0 are instance 2. Pixels of several instances are none. Masks of
+ * another resolution and the same shape are brought to the depth's. Several threads may read.
  *
  * \code
  * const MaskSequence masks ("toycars/mask", sequence);
@@ -235,26 +257,38 @@ public:
    * \throws IoError if there is no such folder, it has no masks, or none of them matches a frame */
   MaskSequence (const std::string& folder, const RgbdSequence& sequence);
 
-  /** \brief How many files there are. */
-  std::size_t size () const { return paths_.size (); }
+  /** \brief How many frames have masks. */
+  std::size_t size () const { return files_.size (); }
 
-  /** \brief The file for a frame: that of the nearest stamp if it is less than half a frame period away; else nothing.
-   */
+  /** \brief The first file for a frame: that of the nearest stamp if it is less than half a frame period away; else
+   * nothing. */
   std::optional<std::string> file (double stamp) const;
 
   /** \brief Read the mask for a frame; nothing if there is none.
    * \throws IoError naming the file, if it is damaged, is no mask, or has another size than the depth */
   std::optional<Image<std::uint16_t>> read (double stamp) const;
 
+  /** \brief Whether there is a file for each instance. */
+  bool isPerInstance () const { return per_instance_; }
+
   /** \brief Lines about what is odd: files that match no frame, or whose names have no number; two of one number. */
   const std::vector<std::string>& warnings () const { return warnings_; }
 
 private:
+  struct InstanceFile
+  {
+    std::string path;
+    std::uint16_t instance = 0; // 0: the pixels tell
+  };
+
+  Image<std::uint16_t> readFile (const std::string& path) const;
+
   double half_period_;
   int width_;
   int height_;
-  std::vector<double> stamps_; // ascending
-  std::vector<std::string> paths_;
+  bool per_instance_ = false;
+  std::vector<double> stamps_;                   // ascending
+  std::vector<std::vector<InstanceFile>> files_; // of each stamp: one, or one per instance
   std::vector<std::string> warnings_;
 };
 
