@@ -144,6 +144,14 @@ fuse (const FusionSettings& settings, FusionOutputs& outputs, Terminal& terminal
     terminal.error ("nothing could be completed" +
                     (result.warnings.empty () ? std::string () : "; " + result.warnings.back ()));
   }
+  if (result.tracked && result.frames_left_out > result.frames) // else the trajectory that was given tells which
+  {
+    all_good = false;
+    result.warnings.push_back ("most frames were left out: " + std::to_string (result.frames_left_out) + " of " +
+                               std::to_string (result.frames_left_out + result.frames) +
+                               "; what was written is of the others alone");
+    terminal.error (result.warnings.back ());
+  }
 
   const pcl::StopWatch writing;
   const std::vector<std::string> files = outputs.write (result);

@@ -26,7 +26,9 @@ public:
   std::optional<Image<std::uint16_t>> read (const RgbdFrame& frame)
   try
   {
-    return masks_ ? masks_->read (frame.stamp) : std::nullopt;
+    std::optional<Image<std::uint16_t>> mask = masks_ ? masks_->read (frame.stamp) : std::nullopt;
+    used_ += mask.has_value ();
+    return mask;
   }
   catch (const Error& error)
   {
@@ -37,6 +39,9 @@ public:
       ++more_;
     return std::nullopt;
   }
+
+  /** \brief Whether there are masks, and none could be used. */
+  bool lacksMasks () const { return masks_ != nullptr && used_ == 0; }
 
   std::vector<std::string> warnings () const
   {
@@ -50,6 +55,7 @@ private:
   const MaskSequence* masks_;
   std::vector<std::string> warnings_;
   std::size_t more_ = 0;
+  std::size_t used_ = 0;
 };
 
 using PosesByFrame = std::vector<std::optional<Eigen::Isometry3d>>;
@@ -134,6 +140,8 @@ public:
     return object == objects_.end () || !object->second.tsdf.volume () ? TriangleMesh ()
                                                                        : object->second.tsdf.volume ()->surfaceMesh ();
   }
+
+  bool lacksMasks () const override { return masks_.lacksMasks (); }
 
   std::vector<std::string> maskWarnings () const override { return masks_.warnings (); }
 
@@ -224,6 +232,7 @@ public:
     tracked_ = &fusion_.process (frame, mask ? &*mask : nullptr);
     ++frames_;
     frames_lost_ += !tracked_->T_world_camera;
+    frames_of_objects_ += tracked_->only_objects;
     for (const auto& [id, T] : tracked_->T_world_object)
       tracked_ids_.insert (id);
     FrameKnowns known;
@@ -266,6 +275,8 @@ public:
     return text + "fit " + std::to_string (std::lround (100.0 * tracked_->inlier_share)) + " %";
   }
 
+  bool lacksMasks () const override { return masks_.lacksMasks (); }
+
   std::vector<std::string> maskWarnings () const override { return masks_.warnings (); }
 
   void finish (FusionResult& result) override
@@ -278,6 +289,9 @@ public:
     if (frames_lost_ > 0)
       result.warnings.push_back (std::to_string (frames_lost_) + " of " + std::to_string (frames_) +
                                  " frames were left out: the camera could not be tracked in them");
+    if (frames_of_objects_ > 0)
+      result.warnings.push_back ("in " + std::to_string (frames_of_objects_) + " of " + std::to_string (frames_) +
+                                 " frames only objects have readings: the camera was taken to be at rest in them");
     const std::set<int> found = fusion_.foundObjects ();
     for (auto object = result.objects.begin (); object != result.objects.end ();)
     {
@@ -301,6 +315,7 @@ private:
   std::set<int> tracked_ids_;             // of objects in any frame
   std::size_t frames_ = 0;
   std::size_t frames_lost_ = 0;
+  std::size_t frames_of_objects_ = 0;
   double masks_s_ = 0.0;
 };
 

@@ -46,6 +46,9 @@ public:
   /** \brief A few words for the progress; may be empty. */
   virtual std::string status () const { return ""; }
 
+  /** \brief Whether masks were given and none of them could be used. */
+  virtual bool lacksMasks () const = 0;
+
   /** \brief Lines about masks that could not be read. */
   virtual std::vector<std::string> maskWarnings () const = 0;
 

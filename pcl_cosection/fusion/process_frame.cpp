@@ -73,8 +73,8 @@ processFrame (const RgbdFrame& frame, const Image<std::uint16_t>* given_mask, co
 
   // Camera pose, E- and M-step of EM-Fusion: argmin_T sum_i P_i (m) rho (d_m (T p_i)) for the model m of the
   // background, see associatePixels () and SdfAlignment. The background's volume goes with the camera.
-  CameraStep step = trackCamera (frame, cloud, state.background, state.objects, state.camera, setup, state.alignment,
-                                 state.log);
+  CameraStep step = trackCamera (frame, cloud, given_mask, state.background, state.objects, state.camera, setup,
+                                 state.alignment, state.log);
   state.camera = std::move (step.camera);
   const PosedFrame posed{frame.stamp, cloud, state.camera.T_world_camera};
   if (step.tracked)
@@ -120,7 +120,9 @@ processFrame (const RgbdFrame& frame, const Image<std::uint16_t>* given_mask, co
 
   // Integration of depth, and foreground counts where there is a mask.
   integrateFrame (frame, posed, labels, mask.has_value (), *state.background, state.objects);
-  return trackedFrame (posed, labels, step.inlier_share, mask.has_value (), state.objects);
+  TrackedFrame tracked = trackedFrame (posed, labels, step.inlier_share, mask.has_value (), state.objects);
+  tracked.only_objects = state.camera.only_objects;
+  return tracked;
 }
 
 } // namespace pcl::cosection

@@ -213,8 +213,9 @@ readFrame (FrameReader& reader, const Image<std::uint8_t>& ignored, double& seco
 /** \brief Add the warnings of readers. \throws IoError if no frame could be used */
 void
 requireKeyframes (std::size_t frames_read, std::size_t points, const std::vector<std::string>& frame_warnings,
-                  const std::vector<std::string>& mask_warnings, const FusionOptions& options, FusionResult& result)
+                  const FrameContext& context, const FusionOptions& options, FusionResult& result)
 {
+  const std::vector<std::string> mask_warnings = context.maskWarnings ();
   const auto firstOf = [] (const std::vector<std::string>& lines) {
     return lines.empty () ? std::string () : ": " + lines.front ();
   };
@@ -223,7 +224,7 @@ requireKeyframes (std::size_t frames_read, std::size_t points, const std::vector
   if (result.frames == 0)
     throw IoError ((frames_read == 0 ? "no frame can be read" : "no frame that has a pose can be read") +
                    firstOf (frame_warnings));
-  if (result.keyframes == 0)
+  if (result.keyframes == 0 || context.lacksMasks ())
     throw IoError ("no frame has a mask that can be used" + firstOf (mask_warnings));
   if (points == 0)
   {
@@ -378,8 +379,8 @@ SequenceFusion::run (const ProgressCallback& progress, const KeyframeCallback& o
     backend.followUpdates (is_keyframe && options_.updates == KeyframeUpdates::InStep ? 0 : options_.backend.max_views,
                            run_progress, on_keyframe, result.timings_s["updates"]);
   }
-  requireKeyframes (run_progress.framesRead (), points.all, reader.warnings (), context->maskWarnings (), options_,
-                    result);
+  requireKeyframes (run_progress.framesRead (), points.all, reader.warnings (), *context, options_, result);
+  result.frames_left_out = std::min (options_.frames.last, images.size ()) - options_.frames.first - result.frames;
   backend.followUpdates (0, run_progress, on_keyframe, result.timings_s["updates"]);
   completeSequence (backend.withoutUpdates (), run_progress, *context, points.without_pose, result);
   return result;

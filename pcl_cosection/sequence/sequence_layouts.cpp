@@ -21,8 +21,9 @@ namespace fs = std::filesystem;
 namespace pcl::cosection {
 namespace {
 
-const NumberedNames co_fusion_depth = {{}, {".exr", ".png"}};
-const NumberedNames co_fusion_colour = {{}, {".png", ".jpg", ".jpeg", ".bmp", ".ppm", ".tif", ".tiff"}};
+const NumberedNames co_fusion_depth = {{"depth", ""}, {".exr", ".png"}};
+const NumberedNames co_fusion_colour = {{"color", "colour", "rgb", ""},
+                                        {".png", ".jpg", ".jpeg", ".bmp", ".ppm", ".tif", ".tiff"}};
 const NumberedNames seven_scenes_depth = {{"frame-"}, {".depth.png", ".depth.exr"}};
 const NumberedNames seven_scenes_colour = {{"frame-"}, {".color.png", ".color.jpg", ".color.jpeg"}};
 const NumberedNames seven_scenes_pose = {{"frame-"}, {".pose.txt"}};
@@ -74,6 +75,15 @@ joinByNumber (const std::vector<NumberedFile>& depth, const std::vector<Numbered
   return files;
 }
 
+/** \brief The files of a folder whose names begin as is usual, or else of any that end in a number. */
+std::vector<NumberedFile>
+numberedImages (const std::string& folder, const NumberedNames& usual, std::vector<std::string>& warnings)
+{
+  const std::vector<std::string> names = fileNames (folder);
+  std::vector<NumberedFile> files = numberedFiles (folder, names, usual, warnings);
+  return files.empty () ? numberedFiles (folder, names, {{}, usual.endings}, warnings) : files;
+}
+
 /** \brief The depth images of the folder asked for, else of depth_noise, else of depth. */
 std::vector<NumberedFile>
 coFusionDepth (const std::string& folder, const std::string& asked, std::vector<std::string>& warnings)
@@ -85,7 +95,7 @@ coFusionDepth (const std::string& folder, const std::string& asked, std::vector<
     const std::string path = inFolder (folder, choice);
     if (asked.empty () && !isThere (path))
       continue;
-    std::vector<NumberedFile> depth = numberedFiles (path, fileNames (path), co_fusion_depth, warnings);
+    std::vector<NumberedFile> depth = numberedImages (path, co_fusion_depth, warnings);
     if (!depth.empty ())
       return depth;
     if (!asked.empty () || choice == "depth" || !isThere (inFolder (folder, "depth")))
@@ -241,7 +251,7 @@ listCoFusion (const SequenceSource& source, SequenceListing& listing)
   std::vector<NumberedFile> colour;
   for (const char* name : {"colour", "color", "rgb"})
     if (const std::string path = inFolder (listing.folder, name); colour.empty () && isFolder (path))
-      colour = numberedFiles (path, fileNames (path), co_fusion_colour, listing.warnings);
+      colour = numberedImages (path, co_fusion_colour, listing.warnings);
   listing.files = joinByNumber (depth, colour, {});
   const auto without = std::count_if (listing.files.begin (), listing.files.end (),
                                       [] (const FrameFiles& files) { return files.colour.empty (); });

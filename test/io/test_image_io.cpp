@@ -4,6 +4,9 @@
 #include "pcl_cosection/io/image_io.h"
 #include <pcl/cosection/common/error.h>
 
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
+
 #include <gtest/gtest.h>
 
 #include <array>
@@ -88,6 +91,32 @@ TEST (ImageIo, DepthRoundTrip)
   for (const int n : {1, 4, 5})
     EXPECT_TRUE (std::isnan (read.pixels[n]));
   EXPECT_THROW (saveDepthImage (depth, folder.file ("a.jpg")), InvalidArgument);
+}
+
+TEST (ImageIo, MasksOfSeveralChannelsAndPalettes)
+{
+  const test::TemporaryFolder folder;
+  const cv::Mat grey = (cv::Mat_<std::uint8_t> (2, 2) << 0, 255, 7, 7);
+  cv::Mat rgb, rgba;
+  cv::cvtColor (grey, rgb, cv::COLOR_GRAY2BGR);
+  cv::cvtColor (grey, rgba, cv::COLOR_GRAY2BGRA);
+  rgba.at<cv::Vec4b> (0, 0)[3] = 0;
+  cv::imwrite (folder.file ("rgb.png"), rgb);
+  cv::imwrite (folder.file ("rgba.png"), rgba);
+  const std::vector<std::uint16_t> expected = {0, 255, 7, 7};
+  EXPECT_EQ (loadMaskImage (folder.file ("rgb.png")).pixels, expected);
+  EXPECT_EQ (loadMaskImage (folder.file ("rgba.png")).pixels, expected);
+
+  // Two pixels, of the second and the first colour of a palette: black, dark red.
+  const unsigned char palette[] = {
+      0x89, 0x50, 0x4e, 0x47, 0x0d, 0x0a, 0x1a, 0x0a, 0x00, 0x00, 0x00, 0x0d, 0x49, 0x48, 0x44, 0x52, 0x00, 0x00,
+      0x00, 0x02, 0x00, 0x00, 0x00, 0x01, 0x08, 0x03, 0x00, 0x00, 0x00, 0xc3, 0xfc, 0x8f, 0xb8, 0x00, 0x00, 0x00,
+      0x06, 0x50, 0x4c, 0x54, 0x45, 0x00, 0x00, 0x00, 0x80, 0x00, 0x00, 0x44, 0x52, 0xa2, 0x4f, 0x00, 0x00, 0x00,
+      0x0b, 0x49, 0x44, 0x41, 0x54, 0x78, 0x9c, 0x63, 0x60, 0x64, 0x00, 0x00, 0x00, 0x05, 0x00, 0x02, 0xd1, 0x66,
+      0x33, 0x78, 0x00, 0x00, 0x00, 0x00, 0x49, 0x45, 0x4e, 0x44, 0xae, 0x42, 0x60, 0x82};
+  test::writeFile (folder.file ("palette.png"),
+                   std::string (reinterpret_cast<const char*> (palette), sizeof (palette)));
+  EXPECT_EQ (loadMaskImage (folder.file ("palette.png")).pixels, (std::vector<std::uint16_t>{1, 0}));
 }
 
 TEST (ImageIo, MaskAndColourRoundTrip)

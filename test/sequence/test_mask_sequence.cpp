@@ -86,3 +86,57 @@ TEST (MaskSequence, BadMasksAreNamed)
   EXPECT_NE (readFailure (2).find ("Mask0002.png: is not a mask"), std::string::npos);
   EXPECT_FALSE (masks.read (3));
 }
+
+TEST (MaskSequence, AFileForEachInstance)
+{
+  SequenceFolder folder;
+  folder.coFusion ({0, 1, 2});
+  for (int frame = 0; frame < 3; ++frame)
+    for (int instance = 0; instance < 2; ++instance)
+    {
+      Image<std::uint16_t> mask (8, 6);
+      mask.at (2 * instance, 1) = mask.at (2 * instance + 1, 1) = 255;
+      mask.at (7, frame) = 255; // of both
+      saveMaskImage (mask, folder.newPath ("mask_visib/00000" + std::to_string (frame) + "_00000" +
+                                           std::to_string (instance) + ".png"));
+    }
+  const RgbdSequence sequence (folder.path ());
+  const MaskSequence masks (folder.path ("mask_visib"), sequence);
+  EXPECT_TRUE (masks.isPerInstance ());
+  EXPECT_EQ (masks.size (), 3u);
+  EXPECT_EQ (masks.warnings (), std::vector<std::string> ());
+  for (const double stamp : {0.0, 1.0, 2.0})
+  {
+    const Image<std::uint16_t> mask = *masks.read (stamp);
+    EXPECT_EQ (mask.at (0, 1), 1);
+    EXPECT_EQ (mask.at (3, 1), 2);
+    EXPECT_EQ (mask.at (7, static_cast<int> (stamp)), 0);
+    EXPECT_EQ (mask.at (5, 1), 0);
+  }
+}
+
+TEST (MaskSequence, NamesOfTwoNumbersMayBeOfOneFrameEach)
+{
+  SequenceFolder folder;
+  folder.coFusion ({3, 4});
+  writeMask (folder, "mask/7_3.png", 5); // 7 is the scene's number
+  writeMask (folder, "mask/7_4.png", 6);
+  const MaskSequence masks (folder.path ("mask"), RgbdSequence (folder.path ()));
+  EXPECT_FALSE (masks.isPerInstance ());
+  EXPECT_EQ (masks.read (4)->at (0, 0), 6);
+}
+
+TEST (MaskSequence, OfAnotherResolutionAreBroughtToTheDepths)
+{
+  SequenceFolder folder;
+  folder.coFusion ({0});
+  Image<std::uint16_t> mask (24, 18);
+  for (int v = 0; v < 18; ++v)
+    for (int u = 12; u < 24; ++u)
+      mask.at (u, v) = 9;
+  saveMaskImage (mask, folder.newPath ("mask/Mask0000.png"));
+  const Image<std::uint16_t> read = *MaskSequence (folder.path ("mask"), RgbdSequence (folder.path ())).read (0);
+  ASSERT_EQ (read.width, 8);
+  EXPECT_EQ (read.at (3, 5), 0);
+  EXPECT_EQ (read.at (4, 0), 9);
+}

@@ -69,8 +69,12 @@ TEST (RgbdSequenceErrors, CoFusionFolders)
   expectFailure (folder.path (), folder.path ("other"), "no such folder", source);
   source.depth_folder = "calibration.txt";
   expectFailure (folder.path (), "calibration.txt", "is a file", source);
-  source.depth_folder = "colour"; // names that are not of depth
-  expectFailure (folder.path (), "colour", "DepthNNNN", source);
+  source.depth_folder = "colour"; // any name that ends in a number will do, but not any image
+  std::vector<std::string> warnings;
+  EXPECT_NE (messageOf<IoError> ([&] {
+               RgbdSequence (folder.path (), source).read (0, warnings);
+             }).find ("Color0000.png: is not a depth image"),
+             std::string::npos);
   fs::remove (folder.path ("depth/Depth0000.png"));
   expectFailure (folder.path (), folder.path ("depth"), "DepthNNNN");
   fs::remove (folder.path ("depth"));
@@ -113,10 +117,12 @@ INSTANTIATE_TEST_SUITE_P (
     RgbdSequenceErrors, BadCalibration,
     testing::Values (std::pair ("", "has 0 numbers"), std::pair ("# only a comment 1 2 3 4\n", "has 0 numbers"),
                      std::pair ("10 10 4\n", "has 3 numbers"), std::pair ("10 10 4 3 8\n", "has 5 numbers"),
-                     std::pair ("10 0 4 0 10 3 0 0 1", "has 9 numbers"), std::pair ("10,10,4,3", "is not a number"),
-                     std::pair ("fx 10 10 4 3", "'fx' is not a number"), std::pair ("0 10 4 3 8 6", "must be positive"),
-                     std::pair ("-10 10 4 3 8 6", "must be positive"), std::pair ("nan 10 4 3 8 6", "must be positive"),
-                     std::pair ("10 inf 4 3 8 6", "must be positive"), std::pair ("1e300 10 4 3", "must be positive"),
+                     std::pair ("10 0 4 0 10 3 0 1", "has 8 numbers"),
+                     std::pair ("10 0 4 0 10 3 0 1 1", "not that of a camera"),
+                     std::pair ("10,10,4,3", "is not a number"), std::pair ("fx 10 10 4 3", "'fx' is not a number"),
+                     std::pair ("0 10 4 3 8 6", "must be positive"), std::pair ("-10 10 4 3 8 6", "must be positive"),
+                     std::pair ("nan 10 4 3 8 6", "must be positive"), std::pair ("10 inf 4 3 8 6", "must be positive"),
+                     std::pair ("1e300 10 4 3", "must be positive"),
                      std::pair ("0.82 1.09 0.5 0.5 8 6", "must be in pixels"),
                      std::pair ("9000 9000 4 3 8 6", "must be in pixels"),
                      std::pair ("9000 9000 4 3", "must be in pixels"), // for the size of the first image

@@ -234,6 +234,7 @@ FusionOutputs::writeSummary (const FusionResult& result) const
   const double before_final = total - result.timings_s.at ("final_solve") - result.timings_s.at ("write");
   summary["frames_per_second"] = static_cast<double> (result.frames) / std::max (1e-9, before_final);
   summary["frames"] = result.frames;
+  summary["frames_left_out"] = result.frames_left_out;
   summary["keyframes"] = result.keyframes;
   summary["kept_keyframes"] = result.kept_keyframes;
   summary["camera"] = cameraJson (result.intrinsics);

@@ -117,6 +117,18 @@ accepted (CameraState state, CameraEstimate estimate, const FrameCloud& cloud, s
   return state;
 }
 
+/** \brief Whether hardly any reading is outside the instances of a mask. */
+bool
+hasReadingsOfObjectsOnly (const RgbdFrame& frame, const Image<std::uint16_t>& mask)
+{
+  std::size_t of_objects = 0, others = 0;
+  for (std::size_t n = 0; n < frame.depth.pixels.size (); ++n)
+    if (std::isfinite (frame.depth.pixels[n]))
+      (mask.pixels[n] != 0 ? of_objects : others) += 1;
+  return of_objects > 0 &&
+         static_cast<double> (others) < min_readings_share * static_cast<double> (frame.depth.pixels.size ());
+}
+
 CameraState
 lost (CameraState state)
 {
@@ -128,9 +140,9 @@ lost (CameraState state)
 } // namespace
 
 CameraStep
-trackCamera (const RgbdFrame& frame, const FrameCloud& cloud, const std::optional<TsdfVolume>& background,
-             const ObjectMap& objects, CameraState before, const FusionSetup& setup, SdfAlignment& alignment,
-             EventLog& log)
+trackCamera (const RgbdFrame& frame, const FrameCloud& cloud, const Image<std::uint16_t>* mask,
+             const std::optional<TsdfVolume>& background, const ObjectMap& objects, CameraState before,
+             const FusionSetup& setup, SdfAlignment& alignment, EventLog& log)
 {
   if (static_cast<double> (cloud.readings) < min_readings_share * static_cast<double> (cloud.points.size ()))
   {
@@ -139,7 +151,11 @@ trackCamera (const RgbdFrame& frame, const FrameCloud& cloud, const std::optiona
   }
   CameraEstimate estimate;
   estimate.pose.T_model_camera = before.T_world_camera;
-  if (!background)
+  const bool only_objects = mask != nullptr && hasReadingsOfObjectsOnly (frame, *mask);
+  if (only_objects && !before.only_objects)
+    log.add (frame.stamp, "only objects have readings: the camera is taken to be at rest");
+  before.only_objects = only_objects;
+  if (!background || only_objects)
     return {accepted (std::move (before), std::move (estimate), cloud, frame.index), true, 1.0};
   const double frames_passed = std::max (1.0,
                                          static_cast<double> (frame.index) - static_cast<double> (before.last_frame));

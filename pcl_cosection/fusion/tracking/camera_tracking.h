@@ -25,7 +25,8 @@ struct CameraState
   Eigen::Isometry3d last_motion = Eigen::Isometry3d::Identity ();    ///< T_before_now of a frame
   std::size_t last_frame = 0;                                        ///< of the last accepted pose
   int frames_lost = 0;                                               ///< in a row
-  MovingParts moving;                                                ///< of the frame of that pose
+  bool only_objects = false; ///< nothing else had readings in the last frame, so that it was taken to rest
+  MovingParts moving;        ///< of the frame of that pose
   RestReference rest;
   BrightnessReference brightness; ///< of the background
 };
@@ -45,9 +46,11 @@ struct CameraStep
  * show that the camera rests (decideRest ()). Brightness determines what the background's shape leaves open
  * (trackBrightness ()), and objects at rest what that leaves open (holdByRestingObjects ()). The camera begins from
  * where its last motion leads, then from where it was.
- * \param[in] background nothing: this is the first frame, which defines the world */
-CameraStep trackCamera (const RgbdFrame& frame, const FrameCloud& cloud, const std::optional<TsdfVolume>& background,
-                        const ObjectMap& objects, CameraState before, const FusionSetup& setup, SdfAlignment& alignment,
-                        EventLog& log);
+ * Where only objects have readings, as on turntables whose surroundings were cut away, nothing tells the motion of the
+ * camera from theirs: it is taken to be at rest.
+ * \param[in] mask null: none \param[in] background nothing: this is the first frame, which defines the world */
+CameraStep trackCamera (const RgbdFrame& frame, const FrameCloud& cloud, const Image<std::uint16_t>* mask,
+                        const std::optional<TsdfVolume>& background, const ObjectMap& objects, CameraState before,
+                        const FusionSetup& setup, SdfAlignment& alignment, EventLog& log);
 
 } // namespace pcl::cosection

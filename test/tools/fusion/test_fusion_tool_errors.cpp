@@ -222,9 +222,9 @@ TEST_F (FusionToolErrors, MasksOfAnotherSizeOrWithoutFrames)
                 file ("far/9" + entry.path ().filename ().string ().substr (4)));
   expectFailure (camera ("sim/gt-cam-0.txt", {"--masks", "far", "sim", "out"}), 1,
                  "far: no mask matches a frame; the masks have the stamps 90000 to 90011, the frames 0 to 11");
-  changeMasks ([] (Image<std::uint16_t>& mask, const std::string&) { mask = Image<std::uint16_t> (60, 45, 1); });
+  changeMasks ([] (Image<std::uint16_t>& mask, const std::string&) { mask = Image<std::uint16_t> (60, 50, 1); });
   expectFailure (known ({"sim", "out"}), 1,
-                 "no frame has a mask that can be used: sim/mask/Mask0000.png: has 60 x 45 pixels");
+                 "no frame has a mask that can be used: sim/mask/Mask0000.png: has 60 x 50 pixels");
 }
 
 TEST_F (FusionToolErrors, OddObjects)

@@ -85,6 +85,7 @@ struct PCL_COSECTION_EXPORT TrackedFrame
   std::map<int, Eigen::Isometry3d> T_world_object; ///< of the objects that were tracked in this frame
   Image<std::uint16_t> instances;                  ///< id of the object, 0: background; empty if tracking failed
   bool masked = false;                             ///< a mask had a part in it
+  bool only_objects = false; ///< nothing else has readings, so that the camera was taken to be at rest
   double inlier_share = 0.0;                       ///< of the points that the camera was tracked with
   int lost = 0;                                    ///< objects that should be in view and are not found
 };

@@ -104,6 +104,7 @@ struct PCL_COSECTION_EXPORT FusionResult
   PinholeCamera intrinsics;           ///< of the images
   std::map<int, FusedObject> objects; ///< by id
   std::size_t frames = 0;             ///< that were used
+  std::size_t frames_left_out = 0;    ///< that were not, as they have no pose or cannot be read
   std::size_t keyframes = 0;          ///< of them
   std::size_t kept_keyframes = 0;     ///< of them, in the result
   /** \brief read, tracking, raycast (0: models are projected, in tracking), segmentation, integration, keyframes,
