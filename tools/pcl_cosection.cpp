@@ -94,6 +94,7 @@ parameters (const Settings& settings)
   result["scale"] = settings.reading.scale;
   result["world_points"] = settings.reading.world_points;
   result["viewpoints"] = settings.viewpoints;
+  result["segment"] = settings.segment;
   result["axes"] = settings.axes;
   result["background"] = settings.reading.background_labels;
   result["ignore"] = settings.reading.ignored_labels;

@@ -6,6 +6,7 @@
 #include "run_program.h"
 #include "segment_command_line.h"
 
+#include "pcl_cosection/segmentation/clusters/cloud_labels.h"
 #include "pcl_cosection/view/organized_cloud.h"
 #include <pcl/cosection/common/error.h>
 #include <pcl/cosection/common/image.h>
@@ -44,7 +45,7 @@ findByGeometry (const SegmentSettings& settings, OrganizedCloud cloud, const Ima
   for (std::size_t i = 0; i < cloud.points.size (); ++i)
     if (ignored.pixels[i] != 0)
       cloud.points[i].setConstant (std::numeric_limits<float>::quiet_NaN ());
-  ObjectSegmentation found = segmentObjects (cloud.points, cloud.width, cloud.height, settings.segmentation);
+  ObjectSegmentation found = segmentCloud (cloud, settings.segmentation);
   return {std::move (found.labels), std::vector<FoundObjects::Object> (found.objects),
           std::move (found.support_planes)};
 }
@@ -163,7 +164,8 @@ run (const SegmentSettings& given, Terminal& terminal)
   PcdViewOptions reading;
   reading.scale = settings.scale;
   reading.world_points = settings.world_points;
-  const OrganizedCloud cloud = readOrganizedCloud (settings.input, reading);
+  const bool needs_image = settings.network || !settings.ignored.empty ();
+  const OrganizedCloud cloud = readOrganizedCloud (settings.input, reading, !needs_image);
   const double read_s = total.getTimeSeconds ();
   const std::vector<std::string> warnings = warningsOf (settings, cloud);
   for (const std::string& warning : warnings)

@@ -24,7 +24,7 @@ const std::vector<std::string>& cameraFileNames ();
  * * Open3D's camera_intrinsic.json: intrinsic_matrix column by column, width, height
  * * the BOP benchmark's camera.json (fx, fy, cx, cy, width, height, depth_scale), and its scene_camera.json: cam_K and
  *   depth_scale for each image, which must all be the same
- * \throws IoError if it cannot be read, or is none of these */
+ * \throws IoError if it cannot be read, or is of no such form */
 CameraFile readCameraFile (const std::string& path);
 
 } // namespace pcl::cosection

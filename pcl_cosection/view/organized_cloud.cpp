@@ -126,21 +126,22 @@ writeViewpoint (const std::string& path, const std::array<double, 7>& viewpoint)
 } // namespace
 
 OrganizedCloud
-readOrganizedCloud (const std::string& path, const PcdViewOptions& options)
+readOrganizedCloud (const std::string& path, const PcdViewOptions& options, bool any)
 {
   options.validate ();
   SensorCloud cloud = readSensorCloud (path, options, false);
-  if (cloud.height < 2 || cloud.width < 2)
+  const bool organized = cloud.height > 1 && cloud.width > 1;
+  if (!organized && !any)
     throw IoError (path + ": is not organised (WIDTH " + std::to_string (cloud.width) + ", HEIGHT " +
                    std::to_string (cloud.height) + "); an image of points is needed, as the sensor's driver gives it");
   if (std::none_of (cloud.positions.begin (), cloud.positions.end (),
                     [] (const Eigen::Vector3f& p) { return (p.allFinite ()); }))
     throw DegenerateInput (path + ": holds no finite point");
   OrganizedCloud result;
-  result.width = cloud.width;
-  result.height = cloud.height;
+  result.width = organized ? cloud.width : cloud.width * cloud.height;
+  result.height = organized ? cloud.height : 1;
   result.points = std::move (cloud.positions);
-  if (!fitPinholeCamera (result.points, result.width, result.height))
+  if (organized && !fitPinholeCamera (result.points, result.width, result.height))
     if (const auto located = locateCamera (result.points, result.width, result.height))
     {
       result.points = takeToSensor (located->T_points_sensor.inverse (), result.points);
@@ -148,7 +149,7 @@ readOrganizedCloud (const std::string& path, const PcdViewOptions& options)
     }
   if (!cloud.colours.empty ())
   {
-    result.picture = Picture (cloud.width, cloud.height);
+    result.picture = Picture (result.width, result.height);
     result.picture.pixels = std::move (cloud.colours);
   }
   return (result);

@@ -12,7 +12,7 @@
 
 namespace pcl::cosection {
 
-/** \brief The points of an organised PCD file. */
+/** \brief The points of an organised PCD or PLY file; of another one in one row, of height 1. */
 struct OrganizedCloud
 {
   int width = 0;
@@ -22,11 +22,12 @@ struct OrganizedCloud
   bool moved = false; ///< those of the file are in another frame, in which the sensor was found (locateCamera ())
 };
 
-/** \brief Read an organised PCD file; of the options, the scale, the frame of the points and the memory count.
- * \throws IoError if the file is not a well formed PCD file with x, y and z, or not organised (HEIGHT 1)
+/** \brief Read an organised PCD or PLY file; of the options, the scale, the frame of the points and the memory count.
+ * \param[in] any also one that is not organised
+ * \throws IoError if the file is not a well formed PCD or PLY file with x, y and z, or not organised (HEIGHT 1)
  * \throws DegenerateInput if it holds no finite point
  * \throws MemoryLimitExceeded, InvalidArgument as readPcdView () */
-OrganizedCloud readOrganizedCloud (const std::string& path, const PcdViewOptions& options = {});
+OrganizedCloud readOrganizedCloud (const std::string& path, const PcdViewOptions& options = {}, bool any = false);
 
 /** \brief Write a copy of a PCD file with other labels: width, height, order, viewpoint and the other fields stay; the
  * field label is replaced, or added as the last one. The copy is binary_compressed.

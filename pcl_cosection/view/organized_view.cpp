@@ -123,7 +123,7 @@ findCamera (const std::string& path, const PcdViewOptions& options, SensorCloud&
     text << path << ": the points are " << error << " pixels off the given intrinsics; its free space may be wrong";
     result.warnings.push_back (text.str ());
   }
-  else
+  else if (!lookAround (membersOf (cloud), cloud, result))
     result.warnings.push_back (
         path + ": organised, but not the image of a pinhole camera in any frame: no free space is taken from it (give "
                "--intrinsics, with --world-points if the points are in the world frame)");

@@ -118,6 +118,8 @@ readPcdView (const std::string& path, const PcdViewOptions& options)
     completeUnorganized (path, options, cloud, result);
   if (result.view)
     result.view->name = path;
+  for (DepthView& view : result.other_views)
+    view.name = path;
   collectObjects (cloud, result);
   return (result);
 }

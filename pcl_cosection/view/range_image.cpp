@@ -115,11 +115,35 @@ isHidden (const DepthView& view, const Eigen::Vector3f& p)
 }
 
 double
-hiddenShare (const DepthView& view, const std::vector<Eigen::Vector3f>& points)
+hiddenCount (const DepthView& view, const std::vector<Eigen::Vector3f>& points)
 {
-  const auto hidden = std::count_if (points.begin (), points.end (),
-                                     [&] (const Eigen::Vector3f& p) { return isHidden (view, p); });
-  return static_cast<double> (hidden) / static_cast<double> (points.size ());
+  return static_cast<double> (
+      std::count_if (points.begin (), points.end (), [&] (const Eigen::Vector3f& p) { return isHidden (view, p); }));
+}
+
+/** \param[in] p slopes and depth */
+bool
+isWithin (const PinholeCamera& camera, const Eigen::Vector3f& p)
+{
+  const double u = camera.fx * p.x () + camera.cx, v = camera.fy * p.y () + camera.cy;
+  return u > -0.5 && v > -0.5 && u < camera.width - 0.5 && v < camera.height - 0.5;
+}
+
+/** \brief The nearest point of each pixel; NaN where there is none. */
+DepthView
+draw (const Projection& projection, const Eigen::Isometry3d& T_points_sensor)
+{
+  DepthView view;
+  view.T_world_sensor = T_points_sensor;
+  view.camera = supportedCamera (projection);
+  view.depth.assign (static_cast<std::size_t> (view.camera.width) * view.camera.height, nothing);
+  for (const Eigen::Vector3f& p : projection.points)
+  {
+    float& depth = view.depth[pixelOf (view.camera, p)];
+    depth = std::min (depth, p.z ());
+  }
+  std::replace (view.depth.begin (), view.depth.end (), nothing, std::numeric_limits<float>::quiet_NaN ());
+  return view;
 }
 
 } // namespace
@@ -127,8 +151,15 @@ hiddenShare (const DepthView& view, const std::vector<Eigen::Vector3f>& points)
 bool
 RangeImage::hides (const Eigen::Vector3f& point) const
 {
-  const Eigen::Vector3f p = (view.T_world_sensor.inverse () * point.cast<double> ()).cast<float> ();
-  return p.z () > 0.0f && isHidden (view, {p.x () / p.z (), p.y () / p.z (), p.z ()});
+  const auto hidesIn = [&] (const DepthView& of) {
+    const Eigen::Vector3d p = of.T_world_sensor.inverse () * point.cast<double> ();
+    if (!(p.z () > 0.0))
+      return false;
+    const Eigen::Vector3f projected (static_cast<float> (p.x () / p.z ()), static_cast<float> (p.y () / p.z ()),
+                                     static_cast<float> (p.z ()));
+    return (others.empty () || isWithin (of.camera, projected)) && isHidden (of, projected);
+  };
+  return hidesIn (view) || std::any_of (others.begin (), others.end (), hidesIn);
 }
 
 std::optional<RangeImage>
@@ -160,18 +191,57 @@ drawRangeImage (const std::vector<Eigen::Vector3f>& points, const Eigen::Vector3
     return std::nullopt;
 
   RangeImage image;
-  image.view.T_world_sensor = T_points_sensor;
-  image.view.camera = supportedCamera (projection);
-  image.view.depth.assign (static_cast<std::size_t> (image.view.camera.width) * image.view.camera.height, nothing);
-  for (const Eigen::Vector3f& p : projection.points)
+  image.view = draw (projection, T_points_sensor);
+  image.hidden_share = hiddenCount (image.view, projection.points) / static_cast<double> (projection.points.size ());
+  return image;
+}
+
+std::optional<RangeImage>
+drawPanorama (const std::vector<Eigen::Vector3f>& points, const Eigen::Vector3d& sensor)
+{
+  struct Face
   {
-    float& depth = image.view.depth[pixelOf (image.view.camera, p)];
-    depth = std::min (depth, p.z ());
+    Projection projection;
+    Eigen::Isometry3d T_points_sensor;
+  };
+  std::vector<Face> faces;
+  for (int axis = 0; axis < 3; ++axis)
+    for (const double sign : {1.0, -1.0})
+      faces.push_back ({{}, lookingAlong (sensor, sign * Eigen::Vector3d::Unit (axis))});
+  for (const Eigen::Vector3f& point : points)
+  {
+    if (!point.allFinite ())
+      continue;
+    const Eigen::Vector3d d = point.cast<double> () - sensor;
+    int axis = 0;
+    if (!(d.cwiseAbs ().maxCoeff (&axis) > 0.0))
+      continue;
+    Face& face = faces[2 * axis + (d[axis] < 0.0 ? 1 : 0)];
+    const Eigen::Vector3f p = (face.T_points_sensor.inverse () * point.cast<double> ()).cast<float> ();
+    const Eigen::Vector2f slope = p.head<2> () / p.z ();
+    face.projection.slopes.extend (slope);
+    face.projection.points.emplace_back (slope.x (), slope.y (), p.z ());
   }
-  image.hidden_share = hiddenShare (image.view, projection.points);
-  for (float& depth : image.view.depth)
-    if (depth == nothing)
-      depth = std::numeric_limits<float>::quiet_NaN ();
+  std::stable_sort (faces.begin (), faces.end (), [] (const Face& a, const Face& b) {
+    return a.projection.points.size () > b.projection.points.size ();
+  });
+  RangeImage image;
+  double hidden = 0.0, all = 0.0;
+  for (const Face& face : faces)
+  {
+    if (face.projection.points.size () < RangeImage::min_points)
+      continue;
+    DepthView view = draw (face.projection, face.T_points_sensor);
+    hidden += hiddenCount (view, face.projection.points);
+    all += static_cast<double> (face.projection.points.size ());
+    if (image.view.depth.empty ())
+      image.view = std::move (view);
+    else
+      image.others.push_back (std::move (view));
+  }
+  if (image.view.depth.empty ())
+    return std::nullopt;
+  image.hidden_share = hidden / all;
   return image;
 }
 

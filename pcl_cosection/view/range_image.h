@@ -21,7 +21,8 @@ struct RangeImage
 
   DepthView view; ///< nearest point of each pixel; the optical axis passes through the middle of the points, or is
                   ///< their mean direction
-  double hidden_share = 0.0; ///< of the points, clearly behind others: large if the sensor cannot have stood there
+  std::vector<DepthView> others; ///< further ones from the same place, of what spans too much for one
+  double hidden_share = 0.0;     ///< of the points, clearly behind others: large if the sensor cannot have stood there
 
   /** \brief Whether a point, in the frame of the view's pose, lies clearly behind what the view shows in its pixel. */
   bool hides (const Eigen::Vector3f& point) const;
@@ -36,6 +37,10 @@ struct RangeImage
  * \return nothing for fewer than 50 points, or if some are more than 60 degrees from both the middle of their box and
  * their mean direction as seen from the sensor */
 std::optional<RangeImage> drawRangeImage (const std::vector<Eigen::Vector3f>& points, const Eigen::Vector3d& sensor);
+
+/** \brief The same of points that a sensor saw all around, as a spinning lidar: a depth image for each face of a cube
+ * about it that has points, the one with the most first. */
+std::optional<RangeImage> drawPanorama (const std::vector<Eigen::Vector3f>& points, const Eigen::Vector3d& sensor);
 
 /** \brief Where the points of an object may have been seen from, if nothing is known of that: the direction to which
  * nearly all of them face, from far away. To judge how far hidden parts may reach, not to call space free.

@@ -19,7 +19,8 @@ namespace {
 constexpr double max_default_slope = 1.7321; // of points before a camera whose pose was left at the default: 60 degrees
 // A share of all points, from where the header does not say that they were seen ...
 constexpr double max_hidden_from_guess = 0.02;
-constexpr double max_hidden_of_label_from_guess = 0.1; // ... and of those of a label
+constexpr double max_hidden_of_label_from_guess = 0.1; // ... and of those of a label,
+constexpr double max_hidden_of_label = 0.5;            // ... of which more may be from where it does
 constexpr double same_place = 0.1;                     // of the distance to the points
 constexpr int lonely_neighbours = 6;                   // of which the farthest ...
 constexpr float lonely_factor = 2.0f;                  // ... is so much farther than usual
@@ -38,13 +39,15 @@ struct Sight
 };
 
 /** \brief Look at the points from \a sensor, in their frame. From below a table few of its points are hidden, but all
- * of what is on it. */
+ * of what is on it. \param[in] all_around what spans too much for one image is looked at, too */
 Sight
 lookFrom (const Eigen::Vector3d& sensor, const Members& members, const SensorCloud& cloud,
-          double max_hidden_of_label = 0.5)
+          double most_of_label = max_hidden_of_label, bool all_around = false)
 {
   Sight sight;
   sight.image = drawRangeImage (cloud.positions, sensor);
+  if (!sight.image && all_around)
+    sight.image = drawPanorama (cloud.positions, sensor);
   if (!sight.image)
     return sight;
   sight.hidden_share = sight.image->hidden_share;
@@ -55,7 +58,7 @@ lookFrom (const Eigen::Vector3d& sensor, const Members& members, const SensorClo
     const auto hidden = std::count_if (indices.begin (), indices.end (),
                                        [&] (std::size_t i) { return sight.image->hides (cloud.positions[i]); });
     const double share = static_cast<double> (hidden) / static_cast<double> (indices.size ());
-    if (share > max_hidden_of_label)
+    if (share > most_of_label)
       sight.hidden_share = std::max (sight.hidden_share, share);
   }
   return sight;
@@ -137,6 +140,17 @@ moveToSensor (const Eigen::Isometry3d& T_world_points, const Eigen::Isometry3d& 
   cloud.T_world_sensor = T_world_points * T_points_sensor;
 }
 
+/** \brief Take what is seen for the rays of the cloud. */
+void
+useSight (Sight sight, const Eigen::Isometry3d& T_world_points, LabelledView& result)
+{
+  result.view = std::move (sight.image->view);
+  result.other_views = std::move (sight.image->others);
+  result.view->T_world_sensor = T_world_points * result.view->T_world_sensor;
+  for (DepthView& view : result.other_views)
+    view.T_world_sensor = T_world_points * view.T_world_sensor;
+}
+
 } // namespace
 
 Members
@@ -192,25 +206,31 @@ percentText (double share)
   return std::to_string (std::lround (100.0 * share)) + " %";
 }
 
-std::optional<DepthView>
+bool
+lookAround (const Members& members, const SensorCloud& cloud, LabelledView& result)
+{
+  Sight sight = lookFrom (Eigen::Vector3d::Zero (), members, cloud, max_hidden_of_label_from_guess, true);
+  if (!sight.isTheirs (cloud.has_viewpoint ? RangeImage::max_hidden_share : max_hidden_from_guess))
+    return false;
+  useSight (std::move (sight), cloud.T_world_sensor, result);
+  return true;
+}
+
+void
 viewFromSensor (const std::string& path, const PcdViewOptions& options, const Members& members, SensorCloud& cloud,
                 LabelledView& result)
 {
-  const auto viewOf = [&] (Sight& sight, const Eigen::Isometry3d& T_world_points) {
-    sight.image->view.T_world_sensor = T_world_points * sight.image->view.T_world_sensor;
-    return std::move (sight.image->view);
-  };
   const bool header_tells = cloud.has_viewpoint || (!cloud.in_world && asBeforeACamera (cloud));
   Sight sight;
   if (header_tells)
   {
-    sight = lookFrom (Eigen::Vector3d::Zero (), members, cloud);
+    sight = lookFrom (Eigen::Vector3d::Zero (), members, cloud, max_hidden_of_label, options.viewpoint.has_value ());
     if (sight.isTheirs ())
-      return viewOf (sight, cloud.T_world_sensor);
+      return useSight (std::move (sight), cloud.T_world_sensor, result);
     if (cloud.positions.size () <= most_to_judge)
       if (Sight of_core = lookFrom (Eigen::Vector3d::Zero (), members, withoutLonely (options, members, cloud));
           of_core.isTheirs ())
-        return viewOf (of_core, cloud.T_world_sensor);
+        return useSight (std::move (of_core), cloud.T_world_sensor, result);
   }
   if (cloud.has_viewpoint && !cloud.in_world && options.axes == SensorAxes::Optical)
     if (Sight other = lookFrom (cloud.T_world_sensor.translation (), members, cloud, max_hidden_of_label_from_guess);
@@ -220,7 +240,7 @@ viewFromSensor (const std::string& path, const PcdViewOptions& options, const Me
           path + ": its points were seen from its VIEWPOINT if they are in the world frame, and not if they are in the "
                  "sensor's: taken as with --world-points");
       moveToSensor (Eigen::Isometry3d::Identity (), cloud.T_world_sensor, cloud);
-      return viewOf (other, Eigen::Isometry3d::Identity ());
+      return useSight (std::move (other), Eigen::Isometry3d::Identity (), result);
     }
   if (auto found = findSensor (members, cloud))
   {
@@ -229,14 +249,13 @@ viewFromSensor (const std::string& path, const PcdViewOptions& options, const Me
     result.warnings.push_back (path + ": the order of its points tells that they were seen from " +
                                placeText (cloud.origin + cloud.T_world_sensor.translation ()) +
                                ", which is used instead of " + sourceOfViewpoint (options));
-    return viewOf (found->sight, T_world_points);
+    return useSight (std::move (found->sight), T_world_points, result);
   }
   if (cloud.has_viewpoint && cloud.positions.size () >= RangeImage::min_points)
     result.warnings.push_back (path + ": its points were not seen from " + sourceOfViewpoint (options) + " alone (" +
                                (sight.image ? percentText (sight.hidden_share) + " of them are hidden from there"
-                                            : std::string ("they span more than 120 degrees")) +
+                                            : std::string ("they span more than 120 degrees; give --viewpoint if so")) +
                                "): no free space is taken from it");
-  return std::nullopt;
 }
 
 } // namespace pcl::cosection

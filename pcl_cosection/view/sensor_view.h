@@ -41,9 +41,12 @@ BackgroundParts partsOfBackground (const Surroundings& objects, const Members& m
 /** \brief An unorganised cloud as seen from its sensor: at the viewpoint of its header, if all points are visible from
  * there, or else where the order of its points says. Points of another frame than the sensor's are moved into it. \a
  * result.warnings says what is not as in the header.
- * \return nothing if that is not known */
-std::optional<DepthView> viewFromSensor (const std::string& path, const PcdViewOptions& options, const Members& members,
-                                         SensorCloud& cloud, LabelledView& result);
+ * \a result has no view if that is not known */
+void viewFromSensor (const std::string& path, const PcdViewOptions& options, const Members& members, SensorCloud& cloud,
+                     LabelledView& result);
+
+/** \brief A cloud as seen from the origin, all around it, as by a spinning lidar. \return whether it was */
+bool lookAround (const Members& members, const SensorCloud& cloud, LabelledView& result);
 
 /** \brief Give an organised cloud rays and normals, those of the file if any are not used.
  *

@@ -252,7 +252,7 @@ completeUnorganized (const std::string& path, const PcdViewOptions& options, Sen
   if (const double repeated = leaveOutRepeated (options.threads, cloud); repeated > worth_saying)
     result.warnings.push_back (path + ": " + percentText (repeated) + " of its points repeat others, and are left out");
   const Members members = membersOf (cloud);
-  result.view = viewFromSensor (path, options, members, cloud, result);
+  viewFromSensor (path, options, members, cloud, result);
   dropUnfilledNormals (cloud);
   const bool given = !cloud.normals.empty ();
   if (!given)
@@ -297,10 +297,16 @@ completeUnorganized (const std::string& path, const PcdViewOptions& options, Sen
       given && turned > worth_saying)
     result.warnings.push_back (path + ": " + percentText (turned) +
                                " of the normals point away from the VIEWPOINT; they were turned");
-  for (const auto& [label, indices] : members)
-    if (label != 0)
-      leaveOutTrails (options, *result.view, indices, cloud);
-  leaveOutMixedPixels (*result.view, cloud);
+  std::vector<const DepthView*> views = {&*result.view};
+  for (const DepthView& view : result.other_views)
+    views.push_back (&view);
+  for (const DepthView* view : views)
+  {
+    for (const auto& [label, indices] : members)
+      if (label != 0)
+        leaveOutTrails (options, *view, indices, cloud);
+    leaveOutMixedPixels (*view, cloud);
+  }
   leaveOutScattered (options, objects, background.near, cloud);
 }
 

@@ -3,15 +3,21 @@
 
 #include <pcl/io/lzf.h>
 
+#include <Eigen/Geometry>
+
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
 #include <sstream>
 #include <stdexcept>
+#include <utility>
 
 namespace fuzz {
 namespace {
+
+constexpr int digits = 10; ///< of text; 5405590 m with three more
 
 struct Field
 {
@@ -81,6 +87,7 @@ std::string
 asciiFile (const Cloud& cloud)
 {
   std::ostringstream text;
+  text.precision (digits);
   text << header (cloud, "ascii");
   for (const auto& row : cloud.rows)
   {
@@ -128,6 +135,103 @@ compressedFile (const Cloud& cloud)
   bytes.append (reinterpret_cast<const char*> (&size), sizeof (size));
   bytes.append (reinterpret_cast<const char*> (&raw_size), sizeof (raw_size));
   return (bytes + packed.substr (0, size));
+}
+
+/** \brief An element of a PLY file: its name and what it holds. */
+using PlyElement = std::pair<std::string, Cloud>;
+
+std::string
+plyProperty (const Field& field)
+{
+  static const std::string reals[] = {"float", "double"};
+  static const std::string integers[] = {"char", "short", "int"};
+  const std::string type = field.type == 'F' ? reals[field.size / 8] : integers[field.size / 2];
+  const std::string normal = "normal_";
+  const bool is_normal = field.name.rfind (normal, 0) == 0;
+  return (std::string ("property ") + (field.count > 1 ? "list uchar " : "") + (field.type == 'U' ? "u" : "") + type +
+          " " + (is_normal ? "n" + field.name.substr (normal.size ()) : field.name) + "\n");
+}
+
+void
+appendPly (std::string& bytes, const std::string& format, const Field& field, double value)
+{
+  if (format == "ascii")
+  {
+    std::ostringstream text;
+    text.precision (digits);
+    text << value << ' ';
+    bytes += text.str ();
+    return;
+  }
+  std::string typed;
+  append (typed, field, value);
+  if (format == "binary_big_endian")
+    std::reverse (typed.begin (), typed.end ());
+  bytes += typed;
+}
+
+/** \brief Fields of several elements are lists. */
+std::string
+plyFile (const std::vector<PlyElement>& elements, const std::string& format)
+{
+  std::string bytes = "ply\nformat " + format + " 1.0\ncomment a scan\nobj_info a sensor\n";
+  for (const auto& [name, cloud] : elements)
+  {
+    bytes += "element " + name + " " + std::to_string (cloud.rows.size ()) + "\n";
+    for (const Field& field : cloud.fields)
+      bytes += plyProperty (field);
+  }
+  bytes += "end_header\n";
+  for (const auto& [name, cloud] : elements)
+    for (const auto& row : cloud.rows)
+    {
+      std::size_t column = 0;
+      for (const Field& field : cloud.fields)
+      {
+        if (field.count > 1)
+          appendPly (bytes, format, {"", 1, 'U', 1}, field.count);
+        for (int n = 0; n < field.count; ++n)
+          appendPly (bytes, format, field, row[column++]);
+      }
+      if (format == "ascii")
+        bytes += '\n';
+    }
+  return (bytes);
+}
+
+/** \brief The camera that pcl::PLYWriter puts behind the points; that of points in doubles has its place in these. */
+PlyElement
+cameraOf (const Cloud& cloud)
+{
+  std::array<double, 7> pose{};
+  std::istringstream text (cloud.viewpoint);
+  for (double& value : pose)
+    text >> value;
+  const Eigen::Matrix3d rotation = Eigen::Quaterniond (pose[3], pose[4], pose[5], pose[6]).normalized ().matrix ();
+  Cloud camera = {1, 1, {}, {{}}, ""};
+  const auto add = [&camera] (const std::string& name, int size, char type, double value) {
+    camera.fields.push_back ({name, size, type, 1});
+    camera.rows[0].push_back (value);
+  };
+  const std::string axes = "xyz";
+  for (int axis = 0; axis < 3; ++axis)
+    add (std::string ("view_p") + axes[axis], cloud.fields[0].size, 'F', pose[axis]);
+  for (int row = 0; row < 3; ++row)
+    for (int column = 0; column < 3; ++column)
+      add (axes[row] + std::string ("_axis") + axes[column], 4, 'F', rotation (row, column));
+  for (const char* name : {"focal", "scalex", "scaley", "centerx", "centery"})
+    add (name, 4, 'F', 0.0);
+  add ("viewportx", 4, 'I', cloud.width);
+  add ("viewporty", 4, 'I', cloud.height);
+  add ("k1", 4, 'F', 0.0);
+  add ("k2", 4, 'F', 0.0);
+  return {"camera", camera};
+}
+
+PlyElement
+someFaces ()
+{
+  return {"face", {2, 1, {{"vertex_indices", 4, 'I', 3}}, {{0, 1, 2}, {1, 3, 2}}, ""}};
 }
 
 const std::string seen_from = "0.1 -0.2 0.5 1 0 0 0";
@@ -258,6 +362,68 @@ balls ()
   return (clouds);
 }
 
+/** \brief The same in survey coordinates (UTM), which floats would round; with its viewpoint, if it has one. */
+Cloud
+surveyed (Cloud cloud)
+{
+  const std::array<double, 3> there = {512434.0, 5405590.0, 348.0};
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    cloud.fields[axis].size = 8;
+    for (auto& row : cloud.rows)
+      row[axis] += there[axis];
+  }
+  if (cloud.viewpoint == default_viewpoint)
+    return (cloud);
+  std::istringstream old (cloud.viewpoint);
+  std::ostringstream text;
+  text.precision (digits);
+  for (std::size_t n = 0; n < 7; ++n)
+  {
+    double value = 0.0;
+    old >> value;
+    text << (n == 0 ? "" : " ") << value + (n < there.size () ? there[n] : 0.0);
+  }
+  cloud.viewpoint = text.str ();
+  return (cloud);
+}
+
+/** \brief The same with colours in three fields. */
+Cloud
+coloured (Cloud cloud)
+{
+  for (const char* name : {"red", "green", "blue"})
+    cloud.fields.push_back ({name, 1, 'U', 1});
+  for (std::size_t i = 0; i < cloud.rows.size (); ++i)
+    for (const double value : {200.0, 3.0 * static_cast<double> (i % 80), 7.0})
+      cloud.rows[i].push_back (value);
+  return (cloud);
+}
+
+std::vector<std::string>
+plySeeds ()
+{
+  const Cloud image = coloured (organised ());
+  const std::vector<Cloud> shapes = balls ();
+  const Cloud normals_and_labels = shapes[1], with_intensity = coloured (shapes[6]), seen = shapes[3];
+  const Cloud survey = surveyed (shapes[0]), seen_survey = surveyed (seen);
+  const std::vector<std::vector<PlyElement>> files = {
+      {{"vertex", image}, cameraOf (image)},
+      {{"vertex", coloured (normals_and_labels)}},
+      {{"vertex", shapes[4]}, someFaces (), cameraOf (shapes[4])},
+      {{"vertex", with_intensity}, someFaces ()},
+      {someFaces (), {"vertex", seen}, cameraOf (seen)},
+      {{"vertex", unorganised ({{"histogram", 4, 'F', 5}, {"label", 2, 'I', 1}, {"id", 2, 'U', 2}}, 2.0)}},
+      {{"vertex", unorganised ({{"scalar_Classification", 4, 'F', 1}, {"curvature", 8, 'F', 1}}, 6.0, 8)}},
+      {{"vertex", survey}},
+      {{"vertex", coloured (seen_survey)}, cameraOf (seen_survey)}};
+  std::vector<std::string> seeds;
+  for (const std::vector<PlyElement>& file : files)
+    for (const char* format : {"ascii", "binary_little_endian", "binary_big_endian"})
+      seeds.push_back (plyFile (file, format));
+  return (seeds);
+}
+
 std::string
 replaced (std::string text, const std::string& from, const std::string& to)
 {
@@ -280,6 +446,8 @@ pcdSeeds ()
       unorganised ({{"histogram", 4, 'F', 5}, {"label", 2, 'I', 1}, {"id", 2, 'U', 2}}, 2.0)};
   for (const Cloud& cloud : balls ())
     clouds.push_back (cloud);
+  for (const Cloud& cloud : {clouds[0], balls ()[0], balls ()[3]})
+    clouds.push_back (surveyed (cloud));
   std::vector<std::string> seeds;
   for (const Cloud& cloud : clouds)
   {
@@ -292,6 +460,8 @@ pcdSeeds ()
   seeds.push_back (binaryFile (padded));
   seeds.push_back (replaced (seeds[0], "VERSION", "# a comment\n\nVERSION"));
   seeds.push_back (replaced (replaced (seeds[3], "COUNT 1 1 1\n", ""), "VIEWPOINT 0.1 -0.2 0.5 1 0 0 0\n", ""));
+  for (const std::string& seed : plySeeds ())
+    seeds.push_back (seed);
   return (seeds);
 }
 

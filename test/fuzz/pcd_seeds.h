@@ -6,9 +6,9 @@
 
 namespace fuzz {
 
-/** \brief Small PCD files of every kind: organised or not, ASCII, binary and compressed, with colours,
- * labels, normals, doubles, fields of several elements, padding and comments; unorganised ones seen from a viewpoint,
- * not from theirs, or from nowhere. */
+/** \brief Small PCD and PLY files of every kind: organised or not, in every encoding, with colours, labels, normals,
+ * doubles, survey coordinates, fields of several elements, padding and comments, cameras and faces; unorganised ones
+ * seen from a viewpoint, not from theirs, or from nowhere. */
 std::vector<std::string> pcdSeeds ();
 
 } // namespace fuzz

@@ -2,6 +2,7 @@
 #include "command_line.h"
 
 #include "option_values.h"
+#include "output_files.h"
 
 #include "pcl_cosection/io/lower_case.h"
 
@@ -26,6 +27,9 @@ declareInput (CLI::App& app, Given& given)
              "Multiplies all coordinates: 0.001 for millimetres");
   input.add ("--label-field NAME", given.reading.label_field,
              "Field that says to which object a point belongs (default: label, else class or classification)");
+  input.addFlag ("--segment", given.segment,
+                 "Find the objects first, in one INPUT without labels: what stands on its planes");
+  input.add ("--save-labels FILE.pcd", given.save_labels, "Write INPUT with the labels that --segment found");
   input.add ("--background LABEL", given.reading.background_labels, wholeRange (0, 4294967295),
              "Label of the background" + byDefault (0) + "; repeatable");
   input.add ("--ignore LABEL", given.reading.ignored_labels, wholeRange (0, 4294967295),
@@ -139,6 +143,13 @@ interpret (Settings& settings)
   setPlanes (settings);
   settings.reading.threads = settings.method.threads;
   settings.reading.max_memory_bytes = settings.method.max_memory_bytes;
+  if (settings.segment && settings.inputs.size () > 1)
+    throw UsageError ("--segment needs one INPUT: objects of several have no common numbers");
+  if (!settings.save_labels.empty () && !settings.segment)
+    throw UsageError ("--save-labels needs --segment");
+  if (!settings.save_labels.empty () && !endsWith (settings.save_labels, ".pcd"))
+    throw UsageError ("--save-labels is \"" + settings.save_labels + "\"; it must be the name of a .pcd file");
+  refuseToOverwrite (settings.inputs, {settings.save_labels});
   if (settings.axes == "opengl")
     settings.reading.axes = SensorAxes::OpenGl;
   for (const Eigen::Vector4d& plane : settings.planes)
@@ -169,6 +180,7 @@ completionText ()
       {
           {"pcl_cosection table.pcd meshes",
            "every labelled object of one organised view, and the table, into the folder meshes"},
+          {"pcl_cosection --segment scene.pcd meshes", "what stands on the table of a view without labels"},
           {"pcl_cosection front.pcd left.pcd cup.ply",
            "one object seen in two views (VIEWPOINT in each header), as one closed mesh"},
           {"pcl_cosection --free-space other.pcd table.pcd carved",

@@ -24,6 +24,8 @@ struct Given : GivenMethod
   std::vector<std::string> plane_values, viewpoint_values, intrinsics, trajectory_values;
   std::vector<std::string> free_space; ///< views of which nothing else is used
   std::vector<std::string> obstacles;  ///< mesh files
+  bool segment = false;                ///< find the objects first
+  std::string save_labels;             ///< empty: labels that were found are not written
   std::string axes = "optical";        ///< of the sensor
   std::string format;                  ///< extension of the meshes
   std::string json;                    ///< empty: no summary

@@ -2,6 +2,8 @@
 #include "scene_input.h"
 
 #include "pcl_cosection/common/boxes.h"
+#include "pcl_cosection/segmentation/clusters/cloud_labels.h"
+#include "pcl_cosection/view/organized_cloud.h"
 
 #include <pcl/cosection/common/error.h>
 #include <pcl/cosection/io/mesh_io.h>
@@ -158,6 +160,33 @@ relativeTo (const Eigen::Vector3d& origin, ObjectPoses poses)
   return poses;
 }
 
+/** \brief The pose of the file that each view is of: a sensor that sees all around gives several. */
+ObjectPoses
+ofInputs (const std::vector<std::size_t>& inputs, const ObjectPoses& poses)
+{
+  ObjectPoses of_views;
+  for (const auto& [label, T_world_object] : poses)
+    for (const std::size_t input : inputs)
+      of_views[label].push_back (T_world_object[input]);
+  return of_views;
+}
+
+/** \brief Add what a file shows of free space, and for each view the number of the file. \param[in] needed a file
+ * without rays gets a view that says nothing, as poses come one per view */
+void
+addViews (LabelledView& read, std::size_t input, bool needed, std::vector<DepthView>& views,
+          std::vector<std::size_t>& inputs)
+{
+  if (!read.view && !needed)
+    return;
+  read.other_views.insert (read.other_views.begin (), read.view ? std::move (*read.view) : silentView ());
+  for (DepthView& view : read.other_views)
+  {
+    views.push_back (std::move (view));
+    inputs.push_back (input);
+  }
+}
+
 /** \brief Empty for an object that rests. */
 std::vector<Eigen::Isometry3d>
 posesOf (const ObjectPoses& poses, std::uint32_t label)
@@ -229,6 +258,30 @@ optionsOf (std::size_t view, const Settings& settings, const Labels& labels)
   return (options);
 }
 
+/** \brief The labels of objects that are found in a file. \throws DegenerateInput if there are none */
+std::vector<std::uint32_t>
+findLabels (const std::string& path, const Settings& settings, const PcdViewOptions& reading)
+{
+  ObjectSegmentationOptions options;
+  options.threads = settings.method.threads;
+  ObjectSegmentation found;
+  try
+  {
+    found = segmentCloud (readOrganizedCloud (path, reading, true), options);
+  }
+  catch (const DegenerateInput& error)
+  {
+    const std::string reason = error.what ();
+    throw DegenerateInput (reason.rfind (path, 0) == 0 ? reason : path + ": " + reason);
+  }
+  if (found.objects == 0)
+    throw DegenerateInput (path + ": no object was found on its planes; give labels, or try pcl_cosection_segment with "
+                                  "other sizes");
+  if (!settings.save_labels.empty ())
+    copyWithLabels (path, found.labels, settings.save_labels);
+  return std::move (found.labels);
+}
+
 /** \brief A warning of an object that extends about all the others, if there is no background: it may be that. */
 std::optional<std::string>
 objectLikeBackground (const SceneInput& scene)
@@ -263,6 +316,7 @@ readScene (const Settings& settings, const ProgressCallback& progress)
   const std::size_t files = settings.inputs.size () + settings.free_space.size ();
   const ObjectPoses poses = readPoses (settings.object_trajectories, files);
   Labels labels;
+  std::vector<std::size_t> inputs; // of each view, the file that it is of
   std::size_t begun = 0;
   const auto read = [&] (const std::string& path) {
     if (!progress ("reading " + std::filesystem::path (path).filename ().string (),
@@ -271,6 +325,8 @@ readScene (const Settings& settings, const ProgressCallback& progress)
     PcdViewOptions options = optionsOf (begun++, settings, labels);
     if (begun > 1)
       options.origin = {scene.origin.x (), scene.origin.y (), scene.origin.z ()};
+    if (settings.segment && begun == 1)
+      options.labels = findLabels (path, settings, options);
     LabelledView view = readPcdView (path, options);
     scene.origin = view.origin;
     std::move (view.warnings.begin (), view.warnings.end (), std::back_inserter (scene.warnings));
@@ -283,10 +339,7 @@ readScene (const Settings& settings, const ProgressCallback& progress)
       scene.warnings.push_back (path + ": has no field label, so all that it shows is taken as one object; " +
                                 "if it shows several, give them labels or cut one out");
     merge (path, begun - 1, view, relativeTo (scene.origin, poses), labels, scene.warnings);
-    if (view.view)
-      scene.views.push_back (std::move (*view.view));
-    else if (!poses.empty ()) // they come one per view
-      scene.views.push_back (silentView ());
+    addViews (view, begun - 1, !poses.empty (), scene.views, inputs);
   }
   for (const std::string& path : settings.free_space)
   {
@@ -294,11 +347,11 @@ readScene (const Settings& settings, const ProgressCallback& progress)
     if (!view.view)
       throw DegenerateInput (path +
                              ": shows no free space: it is no image of a pinhole camera, nor seen from its VIEWPOINT");
-    scene.free_space.push_back (std::move (*view.view));
+    addViews (view, begun - 1, true, scene.free_space, inputs);
   }
   for (const std::string& file : settings.obstacles)
     scene.obstacles.push_back (readObstacle (file, scene.origin, scene.warnings));
-  const ObjectPoses relative_poses = relativeTo (scene.origin, poses);
+  const ObjectPoses relative_poses = ofInputs (inputs, relativeTo (scene.origin, poses));
 
   for (auto& [label, object] : labels)
   {

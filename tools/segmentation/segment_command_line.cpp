@@ -33,7 +33,7 @@ setMethod (SegmentSettings& settings)
 void
 interpret (SegmentSettings& settings)
 {
-  requirePaths (settings.paths, "INPUT.pcd", "OUTPUT.pcd");
+  requirePaths (settings.paths, "INPUT", "OUTPUT.pcd");
   settings.input = settings.paths[0];
   settings.output = settings.paths[1];
   if (!endsWith (settings.output, ".pcd"))
@@ -60,13 +60,15 @@ segmentationText ()
 {
   static const ProgramText text = {
       "pcl_cosection_segment",
-      "find the objects in an organised point cloud",
-      "pcl_cosection_segment [OPTIONS] INPUT.pcd OUTPUT.pcd",
+      "find the objects in a point cloud",
+      "pcl_cosection_segment [OPTIONS] INPUT OUTPUT.pcd",
       "Finds the objects in a view, one label for each: by their geometry what stands on a table, a shelf or the "
       "floor, or by their colours with an instance segmentation network of yours.",
-      {"INPUT.pcd is an organised cloud in its sensor's frame, as a depth camera's driver gives it.",
+      {"INPUT is a PCD or PLY file, best an organised cloud in its sensor's frame, as a depth camera's driver gives "
+       "it. In "
+       "one without an order, clusters of points that stand on a plane are the objects.",
        "OUTPUT.pcd is the same cloud with the field label: 0 background, 1 ... objects, the largest in the image "
-       "first, 65535 neither. Width, height, order, viewpoint and the other fields stay; labels of INPUT.pcd are "
+       "first, 65535 neither. Width, height, order, viewpoint and the other fields stay; labels of INPUT are "
        "replaced. pcl_cosection reads it."},
       {
           {"pcl_cosection_segment view.pcd labelled.pcd", "objects up to half a metre"},

@@ -110,6 +110,14 @@ void
 readLabels (const std::string& path, const CloudHeader& header, const PCLPointCloud2& points,
             const PcdViewOptions& options, SensorCloud& cloud)
 {
+  if (!options.labels.empty ())
+  {
+    if (options.labels.size () != cloud.labels.size ())
+      throw InvalidArgument (path + ": there must be one label per point");
+    cloud.labels = options.labels;
+    cloud.has_labels = true;
+    return;
+  }
   const CloudField* field = labelField (path, header, points, options.label_field);
   if (field == nullptr)
   {

@@ -1,0 +1,14 @@
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "pcl_cosection/view/organized_cloud.h"
+
+#include <pcl/cosection/segmentation/geometric_segmentation.h>
+
+namespace pcl::cosection {
+
+/** \brief Find the objects in a cloud: by segmentObjects () in an organised one, else by segmentClusters ().
+ * \throws DegenerateInput, InvalidArgument as these */
+ObjectSegmentation segmentCloud (const OrganizedCloud& cloud, const ObjectSegmentationOptions& options);
+
+} // namespace pcl::cosection

@@ -1,0 +1,229 @@
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
+#include "cluster_segmentation.h"
+
+#include "pcl_cosection/common/boxes.h"
+#include "pcl_cosection/common/quantile.h"
+#include "pcl_cosection/io/quiet_console.h"
+#include "pcl_cosection/view/normals/estimated_normals.h"
+
+#include <pcl/cosection/common/error.h>
+
+#include <pcl/point_types.h>
+#include <pcl/sample_consensus/ransac.h>
+#include <pcl/sample_consensus/sac_model_plane.h>
+#include <pcl/search/kdtree.h>
+#include <pcl/segmentation/extract_clusters.h>
+#include <pcl/segmentation/impl/extract_clusters.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <optional>
+#include <set>
+#include <utility>
+
+namespace pcl::cosection {
+namespace {
+
+constexpr std::size_t least_points = 100;
+constexpr int spacing_neighbours = 4;
+constexpr double sheet_spacings = 2.0;   // half thickness of a plane, of the distance of neighbours ...
+constexpr double sheet_of_object = 0.25; // ... or of the smallest object, whichever is larger
+constexpr double gap_spacings = 3.0;     // distance of clusters, likewise
+constexpr double cell_spacings = 4.0;    // side of the cells by which a plane's area is measured
+constexpr int most_planes = 6;
+constexpr int ransac_iterations = 1000;
+constexpr double outlier_share = 0.02;
+constexpr int least_cluster = 50; // points
+constexpr double near_gaps = 3.0; // height of the foot of what stands on a plane, in gaps between clusters
+
+using Points = PointCloud<PointXYZ>;
+
+/** \brief Lengths that the points and the objects ask for, metres. */
+struct Lengths
+{
+  double sheet, gap, cell;
+};
+
+/** \brief A plane with the part of it that has points. */
+class Support
+{
+public:
+  Support (const Eigen::Vector4f& coefficients, const Points& cloud, const Indices& inliers, double cell_m)
+      : plane_ (coefficients / coefficients.head<3> ().norm ())
+      , u_ (plane_.head<3> ().unitOrthogonal ())
+      , v_ (plane_.head<3> ().cross (u_))
+  {
+    std::set<std::pair<int, int>> cells;
+    std::vector<Eigen::Vector3f> along;
+    for (const auto i : inliers)
+    {
+      const Eigen::Vector2f at = project (cloud[i].getVector3fMap ());
+      along.emplace_back (at.x (), at.y (), 0.0f);
+      cells.emplace (static_cast<int> (std::floor (at.x () / cell_m)),
+                     static_cast<int> (std::floor (at.y () / cell_m)));
+    }
+    area_m2_ = static_cast<double> (cells.size ()) * cell_m * cell_m;
+    box_ = trimmedBox<float> (along, outlier_share, [] (const Eigen::Vector3f& p) { return p; });
+  }
+
+  double area () const { return area_m2_; }
+  double longest () const { return box_.sizes ().maxCoeff (); }
+  float height (const Eigen::Vector3f& p) const { return plane_.head<3> ().dot (p) + plane_[3]; }
+  const Eigen::Vector4f& plane () const { return plane_; }
+  void turn () { plane_ = -plane_; }
+
+  /** \brief Whether a place is above or below the part that has points. */
+  bool covers (const Eigen::Vector3f& p) const
+  {
+    const Eigen::Vector2f at = project (p);
+    return box_.contains (Eigen::Vector3f (at.x (), at.y (), 0.0f));
+  }
+
+private:
+  Eigen::Vector2f project (const Eigen::Vector3f& p) const { return {u_.dot (p), v_.dot (p)}; }
+
+  Eigen::Vector4f plane_;
+  Eigen::Vector3f u_, v_;
+  Eigen::AlignedBox3f box_; // along u and v
+  double area_m2_ = 0.0;
+};
+
+/** \brief The plane of most of the points that are left, which it takes; nothing if it is too small. */
+std::optional<Support>
+takePlane (const Points::Ptr& cloud, const ObjectSegmentationOptions& options, const Lengths& lengths, bool is_first,
+           Indices& left)
+{
+  if (left.size () < least_points)
+    return std::nullopt;
+  const QuietConsole quiet;
+  auto model = pcl::make_shared<SampleConsensusModelPlane<PointXYZ>> (cloud, left); // its seed is always the same
+  RandomSampleConsensus<PointXYZ> ransac (model, lengths.sheet);
+  ransac.setMaxIterations (ransac_iterations);
+  Eigen::VectorXf found, refined;
+  Indices inliers;
+  if (!ransac.computeModel (0))
+    return std::nullopt;
+  ransac.getModelCoefficients (found);
+  ransac.getInliers (inliers);
+  model->optimizeModelCoefficients (inliers, found, refined);
+  model->selectWithinDistance (refined, lengths.sheet, inliers);
+  if (inliers.size () < least_points)
+    return std::nullopt;
+  Support support (refined.head<4> (), *cloud, inliers, lengths.cell);
+  if (support.area () < options.min_support_area_m2 || (!is_first && support.longest () < options.max_object_size_m))
+    return std::nullopt;
+  Indices rest;
+  std::sort (inliers.begin (), inliers.end ());
+  std::set_difference (left.begin (), left.end (), inliers.begin (), inliers.end (), std::back_inserter (rest));
+  left = std::move (rest);
+  return support;
+}
+
+/** \brief Let the normal point to the side on which more is near the plane. */
+void
+turnToObjects (const Points& cloud, const Indices& left, double reach_m, Support& support)
+{
+  std::ptrdiff_t balance = 0;
+  for (const auto i : left)
+    if (const Eigen::Vector3f p = cloud[i].getVector3fMap (); support.covers (p))
+      if (const float height = support.height (p); std::abs (height) < reach_m)
+        balance += height > 0.0f ? 1 : -1;
+  if (balance < 0)
+    support.turn ();
+}
+
+/** \brief Whether a cluster is as large as an object, and stands on a plane. */
+bool
+standsOn (const std::vector<Support>& supports, const Points& cloud, const Indices& cluster,
+          const ObjectSegmentationOptions& options, const Lengths& lengths, bool& is_too_long)
+{
+  std::vector<Eigen::Vector3f> points;
+  for (const auto i : cluster)
+    points.emplace_back (cloud[i].getVector3fMap ());
+  const Eigen::AlignedBox3f box = trimmedBox<float> (points, outlier_share,
+                                                     [] (const Eigen::Vector3f& p) { return p; });
+  const double longest = box.sizes ().maxCoeff ();
+  if (longest < options.min_object_size_m)
+    return false;
+  is_too_long = longest > options.max_object_size_m;
+  if (is_too_long)
+    return false;
+  return std::any_of (supports.begin (), supports.end (), [&] (const Support& support) {
+    std::vector<float> heights;
+    for (const Eigen::Vector3f& p : points)
+      heights.push_back (support.height (p));
+    const float foot = trimmedMin (heights, outlier_share);
+    return support.covers (box.center ()) && foot > 0.0f && foot < near_gaps * lengths.gap;
+  });
+}
+
+} // namespace
+
+ObjectSegmentation
+segmentClusters (const std::vector<Eigen::Vector3f>& points, const ObjectSegmentationOptions& options)
+{
+  options.validate ();
+  const auto cloud = pcl::make_shared<Points> ();
+  std::vector<std::size_t> of; // indices of the points that have a place
+  std::vector<Eigen::Vector3f> places;
+  for (std::size_t i = 0; i < points.size (); ++i)
+    if (points[i].allFinite ())
+    {
+      cloud->emplace_back (points[i].x (), points[i].y (), points[i].z ());
+      places.push_back (points[i]);
+      of.push_back (i);
+    }
+  if (of.size () < least_points)
+    throw DegenerateInput ("has " + std::to_string (of.size ()) + " readings, at least " +
+                           std::to_string (least_points) + " are needed");
+  std::vector<float> distances = neighbourDistances (places, spacing_neighbours, options.threads);
+  const double spacing = upperMedian (distances);
+  const double sheet = std::max (sheet_spacings * spacing, sheet_of_object * options.min_object_size_m);
+  const Lengths lengths{sheet, std::max (gap_spacings * spacing, sheet), cell_spacings * spacing};
+
+  Indices left (cloud->size ());
+  for (std::size_t i = 0; i < left.size (); ++i)
+    left[i] = static_cast<index_t> (i);
+  std::vector<Support> supports;
+  while (static_cast<int> (supports.size ()) < most_planes)
+    if (auto support = takePlane (cloud, options, lengths, supports.empty (), left))
+      supports.push_back (*support);
+    else
+      break;
+  if (supports.empty ())
+    throw DegenerateInput ("shows no plane that objects could stand on, of " +
+                           std::to_string (options.min_support_area_m2) + " square metres or more");
+  for (Support& support : supports)
+    turnToObjects (*cloud, left, options.max_object_size_m, support);
+
+  std::vector<PointIndices> clusters;
+  if (!left.empty ())
+  {
+    const auto tree = pcl::make_shared<search::KdTree<PointXYZ>> ();
+    tree->setInputCloud (cloud, pcl::make_shared<Indices> (left));
+    extractEuclideanClusters<PointXYZ> (*cloud, left, tree, static_cast<float> (lengths.gap), clusters, least_cluster);
+  }
+  std::stable_sort (clusters.begin (), clusters.end (), [] (const PointIndices& a, const PointIndices& b) {
+    return a.indices.size () > b.indices.size ();
+  });
+  ObjectSegmentation result;
+  result.labels.assign (points.size (), 0);
+  result.too_long.assign (points.size (), 0);
+  for (const PointIndices& cluster : clusters)
+  {
+    bool is_too_long = false;
+    const bool is_object = standsOn (supports, *cloud, cluster.indices, options, lengths, is_too_long);
+    result.objects += is_object;
+    for (const auto i : cluster.indices)
+    {
+      result.labels[of[i]] = is_object ? result.objects : 0;
+      result.too_long[of[i]] = is_too_long;
+    }
+  }
+  for (const Support& support : supports)
+    result.support_planes.push_back (support.plane ());
+  return result;
+}
+
+} // namespace pcl::cosection
