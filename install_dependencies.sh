@@ -13,6 +13,7 @@ packages=(
   libpcl-dev
   libvtk9-dev
   libeigen3-dev
+  libpng-dev
   libopencv-dev
   libx11-dev
   # tools

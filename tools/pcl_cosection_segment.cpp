@@ -177,6 +177,8 @@ run (const SegmentSettings& given, Terminal& terminal)
   const pcl::StopWatch segmentation;
   const FoundObjects found = findObjects (settings, cloud, detector ? &*detector : nullptr);
   const double segmentation_s = segmentation.getTimeSeconds ();
+  if (!detector && found.support_planes.empty ())
+    terminal.warning (settings.input + ": shows no plane on which objects stand; each group of points is taken as one");
   copyWithLabels (settings.input, found.labels, settings.output);
 
   for (std::size_t n = 0; n < found.objects.size (); ++n)

@@ -2,19 +2,17 @@
 #include "mask_image.h"
 
 #include "pcl_cosection/common/files.h"
-#include "pcl_cosection/io/mesh/vtk_errors.h"
 
 #include <pcl/cosection/common/error.h>
 
 #include <boost/crc.hpp>
 
-#include <vtkImageData.h>
-#include <vtkNew.h>
-#include <vtkPNGReader.h>
+#include <png.h>
 
-#include <array>
-#include <map>
+#include <algorithm>
+#include <csetjmp>
 #include <string_view>
+#include <vector>
 
 namespace pcl::cosection {
 namespace {
@@ -30,67 +28,72 @@ bigEndian32 (std::string_view bytes, std::size_t at)
   return value;
 }
 
-/** \brief Calls value (pixel), with the channels of each, for the mask. */
-template <typename Number, typename Value>
-void
-copyRows (const Number* from, int channels, Image<std::uint16_t>& mask, Value&& value)
+/** \brief Reads a PNG from memory, silently. libpng leaves a function that fails by a jump, which no object with a
+ * destructor may be in. */
+class PngReader
 {
-  for (int v = mask.height - 1; v >= 0; --v) // VTK's first row is the lowest
-    for (int u = 0; u < mask.width; ++u, from += channels)
-      mask.at (u, v) = value (from);
-}
+public:
+  explicit PngReader (std::string_view bytes)
+      : left_ (bytes)
+      , png_ (png_create_read_struct (PNG_LIBPNG_VER_STRING, nullptr, onError, onWarning))
+      , info_ (png_ ? png_create_info_struct (png_) : nullptr)
+  {}
+  PngReader (const PngReader&) = delete;
+  PngReader& operator= (const PngReader&) = delete;
 
-/** \brief Numbers of the colours of a palette, which vtkPNGReader replaces by these; empty if the PNG has none. Of
- * equal colours the first counts. */
-std::map<std::array<std::uint8_t, 3>, std::uint16_t>
-paletteOf (std::string_view bytes)
-{
-  constexpr std::size_t colour_type = 25, header = 33; // places: of a byte of IHDR, and behind it
-  constexpr std::size_t overhead = 12;
-  std::map<std::array<std::uint8_t, 3>, std::uint16_t> numbers;
-  if (bytes.size () < header || bytes[colour_type] != 3)
-    return numbers;
-  for (std::size_t at = header; at + overhead <= bytes.size ();)
+  ~PngReader () { png_destroy_read_struct (&png_, &info_, nullptr); }
+
+  /** \brief false: it is no image. */
+  bool readHeader ()
   {
-    const std::uint64_t length = bigEndian32 (bytes, at);
-    if (bytes.substr (at + 4, 4) == "PLTE")
-      for (std::uint16_t n = 0; 3u * n + 3 <= length; ++n)
-      {
-        std::array<std::uint8_t, 3> colour;
-        for (std::size_t channel = 0; channel < 3; ++channel)
-          colour[channel] = static_cast<std::uint8_t> (bytes[at + 8 + 3 * n + channel]);
-        numbers.emplace (colour, n);
-      }
-    at += overhead + length;
+    if (!info_ || setjmp (png_jmpbuf (png_)) != 0)
+      return false;
+    png_set_read_fn (png_, this, onRead);
+    png_read_info (png_, info_);
+    width = static_cast<int> (png_get_image_width (png_, info_));
+    height = static_cast<int> (png_get_image_height (png_, info_));
+    bits = png_get_bit_depth (png_, info_);
+    channels = png_get_channels (png_, info_);
+    png_set_packing (png_); // a byte for each number of fewer bits
+    png_set_interlace_handling (png_);
+    png_read_update_info (png_, info_);
+    row_bytes = png_get_rowbytes (png_, info_);
+    return true;
   }
-  return numbers;
-}
 
-/** \brief Read one channel, several that are equal, or the numbers of a palette; alpha is not used. */
-template <typename Number>
-void
-copyMask (const std::string& path, const std::string& bytes, const Number* from, int channels,
-          Image<std::uint16_t>& mask)
-{
-  const auto palette = paletteOf (bytes);
-  copyRows (from, channels, mask, [&] (const Number* pixel) -> std::uint16_t {
-    if (channels < 3)
-      return pixel[0];
-    if (!palette.empty ())
-    {
-      const auto found = palette.find ({static_cast<std::uint8_t> (pixel[0]), static_cast<std::uint8_t> (pixel[1]),
-                                        static_cast<std::uint8_t> (pixel[2])});
-      return found == palette.end () ? std::uint16_t{0} : found->second;
-    }
-    if (pixel[0] != pixel[1] || pixel[0] != pixel[2])
-      throw IoError (path + ": is not a mask: its channels differ; it must have one channel of 8 or 16 bits, or a "
-                            "palette, whose numbers are those of instances");
-    return pixel[0];
-  });
-}
+  /** \brief false: it is damaged. */
+  bool readRows (std::vector<png_bytep>& rows)
+  {
+    if (setjmp (png_jmpbuf (png_)) != 0)
+      return false;
+    png_read_image (png_, rows.data ());
+    png_read_end (png_, nullptr);
+    return true;
+  }
+
+  int width = 0, height = 0, bits = 0, channels = 0;
+  std::size_t row_bytes = 0;
+
+private:
+  [[noreturn]] static void onError (png_structp png, png_const_charp) { png_longjmp (png, 1); }
+  static void onWarning (png_structp, png_const_charp) {}
+
+  static void onRead (png_structp png, png_bytep to, std::size_t size)
+  {
+    auto& self = *static_cast<PngReader*> (png_get_io_ptr (png));
+    if (size > self.left_.size ())
+      png_error (png, "cut short");
+    std::copy_n (self.left_.begin (), size, to);
+    self.left_.remove_prefix (size);
+  }
+
+  std::string_view left_;
+  png_structp png_;
+  png_infop info_;
+};
 
 /** \brief Whether the chunks of a PNG (length, name, data, checksum) are whole, and their image is not absurdly large.
- * vtkPNGReader crashes where libpng reports an error, and takes as much memory as the first chunk claims. */
+ * Readers take as much memory as the first chunk claims. */
 bool
 isWholePng (std::string_view bytes)
 {
@@ -130,23 +133,30 @@ loadMaskImage (const std::string& path)
     throw IoError (path + (bytes.empty () ? ": is empty; it should be a PNG" : ": is not a PNG"));
   if (isDamagedPng (bytes))
     throw IoError (path + ": is damaged: the file is cut short, or a checksum does not match");
-  vtkNew<vtkPNGReader> reader;
-  const auto errors = VtkErrors::observe (*reader);
-  reader->SetMemoryBuffer (bytes.data ());
-  reader->SetMemoryBufferLength (static_cast<vtkIdType> (bytes.size ()));
-  reader->Update ();
-  vtkImageData* const image = reader->GetOutput ();
-  const int type = image->GetScalarType ();
-  if (errors->failed () || image->GetNumberOfPoints () == 0)
+  constexpr std::size_t most_compression = 1032; // of deflate
+  PngReader reader (bytes);
+  if (!reader.readHeader () ||
+      reader.row_bytes > most_compression * bytes.size () / static_cast<std::size_t> (reader.height))
     throw IoError (path + ": is not an image that can be read");
-  if (type != VTK_UNSIGNED_CHAR && type != VTK_UNSIGNED_SHORT)
-    throw IoError (path + ": is not a mask: it must have channels of 8 or 16 bits");
-  const int channels = image->GetNumberOfScalarComponents ();
-  Image<std::uint16_t> mask (image->GetDimensions ()[0], image->GetDimensions ()[1]);
-  if (type == VTK_UNSIGNED_SHORT)
-    copyMask (path, bytes, static_cast<const std::uint16_t*> (image->GetScalarPointer ()), channels, mask);
-  else
-    copyMask (path, bytes, static_cast<const std::uint8_t*> (image->GetScalarPointer ()), channels, mask);
+  std::vector<std::uint8_t> values (reader.row_bytes * static_cast<std::size_t> (reader.height));
+  std::vector<png_bytep> rows;
+  for (int v = 0; v < reader.height; ++v)
+    rows.push_back (&values[static_cast<std::size_t> (v) * reader.row_bytes]);
+  if (!reader.readRows (rows))
+    throw IoError (path + ": is damaged: its pixels cannot be read");
+  Image<std::uint16_t> mask (reader.width, reader.height);
+  for (int v = 0; v < mask.height; ++v)
+    for (int u = 0; u < mask.width; ++u)
+    {
+      const auto number = [&] (int channel) -> std::uint16_t {
+        const std::size_t n = static_cast<std::size_t> (u) * reader.channels + channel;
+        return reader.bits == 16 ? static_cast<std::uint16_t> (rows[v][2 * n] << 8 | rows[v][2 * n + 1]) : rows[v][n];
+      };
+      if (reader.channels > 2 && (number (0) != number (1) || number (0) != number (2)))
+        throw IoError (path + ": is not a mask: its channels differ; it must have one channel of 8 or 16 bits, or a "
+                              "palette, whose numbers are those of instances");
+      mask.at (u, v) = number (0);
+    }
   return mask;
 }
 

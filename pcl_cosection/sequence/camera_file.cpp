@@ -11,6 +11,7 @@
 
 #include <cmath>
 #include <sstream>
+#include <utility>
 
 namespace pcl::cosection {
 namespace {
@@ -100,10 +101,10 @@ setSize (const Json& json, PinholeCamera& camera)
 CameraFile
 parseSceneCamera (const Json& images)
 {
-  std::optional<Json> first;
+  std::optional<std::pair<std::vector<double>, double>> first;
   for (const auto& [name, image] : images.items ())
   {
-    const Json relevant = {image.at ("cam_K"), image.value ("depth_scale", 1.0)};
+    const std::pair relevant (matrixOf (image, "cam_K"), image.value ("depth_scale", 1.0));
     if (first && *first != relevant)
       throw IoError ("has different cameras for image " + name +
                      " and the one before; give --intrinsics if one fits all");

@@ -38,8 +38,8 @@ struct RangeImage
  * their mean direction as seen from the sensor */
 std::optional<RangeImage> drawRangeImage (const std::vector<Eigen::Vector3f>& points, const Eigen::Vector3d& sensor);
 
-/** \brief The same of points that a sensor saw all around, as a spinning lidar: a depth image for each face of a cube
- * about it that has points, the one with the most first. */
+/** \brief Draw points that a sensor saw all around, as a spinning lidar, as drawRangeImage () does: a depth image for
+ * each face of a cube about it that has points, the one with the most first. */
 std::optional<RangeImage> drawPanorama (const std::vector<Eigen::Vector3f>& points, const Eigen::Vector3d& sensor);
 
 /** \brief Where the points of an object may have been seen from, if nothing is known of that: the direction to which

@@ -21,6 +21,8 @@ constexpr double max_default_slope = 1.7321; // of points before a camera whose 
 constexpr double max_hidden_from_guess = 0.02;
 constexpr double max_hidden_of_label_from_guess = 0.1; // ... and of those of a label,
 constexpr double max_hidden_of_label = 0.5;            // ... of which more may be from where it does
+constexpr float most_steps = 3.0f;                     // between neighbours of a scan, of the usual one, and as few
+constexpr double least_steady = 0.9;                   // share of such neighbours
 constexpr double same_place = 0.1;                     // of the distance to the points
 constexpr int lonely_neighbours = 6;                   // of which the farthest ...
 constexpr float lonely_factor = 2.0f;                  // ... is so much farther than usual
@@ -140,6 +142,28 @@ moveToSensor (const Eigen::Isometry3d& T_world_points, const Eigen::Isometry3d& 
   cloud.T_world_sensor = T_world_points * T_points_sensor;
 }
 
+/** \brief Whether neighbours along an axis of an organised cloud are in directions from the origin that differ by about
+ * the same angle, as those of a sensor that scans are. */
+bool
+scansSteadily (const SensorCloud& cloud, std::size_t step, bool along_rows)
+{
+  std::vector<float> angles;
+  for (std::size_t i = 0; i + step < cloud.positions.size (); ++i)
+  {
+    const Eigen::Vector3f &a = cloud.positions[i], &b = cloud.positions[i + step];
+    const bool is_last = along_rows && (i + 1) % static_cast<std::size_t> (cloud.width) == 0;
+    if (!is_last && a.allFinite () && b.allFinite ())
+      angles.push_back ((a.normalized () - b.normalized ()).norm ());
+  }
+  if (angles.size () < RangeImage::min_points)
+    return false;
+  const float usual = upperMedian (angles);
+  const auto steady = std::count_if (angles.begin (), angles.end (), [usual] (float angle) {
+    return angle < most_steps * usual && most_steps * angle > usual;
+  });
+  return static_cast<double> (steady) > least_steady * static_cast<double> (angles.size ());
+}
+
 /** \brief Take what is seen for the rays of the cloud. */
 void
 useSight (Sight sight, const Eigen::Isometry3d& T_world_points, LabelledView& result)
@@ -209,6 +233,8 @@ percentText (double share)
 bool
 lookAround (const Members& members, const SensorCloud& cloud, LabelledView& result)
 {
+  if (!scansSteadily (cloud, 1, true) || !scansSteadily (cloud, static_cast<std::size_t> (cloud.width), false))
+    return false;
   Sight sight = lookFrom (Eigen::Vector3d::Zero (), members, cloud, max_hidden_of_label_from_guess, true);
   if (!sight.isTheirs (cloud.has_viewpoint ? RangeImage::max_hidden_share : max_hidden_from_guess))
     return false;

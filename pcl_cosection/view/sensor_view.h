@@ -45,7 +45,8 @@ BackgroundParts partsOfBackground (const Surroundings& objects, const Members& m
 void viewFromSensor (const std::string& path, const PcdViewOptions& options, const Members& members, SensorCloud& cloud,
                      LabelledView& result);
 
-/** \brief A cloud as seen from the origin, all around it, as by a spinning lidar. \return whether it was */
+/** \brief An organised cloud as seen from the origin by a sensor that scans by angles, maybe all around, as a spinning
+ * lidar. \return whether it was: nothing is hidden from there, and the directions of neighbours differ steadily */
 bool lookAround (const Members& members, const SensorCloud& cloud, LabelledView& result);
 
 /** \brief Give an organised cloud rays and normals, those of the file if any are not used.

@@ -1,14 +1,14 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 
-// Bytes as a mask in PNG: as they are, and with chunks that are whole.
+// Bytes as a mask in PNG: as they are, and with chunks that are whole, as damage inside them would end at checksums.
 
 #include "fuzz_target.h"
 #include "mask_seeds.h"
 #include "memory_file.h"
 
-#include <pcl/cosection/common/error.h>
-
 #include "pcl_cosection/io/mask_image.h"
+
+#include <pcl/cosection/common/error.h>
 
 using namespace pcl::cosection;
 

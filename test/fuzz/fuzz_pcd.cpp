@@ -178,6 +178,7 @@ fuzz::accepts (const std::string& input)
   }
   catch (const Error& error)
   {
+    require (dynamic_cast<const InvalidArgument*> (&error) == nullptr, "a file is not refused for the options");
     requireMessage (error.what ());
     return (false);
   }

@@ -136,11 +136,12 @@ meshSeeds ()
     }
     const TriangleMesh mesh = loadMesh (folder.file ("seed.ply"));
     for (const std::string extension : {".ply", ".stl", ".obj"})
-    {
-      const std::string path = folder.file ("saved" + extension);
-      saveMesh (mesh, path);
-      seeds.push_back ({extension, read (path)});
-    }
+      for (const Eigen::Vector3d& origin : {Eigen::Vector3d (0, 0, 0), Eigen::Vector3d (512434, 5405590, 348)})
+      {
+        const std::string path = folder.file ("saved" + extension);
+        saveMesh (mesh, path, origin);
+        seeds.push_back ({extension, read (path)});
+      }
   }
   return (seeds);
 }

@@ -13,7 +13,7 @@ struct MeshSeed
 };
 
 /** \brief Small mesh files of every format and encoding, as the library, VTK and others write them: polygons, strips,
- * bodies in each other, repeated and flat triangles. */
+ * bodies in each other, repeated and flat triangles, survey coordinates. */
 std::vector<MeshSeed> meshSeeds ();
 
 } // namespace fuzz

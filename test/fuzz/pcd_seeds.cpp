@@ -362,7 +362,7 @@ balls ()
   return (clouds);
 }
 
-/** \brief The same in survey coordinates (UTM), which floats would round; with its viewpoint, if it has one. */
+/** \brief A cloud in survey coordinates (UTM), which floats would round; with its viewpoint, if it has one. */
 Cloud
 surveyed (Cloud cloud)
 {
@@ -388,7 +388,7 @@ surveyed (Cloud cloud)
   return (cloud);
 }
 
-/** \brief The same with colours in three fields. */
+/** \brief A cloud with colours in three further fields. */
 Cloud
 coloured (Cloud cloud)
 {

@@ -377,3 +377,39 @@ TEST_F (AnyCloud, BackgroundOfAnotherLabel)
   ASSERT_EQ (run ({"third.pcd", "third"}), 0) << errors_;
   EXPECT_NE (errors_.find ("give --background 3"), std::string::npos) << errors_;
 }
+
+TEST_F (AnyCloud, ObjectsAreFoundFirst)
+{
+  writeTableScene (path ("table.pcd"));
+  pcl::PointCloud<pcl::PointXYZRGBL> table;
+  pcl::io::loadPCDFile (path ("table.pcd"), table);
+  pcl::PointCloud<pcl::PointXYZRGB> image (table.width, table.height), points;
+  image.sensor_origin_ = points.sensor_origin_ = table.sensor_origin_;
+  image.sensor_orientation_ = points.sensor_orientation_ = table.sensor_orientation_;
+  for (std::size_t i = 0; i < table.size (); ++i)
+  {
+    image[i].getVector3fMap () = table[i].getVector3fMap ();
+    if (table[i].getVector3fMap ().allFinite ())
+      points.push_back (image[i]);
+  }
+  pcl::io::savePCDFileBinary (path ("image.pcd"), image);
+  pcl::io::savePCDFileBinary (path ("points.pcd"), points);
+  ASSERT_EQ (run ({"table.pcd", "labelled"}), 0) << errors_;
+  for (const std::string name : {"image", "points"})
+  {
+    ASSERT_EQ (run ({"--segment", "--save-labels", "found.pcd", name + ".pcd", name}), 0) << errors_;
+    double sum = 0.0, expected = 0.0;
+    for (const char* object : {"/object_1.ply", "/object_2.ply"})
+    {
+      sum += volume (name + object);
+      expected += volume (std::string ("labelled") + object);
+    }
+    EXPECT_NEAR (sum, expected, 0.1 * expected) << name;
+    EXPECT_FALSE (fs::exists (path (name + "/object_3.ply")));
+    ASSERT_EQ (run ({"found.pcd", "again"}), 0) << errors_;
+    EXPECT_NEAR (volume ("again/object_1.ply"), volume (name + "/object_1.ply"), 1e-9);
+  }
+  EXPECT_EQ (run ({"--segment", "image.pcd", "points.pcd", "out"}), 2);
+  EXPECT_EQ (run ({"--save-labels", "l.pcd", "image.pcd", "out"}), 2);
+  EXPECT_EQ (run ({"--segment", "--save-labels", "image.pcd", "image.pcd", "out"}), 2);
+}

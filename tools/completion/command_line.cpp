@@ -25,15 +25,6 @@ declareInput (CLI::App& app, Given& given)
              "Camera in pixels, for organised clouds that no pinhole fits");
   input.add ("--scale FACTOR", given.reading.scale, positiveNumber (),
              "Multiplies all coordinates: 0.001 for millimetres");
-  input.add ("--label-field NAME", given.reading.label_field,
-             "Field that says to which object a point belongs (default: label, else class or classification)");
-  input.addFlag ("--segment", given.segment,
-                 "Find the objects first, in one INPUT without labels: what stands on its planes");
-  input.add ("--save-labels FILE.pcd", given.save_labels, "Write INPUT with the labels that --segment found");
-  input.add ("--background LABEL", given.reading.background_labels, wholeRange (0, 4294967295),
-             "Label of the background" + byDefault (0) + "; repeatable");
-  input.add ("--ignore LABEL", given.reading.ignored_labels, wholeRange (0, 4294967295),
-             "Label of points that are left out, beside negative ones and 65535; repeatable");
   input.add ("--axes optical|opengl", given.axes,
              "Axes of the sensor's frame: x right, y down, z forward, or x right, y up, z backward" +
                  byDefault ("optical"));
@@ -43,6 +34,21 @@ declareInput (CLI::App& app, Given& given)
   input.add ("--free-space VIEW.pcd", given.free_space,
              "View that shows which space is free and nothing else: its labels and points are not used; numbered after "
              "the INPUTs; repeatable");
+}
+
+void
+declareLabels (CLI::App& app, Given& given)
+{
+  OptionGroup labels (app, "Labels");
+  labels.add ("--label-field NAME", given.reading.label_field,
+              "Field that says to which object a point belongs (default: label, else class or classification)");
+  labels.addFlag ("--segment", given.segment,
+                  "Find the objects first, in one INPUT without labels: what stands on its planes");
+  labels.add ("--save-labels FILE.pcd", given.save_labels, "Write INPUT with the labels that --segment found");
+  labels.add ("--background LABEL", given.reading.background_labels, wholeRange (0, 4294967295),
+              "Label of the background" + byDefault (0) + "; repeatable");
+  labels.add ("--ignore LABEL", given.reading.ignored_labels, wholeRange (0, 4294967295),
+              "Label of points that are left out, beside negative ones and 65535; repeatable");
 }
 
 void
@@ -180,7 +186,7 @@ completionText ()
       {
           {"pcl_cosection table.pcd meshes",
            "every labelled object of one organised view, and the table, into the folder meshes"},
-          {"pcl_cosection --segment scene.pcd meshes", "what stands on the table of a view without labels"},
+          {"pcl_cosection --segment table.pcd found", "what stands on the table, found first, whatever the labels"},
           {"pcl_cosection front.pcd left.pcd cup.ply",
            "one object seen in two views (VIEWPOINT in each header), as one closed mesh"},
           {"pcl_cosection --free-space other.pcd table.pcd carved",
@@ -203,6 +209,7 @@ void
 declareOptions (CLI::App& app, Given& given)
 {
   declareInput (app, given);
+  declareLabels (app, given);
   declareSurroundings (app, given);
   declareVolumeOptions (app, given, "twice the smallest object's");
   declareMethodOptions (app, given);

@@ -260,7 +260,8 @@ optionsOf (std::size_t view, const Settings& settings, const Labels& labels)
 
 /** \brief The labels of objects that are found in a file. \throws DegenerateInput if there are none */
 std::vector<std::uint32_t>
-findLabels (const std::string& path, const Settings& settings, const PcdViewOptions& reading)
+findLabels (const std::string& path, const Settings& settings, const PcdViewOptions& reading,
+            std::vector<std::string>& warnings)
 {
   ObjectSegmentationOptions options;
   options.threads = settings.method.threads;
@@ -274,6 +275,17 @@ findLabels (const std::string& path, const Settings& settings, const PcdViewOpti
     const std::string reason = error.what ();
     throw DegenerateInput (reason.rfind (path, 0) == 0 ? reason : path + ": " + reason);
   }
+  std::map<std::uint32_t, std::size_t> counts;
+  for (const std::uint32_t label : found.labels)
+    ++counts[label];
+  for (std::uint32_t& label : found.labels)
+    if (counts[label] < min_points) // crumbs, which come last
+    {
+      found.objects = std::min (found.objects, label == 0 ? found.objects : label - 1);
+      label = 0;
+    }
+  if (found.support_planes.empty ())
+    warnings.push_back (path + ": shows no plane on which objects stand; each group of points is taken as one");
   if (found.objects == 0)
     throw DegenerateInput (path + ": no object was found on its planes; give labels, or try pcl_cosection_segment with "
                                   "other sizes");
@@ -326,7 +338,7 @@ readScene (const Settings& settings, const ProgressCallback& progress)
     if (begun > 1)
       options.origin = {scene.origin.x (), scene.origin.y (), scene.origin.z ()};
     if (settings.segment && begun == 1)
-      options.labels = findLabels (path, settings, options);
+      options.labels = findLabels (path, settings, options, scene.warnings);
     LabelledView view = readPcdView (path, options);
     scene.origin = view.origin;
     std::move (view.warnings.begin (), view.warnings.end (), std::back_inserter (scene.warnings));

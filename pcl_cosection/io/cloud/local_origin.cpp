@@ -20,6 +20,7 @@ constexpr double most_rounding = 0.5;       // ... of points that have a shape,
 constexpr double worth_saying = 1.0 / 16.0; // ... of points without a loss.
 constexpr double outlier_share = 0.02;      // of the points, on each side
 constexpr std::size_t judged_points = 20000;
+constexpr double farthest = 1e16; // metres: squares of more are no floats
 constexpr std::size_t least_points = 3;
 
 /** \brief Where the points of a file are, without outliers, after the scale. */
@@ -140,6 +141,9 @@ takeToLocalOrigin (const std::string& path, const std::array<const CloudField*, 
                                 " m from the first view; its coordinates are rounded");
   }
   cloud.T_world_sensor = Eigen::Translation3d (-cloud.origin) * cloud.T_world_sensor;
+  if (!(cloud.T_world_sensor.translation ().norm () < farthest))
+    throw IoError (path + ": its coordinates are up to " + lengthText (cloud.T_world_sensor.translation ().norm ()) +
+                   " m from the origin, which is too far");
   return Eigen::Affine3d (T_sensor_points) * Eigen::Scaling (options.scale);
 }
 

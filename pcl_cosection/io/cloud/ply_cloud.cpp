@@ -11,6 +11,7 @@
 #include <Eigen/Geometry>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <optional>
 
@@ -18,6 +19,7 @@ namespace pcl::cosection {
 namespace {
 
 constexpr std::uint64_t max_points = 0x7fffffff;
+constexpr double max_viewpoint = 1e15; // as of a PCD header
 
 /** \brief Names that PCL gives to properties of a PLY file. */
 std::string
@@ -141,14 +143,16 @@ useCamera (std::map<std::string, double>& camera, CloudHeader& header)
     for (int column = 0; column < 3; ++column)
       rotation (row, column) = camera[std::string () + axes[row] + "_axis" + axes[column]];
   const Eigen::Vector3d place (camera["view_px"], camera["view_py"], camera["view_pz"]);
-  if (place.allFinite () && rotation.isUnitary (1e-3) && rotation.determinant () > 0.0)
+  if (place.allFinite () && place.cwiseAbs ().maxCoeff () <= max_viewpoint && rotation.isUnitary (1e-3) &&
+      rotation.determinant () > 0.0)
   {
     const Eigen::Quaterniond q (rotation);
     header.viewpoint = {place.x (), place.y (), place.z (), q.w (), q.x (), q.y (), q.z ()};
   }
   const double width = camera["viewportx"];
   const double height = camera["viewporty"];
-  if (width >= 1.0 && height >= 1.0 && width * height == static_cast<double> (header.points))
+  if (width >= 1.0 && height >= 1.0 && width == std::floor (width) && height == std::floor (height) &&
+      width * height == static_cast<double> (header.points))
   {
     header.width = static_cast<std::uint64_t> (width);
     header.height = static_cast<std::uint64_t> (height);

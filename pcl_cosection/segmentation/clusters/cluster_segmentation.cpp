@@ -32,6 +32,7 @@ constexpr double sheet_of_object = 0.25; // ... or of the smallest object, which
 constexpr double gap_spacings = 3.0;     // distance of clusters, likewise
 constexpr double cell_spacings = 4.0;    // side of the cells by which a plane's area is measured
 constexpr int most_planes = 6;
+constexpr double least_filled = 0.5; // of the box around a plane's points: less is a cut through several things
 constexpr int ransac_iterations = 1000;
 constexpr double outlier_share = 0.02;
 constexpr int least_cluster = 50; // points
@@ -68,6 +69,7 @@ public:
   }
 
   double area () const { return area_m2_; }
+  bool isFilled () const { return area_m2_ > least_filled * box_.sizes ().x () * box_.sizes ().y (); }
   double longest () const { return box_.sizes ().maxCoeff (); }
   float height (const Eigen::Vector3f& p) const { return plane_.head<3> ().dot (p) + plane_[3]; }
   const Eigen::Vector4f& plane () const { return plane_; }
@@ -111,7 +113,8 @@ takePlane (const Points::Ptr& cloud, const ObjectSegmentationOptions& options, c
   if (inliers.size () < least_points)
     return std::nullopt;
   Support support (refined.head<4> (), *cloud, inliers, lengths.cell);
-  if (support.area () < options.min_support_area_m2 || (!is_first && support.longest () < options.max_object_size_m))
+  if (support.area () < options.min_support_area_m2 || !support.isFilled () ||
+      (!is_first && support.longest () < options.max_object_size_m))
     return std::nullopt;
   Indices rest;
   std::sort (inliers.begin (), inliers.end ());
@@ -133,7 +136,7 @@ turnToObjects (const Points& cloud, const Indices& left, double reach_m, Support
     support.turn ();
 }
 
-/** \brief Whether a cluster is as large as an object, and stands on a plane. */
+/** \brief Whether a cluster is as large as an object, and stands on a plane, if there is any. */
 bool
 standsOn (const std::vector<Support>& supports, const Points& cloud, const Indices& cluster,
           const ObjectSegmentationOptions& options, const Lengths& lengths, bool& is_too_long)
@@ -147,8 +150,8 @@ standsOn (const std::vector<Support>& supports, const Points& cloud, const Indic
   if (longest < options.min_object_size_m)
     return false;
   is_too_long = longest > options.max_object_size_m;
-  if (is_too_long)
-    return false;
+  if (is_too_long || supports.empty ())
+    return !is_too_long;
   return std::any_of (supports.begin (), supports.end (), [&] (const Support& support) {
     std::vector<float> heights;
     for (const Eigen::Vector3f& p : points)
@@ -191,9 +194,6 @@ segmentClusters (const std::vector<Eigen::Vector3f>& points, const ObjectSegment
       supports.push_back (*support);
     else
       break;
-  if (supports.empty ())
-    throw DegenerateInput ("shows no plane that objects could stand on, of " +
-                           std::to_string (options.min_support_area_m2) + " square metres or more");
   for (Support& support : supports)
     turnToObjects (*cloud, left, options.max_object_size_m, support);
 

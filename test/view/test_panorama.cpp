@@ -1,0 +1,77 @@
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
+
+// Sensors that see all around.
+
+#include "io/pcd_view_fixture.h"
+
+#include <pcl/io/pcd_io.h>
+
+#include <cmath>
+
+using namespace pcl::cosection;
+using namespace pcl::cosection::test;
+
+namespace {
+
+constexpr int columns = 360, rows = 40;
+
+/** \brief What a spinning lidar sees of a round room with a box in it: rows of one elevation, columns of one azimuth.
+ */
+pcl::PointCloud<pcl::PointXYZL>
+turnInARoom ()
+{
+  pcl::PointCloud<pcl::PointXYZL> cloud (columns, rows);
+  for (int v = 0; v < rows; ++v)
+    for (int u = 0; u < columns; ++u)
+    {
+      const float azimuth = 2.0f * static_cast<float> (M_PI) * u / columns, elevation = 0.3f - 0.015f * v;
+      const Eigen::Vector3f ray (std::cos (azimuth) * std::cos (elevation), std::sin (azimuth) * std::cos (elevation),
+                                 std::sin (elevation));
+      float range = 5.0f / std::cos (elevation);
+      const float to_box = 2.0f / ray.x (); // its face at x = 2
+      const Eigen::Vector3f at = to_box * ray;
+      const bool on_box = to_box > 0.0f && std::abs (at.y ()) < 0.5f && std::abs (at.z ()) < 0.4f;
+      range = on_box ? to_box : range;
+      cloud (u, v).getVector3fMap () = range * ray;
+      cloud (u, v).label = on_box ? 1 : 0;
+    }
+  return cloud;
+}
+
+} // namespace
+
+using Panorama = PcdView;
+
+TEST_F (Panorama, AnOrganisedTurnShowsFreeSpaceAllAround)
+{
+  pcl::io::savePCDFileBinary (path ("turn.pcd"), turnInARoom ());
+  const LabelledView view = readPcdView (path ("turn.pcd"));
+  EXPECT_EQ (view.warnings, std::vector<std::string> ());
+  ASSERT_TRUE (view.view);
+  EXPECT_EQ (view.other_views.size (), 3u); // there is nothing above or below
+  for (const OrientedPoint& point : view.objects.at (1).points)
+    EXPECT_LT (point.normal.x (), -0.9f); // towards the sensor
+  std::size_t readings = 0;
+  for (const float depth : view.view->depth)
+    readings += std::isfinite (depth);
+  EXPECT_GT (readings, 1000u);
+}
+
+TEST_F (Panorama, AViewpointThatIsGivenIsBelieved)
+{
+  pcl::PointCloud<pcl::PointXYZL> cloud = turnInARoom ();
+  for (pcl::PointXYZL& p : cloud)
+    p.x += 10.0f;
+  cloud.width = columns * rows;
+  cloud.height = 1;
+  pcl::io::savePCDFileBinary (path ("turn.pcd"), cloud);
+  PcdViewOptions options;
+  options.viewpoint = {10.0, 0.0, 0.0};
+  const LabelledView view = readPcdView (path ("turn.pcd"), options);
+  EXPECT_EQ (view.warnings, std::vector<std::string> ());
+  ASSERT_TRUE (view.view);
+  EXPECT_EQ (view.other_views.size (), 3u);
+  EXPECT_LT ((view.other_views[0].T_world_sensor.translation () - Eigen::Vector3d (10, 0, 0)).norm (), 1e-6);
+  options.viewpoint = {14.0, 1.0, 0.0}; // behind the box
+  EXPECT_FALSE (readPcdView (path ("turn.pcd"), options).view);
+}
