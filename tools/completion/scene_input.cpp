@@ -279,7 +279,7 @@ findLabels (const std::string& path, const Settings& settings, const PcdViewOpti
   for (const std::uint32_t label : found.labels)
     ++counts[label];
   for (std::uint32_t& label : found.labels)
-    if (counts[label] < min_points) // crumbs, which come last
+    if (counts[label] < min_points) // small components, which come last
     {
       found.objects = std::min (found.objects, label == 0 ? found.objects : label - 1);
       label = 0;
