@@ -107,6 +107,17 @@ TEST_F (CloudFile, PlyOfPclHasItsCameraAndItsOrganisation)
   }
 }
 
+TEST_F (CloudFile, CameraThatCannotBeIsNotUsed)
+{
+  std::string file = ply_of_three;
+  file.insert (file.find ("end_header"),
+               "element camera 1\nproperty float view_px\nproperty float view_py\n"
+               "property float view_pz\nproperty float viewportx\nproperty float viewporty\n");
+  const LabelledView view = readPcdView (write (file + "1e30 0 0 1.5 2\n", "scan.ply"));
+  EXPECT_FALSE (view.organized);
+  EXPECT_EQ (view.objects.at (3).readings, 3u);
+}
+
 TEST_F (CloudFile, MeshIsTakenAsItsVertices)
 {
   std::string mesh = ply_of_three;

@@ -83,6 +83,15 @@ TEST (CameraFile, BadOnesAreNamed)
   }
 }
 
+TEST (CameraFile, MayBeNestedDeeply)
+{
+  const std::string brackets (300000, '[');
+  const SequenceFolder folder;
+  writeFrames ("scene_camera.json", "{\"0\": {\"cam_K\": " + brackets + std::string (300000, ']') + "}}", folder);
+  EXPECT_NE (messageOf<IoError> ([&] { RgbdSequence (folder.path ()); }).find ("is not the JSON of a camera"),
+             std::string::npos);
+}
+
 TEST (CameraFile, OfAnotherResolutionIsScaled)
 {
   const auto write = [] (const std::string& camera, const SequenceFolder& folder) {
