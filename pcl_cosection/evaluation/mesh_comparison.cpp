@@ -56,7 +56,9 @@ compareMeshes (const TriangleMesh& truth, const TriangleMesh& reconstruction, co
 {
   options.validate ();
   for (const auto& [mesh, name] : {std::pair (&truth, "truth"), std::pair (&reconstruction, "reconstruction")})
-    if (!isPointSet (*mesh))
+    if (isPointSet (*mesh))
+      requirePoints (*mesh);
+    else
       requireSurface (*mesh, name);
   const auto distances = [&] (const TriangleMesh& from, const TriangleMesh& to) {
     const std::vector<Eigen::Vector3d> points = isPointSet (from) ? somePoints (from, options.samples)

@@ -25,6 +25,14 @@ isPointSet (const TriangleMesh& mesh)
   return mesh.triangles.empty () && !mesh.vertices.empty ();
 }
 
+void
+requirePoints (const TriangleMesh& points)
+{
+  for (std::size_t n = 0; n < points.vertices.size (); ++n)
+    if (!points.vertices[n].allFinite ())
+      throw InvalidArgument ("point " + std::to_string (n) + " is not finite");
+}
+
 std::vector<double>
 distancesToPoints (const TriangleMesh& points, const std::vector<Eigen::Vector3d>& from, int neighbour, int threads)
 {
@@ -32,12 +40,9 @@ distancesToPoints (const TriangleMesh& points, const std::vector<Eigen::Vector3d
     throw DegenerateInput ("a set of points has " + std::to_string (points.vertices.size ()) + " points, at least " +
                            std::to_string (neighbour) + " are needed");
   auto cloud = pcl::make_shared<PointCloud<PointXYZ>> ();
+  requirePoints (points);
   for (const Eigen::Vector3f& p : points.vertices)
-  {
-    if (!p.allFinite ())
-      throw InvalidArgument ("point " + std::to_string (cloud->size ()) + " is not finite");
     cloud->emplace_back (p.x (), p.y (), p.z ());
-  }
   search::KdTree<PointXYZ> tree;
   tree.setInputCloud (cloud);
   std::vector<double> distances (from.size ());

@@ -12,6 +12,9 @@ namespace pcl::cosection {
 /** \brief Whether a mesh has vertices alone, as a scan: it is a set of points. */
 bool isPointSet (const TriangleMesh& mesh);
 
+/** \brief \throws InvalidArgument if a vertex of a set of points is not finite */
+void requirePoints (const TriangleMesh& points);
+
 /** \brief The distance of each of \a from to the nearest vertex of a set of points, metres; by pcl::search::KdTree.
  * \param[in] neighbour 1: the nearest vertex, 2: the second nearest
  * \throws InvalidArgument if a vertex is not finite \throws DegenerateInput if there are fewer vertices */

@@ -20,8 +20,10 @@ namespace {
 constexpr float away_cosine = -0.2f;  // of a normal that clearly points away from the viewpoint
 constexpr double least_filled = 0.01; // share of normals with a direction, of which fields have some
 constexpr double worth_saying = 0.02; // share of the normals
-// Share of pairs of neighbours, about that at the border between halves of a few thousand points.
-constexpr double least_contradicting = 0.005;
+// Share of pairs of neighbours, by the root of the number of points: half of what the border between two halves of a
+// body has.
+constexpr double least_contradicting = 0.5;
+constexpr double few = 0.1; // share of the normals of a label that differ from the others, which are left as they are
 constexpr double surely_inward = 0.3; // outward share of a body whose normals are flipped
 // Length of the mean normal of a background that has a side; of random ones to one side, 0.5.
 constexpr float one_sided = 0.7f;
@@ -157,7 +159,8 @@ contradictingLabels (const Members& members, const SensorCloud& cloud)
 {
   std::set<std::uint32_t> labels;
   for (const auto& [label, indices] : members)
-    if (contradictingShare (pick (cloud.positions, indices), pick (cloud.normals, indices)) > least_contradicting)
+    if (contradictingShare (pick (cloud.positions, indices), pick (cloud.normals, indices)) >
+        least_contradicting / std::sqrt (static_cast<double> (indices.size ())))
       labels.insert (label);
   return labels;
 }
@@ -174,11 +177,15 @@ mendContradictions (const PcdViewOptions& options, const std::set<std::uint32_t>
       return;
     std::vector<Eigen::Vector3f> normals = pick (cloud.normals, indices);
     orientConsistently (pick (cloud.positions, indices), normals, rightShare);
+    std::size_t changed = 0;
     for (std::size_t k = 0; k < indices.size (); ++k)
-    {
-      turned += normals[k].dot (cloud.normals[indices[k]]) < 0.0f;
+      changed += normals[k].dot (cloud.normals[indices[k]]) < 0.0f;
+    if (static_cast<double> (std::min (changed, indices.size () - changed)) <
+        few * static_cast<double> (indices.size ()))
+      return; // outliers, as where points are sparse
+    turned += changed;
+    for (std::size_t k = 0; k < indices.size (); ++k)
       cloud.normals[indices[k]] = normals[k];
-    }
   });
   return all == 0 ? 0.0 : static_cast<double> (turned) / static_cast<double> (all);
 }

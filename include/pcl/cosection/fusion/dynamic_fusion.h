@@ -86,8 +86,8 @@ struct PCL_COSECTION_EXPORT TrackedFrame
   Image<std::uint16_t> instances;                  ///< id of the object, 0: background; empty if tracking failed
   bool masked = false;                             ///< a mask had a part in it
   bool only_objects = false; ///< nothing else has readings, so that the camera was taken to be at rest
-  double inlier_share = 0.0;                       ///< of the points that the camera was tracked with
-  int lost = 0;                                    ///< objects that should be in view and are not found
+  double inlier_share = 0.0; ///< of the points that the camera was tracked with
+  int lost = 0;              ///< objects that should be in view and are not found
 };
 
 /** \brief The front end: tracks the camera and every object through RGB-D frames, and maps them, without given poses.

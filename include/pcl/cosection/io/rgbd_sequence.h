@@ -26,8 +26,8 @@ namespace pcl::cosection {
 /** \brief Pixels. */
 struct ImageSize
 {
-  int width = 0;
-  int height = 0;
+  int width = 0;  ///< columns
+  int height = 0; ///< rows
 };
 
 /** \brief How the files of a sequence are laid out. */
