@@ -6,7 +6,7 @@
 #include "run_program.h"
 #include "segment_command_line.h"
 
-#include "pcl_cosection/segmentation/clusters/cloud_labels.h"
+#include "pcl_cosection/segmentation/clusters/cloud_segmentation.h"
 #include "pcl_cosection/view/organized_cloud.h"
 #include <pcl/cosection/common/error.h>
 #include <pcl/cosection/common/image.h>

@@ -3,6 +3,7 @@
 
 #include "numbered_files.h"
 #include "pcl_cosection/io/mask_image.h"
+#include "resized_image.h"
 #include "stamp_matching.h"
 
 #include <pcl/cosection/common/error.h>
@@ -34,18 +35,6 @@ arePerInstance (const std::vector<PairedFile>& files, std::size_t all, const std
     matched += nearestStamp (stamps, file.second, limit).has_value ();
   }
   return second.size () < files.size () || matched < files.size ();
-}
-
-/** \brief The nearest pixels of an image of another resolution. */
-Image<std::uint16_t>
-resized (const Image<std::uint16_t>& mask, int width, int height)
-{
-  Image<std::uint16_t> result (width, height);
-  for (int v = 0; v < height; ++v)
-    for (int u = 0; u < width; ++u)
-      result.at (u, v) = mask.at (static_cast<int> ((2LL * u + 1) * mask.width / (2LL * width)),
-                                  static_cast<int> ((2LL * v + 1) * mask.height / (2LL * height)));
-  return result;
 }
 
 } // namespace
@@ -118,7 +107,7 @@ MaskSequence::readFile (const std::string& path) const
   Image<std::uint16_t> mask = loadMaskImage (path);
   if (mask.width == width_ && mask.height == height_)
     return mask;
-  if (static_cast<long long> (mask.width) * height_ == static_cast<long long> (mask.height) * width_)
+  if (haveSameShape (mask.width, mask.height, width_, height_))
     return resized (mask, width_, height_);
   throw IoError (path + ": has " + std::to_string (mask.width) + " x " + std::to_string (mask.height) +
                  " pixels, but the depth images have " + std::to_string (width_) + " x " + std::to_string (height_));

@@ -139,6 +139,14 @@ numberedFiles (const std::string& folder, const std::vector<std::string>& names,
   return unique;
 }
 
+std::vector<NumberedFile>
+numberedImages (const std::string& folder, const NumberedNames& usual, std::vector<std::string>& warnings)
+{
+  const std::vector<std::string> names = fileNames (folder);
+  std::vector<NumberedFile> files = numberedFiles (folder, names, usual, warnings);
+  return files.empty () ? numberedFiles (folder, names, {{}, usual.endings}, warnings) : files;
+}
+
 std::vector<PairedFile>
 pairedFiles (const std::string& folder, const std::vector<std::string>& names, const std::vector<std::string>& endings)
 {

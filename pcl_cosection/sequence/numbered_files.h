@@ -45,6 +45,10 @@ std::vector<std::string> fileNames (const std::string& folder);
 std::vector<NumberedFile> numberedFiles (const std::string& folder, const std::vector<std::string>& names,
                                          const NumberedNames& series, std::vector<std::string>& warnings);
 
+/** \brief The files of a folder whose names begin as is usual, or else of any that end in a number. */
+std::vector<NumberedFile> numberedImages (const std::string& folder, const NumberedNames& usual,
+                                          std::vector<std::string>& warnings);
+
 /** \brief "a" for one, "a and 3 more" for four. */
 std::string firstAndMore (const std::vector<std::string>& things);
 

@@ -2,17 +2,16 @@
 #include <pcl/cosection/io/rgbd_sequence.h>
 
 #include "camera_file.h"
-#include "pcl_cosection/common/files.h"
+#include "camera_of_images.h"
 #include "pcl_cosection/common/quantile.h"
 #include "pcl_cosection/io/image_io.h"
 #include "pcl_cosection/io/lower_case.h"
-#include "pcl_cosection/io/text_scanner.h"
+#include "pose_matrix.h"
+#include "resized_image.h"
 #include "sequence_layouts.h"
 #include "stamp_matching.h"
 
 #include <pcl/cosection/common/error.h>
-
-#include <Eigen/SVD>
 
 #include <algorithm>
 #include <cmath>
@@ -29,22 +28,10 @@ constexpr double tum_depth_scale = 5000.0;
 constexpr double millimetres = 1000.0;
 constexpr double nearest_median_m = 0.05;
 constexpr double farthest_median_m = 100.0;
-constexpr double largest_size_px = 32768.0;
 constexpr double far_off_centre = 0.25;        // a principal point, of the image's size
 constexpr double outside = 0.5;                // of the image, likewise
 constexpr std::size_t most_to_judge_size = 10; // depth images
-constexpr double largest_focal_length_px = 1e6;
-constexpr double shortest_focal_length = 0.05;    // of the image's size: a field of view of 169 degrees
-constexpr double longest_focal_length = 100.0;    // half a degree
-constexpr double farthest_principal_point = 10.0; // of the image's size: it may be cut out of a larger one
-constexpr double rigid_tolerance = 0.02;          // of the entries of R R^T - I
 const float none = std::numeric_limits<float>::quiet_NaN ();
-
-std::string
-sizeText (int width, int height)
-{
-  return std::to_string (width) + " x " + std::to_string (height) + " pixels";
-}
 
 /** \brief Pipes wait for who writes them, so nothing but files is read. */
 void
@@ -78,18 +65,6 @@ depthOddity (const Image<float>& depth, const std::string& path)
   return text.str ();
 }
 
-/** \brief The colours at the pixels of a smaller or larger image of the same view. */
-Picture
-resized (const Picture& picture, int width, int height)
-{
-  Picture result (width, height);
-  for (int v = 0; v < height; ++v)
-    for (int u = 0; u < width; ++u)
-      result.at (u, v) = picture.at (static_cast<int> ((2LL * u + 1) * picture.width / (2LL * width)),
-                                     static_cast<int> ((2LL * v + 1) * picture.height / (2LL * height)));
-  return result;
-}
-
 /** \throws IoError */
 Picture
 readColour (const std::string& path, int width, int height)
@@ -98,7 +73,7 @@ readColour (const std::string& path, int width, int height)
   Picture colour = loadColourImage (path);
   if (colour.width == width && colour.height == height)
     return colour;
-  if (static_cast<long long> (colour.width) * height != static_cast<long long> (colour.height) * width)
+  if (!haveSameShape (colour.width, colour.height, width, height))
     throw IoError (path + ": has " + sizeText (colour.width, colour.height) + ", but the depth has " +
                    sizeText (width, height));
   return resized (colour, width, height);
@@ -128,96 +103,6 @@ cameraFile (const std::string& folder, SequenceFormat format)
       if (fs::exists (place / name, ignored))
         return (place / name).string ();
   return {};
-}
-
-/** \brief How far a principal point is from the middle of an image, of its size. */
-double
-offCentre (const PinholeCamera& camera, const ImageSize& image)
-{
-  return std::max (std::abs ((camera.cx + 0.5) / image.width - 0.5), std::abs ((camera.cy + 0.5) / image.height - 0.5));
-}
-
-bool
-haveSameShape (const ImageSize& a, const ImageSize& b)
-{
-  return static_cast<long long> (a.width) * b.height == static_cast<long long> (a.height) * b.width;
-}
-
-/** \brief The camera of images of another resolution. */
-PinholeCamera
-scaled (const PinholeCamera& camera, const ImageSize& from, const ImageSize& to)
-{
-  const double x = static_cast<double> (to.width) / from.width, y = static_cast<double> (to.height) / from.height;
-  return {to.width, to.height, x * camera.fx, y * camera.fy, x * (camera.cx + 0.5) - 0.5, y * (camera.cy + 0.5) - 0.5};
-}
-
-std::string
-pairText (double a, double b)
-{
-  std::ostringstream out;
-  out << a << " and " << b;
-  return out.str ();
-}
-
-/** \brief What is implausible about a camera, whose size may be 0 (unknown); empty if nothing is. */
-std::string
-implausibleIntrinsics (const PinholeCamera& camera)
-{
-  const double fx = camera.fx, fy = camera.fy, cx = camera.cx, cy = camera.cy;
-  if (!(fx > 0.0 && fy > 0.0 && fx < largest_focal_length_px && fy < largest_focal_length_px))
-    return "has focal lengths fx and fy of " + pairText (fx, fy) +
-           " pixels; they must be positive, and less than a million";
-  constexpr double farthest_px = farthest_principal_point * largest_size_px;
-  if (!(std::abs (cx) <= farthest_px && std::abs (cy) <= farthest_px))
-    return "has a principal point cx, cy of " + pairText (cx, cy) + " pixels; it must be in the image, or near it";
-  if (fx < 2.0 || fy < 2.0)
-    return "has focal lengths fx and fy of " + pairText (fx, fy) +
-           "; they must be in pixels, not parts of the image's size";
-  const double width = camera.width, height = camera.height;
-  if (width <= 0.0 || height <= 0.0)
-    return {};
-  const std::string image = " for an image of " + sizeText (camera.width, camera.height);
-  if (fx < shortest_focal_length * width || fy < shortest_focal_length * height || fx > longest_focal_length * width ||
-      fy > longest_focal_length * height)
-    return "has focal lengths fx and fy of " + pairText (fx, fy) + image + "; they must be in pixels";
-  if (std::abs (cx) > farthest_principal_point * width || std::abs (cy) > farthest_principal_point * height)
-    return "has a principal point cx, cy of " + pairText (cx, cy) + image + "; it must be in the image, or near it";
-  return {};
-}
-
-/** \brief Read a pose as 7-Scenes has it: the 16 numbers of a 4 x 4 matrix, row by row. What rounding took from the
- * rotation is given back. \throws IoError if it cannot be read, is not finite, or not rigid */
-Eigen::Isometry3d
-readPoseMatrix (const std::string& path)
-{
-  const std::string bytes = readBytes (path);
-  Eigen::Matrix4d matrix;
-  try
-  {
-    TextScanner scanner (bytes);
-    for (int row = 0; row < 4; ++row)
-      for (int column = 0; column < 4; ++column)
-        matrix (row, column) = toReal (scanner.word ());
-    const std::string_view more = scanner.word ();
-    if (!more.empty ())
-      throw IoError ("there is " + quoted (more) + " behind it");
-  }
-  catch (const IoError& error)
-  {
-    throw IoError (path + ": must be the 16 numbers of a 4 x 4 matrix, but " + error.what ());
-  }
-  if (!matrix.allFinite ())
-    throw IoError (path + ": has a pose that is not finite");
-  const Eigen::Matrix3d rotation = matrix.topLeftCorner<3, 3> ();
-  const double skew = (rotation * rotation.transpose () - Eigen::Matrix3d::Identity ()).cwiseAbs ().maxCoeff ();
-  const double last_row = (matrix.row (3) - Eigen::RowVector4d (0, 0, 0, 1)).cwiseAbs ().maxCoeff ();
-  if (!(skew <= rigid_tolerance && last_row <= rigid_tolerance && rotation.determinant () > 0.0))
-    throw IoError (path + ": has a matrix that is not a rotation and a translation");
-  const Eigen::JacobiSVD<Eigen::Matrix3d> svd (rotation, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity ();
-  pose.linear () = svd.matrixU () * svd.matrixV ().transpose (); // the nearest rotation
-  pose.translation () = matrix.topRightCorner<3, 1> ();
-  return pose;
 }
 
 } // namespace
@@ -311,14 +196,15 @@ RgbdSequence::fitCameraToDepth (const std::string& folder, const std::string& na
     const bool fits = std::any_of (sizes.begin (), sizes.end (), [&] (const ImageSize& size) {
       return size.width == own.width && size.height == own.height;
     });
-    if (!fits && haveSameShape (own, depth))
+    if (!fits && haveSameShape (own.width, own.height, depth.width, depth.height))
       scaleFrom (own, "images");
     return;
   }
   const double off_depth = offCentre (camera_, depth);
   if (off_depth > far_off_centre)
-    if (const auto colour = colourSize (); colour && haveSameShape (*colour, depth) && colour->width != depth.width &&
-                                           offCentre (camera_, *colour) < std::min (far_off_centre, off_depth))
+    if (const auto colour = colourSize ();
+        colour && haveSameShape (colour->width, colour->height, depth.width, depth.height) &&
+        colour->width != depth.width && offCentre (camera_, *colour) < std::min (far_off_centre, off_depth))
       return scaleFrom (*colour, "colour images");
   camera_.width = depth.width;
   camera_.height = depth.height;

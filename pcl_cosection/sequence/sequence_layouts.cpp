@@ -75,15 +75,6 @@ joinByNumber (const std::vector<NumberedFile>& depth, const std::vector<Numbered
   return files;
 }
 
-/** \brief The files of a folder whose names begin as is usual, or else of any that end in a number. */
-std::vector<NumberedFile>
-numberedImages (const std::string& folder, const NumberedNames& usual, std::vector<std::string>& warnings)
-{
-  const std::vector<std::string> names = fileNames (folder);
-  std::vector<NumberedFile> files = numberedFiles (folder, names, usual, warnings);
-  return files.empty () ? numberedFiles (folder, names, {{}, usual.endings}, warnings) : files;
-}
-
 /** \brief The depth images of the folder asked for, else of depth_noise, else of depth. */
 std::vector<NumberedFile>
 coFusionDepth (const std::string& folder, const std::string& asked, std::vector<std::string>& warnings)

@@ -2,13 +2,11 @@
 
 // pcl_cosection_evaluate as its users meet it: commands, options, files and what it says of bad ones.
 
-#include "common/temporary_folder.h"
+#include "evaluate_fixture.h"
 #include "evaluation/moving_scene.h"
-#include "tool_run.h"
 
 #include <pcl/cosection/io/mesh_io.h>
 #include <pcl/io/pcd_io.h>
-#include <pcl/io/ply_io.h>
 #include <pcl/point_types.h>
 
 #include <nlohmann/json.hpp>
@@ -21,40 +19,6 @@ using namespace pcl::cosection;
 using namespace pcl::cosection::test;
 
 namespace {
-
-using Words = std::vector<std::string>;
-
-class Evaluate : public testing::Test
-{
-protected:
-  /** \brief Run the program. \return the exit status */
-  int run (const Words& arguments)
-  {
-    ToolRun tool (arguments, folder_.file (""), {}, PCL_COSECTION_EVALUATE);
-    const int status = tool.wait ();
-    output_ = tool.output ();
-    errors_ = tool.errors ();
-    return (status);
-  }
-
-  nlohmann::json json (const std::string& name) const
-  {
-    return (nlohmann::json::parse (readFile (folder_.file (name))));
-  }
-
-  void save (const std::string& name, const TriangleMesh& mesh) const { saveMesh (mesh, folder_.file (name)); }
-
-  /** \brief One line, with the name of the program. */
-  void expectOneLine (const std::string& part) const
-  {
-    EXPECT_EQ (errors_.rfind ("pcl_cosection_evaluate: error: ", 0), 0u) << errors_;
-    EXPECT_EQ (std::count (errors_.begin (), errors_.end (), '\n'), 1) << errors_;
-    EXPECT_NE (errors_.find (part), std::string::npos) << errors_;
-  }
-
-  const TemporaryFolder folder_;
-  std::string output_, errors_;
-};
 
 std::string
 poseLines (const std::vector<StampedPose>& poses)
@@ -103,38 +67,6 @@ writeRun (const SceneRecord& estimate, const TemporaryFolder& folder)
 }
 
 } // namespace
-
-TEST_F (Evaluate, TruthMayBeAScan)
-{
-  const TriangleMesh box = boxMesh ({-0.05f, -0.05f, -0.05f}, {0.05f, 0.05f, 0.05f});
-  save ("box.ply", box);
-  pcl::PointCloud<pcl::PointXYZ> points;
-  for (int i = 0; i <= 20; ++i)
-    for (int j = 0; j <= 20; ++j)
-      for (const float side : {-1.0f, 1.0f})
-        for (int axis = 0; axis < 3; ++axis)
-        {
-          Eigen::Vector3f at (0.1f * i - 1.0f, 0.1f * j - 1.0f, side);
-          std::swap (at[2], at[axis]);
-          at *= 0.05f;
-          points.emplace_back (at.x (), at.y (), at.z () + 0.001f);
-        }
-  pcl::io::savePLYFileBinary (folder_.file ("scan.ply"), points);
-  pcl::io::savePCDFileBinary (folder_.file ("scan.pcd"), points);
-  for (const std::string scan : {"scan.ply", "scan.pcd"})
-  {
-    ASSERT_EQ (run ({"mesh", "--json", "s.json", "--error-mesh", "e.ply", scan, "box.ply"}), 0) << errors_;
-    EXPECT_LT (json ("s.json")["completeness_m"].get<double> (), 0.001);
-    EXPECT_LT (json ("s.json")["accuracy_m"].get<double> (), 0.004);
-    EXPECT_NEAR (json ("s.json")["truth"]["point_spacing_m"].get<double> (), 0.005, 1e-4);
-    EXPECT_NE (output_.find ("the truth is a set of points, 5"), std::string::npos) << output_;
-    ASSERT_EQ (run ({"mesh", "box.ply", scan}), 0) << errors_;
-    EXPECT_EQ (run ({"mesh", "--error-picture", "e.png", scan, "box.ply"}), 2);
-    expectOneLine ("--error-picture needs meshes, and " + scan + " holds points alone");
-  }
-  ASSERT_EQ (run ({"mesh", "--align", "icp", "--json", "s.json", "scan.ply", "box.ply"}), 0) << errors_;
-  EXPECT_LT (json ("s.json")["completeness_m"].get<double> (), 0.0002); // moved by the millimetre
-}
 
 TEST_F (Evaluate, NeedsACommand)
 {

@@ -151,6 +151,9 @@ interpret (Settings& settings)
   settings.reading.max_memory_bytes = settings.method.max_memory_bytes;
   if (settings.segment && settings.inputs.size () > 1)
     throw UsageError ("--segment needs one INPUT: objects of several have no common numbers");
+  if (settings.segment && (!settings.reading.label_field.empty () || !settings.reading.background_labels.empty () ||
+                           !settings.reading.ignored_labels.empty ()))
+    throw UsageError ("--segment makes labels of its own, and goes with none of --label-field, --background, --ignore");
   if (!settings.save_labels.empty () && !settings.segment)
     throw UsageError ("--save-labels needs --segment");
   if (!settings.save_labels.empty () && !endsWith (settings.save_labels, ".pcd"))

@@ -2,7 +2,7 @@
 #include "scene_input.h"
 
 #include "pcl_cosection/common/boxes.h"
-#include "pcl_cosection/segmentation/clusters/cloud_labels.h"
+#include "pcl_cosection/segmentation/clusters/cloud_segmentation.h"
 #include "pcl_cosection/view/organized_cloud.h"
 
 #include <pcl/cosection/common/error.h>

@@ -1,6 +1,7 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "local_origin.h"
 
+#include "pcl_cosection/common/boxes.h"
 #include "pcl_cosection/common/round_origin.h"
 #include "pcl_cosection/io/place_text.h"
 
@@ -35,28 +36,22 @@ struct Extent
 std::optional<Extent>
 extentOf (const std::array<CloudColumn, 3>& columns, std::size_t points, double scale)
 {
-  std::array<std::vector<double>, 3> along;
+  std::vector<Eigen::Vector3d> places;
   for (std::size_t i = 0, step = std::max<std::size_t> (1, points / judged_points); i < points; i += step)
   {
     const Eigen::Vector3d p = scale *
                               Eigen::Vector3d (columns[0].number (i), columns[1].number (i), columns[2].number (i));
     if (std::isfinite (p.squaredNorm ()) && !p.isZero (0.0))
-      for (int axis = 0; axis < 3; ++axis)
-        along[axis].push_back (p[axis]);
+      places.push_back (p);
   }
-  const std::size_t count = along[0].size ();
+  const std::size_t count = places.size ();
   if (count < least_points)
     return std::nullopt;
-  const auto outermost = static_cast<std::size_t> (outlier_share * static_cast<double> (count));
+  const Eigen::AlignedBox3d box = trimmedBox<double> (places, outlier_share,
+                                                      [] (const Eigen::Vector3d& p) { return p; });
   Extent extent;
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    std::sort (along[axis].begin (), along[axis].end ());
-    const double low = along[axis][outermost];
-    const double high = along[axis][count - 1 - outermost];
-    extent.centre[axis] = 0.5 * low + 0.5 * high;
-    extent.longest = std::max (extent.longest, high - low);
-  }
+  extent.centre = 0.5 * box.min () + 0.5 * box.max ();
+  extent.longest = box.sizes ().maxCoeff ();
   const double all = static_cast<double> (count) * std::max (1.0, static_cast<double> (points) / judged_points);
   extent.spacing = extent.longest / std::sqrt (all);
   if (!(extent.spacing > 0.0))

@@ -45,16 +45,6 @@ isVertices (const PlyElement& element)
   return element.name == "vertex";
 }
 
-/** \brief Bytes (text: characters) that an element takes at least. */
-std::uint64_t
-leastSize (const PlyElement& element, Encoding encoding)
-{
-  std::uint64_t each = 0;
-  for (const PlyProperty& property : element.properties)
-    each += encoding == Encoding::Ascii ? 2 : sizeOf (property.count_type.value_or (property.type));
-  return each * element.count;
-}
-
 /** \brief Call \a decode with a scanner, and name the file in its errors. */
 template <typename Decode>
 auto
@@ -71,43 +61,8 @@ scan (const std::string& path, std::string_view text, Decode&& decode)
   }
 }
 
-/** \brief Reads the values of one element after the other. */
-class ElementReader
-{
-public:
-  ElementReader (TextScanner& scanner, Encoding encoding) : values_ (scanner, encoding, "PLY") {}
-
-  /** \brief Calls use (row, index of the property, value) for all values that are in no list. */
-  template <typename Use> void read (const PlyElement& element, Use&& use)
-  {
-    std::size_t bytes = 0;
-    for (const PlyProperty& property : element.properties)
-      bytes += sizeOf (property.count_type.value_or (property.type));
-    values_.require (element.count, bytes, element.properties.size ());
-    for (std::uint64_t row = 0; row < element.count && !element.properties.empty (); ++row)
-      for (std::size_t n = 0; n < element.properties.size (); ++n)
-        if (const PlyProperty& property = element.properties[n]; property.count_type)
-          skipList (property);
-        else
-          use (row, n, values_.next (property.type));
-  }
-
-private:
-  void skipList (const PlyProperty& property)
-  {
-    const std::int64_t count = values_.nextIndex (*property.count_type);
-    if (count < 0)
-      throw IoError ("a list has an impossible length");
-    values_.require (static_cast<std::uint64_t> (count), sizeOf (property.type), 1);
-    for (std::int64_t left = count; left > 0; --left)
-      values_.next (property.type);
-  }
-
-  ValueReader values_;
-};
-
 PCLPointCloud2
-readVertices (const PlyElement& element, const CloudHeader& header, ElementReader& reader)
+readVertices (const PlyElement& element, const CloudHeader& header, PlyElementReader& reader)
 {
   PCLPointCloud2 cloud = emptyCloud (header, CloudPadding::Included);
   struct Target
@@ -176,7 +131,7 @@ parsePlyCloudHeader (const std::string& path, std::string_view text, std::uint64
     if (vertices->count == 0)
       throw DegenerateInput (path + ": holds no points");
     const std::uint64_t left = size - (text.size () - scanner.left ().size ()) + 1; // text may lack the last space
-    if (vertices->count > max_points || header.fields.empty () || leastSize (*vertices, ply.encoding) > left)
+    if (vertices->count > max_points || header.fields.empty () || vertices->leastSize (ply.encoding) > left)
       throw IoError ("the PLY file is shorter than its header says");
     header.points = header.width = vertices->count;
     header.height = 1;
@@ -200,7 +155,7 @@ readPlyPoints (const std::string& path, CloudHeader& header)
       throw IoError ("the file changed while it was read");
     if (const auto camera = std::find_if (last, ply.elements.end (), isCamera); camera != ply.elements.end ())
       last = camera;
-    ElementReader reader (scanner, ply.encoding);
+    PlyElementReader reader (scanner, ply.encoding);
     std::optional<PCLPointCloud2> cloud;
     std::map<std::string, double> camera;
     for (auto element = ply.elements.begin (); element <= last; ++element)

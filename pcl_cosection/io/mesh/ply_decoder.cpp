@@ -74,103 +74,59 @@ vertexSetter (const std::string& name, std::size_t count, PlyContents& contents)
   return [&mesh] (std::size_t v, double value) { mesh.provenance[v] = toByte (value); };
 }
 
-/** \brief Reads the elements of a file one after the other. */
-class PlyReader
+void
+readVertices (const PlyElement& element, PlyElementReader& reader, PlyContents& contents)
 {
-public:
-  PlyReader (TextScanner& scanner, Encoding encoding) : values_ (scanner, encoding, "PLY") {}
+  for (const char* name : {"x", "y", "z"})
+    if (std::none_of (element.properties.begin (), element.properties.end (),
+                      [name] (const PlyProperty& p) { return !p.count_type && p.name == name; }))
+      throw IoError ("the vertices have no x, y and z");
+  reader.require (element);
+  std::vector<Setter> setters;
+  for (const PlyProperty& property : element.properties)
+    setters.push_back (property.count_type ? Setter () : vertexSetter (property.name, element.count, contents));
+  reader.read (element, [&] (std::uint64_t v, std::size_t p, double value) {
+    if (setters[p])
+      setters[p](v, value);
+  });
+}
 
-  void readVertices (const PlyElement& element, PlyContents& contents)
-  {
-    for (const char* name : {"x", "y", "z"})
-      if (std::none_of (element.properties.begin (), element.properties.end (),
-                        [name] (const PlyProperty& p) { return !p.count_type && p.name == name; }))
-        throw IoError ("the vertices have no x, y and z");
-    require (element);
-    std::vector<Setter> setters;
+/** \brief Faces, or strips of triangles one behind the other with a negative number between them. */
+void
+readFaces (const PlyElement& element, bool strips, PlyElementReader& reader, PolygonSoup& faces)
+{
+  const auto isCorners = [] (const PlyProperty& property) {
+    return property.count_type && (property.name == "vertex_indices" || property.name == "vertex_index");
+  };
+  if (std::none_of (element.properties.begin (), element.properties.end (), isCorners))
+    throw IoError ("the faces have no vertex_indices");
+  reader.require (element);
+  std::vector<std::int64_t> corners;
+  for (std::uint64_t f = 0; f < element.count; ++f)
     for (const PlyProperty& property : element.properties)
-      setters.push_back (property.count_type ? Setter () : vertexSetter (property.name, element.count, contents));
-    for (std::size_t v = 0; v < element.count; ++v)
-      for (std::size_t p = 0; p < setters.size (); ++p)
+    {
+      if (!isCorners (property))
       {
-        if (element.properties[p].count_type)
-          skip (element.properties[p]);
-        else if (const double value = values_.next (element.properties[p].type); setters[p])
-          setters[p](v, value);
+        reader.skip (property);
+        continue;
       }
-  }
-
-  /** \brief Faces, or strips of triangles one behind the other with a negative number between them. */
-  void readFaces (const PlyElement& element, bool strips, PolygonSoup& faces)
-  {
-    const auto isCorners = [] (const PlyProperty& property) {
-      return property.count_type && (property.name == "vertex_indices" || property.name == "vertex_index");
-    };
-    if (std::none_of (element.properties.begin (), element.properties.end (), isCorners))
-      throw IoError ("the faces have no vertex_indices");
-    require (element);
-    std::vector<std::int64_t> corners;
-    for (std::uint64_t f = 0; f < element.count; ++f)
-      for (const PlyProperty& property : element.properties)
+      corners.clear ();
+      for (std::uint64_t left = reader.readCount (property); left > 0; --left)
       {
-        if (!isCorners (property))
+        corners.push_back (reader.nextIndex (property));
+        if (strips && corners.back () < 0)
         {
-          skip (property);
-          continue;
-        }
-        corners.clear ();
-        for (std::uint64_t left = readCount (property); left > 0; --left)
-        {
-          corners.push_back (values_.nextIndex (property.type));
-          if (strips && corners.back () < 0)
-          {
-            corners.pop_back ();
-            faces.addStrip (corners);
-            corners.clear ();
-          }
-        }
-        if (strips)
+          corners.pop_back ();
           faces.addStrip (corners);
-        else
-          faces.addPolygon (corners);
+          corners.clear ();
+        }
       }
-  }
-
-  void skipElement (const PlyElement& element)
-  {
-    require (element);
-    for (std::uint64_t n = 0; n < element.count && !element.properties.empty (); ++n)
-      for (const PlyProperty& property : element.properties)
-        skip (property);
-  }
-
-private:
-  /** \brief Bounds what is allocated, and how long it takes, by the size of the file. */
-  void require (const PlyElement& element) const
-  {
-    std::size_t bytes = 0;
-    for (const PlyProperty& property : element.properties)
-      bytes += sizeOf (property.count_type.value_or (property.type));
-    values_.require (element.count, bytes, element.properties.size ());
-  }
-
-  std::uint64_t readCount (const PlyProperty& property)
-  {
-    const std::int64_t count = values_.nextIndex (*property.count_type);
-    if (count < 0)
-      throw IoError ("a face has an impossible number of corners");
-    values_.require (static_cast<std::uint64_t> (count), sizeOf (property.type), 1);
-    return static_cast<std::uint64_t> (count);
-  }
-
-  void skip (const PlyProperty& property)
-  {
-    for (std::uint64_t left = (property.count_type ? readCount (property) : 1); left > 0; --left)
-      values_.next (property.type);
-  }
-
-  ValueReader values_;
-};
+      if (strips)
+        faces.addStrip (corners);
+      else
+        faces.addPolygon (corners);
+    }
+}
 
 PlyContents
 decode (const std::string& bytes)
@@ -181,7 +137,7 @@ decode (const std::string& bytes)
   const auto needed = std::count_if (header.elements.begin (), header.elements.end (), [&] (const PlyElement& element) {
     return element.name == "vertex" || isFaces (element);
   });
-  PlyReader reader (scanner, header.encoding);
+  PlyElementReader reader (scanner, header.encoding);
   PlyContents contents;
   bool has_vertices = false;
   bool has_faces = false;
@@ -193,11 +149,11 @@ decode (const std::string& bytes)
     const bool is_vertices = element.name == "vertex";
     left -= is_vertices || isFaces (element);
     if (is_vertices && !has_vertices)
-      reader.readVertices (element, contents);
+      readVertices (element, reader, contents);
     else if (isFaces (element))
-      reader.readFaces (element, element.name == "tristrips", contents.faces);
+      readFaces (element, element.name == "tristrips", reader, contents.faces);
     else
-      reader.skipElement (element);
+      reader.read (element, [] (std::uint64_t, std::size_t, double) {});
     has_vertices = has_vertices || is_vertices;
     has_faces = has_faces || isFaces (element);
   }

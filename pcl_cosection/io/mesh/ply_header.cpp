@@ -59,6 +59,21 @@ parseProperty (std::istringstream& words)
 
 } // namespace
 
+std::size_t
+PlyElement::leastRowBytes () const
+{
+  std::size_t bytes = 0;
+  for (const PlyProperty& property : properties)
+    bytes += sizeOf (property.count_type.value_or (property.type));
+  return bytes;
+}
+
+std::uint64_t
+PlyElement::leastSize (Encoding encoding) const
+{
+  return count * (encoding == Encoding::Ascii ? 2 * properties.size () : leastRowBytes ());
+}
+
 PlyHeader
 parsePlyHeader (TextScanner& scanner)
 {
@@ -105,6 +120,29 @@ parsePlyHeader (TextScanner& scanner)
   if (!has_format)
     throw IoError ("the PLY header names no format");
   return header;
+}
+
+void
+PlyElementReader::require (const PlyElement& element) const
+{
+  values_.require (element.count, element.leastRowBytes (), element.properties.size ());
+}
+
+std::uint64_t
+PlyElementReader::readCount (const PlyProperty& property)
+{
+  const std::int64_t count = values_.nextIndex (*property.count_type);
+  if (count < 0)
+    throw IoError ("a list has an impossible length");
+  values_.require (static_cast<std::uint64_t> (count), sizeOf (property.type), 1);
+  return static_cast<std::uint64_t> (count);
+}
+
+void
+PlyElementReader::skip (const PlyProperty& property)
+{
+  for (std::uint64_t left = (property.count_type ? readCount (property) : 1); left > 0; --left)
+    values_.next (property.type);
 }
 
 } // namespace pcl::cosection

@@ -38,9 +38,10 @@ onOneSurface (const PinholeCamera& camera, double a_m, double b_m)
 
 /** \brief Whether a surface goes on beyond an outline in the image, as beyond no object's.
  *
- * Of scanned things as a simulated camera sees them, it does so on 0.64 and more of the outlines of wrong patches and
- * on 0.9 of those of labels that are three pixels too small; on 0.58 and less of those of exact labels. A sensor that
- * smears edges has 0.6 to 0.95 on exact labels, too: what it smears is taken for the object's.
+ * Of scanned things as a simulated camera sees them, it goes on beyond 0.64 and more of the outline of a patch of a
+ * wrong label, and beyond 0.9 of that of a label that is three pixels too small; beyond 0.58 and less of that of an
+ * exact one. A sensor that smears edges has 0.6 to 0.95 for exact labels, too: what it smears is taken for the
+ * object's.
  *
  * \param[in] continued pairs of readings on the two sides of the outline that are on one surface
  * \param[in] all pairs: with few, as among missing readings, nothing is known of what is beside it

@@ -239,11 +239,11 @@ private:
 };
 
 /** \brief Masks of instances for the frames of a sequence: a folder of PNGs of one channel of 8 or 16 bits (or several
- * equal ones, or a palette), a file per
- * frame that has one, or one per instance of it. A pixel is the number of an instance, 0 none. A name ends in the
- * frame's number or stamp: Mask0003.png, 0.033333.png; or in that and the instance's, from 0, as the BOP benchmark has
- * it: 000003_000001.png, whose pixels that are not 0 are instance 2. Pixels of several instances have none. Masks of
- * another resolution and the same shape are brought to the depth's. Several threads may read.
+ * equal ones, or a palette), a file per frame that has one, or one per instance of it. A pixel is the number of an
+ * instance, 0 none. A name ends in the frame's number or stamp: Mask0003.png, 0.033333.png; or in that and the
+ * instance's, from 0, as the BOP benchmark has it: 000003_000001.png, whose pixels that are not 0 are instance 2.
+ * Pixels of several instances have none. Masks of another resolution and the same shape are brought to the depth's.
+ * Several threads may read.
  *
  * \code
  * const MaskSequence masks ("toycars/mask", sequence);

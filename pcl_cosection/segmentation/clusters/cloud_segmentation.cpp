@@ -1,5 +1,5 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
-#include "cloud_labels.h"
+#include "cloud_segmentation.h"
 
 #include "cluster_segmentation.h"
 

@@ -1,0 +1,119 @@
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
+
+// Clouds as surveys, other programs and sensors have them: coordinates, grounds, labels, and none.
+
+#include "any_cloud_fixture.h"
+
+#include <filesystem>
+#include <random>
+#include <sstream>
+
+namespace fs = std::filesystem;
+using namespace pcl::cosection;
+
+TEST_F (AnyCloud, SurveyCoordinatesGiveTheSameMesh)
+{
+  writeSphere (path ("near.pcd"), 8000);
+  pcl::PointCloud<pcl::PointNormal> near;
+  pcl::io::loadPCDFile (path ("near.pcd"), near);
+  std::ostringstream rows;
+  rows.precision (12);
+  const Eigen::Vector3d utm (512434.25, 5405590.5, 348.75);
+  for (const pcl::PointNormal& p : near)
+    rows << p.x + utm.x () << ' ' << p.y + utm.y () << ' ' << p.z + utm.z () << ' ' << p.normal_x << ' ' << p.normal_y
+         << ' ' << p.normal_z << '\n';
+  write ("far.pcd", "VERSION 0.7\nFIELDS x y z normal_x normal_y normal_z\nSIZE 8 8 8 4 4 4\nTYPE F F F F F F\n"
+                    "COUNT 1 1 1 1 1 1\nWIDTH 8000\nHEIGHT 1\nPOINTS 8000\nDATA ascii\n" +
+                        rows.str ());
+  ASSERT_EQ (run ({"--plane", "0,0,1,-349.15", "--save-sdf", "--json", "s.json", "far.pcd", "far.ply"}), 0) << errors_;
+  EXPECT_NE (errors_.find ("far from their origin"), std::string::npos) << errors_;
+  const TriangleMesh mesh = loadMesh (path ("far.ply"), utm);
+  EXPECT_TRUE (computeTopology (mesh).closed_manifold);
+  EXPECT_NEAR (computeMassProperties (mesh).volume_m3, ball_m3, 0.02 * ball_m3);
+  const nlohmann::json centroid = summary ()["objects"][0]["centroid_m"];
+  EXPECT_NEAR (centroid[0].get<double> (), utm.x (), 1e-3);
+  EXPECT_NEAR (centroid[1].get<double> (), utm.y (), 1e-3);
+  EXPECT_NEAR (centroid[2].get<double> (), utm.z () + 0.5, 1e-3);
+  EXPECT_EQ (summary ()["origin_m"].size (), 3u);
+
+  ASSERT_EQ (run ({"far.pcd", "far.stl"}), 0) << errors_;
+  EXPECT_NE (errors_.find ("STL files have single precision"), std::string::npos) << errors_;
+  EXPECT_NEAR (volume ("far.stl"), ball_m3, 0.02 * ball_m3);
+}
+
+TEST_F (AnyCloud, DepositOnGroundHasTheVolumeAboveIt)
+{
+  std::mt19937 random (9);
+  std::uniform_real_distribution<double> along (-4.0, 4.0);
+  std::normal_distribution<double> noise (0.0, 0.005);
+  std::ostringstream rows;
+  constexpr int count = 20000;
+  for (int n = 0; n < count; ++n)
+  {
+    const Eigen::Vector2d at (along (random), along (random));
+    rows << at.x () << ' ' << at.y () << ' ' << std::max (0.0, 1.2 - 0.5 * at.norm ()) + noise (random) << '\n';
+  }
+  write ("heap.pcd", "VERSION 0.7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\nWIDTH " + std::to_string (count) +
+                         "\nHEIGHT 1\nPOINTS " + std::to_string (count) + "\nDATA ascii\n" + rows.str ());
+  ASSERT_EQ (run ({"--plane", "0,0,1,0", "heap.pcd", "heap.ply"}), 0) << errors_;
+  const double true_m3 = M_PI * 2.4 * 2.4 * 1.2 / 3.0;
+  EXPECT_NEAR (volume ("heap.ply"), true_m3, 0.03 * true_m3);
+}
+
+TEST_F (AnyCloud, BackgroundOfAnotherLabel)
+{
+  writeTableScene (path ("table.pcd"));
+  pcl::PointCloud<pcl::PointXYZRGBL> table;
+  pcl::io::loadPCDFile (path ("table.pcd"), table);
+  for (pcl::PointXYZRGBL& p : table)
+    p.label = p.label == 0 ? 255 : p.label - 1; // objects from 0
+  pcl::io::savePCDFileBinary (path ("other.pcd"), table);
+  ASSERT_EQ (run ({"table.pcd", "first"}), 0) << errors_;
+  ASSERT_EQ (run ({"--background", "255", "other.pcd", "second"}), 0) << errors_;
+  EXPECT_NE (errors_.find ("label 0 is no background; it is object 255"), std::string::npos) << errors_;
+  EXPECT_NEAR (volume ("second/object_255.ply"), volume ("first/object_1.ply"), 1e-6);
+  EXPECT_NEAR (volume ("second/object_1.ply"), volume ("first/object_2.ply"), 1e-6);
+  EXPECT_TRUE (fs::exists (path ("second/background.ply")));
+
+  for (pcl::PointXYZRGBL& p : table)
+    p.label += p.label == 255 ? -252 : 1; // the table is 3
+  pcl::io::savePCDFileBinary (path ("third.pcd"), table);
+  ASSERT_EQ (run ({"third.pcd", "third"}), 0) << errors_;
+  EXPECT_NE (errors_.find ("give --background 3"), std::string::npos) << errors_;
+}
+
+TEST_F (AnyCloud, ObjectsAreFoundFirst)
+{
+  writeTableScene (path ("table.pcd"));
+  pcl::PointCloud<pcl::PointXYZRGBL> table;
+  pcl::io::loadPCDFile (path ("table.pcd"), table);
+  pcl::PointCloud<pcl::PointXYZRGB> image (table.width, table.height), points;
+  image.sensor_origin_ = points.sensor_origin_ = table.sensor_origin_;
+  image.sensor_orientation_ = points.sensor_orientation_ = table.sensor_orientation_;
+  for (std::size_t i = 0; i < table.size (); ++i)
+  {
+    image[i].getVector3fMap () = table[i].getVector3fMap ();
+    if (table[i].getVector3fMap ().allFinite ())
+      points.push_back (image[i]);
+  }
+  pcl::io::savePCDFileBinary (path ("image.pcd"), image);
+  pcl::io::savePCDFileBinary (path ("points.pcd"), points);
+  ASSERT_EQ (run ({"table.pcd", "labelled"}), 0) << errors_;
+  for (const std::string name : {"image", "points"})
+  {
+    ASSERT_EQ (run ({"--segment", "--save-labels", "found.pcd", name + ".pcd", name}), 0) << errors_;
+    double sum = 0.0, expected = 0.0;
+    for (const char* object : {"/object_1.ply", "/object_2.ply"})
+    {
+      sum += volume (name + object);
+      expected += volume (std::string ("labelled") + object);
+    }
+    EXPECT_NEAR (sum, expected, 0.1 * expected) << name;
+    EXPECT_FALSE (fs::exists (path (name + "/object_3.ply")));
+    ASSERT_EQ (run ({"found.pcd", "again"}), 0) << errors_;
+    EXPECT_NEAR (volume ("again/object_1.ply"), volume (name + "/object_1.ply"), 1e-9);
+  }
+  EXPECT_EQ (run ({"--segment", "image.pcd", "points.pcd", "out"}), 2);
+  EXPECT_EQ (run ({"--save-labels", "l.pcd", "image.pcd", "out"}), 2);
+  EXPECT_EQ (run ({"--segment", "--save-labels", "image.pcd", "image.pcd", "out"}), 2);
+}
