@@ -147,6 +147,7 @@ parameters (const SegmentSettings& settings)
   summary["ignored_mask"] = settings.ignored.mask;
   summary["scale"] = settings.scale;
   summary["world_points"] = settings.world_points;
+  summary["axes"] = settings.axes;
   summary["threads"] = options.threads;
   return (summary);
 }
@@ -164,6 +165,8 @@ run (const SegmentSettings& given, Terminal& terminal)
   PcdViewOptions reading;
   reading.scale = settings.scale;
   reading.world_points = settings.world_points;
+  if (settings.axes == "opengl")
+    reading.axes = SensorAxes::OpenGl;
   const bool needs_image = settings.network || !settings.ignored.empty ();
   const OrganizedCloud cloud = readOrganizedCloud (settings.input, reading, !needs_image);
   const double read_s = total.getTimeSeconds ();

@@ -100,6 +100,9 @@ declareSegmentationOptions (CLI::App& app, GivenSegmentation& given)
   input.add ("--scale FACTOR", given.scale, positiveNumber (),
              "Multiplies coordinates: 0.001 for millimetres (default: 1)");
   input.addFlag ("--world-points", given.world_points, "Points are in the world frame, not in the sensor's");
+  input.add ("--axes optical|opengl", given.axes,
+             "Axes of the sensor's frame: x right, y down, z forward, or x right, y up, z backward" +
+                 byDefault ("optical"));
   declareIgnoredArea (app, given.given_area);
   OptionGroup (app, "Output").add ("--json FILE", given.json, "Write a summary for programs");
   declareGeneralOptions (app, "pcl_cosection_segment", given);

@@ -18,6 +18,7 @@ struct GivenSegmentation : GeneralOptions
   std::optional<double> max_object_size, min_object_size, concave_angle, min_support_area;
   double scale = 1.0;
   bool world_points = false;
+  std::string axes = "optical"; ///< of the sensor
 };
 
 /** \brief What the user of pcl_cosection_segment asked for: the options, and what they mean together. */
