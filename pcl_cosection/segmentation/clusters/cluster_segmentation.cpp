@@ -30,7 +30,7 @@ constexpr int spacing_neighbours = 4;
 constexpr double sheet_spacings = 2.0;   // half thickness of a plane, of the distance of neighbours ...
 constexpr double sheet_of_object = 0.25; // ... or of the smallest object, whichever is larger
 constexpr double gap_spacings = 3.0;     // distance of clusters, likewise
-constexpr double cell_spacings = 4.0;    // side of the cells by which a plane's area is measured
+constexpr double cell_spacings = 4.0;    // side of the cells by which a plane's area is measured, at least a sheet
 constexpr int most_planes = 6;
 constexpr double least_filled = 0.5; // of the box around a plane's points: less is a cut through several things
 constexpr int ransac_iterations = 1000;
@@ -55,14 +55,14 @@ public:
       , u_ (plane_.head<3> ().unitOrthogonal ())
       , v_ (plane_.head<3> ().cross (u_))
   {
-    std::set<std::pair<int, int>> cells;
+    std::set<std::pair<std::int64_t, std::int64_t>> cells;
     std::vector<Eigen::Vector3f> along;
     for (const auto i : inliers)
     {
       const Eigen::Vector2f at = project (cloud[i].getVector3fMap ());
       along.emplace_back (at.x (), at.y (), 0.0f);
-      cells.emplace (static_cast<int> (std::floor (at.x () / cell_m)),
-                     static_cast<int> (std::floor (at.y () / cell_m)));
+      cells.emplace (static_cast<std::int64_t> (std::floor (at.x () / cell_m)),
+                     static_cast<std::int64_t> (std::floor (at.y () / cell_m)));
     }
     area_m2_ = static_cast<double> (cells.size ()) * cell_m * cell_m;
     box_ = trimmedBox<float> (along, outlier_share, [] (const Eigen::Vector3f& p) { return p; });
@@ -183,7 +183,7 @@ segmentClusters (const std::vector<Eigen::Vector3f>& points, const ObjectSegment
   std::vector<float> distances = neighbourDistances (places, spacing_neighbours, options.threads);
   const double spacing = upperMedian (distances);
   const double sheet = std::max (sheet_spacings * spacing, sheet_of_object * options.min_object_size_m);
-  const Lengths lengths{sheet, std::max (gap_spacings * spacing, sheet), cell_spacings * spacing};
+  const Lengths lengths{sheet, std::max (gap_spacings * spacing, sheet), std::max (cell_spacings * spacing, sheet)};
 
   Indices left (cloud->size ());
   for (std::size_t i = 0; i < left.size (); ++i)

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "common/temporary_folder.h"
-#include "tool_run.h"
+#include "tools/tool_run.h"
 
 #include <pcl/cosection/io/mesh_io.h>
 
