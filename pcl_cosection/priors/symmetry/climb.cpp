@@ -8,11 +8,12 @@
 namespace pcl::cosection {
 namespace {
 
-constexpr std::size_t coarse_stride = 3; // samples, among many candidates
-constexpr int halvings = 5;              // of the steps of a climb
-constexpr double least_gain = 1e-6;      // of a step
-constexpr double about_as_good = 0.02;   // difference of log-likelihood ratios
-constexpr double center_step = 0.25;     // of a climb's first step
+constexpr std::size_t samples_of_many = 100; // by which many candidates are judged, ...
+constexpr std::size_t samples_of_some = 300; // ... and those that are left
+constexpr int halvings = 5;                  // of the steps of a climb
+constexpr double least_gain = 1e-6;          // of a step
+constexpr double about_as_good = 0.02;       // difference of log-likelihood ratios
+constexpr double center_step = 0.25;         // of a climb's first step
 constexpr int most_steps = 8, bisections = 6;
 
 /** \brief How far a parameter can go until the evidence falls below a limit. \param[in] step with a sense */
@@ -33,6 +34,13 @@ reachOf (const CopyJudge& judge, const MakeMotions& motions, const Parameters& f
   return good;
 }
 
+/** \brief Judge by every so manieth sample. */
+std::size_t
+strideFor (const CopyJudge& judge, std::size_t samples)
+{
+  return judge.samples ().size () / samples + 1;
+}
+
 } // namespace
 
 double
@@ -45,10 +53,11 @@ ratioOf (const CopyJudge& judge, const Motions& motions, std::size_t stride)
 std::vector<RatedParameters>
 sortedByEvidence (const CopyJudge& judge, const MakeMotions& motions, std::vector<Parameters> all)
 {
+  const std::size_t stride = strideFor (judge, samples_of_many);
   std::vector<RatedParameters> candidates;
   for (Parameters& at : all)
   {
-    const double ratio = ratioOf (judge, motions (at), coarse_stride);
+    const double ratio = ratioOf (judge, motions (at), stride);
     candidates.push_back ({std::move (at), ratio});
   }
   std::stable_sort (candidates.begin (), candidates.end (),
@@ -64,11 +73,12 @@ bestOf (const CopyJudge& judge, const MakeMotions& motions, const std::vector<Pa
 }
 
 void
-climb (const CopyJudge& judge, const MakeMotions& motions, Parameters steps, RatedParameters& best)
+climb (const CopyJudge& judge, const MakeMotions& motions, Parameters steps, RatedParameters& best, Judging judging)
 {
   if (best.at.empty ())
     return;
-  best.ratio = ratioOf (judge, motions (best.at));
+  const std::size_t stride = judging == Judging::OneOfSome ? strideFor (judge, samples_of_some) : 1;
+  best.ratio = ratioOf (judge, motions (best.at), stride);
   for (int round = 0; round < halvings; ++round)
   {
     for (bool moved = true; moved;)
@@ -79,7 +89,7 @@ climb (const CopyJudge& judge, const MakeMotions& motions, Parameters steps, Rat
         {
           Parameters next = best.at;
           next[k] += sense * steps[k];
-          const double ratio = ratioOf (judge, motions (next));
+          const double ratio = ratioOf (judge, motions (next), stride);
           if (ratio > best.ratio + least_gain)
           {
             best = {std::move (next), ratio};

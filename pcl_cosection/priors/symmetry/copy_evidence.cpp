@@ -13,7 +13,7 @@
 namespace pcl::cosection {
 namespace {
 
-constexpr std::size_t most_samples = 300;
+constexpr std::size_t most_samples = 1500;
 constexpr double first_cell_vox = 2.0;  // a sample per cell; cells grow until there are few enough samples
 constexpr double surface_vox = 1.5;     // distance of a copy that is on the surface
 constexpr double surely_free_vox = 3.0; // distance from which a copy begins to be in free space ...
@@ -62,6 +62,9 @@ interpolate (const MeasuredShape& shape, const Eigen::Vector3d& place)
   const Eigen::Array3d rest = 1.0 - result.share;
   const std::size_t first = grid.index (low.x (), low.y (), low.z ()), row = static_cast<std::size_t> (grid.dims.x ()),
                     layer = row * static_cast<std::size_t> (grid.dims.y ());
+  const auto isKnown = [&] (std::size_t n) { return shape.known[n] || shape.known[n + 1]; };
+  if (!isKnown (first) && !isKnown (first + row) && !isKnown (first + layer) && !isKnown (first + row + layer))
+    return {};
   for (int corner = 0; corner < 8; ++corner)
   {
     const bool x = (corner & 1) != 0, y = (corner & 2) != 0, z = (corner & 4) != 0;

@@ -36,7 +36,7 @@ public:
   CopyJudge (const MeasuredShape& shape, const std::vector<OrientedPoint>& points, const Eigen::Vector4d& plane,
              const OcclusionMap::Views& views);
 
-  /** \brief Evenly spread points of the object, at most some three hundred. */
+  /** \brief Evenly spread points of the object, at most some fifteen hundred. */
   const std::vector<OrientedPoint>& samples () const { return samples_; }
 
   bool onPlane () const { return !plane_.head<3> ().isZero (); }

@@ -23,11 +23,12 @@ constexpr int coarse_turns = 8, fine_turns = 12, all_turns = 32;
 constexpr std::size_t mirrors_to_pair = 6;
 constexpr double same_mirror = 0.3;          // radians
 constexpr double least_side = 0.05;          // of the samples, on either side of a mirror plane
-constexpr double slack_vox = 0.5;            // evidence for a mirror plane is no more exact
+constexpr double slack_vox = 0.35;           // evidence for a mirror plane is no more exact, ...
+constexpr double slack_alone_vox = 0.5;      // ... without a plane less so: less was seen free beside the object
 constexpr double turn_weight = 4.0;          // independent motions of a full turn, ...
 constexpr double ball_weight = 9.0;          // ... of all turns, ...
 constexpr double mirrors_weight = 3.0;       // ... of two mirror planes at right angles, and ...
-constexpr double three_mirrors_weight = 7.0; // ... of three
+constexpr double three_mirrors_weight = 6.0; // ... of three
 constexpr int axis_rounds = 20;
 constexpr double least_evidence = 0.3;      // log-likelihood ratio; without a plane, per copy
 constexpr double sure_evidence = 1.0;       // half of the copies are on observed surface
@@ -176,7 +177,7 @@ addMirrors (const CopyJudge& judge, const Footprint& footprint, const std::vecto
   };
   const std::optional<double> across = footprint.angleOfWalls (judge.samples ());
   const double turn = M_PI_2 / mirror_angles, shift = 0.5 * footprint.step (),
-               slack_m = slack_vox * footprint.voxelSize ();
+               slack_m = (with_level ? slack_alone_vox : slack_vox) * footprint.voxelSize ();
   WantedParameters wanted;
   wanted.slack = {2.0 * turn, slack_m, slack_m, slack_m};
   wanted.value = [&] (const Parameters& p, std::size_t k) -> std::optional<double> {
@@ -197,14 +198,16 @@ addMirrors (const CopyJudge& judge, const Footprint& footprint, const std::vecto
     for (int j = -footprint.steps (); j <= footprint.steps (); ++j)
       pairs.push_back ({coarse.at[0], coarse.at[1], j * footprint.step ()});
     RatedParameters pair = bestOf (judge, two, pairs);
-    climb (judge, two, steps_of_two, pair);
+    climb (judge, two, steps_of_two, pair, Judging::OneOfSome);
     if (pair.ratio > best_two.ratio)
       best_two = std::move (pair);
     RatedParameters single = coarse;
-    climb (judge, one, steps_of_one, single);
+    climb (judge, one, steps_of_one, single, Judging::OneOfSome);
     if (single.ratio > best_one.ratio)
       best_one = std::move (single);
   }
+  climb (judge, one, steps_of_one, best_one);
+  climb (judge, two, steps_of_two, best_two);
   center (judge, two, steps_of_two, best_two, wanted);
   if (best_one.ratio > least)
   {
