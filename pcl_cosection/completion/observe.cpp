@@ -6,6 +6,7 @@
 #include "pcl_cosection/common/quantile.h"
 #include "pcl_cosection/priors/extent_prior.h"
 #include "pcl_cosection/view/outliers/point_clusters.h"
+#include "pcl_cosection/view/outliers/repeated_points.h"
 #include "pcl_cosection/view/range_image.h"
 #include "pcl_cosection/view/visibility/visibility.h"
 #include "place_bodies.h"
@@ -14,6 +15,7 @@
 #include <cmath>
 #include <cstdint>
 #include <iomanip>
+#include <numeric>
 #include <sstream>
 #include <unordered_map>
 
@@ -25,6 +27,7 @@ constexpr double max_outlier_share = 0.2;     // if more points seem to be outli
 constexpr double least_spacings_across = 5.0; // least middle extent of an object, in supported voxels
 constexpr double trimmed_share = 0.005;       // of the points, at either end of each axis of their box
 constexpr double min_extent_m = 1e-6;
+constexpr double worth_saying = 0.02; // share of repeated points
 constexpr double points_per_voxel = 3.0;
 // So few points per voxel are enough if more would need voxels so large that they lose the shape:
 constexpr double least_points_per_voxel = 1.5;
@@ -189,13 +192,61 @@ measure (const CoSectionOptions& options, Observation& object)
 std::vector<bool>
 findOutliers (const Observation& object)
 {
-  const std::vector<OrientedPoint>& points = *object.all_points;
+  const std::vector<OrientedPoint>& points = object.points ();
   const double reach_m = outlier_reach_voxels * std::max (object.voxel_size_m, object.spacing_m);
   std::vector<bool> outliers = findOutlierPoints (points, object.box.center (), reach_m);
   const auto count = static_cast<double> (std::count (outliers.begin (), outliers.end (), true));
   if (count > max_outlier_share * static_cast<double> (points.size ()))
     outliers.assign (points.size (), false);
   return outliers;
+}
+
+/** \brief Marks points that repeat others, as those of a view that is given twice. */
+std::vector<bool>
+findRepeated (const std::vector<OrientedPoint>& points, int threads)
+{
+  std::vector<Eigen::Vector3f> positions;
+  for (const OrientedPoint& point : points)
+  {
+    if (!point.position.allFinite ()) // the object is refused
+      return std::vector<bool> (points.size (), false);
+    positions.push_back (point.position);
+  }
+  std::vector<std::size_t> all (points.size ());
+  std::iota (all.begin (), all.end (), 0);
+  std::vector<bool> repeated (points.size (), true);
+  for (const std::size_t p : withoutRepeated (all, positions, threads))
+    repeated[p] = false;
+  return repeated;
+}
+
+/** \brief Marks the points that are left out: repeated ones and outliers. Measures the object by the others. */
+std::vector<bool>
+leaveOutPoints (const ObjectInput& input, const CoSectionOptions& options, Observation& object, CompletionLog& log)
+{
+  std::vector<bool> left_out = findRepeated (input.points, options.threads);
+  const auto keepOthers = [&] {
+    object.inliers.clear ();
+    if (std::find (left_out.begin (), left_out.end (), true) != left_out.end ())
+      for (std::size_t p = 0; p < left_out.size (); ++p)
+        if (!left_out[p])
+          object.inliers.push_back (input.points[p]);
+    measure (options, object);
+  };
+  keepOthers ();
+  const double repeated = static_cast<double> (object.outliers ()) / static_cast<double> (input.points.size ());
+  if (repeated > worth_saying)
+    log.warn (nameOf (input) + ": " + std::to_string (std::lround (100.0 * repeated)) +
+              " % of its points repeat others, and are left out");
+  const std::vector<bool> outliers = findOutliers (object);
+  if (std::find (outliers.begin (), outliers.end (), true) == outliers.end ())
+    return left_out;
+  auto outlier = outliers.begin ();
+  for (std::size_t p = 0; p < left_out.size (); ++p)
+    if (!left_out[p])
+      left_out[p] = *outlier++;
+  keepOthers ();
+  return left_out;
 }
 
 /** \brief The views for which the object's pose is known, and T_object_sensor; not those for free space only. */
@@ -253,19 +304,10 @@ observeObjects (const Scene& scene, CompletionMode mode, SceneState& state, Comp
     Observation object;
     object.all_points = &input.points;
     object.fits = std::make_shared<ShapeFits> ();
-    measure (options, object);
-
-    std::vector<bool> outliers = findOutliers (object);
+    std::vector<bool> outliers = leaveOutPoints (input, options, object, log);
     if (!std::equal (body.outliers.begin (), body.outliers.end (), outliers.begin ()))
       body.readPointsAgain ();
     body.outliers = std::move (outliers);
-    if (std::any_of (body.outliers.begin (), body.outliers.end (), [] (bool outlier) { return outlier; }))
-    {
-      for (std::size_t p = 0; p < input.points.size (); ++p)
-        if (!body.outliers[p])
-          object.inliers.push_back (input.points[p]);
-      measure (options, object);
-    }
     warnIfFarApart (input, object, log);
     object.extents_m = observedExtents (object.points (), options.threads);
     if (mode == CompletionMode::Once && !scene.fixedVoxelSize ())

@@ -57,6 +57,26 @@ TEST_F (RingFromFarAway, IsNoThickerThanItIs)
   EXPECT_LT (meanError (object.mesh, scene_.shape (1)), 0.001);
 }
 
+TEST_F (RingFromFarAway, IsTheSameFromPointsThatAreGivenTwice)
+{
+  const ObjectResult once = completed (CoSectionOptions ());
+  CoSection task;
+  task.addView (seen_.view);
+  task.setBackground (seen_.points.at (0));
+  task.addObject ({1, seen_.points.at (1), {}});
+  std::vector<OrientedPoint> nearly_same = seen_.points.at (1);
+  for (OrientedPoint& point : nearly_same)
+    point.position.x () += 1e-6f;
+  task.addPoints (1, nearly_same);
+  const SceneResult result = task.reconstruct ();
+  const ObjectResult& twice = result.objects.at (0);
+  EXPECT_NEAR (twice.signed_distance->grid.voxel_size_m, once.signed_distance->grid.voxel_size_m, 1e-4);
+  EXPECT_NEAR (computeMassProperties (twice.mesh).volume_m3, computeMassProperties (once.mesh).volume_m3,
+               0.02 * truth_m3);
+  ASSERT_EQ (result.warnings.size (), 1u);
+  EXPECT_EQ (result.warnings[0], "object 1: 50 % of its points repeat others, and are left out");
+}
+
 TEST_F (RingFromFarAway, TakesLargerVoxelsWhereMemoryAsksForThem)
 {
   CoSectionOptions options;

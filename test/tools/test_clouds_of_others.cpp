@@ -82,6 +82,17 @@ TEST_F (AnyCloud, BackgroundOfAnotherLabel)
   EXPECT_NE (errors_.find ("give --background 3"), std::string::npos) << errors_;
 }
 
+TEST_F (AnyCloud, AViewThatIsGivenTwiceCountsOnce)
+{
+  writeTableScene (path ("table.pcd"));
+  ASSERT_EQ (run ({"table.pcd", "once"}), 0) << errors_;
+  ASSERT_EQ (run ({"table.pcd", "table.pcd", "twice"}), 0) << errors_;
+  EXPECT_NE (errors_.find ("object 1: 50 % of its points repeat others, and are left out"), std::string::npos)
+      << errors_;
+  for (const std::string body : {"/object_1.ply", "/object_2.ply", "/background.ply"})
+    EXPECT_EQ (test::readFile (path ("once" + body)), test::readFile (path ("twice" + body))) << body;
+}
+
 TEST_F (AnyCloud, ObjectsAreFoundFirst)
 {
   writeTableScene (path ("table.pcd"));

@@ -171,6 +171,17 @@ ofInputs (const std::vector<std::size_t>& inputs, const ObjectPoses& poses)
   return of_views;
 }
 
+/** \brief Whether a view is one that was given before: it says nothing new of free space and background. */
+bool
+isRepeated (const DepthView& view, const std::vector<DepthView>& earlier)
+{
+  return std::any_of (earlier.begin (), earlier.end (), [&] (const DepthView& other) {
+    return other.T_world_sensor.matrix () == view.T_world_sensor.matrix () &&
+           std::equal (other.depth.begin (), other.depth.end (), view.depth.begin (), view.depth.end (),
+                       [] (float a, float b) { return a == b || (std::isnan (a) && std::isnan (b)); });
+  });
+}
+
 /** \brief Add what a file shows of free space, and for each view the number of the file. \param[in] needed a file
  * without rays gets a view that says nothing, as poses come one per view */
 void
@@ -350,6 +361,12 @@ readScene (const Settings& settings, const ProgressCallback& progress)
     if (isWholeImage (view))
       scene.warnings.push_back (path + ": has no field label, so all that it shows is taken as one object; " +
                                 "if it shows several, give them labels or cut one out");
+    if (poses.empty () && view.view && isRepeated (*view.view, scene.views))
+    {
+      view.view.reset ();
+      view.other_views.clear ();
+      view.objects.erase (0);
+    }
     merge (path, begun - 1, view, relativeTo (scene.origin, poses), labels, scene.warnings);
     addViews (view, begun - 1, !poses.empty (), scene.views, inputs);
   }

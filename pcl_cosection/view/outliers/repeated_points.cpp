@@ -95,17 +95,29 @@ firstOfNear (const std::vector<std::size_t>& indices, const std::vector<Eigen::V
 
 } // namespace
 
+std::vector<std::size_t>
+withoutRepeated (const std::vector<std::size_t>& indices, const std::vector<Eigen::Vector3f>& positions, int threads)
+{
+  std::vector<std::size_t> kept = differentPlaces (indices, positions);
+  if (kept.size () >= least_points)
+  {
+    std::vector<Eigen::Vector3f> places;
+    for (const std::size_t i : kept)
+      places.push_back (positions[i]);
+    if (const float reach_m = reachOfRepeats (places, threads); reach_m > 0.0f)
+      kept = firstOfNear (kept, positions, reach_m);
+  }
+  return kept;
+}
+
 double
 leaveOutRepeated (int threads, SensorCloud& cloud)
 {
   std::size_t all = 0, left = 0;
   for (const auto& [label, indices] : membersOf (cloud))
   {
+    const std::vector<std::size_t> kept = withoutRepeated (indices, cloud.positions, threads);
     all += indices.size ();
-    std::vector<std::size_t> kept = differentPlaces (indices, cloud.positions);
-    if (kept.size () >= least_points)
-      if (const float reach_m = reachOfRepeats (pick (cloud.positions, kept), threads); reach_m > 0.0f)
-        kept = firstOfNear (kept, cloud.positions, reach_m);
     left += kept.size ();
     auto next = kept.begin ();
     for (const std::size_t i : indices)

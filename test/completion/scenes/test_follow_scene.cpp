@@ -211,12 +211,12 @@ TEST_P (FollowScene, ViewsAreGivenUpBetweenUpdates)
 /** \brief A few points above the object are outliers until there are more of them. */
 TEST_P (FollowScene, OutlierPointsAreNoLongerOnesWhenThereAreMany)
 {
-  const auto patch = [] (int side) {
+  const auto patch = [] (int side, float shift_m) {
     std::vector<OrientedPoint> points;
     for (int n = 0; n < side * side; ++n)
     {
       OrientedPoint point;
-      point.position = Eigen::Vector3f (0.001f * (n % side), 0.001f * (n / side), 0.2f);
+      point.position = Eigen::Vector3f (0.001f * (n % side) + shift_m, 0.001f * (n / side), 0.2f);
       point.normal = Eigen::Vector3f::UnitZ ();
       points.push_back (point);
     }
@@ -224,12 +224,12 @@ TEST_P (FollowScene, OutlierPointsAreNoLongerOnesWhenThereAreMany)
   };
   CoSection task (options ());
   show (scene_, 0, {}, task);
-  task.addPoints (1, patch (4));
+  task.addPoints (1, patch (4, 0.0f));
   EXPECT_EQ (task.update (UpdateOutput::Fields).objects.at (0).outlier_points, 16u);
   show (scene_, 1, {}, task);
   EXPECT_EQ (task.update (UpdateOutput::Fields).objects.at (0).outlier_points, 16u);
   show (scene_, 2, {}, task);
-  task.addPoints (1, patch (12));
+  task.addPoints (1, patch (12, 0.0005f));
   const SceneResult followed = task.update ();
   EXPECT_EQ (followed.objects.at (0).outlier_points, 0u);
   expectSameObjects (followed, task.reconstruct ());

@@ -46,7 +46,7 @@ struct PCL_COSECTION_EXPORT ObjectResult
   TriangleMesh inner_bound;                 ///< as \a hull says
   TriangleMesh outer_bound;                 ///< as \a hull says
   SignedDistanceField::Ptr signed_distance; ///< object frame
-  std::size_t outlier_points = 0;           ///< left out, because they are a few and far from the others
+  std::size_t outlier_points = 0;           ///< left out: a few far from the others, or repeated ones
   /** \brief Share in [0, 1] of the points that a view looks through, among those that it sees or looks through, for the
    * view with the largest share (of many views, one in twenty may be worse). Wrong poses and motion make it large.
    * CoSection::reconstruct () sets it where seen free space is used. */
