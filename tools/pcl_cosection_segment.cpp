@@ -102,7 +102,7 @@ warningsOf (const SegmentSettings& settings, const OrganizedCloud& cloud)
   std::vector<std::string> warnings;
   if (cloud.moved)
     warnings.push_back (settings.input +
-                        ": its points are not in the frame of their sensor, which was found by their pixels");
+                        ": its points are not in the frame of their sensor, which was found by their order");
   float depth = 0.0f;
   for (const Eigen::Vector3f& p : cloud.points)
     if (p.allFinite ())

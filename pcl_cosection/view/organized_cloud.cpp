@@ -7,6 +7,7 @@
 
 #include "pcl_cosection/common/files.h"
 #include "pcl_cosection/view/camera_resection.h"
+#include "pcl_cosection/view/sensor_view.h"
 #include <pcl/cosection/common/error.h>
 
 #include <pcl/common/io.h>
@@ -134,10 +135,18 @@ readOrganizedCloud (const std::string& path, const PcdViewOptions& options, bool
   if (!organized && !any)
     throw IoError (path + ": is not organised (WIDTH " + std::to_string (cloud.width) + ", HEIGHT " +
                    std::to_string (cloud.height) + "); an image of points is needed, as the sensor's driver gives it");
-  if (std::none_of (cloud.positions.begin (), cloud.positions.end (),
-                    [] (const Eigen::Vector3f& p) { return (p.allFinite ()); }))
+  const auto isFinite = [] (const Eigen::Vector3f& p) { return p.allFinite (); };
+  if (std::none_of (cloud.positions.begin (), cloud.positions.end (), isFinite))
     throw DegenerateInput (path + ": holds no finite point");
   OrganizedCloud result;
+  if (!organized)
+  {
+    LabelledView view;
+    const Eigen::Vector3f before = *std::find_if (cloud.positions.begin (), cloud.positions.end (), isFinite);
+    viewFromSensor (path, options, membersOf (cloud), cloud, view);
+    result.seen_from_origin = view.view.has_value ();
+    result.moved = before != *std::find_if (cloud.positions.begin (), cloud.positions.end (), isFinite);
+  }
   result.width = organized ? cloud.width : cloud.width * cloud.height;
   result.height = organized ? cloud.height : 1;
   result.points = std::move (cloud.positions);

@@ -19,7 +19,8 @@ struct OrganizedCloud
   int height = 0;
   std::vector<Eigen::Vector3f> points; ///< row by row, sensor frame, metres; NaN: no reading
   Picture picture;                     ///< the colours; empty if the file has none
-  bool moved = false; ///< those of the file are in another frame, in which the sensor was found (locateCamera ())
+  bool moved = false;                  ///< those of the file are in another frame, in which the sensor was found
+  bool seen_from_origin = false; ///< not organised, but all were seen by a sensor there, as viewFromSensor () has it
 };
 
 /** \brief Read an organised PCD or PLY file; of the options, the scale, the frame of the points and the memory count.

@@ -2,7 +2,10 @@
 
 // Objects in points without an order.
 
+#include "pcl_cosection/segmentation/clusters/cloud_segmentation.h"
 #include "pcl_cosection/segmentation/clusters/cluster_segmentation.h"
+#include "pcl_cosection/view/look_at.h"
+#include "pcl_cosection/view/range_image.h"
 #include <pcl/cosection/common/error.h>
 
 #include <gtest/gtest.h>
@@ -106,6 +109,41 @@ TEST (ClusterSegmentation, FindsWhatStandsOnATable)
     EXPECT_GT (shareOf (scene, found, thing, static_cast<std::uint32_t> (thing)), 0.9) << "the largest is the first";
   const Eigen::Vector3f up = somewhere ().linear ().col (2);
   EXPECT_GT (found.support_planes[0].head<3> ().dot (up), 0.999f) << "to the side of the objects";
+}
+
+TEST (CloudSegmentation, ThingsThatTouchAreTwoIfTheirSensorIsKnown)
+{
+  LabelledPoints scene;
+  scene.addBox ({-0.4f, -0.3f, 0.0f}, {0.4f, 0.3f, 0.0f}, 0);
+  scene.addBox ({-0.12f, -0.05f, 0.0f}, {0.0f, 0.1f, 0.15f}, 1);
+  scene.addBox ({0.0f, -0.1f, 0.0f}, {0.12f, 0.05f, 0.06f}, 2);
+  const Eigen::Isometry3f T_sensor_scene = lookAt ({0.3, -0.7, 0.6}, {0.0, 0.0, 0.05}).inverse ().cast<float> ();
+  scene.scatter (T_sensor_scene);
+  const std::optional<RangeImage> image = drawRangeImage (scene.points, Eigen::Vector3d::Zero ());
+  ASSERT_TRUE (image);
+  OrganizedCloud cloud;
+  LabelledPoints seen;
+  for (std::size_t n = 0; n < scene.points.size (); ++n)
+    if (!image->hides (scene.points[n]))
+    {
+      seen.points.push_back (scene.points[n]);
+      seen.of.push_back (scene.of[n]);
+    }
+  cloud.points = seen.points;
+  cloud.points.emplace_back (Eigen::Vector3f::Constant (std::nanf ("")));
+  cloud.width = static_cast<int> (cloud.points.size ());
+  cloud.height = 1;
+  EXPECT_EQ (segmentCloud (cloud, {}).objects, 1u);
+  cloud.seen_from_origin = true;
+  const ObjectSegmentation found = segmentCloud (cloud, {});
+  ASSERT_EQ (found.objects, 2u);
+  ASSERT_EQ (found.labels.size (), cloud.points.size ());
+  EXPECT_GT (shareOf (seen, found, 0, 0), 0.98);
+  for (int thing = 1; thing <= 2; ++thing)
+    EXPECT_GT (std::max (shareOf (seen, found, thing, 1), shareOf (seen, found, thing, 2)), 0.9);
+  ASSERT_EQ (found.support_planes.size (), 1u);
+  const Eigen::Vector3f up = T_sensor_scene.linear ().col (2);
+  EXPECT_GT (found.support_planes[0].head<3> ().dot (up), 0.99f);
 }
 
 TEST (ClusterSegmentation, LongThingsAndCrumbsAreNoObjects)

@@ -7,7 +7,8 @@
 
 namespace pcl::cosection {
 
-/** \brief Find the objects in a cloud: by segmentObjects () in an organised one, else by segmentClusters ().
+/** \brief Find the objects in a cloud: by segmentObjects () in an organised one and in one whose sensor saw dense
+ * surfaces from the origin, else by segmentClusters ().
  * \throws DegenerateInput, InvalidArgument as these */
 ObjectSegmentation segmentCloud (const OrganizedCloud& cloud, const ObjectSegmentationOptions& options);
 
