@@ -4,6 +4,8 @@
 
 #include "any_cloud_fixture.h"
 
+#include <pcl/common/transforms.h>
+
 #include <filesystem>
 #include <random>
 #include <sstream>
@@ -80,6 +82,37 @@ TEST_F (AnyCloud, BackgroundOfAnotherLabel)
   pcl::io::savePCDFileBinary (path ("third.pcd"), table);
   ASSERT_EQ (run ({"third.pcd", "third"}), 0) << errors_;
   EXPECT_NE (errors_.find ("give --background 3"), std::string::npos) << errors_;
+}
+
+TEST_F (AnyCloud, TheInsideOfABinIsClosedAtItsMouth)
+{
+  std::mt19937 random (4);
+  std::uniform_real_distribution<float> share (0.0f, 1.0f);
+  std::normal_distribution<float> noise (0.0f, 0.001f);
+  for (const Eigen::Vector3f& size : {Eigen::Vector3f (0.6f, 0.4f, 0.45f), Eigen::Vector3f (0.3f, 0.3f, 0.5f)})
+  {
+    pcl::PointCloud<pcl::PointNormal> inside;
+    for (const int axis : {0, 1, 2})
+      for (const float side : {0.0f, 1.0f})
+      {
+        if (axis == 2 && side > 0.0f)
+          continue; // the mouth
+        const float area = size.prod () / size[axis];
+        for (int n = 0; n < static_cast<int> (20000.0f * area); ++n)
+        {
+          pcl::PointNormal point;
+          for (int k = 0; k < 3; ++k)
+            point.data[k] = size[k] * (k == axis ? side : share (random)) + noise (random);
+          point.getNormalVector3fMap () = (side > 0.0f ? -1.0f : 1.0f) * Eigen::Vector3f::Unit (axis);
+          inside.push_back (point);
+        }
+      }
+    const Eigen::Affine3f turned (Eigen::AngleAxisf (0.7f, Eigen::Vector3f (1.0f, 2.0f, 3.0f).normalized ()));
+    pcl::transformPointCloudWithNormals (inside, inside, turned);
+    pcl::io::savePCDFileBinary (path ("bin.pcd"), inside);
+    ASSERT_EQ (run ({"bin.pcd", "bin.ply"}), 0) << errors_;
+    EXPECT_NEAR (volume ("bin.ply"), size.prod (), 0.03 * size.prod ());
+  }
 }
 
 TEST_F (AnyCloud, AViewThatIsGivenTwiceCountsOnce)
