@@ -68,7 +68,7 @@ checkOutputs (const SimulateSettings& settings, const SimulatedScene& scene)
 {
   if (settings.json.empty ())
     return;
-  std::vector<std::string> inputs;
+  std::vector<std::string> inputs{configurationFile (settings.arguments)};
   if (!settings.spec.empty ())
     inputs.push_back (settings.spec);
   for (const SceneBody& body : scene.bodies)

@@ -5,12 +5,17 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <charconv>
+#include <csignal>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
+#include <mutex>
+#include <set>
 #include <system_error>
 
 #include <fcntl.h>
+#include <sys/types.h>
 #include <unistd.h>
 
 namespace pcl::cosection {
@@ -55,14 +60,34 @@ resolveTarget (const fs::path& given)
   return fs::canonical (path);
 }
 
+const std::string temporary_prefix = ".cosection-";
+
+/** \brief Remove what processes that are gone left in a folder; each is looked at once. */
+void
+removeStale (const fs::path& folder)
+{
+  static std::mutex mutex;
+  static std::set<fs::path> seen;
+  {
+    const std::lock_guard<std::mutex> lock (mutex);
+    if (!seen.insert (folder).second)
+      return;
+  }
+  std::error_code ignored;
+  for (fs::directory_iterator file (folder, ignored), end; !ignored && file != end; file.increment (ignored))
+    if (isOfGoneProcess (file->path ().filename ().string (), temporary_prefix) && file->is_regular_file (ignored))
+      fs::remove (file->path (), ignored);
+}
+
 /** \brief Create an empty file of a new name beside \a target, with its extension. */
 fs::path
 createTemporary (const fs::path& target)
 {
+  removeStale (target.has_parent_path () ? target.parent_path () : fs::path ("."));
   for (int attempt = 0;; ++attempt)
   {
     fs::path temporary = target.parent_path ();
-    temporary /= ".cosection-" + std::to_string (::getpid ()) + "-" + std::to_string (attempt) + ".tmp";
+    temporary /= temporary_prefix + std::to_string (::getpid ()) + "-" + std::to_string (attempt) + ".tmp";
     temporary += target.extension ();
     const int descriptor = ::open (temporary.c_str (), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
     if (descriptor >= 0)
@@ -109,6 +134,13 @@ struct CloseFile
 
 using File = std::unique_ptr<std::FILE, CloseFile>;
 
+/** \brief The reason; EINVAL stands for what is not a regular file. */
+std::string
+reasonOf (const std::system_error& error)
+{
+  return error.code () == std::errc::invalid_argument ? "not a regular file" : error.code ().message ();
+}
+
 [[noreturn]] void
 throwSystemError ()
 {
@@ -116,6 +148,17 @@ throwSystemError ()
 }
 
 } // namespace
+
+bool
+isOfGoneProcess (const std::string& name, const std::string& prefix)
+{
+  if (name.rfind (prefix, 0) != 0)
+    return false;
+  pid_t process = 0;
+  const char *const begin = name.data () + prefix.size (), *const end = name.data () + name.size ();
+  const auto parsed = std::from_chars (begin, end, process);
+  return parsed.ec == std::errc () && parsed.ptr != end && process > 0 && ::kill (process, 0) != 0 && errno == ESRCH;
+}
 
 std::string
 followLinks (const std::string& path)
@@ -142,8 +185,7 @@ writeAtomically (const std::string& path, const std::function<void (const std::s
   }
   catch (const std::system_error& error)
   {
-    const bool special = error.code () == std::errc::invalid_argument;
-    throw IoError ("cannot write '" + path + "': " + (special ? "not a regular file" : error.code ().message ()));
+    throw IoError ("cannot write '" + path + "': " + reasonOf (error));
   }
 }
 
@@ -165,6 +207,10 @@ readBytes (const std::string& path)
 {
   try
   {
+    if (const auto status = fs::status (path); fs::is_directory (status))
+      throw std::system_error (EISDIR, std::generic_category ());
+    else if (fs::exists (status) && !fs::is_regular_file (status)) // a pipe may never end, nor a device
+      throw std::system_error (EINVAL, std::generic_category ());
     errno = 0;
     const File file (std::fopen (path.c_str (), "rb"));
     if (!file)
@@ -184,7 +230,7 @@ readBytes (const std::string& path)
   }
   catch (const std::system_error& error)
   {
-    throw IoError ("cannot read '" + path + "': " + error.code ().message ());
+    throw IoError ("cannot read '" + path + "': " + reasonOf (error));
   }
 }
 

@@ -12,9 +12,13 @@ namespace pcl::cosection {
  * not exist yet. \throws IoError if the links go round in circles */
 std::string followLinks (const std::string& path);
 
+/** \brief Whether a name is \a prefix and the number of a process that is gone, as of what it left behind. */
+PCL_COSECTION_EXPORT bool isOfGoneProcess (const std::string& name, const std::string& prefix);
+
 /** \brief Let \a write fill a file of a temporary name beside \a path, then rename it to \a path.
  * If \a write throws, or anything fails, the temporary file is removed and \a path is untouched.
- * A symbolic link stays one: the file that it points to is replaced, or made.
+ * A symbolic link stays one: the file that it points to is replaced, or made. Temporary files of processes that are
+ * gone are removed from the folder.
  * \throws IoError naming \a path and the system's reason */
 PCL_COSECTION_EXPORT void writeAtomically (const std::string& path,
                                            const std::function<void (const std::string& temporary_path)>& write);
@@ -23,7 +27,7 @@ PCL_COSECTION_EXPORT void writeAtomically (const std::string& path,
  * writeAtomically () turns into an IoError that names the final path. */
 PCL_COSECTION_EXPORT void writeBytes (const std::string& path, const std::string& bytes);
 
-/** \brief \throws IoError naming \a path and the system's reason */
+/** \brief The contents of a regular file. \throws IoError naming \a path and the system's reason */
 PCL_COSECTION_EXPORT std::string readBytes (const std::string& path);
 
 } // namespace pcl::cosection

@@ -2,6 +2,7 @@
 #include <pcl/cosection/evaluation/run_evaluation.h>
 
 #include "mesh_surface.h"
+#include "pcl_cosection/common/files.h"
 
 #include <pcl/cosection/common/error.h>
 #include <pcl/cosection/io/mesh_io.h>
@@ -9,8 +10,8 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
 #include <regex>
+#include <sstream>
 
 namespace fs = std::filesystem;
 
@@ -109,7 +110,7 @@ readCalibration (const std::string& path, ReadingNotes& notes)
     return std::nullopt;
   return readOrWarn (notes, path + ": ", [&] {
     std::optional<PinholeCamera> camera = PinholeCamera{640, 480};
-    std::ifstream file (path);
+    std::istringstream file (readBytes (path));
     if (!(file >> camera->fx >> camera->fy >> camera->cx >> camera->cy))
       throw IoError ("must have the numbers fx fy cx cy [width height]");
     int width = 0, height = 0;

@@ -1,6 +1,7 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "image_io.h"
 
+#include "image_size.h"
 #include "lower_case.h"
 #include "pcl_cosection/common/files.h"
 
@@ -11,13 +12,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <cstdlib>
 #include <limits>
+#include <optional>
 
 namespace pcl::cosection {
 namespace {
 
 constexpr float largest_16_bit = 65535.0f;
+constexpr std::uint64_t most_pixels = 1 << 26; // 8192 x 8192
 
 /** \brief OpenCV reads and writes EXR only if this is set before it is first asked to. */
 void
@@ -73,6 +77,12 @@ decode (const std::string& path, int flags)
     throw IoError (path + ": is damaged: the file is cut short");
   if (isDamagedPng (bytes)) // on which libpng prints lines of its own
     throw IoError (path + ": is damaged: the file is cut short, or a checksum does not match");
+  const std::optional<ImageSize> size = imageSize (bytes);
+  if (!size)
+    throw IoError (path + ": is not an image that can be read");
+  if (size->width > most_pixels || size->height > most_pixels || size->width * size->height > most_pixels)
+    throw IoError (path + ": is damaged: it says that it has " + std::to_string (size->width) + " x " +
+                   std::to_string (size->height) + " pixels");
   cv::Mat image;
   try
   {

@@ -1,21 +1,28 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "pcl_cosection/common/process_setting.h"
+
 #include <pcl/console/print.h>
 
 namespace pcl::cosection {
 
-/** \brief Keeps PCL's messages from the console while it lives: whatever fails is thrown instead. */
-class QuietConsole
+/** \brief No messages of PCL on the console. */
+struct ConsoleIsQuiet
 {
-public:
-  QuietConsole () : level_ (console::getVerbosityLevel ()) { console::setVerbosityLevel (console::L_ALWAYS); }
-  QuietConsole (const QuietConsole&) = delete;
-  QuietConsole& operator= (const QuietConsole&) = delete;
-  ~QuietConsole () { console::setVerbosityLevel (level_); }
+  using Value = console::VERBOSITY_LEVEL;
 
-private:
-  console::VERBOSITY_LEVEL level_;
+  static Value change ()
+  {
+    const Value before = console::getVerbosityLevel ();
+    console::setVerbosityLevel (console::L_ALWAYS);
+    return before;
+  }
+
+  static void restore (Value before) { console::setVerbosityLevel (before); }
 };
+
+/** \brief Keeps PCL's messages from the console while it lives: whatever fails is thrown instead. */
+using QuietConsole = ProcessSetting<ConsoleIsQuiet>;
 
 } // namespace pcl::cosection

@@ -9,6 +9,8 @@
 #include <cstring>
 #include <system_error>
 
+#include <unistd.h>
+
 namespace fs = std::filesystem;
 
 namespace pcl::cosection {
@@ -27,7 +29,16 @@ NewFolder::NewFolder (const std::string& path) : path_ (fs::path (path).lexicall
   }
   const fs::path parent = path_.has_parent_path () ? path_.parent_path () : fs::path (".");
   fs::create_directories (parent, failure);
-  std::string name = (parent / ("." + path_.filename ().string () + "_XXXXXX")).string ();
+  const std::string prefix = "." + path_.filename ().string () + "_";
+  for (fs::directory_iterator entry (parent, failure), end; !failure && entry != end; entry.increment (failure))
+  {
+    const std::string other = entry->path ().filename ().string ();
+    const std::size_t random = other.find ('_', prefix.size ());
+    std::error_code ignored;
+    if (isOfGoneProcess (other, prefix) && other.size () - random == 7 && other.find ('_', random + 1) == other.npos)
+      fs::remove_all (entry->path (), ignored);
+  }
+  std::string name = (parent / (prefix + std::to_string (getpid ()) + "_XXXXXX")).string ();
   if (!mkdtemp (name.data ()))
     throw IoError (path + ": cannot be made: " + std::strerror (errno));
   temporary_ = name;

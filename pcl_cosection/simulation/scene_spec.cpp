@@ -4,6 +4,7 @@
 #include "spec_node.h"
 
 #include "pcl_cosection/common/files.h"
+#include "pcl_cosection/common/json_depth.h"
 
 #include <pcl/cosection/common/error.h>
 #include <pcl/cosection/common/image.h>
@@ -367,6 +368,8 @@ effectiveSpec (const SimulatedScene& scene)
 SimulatedScene
 parseSceneSpec (const std::string& text, const std::string& name, const std::string& folder)
 {
+  if (nestsDeeply (text))
+    throw InvalidArgument (name + ": is not well-formed JSON of a scene: it has too many brackets within each other");
   nlohmann::ordered_json json;
   std::vector<std::set<std::string>> fields; // of the objects that are being read
   const auto watch = [&] (int, nlohmann::ordered_json::parse_event_t event, nlohmann::ordered_json& value) {

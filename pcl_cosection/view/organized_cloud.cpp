@@ -11,6 +11,7 @@
 #include <pcl/cosection/common/error.h>
 
 #include <pcl/common/io.h>
+#include <pcl/conversions.h>
 #include <pcl/io/pcd_io.h>
 #include <pcl/point_cloud.h>
 #include <pcl/point_types.h>
@@ -86,42 +87,36 @@ withLabels (const PCLPointCloud2& cloud, const CloudHeader& header, const std::v
   return (result);
 }
 
-/** \brief Let \a write (temporary path) write a PCD file by PCL. \throws IoError naming \a path */
-template <typename Write>
-void
-writePcd (const std::string& path, Write&& write)
+/** \brief A line VIEWPOINT: PCL writes it in single precision. */
+std::string
+viewpointLine (const std::array<double, 7>& viewpoint)
 {
-  writeAtomically (path, [&] (const std::string& temporary) {
-    bool written = false;
-    try
-    {
-      written = write (temporary) == 0;
-    }
-    catch (const std::exception&)
-    {
-      // reported below
-    }
-    if (!written)
-      throw IoError (path + ": cannot be written");
-  });
-}
-
-/** \brief Replace the viewpoint of a PCD file, which PCL writes in single precision. */
-void
-writeViewpoint (const std::string& path, const std::array<double, 7>& viewpoint)
-{
-  std::string bytes = readBytes (path);
-  const std::size_t begin = bytes.find ("VIEWPOINT");
-  const std::size_t end = bytes.find ('\n', begin);
-  if (begin == std::string::npos || end == std::string::npos)
-    throw IoError (path + ": has no VIEWPOINT");
   std::ostringstream line;
   line.imbue (std::locale::classic ());
   line.precision (std::numeric_limits<double>::digits10);
   line << "VIEWPOINT";
   for (const double value : viewpoint)
     line << ' ' << value;
-  writeBytes (path, bytes.replace (begin, end - begin, line.str ()));
+  return (line.str ());
+}
+
+/** \brief Write a compressed PCD file. PCL writes into memory: where the disk is full, it would die of a file that it
+ * maps. \param[in] viewpoint translation and quaternion w x y z \throws IoError naming \a path */
+void
+writeCompressed (const std::string& path, const PCLPointCloud2& cloud, const std::array<double, 7>& viewpoint)
+{
+  std::ostringstream encoded;
+  int failed = 0;
+  {
+    const QuietConsole quiet;
+    failed = pcl::PCDWriter ().writeBinaryCompressed (encoded, cloud);
+  }
+  std::string bytes = encoded.str ();
+  const std::size_t begin = bytes.find ("VIEWPOINT"), end = bytes.find ('\n', begin);
+  if (failed != 0 || begin == std::string::npos || end == std::string::npos)
+    throw IoError (path + ": cannot be written");
+  bytes.replace (begin, end - begin, viewpointLine (viewpoint));
+  writeAtomically (path, [&] (const std::string& temporary) { writeBytes (temporary, bytes); });
 }
 
 } // namespace
@@ -171,15 +166,7 @@ copyWithLabels (const std::string& input, const std::vector<std::uint32_t>& labe
   if (labels.size () != header.points)
     throw InvalidArgument (input + ": there must be one label per point");
   const PCLPointCloud2 points = readCloudPoints (input, header);
-  const PCLPointCloud2 cloud = withLabels (points, header, labels);
-  writePcd (output, [&] (const std::string& temporary) {
-    const QuietConsole quiet;
-    const int failed = pcl::PCDWriter ().writeBinaryCompressed (temporary, cloud, Eigen::Vector4f::Zero (),
-                                                                Eigen::Quaternionf::Identity ());
-    if (failed == 0)
-      writeViewpoint (temporary, header.viewpoint);
-    return failed;
-  });
+  writeCompressed (output, withLabels (points, header, labels), header.viewpoint);
 }
 
 void
@@ -207,10 +194,11 @@ saveLabelledCloud (const DepthView& view, const Image<std::uint16_t>& labels, co
       point.a = 255;
       point.label = labels.at (u, v);
     }
-  cloud.sensor_origin_.head<3> () = view.T_world_sensor.translation ().cast<float> ();
-  cloud.sensor_orientation_ = Eigen::Quaternionf (view.T_world_sensor.linear ().cast<float> ());
-  writePcd (path,
-            [&] (const std::string& temporary) { return pcl::PCDWriter ().writeBinaryCompressed (temporary, cloud); });
+  PCLPointCloud2 points;
+  pcl::toPCLPointCloud2 (cloud, points);
+  const Eigen::Vector3d place = view.T_world_sensor.translation ();
+  const Eigen::Quaterniond axes (view.T_world_sensor.linear ());
+  writeCompressed (path, points, {place.x (), place.y (), place.z (), axes.w (), axes.x (), axes.y (), axes.z ()});
 }
 
 } // namespace pcl::cosection

@@ -1,6 +1,8 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include <pcl/cosection/visualization/run_scene.h>
 
+#include "pcl_cosection/common/files.h"
+#include "pcl_cosection/common/json_depth.h"
 #include "pcl_cosection/common/quantile.h"
 #include "pcl_cosection/evaluation/mesh_surface.h"
 #include "pcl_cosection/evaluation/pictures/error_picture.h"
@@ -14,7 +16,6 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
 
 namespace fs = std::filesystem;
 
@@ -132,10 +133,19 @@ std::optional<Json>
 readSummary (const std::string& folder, ReadingNotes& notes)
 {
   const std::string path = (fs::path (folder) / "summary.json").string ();
-  std::ifstream file (path);
-  if (!file)
+  std::error_code none;
+  if (!fs::exists (path, none))
     return std::nullopt;
-  Json json = Json::parse (file, nullptr, false);
+  Json json;
+  try
+  {
+    const std::string text = readBytes (path);
+    json = nestsDeeply (text) ? Json () : Json::parse (text, nullptr, false);
+  }
+  catch (const IoError&)
+  {
+    // said below
+  }
   if (!json.is_object ())
   {
     notes.warnings.push_back (path + ": is no JSON object");

@@ -1,4 +1,5 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
+#include "pcl_cosection/common/json_depth.h"
 #include <pcl/cosection/visualization/scene_picture.h>
 
 #include "pcl_cosection/common/files.h"
@@ -12,7 +13,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 
 namespace pcl::cosection {
 namespace {
@@ -193,21 +193,22 @@ saveViewpoint (const Viewpoint& viewpoint, const std::string& path)
                      {"target", toJson (viewpoint.target)},
                      {"up", toJson (viewpoint.up)},
                      {"angle_deg", viewpoint.angle_rad * 180.0 / M_PI}};
-  writeAtomically (path, [&] (const std::string& temporary) {
-    std::ofstream file (temporary);
-    file << json.dump (2) << '\n';
-    if (!file.flush ())
-      throw IoError (path + ": cannot be written");
-  });
+  writeAtomically (path, [&] (const std::string& temporary) { writeBytes (temporary, json.dump (2) + "\n"); });
 }
 
 Viewpoint
 loadViewpoint (const std::string& path)
 {
-  std::ifstream file (path);
-  if (!file)
-    throw IoError (path + ": cannot be read; it must be a viewpoint that the viewer saved");
-  const Json json = Json::parse (file, nullptr, false);
+  std::string text;
+  try
+  {
+    text = readBytes (path);
+  }
+  catch (const IoError& error)
+  {
+    throw IoError (path + ": cannot be read; it must be a viewpoint that the viewer saved: " + error.what ());
+  }
+  const Json json = nestsDeeply (text) ? Json () : Json::parse (text, nullptr, false);
   if (!json.is_object ())
     throw IoError (path + ": is no viewpoint: it must be a JSON object with eye, target, up and angle_deg");
   Viewpoint view;

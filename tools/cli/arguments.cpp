@@ -7,8 +7,11 @@
 
 #include <algorithm>
 #include <cctype>
+#include <filesystem>
 #include <iostream>
 #include <memory>
+#include <sstream>
+#include <system_error>
 
 namespace {
 
@@ -45,7 +48,17 @@ public:
 
   std::vector<CLI::ConfigItem> from_config (std::istream& input) const override
   {
-    const std::vector<CLI::ConfigItem> entries = CLI::ConfigBase::from_config (input);
+    std::string text (most_bytes + 1, '\0');
+    input.read (text.data (), static_cast<std::streamsize> (text.size ()));
+    text.resize (static_cast<std::size_t> (input.gcount ()));
+    if (text.size () > most_bytes || input.bad ())
+      throw UsageError ("--config: the file cannot be read to its end, or is larger than " +
+                        std::to_string (most_bytes >> 10) + " KiB");
+    std::istringstream whole (text);
+    for (std::string line; std::getline (whole, line);)
+      refuseMalformed (line);
+    std::istringstream lines (text);
+    const std::vector<CLI::ConfigItem> entries = CLI::ConfigBase::from_config (lines);
     for (const CLI::ConfigItem& item : entries)
     {
       if (!item.parents.empty ())
@@ -60,8 +73,35 @@ public:
   }
 
 private:
+  static constexpr std::size_t most_bytes = 1 << 20;
+
+  /** \brief CLI11 leaves out lines without a name, and takes a quote that does not end as it is. */
+  static void refuseMalformed (const std::string& line)
+  {
+    const std::size_t first = line.find_first_not_of (" \t");
+    if (first == std::string::npos || line[first] == '#' || line[first] == ';')
+      return;
+    if (line[first] == '=')
+      throw UsageError ("the configuration file has a line without a name: " + line);
+    const std::size_t value = line.find_first_not_of (" \t", std::min (line.find ('='), line.size () - 1) + 1);
+    if (value != std::string::npos && (line[value] == '"' || line[value] == '\'') &&
+        line.find (line[value], value + 1) == std::string::npos)
+      throw UsageError ("the configuration file has a quote that does not end: " + line);
+  }
+
   const std::vector<std::string> names_;
 };
+
+/** \brief A pipe may never end, nor a device; one that the shell made for <(...) does. */
+void
+requireReadable (const std::string& configuration)
+{
+  std::error_code none;
+  const auto status = std::filesystem::status (configuration, none);
+  if (std::filesystem::exists (status) && !std::filesystem::is_regular_file (status) &&
+      configuration.rfind ("/dev/fd/", 0) != 0)
+    throw UsageError ("--config: " + configuration + " is not a regular file");
+}
 
 std::vector<std::string>
 optionNames (const CLI::App& app)
@@ -116,6 +156,20 @@ declareGeneralOptions (CLI::App& app, const std::string& program, GeneralOptions
   app.set_help_flag ("-h,--help", "Print this, or only a TOPIC of it")->group (name);
 }
 
+std::string
+configurationFile (const std::vector<std::string>& arguments)
+{
+  const std::string option = "--config";
+  for (std::size_t n = 0; n < arguments.size () && arguments[n] != "--"; ++n)
+  {
+    if (arguments[n] == option && n + 1 < arguments.size ())
+      return (arguments[n + 1]);
+    if (arguments[n].rfind (option + "=", 0) == 0)
+      return (arguments[n].substr (option.size () + 1));
+  }
+  return ("");
+}
+
 Verbosity
 verbosityOf (const GeneralOptions& given)
 {
@@ -150,7 +204,9 @@ parseArguments (CLI::App& app, const ProgramText& program, int argc, const char*
     }
   const std::vector<std::string> names = optionNames (app);
   app.config_formatter (std::make_shared<ConfigurationFile> (names));
-  refuseUnknownOptions (std::vector<std::string> (argv + 1, argv + argc), names, app);
+  const std::vector<std::string> arguments (argv + 1, argv + argc);
+  refuseUnknownOptions (arguments, names, app);
+  requireReadable (configurationFile (arguments));
   try
   {
     app.parse (argc, argv);

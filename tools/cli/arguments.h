@@ -34,6 +34,9 @@ struct GeneralOptions
  */
 void declareGeneralOptions (CLI::App& app, const std::string& program, GeneralOptions& given);
 
+/** \brief The file that --config names in a command line, which is an input like any other; empty if there is none. */
+std::string configurationFile (const std::vector<std::string>& arguments);
+
 /** \brief \throws UsageError if the program is to be quiet and verbose */
 Verbosity verbosityOf (const GeneralOptions& given);
 

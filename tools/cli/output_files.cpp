@@ -15,7 +15,6 @@
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
-#include <fstream>
 
 namespace fs = std::filesystem;
 using namespace pcl::cosection;
@@ -62,7 +61,7 @@ refuseToOverwrite (const std::vector<std::string>& inputs, const std::vector<std
     if (outputs[n].empty ())
       continue;
     for (const std::string& input : inputs)
-      if (isSameFile (outputs[n], input))
+      if (!input.empty () && isSameFile (outputs[n], input))
         throw UsageError (outputs[n] + " would be overwritten: it is an input");
     for (std::size_t other = 0; other < n; ++other)
       if (!outputs[other].empty () && isSameFile (outputs[n], outputs[other]))
@@ -115,12 +114,7 @@ requireWritable (const std::string& path)
 void
 saveText (const std::string& text, const std::string& path)
 {
-  writeAtomically (path, [&] (const std::string& temporary) {
-    std::ofstream file (temporary, std::ios::binary);
-    file << text;
-    if (!file.flush ())
-      throw IoError (path + ": cannot be written");
-  });
+  writeAtomically (path, [&] (const std::string& temporary) { writeBytes (temporary, text); });
 }
 
 void

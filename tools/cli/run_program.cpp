@@ -6,6 +6,7 @@
 #include <pcl/cosection/common/error.h>
 
 #include <csignal>
+#include <iostream>
 #include <new>
 
 namespace {
@@ -37,10 +38,17 @@ describe (const std::exception& error, const std::string& out_of_memory)
 int
 runProgram (const Program& program, const std::function<bool (Terminal&)>& work)
 {
+  // Writing fails instead, as on a full disk: what is computed is still written to files.
+  std::signal (SIGXFSZ, SIG_IGN);
+  std::signal (SIGPIPE, SIG_IGN);
   Terminal terminal (program.name);
   try
   {
-    return (work (terminal) ? Success : Failure);
+    const bool all_went_well = work (terminal);
+    if (std::cout.flush ())
+      return (all_went_well ? Success : Failure);
+    terminal.error ("standard output cannot be written");
+    return (Failure);
   }
   catch (const UsageError& error)
   {
@@ -68,7 +76,7 @@ catchInterruptions ()
   sigemptyset (&action.sa_mask);
   sigaction (SIGINT, &action, nullptr);
   sigaction (SIGTERM, &action, nullptr);
-  std::signal (SIGXFSZ, SIG_IGN); // writing fails instead, as on a full disk
+  sigaction (SIGHUP, &action, nullptr); // the terminal was closed
 }
 
 bool

@@ -19,7 +19,9 @@ struct Program
   std::string out_of_memory = "out of memory"; ///< may say what would need less
 };
 
-/** \brief The main function of all programs: what \a work throws becomes one line and an exit status.
+/** \brief The main function of all programs: what \a work throws becomes one line and an exit status, and so does a
+ * standard output that cannot be written. A file larger than the system's limit and a closed pipe are errors of
+ * writing.
  * \param[in] work returns whether all went well; reads the command line first
  * \return 0: all went well, 1: it did not, also if anything else is thrown, 2 after a UsageError, 130 after
  * pcl::cosection::Cancelled */
@@ -42,8 +44,7 @@ runProgram (const Program& program, int argc, const char* const* argv,
   }));
 }
 
-/** \brief From now on, the first SIGINT or SIGTERM only sets a flag; a second one ends the program at once. A file
- * larger than the system's limit is an error of writing. */
+/** \brief From now on, the first SIGINT, SIGTERM or SIGHUP only sets a flag; a second one ends the program at once. */
 void catchInterruptions ();
 
 /** \brief Whether a signal has asked the program to stop. */

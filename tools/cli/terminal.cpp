@@ -12,7 +12,8 @@
 namespace {
 
 constexpr int bar_width = 30;
-constexpr std::size_t stage_width = 40; // so that the bar fits into a line of 80 characters
+constexpr std::size_t longest_line = 2000; // a value that is refused may be of any length
+constexpr std::size_t stage_width = 40;    // so that the bar fits into a line of 80 characters
 
 /** \brief A terminal that cannot go back to the beginning of its line. */
 bool
@@ -28,6 +29,8 @@ oneLine (std::string text)
 {
   while (!text.empty () && (text.back () == '\n' || text.back () == '\r'))
     text.pop_back ();
+  if (text.size () > longest_line)
+    text = text.substr (0, longest_line / 2) + " ... " + text.substr (text.size () - longest_line / 2);
   std::replace_if (
       text.begin (), text.end (), [] (char c) { return (c == '\n' || c == '\r' || c == '\t'); }, ' ');
   std::replace_if (

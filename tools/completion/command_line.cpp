@@ -158,7 +158,9 @@ interpret (Settings& settings)
     throw UsageError ("--save-labels needs --segment");
   if (!settings.save_labels.empty () && !endsWith (settings.save_labels, ".pcd"))
     throw UsageError ("--save-labels is \"" + settings.save_labels + "\"; it must be the name of a .pcd file");
-  refuseToOverwrite (settings.inputs, {settings.save_labels});
+  std::vector<std::string> inputs = settings.inputs;
+  inputs.push_back (configurationFile (settings.arguments));
+  refuseToOverwrite (inputs, {settings.save_labels});
   if (settings.axes == "opengl")
     settings.reading.axes = SensorAxes::OpenGl;
   for (const Eigen::Vector4d& plane : settings.planes)

@@ -49,7 +49,9 @@ executeCommand (const CommonOptions& given, const std::string& first, const std:
     if (path.empty ())
       throw UsageError (first + " and " + second + " must not be empty");
   terminal.setVerbosity (verbosityOf (given));
-  refuseToOverwrite (given.paths, {given.json, given.csv});
+  std::vector<std::string> inputs = given.paths;
+  inputs.push_back (configurationFile (given.arguments));
+  refuseToOverwrite (inputs, {given.json, given.csv});
   check ();
   bool whole = true;
   try

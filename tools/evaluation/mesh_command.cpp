@@ -322,6 +322,7 @@ check (const MeshSettings& settings)
   std::vector<std::string> inputs = settings.paths;
   inputs.insert (inputs.end (), settings.obstacles.begin (), settings.obstacles.end ());
   inputs.insert (inputs.end (), settings.views.begin (), settings.views.end ());
+  inputs.push_back (configurationFile (settings.arguments));
   refuseToOverwrite (inputs, {settings.json, settings.csv, settings.error_mesh, settings.error_picture});
   if (!settings.error_mesh.empty () && !endsWith (settings.error_mesh, ".ply"))
     throw UsageError ("--error-mesh must end in .ply, for colours; it is " + settings.error_mesh);

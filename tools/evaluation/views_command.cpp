@@ -7,6 +7,7 @@
 #include "option_values.h"
 #include "output_files.h"
 
+#include "pcl_cosection/common/files.h"
 #include "pcl_cosection/evaluation/mesh_surface.h"
 #include "pcl_cosection/evaluation/pictures/error_picture.h"
 #include "pcl_cosection/rendering/picture.h"
@@ -15,8 +16,8 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
 #include <numeric>
+#include <sstream>
 
 namespace fs = std::filesystem;
 
@@ -97,7 +98,8 @@ sortedEntries (const std::string& folder)
 std::string
 nameIn (const fs::path& scene, const std::string& label)
 {
-  std::ifstream file (scene / "names.txt");
+  const fs::path path = scene / "names.txt";
+  std::istringstream file (fs::exists (path) ? readBytes (path.string ()) : "");
   for (std::string number, name; file >> number >> name;)
     if (number == label)
       return (name);

@@ -90,7 +90,8 @@ removeEarlierRun (const fs::path& folder)
 std::vector<std::string>
 inputFiles (const FusionSettings& settings)
 {
-  std::vector<std::string> files{settings.camera_trajectory, settings.ignored.mask};
+  std::vector<std::string> files{settings.camera_trajectory, settings.ignored.mask,
+                                 configurationFile (settings.arguments)};
   for (const auto& [id, file] : settings.object_trajectories)
     files.push_back (file);
   if (settings.network)

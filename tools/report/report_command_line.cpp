@@ -22,6 +22,7 @@ isPage (const fs::path& path)
 void
 keepInputs (const ReportSettings& settings)
 {
+  refuseToOverwrite ({configurationFile (settings.arguments)}, {settings.output});
   std::error_code failure;
   const fs::path target = pcl::cosection::followLinks (settings.output);
   const auto isIn = [&, path = fs::absolute (target, failure).string ()] (const fs::path& folder) {

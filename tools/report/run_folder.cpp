@@ -1,6 +1,8 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "run_folder.h"
 
+#include "pcl_cosection/common/files.h"
+#include "pcl_cosection/common/json_depth.h"
 #include "pcl_cosection/evaluation/mesh_surface.h"
 #include <pcl/cosection/common/error.h>
 #include <pcl/cosection/io/mesh_io.h>
@@ -11,7 +13,6 @@
 #include <cmath>
 #include <ctime>
 #include <filesystem>
-#include <fstream>
 #include <map>
 #include <regex>
 
@@ -115,8 +116,17 @@ readSummary (RunFolder& run)
     run.notes.push_back (path.string () + " is missing: the run was interrupted, or these are not all of its files");
     return;
   }
-  std::ifstream file (path, std::ios::binary);
-  run.summary = Json::parse (file, nullptr, false);
+  std::string text;
+  try
+  {
+    text = readBytes (path.string ());
+  }
+  catch (const IoError& error)
+  {
+    run.notes.push_back (std::string (error.what ()) + "; its numbers are left out");
+    return;
+  }
+  run.summary = nestsDeeply (text) ? Json () : Json::parse (text, nullptr, false);
   if (!run.summary.is_object ())
   {
     run.summary = Json ();

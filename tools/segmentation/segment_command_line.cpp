@@ -41,7 +41,8 @@ interpret (SegmentSettings& settings)
   setMethod (settings);
   settings.ignored = ignoredArea (settings.given_area);
   const GivenNetwork& network = settings.given_network;
-  refuseToOverwrite ({settings.input, settings.ignored.mask, network.model, network.model_config, network.class_names},
+  refuseToOverwrite ({settings.input, configurationFile (settings.arguments), settings.ignored.mask, network.model,
+                      network.model_config, network.class_names},
                      {settings.output, settings.json});
   ObjectSegmentationOptions& options = settings.segmentation;
   override (options.max_object_size_m, settings.max_object_size);

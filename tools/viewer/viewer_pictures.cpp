@@ -88,7 +88,7 @@ checkPictures (const ViewerSettings& settings)
       for (const std::string& input : {settings.run, settings.truth, settings.dataset})
         if (!input.empty () && isWithin (followLinks (output), input))
           throw UsageError (output + " is in " + input + ", which is only read; give another place");
-  refuseToOverwrite ({settings.viewpoint}, {settings.screenshot});
+  refuseToOverwrite ({settings.viewpoint, configurationFile (settings.arguments)}, {settings.screenshot});
   if (!settings.screenshot.empty ())
     requireWritable (settings.screenshot);
   std::error_code failure;

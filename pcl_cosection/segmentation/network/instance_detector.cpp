@@ -2,6 +2,7 @@
 #include <pcl/cosection/segmentation/instance_detector.h>
 
 #include "pcl_cosection/common/files.h"
+#include "pcl_cosection/common/process_setting.h"
 
 #include <pcl/cosection/common/error.h>
 
@@ -21,27 +22,23 @@ constexpr std::size_t longest_reason = 200;
 const char* const tensorflow_detections = "detection_out_final";
 const char* const tensorflow_masks = "detection_masks";
 
-/** \brief While it lives, OpenCV prints nothing and uses so many threads. Both are settings of the process. */
-class OpenCvSettings
+/** \brief OpenCV's number of threads, and no messages of it. */
+struct OpenCvSettings
 {
-public:
-  explicit OpenCvSettings (int threads)
-      : level_ (cv::utils::logging::setLogLevel (cv::utils::logging::LOG_LEVEL_SILENT))
-      , threads_ (cv::getNumThreads ())
+  using Value = std::pair<cv::utils::logging::LogLevel, int>;
+
+  static Value change (int threads)
   {
+    const Value before (cv::utils::logging::setLogLevel (cv::utils::logging::LOG_LEVEL_SILENT), cv::getNumThreads ());
     cv::setNumThreads (threads);
-  }
-  OpenCvSettings (const OpenCvSettings&) = delete;
-  OpenCvSettings& operator= (const OpenCvSettings&) = delete;
-  ~OpenCvSettings ()
-  {
-    cv::setNumThreads (threads_);
-    cv::utils::logging::setLogLevel (level_);
+    return before;
   }
 
-private:
-  cv::utils::logging::LogLevel level_;
-  int threads_;
+  static void restore (const Value& before)
+  {
+    cv::setNumThreads (before.second);
+    cv::utils::logging::setLogLevel (before.first);
+  }
 };
 
 /** \brief What went wrong, in one line. */
@@ -67,7 +64,7 @@ cv::dnn::Net
 readNetwork (const std::string& model, const InstanceDetectorOptions& options)
 {
   const std::string config = options.config.empty () ? "" : readBytes (options.config);
-  const OpenCvSettings settings (options.threads);
+  const ProcessSetting<OpenCvSettings> settings (options.threads);
   cv::dnn::Net net;
   try
   {
@@ -210,7 +207,7 @@ InstanceDetector::detect (const Picture& picture)
   const char* const hint = has_size ? "" : "; if it is made for another size, give --input-size W,H";
   const double scale = options.scale.value_or (form == NetworkOutputForm::DetectionOut ? 1.0 : 1.0 / 255.0);
 
-  const OpenCvSettings settings (options.threads);
+  const ProcessSetting<OpenCvSettings> settings (options.threads);
   std::vector<NetworkOutput> outputs;
   try
   {

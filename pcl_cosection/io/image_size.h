@@ -1,0 +1,22 @@
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+namespace pcl::cosection {
+
+/** \brief Pixels of an image. */
+struct ImageSize
+{
+  std::uint64_t width = 0, height = 0;
+};
+
+/** \brief The size that the header of an image says, without decoding it: PNG, JPEG, TIFF, BMP, OpenEXR, PNM. Of tiles
+ * that are larger than the image, theirs: a decoder takes memory for a whole one.
+ * \param[in] bytes of the file
+ * \return nothing if it is none of these, or cut short before it says so */
+std::optional<ImageSize> imageSize (const std::string& bytes);
+
+} // namespace pcl::cosection

@@ -1,0 +1,61 @@
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
+
+// Sizes that headers of images say.
+
+#include "common/temporary_folder.h"
+
+#include "pcl_cosection/io/image_io.h"
+#include "pcl_cosection/io/image_size.h"
+#include <pcl/cosection/common/error.h>
+
+#include <gtest/gtest.h>
+#include <opencv2/imgcodecs.hpp>
+
+using namespace pcl::cosection;
+
+TEST (ImageSize, IsThatOfWhatOpenCvWrites)
+{
+  setenv ("OPENCV_IO_ENABLE_OPENEXR", "1", 0);
+  for (const char* extension : {".png", ".jpg", ".tif", ".bmp", ".exr", ".ppm", ".pgm"})
+  {
+    const bool one_channel = std::string (extension) == ".pgm";
+    const cv::Mat image (37, 53,
+                         std::string (extension) == ".exr" ? CV_32FC3
+                         : one_channel                     ? CV_8U
+                                                           : CV_8UC3,
+                         cv::Scalar (1, 2, 3));
+    std::vector<unsigned char> bytes;
+    ASSERT_TRUE (cv::imencode (extension, image, bytes)) << extension;
+    const std::optional<ImageSize> size = imageSize (std::string (bytes.begin (), bytes.end ()));
+    ASSERT_TRUE (size) << extension;
+    EXPECT_EQ (size->width, 53u) << extension;
+    EXPECT_EQ (size->height, 37u) << extension;
+    for (std::size_t length = 0; length < 30; ++length) // cut short
+      static_cast<void> (imageSize (std::string (bytes.begin (), bytes.begin () + length)));
+  }
+  EXPECT_FALSE (imageSize (""));
+  EXPECT_FALSE (imageSize ("text"));
+}
+
+TEST (ImageSize, TooManyPixelsAreRefusedBeforeTheyAreDecoded)
+{
+  const test::TemporaryFolder folder;
+  cv::Mat image (20, 20, CV_8UC3, cv::Scalar (1, 2, 3));
+  std::vector<unsigned char> bytes;
+  ASSERT_TRUE (cv::imencode (".bmp", image, bytes));
+  bytes[18 + 2] = 9; // the width's third byte
+  bytes[22 + 2] = 9;
+  const std::string path = folder.file ("bomb.bmp");
+  test::writeFile (path, std::string (bytes.begin (), bytes.end ()));
+  try
+  {
+    loadColourImage (path);
+    FAIL () << "it has 350 thousand million pixels";
+  }
+  catch (const IoError& error)
+  {
+    EXPECT_NE (std::string (error.what ()).find ("is damaged: it says that it has 589844 x 589844 pixels"),
+               std::string::npos)
+        << error.what ();
+  }
+}
