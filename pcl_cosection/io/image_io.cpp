@@ -77,7 +77,7 @@ decode (const std::string& path, int flags)
     throw IoError (path + ": is damaged: the file is cut short");
   if (isDamagedPng (bytes)) // on which libpng prints lines of its own
     throw IoError (path + ": is damaged: the file is cut short, or a checksum does not match");
-  const std::optional<ImageSize> size = imageSize (bytes);
+  const std::optional<EncodedSize> size = encodedSize (bytes);
   if (!size)
     throw IoError (path + ": is not an image that can be read");
   if (size->width > most_pixels || size->height > most_pixels || size->width * size->height > most_pixels)

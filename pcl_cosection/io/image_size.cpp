@@ -41,13 +41,13 @@ beginsWith (const std::string& bytes, std::string_view magic)
   return bytes.compare (0, magic.size (), magic) == 0;
 }
 
-std::optional<ImageSize>
-sizeIfWhole (const ByteReader& reader, const ImageSize& size)
+std::optional<EncodedSize>
+sizeIfWhole (const ByteReader& reader, const EncodedSize& size)
 {
-  return reader.isWhole () ? std::optional<ImageSize> (size) : std::nullopt;
+  return reader.isWhole () ? std::optional<EncodedSize> (size) : std::nullopt;
 }
 
-std::optional<ImageSize>
+std::optional<EncodedSize>
 sizeOfJpeg (const std::string& bytes)
 {
   ByteReader reader (bytes, true);
@@ -64,7 +64,7 @@ sizeOfJpeg (const std::string& bytes)
     }
     if (marker >= 0xc0 && marker <= 0xcf && marker != 0xc4 && marker != 0xc8 && marker != 0xcc) // a frame begins
     {
-      const ImageSize size{reader.at (place + 7, 2), reader.at (place + 5, 2)};
+      const EncodedSize size{reader.at (place + 7, 2), reader.at (place + 5, 2)};
       return sizeIfWhole (reader, size);
     }
     place += 2 + static_cast<std::size_t> (reader.at (place + 2, 2));
@@ -72,13 +72,13 @@ sizeOfJpeg (const std::string& bytes)
   return std::nullopt;
 }
 
-std::optional<ImageSize>
+std::optional<EncodedSize>
 sizeOfTiff (const std::string& bytes)
 {
   ByteReader reader (bytes, bytes[0] == 'M');
   const auto directory = static_cast<std::size_t> (reader.at (4, 4));
   const std::uint64_t entries = reader.at (directory, 2);
-  ImageSize size;
+  EncodedSize size;
   for (std::size_t n = 0; n < entries && reader.isWhole (); ++n)
   {
     const std::size_t entry = directory + 2 + 12 * n;
@@ -93,28 +93,28 @@ sizeOfTiff (const std::string& bytes)
   return sizeIfWhole (reader, size);
 }
 
-std::optional<ImageSize>
+std::optional<EncodedSize>
 sizeOfBmp (const std::string& bytes)
 {
   ByteReader reader (bytes, false);
   if (reader.at (14, 4) == 12)
   {
-    const ImageSize size{reader.at (18, 2), reader.at (20, 2)};
+    const EncodedSize size{reader.at (18, 2), reader.at (20, 2)};
     return sizeIfWhole (reader, size);
   }
   const auto length = [&] (std::size_t place) { // negative heights are of images from top to bottom
     return static_cast<std::uint64_t> (std::abs (std::int64_t{static_cast<std::int32_t> (reader.at (place, 4))}));
   };
-  const ImageSize size{length (18), length (22)};
+  const EncodedSize size{length (18), length (22)};
   return sizeIfWhole (reader, size);
 }
 
-std::optional<ImageSize>
+std::optional<EncodedSize>
 sizeOfExr (const std::string& bytes)
 {
   ByteReader reader (bytes, false);
-  std::optional<ImageSize> size;
-  ImageSize tile;
+  std::optional<EncodedSize> size;
+  EncodedSize tile;
   for (std::size_t place = 8; reader.isWhole () && reader.at (place, 1) != 0;)
   {
     const std::size_t name_end = bytes.find ('\0', place);
@@ -127,18 +127,18 @@ sizeOfExr (const std::string& bytes)
       return std::int64_t{static_cast<std::int32_t> (reader.at (value + 4 * static_cast<std::size_t> (n), 4))};
     };
     if (name == "dataWindow")
-      size = ImageSize{static_cast<std::uint64_t> (std::max<std::int64_t> (0, coordinate (2) - coordinate (0) + 1)),
-                       static_cast<std::uint64_t> (std::max<std::int64_t> (0, coordinate (3) - coordinate (1) + 1))};
+      size = EncodedSize{static_cast<std::uint64_t> (std::max<std::int64_t> (0, coordinate (2) - coordinate (0) + 1)),
+                         static_cast<std::uint64_t> (std::max<std::int64_t> (0, coordinate (3) - coordinate (1) + 1))};
     else if (name == "tiles")
       tile = {reader.at (value, 4), reader.at (value + 4, 4)};
     place = value + static_cast<std::size_t> (reader.at (type_end + 1, 4));
   }
   if (!size || !reader.isWhole ())
     return std::nullopt;
-  return ImageSize{std::max (size->width, tile.width), std::max (size->height, tile.height)};
+  return EncodedSize{std::max (size->width, tile.width), std::max (size->height, tile.height)};
 }
 
-std::optional<ImageSize>
+std::optional<EncodedSize>
 sizeOfPnm (const std::string& bytes)
 {
   constexpr std::size_t most_header = 4096;
@@ -151,19 +151,19 @@ sizeOfPnm (const std::string& bytes)
         ;
     header >> value;
   }
-  return header ? std::optional<ImageSize> (ImageSize{values[0], values[1]}) : std::nullopt;
+  return header ? std::optional<EncodedSize> (EncodedSize{values[0], values[1]}) : std::nullopt;
 }
 
 } // namespace
 
-std::optional<ImageSize>
-imageSize (const std::string& bytes)
+std::optional<EncodedSize>
+encodedSize (const std::string& bytes)
 {
   using namespace std::string_view_literals;
   if (beginsWith (bytes, "\x89PNG\r\n\x1a\n"))
   {
     ByteReader reader (bytes, true);
-    const ImageSize size{reader.at (16, 4), reader.at (20, 4)};
+    const EncodedSize size{reader.at (16, 4), reader.at (20, 4)};
     return sizeIfWhole (reader, size);
   }
   if (beginsWith (bytes, "\xff\xd8\xff"))

@@ -7,8 +7,8 @@
 
 namespace pcl::cosection {
 
-/** \brief Pixels of an image. */
-struct ImageSize
+/** \brief Pixels that the header of an image says. */
+struct EncodedSize
 {
   std::uint64_t width = 0, height = 0;
 };
@@ -16,7 +16,7 @@ struct ImageSize
 /** \brief The size that the header of an image says, without decoding it: PNG, JPEG, TIFF, BMP, OpenEXR, PNM. Of tiles
  * that are larger than the image, theirs: a decoder takes memory for a whole one.
  * \param[in] bytes of the file
- * \return nothing if it is none of these, or cut short before it says so */
-std::optional<ImageSize> imageSize (const std::string& bytes);
+ * \return nothing if it is another kind of file, or cut short before it says so */
+std::optional<EncodedSize> encodedSize (const std::string& bytes);
 
 } // namespace pcl::cosection

@@ -13,7 +13,7 @@
 
 using namespace pcl::cosection;
 
-TEST (ImageSize, IsThatOfWhatOpenCvWrites)
+TEST (EncodedSize, IsThatOfWhatOpenCvWrites)
 {
   setenv ("OPENCV_IO_ENABLE_OPENEXR", "1", 0);
   for (const char* extension : {".png", ".jpg", ".tif", ".bmp", ".exr", ".ppm", ".pgm"})
@@ -26,18 +26,18 @@ TEST (ImageSize, IsThatOfWhatOpenCvWrites)
                          cv::Scalar (1, 2, 3));
     std::vector<unsigned char> bytes;
     ASSERT_TRUE (cv::imencode (extension, image, bytes)) << extension;
-    const std::optional<ImageSize> size = imageSize (std::string (bytes.begin (), bytes.end ()));
+    const std::optional<EncodedSize> size = encodedSize (std::string (bytes.begin (), bytes.end ()));
     ASSERT_TRUE (size) << extension;
     EXPECT_EQ (size->width, 53u) << extension;
     EXPECT_EQ (size->height, 37u) << extension;
     for (std::size_t length = 0; length < 30; ++length) // cut short
-      static_cast<void> (imageSize (std::string (bytes.begin (), bytes.begin () + length)));
+      static_cast<void> (encodedSize (std::string (bytes.begin (), bytes.begin () + length)));
   }
-  EXPECT_FALSE (imageSize (""));
-  EXPECT_FALSE (imageSize ("text"));
+  EXPECT_FALSE (encodedSize (""));
+  EXPECT_FALSE (encodedSize ("text"));
 }
 
-TEST (ImageSize, TooManyPixelsAreRefusedBeforeTheyAreDecoded)
+TEST (EncodedSize, TooManyPixelsAreRefusedBeforeTheyAreDecoded)
 {
   const test::TemporaryFolder folder;
   cv::Mat image (20, 20, CV_8UC3, cv::Scalar (1, 2, 3));
