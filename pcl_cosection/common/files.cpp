@@ -23,6 +23,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr const char* temporary_prefix = ".cosection-";
 constexpr int max_links = 40; ///< one after the other; as many as Linux follows
 
 fs::path
@@ -60,8 +61,6 @@ resolveTarget (const fs::path& given)
   return fs::canonical (path);
 }
 
-const std::string temporary_prefix = ".cosection-";
-
 /** \brief Remove what processes that are gone left in a folder; each is looked at once. */
 void
 removeStale (const fs::path& folder)
@@ -87,7 +86,8 @@ createTemporary (const fs::path& target)
   for (int attempt = 0;; ++attempt)
   {
     fs::path temporary = target.parent_path ();
-    temporary /= temporary_prefix + std::to_string (::getpid ()) + "-" + std::to_string (attempt) + ".tmp";
+    temporary /= std::string (temporary_prefix) + std::to_string (::getpid ()) + "-" + std::to_string (attempt) +
+                 ".tmp";
     temporary += target.extension ();
     const int descriptor = ::open (temporary.c_str (), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
     if (descriptor >= 0)

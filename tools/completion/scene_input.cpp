@@ -1,6 +1,8 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "scene_input.h"
 
+#include "object_poses.h"
+
 #include "pcl_cosection/common/boxes.h"
 #include "pcl_cosection/segmentation/clusters/cloud_segmentation.h"
 #include "pcl_cosection/view/organized_cloud.h"
@@ -8,7 +10,6 @@
 #include <pcl/cosection/common/error.h>
 #include <pcl/cosection/io/mesh_io.h>
 #include <pcl/cosection/io/pcd_view.h>
-#include <pcl/cosection/io/trajectory.h>
 
 #include <algorithm>
 #include <cmath>
@@ -29,7 +30,6 @@ constexpr double whole_image_share = 0.5;   ///< of the pixels; an object that w
 constexpr std::size_t image_pixels = 70000; ///< ... or is smaller than a camera's image
 constexpr double long_object = 5.0;         ///< metres; what is longer is hardly one thing in metres
 constexpr double outlier_share = 0.02;      ///< of its points, on each side
-constexpr double same_view = 0.5;           ///< largest difference of a stamp from the number of its view
 constexpr float large_extent = 100.0f;      ///< metres; what is larger is probably not in metres
 
 std::string
@@ -115,62 +115,6 @@ transform (const Eigen::Isometry3d& T_object_world, std::vector<OrientedPoint>& 
   }
 }
 
-/** \brief T_world_object of each view by label, not finite where the trajectory has none. */
-using ObjectPoses = std::map<int, std::vector<Eigen::Isometry3d>>;
-
-/** \brief Read trajectories whose stamps are views. */
-ObjectPoses
-readPoses (const std::map<int, std::string>& files, std::size_t views)
-{
-  Eigen::Isometry3d unknown;
-  unknown.matrix ().setConstant (std::numeric_limits<double>::quiet_NaN ());
-  ObjectPoses T_world_object;
-  for (const auto& [label, file] : files)
-  {
-    std::vector<Eigen::Isometry3d>& poses = T_world_object[label];
-    poses.assign (views, unknown);
-    std::vector<double> nearest (views, same_view);
-    bool any = false;
-    for (const StampedPose& stamped : loadTrajectory (file))
-    {
-      const double view = std::round (stamped.stamp);
-      if (!(view >= 0.0 && view < static_cast<double> (views)))
-        continue;
-      const auto v = static_cast<std::size_t> (view);
-      const double difference = std::abs (stamped.stamp - view);
-      if (difference >= nearest[v])
-        continue;
-      nearest[v] = difference;
-      poses[v] = stamped.pose;
-      any = true;
-    }
-    if (!any)
-      throw IoError (file + ": has no pose for any of the " + std::to_string (views) +
-                     " views; its stamps must be their numbers, 0 for the first INPUT");
-  }
-  return (T_world_object);
-}
-
-ObjectPoses
-relativeTo (const Eigen::Vector3d& origin, ObjectPoses poses)
-{
-  for (auto& [label, T_world_object] : poses)
-    for (Eigen::Isometry3d& pose : T_world_object)
-      pose.translation () -= origin;
-  return poses;
-}
-
-/** \brief The pose of the file that each view is of: a sensor that sees all around gives several. */
-ObjectPoses
-ofInputs (const std::vector<std::size_t>& inputs, const ObjectPoses& poses)
-{
-  ObjectPoses of_views;
-  for (const auto& [label, T_world_object] : poses)
-    for (const std::size_t input : inputs)
-      of_views[label].push_back (T_world_object[input]);
-  return of_views;
-}
-
 /** \brief Whether a view is one that was given before: it says nothing new of free space and background. */
 bool
 isRepeated (const DepthView& view, const std::vector<DepthView>& earlier)
@@ -196,14 +140,6 @@ addViews (LabelledView& read, std::size_t input, bool needed, std::vector<DepthV
     views.push_back (std::move (view));
     inputs.push_back (input);
   }
-}
-
-/** \brief Empty for an object that rests. */
-std::vector<Eigen::Isometry3d>
-posesOf (const ObjectPoses& poses, std::uint32_t label)
-{
-  const auto found = poses.find (static_cast<int> (label));
-  return (found == poses.end () ? std::vector<Eigen::Isometry3d> () : found->second);
 }
 
 using Labels = std::map<std::uint32_t, LabelledView::Points>;

@@ -73,11 +73,11 @@ bestOf (const CopyJudge& judge, const MakeMotions& motions, const std::vector<Pa
 }
 
 void
-climb (const CopyJudge& judge, const MakeMotions& motions, Parameters steps, RatedParameters& best, Judging judging)
+climb (const CopyJudge& judge, const MakeMotions& motions, Parameters steps, RatedParameters& best, JudgedBy judged_by)
 {
   if (best.at.empty ())
     return;
-  const std::size_t stride = judging == Judging::OneOfSome ? strideFor (judge, samples_of_some) : 1;
+  const std::size_t stride = judged_by == JudgedBy::SomeSamples ? strideFor (judge, samples_of_some) : 1;
   best.ratio = ratioOf (judge, motions (best.at), stride);
   for (int round = 0; round < halvings; ++round)
   {

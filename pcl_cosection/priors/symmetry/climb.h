@@ -37,17 +37,17 @@ RatedParameters bestOf (const CopyJudge& judge, const MakeMotions& motions, cons
 std::vector<RatedParameters> sortedByEvidence (const CopyJudge& judge, const MakeMotions& motions,
                                                std::vector<Parameters> all);
 
-/** \brief How many samples judge. */
-enum class Judging
+/** \brief By how many samples motions are judged. */
+enum class JudgedBy
 {
-  OneOfSome, ///< some hundreds, as the best of some climbs will be climbed further
-  Finally    ///< all
+  SomeSamples, ///< some hundreds, of a climb among several, whose best will be climbed further
+  AllSamples
 };
 
 /** \brief Climb along each parameter, with steps that are halved when none helps any more.
  * \param[in,out] best where to start, and where it ends; nothing is done if it is empty */
 void climb (const CopyJudge& judge, const MakeMotions& motions, Parameters steps, RatedParameters& best,
-            Judging judging = Judging::Finally);
+            JudgedBy judged_by = JudgedBy::AllSamples);
 
 /** \brief Move each parameter within the range in which the evidence is about as good, to its middle or, within its
  * slack, nearer to what is wanted: points are on a surface as wide as a voxel, so the evidence has no sharp peak.

@@ -198,11 +198,11 @@ addMirrors (const CopyJudge& judge, const Footprint& footprint, const std::vecto
     for (int j = -footprint.steps (); j <= footprint.steps (); ++j)
       pairs.push_back ({coarse.at[0], coarse.at[1], j * footprint.step ()});
     RatedParameters pair = bestOf (judge, two, pairs);
-    climb (judge, two, steps_of_two, pair, Judging::OneOfSome);
+    climb (judge, two, steps_of_two, pair, JudgedBy::SomeSamples);
     if (pair.ratio > best_two.ratio)
       best_two = std::move (pair);
     RatedParameters single = coarse;
-    climb (judge, one, steps_of_one, single, Judging::OneOfSome);
+    climb (judge, one, steps_of_one, single, JudgedBy::SomeSamples);
     if (single.ratio > best_one.ratio)
       best_one = std::move (single);
   }

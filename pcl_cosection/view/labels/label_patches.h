@@ -38,9 +38,9 @@ onOneSurface (const PinholeCamera& camera, double a_m, double b_m)
 
 /** \brief Whether a surface goes on beyond an outline in the image, as beyond no object's.
  *
- * Of scanned things as a simulated camera sees them, it goes on beyond 0.64 and more of the outline of a patch of a
- * wrong label, and beyond 0.9 of that of a label that is three pixels too small; beyond 0.58 and less of that of an
- * exact one. A sensor that smears edges has 0.6 to 0.95 for exact labels, too: what it smears is taken for the
+ * In simulated views of scanned objects, it goes on beyond at least 0.64 of the outline of a connected part with a
+ * wrong label, beyond 0.9 of that of a label that is three pixels too small, and beyond at most 0.58 of that of an
+ * exact label. A sensor that smears edges has 0.6 to 0.95 for exact labels, too: what it smears is taken for the
  * object's.
  *
  * \param[in] continued pairs of readings on the two sides of the outline that are on one surface
