@@ -15,6 +15,8 @@ packages=(
   libeigen3-dev
   libpng-dev
   libopencv-dev
+  libonnx-dev
+  libprotobuf-dev
   libx11-dev
   # tools
   libcli11-dev

@@ -1,13 +1,16 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include <pcl/cosection/segmentation/instance_detector.h>
 
+#include "network_process.h"
+#include "onnx_check.h"
+#include "opencv_network.h"
+
 #include "pcl_cosection/common/files.h"
 #include "pcl_cosection/common/process_setting.h"
 
 #include <pcl/cosection/common/error.h>
 
 #include <opencv2/core/utils/logger.hpp>
-#include <opencv2/dnn.hpp>
 #include <opencv2/imgproc.hpp>
 
 #include <algorithm>
@@ -18,9 +21,7 @@ namespace {
 
 constexpr int one_stage_input = 640; ///< edge, pixels
 constexpr std::uint8_t margin = 114; ///< grey, as YOLO's are trained with
-constexpr std::size_t longest_reason = 200;
 const char* const tensorflow_detections = "detection_out_final";
-const char* const tensorflow_masks = "detection_masks";
 
 /** \brief OpenCV's number of threads, and no messages of it. */
 struct OpenCvSettings
@@ -41,55 +42,21 @@ struct OpenCvSettings
   }
 };
 
-/** \brief What went wrong, in one line. */
-std::string
-reason (const cv::Exception& error)
-{
-  std::string line;
-  for (const char c : error.err)
-    if (c > ' ')
-      line += c;
-    else if (!line.empty () && line.back () != ' ')
-      line += ' ';
-  return (line.size () > longest_reason ? line.substr (0, longest_reason) + " ..." : line);
-}
-
-bool
-endsIn (const std::string& path, const std::string& ending)
-{
-  return (path.size () > ending.size () && path.compare (path.size () - ending.size (), ending.size (), ending) == 0);
-}
-
-cv::dnn::Net
+NetworkProcess
 readNetwork (const std::string& model, const InstanceDetectorOptions& options)
 {
   const std::string config = options.config.empty () ? "" : readBytes (options.config);
-  const ProcessSetting<OpenCvSettings> settings (options.threads);
-  cv::dnn::Net net;
+  const ProcessSetting<OpenCvSettings> settings (1);
   try
   {
-    net = endsIn (options.model, ".onnx")
-              ? cv::dnn::readNetFromONNX (model.data (), model.size ())
-              : cv::dnn::readNetFromTensorflow (model.data (), model.size (), config.data (), config.size ());
-    net.setPreferableBackend (cv::dnn::DNN_BACKEND_OPENCV);
-    net.setPreferableTarget (cv::dnn::DNN_TARGET_CPU);
+    if (endsIn (options.model, ".onnx"))
+      checkOnnx (model);
+    return {options, model, config};
   }
-  catch (const cv::Exception& error)
+  catch (const IoError& error)
   {
-    throw IoError (options.model + ": OpenCV cannot read it as a network: " + reason (error));
+    throw IoError (options.model + ": OpenCV cannot read it as a network: " + error.what ());
   }
-  if (net.empty ())
-    throw IoError (options.model + ": holds no network");
-  return (net);
-}
-
-/** \brief The outputs to compute; in OpenCV, a layer that another one uses is not an output by itself. */
-std::vector<std::string>
-outputNames (const cv::dnn::Net& net)
-{
-  if (net.getLayerId (tensorflow_detections) >= 0 && net.getLayerId (tensorflow_masks) >= 0)
-    return {tensorflow_detections, tensorflow_masks};
-  return (net.getUnconnectedOutLayersNames ());
 }
 
 /** \brief The form of the outputs, by their names and their number. */
@@ -126,25 +93,17 @@ makeInput (const Picture& picture, const ImagePlacement& placement, const Instan
   return (input);
 }
 
-NetworkOutput
-toOutput (const std::string& name, const cv::Mat& mat)
-{
-  cv::Mat values;
-  mat.convertTo (values, CV_32F);
-  NetworkOutput output;
-  output.name = name;
-  output.shape.assign (mat.size.p, mat.size.p + mat.dims);
-  output.values.assign (values.ptr<float> (), values.ptr<float> () + values.total ());
-  return (output);
-}
-
 } // namespace
 
 struct InstanceDetector::Network
 {
+  explicit Network (const InstanceDetectorOptions& options)
+      : options (options)
+      , process (readNetwork (readBytes (options.model), options))
+  {}
+
   InstanceDetectorOptions options;
-  cv::dnn::Net net;
-  std::vector<std::string> output_names;
+  NetworkProcess process;
 };
 
 void
@@ -172,11 +131,8 @@ InstanceDetectorOptions::validate () const
 InstanceDetector::InstanceDetector (const InstanceDetectorOptions& options)
 {
   options.validate ();
-  network_ = std::make_unique<Network> ();
-  network_->options = options;
-  network_->net = readNetwork (readBytes (options.model), options);
-  network_->output_names = outputNames (network_->net);
-  if (network_->output_names.empty ())
+  network_ = std::make_unique<Network> (options);
+  if (network_->process.outputNames ().empty ())
     throw IoError (options.model + ": the network has no outputs");
 }
 
@@ -198,7 +154,7 @@ InstanceDetector::detect (const Picture& picture)
   if (picture.pixels.empty ())
     throw InvalidArgument ("a picture without pixels shows nothing");
   const InstanceDetectorOptions& options = network_->options;
-  const NetworkOutputForm form = expectedForm (network_->output_names);
+  const NetworkOutputForm form = expectedForm (network_->process.outputNames ());
   const bool one_stage = form == NetworkOutputForm::Prototypes;
   const bool has_size = options.input_width > 0;
   const int width = has_size ? options.input_width : one_stage ? one_stage_input : picture.width;
@@ -207,21 +163,17 @@ InstanceDetector::detect (const Picture& picture)
   const char* const hint = has_size ? "" : "; if it is made for another size, give --input-size W,H";
   const double scale = options.scale.value_or (form == NetworkOutputForm::DetectionOut ? 1.0 : 1.0 / 255.0);
 
-  const ProcessSetting<OpenCvSettings> settings (options.threads);
   std::vector<NetworkOutput> outputs;
   try
   {
-    network_->net.setInput (makeInput (picture, placement, options, scale));
-    std::vector<cv::Mat> mats;
-    network_->net.forward (mats, network_->output_names);
-    for (std::size_t n = 0; n < mats.size (); ++n)
-      outputs.push_back (toOutput (network_->output_names[n], mats[n]));
+    const ProcessSetting<OpenCvSettings> settings (options.threads);
+    outputs = network_->process.run (makeInput (picture, placement, options, scale));
   }
-  catch (const cv::Exception& error)
+  catch (const IoError& error)
   {
     throw IoError (options.model + ": the network cannot be run on an input of " +
                    std::to_string (placement.input_width) + " x " + std::to_string (placement.input_height) +
-                   " pixels: " + reason (error) + hint);
+                   " pixels: " + error.what () + hint);
   }
   try
   {
