@@ -1,47 +1,10 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "affine_network.h"
 
-#include "protobuf_message.h"
+#include "onnx_messages.h"
 
 namespace pcl::cosection::test {
 namespace {
-
-using TensorShape = std::vector<std::int64_t>;
-
-// --- ONNX (onnx.proto)
-// ---------------------------------------------------------------------------------------------------
-
-constexpr int onnx_float = 1, onnx_int64 = 7;
-
-ProtobufMessage
-onnxTensor (const std::string& name, const TensorShape& shape, int type, const std::string& raw)
-{
-  ProtobufMessage tensor;
-  for (const std::int64_t size : shape)
-    tensor.number (1, size);
-  tensor.number (2, type).text (8, name).text (9, raw);
-  return (tensor);
-}
-
-ProtobufMessage
-onnxNode (const std::string& operation, const std::vector<std::string>& inputs, const std::string& output)
-{
-  ProtobufMessage node;
-  for (const std::string& input : inputs)
-    node.text (1, input);
-  node.text (2, output).text (3, operation + '_' + output).text (4, operation);
-  return (node);
-}
-
-ProtobufMessage
-onnxValue (const std::string& name, const TensorShape& shape)
-{
-  ProtobufMessage dimensions;
-  for (const std::int64_t size : shape)
-    dimensions.message (1, ProtobufMessage ().number (1, size));
-  const ProtobufMessage tensor = ProtobufMessage ().number (1, onnx_float).message (2, dimensions);
-  return (ProtobufMessage ().text (1, name).message (2, ProtobufMessage ().message (1, tensor)));
-}
 
 // --- TensorFlow (graph.proto)
 // --------------------------------------------------------------------------------------------
@@ -82,26 +45,23 @@ tensorflowConstant (const std::string& name, const TensorShape& shape, int type,
 std::string
 affineOnnx (int width, int height, const std::vector<AffineOutput>& outputs, bool fixed_size)
 {
-  ProtobufMessage graph;
-  graph.message (1, onnxNode ("Reshape", {"image", "row_shape"}, "row")).text (2, "affine");
-  graph.message (5, onnxTensor ("row_shape", {2}, onnx_int64, rawBytes (TensorShape{1, -1})));
-  graph.message (11, onnxValue ("image", {1, 3, fixed_size ? height : 0, fixed_size ? width : 0}));
+  OnnxGraph graph;
+  graph.node ("Reshape", {"image", "row_shape"}, {"row"});
+  graph.integers ("row_shape", {1, -1});
+  graph.input ("image", {1, 3, fixed_size ? height : 0, fixed_size ? width : 0});
   for (const AffineOutput& output : outputs)
   {
     const std::string& name = output.name;
-    graph.message (1, onnxNode ("MatMul", {"row", name + "_weights"}, name + "_linear"));
-    graph.message (1, onnxNode ("Add", {name + "_linear", name + "_bias"}, name + "_affine"));
-    graph.message (1, onnxNode ("Reshape", {name + "_affine", name + "_shape"}, name));
+    graph.node ("MatMul", {"row", name + "_weights"}, {name + "_linear"});
+    graph.node ("Add", {name + "_linear", name + "_bias"}, {name + "_affine"});
+    graph.node ("Reshape", {name + "_affine", name + "_shape"}, {name});
     const Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> weights = output.weights.transpose ();
-    graph.message (5,
-                   onnxTensor (name + "_weights", {weights.rows (), weights.cols ()}, onnx_float, rawBytes (weights)));
-    graph.message (5, onnxTensor (name + "_bias", {1, output.bias.size ()}, onnx_float, rawBytes (output.bias)));
-    graph.message (5, onnxTensor (name + "_shape", {static_cast<std::int64_t> (output.shape.size ())}, onnx_int64,
-                                  rawBytes (output.shape)));
-    graph.message (12, onnxValue (name, output.shape));
+    graph.tensor (name + "_weights", {weights.rows (), weights.cols ()}, onnx_float, rawBytes (weights));
+    graph.tensor (name + "_bias", {1, output.bias.size ()}, onnx_float, rawBytes (output.bias));
+    graph.integers (name + "_shape", output.shape);
+    graph.output (name, output.shape);
   }
-  const ProtobufMessage operators = ProtobufMessage ().text (1, "").number (2, 11);
-  return (ProtobufMessage ().number (1, 7).message (7, graph).message (8, operators).bytes ());
+  return (graph.bytes ());
 }
 
 std::string

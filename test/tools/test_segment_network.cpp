@@ -3,6 +3,7 @@
 // pcl_cosection_segment with a network, and with parts of the image left out.
 
 #include "common/temporary_folder.h"
+#include "segmentation/onnx_messages.h"
 #include "segmentation/spot_network.h"
 #include "tool_run.h"
 
@@ -166,6 +167,26 @@ TEST_F (SegmentNetwork, WrongUsageIsOneLine)
   EXPECT_NE (failure ({"in.pcd", "out.pcd", "--ignore-region", "1,2,3,-4"}, 2).find ("--ignore-region"),
              std::string::npos);
   EXPECT_NE (failure ({"in.pcd", "out.pcd", "--ignore-region", "23,0,2,4"}, 2).find ("24 x 16"), std::string::npos);
+}
+
+TEST_F (SegmentNetwork, DamagedNetworksAreOneLine)
+{
+  const auto graph = [] (std::int64_t group, const test::TensorShape& kernel) {
+    test::OnnxGraph made;
+    made.input ("image", {1, 3, SpotNetwork::height, SpotNetwork::width}).weights ("kernel", kernel);
+    made.node ("Conv", {"image", "kernel"}, {"out"},
+               {test::OnnxGraph::attribute ("group", group), test::OnnxGraph::attribute ("kernel_shape", {3, 3})});
+    return (made.output ("out", {1, 2, 14, 22}));
+  };
+  write ("spot.onnx", graph (1, {2, 3, 3, 3}).tensor ("short", {1, 3, 4096, 4096}, 1, std::string (64, '\0')).bytes ());
+  EXPECT_NE (failure (arguments (), 1).find ("spot.onnx: OpenCV cannot read it as a network: tensor \"short\""),
+             std::string::npos);
+  write ("spot.onnx", graph (0, {2, 3, 3, 3}).bytes ());
+  EXPECT_NE (failure (arguments (), 1).find ("group of 0"), std::string::npos);
+  write ("spot.onnx", graph (1, {2, 3, 3, 3, 3}).bytes ()); // OpenCV 4.6 crashes
+  EXPECT_NE (failure (arguments (), 1).find ("spot.onnx: OpenCV cannot read it as a network: "), std::string::npos);
+  write ("spot.onnx", graph (2, {2, 3, 3, 3}).bytes ()); // does not divide the channels
+  EXPECT_NE (failure (arguments (), 1).find ("spot.onnx: "), std::string::npos);
 }
 
 TEST_F (SegmentNetwork, BadInputIsOneLine)
