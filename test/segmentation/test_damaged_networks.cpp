@@ -34,7 +34,8 @@ namespace {
 
 /** \brief A graph of one convolution. */
 OnnxGraph
-convolution (const std::vector<ProtobufMessage>& attributes = {}, const TensorShape& kernel = {2, 3, 1, 1})
+convolution (const std::vector<ProtobufMessage>& attributes = {OnnxGraph::attribute ("kernel_shape", {1, 1})},
+             const TensorShape& kernel = {2, 3, 1, 1})
 {
   OnnxGraph graph;
   graph.input ("image", {1, 3, SpotNetwork::height, SpotNetwork::width}).weights ("kernel", kernel);
@@ -103,8 +104,7 @@ protected:
   /** \brief What the check does not know of, and OpenCV 4.6 crashes on; later ones may refuse it. */
   InstanceDetectorOptions crashing () const
   {
-    return (
-        write ("crash.onnx", convolution ({OnnxGraph::attribute ("kernel_shape", {3, 3})}, {2, 3, 3, 3, 3}).bytes ()));
+    return (write ("crash.onnx", convolution ({OnnxGraph::attribute ("kernel_shape", {3, 3})}, {0, 3, 3, 3}).bytes ()));
   }
 
   InstanceDetectorOptions good () const
@@ -259,6 +259,19 @@ TEST_F (DamagedNetworks, ACrashIsAnError)
   }
   EXPECT_TRUE (hasNoChildren ());
   EXPECT_EQ (InstanceDetector (good ()).detect (test::spotPicture (8, 6)).size (), 1u);
+}
+
+TEST_F (DamagedNetworks, EachChannelIsNormalized)
+{
+  for (const std::int64_t channels : {2, 3})
+  {
+    OnnxGraph graph = convolution ();
+    graph.weights ("values", {channels});
+    graph.node ("BatchNormalization", {"image", "values", "values", "values", "values"}, {"normal"});
+    const bool is_refused = failure (write ("normal.onnx", graph.bytes ())).find ("2 values for 3 channels") !=
+                            std::string::npos;
+    EXPECT_EQ (is_refused, channels == 2);
+  }
 }
 
 TEST_F (DamagedNetworks, DamagedGraphsOfTensorFlowAreErrors)

@@ -89,6 +89,7 @@ OpenCvNetwork::run (const cv::Mat& input)
 {
   return (withReasons ([&] {
     net_.setInput (input);
+    checkChannels (input);
     std::vector<cv::Mat> mats;
     net_.forward (mats, output_names_);
     std::vector<NetworkOutput> outputs;
@@ -96,6 +97,29 @@ OpenCvNetwork::run (const cv::Mat& input)
       outputs.push_back (toOutput (output_names_[n], mats[n]));
     return (outputs);
   }));
+}
+
+void
+OpenCvNetwork::checkChannels (const cv::Mat& input)
+{
+  const cv::Size size (input.size[3], input.size[2]);
+  if (size == checked_)
+    return;
+  std::vector<int> layers;
+  std::vector<std::vector<cv::dnn::MatShape>> inputs, outputs;
+  net_.getLayersShapes (cv::dnn::MatShape{1, 3, size.height, size.width}, layers, inputs, outputs);
+  for (std::size_t n = 0; n < layers.size (); ++n)
+  {
+    const cv::Ptr<cv::dnn::Layer> layer = net_.getLayer (layers[n]);
+    if (layer->type != "BatchNorm" || inputs[n].empty () || inputs[n][0].size () < 2)
+      continue;
+    const int channels = inputs[n][0][1];
+    for (const cv::Mat& blob : layer->blobs)
+      if (blob.total () < static_cast<std::size_t> (channels))
+        throw IoError ("layer " + layer->name + " has " + std::to_string (blob.total ()) + " values for " +
+                       std::to_string (channels) + " channels");
+  }
+  checked_ = size;
 }
 
 } // namespace pcl::cosection

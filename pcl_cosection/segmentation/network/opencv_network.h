@@ -28,7 +28,11 @@ public:
   std::vector<NetworkOutput> run (const cv::Mat& input);
 
 private:
+  /** \brief Where OpenCV does not look whether there are as many values as channels. \throws IoError if not */
+  void checkChannels (const cv::Mat& input);
+
   cv::dnn::Net net_;
+  cv::Size checked_; ///< size of the last input
   std::vector<std::string> output_names_;
 };
 
