@@ -10,6 +10,7 @@
 #include <pcl/cosection/common/image.h>
 #include <pcl/cosection/io/mesh_io.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <optional>
@@ -347,6 +348,45 @@ nameMeshFiles (nlohmann::ordered_json& node, const std::string& folder)
   }
 }
 
+/** \brief A message without the control characters that texts of a description may have. */
+std::string
+inOneLine (std::string message)
+{
+  std::replace_if (
+      message.begin (), message.end (), [] (unsigned char c) { return c < ' ' || c == 127; }, '?');
+  return message;
+}
+
+/** \throws InvalidArgument if it is not well-formed, or an object has a field twice */
+nlohmann::ordered_json
+parseJson (const std::string& text)
+{
+  if (nestsDeeply (text))
+    throw InvalidArgument ("is not well-formed JSON of a scene: it has too many brackets within each other");
+  std::vector<std::set<std::string>> fields; // of the objects that are being read
+  const auto watch = [&] (int, nlohmann::ordered_json::parse_event_t event, nlohmann::ordered_json& value) {
+    using Event = nlohmann::ordered_json::parse_event_t;
+    if (event == Event::object_start)
+      fields.emplace_back ();
+    else if (event == Event::object_end)
+      fields.pop_back ();
+    else if (event == Event::key && !fields.back ().insert (value.get<std::string> ()).second)
+      throw InvalidArgument ("has the field \"" + value.get<std::string> () + "\" twice in one object");
+    return true;
+  };
+  try
+  {
+    return nlohmann::ordered_json::parse (text, watch, true, true);
+  }
+  catch (const nlohmann::json::exception& error)
+  {
+    std::string why = error.what ();
+    if (why.find ("] ") != std::string::npos)
+      why = why.substr (why.find ("] ") + 2);
+    throw InvalidArgument ("is not well-formed JSON: " + why);
+  }
+}
+
 } // namespace
 
 std::string
@@ -368,35 +408,9 @@ effectiveSpec (const SimulatedScene& scene)
 SimulatedScene
 parseSceneSpec (const std::string& text, const std::string& name, const std::string& folder)
 {
-  if (nestsDeeply (text))
-    throw InvalidArgument (name + ": is not well-formed JSON of a scene: it has too many brackets within each other");
-  nlohmann::ordered_json json;
-  std::vector<std::set<std::string>> fields; // of the objects that are being read
-  const auto watch = [&] (int, nlohmann::ordered_json::parse_event_t event, nlohmann::ordered_json& value) {
-    using Event = nlohmann::ordered_json::parse_event_t;
-    if (event == Event::object_start)
-      fields.emplace_back ();
-    else if (event == Event::object_end)
-      fields.pop_back ();
-    else if (event == Event::key && !fields.back ().insert (value.get<std::string> ()).second)
-      throw InvalidArgument (name + ": has the field \"" + value.get<std::string> () + "\" twice in one object");
-    return true;
-  };
   try
   {
-    json = nlohmann::ordered_json::parse (text, watch, true, true);
-  }
-  catch (const nlohmann::json::exception& error)
-  {
-    std::string why = error.what ();
-    if (why.find ("] ") != std::string::npos)
-      why = why.substr (why.find ("] ") + 2);
-    for (char& c : why)
-      c = c == '\n' || c == '\r' ? ' ' : c;
-    throw InvalidArgument (name + ": is not well-formed JSON: " + why);
-  }
-  try
-  {
+    nlohmann::ordered_json json = parseJson (text);
     SimulatedScene scene = parseScene (SpecNode (json, name + ": "), folder);
     scene.validate ();
     nameMeshFiles (json, folder);
@@ -406,7 +420,11 @@ parseSceneSpec (const std::string& text, const std::string& name, const std::str
   catch (const InvalidArgument& error)
   {
     const std::string what = error.what ();
-    throw InvalidArgument (what.rfind (name + ": ", 0) == 0 ? what : name + ": " + what);
+    throw InvalidArgument (inOneLine (what.rfind (name + ": ", 0) == 0 ? what : name + ": " + what));
+  }
+  catch (const IoError& error) // of a mesh
+  {
+    throw IoError (inOneLine (error.what ()));
   }
 }
 
