@@ -3,8 +3,8 @@
 // Bytes as a mask in PNG: as they are, and with chunks that are whole, as damage inside them would end at checksums.
 
 #include "fuzz_target.h"
-#include "mask_seeds.h"
 #include "memory_file.h"
+#include "seeds/mask_seeds.h"
 
 #include "pcl_cosection/io/mask_image.h"
 

@@ -4,7 +4,7 @@
 
 #include "fuzz_target.h"
 #include "memory_file.h"
-#include "mesh_seeds.h"
+#include "seeds/mesh_seeds.h"
 
 #include <pcl/cosection/common/error.h>
 #include <pcl/cosection/io/mesh_io.h>

@@ -4,7 +4,7 @@
 
 #include "fuzz_target.h"
 #include "memory_file.h"
-#include "pcd_seeds.h"
+#include "seeds/pcd_seeds.h"
 
 #include <pcl/cosection/common/error.h>
 #include <pcl/cosection/io/pcd_view.h>

@@ -6,8 +6,11 @@
 
 #include <cstdlib>
 #include <filesystem>
+#include <map>
+#include <memory>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 namespace fuzz {
 
@@ -85,5 +88,41 @@ public:
 private:
   TemporaryFolder folder_;
 };
+
+/** \brief A folder of files in memory, for what is read by the names in a folder. */
+class MemoryFolder
+{
+public:
+  /** \brief Replace the contents of a file, which is made if it is not there. \param[in] name "trajectory/camera.txt"
+   * ... */
+  void set (const std::string& name, const std::string& bytes)
+  {
+    std::unique_ptr<MemoryFile>& file = files_[name];
+    if (!file)
+    {
+      file = std::make_unique<MemoryFile> ();
+      const std::filesystem::path link = folder_.file (name);
+      std::filesystem::create_directories (link.parent_path ());
+      std::filesystem::create_symlink (file->path (), link);
+    }
+    file->set (bytes);
+  }
+
+  std::string path (const std::string& name = "") const { return (folder_.file (name)); }
+
+private:
+  TemporaryFolder folder_;
+  std::map<std::string, std::unique_ptr<MemoryFile>> files_;
+};
+
+/** \brief An input of several kinds: what its first line says, and the rest. */
+inline std::pair<std::string, std::string>
+splitFirstLine (const std::string& input)
+{
+  const std::size_t end = input.find ('\n');
+  if (end == std::string::npos)
+    return {input, ""};
+  return {input.substr (0, end), input.substr (end + 1)};
+}
 
 } // namespace fuzz

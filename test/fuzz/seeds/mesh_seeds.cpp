@@ -1,8 +1,8 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "mesh_seeds.h"
 
+#include "fuzz/memory_file.h"
 #include "io/vtk_mesh_files.h"
-#include "memory_file.h"
 
 #include <pcl/cosection/io/mesh_io.h>
 

@@ -1,0 +1,180 @@
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
+
+// Bytes as summary.json of a run, as the report and the viewer read it, or as a viewpoint; the first line says which.
+
+#include "fuzz_target.h"
+#include "memory_file.h"
+
+#include "report_page.h"
+#include "scene_data.h"
+
+#include <pcl/cosection/common/error.h>
+#include <pcl/cosection/visualization/scene_picture.h>
+
+using namespace pcl::cosection;
+
+namespace {
+
+/** \brief A run of a camera and an object without meshes, but for its summary. */
+fuzz::MemoryFolder&
+runFolder ()
+{
+  static fuzz::MemoryFolder folder;
+  static const bool is_filled = [] {
+    folder.set ("trajectory/camera.txt", "0 0 0 0 0 0 0 1\n1 0.1 0 0 0 0 0 1\n");
+    folder.set ("trajectory/object_1.txt", "0 0 0 1 0 0 0 1\n1 0 0 1 0 0 0 1\n");
+    return (true);
+  }();
+  static_cast<void> (is_filled);
+  return (folder);
+}
+
+void
+requireMessages (const std::vector<std::string>& messages)
+{
+  for (const std::string& message : messages)
+    fuzz::requireMessage (message);
+}
+
+/** \brief What the viewer makes of a run. */
+bool
+viewRun (const std::string& folder)
+{
+  ReadingNotes notes;
+  const RunScene scene = loadRunScene (folder, notes);
+  requireMessages (notes.warnings);
+  scene.camera ().validate ();
+  for (const auto& [id, name] : scene.classes)
+    fuzz::require (!name.empty (), "a class has a name");
+  try
+  {
+    scene.source.validate ();
+  }
+  catch (const InvalidArgument& error) // as one that is given
+  {
+    fuzz::requireMessage (error.what ());
+  }
+  return (notes.whole);
+}
+
+/** \brief What the report makes of it. */
+void
+reportRun (const std::string& folder)
+{
+  ReportContent content;
+  content.threads = 1;
+  content.run = readRunFolder (folder);
+  requireMessages (content.run.notes);
+  content.scene = sceneOf (content.run);
+  content.warnings = content.run.notes;
+  const std::string data = asScriptText (sceneData (content));
+  fuzz::require (data.find ('<') == std::string::npos, "nothing ends the script of a page");
+  fuzz::require (!reportPage (content).empty (), "there is a page");
+}
+
+bool
+readSummary (const std::string& bytes)
+{
+  runFolder ().set ("summary.json", bytes);
+  const std::string path = runFolder ().path ();
+  reportRun (path);
+  return (viewRun (path));
+}
+
+bool
+readViewpoint (const std::string& bytes)
+{
+  static fuzz::MemoryFile file;
+  file.set (bytes);
+  const Viewpoint view = loadViewpoint (file.path ());
+  view.validate ();
+  fuzz::require (view.pose ().matrix ().allFinite (), "the eye is somewhere");
+  view.camera (64, 48).validate ();
+  return (true);
+}
+
+} // namespace
+
+std::vector<std::string>
+fuzz::seeds ()
+{
+  return {
+      R"(summary.json
+{"timings_s": {"read": 0.5, "total": 2.5}, "frames_per_second": 20.5, "frames": 2, "frames_left_out": 0,
+"camera": {"width": 64, "height": 48, "fx": 60.0, "fy": 60.0, "cx": 31.5, "cy": 23.5},
+"parameters": {"dataset": "/data/table", "images": {"format": "cofusion", "depth_dir": "", "depth_scale": 0.0,
+"intrinsics": null}, "camera_trajectory": "", "masks": "", "segmentation": "geometric", "preset": "paper",
+"constraints": "all", "frames": [0, null], "object_trajectories": {}, "max_views": 100},
+"objects": [{"id": 1, "class": "cup", "score": 0.9, "volume_m3": 0.001, "closed": true, "penetration_m": 0.0,
+"frames_tracked": 2, "provenance": {"observed": 0.5, "inferred": 0.25, "hull": 0.25, "intersection": 0.0},
+"solver": {"iterations": 12, "converged": true}}],
+"failed": [{"id": 2, "error": "too few points"}], "events": ["frame 1: object 1 is new"], "warnings": ["a warning"]}
+)",
+      R"(summary.json
+{"error": "no depth image can be read"})",
+      R"(summary.json
+{"camera": {"width": 640, "height": 480, "fx": 525, "fy": 525, "cx": 319.5, "cy": 239.5}, "objects": [{"id": 3,
+"class": "7"}, {"id": 4, "closed": false}], "parameters": {"images": {"format": "tum", "depth_scale": 5000,
+"intrinsics": [525, 525, 319.5, 239.5]}}})",
+      R"(viewpoint.json
+{"eye": [1.0, -2.0, 0.5], "target": [0.0, 0.0, 0.0], "up": [0.0, 0.0, 1.0], "angle_deg": 40.0})"};
+}
+
+std::vector<std::string>
+fuzz::dictionary ()
+{
+  constexpr std::size_t deep = 1 << 14; // brackets in each other
+  return {std::string (deep, '[') + std::string (deep, ']'),
+          "summary.json\n",
+          "viewpoint.json\n",
+          "\"id\": 999999999",
+          "\"id\": 1e300",
+          "\"id\"",
+          "\"class\"",
+          "\"provenance\"",
+          "\"camera\"",
+          "\"objects\"",
+          "\"width\"",
+          "\"fx\"",
+          "\"parameters\"",
+          "\"images\"",
+          "\"intrinsics\"",
+          "\"dataset\"",
+          "\"eye\"",
+          "\"up\"",
+          "\"angle_deg\"",
+          "[0, 0, 0]",
+          "[",
+          "]",
+          "{",
+          "}",
+          ",",
+          ":",
+          "\"",
+          "null",
+          "true",
+          "-1e308",
+          "1e-320",
+          "\"</script>\"",
+          "\"<!--\"",
+          "\"\\n\"",
+          "\"\\u0000\"",
+          "\"\xff\xfe\""};
+}
+
+bool
+fuzz::accepts (const std::string& input)
+{
+  const auto [kind, bytes] = splitFirstLine (input);
+  if (kind != "summary.json" && kind != "viewpoint.json")
+    return (false);
+  try
+  {
+    return (kind == "summary.json" ? readSummary (bytes) : readViewpoint (bytes));
+  }
+  catch (const Error& error)
+  {
+    requireMessage (error.what ());
+    return (false);
+  }
+}
