@@ -9,6 +9,10 @@
 
 #include <gtest/gtest.h>
 
+#include <fcntl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
 #include <functional>
 #include <new>
 #include <stdexcept>
@@ -62,4 +66,25 @@ TEST (RunProgram, ErrorsAreToldToTheQuietToo)
   });
   EXPECT_EQ (status, 1);
   EXPECT_EQ (testing::internal::GetCapturedStderr (), "prog: error: lost\n");
+}
+
+TEST (RunProgram, NoFileTakesThePlaceOfAClosedStream)
+{
+  const pid_t child = fork ();
+  ASSERT_GE (child, 0);
+  if (child == 0)
+  {
+    for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
+      close (stream);
+    bool is_apart = false, is_usable = true;
+    runProgram ({"prog"}, [&] (Terminal&) {
+      is_apart = open ("/dev/zero", O_RDWR) > STDERR_FILENO;
+      is_usable = write (STDOUT_FILENO, "x", 1) == 1 || write (STDERR_FILENO, "x", 1) == 1;
+      return (true);
+    });
+    _exit (is_apart && !is_usable ? 0 : 1);
+  }
+  int status = 0;
+  ASSERT_EQ (waitpid (child, &status, 0), child);
+  EXPECT_EQ (status, 0);
 }

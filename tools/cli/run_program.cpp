@@ -5,6 +5,9 @@
 
 #include <pcl/cosection/common/error.h>
 
+#include <fcntl.h>
+#include <unistd.h>
+
 #include <csignal>
 #include <iostream>
 #include <new>
@@ -27,6 +30,16 @@ rememberSignal (int)
   signal_received = 1;
 }
 
+/** \brief Give the numbers of closed standard streams to something that cannot be used: else the next file that is
+ * opened gets one of them, and what is said goes into it. */
+void
+occupyClosedStreams ()
+{
+  for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
+    if (fcntl (stream, F_GETFD) < 0 && open ("/dev/null", stream == STDIN_FILENO ? O_WRONLY : O_RDONLY) < 0)
+      return; // no file can be opened at all
+}
+
 } // namespace
 
 std::string
@@ -38,6 +51,7 @@ describe (const std::exception& error, const std::string& out_of_memory)
 int
 runProgram (const Program& program, const std::function<bool (Terminal&)>& work)
 {
+  occupyClosedStreams ();
   // Writing fails instead, as on a full disk: what is computed is still written to files.
   std::signal (SIGXFSZ, SIG_IGN);
   std::signal (SIGPIPE, SIG_IGN);
