@@ -142,6 +142,7 @@ TEST_F (Segment, WrongUsageIsOneLine)
   EXPECT_NE (failure ({"in.pcd"}, 2).find ("OUTPUT.pcd is missing"), std::string::npos);
   EXPECT_NE (failure ({"in.pcd", "out.pcd", "more"}, 2).find ("more"), std::string::npos);
   EXPECT_NE (failure ({"in.pcd", "meshes"}, 2).find (".pcd"), std::string::npos);
+  EXPECT_NE (failure ({"", "out.pcd"}, 2).find ("INPUT is empty"), std::string::npos);
   EXPECT_NE (failure ({"in.pcd", "in.pcd"}, 2).find ("in.pcd"), std::string::npos);
   EXPECT_NE (failure ({"in.pcd", "out.pcd", "--json", "in.pcd"}, 2).find ("in.pcd"), std::string::npos);
   EXPECT_NE (failure ({"in.pcd", "out.pcd", "--max-object-sise", "1"}, 2).find ("--max-object-size"),

@@ -152,6 +152,7 @@ interpret (FusionSettings& settings)
     fusion.backend.max_keyframes = std::max<std::size_t> (
         2, std::min (fusion.backend.max_keyframes, fusion.backend.max_views - 1));
   }
+  settings.source.validate ();
   fusion.validate ();
 }
 

@@ -36,6 +36,8 @@ interpret (SegmentSettings& settings)
   requirePaths (settings.paths, "INPUT", "OUTPUT.pcd");
   settings.input = settings.paths[0];
   settings.output = settings.paths[1];
+  if (settings.input.empty ())
+    throw UsageError ("INPUT is empty; it must be the name of a .pcd or .ply file");
   if (!endsWith (settings.output, ".pcd"))
     throw UsageError ("OUTPUT is \"" + settings.output + "\"; it must be the name of a .pcd file");
   setMethod (settings);

@@ -72,6 +72,7 @@ TEST_F (FusionToolErrors, WrongUsage)
     expectFailure ({"--frames", frames, "sim", "out"}, 2, "--frames");
   expectFailure ({"--intrinsics", "1,2,3", "sim", "out"}, 2, "--intrinsics must be four numbers");
   expectFailure ({"--intrinsics", "100,-100,60,45", "sim", "out"}, 2, "positive fx and fy");
+  expectFailure ({"--intrinsics", "100,100,60,-1e308", "sim", "out"}, 2, "it must be in the image, or near it");
   expectFailure ({"--keyframe-every", "0", "sim", "out"}, 2, "--keyframe-every");
   expectFailure ({"--max-views", "3", "sim", "out"}, 2, "--max-views");
   expectFailure ({"--max-depth", "0", "sim", "out"}, 2, "--max-depth");
