@@ -34,6 +34,7 @@ encoded (const char* extension, int type, const std::vector<int>& parameters = {
 std::vector<std::string>
 imageSeeds ()
 {
+  using namespace std::string_literals;
   setenv ("OPENCV_IO_ENABLE_OPENEXR", "1", 0);
   constexpr int tiff_plain = 1, tiff_lzw = 5, tiff_deflate = 8;
   std::vector<std::string> seeds = {
@@ -56,7 +57,7 @@ imageSeeds ()
       "P1\n# a comment\n3 2\n0 1 0\n1 0 1\n",
       "P2\n3 2\n1000\n0 10 200\n1000 0 7\n",
       "P3 2 1 255\n1 2 3 255 254 0\n",
-      std::string ("P4\n9 2\n\x80\x80\x7f\0", 13)};
+      "P4\n9 2\n\x80\x80\x7f\0"s};
   return (seeds);
 }
 
