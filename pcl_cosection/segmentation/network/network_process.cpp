@@ -194,6 +194,16 @@ serve (const Channel& to_parent, const InstanceDetectorOptions& options, const s
 // --- The process that asks
 // ---------------------------------------------------------------------------------------------------------------
 
+std::string
+causeOfEnd (int signal)
+{
+  if (signal == SIGXCPU)
+    return ("OpenCV takes too long");
+  if (signal == SIGKILL)
+    return ("the process in which OpenCV runs was killed; perhaps it took too much memory");
+  return (signal > 0 ? std::string ("OpenCV crashes (") + strsignal (signal) + ")" : "OpenCV crashes");
+}
+
 /** \brief What \a receive makes of the answer to what \a ask sends. \throws IoError what went wrong there */
 template <typename Ask, typename Receive>
 auto
@@ -209,10 +219,7 @@ answered (ChildProcess& process, const Ask& ask, const Receive& receive)
   }
   catch (const NoAnswer&)
   {
-    const int signal = process.waitForEnd ();
-    throw IoError (signal == SIGXCPU ? "OpenCV takes too long"
-                                     : std::string ("OpenCV crashes") +
-                                           (signal > 0 ? std::string (" (") + strsignal (signal) + ")" : ""));
+    throw IoError (causeOfEnd (process.waitForEnd ()));
   }
 }
 

@@ -3,6 +3,7 @@
 // pcl_cosection_fusion with a network that finds red and blue things.
 
 #include "fusion_scene.h"
+#include "segmentation/onnx_messages.h"
 #include "segmentation/spot_network.h"
 
 #include <pcl/cosection/io/mesh_io.h>
@@ -106,6 +107,22 @@ TEST_F (FusionNetwork, ClassesHaveRoles)
   EXPECT_EQ (classes (), Words{"ball"});
   ASSERT_EQ (run (withNetwork ({"--static-classes", "ball", "--ignore", "box"})), 0) << errors_;
   EXPECT_TRUE (objects ().empty ());
+}
+
+TEST_F (FusionNetwork, DamagedNetworksAreOneLine)
+{
+  using pcl::cosection::test::OnnxGraph;
+  const auto expectError = [&] (std::int64_t group, std::int64_t kernels) {
+    OnnxGraph graph;
+    graph.input ("image", {1, 3, 48, 64}).weights ("kernel", {kernels, 3, 3, 3});
+    graph.node ("Conv", {"image", "kernel"}, {"out"},
+                {OnnxGraph::attribute ("kernel_shape", {3, 3}), OnnxGraph::attribute ("group", group)});
+    std::ofstream (file ("damaged.onnx"), std::ios::binary) << graph.output ("out", {1, 2, 46, 62}).bytes ();
+    expectFailure ({"sim", "out", "--segmentation", "mask-rcnn", "--model", "damaged.onnx"}, 1,
+                   "damaged.onnx: OpenCV cannot read it as a network: ");
+  };
+  expectError (0, 2);
+  expectError (1, 0); // OpenCV 4.6 crashes
 }
 
 TEST_F (FusionNetwork, WrongUsageIsOneLine)

@@ -159,6 +159,9 @@ struct PCL_COSECTION_EXPORT InstanceDetectorOptions
  * the CPU. NetworkOutputForm says which networks. Those with operators that OpenCV does not have cannot be read;
  * decodeInstances () decodes what other runtimes give for them.
  *
+ * OpenCV runs in a child process, as damaged networks crash it. The process lives as long as the detector, has a copy
+ * of the memory that this one has changed since, and prints nothing; SIGCHLD comes when it ends.
+ *
  * \code
  * pcl::cosection::InstanceDetectorOptions options;
  * options.model = "yolov5s-seg.onnx";
