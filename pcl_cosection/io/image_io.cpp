@@ -21,7 +21,8 @@ namespace pcl::cosection {
 namespace {
 
 constexpr float largest_16_bit = 65535.0f;
-constexpr std::uint64_t most_pixels = 1 << 26; // 8192 x 8192
+constexpr std::uint64_t most_pixels = 1 << 26;  // 8192 x 8192
+constexpr std::uint64_t longest_side = 1 << 15; // decoders take memory for several rows at once, however few there are
 
 /** \brief OpenCV reads and writes EXR only if this is set before it is first asked to. */
 void
@@ -80,7 +81,7 @@ decode (const std::string& path, int flags)
   const std::optional<EncodedSize> size = encodedSize (bytes);
   if (!size)
     throw IoError (path + ": is not an image that can be read");
-  if (size->width > most_pixels || size->height > most_pixels || size->width * size->height > most_pixels)
+  if (size->width > longest_side || size->height > longest_side || size->width * size->height > most_pixels)
     throw IoError (path + ": is damaged: it says that it has " + std::to_string (size->width) + " x " +
                    std::to_string (size->height) + " pixels");
   cv::Mat image;

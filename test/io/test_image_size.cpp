@@ -59,3 +59,28 @@ TEST (EncodedSize, TooManyPixelsAreRefusedBeforeTheyAreDecoded)
         << error.what ();
   }
 }
+
+TEST (EncodedSize, TooLongRowsAreRefusedBeforeTheyAreDecoded)
+{
+  const test::TemporaryFolder folder;
+  setenv ("OPENCV_IO_ENABLE_OPENEXR", "1", 0);
+  std::vector<unsigned char> encoded;
+  ASSERT_TRUE (cv::imencode (".exr", cv::Mat (9, 11, CV_32F, cv::Scalar (1)), encoded));
+  std::string bytes (encoded.begin (), encoded.end ());
+  const std::string window = std::string ("dataWindow\0box2i\0", 17) + std::string ("\x10\0\0\0", 4);
+  const std::size_t place = bytes.find (window);
+  ASSERT_NE (place, std::string::npos);
+  bytes.replace (place + window.size () + 8, 8, std::string ("\x0a\0\0\1\0\0\0\0", 8)); // the last column and row
+  const std::string path = folder.file ("wide.exr");
+  test::writeFile (path, bytes);
+  try
+  {
+    loadDepthImage (path);
+    FAIL () << "16 of its rows take a gigabyte";
+  }
+  catch (const IoError& error)
+  {
+    EXPECT_NE (std::string (error.what ()).find ("it says that it has 16777227 x 1 pixels"), std::string::npos)
+        << error.what ();
+  }
+}
