@@ -5,8 +5,8 @@ Usage: hostile_machine.py BUILD [KILLS] [--seed N]      exit status 0: no violat
 
 Each program runs on small simulated inputs.
 
-* KILLS (default: 1000) runs get SIGKILL, SIGTERM or SIGHUP at a random time. Then each output that is there is whole,
-  and after a run that is not disturbed no temporary file is left.
+* KILLS (default: 1000) runs get SIGKILL, SIGTERM or SIGHUP, half of them at a random time, half of them while they
+  write. Then each output that is there is whole, and after a run that is not disturbed no temporary file is left.
 * Each program runs on a full and a nearly full disk (needs root, to mount a tmpfs), with files that cannot grow, with
   its standard output or its standard error closed, full, or a pipe that nobody reads, and in a folder that may only be
   read. The exit status is 1 and standard error has one line beside warnings, unless all was delivered. Nothing that is
@@ -257,24 +257,37 @@ class Attack:
 
     # --- Kills
 
+    def wait_for_moment(self, case, process, out):
+        """Half of the kills come at a random time, the others while a temporary file is there."""
+        end = time.monotonic() + self.random.uniform(0.0, 1.1 * case.seconds)
+        if self.random.random() < 0.5:
+            while process.poll() is None and time.monotonic() < end:
+                time.sleep(0.001)
+            return
+        old = set(temporaries(out))
+        while process.poll() is None and set(temporaries(out)) <= old:
+            pass
+        time.sleep(self.random.uniform(0.0, 0.001))
+
     def kill_once(self, case, out):
-        process = subprocess.Popen(case.command(self.build, self.inputs, out), stdin=subprocess.DEVNULL,
-                                   stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
+        """How it ended."""
         number = self.random.choice([signal.SIGKILL, signal.SIGKILL, signal.SIGTERM, signal.SIGHUP])
-        try:
-            _, errors = process.communicate(timeout=self.random.uniform(0.0, 1.1 * case.seconds))
-        except subprocess.TimeoutExpired:
+        with open(self.work / "errors", "w+b") as errors:
+            process = subprocess.Popen(case.command(self.build, self.inputs, out), stdin=subprocess.DEVNULL,
+                                       stdout=subprocess.DEVNULL, stderr=errors)
+            self.wait_for_moment(case, process, out)
             process.send_signal(number)
             try:
-                _, errors = process.communicate(timeout=TIMEOUT_S)
+                status = process.wait(timeout=TIMEOUT_S)
             except subprocess.TimeoutExpired:
                 process.kill()
-                process.communicate()
+                process.wait()
                 self.violation(f"{case.name} goes on after {number.name}")
-                return "hangs"
-        status = process.returncode
-        if status not in (0, 130, -number):
-            self.violation(f"{case.name} after {number.name}: status {status}: {errors.decode().strip()}")
+                return "hung"
+            if status not in (0, 130, -number):
+                errors.seek(0)
+                said = errors.read().decode(errors="replace").strip()
+                self.violation(f"{case.name} after {number.name}: status {status}: {said}")
         return "finished" if status == 0 else "stopped" if status == 130 else "killed"
 
     @staticmethod
@@ -295,10 +308,12 @@ class Attack:
     def kill(self, case, kills):
         out = self.new_folder()
         ends = {}
+        left = 0
         for n in range(1, kills + 1):
             self.clear_new_folder(case, out)
             end = self.kill_once(case, out)
             ends[end] = ends.get(end, 0) + 1
+            left += bool(temporaries(out))
             for line in torn_files(out):
                 self.violation(f"{case.name}, killed: {line}")
             if case.name.startswith("simulate"):
@@ -311,7 +326,8 @@ class Attack:
                 for line in torn_files(out) + temporaries(out):
                     self.violation(f"{case.name}, after a run that followed kills: {line}")
         print(f"{case.name:23} {kills:4} runs of {case.seconds:.2f} s: "
-              + ", ".join(f"{count} {end}" for end, count in sorted(ends.items())), flush=True)
+              + ", ".join(f"{count} {end}" for end, count in sorted(ends.items()))
+              + f"; temporary files after {left}", flush=True)
 
     # --- Where nothing can be written
 
@@ -411,7 +427,7 @@ def ball():
 
 def kills_of(cases, kills):
     """How many each gets: slow ones fewer."""
-    weights = [1.0 / max(0.2, case.seconds) for case in cases]
+    weights = [case.seconds ** -0.5 for case in cases]
     shares = [int(kills * weight / sum(weights)) for weight in weights]
     shares[0] += kills - sum(shares)
     return shares
