@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <iterator>
 #include <map>
 #include <optional>
 #include <string>
@@ -316,9 +317,14 @@ double
 penetration (const SignedDistanceField& surface, const SignedDistanceField& body,
              const std::vector<Eigen::Isometry3d>& T_body_object, int threads)
 {
+  std::vector<Eigen::Isometry3d> near;
+  std::copy_if (T_body_object.begin (), T_body_object.end (), std::back_inserter (near),
+                [&] (const Eigen::Isometry3d& T) { return !coveredVoxels (surface.grid, T, body.grid).isEmpty (); });
+  if (near.empty ())
+    return 0.0;
   return deepest (surface, threads, [&] (const Eigen::Vector3d& at) {
     double depth = 0.0;
-    for (const Eigen::Isometry3d& T : T_body_object)
+    for (const Eigen::Isometry3d& T : near)
       if (const auto u = body.sampleInside (body.grid.toVoxel (T * at)))
         depth = std::max (depth, static_cast<double> (-*u));
     return depth;

@@ -6,8 +6,21 @@
 #include "pcl_cosection/volume/mesh_distance/brick_distances.h"
 
 #include <algorithm>
+#include <optional>
 
 namespace pcl::cosection {
+
+Eigen::AlignedBox3i
+coveredVoxels (const VoxelGrid& grid, const Eigen::Isometry3d& T_body_grid, const VoxelGrid& body)
+{
+  const Eigen::Isometry3d T_grid_body = T_body_grid.inverse ();
+  Eigen::AlignedBox3d covered; // voxels
+  for (const Eigen::Vector3d& corner : corners (body))
+    covered.extend (grid.toVoxel (T_grid_body * corner));
+  const Eigen::Array3d dims = grid.dims.cast<double> ();
+  return {covered.min ().array ().max (0.0).min (dims).floor ().cast<int> ().matrix (),
+          ((covered.max ().array () + 1.0).max (0.0).min (dims).ceil ().cast<int> () - 1).matrix ()};
+}
 
 IntersectionConstraint::IntersectionConstraint (const VoxelGrid& grid, double max_bound_vox, int threads)
     : grid_ (grid)
@@ -30,26 +43,24 @@ void
 IntersectionConstraint::addBody (const SignedDistanceField& body, const std::vector<Eigen::Isometry3d>& T_body_grid,
                                  double beta)
 {
-  const InsideBricks inside (body, threads_);
-  if (inside.any ())
-    for (const Eigen::Isometry3d& T : T_body_grid)
-      addBody (body, inside, T, static_cast<float> (beta));
+  std::optional<InsideBricks> inside; // of bodies that are near: a scene has many that are not
+  for (const Eigen::Isometry3d& T : T_body_grid)
+  {
+    if (coveredVoxels (grid_, T, body.grid).isEmpty ())
+      continue;
+    if (!inside)
+      inside.emplace (body, threads_);
+    if (inside->any ())
+      addBody (body, *inside, T, static_cast<float> (beta));
+  }
 }
 
 void
 IntersectionConstraint::addBody (const SignedDistanceField& body, const InsideBricks& inside,
                                  const Eigen::Isometry3d& T_body_grid, float beta)
 {
-  // Only the part of this grid that the body's volume covers.
-  const Eigen::Isometry3d T_grid_body = T_body_grid.inverse ();
-  Eigen::AlignedBox3d covered; // voxels
-  for (const Eigen::Vector3d& corner : corners (body.grid))
-    covered.extend (grid_.toVoxel (T_grid_body * corner));
-  const Eigen::Array3d dims = grid_.dims.cast<double> ();
-  const Eigen::Vector3i first = covered.min ().array ().max (0.0).min (dims).floor ().cast<int> ();
-  const Eigen::Vector3i last = (covered.max ().array () + 1.0).max (0.0).min (dims).ceil ().cast<int> ();
-  if ((first.array () >= last.array ()).any ())
-    return;
+  const Eigen::AlignedBox3i covered = coveredVoxels (grid_, T_body_grid, body.grid);
+  const Eigen::Vector3i first = covered.min (), last = covered.max ().array () + 1;
   distance_vox_.resize (grid_.size (), 0.0f);
   beta_.resize (grid_.size (), 0.0f);
   const auto to_voxels = static_cast<float> (1.0 / grid_.voxel_size_m);

@@ -13,6 +13,10 @@ namespace pcl::cosection {
 
 class InsideBricks;
 
+/** \brief The voxels of a grid that a body's volume covers; empty if it is elsewhere.
+ * \param[in] T_body_grid takes the grid's frame to the body's */
+Eigen::AlignedBox3i coveredVoxels (const VoxelGrid& grid, const Eigen::Isometry3d& T_body_grid, const VoxelGrid& body);
+
 /** \brief d_inter of equation (4) on an object's grid: how deep each voxel lies inside other bodies, the
  * maximum over bodies and relative poses, in voxels of this grid. */
 class IntersectionConstraint
