@@ -46,9 +46,13 @@ if(PCL_COSECTION_SANITIZE)
   target_compile_definitions(pcl_cosection_build_settings INTERFACE
     PCL_COSECTION_NO_MULTIVERSIONING
     EIGEN_MALLOC_ALREADY_ALIGNED=1)
+  set(sanitizers address,undefined)
+  if(PCL_COSECTION_SANITIZE STREQUAL "thread")
+    set(sanitizers thread)
+  endif()
   target_compile_options(pcl_cosection_build_settings INTERFACE
-    -fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer -g1)
-  target_link_options(pcl_cosection_build_settings INTERFACE -fsanitize=address,undefined)
+    -fsanitize=${sanitizers} -fno-sanitize-recover=all -fno-omit-frame-pointer -g1)
+  target_link_options(pcl_cosection_build_settings INTERFACE -fsanitize=${sanitizers})
 endif()
 
 # compile_several_files_at_a_time(<target>): for tests and what programs share, never for what is installed. Who sets

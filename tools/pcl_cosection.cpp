@@ -29,7 +29,7 @@ using Json = nlohmann::ordered_json;
 namespace {
 
 constexpr double read_share = 0.1; ///< of the progress bar
-const char* const out_of_memory = "out of memory; use larger voxels (--voxel-size, --background-voxel-size)";
+const char* const out_of_memory = "out of memory; use larger voxels (--voxel-size, --background-voxel-size) or fewer threads (--threads)";
 
 CoSection
 toScene (const Settings& settings, SceneInput input)

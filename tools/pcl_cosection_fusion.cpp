@@ -21,7 +21,7 @@ using namespace pcl::cosection;
 namespace {
 
 const char* const out_of_memory =
-    "out of memory; use larger voxels (--voxel-size, --background-voxel-size) or fewer views (--max-views)";
+    "out of memory; use larger voxels (--voxel-size, --background-voxel-size), fewer views (--max-views) or threads (--threads)";
 
 std::string
 summaryLine (const ObjectResult& object, const std::optional<ClassScore>& best_class)

@@ -190,6 +190,12 @@ writeAtomically (const std::string& path, const std::function<void (const std::s
 }
 
 void
+tryToWriteIn (const std::string& folder)
+{
+  const TemporaryFile probe (fs::path (folder) / "probe");
+}
+
+void
 writeBytes (const std::string& path, const std::string& bytes)
 {
   errno = 0;

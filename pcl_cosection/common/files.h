@@ -23,6 +23,11 @@ PCL_COSECTION_EXPORT bool isOfGoneProcess (const std::string& name, const std::s
 PCL_COSECTION_EXPORT void writeAtomically (const std::string& path,
                                            const std::function<void (const std::string& temporary_path)>& write);
 
+/** \brief Make and remove a temporary file as writeAtomically () does, to find out whether files can be made in a
+ * folder.
+ * \throws std::system_error with the system's reason */
+PCL_COSECTION_EXPORT void tryToWriteIn (const std::string& folder);
+
 /** \brief Replace the contents of a file. \throws std::system_error with the system's reason, which
  * writeAtomically () turns into an IoError that names the final path. */
 PCL_COSECTION_EXPORT void writeBytes (const std::string& path, const std::string& bytes);

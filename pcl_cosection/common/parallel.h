@@ -1,6 +1,8 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "threads.h"
+
 #include <omp.h>
 
 #include <algorithm>
@@ -36,7 +38,9 @@ parallelChunks (int begin, int end, int threads, Body&& body)
   const int size = end - begin;
   if (size <= 0)
     return;
-  const int n = std::min (resolveThreads (threads), size);
+  int n = std::min (resolveThreads (threads), size);
+  if (n > 1)
+    n = obtainableThreads (n);
   if (n <= 1)
   {
     body (begin, end);

@@ -3,13 +3,17 @@
 // Limits of the machine: files that cannot grow, closed pipes, what is no file, what killed runs left.
 
 #include "any_cloud_fixture.h"
+#include "output_files.h"
 
+#include <sys/inotify.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <cmath>
 #include <csignal>
 #include <filesystem>
+#include <sstream>
 
 namespace fs = std::filesystem;
 using namespace pcl::cosection;
@@ -47,6 +51,17 @@ protected:
     const rlimit limit{300, 300};
     setrlimit (RLIMIT_FSIZE, &limit);
   }
+
+  /** \brief As a limit of a container: so many threads can be made. Needs the right to become another user. */
+  static void allowThreads (rlim_t beside_the_first)
+  {
+    const rlimit limit{1 + beside_the_first, 1 + beside_the_first};
+    if (setrlimit (RLIMIT_NPROC, &limit) != 0 || setuid (nobody) != 0)
+      _exit (cannot_prepare);
+  }
+
+  static constexpr uid_t nobody = 64999; // no process is its
+  static constexpr int cannot_prepare = 120, cannot_execute = 127;
 
   static void closeStandardOutput ()
   {
@@ -129,6 +144,62 @@ TEST_F (Limits, WhatAKilledRunLeftIsRemoved)
                                        ".scene_" + own + "_abcdef"};
   std::sort (expected.begin (), expected.end ());
   EXPECT_EQ (left, expected);
+}
+
+TEST_F (Limits, FewerThreadsThanAreWanted)
+{
+  if (getuid () != 0)
+    GTEST_SKIP () << "only root can become a user without processes";
+  fs::permissions (path (""), fs::perms::all);
+  ASSERT_EQ (run ({"--threads", "1", "ball.pcd", "one.ply"}), 0) << errors_;
+  for (const rlim_t threads : {0, 1, 2})
+  {
+    const std::string out = "of_" + std::to_string (threads) + ".ply";
+    const int status = runIn ([&] { allowThreads (threads); }, {"--threads", "4", "ball.pcd", out});
+    if (status == cannot_prepare || status == cannot_execute)
+      GTEST_SKIP () << "another user may not run the program";
+    ASSERT_EQ (status, 0) << errors_;
+    EXPECT_EQ (test::readFile (path (out)), test::readFile (path ("one.ply")));
+  }
+}
+
+TEST_F (Limits, AFaceOfManyCorners)
+{
+  constexpr int corners = 100000;
+  std::ostringstream face;
+  face << "ply\nformat ascii 1.0\nelement vertex " << corners
+       << "\nproperty float x\nproperty float y\nproperty float z\nelement face 1\n"
+          "property list uint int vertex_indices\nend_header\n";
+  for (int n = 0; n < corners; ++n)
+  {
+    const double angle = 2.0 * M_PI * n / corners, radius = 1.0 + 0.5 * (n % 2);
+    face << radius * std::cos (angle) << ' ' << radius * std::sin (angle) << " 0\n";
+  }
+  face << corners;
+  for (int n = 0; n < corners; ++n)
+    face << ' ' << n;
+  write ("star.ply", face.str () + "\n");
+  const auto endlessRunsEnd = [] {
+    const rlimit limit{300, 300};
+    setrlimit (RLIMIT_CPU, &limit);
+  };
+  EXPECT_EQ (runIn (endlessRunsEnd, {"--obstacle", "star.ply", "ball.pcd", "out.ply"}), 0) << errors_;
+}
+
+TEST_F (Limits, WhatIsWrittenToTryAFolderIsATemporaryFile)
+{
+  const int watch = inotify_init1 (IN_NONBLOCK);
+  ASSERT_GE (watch, 0);
+  ASSERT_GE (inotify_add_watch (watch, path ("").c_str (), IN_CREATE), 0);
+  requireWritable (path ("out.ply"));
+  alignas (inotify_event) char events[4096] = {};
+  const ssize_t size = read (watch, events, sizeof (events));
+  close (watch);
+  ASSERT_GT (size, 0);
+  // By such a name the next run knows what is left of one that was killed.
+  const std::string name = reinterpret_cast<const inotify_event*> (events)->name;
+  EXPECT_EQ (name.rfind (".cosection-" + std::to_string (getpid ()) + "-", 0), 0u) << name;
+  EXPECT_TRUE (hidden ().empty ());
 }
 
 TEST_F (Limits, TheConfigurationIsAnInput)

@@ -12,9 +12,9 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <cstdlib>
 #include <cstring>
 #include <filesystem>
+#include <system_error>
 
 namespace fs = std::filesystem;
 using namespace pcl::cosection;
@@ -85,12 +85,14 @@ requireWritableFolder (const std::string& path, const std::string& folder_name)
   std::error_code failure;
   if (!fs::is_directory (folder, failure))
     throw IoError (path + ": cannot be written, there is no folder " + folder.string ());
-  std::string probe = (folder / ".pcl_cosection_XXXXXX").string ();
-  const int file = mkstemp (probe.data ());
-  if (file < 0)
-    throw IoError (path + ": cannot be written: " + std::strerror (errno));
-  close (file);
-  unlink (probe.c_str ());
+  try
+  {
+    tryToWriteIn (folder_name);
+  }
+  catch (const std::system_error& error)
+  {
+    throw IoError (path + ": cannot be written: " + error.code ().message ());
+  }
 }
 
 void

@@ -2,6 +2,7 @@
 #include <pcl/cosection/io/mesh_io.h>
 
 #include "mesh_decoders.h"
+#include "pcl_cosection/common/ear_clipping.h"
 #include "pcl_cosection/common/files.h"
 #include "pcl_cosection/common/round_origin.h"
 #include "pcl_cosection/io/lower_case.h"
@@ -10,11 +11,6 @@
 #include "pcl_cosection/mesh/mesh_parts.h"
 
 #include <pcl/cosection/common/error.h>
-
-#include <vtkIdList.h>
-#include <vtkNew.h>
-#include <vtkPoints.h>
-#include <vtkPolygon.h>
 
 #include <Eigen/Geometry>
 
@@ -86,10 +82,24 @@ check (const PolygonSoup& soup)
   }
 }
 
-/** \brief Append the triangles of the polygon, maybe concave, with the corners [begin, end) of \a soup; \a scratch may
- * hold anything. */
+/** \brief A polygon seen from where its corners are counter-clockwise. */
+std::vector<Eigen::Vector2d>
+flatten (const std::vector<Eigen::Vector3d>& polygon)
+{
+  Eigen::Vector3d normal = Eigen::Vector3d::Zero (); // twice its area (M. E. Newell's method)
+  for (std::size_t n = 2; n < polygon.size (); ++n)
+    normal += (polygon[n - 1] - polygon[0]).cross (polygon[n] - polygon[0]);
+  const Eigen::Matrix3d across = Eigen::Quaterniond::FromTwoVectors (normal, Eigen::Vector3d::UnitZ ()).matrix ();
+  std::vector<Eigen::Vector2d> flat;
+  flat.reserve (polygon.size ());
+  for (const Eigen::Vector3d& p : polygon)
+    flat.emplace_back ((across * (p - polygon[0])).head<2> ());
+  return flat;
+}
+
+/** \brief Append the triangles of the polygon, maybe concave, with the corners [begin, end) of \a soup. */
 void
-addTriangles (const PolygonSoup& soup, std::size_t begin, std::size_t end, vtkPolygon& scratch, TriangleMesh& mesh)
+addTriangles (const PolygonSoup& soup, std::size_t begin, std::size_t end, TriangleMesh& mesh)
 {
   const std::size_t size = end - begin;
   const auto corner = [&] (std::size_t n) { return static_cast<std::uint32_t> (soup.corners[begin + n]); };
@@ -97,24 +107,16 @@ addTriangles (const PolygonSoup& soup, std::size_t begin, std::size_t end, vtkPo
     mesh.triangles.push_back ({corner (0), corner (1), corner (2)});
   if (size <= 3)
     return;
-  scratch.GetPoints ()->SetNumberOfPoints (static_cast<vtkIdType> (size));
-  scratch.GetPointIds ()->SetNumberOfIds (static_cast<vtkIdType> (size));
+  std::vector<Eigen::Vector3d> polygon;
+  polygon.reserve (size);
   for (std::size_t n = 0; n < size; ++n)
-  {
-    const Eigen::Vector3d& p = soup.points[corner (n)];
-    scratch.GetPoints ()->SetPoint (static_cast<vtkIdType> (n), p.data ());
-    scratch.GetPointIds ()->SetId (static_cast<vtkIdType> (n), static_cast<vtkIdType> (n));
-  }
-  vtkNew<vtkIdList> found;
-  if (scratch.Triangulate (found) == 0 || found->GetNumberOfIds () != static_cast<vtkIdType> (3 * (size - 2)))
-  {
-    for (std::size_t n = 2; n < size; ++n) // it crosses itself or has no area
+    polygon.push_back (soup.points[corner (n)]);
+  const auto ears = clipEars (flatten (polygon));
+  for (const auto& [a, b, c] : ears)
+    mesh.triangles.push_back ({corner (a), corner (b), corner (c)});
+  if (ears.empty ()) // it crosses itself or has no area
+    for (std::size_t n = 2; n < size; ++n)
       mesh.triangles.push_back ({corner (0), corner (n - 1), corner (n)});
-    return;
-  }
-  const auto at = [&] (vtkIdType n) { return corner (static_cast<std::size_t> (found->GetId (n))); };
-  for (vtkIdType n = 0; n < found->GetNumberOfIds (); n += 3)
-    mesh.triangles.push_back ({at (n), at (n + 1), at (n + 2)});
 }
 
 /** \brief The triangles of a soup: polygons are triangulated, what its vertices imply is made so
@@ -129,9 +131,8 @@ makeMesh (const PolygonSoup& soup, const Eigen::Vector3d& origin)
   for (const Eigen::Vector3d& point : soup.points)
     mesh.vertices.push_back ((point - origin).cast<float> ());
   mesh.triangles.reserve (soup.ends.size ());
-  vtkNew<vtkPolygon> scratch;
   for (std::size_t n = 0; n < soup.ends.size (); ++n)
-    addTriangles (soup, n == 0 ? 0 : soup.ends[n - 1], soup.ends[n], *scratch, mesh);
+    addTriangles (soup, n == 0 ? 0 : soup.ends[n - 1], soup.ends[n], mesh);
   if (mesh.empty ())
     throw IoError ("it has no triangles");
   mesh = cleanMesh (mesh);

@@ -1,5 +1,6 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "analytic_shape.h"
+#include "pcl_cosection/common/ear_clipping.h"
 #include "polygon.h"
 
 #include <pcl/cosection/common/error.h>
@@ -173,7 +174,7 @@ public:
     for (const double z : {0.0, height_})
       for (const Eigen::Vector2d& p : outline_)
         mesh.vertices.emplace_back (static_cast<float> (p.x ()), static_cast<float> (p.y ()), static_cast<float> (z));
-    for (const auto& [a, b, c] : triangulate (outline_))
+    for (const auto& [a, b, c] : clipEars (outline_))
     {
       mesh.triangles.push_back ({a, c, b});
       mesh.triangles.push_back ({a + size, b + size, c + size});

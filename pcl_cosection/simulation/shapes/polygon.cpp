@@ -1,12 +1,13 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "polygon.h"
 
+#include "pcl_cosection/common/convex_hull.h"
+
 #include <pcl/cosection/common/error.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 #include <string>
 
 namespace pcl::cosection {
@@ -15,12 +16,7 @@ namespace {
 constexpr double min_area_m2 = 1e-12;
 constexpr int min_segments = 12; // of a circle
 constexpr int max_segments = 4096;
-
-double
-cross (const Eigen::Vector2d& a, const Eigen::Vector2d& b)
-{
-  return a.x () * b.y () - a.y () * b.x ();
-}
+constexpr std::size_t max_points = 10000; // each distance looks at all
 
 /** \brief Whether two segments share a point. */
 bool
@@ -30,18 +26,12 @@ touch (const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Vector2d
   const auto onSegment = [] (const Eigen::Vector2d& p, const Eigen::Vector2d& q, const Eigen::Vector2d& r) {
     return (r.array () >= p.cwiseMin (q).array ()).all () && (r.array () <= p.cwiseMax (q).array ()).all ();
   };
-  const int abc = side (cross (b - a, c - a)), abd = side (cross (b - a, d - a));
-  const int cda = side (cross (d - c, a - c)), cdb = side (cross (d - c, b - c));
+  const int abc = side (cross<double> (b - a, c - a)), abd = side (cross<double> (b - a, d - a));
+  const int cda = side (cross<double> (d - c, a - c)), cdb = side (cross<double> (d - c, b - c));
   if (abc != abd && cda != cdb)
     return true;
   return (abc == 0 && onSegment (a, b, c)) || (abd == 0 && onSegment (a, b, d)) || (cda == 0 && onSegment (c, d, a)) ||
          (cdb == 0 && onSegment (c, d, b));
-}
-
-bool
-inTriangle (const Eigen::Vector2d& p, const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Vector2d& c)
-{
-  return cross (b - a, p - a) >= 0.0 && cross (c - b, p - b) >= 0.0 && cross (a - c, p - c) >= 0.0;
 }
 
 } // namespace
@@ -69,6 +59,8 @@ simplePolygon (Polygon2d polygon, const char* what)
   const std::size_t size = polygon.size ();
   if (size < 3)
     refuse ("must have at least three points");
+  if (size > max_points)
+    refuse ("must have at most " + std::to_string (max_points) + " points");
   for (const Eigen::Vector2d& p : polygon)
     if (!p.allFinite ())
       refuse ("must have finite points");
@@ -82,12 +74,12 @@ simplePolygon (Polygon2d polygon, const char* what)
         refuse ("crosses or touches itself: its edges " + std::to_string (n) + " and " + std::to_string (m));
     const Eigen::Vector2d back = polygon[n] - polygon[(n + 1) % size];
     const Eigen::Vector2d on = polygon[(n + 2) % size] - polygon[(n + 1) % size];
-    if (cross (back, on) == 0.0 && back.dot (on) > 0.0)
+    if (cross<double> (back, on) == 0.0 && back.dot (on) > 0.0)
       refuse ("turns back on itself at point " + std::to_string ((n + 1) % size));
   }
   double area = 0.0; // positive if counter-clockwise
   for (std::size_t n = 0; n < size; ++n)
-    area += cross (polygon[n], polygon[(n + 1) % size]);
+    area += cross<double> (polygon[n], polygon[(n + 1) % size]);
   area *= 0.5;
   if (!(std::abs (area) > min_area_m2))
     refuse ("has no area");
@@ -115,36 +107,6 @@ polygonDistance (const Polygon2d& polygon, const Eigen::Vector2d& p, bool open_a
     squared = std::min (squared, (a + t * along - p).squaredNorm ());
   }
   return (inside ? -1.0 : 1.0) * std::sqrt (squared);
-}
-
-std::vector<std::array<std::uint32_t, 3>>
-triangulate (const Polygon2d& polygon)
-{
-  std::vector<std::uint32_t> left (polygon.size ());
-  std::iota (left.begin (), left.end (), 0u);
-  std::vector<std::array<std::uint32_t, 3>> triangles;
-  const auto isEar = [&] (std::size_t n, bool strict) {
-    const std::uint32_t a = left[(n + left.size () - 1) % left.size ()], b = left[n], c = left[(n + 1) % left.size ()];
-    const double area = cross (polygon[b] - polygon[a], polygon[c] - polygon[b]);
-    if (strict ? !(area > 0.0) : area < 0.0)
-      return false;
-    return std::none_of (left.begin (), left.end (), [&] (std::uint32_t m) {
-      return m != a && m != b && m != c && inTriangle (polygon[m], polygon[a], polygon[b], polygon[c]);
-    });
-  };
-  while (left.size () > 3)
-  {
-    std::size_t ear = 0;
-    while (ear < left.size () && !isEar (ear, true))
-      ++ear;
-    if (ear == left.size ()) // only collinear corners are left beside others
-      for (ear = 0; ear + 1 < left.size () && !isEar (ear, false);)
-        ++ear;
-    triangles.push_back ({left[(ear + left.size () - 1) % left.size ()], left[ear], left[(ear + 1) % left.size ()]});
-    left.erase (left.begin () + static_cast<std::ptrdiff_t> (ear));
-  }
-  triangles.push_back ({left[0], left[1], left[2]});
-  return triangles;
 }
 
 } // namespace pcl::cosection

@@ -3,8 +3,6 @@
 
 #include <pcl/cosection/simulation/simulated_scene.h>
 
-#include <array>
-#include <cstdint>
 #include <vector>
 
 namespace pcl::cosection {
@@ -19,9 +17,5 @@ Polygon2d simplePolygon (Polygon2d polygon, const char* what);
 /** \brief Signed distance of \a p, negative inside.
  * \param[in] open_at_axis edges with x = 0 at both ends are no boundary (the axis of a profile) */
 double polygonDistance (const Polygon2d& polygon, const Eigen::Vector2d& p, bool open_at_axis = false);
-
-/** \brief Triangles of a counter-clockwise simple polygon, counter-clockwise, by ear clipping; indices of its points.
- */
-std::vector<std::array<std::uint32_t, 3>> triangulate (const Polygon2d& polygon);
 
 } // namespace pcl::cosection

@@ -106,7 +106,8 @@ normalsOf (const PcdViewOptions& options, const std::vector<Eigen::Vector3f>& po
   const auto count = static_cast<int> (std::min<std::size_t> (positions.size (), std::numeric_limits<int>::max ()));
   const int wanted = std::clamp (count / points_per_neighbour, std::min (least_neighbours, most_neighbours),
                                  most_neighbours);
-  NormalEstimationOMP<PointXYZ, Normal> estimation (static_cast<unsigned int> (resolveThreads (options.threads)));
+  const int threads = obtainableThreads (resolveThreads (options.threads));
+  NormalEstimationOMP<PointXYZ, Normal> estimation (static_cast<unsigned int> (threads));
   estimation.setInputCloud (asCloud (positions));
   estimation.setSearchMethod (pcl::make_shared<search::KdTree<PointXYZ>> ());
   estimation.setKSearch (std::min (wanted, count));
