@@ -8,8 +8,8 @@ Each program runs on small simulated inputs.
 * KILLS (default: 1000) runs get SIGKILL, SIGTERM or SIGHUP, half of them at a random time, half of them while they
   write. Then each output that is there is whole, and after a run that is not disturbed no temporary file is left.
 * Each program runs on a full and a nearly full disk (needs root, to mount a tmpfs), with files that cannot grow, with
-  its standard output or its standard error closed, full, or a pipe that nobody reads, and in a folder that may only be
-  read. The exit status is 1 and standard error has one line beside warnings, unless all was delivered. Nothing that is
+  its standard output or its standard error closed, full, or a pipe that nobody reads, in a folder that may only be
+  read, where no more threads can be made, and with little memory. The exit status is 1 and standard error has one line beside warnings, unless all was delivered. Nothing that is
   not whole is left, and no temporary file.
 """
 import json
@@ -32,6 +32,7 @@ KILLS_BETWEEN_RUNS = 5
 FILE_LIMIT = 100  # bytes; every program has an output that is larger
 NEARLY_FULL_KIB = 8
 NOBODY = 65534
+CANNOT_BE_LOADED = 127  # the system's loader says so
 
 SCENE = {
     "frames": 4,
@@ -340,7 +341,7 @@ class Attack:
         if done.returncode == 0:
             if not may_succeed:
                 faults.append("the status is 0")
-            if not whole:
+            if not whole and not (errors and ": warning: " in errors):
                 faults.append("the status is 0, but outputs are missing")
         elif done.returncode != 1:
             faults.append("the status is not 1")
@@ -410,12 +411,47 @@ class Attack:
         self.judge(case, "read-only folder", done, out, False)
         out.chmod(0o755)
 
+    def with_few_threads(self, case):
+        """Four threads are asked for; one, or two, can be made."""
+        command = [*case.command(self.build, self.inputs, self.new_folder())[:-1], "4"]
+        if os.geteuid() != 0:
+            self.left_out.append("few threads: only root can become a user without processes")
+            return
+        for more in (0, 1):
+            out = self.new_folder()
+            out.chmod(0o777)
+
+            def become_nobody(limit=1 + more):
+                resource.setrlimit(resource.RLIMIT_NPROC, (limit, limit))
+                os.setgroups([])
+                os.setgid(NOBODY)
+                os.setuid(NOBODY)
+
+            try:
+                done = self.run(command, preexec_fn=become_nobody)
+            except (PermissionError, subprocess.SubprocessError) as error:
+                self.left_out.append(f"few threads: {error}")
+                return
+            self.judge(case, f"{more} more threads", done, out, True)
+
+    def with_little_memory(self, case):
+        """Limits of address space, for four threads."""
+        for mib in (150, 250, 350, 500, 700):
+            out = self.new_folder()
+            command = [*case.command(self.build, self.inputs, out)[:-1], "4"]
+            limit = mib * 1024 * 1024
+            done = self.run(command, preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_AS, (limit, limit)))
+            if done.returncode != CANNOT_BE_LOADED:
+                self.judge(case, f"{mib} MiB", done, out, True)
+
     def refuse_everything(self, case):
         self.on_full_disk(case, 0)
         self.on_full_disk(case, NEARLY_FULL_KIB)
         self.with_small_files(case)
         self.with_streams(case)
         self.in_read_only_folder(case)
+        self.with_few_threads(case)
+        self.with_little_memory(case)
 
 
 def ball():

@@ -14,14 +14,15 @@
 #include <pcl/common/time.h>
 
 #include <algorithm>
+#include <map>
 #include <sstream>
 
 using namespace pcl::cosection;
 
 namespace {
 
-const char* const out_of_memory =
-    "out of memory; use larger voxels (--voxel-size, --background-voxel-size), fewer views (--max-views) or threads (--threads)";
+const char* const out_of_memory = "out of memory; use larger voxels (--voxel-size, --background-voxel-size), fewer "
+                                  "views (--max-views) or threads (--threads)";
 
 std::string
 summaryLine (const ObjectResult& object, const std::optional<ClassScore>& best_class)
@@ -89,40 +90,10 @@ makeFusion (const FusionSettings& settings, const Inputs& inputs)
   return (SequenceFusion (inputs.known, options));
 }
 
-/** \return whether every object succeeded */
+/** \brief Tell what became of the objects; errors become warnings of the summary. \return whether all went well */
 bool
-fuse (const FusionSettings& settings, FusionOutputs& outputs, Terminal& terminal)
+tellOutcome (FusionResult& result, Terminal& terminal)
 {
-  const pcl::StopWatch total;
-  const Inputs inputs (settings);
-  for (const std::string& warning : inputs.warnings)
-    terminal.warning (warning);
-  const SequenceFusion fusion = makeFusion (settings, inputs);
-  std::optional<LiveView> live;
-  const pcl::StopWatch opening;
-  if (settings.live)
-    live.emplace (settings.dataset, inputs.images.camera (), settings.output);
-  const double window_s = opening.getTimeSeconds ();
-  outputs.begin (); // not before the inputs are there: a slip of the pen costs nothing
-
-  const auto report = [&] (const std::string& stage, double fraction) {
-    terminal.progress (stage, fraction);
-    return (!interrupted ());
-  };
-  const auto on_keyframe = [&] (const KeyframeReport& keyframe) {
-    outputs.writeKeyframe (keyframe);
-    if (live)
-      live->show (keyframe);
-  };
-  SequenceFusion::FrameCallback on_frame;
-  if (live)
-    on_frame = [&live] (const FrameReport& frame) { live->show (frame); };
-  FusionResult result = fusion.run (report, on_keyframe, on_frame);
-  for (const std::string& warning : result.warnings)
-    terminal.warning (warning);
-  for (const std::string& event : result.events)
-    terminal.detail (event);
-  result.warnings.insert (result.warnings.begin (), inputs.warnings.begin (), inputs.warnings.end ());
   bool all_good = true;
   for (const ObjectResult& object : result.scene.objects)
     if (object.error.empty ())
@@ -152,6 +123,50 @@ fuse (const FusionSettings& settings, FusionOutputs& outputs, Terminal& terminal
                                "; what was written is of the others alone");
     terminal.error (result.warnings.back ());
   }
+  return (all_good);
+}
+
+/** \return whether every object succeeded */
+bool
+fuse (const FusionSettings& settings, FusionOutputs& outputs, Terminal& terminal)
+{
+  const pcl::StopWatch total;
+  const Inputs inputs (settings);
+  for (const std::string& warning : inputs.warnings)
+    terminal.warning (warning);
+  const SequenceFusion fusion = makeFusion (settings, inputs);
+  std::optional<LiveView> live;
+  const pcl::StopWatch opening;
+  if (settings.live)
+    live.emplace (settings.dataset, inputs.images.camera (), settings.output);
+  const double window_s = opening.getTimeSeconds ();
+  outputs.begin (); // not before the inputs are there: a slip of the pen costs nothing
+
+  const auto report = [&] (const std::string& stage, double fraction) {
+    terminal.progress (stage, fraction);
+    return (!interrupted ());
+  };
+  std::map<std::string, int> lost_in_keyframes; // "object ID: reason", and how often
+  const auto on_keyframe = [&] (const KeyframeReport& keyframe) {
+    outputs.writeKeyframe (keyframe);
+    for (const ObjectResult& object : keyframe.scene.objects)
+      if (!object.error.empty ())
+        ++lost_in_keyframes["object " + std::to_string (object.id) + ": " + object.error];
+    if (live)
+      live->show (keyframe);
+  };
+  SequenceFusion::FrameCallback on_frame;
+  if (live)
+    on_frame = [&live] (const FrameReport& frame) { live->show (frame); };
+  FusionResult result = fusion.run (report, on_keyframe, on_frame);
+  for (const auto& [reason, count] : lost_in_keyframes)
+    result.warnings.push_back (reason + " (in " + std::to_string (count) + " of the written keyframes)");
+  for (const std::string& warning : result.warnings)
+    terminal.warning (warning);
+  for (const std::string& event : result.events)
+    terminal.detail (event);
+  result.warnings.insert (result.warnings.begin (), inputs.warnings.begin (), inputs.warnings.end ());
+  const bool all_good = tellOutcome (result, terminal);
 
   const pcl::StopWatch writing;
   const std::vector<std::string> files = outputs.write (result);
