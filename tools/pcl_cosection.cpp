@@ -29,7 +29,8 @@ using Json = nlohmann::ordered_json;
 namespace {
 
 constexpr double read_share = 0.1; ///< of the progress bar
-const char* const out_of_memory = "out of memory; use larger voxels (--voxel-size, --background-voxel-size) or fewer threads (--threads)";
+const char* const out_of_memory =
+    "out of memory; use larger voxels (--voxel-size, --background-voxel-size) or fewer threads (--threads)";
 
 CoSection
 toScene (const Settings& settings, SceneInput input)
@@ -73,6 +74,8 @@ summaryLine (const ObjectResult& object)
     text << ", voxels of " << 1000.0 * object.signed_distance->grid.voxel_size_m << " mm";
   if (object.penetration_m > 0.0)
     text << ", " << 1000.0 * object.penetration_m << " mm inside another body";
+  if (object.proposal)
+    text << ", proposal " << (object.proposal->used ? "used" : "not used: it does not explain what was measured");
   return (text.str ());
 }
 
@@ -90,6 +93,9 @@ parameters (const Settings& settings)
   result["object_trajectories"] = Json::object ();
   for (const auto& [label, file] : settings.object_trajectories)
     result["object_trajectories"][std::to_string (label)] = file;
+  result["proposals"] = Json::array ();
+  for (const auto& [label, file] : settings.proposals)
+    result["proposals"].push_back (std::to_string (label) + "=" + file);
   result["max_faces"] = settings.max_faces;
   result["scale"] = settings.reading.scale;
   result["world_points"] = settings.reading.world_points;

@@ -2,6 +2,7 @@
 #include <pcl/cosection/surface/co_section.h>
 
 #include "complete_scene.h"
+#include "pcl_cosection/mesh/mesh_checks.h"
 
 #include <pcl/cosection/common/error.h>
 #include <pcl/cosection/volume/mesh_distance.h>
@@ -33,6 +34,16 @@ unknownPose ()
   Eigen::Isometry3d pose;
   pose.matrix ().setConstant (std::numeric_limits<double>::quiet_NaN ());
   return pose;
+}
+
+void
+checkProposal (const TriangleMesh& mesh)
+{
+  checkMesh (mesh);
+  if (mesh.empty ())
+    throw InvalidArgument ("a proposal must have triangles");
+  if (!std::all_of (mesh.vertices.begin (), mesh.vertices.end (), [] (const auto& v) { return v.allFinite (); }))
+    throw InvalidArgument ("a proposal must have finite vertices");
 }
 
 } // namespace
@@ -152,6 +163,8 @@ CoSection::addObject (ObjectInput object)
     throw InvalidArgument ("object id is " + std::to_string (object.id) + "; it must be positive");
   if (impl_->scene.find (object.id))
     throw InvalidArgument ("object " + std::to_string (object.id) + " was added twice");
+  for (const TriangleMesh& proposal : object.proposals)
+    checkProposal (proposal);
   impl_->scene.batches[object.id] = {{-1, object.points.size ()}};
   impl_->scene.objects.push_back (std::move (object));
 }

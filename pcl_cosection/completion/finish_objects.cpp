@@ -6,6 +6,7 @@
 #include "pcl_cosection/energy/body_mesh.h"
 #include "pcl_cosection/energy/expected_error.h"
 #include "pcl_cosection/mesh/mesh_attributes.h"
+#include "pcl_cosection/priors/proposed/proposed_shape.h"
 #include "place_bodies.h"
 
 #include <algorithm>
@@ -29,6 +30,22 @@ markInferred (const SceneObject& object, TriangleMesh& mesh)
         std::abs (plane.head<3> ().dot (mesh.vertices[v].cast<double> ()) + plane[3]) <
             inferred_reach_voxels * object.observation->voxel_size_m)
       mesh.provenance[v] = static_cast<std::uint8_t> (Provenance::Inferred);
+}
+
+ProposalFit
+fitOf (const ProposedShape& shape)
+{
+  const MeshAlignment& alignment = shape.alignment;
+  ProposalFit fit;
+  fit.proposal = shape.number;
+  fit.used = shape.is_used;
+  fit.T_object_proposal = alignment.T_object_mesh;
+  fit.scale = alignment.scale;
+  fit.distance_m = alignment.distance_m;
+  fit.explained = alignment.explained;
+  fit.confirmed = alignment.confirmed;
+  fit.contradicted = alignment.contradicted;
+  return fit;
 }
 
 } // namespace
@@ -112,6 +129,8 @@ sceneResult (const Scene& scene, const std::vector<Observation>& observations,
     object.contradicted_share = contradicted[o];
     if (support[o].inferred)
       object.guessed_plane = support[o].planes.front ();
+    if (observations[o].proposed && observations[o].proposed->best)
+      object.proposal = fitOf (*observations[o].proposed->best);
     object.solver = solvers[n];
   }
   for (std::size_t o = 0; o < scene.objects.size (); ++o)

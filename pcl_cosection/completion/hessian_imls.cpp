@@ -106,9 +106,27 @@ HessianIMLSBase::addSupportPlane (const pcl::ModelCoefficients& coefficients)
   });
 }
 
+bool
+HessianIMLSBase::addProposal (const TriangleMesh& mesh)
+{
+  return reportErrors ("cosection::HessianIMLS::addProposal", [&] {
+    CoSection ().addObject ({1, {}, {}, {mesh}}); // validates
+    proposals_.push_back (mesh);
+  });
+}
+
+bool
+HessianIMLSBase::addProposal (const pcl::PolygonMesh& mesh)
+{
+  TriangleMesh triangles;
+  return reportErrors ("cosection::HessianIMLS::addProposal", [&] { triangles = fromPolygonMesh (mesh); }) &&
+         addProposal (triangles);
+}
+
 void
 HessianIMLSBase::clearConstraints ()
 {
+  proposals_.clear ();
   views_.clear ();
   fields_.clear ();
   meshes_.clear ();
@@ -129,7 +147,7 @@ HessianIMLSBase::complete (std::vector<OrientedPoint> points)
       scene.addObstacle (body, poses);
     for (const Eigen::Vector4d& plane : planes_)
       scene.addSupportPlane (plane);
-    scene.addObject ({1, std::move (points), {}});
+    scene.addObject ({1, std::move (points), {}, proposals_});
     ObjectResult result = std::move (scene.reconstruct (progress_).objects.front ());
     if (!result.error.empty ())
       throw Error (result.error);

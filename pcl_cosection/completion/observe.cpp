@@ -5,6 +5,7 @@
 #include "pcl_cosection/common/lattice_cells.h"
 #include "pcl_cosection/common/quantile.h"
 #include "pcl_cosection/priors/extent_prior.h"
+#include "pcl_cosection/priors/proposed/proposed_shape.h"
 #include "pcl_cosection/view/outliers/point_clusters.h"
 #include "pcl_cosection/view/outliers/repeated_points.h"
 #include "pcl_cosection/view/range_image.h"
@@ -304,6 +305,8 @@ observeObjects (const Scene& scene, CompletionMode mode, SceneState& state, Comp
     Observation object;
     object.all_points = &input.points;
     object.fits = std::make_shared<ShapeFits> ();
+    object.proposals = &input.proposals;
+    object.proposed = std::make_shared<ProposedShapes> ();
     std::vector<bool> outliers = leaveOutPoints (input, options, object, log);
     if (!std::equal (body.outliers.begin (), body.outliers.end (), outliers.begin ()))
       body.readPointsAgain ();

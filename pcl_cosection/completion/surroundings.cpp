@@ -125,8 +125,8 @@ SceneObject::planes () const
 ObjectSetting
 settingOf (const Scene& scene, const ObjectInput& object, const BodyState& body)
 {
-  return {scene.hasNothingAround (), scene.background, firstPose (object).inverse (), body.hidden,
-          scene.options.activePriors ()};
+  return {scene.hasNothingAround (),     scene.background,     firstPose (object).inverse (), body.hidden,
+          scene.options.activePriors (), scene.options.threads};
 }
 
 std::vector<Eigen::Vector4d>

@@ -7,6 +7,7 @@
 #include "inferred_support_plane.h"
 #include "pcl_cosection/common/quantile.h"
 #include "pcl_cosection/priors/proposal.h"
+#include "pcl_cosection/priors/proposed/proposed_shape.h"
 #include "pcl_cosection/priors/symmetry/copies.h"
 #include "pcl_cosection/priors/vessels/vessel_term.h"
 #include "pcl_cosection/volume/distance_transform.h"
@@ -257,6 +258,14 @@ symmetryOf (const Observation& object, const Priors& priors, const Eigen::Vector
   return {symmetry, turn != turns.end ()};
 }
 
+/** \brief The shape that the user proposed, if it explains the measurements; else null. */
+const ProposedShape*
+usedProposal (const Observation& object, const ObjectSetting& setting, const std::vector<Eigen::Vector4d>& planes)
+{
+  const ProposedShape* shape = setting.priors.proposals ? proposedShape (object, setting, planes) : nullptr;
+  return shape && shape->is_used ? shape : nullptr;
+}
+
 /** \brief What symmetry, revolution and extrusion expect.
  * \param[in] resting planes on which the object rests, of all \a planes
  * \param[in] round surfaces of revolution */
@@ -334,6 +343,9 @@ boxDownToPlanes (const Observation& object, const ObjectSetting& setting, const 
     for (const Eigen::Vector4d& plane : planes)
       for (const OrientedPoint& point : continuedBehindOthers (object, plane).points)
         box.extend (point.position.cast<double> ());
+  if (const ProposedShape* shape = usedProposal (object, setting, planes))
+    for (const Eigen::Vector3f& vertex : shape->mesh.vertices)
+      box.extend (vertex.cast<double> ());
   return box;
 }
 
@@ -353,7 +365,8 @@ addPriors (const Observation& object, const ObjectSetting& setting, const std::v
   if (priors.rays && is_cut_out && vessels.empty ()) // they have no thin walls
     addRaysWithoutReturn (object, energy);
   Proposal proposal;
-  if (vessels.empty () && (priors.symmetry || priors.extrusion || !profiled.empty ()))
+  const ProposedShape* proposed = usedProposal (object, setting, planes);
+  if (!proposed && vessels.empty () && (priors.symmetry || priors.extrusion || !profiled.empty ()))
     proposal = proposalOf (object, priors, resting, planes, profiled, energy);
   if (!(energy.options.beta_extent > 0.0))
     return;
@@ -362,8 +375,14 @@ addPriors (const Observation& object, const ObjectSetting& setting, const std::v
     proposal = Proposal (energy.grid.size ());
     energy.facing = NormalBinOccupancy (energy.grid, object.points ());
   }
-  for (const ProfiledShape& vessel : vessels)
-    addVessel (energy, vessel, object.points (), proposal);
+  if (proposed)
+  {
+    proposal = Proposal (energy.grid.size ());
+    addProposedShape (*proposed, energy, proposal);
+  }
+  else
+    for (const ProfiledShape& vessel : vessels)
+      addVessel (energy, vessel, object.points (), proposal);
   if (priors.extent)
     addExtentPrior (is_cut_out ? ExtentPrior::cutOut () : ExtentPrior (), object, hidden,
                     distanceToExpected (proposal, energy), proposal.unbounded, energy);

@@ -6,6 +6,7 @@
 #include "pcl_cosection/priors/shape/profiled_shape.h"
 #include <pcl/cosection/common/camera.h>
 #include <pcl/cosection/common/oriented_point.h>
+#include <pcl/cosection/common/triangle_mesh.h>
 #include <pcl/cosection/surface/options.h>
 
 #include <Eigen/Geometry>
@@ -23,6 +24,8 @@ namespace pcl::cosection {
  */
 using ShapeFits = std::map<std::array<double, 4>, ProfiledShape>;
 
+struct ProposedShapes; // proposed/proposed_shape.h
+
 /** \brief The measurements of one object, in its frame, metres. */
 struct Observation
 {
@@ -35,6 +38,8 @@ struct Observation
   std::shared_ptr<const DepthView> virtual_view;          // from a virtual viewpoint, if there are no views; else null
   OcclusionMap::Views views;                              // views with a known pose of the object, or the virtual view
   std::shared_ptr<ShapeFits> fits;                        // shapes that were fitted to the points so far
+  const std::vector<TriangleMesh>* proposals = nullptr;   // meshes that may be its shape
+  std::shared_ptr<ProposedShapes> proposed;               // the best of them, once it is aligned
 
   const std::vector<OrientedPoint>& points () const { return inliers.empty () ? *all_points : inliers; }
 
@@ -49,6 +54,7 @@ struct ObjectSetting
   Eigen::Isometry3d T_object_world = Eigen::Isometry3d::Identity ();  // in its first view
   const OcclusionMap& hidden;                                         // occlusion of the object's volume by its views
   Priors priors = {};                                                 // which ones are on
+  int threads = 0;                                                    // 0: all
   std::function<bool (const Eigen::Vector3d&)> is_of_other = nullptr; // may another object be there? object frame
 };
 

@@ -60,6 +60,9 @@ declareSurroundings (CLI::App& app, Given& given)
       "Plane a x + b y + c z + d = 0 (world, metres) that no object crosses: a table, a wall; repeatable");
   surroundings.add ("--obstacle MESH", given.obstacles,
                     "Mesh (world, metres) that no object enters: .ply, .stl, .obj, .off, .vtk or .vtp; repeatable");
+  surroundings.add ("--proposal ID=MESH", given.proposal_values,
+                    "Mesh that may be the shape of object ID, of any size and pose; it is aligned, and expected where "
+                    "nothing was measured if it explains the rest; repeatable");
   surroundings.addFlag ("--no-planes", given.no_planes,
                         "Do not look for support planes in the background, nor guess them");
 }
@@ -142,6 +145,8 @@ interpret (Settings& settings)
 {
   setPaths (settings);
   settings.object_trajectories = parseObjectFiles ("--object-trajectory", settings.trajectory_values);
+  for (const std::string& value : settings.proposal_values)
+    settings.proposals.push_back (parseObjectFile ("--proposal", value));
   settings.method = methodOptions (settings);
   settings.method.compute_hull = settings.save_hull;
   settings.method.compute_bounds = settings.save_bounds;

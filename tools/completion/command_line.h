@@ -21,7 +21,7 @@ const ProgramText& completionText ();
 struct Given : GivenMethod
 {
   pcl::cosection::PcdViewOptions reading;
-  std::vector<std::string> plane_values, viewpoint_values, intrinsics, trajectory_values;
+  std::vector<std::string> plane_values, viewpoint_values, intrinsics, trajectory_values, proposal_values;
   std::vector<std::string> free_space; ///< views of which nothing else is used
   std::vector<std::string> obstacles;  ///< mesh files
   bool segment = false;                ///< find the objects first
@@ -39,8 +39,9 @@ struct Settings : Given
   std::vector<std::string> inputs;
   std::string output;
   std::vector<Eigen::Vector4d> planes;
-  std::map<int, std::string> object_trajectories; ///< files, by label
-  std::vector<std::array<double, 3>> viewpoints;  ///< one per view, inputs before free space; or none
+  std::map<int, std::string> object_trajectories;     ///< files, by label
+  std::vector<std::pair<int, std::string>> proposals; ///< label and mesh file
+  std::vector<std::array<double, 3>> viewpoints;      ///< one per view, inputs before free space; or none
   pcl::cosection::CoSectionOptions method;
 };
 

@@ -103,6 +103,8 @@ OutputTarget::refuseToOverwrite () const
   inputs.insert (inputs.end (), settings_.obstacles.begin (), settings_.obstacles.end ());
   for (const auto& [label, file] : settings_.object_trajectories)
     inputs.push_back (file);
+  for (const auto& [label, file] : settings_.proposals)
+    inputs.push_back (file);
   if (const std::string configuration = configurationFile (settings_.arguments); !configuration.empty ())
     inputs.push_back (configuration);
   for (const std::string& input : inputs)

@@ -205,6 +205,22 @@ optionsOf (std::size_t view, const Settings& settings, const Labels& labels)
   return (options);
 }
 
+/** \brief The meshes that may be the shape of an object. */
+std::vector<TriangleMesh>
+proposalsOf (int id, const Settings& settings)
+{
+  std::vector<TriangleMesh> proposals;
+  for (const auto& [label, file] : settings.proposals)
+    if (label == id)
+    {
+      if (!localOrigin (file).isZero (0.0))
+        throw InvalidArgument (file + ": is so far from the origin of its frame that single precision loses its shape; "
+                                      "move it there");
+      proposals.push_back (loadMesh (file));
+    }
+  return proposals;
+}
+
 /** \brief The labels of objects that are found in a file. \throws DegenerateInput if there are none */
 std::vector<std::uint32_t>
 findLabels (const std::string& path, const Settings& settings, const PcdViewOptions& reading,
@@ -329,9 +345,13 @@ readScene (const Settings& settings, const ProgressCallback& progress)
     {
       if (const auto warning = tooLong (label, object.points))
         scene.warnings.push_back (*warning);
-      scene.objects[id] = {id, std::move (object.points), posesOf (relative_poses, label)};
+      scene.objects[id] = {id, std::move (object.points), posesOf (relative_poses, label), proposalsOf (id, settings)};
     }
   }
+  for (const auto& [id, file] : settings.proposals)
+    if (scene.objects.count (id) == 0)
+      scene.warnings.push_back ("--proposal " + std::to_string (id) + "=" + file + ": there is no object " +
+                                std::to_string (id));
   if (scene.objects.empty ())
   {
     std::string reason = "no object to complete";

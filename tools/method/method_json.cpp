@@ -45,6 +45,25 @@ meanOf (const std::vector<float>& values)
               : std::accumulate (values.begin (), values.end (), 0.0) / static_cast<double> (values.size ()));
 }
 
+/** \brief \param[in] origin of the object's frame, where that is not the world's */
+Json
+proposalJson (const ProposalFit& fit, const Eigen::Vector3d& origin)
+{
+  Eigen::Matrix4d T = fit.T_object_proposal.matrix ();
+  T.topRightCorner<3, 1> () += origin;
+  Json rows = Json::array ();
+  for (int row = 0; row < 4; ++row)
+    rows.push_back ({T (row, 0), T (row, 1), T (row, 2), T (row, 3)});
+  return (Json{{"number", fit.proposal},
+               {"used", fit.used},
+               {"scale", fit.scale},
+               {"T_object_proposal", rows},
+               {"distance_m", fit.distance_m},
+               {"explained", fit.explained},
+               {"confirmed", fit.confirmed},
+               {"contradicted", fit.contradicted}});
+}
+
 } // namespace
 
 Json
@@ -84,6 +103,8 @@ objectJson (const ObjectResult& object, const Eigen::Vector3d& origin)
     const Eigen::Vector4d& plane = *object.guessed_plane;
     result["guessed_plane"] = {plane[0], plane[1], plane[2], plane[3] - plane.head<3> ().dot (origin)};
   }
+  if (object.proposal)
+    result["proposal"] = proposalJson (*object.proposal, origin);
   result["solver"] = solverJson (object.solver);
   return (result);
 }

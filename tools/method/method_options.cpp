@@ -39,7 +39,7 @@ declareMethodOptions (CLI::App& app, GivenMethod& given)
   method.add (
       "--priors LIST", given.priors,
       "What is expected of hidden surfaces that nothing bounds: names separated by commas, of extent, symmetry, "
-      "revolution, vessels, extrusion, plane, rays; or none" +
+      "revolution, vessels, extrusion, plane, rays, proposals; or none" +
           byDefault ("all"));
   method.add ("--alpha WEIGHT", given.alpha, positiveNumber (),
               "Weight of smoothness, relative to the voxel" + byDefault (defaults.alpha));
@@ -143,23 +143,27 @@ constraintsOf (const CoSectionOptions& method)
   return (method.use_intersection ? "intersection" : "none");
 }
 
+std::pair<int, std::string>
+parseObjectFile (const std::string& option, const std::string& value)
+{
+  const std::size_t equals = value.find ('=');
+  const std::optional<double> id = parseNumber (value.substr (0, equals));
+  if (equals == std::string::npos || equals + 1 == value.size () || !id || !(*id >= 1.0 && *id <= 2147483647.0) ||
+      *id != std::floor (*id))
+    throw UsageError (option + " must be ID=FILE with the number of an object, such as 2=cup.txt; it is \"" + value +
+                      "\"");
+  if (*id == ignored_label)
+    throw UsageError (option + " " + value + ": label " + std::to_string (ignored_label) +
+                      " marks what is no object; number it otherwise");
+  return {static_cast<int> (*id), value.substr (equals + 1)};
+}
+
 std::map<int, std::string>
 parseObjectFiles (const std::string& option, const std::vector<std::string>& values)
 {
   std::map<int, std::string> files;
   for (const std::string& value : values)
-  {
-    const std::size_t equals = value.find ('=');
-    const std::optional<double> id = parseNumber (value.substr (0, equals));
-    if (equals == std::string::npos || equals + 1 == value.size () || !id || !(*id >= 1.0 && *id <= 2147483647.0) ||
-        *id != std::floor (*id))
-      throw UsageError (option + " must be ID=FILE with the number of an object, such as 2=cup.txt; it is \"" + value +
-                        "\"");
-    if (*id == ignored_label)
-      throw UsageError (option + " " + value + ": label " + std::to_string (ignored_label) +
-                        " marks what is no object; number it otherwise");
-    if (!files.emplace (static_cast<int> (*id), value.substr (equals + 1)).second)
-      throw UsageError (option + " is given twice for object " + value.substr (0, equals));
-  }
+    if (const auto [id, file] = parseObjectFile (option, value); !files.emplace (id, file).second)
+      throw UsageError (option + " is given twice for object " + std::to_string (id));
   return (files);
 }

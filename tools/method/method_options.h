@@ -35,4 +35,7 @@ pcl::cosection::CoSectionOptions methodOptions (GivenMethod given);
 std::string constraintsOf (const pcl::cosection::CoSectionOptions& method);
 
 /** \brief Files by object from values "ID=FILE". \param[in] option for messages \throws UsageError */
+std::pair<int, std::string> parseObjectFile (const std::string& option, const std::string& value);
+
+/** \brief Several, one per object. \throws UsageError */
 std::map<int, std::string> parseObjectFiles (const std::string& option, const std::vector<std::string>& values);

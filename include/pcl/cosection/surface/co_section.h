@@ -27,6 +27,23 @@ struct PCL_COSECTION_EXPORT ObjectInput
   /** \brief One pose per view of the scene, not finite where it is not known: that view and the bodies in it then say
    * nothing of this object. Empty: the object frame is the world frame. */
   std::vector<Eigen::Isometry3d> T_world_object;
+  /** \brief Meshes of any size and pose, one of which may be its shape: from a generator, or a model. The one that fits
+   * the measurements best is moved, turned and scaled onto them; if it explains them, it is expected where nothing was
+   * measured. */
+  std::vector<TriangleMesh> proposals = {};
+};
+
+/** \brief How a proposed mesh fits the measurements of an object. */
+struct PCL_COSECTION_EXPORT ProposalFit
+{
+  std::size_t proposal = 0; ///< its place in ObjectInput::proposals
+  bool used = false;        ///< whether it explains the measurements well enough to be expected
+  Eigen::Affine3d T_object_proposal = Eigen::Affine3d::Identity (); ///< a rotation, one scale, a translation
+  double scale = 1.0;                                               ///< of T_object_proposal
+  double distance_m = 0.0;                                          ///< median distance of the points from it
+  double explained = 0.0;                                           ///< in [0, 1]: how well the points lie on it
+  double confirmed = 0.0;    ///< in [0, 1]: how well points cover what of it the views should see
+  double contradicted = 0.0; ///< share of its surface that is in seen free space, or below a support plane
 };
 
 /** \brief A completed object. */
@@ -54,8 +71,9 @@ struct PCL_COSECTION_EXPORT ObjectResult
   /** \brief The plane on which an object seems to have stood around which nothing is known, world frame, n.x + d = 0,
    * unit n towards it: inferred from where it ends, or how it is open. It bounds the mesh. */
   std::optional<Eigen::Vector4d> guessed_plane;
-  SolverSummary solver;       ///< of the last pass; its iterations are those of all passes at full resolution
-  double penetration_m = 0.0; ///< deepest place of its surface in supported parts of another body
+  std::optional<ProposalFit> proposal; ///< the best of ObjectInput::proposals; nothing: none could be aligned
+  SolverSummary solver;                ///< of the last pass; its iterations are those of all passes at full resolution
+  double penetration_m = 0.0;          ///< deepest place of its surface in supported parts of another body
 };
 
 /** \brief A piece of the background, as it was solved. */

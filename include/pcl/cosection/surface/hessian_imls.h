@@ -85,7 +85,18 @@ public:
    * \return false if there are not four, one is not finite, or the normal is zero */
   bool addSupportPlane (const pcl::ModelCoefficients& coefficients);
 
-  /** \brief Forget views, obstacles and support planes. */
+  /** \brief Propose a mesh as the object's shape: from a generator, or a model, of any size and pose. The one of all
+   * that fits the measurements best is moved, turned and scaled onto them; if it explains them, it is expected where
+   * nothing was measured. \return false if it has no triangles, or is not consistent or not finite */
+  bool addProposal (const TriangleMesh& mesh);
+
+  /** \brief As above, for PCL's mesh. \return false also if fromPolygonMesh () cannot read it */
+  bool addProposal (const pcl::PolygonMesh& mesh);
+
+  /** \brief How the proposals fit in the last reconstruct (); nothing if there were none, or none could be aligned. */
+  const std::optional<ProposalFit>& getProposalFit () const { return result_.proposal; }
+
+  /** \brief Forget views, obstacles, support planes and proposals. */
   void clearConstraints ();
 
   /** \brief Set a function that is called with the progress, and may cancel. */
@@ -120,6 +131,7 @@ private:
   std::vector<std::pair<SignedDistanceField::ConstPtr, Poses>> fields_;
   std::vector<std::pair<TriangleMesh, Poses>> meshes_;
   std::vector<Eigen::Vector4d> planes_;
+  std::vector<TriangleMesh> proposals_;
   ProgressCallback progress_;
   ObjectResult result_;
 };

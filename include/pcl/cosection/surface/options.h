@@ -40,6 +40,7 @@ struct PCL_COSECTION_EXPORT Priors
   bool extrusion = true;  ///< what is hidden below an observed surface reaches the plane
   bool plane = true;      ///< an object without known surroundings shows the plane on which it stands
   bool rays = true;       ///< nothing is on rays without return beside an object that was cut out
+  bool proposals = true;  ///< meshes that the user proposes, where they explain what was measured
 
   /** \brief The names of those that are on, separated by commas: those of the members; or "all", or "none". */
   std::string names () const;

@@ -1,0 +1,467 @@
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
+#include "mesh_alignment.h"
+
+#include "pcl_cosection/common/directions.h"
+#include "pcl_cosection/common/lattice_cells.h"
+#include "pcl_cosection/common/parallel.h"
+#include "pcl_cosection/common/quantile.h"
+#include "pcl_cosection/priors/proposed/sampled_mesh.h"
+#include "pcl_cosection/view/visibility/visibility.h"
+
+#include <Eigen/Cholesky>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+namespace pcl::cosection {
+namespace {
+
+using Vectors = Eigen::Matrix3Xd;
+
+constexpr std::size_t least_points = 30;
+constexpr double thinning_cells = 25.0; // along the longest side: a point counts for as much surface as any other
+constexpr int start_directions = 162;   // in which the mesh is seen ...
+constexpr int start_turns = 18;         // ... and turned
+constexpr std::size_t starts_kept = 48;
+constexpr std::size_t finalists = 8;
+constexpr Eigen::Index few = 100; // points and samples that judge a start
+constexpr Eigen::Index some = 250;
+constexpr int coarse_steps = 10;
+constexpr int fine_steps = 15;
+constexpr double normal_weight = 0.1;  // of 1 - cosine against squared distances in units of the size
+constexpr double most_cost = 0.15;     // of one point at the start
+constexpr double along_surface = 0.05; // weight of the distance along a surface against that across
+constexpr double border_cells = 1.0;
+constexpr double least_cosine = 0.3; // of normals that are of the same surface
+constexpr double scale_range = 1.6;  // of the scale that extents suggest; more is another object
+
+constexpr std::array<std::array<int, 2>, 5> edge_pixels = {{{0, 0}, {-2, 0}, {2, 0}, {0, -2}, {0, 2}}};
+
+/** \brief A similarity that takes the normalised mesh to the object. */
+struct Similarity
+{
+  double scale = 1.0;
+  Eigen::Matrix3d R = Eigen::Matrix3d::Identity ();
+  Eigen::Vector3d t = Eigen::Vector3d::Zero ();
+
+  Eigen::Vector3d operator* (const Eigen::Vector3d& p) const { return scale * (R * p) + t; }
+};
+
+/** \brief Every k-th column, so that about \a count are left. */
+Vectors
+thinned (const Vectors& all, Eigen::Index count)
+{
+  const Eigen::Index step = std::max<Eigen::Index> (1, all.cols () / count);
+  Vectors result (3, (all.cols () + step - 1) / step);
+  for (Eigen::Index n = 0; n < result.cols (); ++n)
+    result.col (n) = all.col (n * step);
+  return result;
+}
+
+/** \brief Positions with normals. */
+struct Oriented
+{
+  Vectors positions, normals;
+
+  Oriented few (Eigen::Index count) const { return {thinned (positions, count), thinned (normals, count)}; }
+  Eigen::Index size () const { return positions.cols (); }
+};
+
+Eigen::AlignedBox3d
+boxOf (const std::vector<OrientedPoint>& points)
+{
+  Eigen::AlignedBox3d box;
+  for (const OrientedPoint& point : points)
+    box.extend (point.position.cast<double> ());
+  return box;
+}
+
+double
+cellSizeOf (const std::vector<OrientedPoint>& points)
+{
+  return boxOf (points).sizes ().maxCoeff () / thinning_cells;
+}
+
+/** \brief One point per occupied cell: the means of position and normal. */
+Oriented
+thinToCells (const std::vector<OrientedPoint>& points)
+{
+  const Eigen::AlignedBox3d box = boxOf (points);
+  const double cells_per_m = 1.0 / cellSizeOf (points);
+  OccupiedCells cells;
+  std::vector<Eigen::Matrix<double, 7, 1>> sums;
+  for (const OrientedPoint& point : points)
+  {
+    const Eigen::Vector3d p = point.position.cast<double> ();
+    const auto cell = cellOf ((p - box.min ()) * cells_per_m);
+    if (!cell)
+      continue;
+    const std::size_t n = cells.add (*cell);
+    if (n == sums.size ())
+      sums.emplace_back (Eigen::Matrix<double, 7, 1>::Zero ());
+    sums[n].head<3> () += p;
+    sums[n].segment<3> (3) += point.normal.cast<double> ();
+    sums[n][6] += 1.0;
+  }
+  Oriented result;
+  result.positions.resize (3, static_cast<Eigen::Index> (sums.size ()));
+  result.normals.resize (3, static_cast<Eigen::Index> (sums.size ()));
+  for (std::size_t n = 0; n < sums.size (); ++n)
+  {
+    result.positions.col (static_cast<Eigen::Index> (n)) = sums[n].head<3> () / sums[n][6];
+    result.normals.col (static_cast<Eigen::Index> (n)) = sums[n].segment<3> (3).normalized ();
+  }
+  return result;
+}
+
+/** \brief Root mean square distance from the mean. */
+double
+spreadOf (const Vectors& positions)
+{
+  return std::sqrt ((positions.colwise () - positions.rowwise ().mean ()).colwise ().squaredNorm ().mean ());
+}
+
+/** \brief A pair of places that should be one. */
+struct Match
+{
+  Eigen::Vector3d from; ///< on the mesh, in the object's frame
+  Eigen::Vector3d to;
+  Eigen::Vector3d normal;
+  double weight = 0.0;
+};
+
+class Alignment
+{
+public:
+  Alignment (const TriangleMesh& mesh, const AlignmentTarget& target)
+      : target_ (target)
+      , mesh_ (mesh)
+      , points_ (thinToCells (target.points))
+      , size_m_ (spreadOf (points_.positions))
+      , cell_m_ (cellSizeOf (target.points))
+  {
+    const Eigen::Vector3d middle = points_.positions.rowwise ().mean ();
+    for (const auto& [view, T_object_sensor] : target.views)
+      sensors_.push_back (T_object_sensor.translation () - middle);
+  }
+
+  bool isPossible () const
+  {
+    return points_.size () >= static_cast<Eigen::Index> (least_points) && size_m_ > 0.0 && mesh_.hasExtent ();
+  }
+
+  MeshAlignment best (int threads) const
+  {
+    std::vector<std::pair<double, Similarity>> starts (static_cast<std::size_t> (start_directions) * start_turns);
+    parallelFor (0, static_cast<int> (starts.size ()), threads, [&] (int n) { starts[n] = start (n); });
+    keep (starts, starts_kept);
+    parallelFor (0, static_cast<int> (starts.size ()), threads, [&] (int n) {
+      starts[n].second = refined (starts[n].second, points_.few (some), some, coarse_steps, 0.5 * size_m_,
+                                  0.1 * size_m_);
+      starts[n].first = costOf (starts[n].second, some);
+    });
+    keep (starts, finalists);
+    const double fine_m = std::max (3.0 * target_.noise_m, 0.03 * size_m_);
+    parallelFor (0, static_cast<int> (starts.size ()), threads, [&] (int n) {
+      starts[n].second = refined (starts[n].second, points_, SampledMesh::matched, fine_steps, 0.15 * size_m_, fine_m);
+      starts[n].first = costOf (starts[n].second, SampledMesh::matched);
+    });
+    keep (starts, 1);
+    return judged (starts.front ().second);
+  }
+
+private:
+  static void keep (std::vector<std::pair<double, Similarity>>& starts, std::size_t count)
+  {
+    std::stable_sort (starts.begin (), starts.end (), [] (const auto& a, const auto& b) { return a.first < b.first; });
+    starts.resize (std::min (starts.size (), count));
+  }
+
+  /** \brief Which samples the views should see, if nothing hides the object. */
+  std::vector<Eigen::Index> visibleSamples (const Eigen::Matrix3d& R, Eigen::Index count) const
+  {
+    std::vector<const std::vector<std::uint8_t>*> by_view;
+    for (const Eigen::Vector3d& sensor : sensors_)
+      by_view.push_back (&mesh_.visibleFrom (R.transpose () * sensor));
+    std::vector<Eigen::Index> result;
+    const Eigen::Index step = std::max<Eigen::Index> (1, SampledMesh::matched / count);
+    for (Eigen::Index n = 0; n < SampledMesh::matched; n += step)
+      if (by_view.empty () || std::any_of (by_view.begin (), by_view.end (), [n] (const auto* seen) {
+            return (*seen)[static_cast<std::size_t> (n)] != 0;
+          }))
+        result.push_back (n);
+    return result;
+  }
+
+  Oriented moved (const Similarity& to, const std::vector<Eigen::Index>& samples) const
+  {
+    Oriented result;
+    result.positions.resize (3, static_cast<Eigen::Index> (samples.size ()));
+    result.normals.resize (3, static_cast<Eigen::Index> (samples.size ()));
+    for (std::size_t n = 0; n < samples.size (); ++n)
+    {
+      result.positions.col (static_cast<Eigen::Index> (n)) = to * mesh_.position (samples[n]);
+      result.normals.col (static_cast<Eigen::Index> (n)) = to.R * mesh_.normal (samples[n]);
+    }
+    return result;
+  }
+
+  /** \brief The n-th rotation, with scale and translation by the moments of what the views should see. */
+  std::pair<double, Similarity> start (int n) const
+  {
+    Similarity similarity;
+    const Eigen::Vector3d axis = sphereDirection (n / start_turns, start_directions).cast<double> ();
+    similarity.R = Eigen::AngleAxisd (2.0 * M_PI * (n % start_turns) / start_turns, axis).toRotationMatrix () *
+                   Eigen::Quaterniond::FromTwoVectors (Eigen::Vector3d::UnitZ (), axis).toRotationMatrix ();
+    const std::vector<Eigen::Index> samples = visibleSamples (similarity.R, few);
+    if (samples.size () < 3)
+      return {std::numeric_limits<double>::infinity (), similarity};
+    const Oriented seen = moved (similarity, samples);
+    similarity.scale = size_m_ / std::max (spreadOf (seen.positions), 1e-6);
+    similarity.t = points_.positions.rowwise ().mean () - similarity.scale * seen.positions.rowwise ().mean ();
+    const Oriented placed = moved (similarity, samples);
+    const Oriented points = points_.few (few);
+    return {startCost (points, placed) + startCost (placed, points), similarity};
+  }
+
+  double startCost (const Oriented& from, const Oriented& to) const
+  {
+    double sum = 0.0;
+    for (Eigen::Index n = 0; n < from.size (); ++n)
+    {
+      const auto squared = (to.positions.colwise () - from.positions.col (n)).colwise ().squaredNorm () /
+                           (size_m_ * size_m_);
+      const auto turned = (1.0 - (from.normals.col (n).transpose () * to.normals).array ()) * normal_weight;
+      sum += std::min (most_cost, (squared.array () + turned).minCoeff ());
+    }
+    return sum / static_cast<double> (from.size ());
+  }
+
+  /** \brief Whether the views say nothing about a place on the mesh: something else hides it, or there is no reading.
+   */
+  bool isUnknown (const Eigen::Vector3d& p) const
+  {
+    bool judged = target_.views.empty ();
+    for (const auto& [view, T_object_sensor] : target_.views)
+    {
+      const PointVisibility seen = visibilityOf (T_object_sensor.inverse () * p, *view, target_.noise_m);
+      judged |= seen != PointVisibility::Outside && seen != PointVisibility::NoReading;
+    }
+    return !judged || target_.hidden.at (p) == Hidden::ByOther;
+  }
+
+  /** \brief Whether a view looks through a place, also beside its pixel: readings at edges are mixed. */
+  bool isFree (const Eigen::Vector3d& p, double margin_m) const
+  {
+    return std::any_of (target_.views.begin (), target_.views.end (), [&] (const auto& view) {
+      const auto& [depth, T_object_sensor] = view;
+      const Eigen::Vector3d in_sensor = T_object_sensor.inverse () * p;
+      const auto pixel = pixelOf (depth->camera, in_sensor);
+      return pixel && std::all_of (edge_pixels.begin (), edge_pixels.end (), [&, &depth = depth] (const auto& offset) {
+               const int u = pixel->x () + offset[0], v = pixel->y () + offset[1];
+               return u >= 0 && v >= 0 && u < depth->camera.width && v < depth->camera.height &&
+                      compareWithReading (in_sensor.z (), depth->at (u, v), margin_m) == PointVisibility::Free;
+             });
+    });
+  }
+
+  double heightOf (const Eigen::Vector3d& p) const
+  {
+    double height = std::numeric_limits<double>::infinity ();
+    for (const Eigen::Vector4d& plane : target_.resting)
+      height = std::min (height, plane.head<3> ().dot (p) + plane[3]);
+    return height;
+  }
+
+  /** \brief Pairs from points to the mesh, from the mesh to points, and from the mesh to the planes. */
+  std::vector<Match> matches (const Similarity& now, const Oriented& points, Eigen::Index samples, double reach_m) const
+  {
+    std::vector<Match> result;
+    const auto weightOf = [reach_m] (double distance_m, double cosine) {
+      const double by_distance = 1.0 / (1.0 + distance_m * distance_m / (reach_m * reach_m));
+      return cosine > least_cosine ? by_distance * by_distance : 0.1 * by_distance * by_distance;
+    };
+    for (Eigen::Index n = 0; n < points.size (); ++n)
+    {
+      const Eigen::Vector3d p = points.positions.col (n);
+      const auto [q, normal] = mesh_.nearest (now.R.transpose () * (p - now.t) / now.scale);
+      const Eigen::Vector3d at = now * q, turned = now.R * normal;
+      result.push_back ({at, p, turned, weightOf ((at - p).norm (), turned.dot (points.normals.col (n)))});
+    }
+    const double each = static_cast<double> (points.size ());
+    const std::size_t first = result.size ();
+    const std::vector<Eigen::Index> visible = visibleSamples (now.R, samples);
+    for (const Eigen::Index n : visible)
+    {
+      const Eigen::Vector3d p = now * mesh_.position (n), normal = now.R * mesh_.normal (n);
+      if (isUnknown (p))
+        continue;
+      Eigen::Index nearest = 0;
+      const double squared = (points.positions.colwise () - p).colwise ().squaredNorm ().minCoeff (&nearest);
+      const Eigen::Vector3d to = points.normals.col (nearest), away = p - points.positions.col (nearest);
+      // Beyond the border of the points, where readings at edges are missing, it is unknown where the surface is.
+      if ((away - to.dot (away) * to).norm () > border_cells * cell_m_ && !isFree (p, 2.0 * target_.noise_m))
+        continue;
+      result.push_back ({p, points.positions.col (nearest), to, weightOf (std::sqrt (squared), to.dot (normal))});
+    }
+    const double share = each / std::max (1.0, static_cast<double> (result.size () - first));
+    for (std::size_t n = first; n < result.size (); ++n)
+      result[n].weight *= share;
+    addPlanes (now, samples, each, result);
+    return result;
+  }
+
+  /** \brief The lowest sample touches each plane, and none is below. */
+  void addPlanes (const Similarity& now, Eigen::Index samples, double weight, std::vector<Match>& result) const
+  {
+    for (const Eigen::Vector4d& plane : target_.resting)
+    {
+      const Eigen::Vector3d up = plane.head<3> ();
+      double lowest = std::numeric_limits<double>::infinity ();
+      Eigen::Vector3d at = Eigen::Vector3d::Zero ();
+      const Eigen::Index step = std::max<Eigen::Index> (1, SampledMesh::matched / samples);
+      for (Eigen::Index n = 0; n < SampledMesh::matched; n += step)
+        if (const Eigen::Vector3d p = now * mesh_.position (n); up.dot (p) + plane[3] < lowest)
+        {
+          lowest = up.dot (p) + plane[3];
+          at = p;
+        }
+      result.push_back ({at, at - lowest * up, up, 0.3 * weight});
+    }
+  }
+
+  /** \brief One step of Gauss and Newton for small turns, shifts and changes of scale about the middle of the points.
+   */
+  Similarity stepped (const Similarity& now, const std::vector<Match>& pairs) const
+  {
+    using Vector7 = Eigen::Matrix<double, 7, 1>;
+    Eigen::Matrix<double, 7, 7> A = Eigen::Matrix<double, 7, 7>::Zero ();
+    Vector7 b = Vector7::Zero ();
+    const Eigen::Vector3d middle = points_.positions.rowwise ().mean ();
+    const auto add = [&] (const Match& pair, const Eigen::Vector3d& along, double weight) {
+      const Eigen::Vector3d arm = (pair.from - middle) / size_m_;
+      Vector7 row;
+      row << arm.cross (along), along, arm.dot (along);
+      A += weight * row * row.transpose ();
+      b += weight * row * along.dot (pair.to - pair.from) / size_m_;
+    };
+    for (const Match& pair : pairs)
+    {
+      add (pair, pair.normal, pair.weight);
+      for (int axis = 0; axis < 3; ++axis)
+        add (pair, Eigen::Vector3d::Unit (axis), along_surface * pair.weight);
+    }
+    A.diagonal ().array () += 1e-9 * A.trace () + 1e-12;
+    const Vector7 x = A.ldlt ().solve (b);
+    Similarity next = now;
+    if (!x.allFinite ())
+      return next;
+    const double factor = std::exp (std::clamp (x[6], -0.1, 0.1)), angle = x.head<3> ().norm ();
+    const Eigen::Matrix3d turn = angle > 0.0 ? Eigen::AngleAxisd (std::min (angle, 0.3), x.head<3> () / angle)
+                                                   .toRotationMatrix ()
+                                             : Eigen::Matrix3d (Eigen::Matrix3d::Identity ());
+    next.scale *= factor;
+    next.R = turn * now.R;
+    next.t = middle + factor * (turn * (now.t - middle)) + size_m_ * x.segment<3> (3);
+    return next;
+  }
+
+  Similarity refined (Similarity similarity, const Oriented& points, Eigen::Index samples, int steps, double first_m,
+                      double last_m) const
+  {
+    const double start_scale = similarity.scale;
+    for (int n = 0; n < steps; ++n)
+    {
+      const double reach_m = first_m * std::pow (last_m / first_m, static_cast<double> (n) / (steps - 1));
+      similarity = stepped (similarity, matches (similarity, points, samples, reach_m));
+      similarity.scale = std::clamp (similarity.scale, start_scale / scale_range, start_scale * scale_range);
+    }
+    return similarity;
+  }
+
+  double toleranceOf () const { return std::max (2.0 * target_.noise_m, 0.03 * size_m_); }
+
+  double costOf (const Similarity& similarity, Eigen::Index samples) const
+  {
+    const MeshAlignment result = judged (similarity, samples);
+    return (1.0 - result.explained) + (1.0 - result.confirmed) + 2.0 * result.contradicted;
+  }
+
+  /** \brief Near counts 1, farther than the tolerance 0. */
+  static double nearness (double distance, double tolerance)
+  {
+    return std::max (0.0, 1.0 - distance * distance / (tolerance * tolerance));
+  }
+
+  MeshAlignment judged (const Similarity& similarity, Eigen::Index samples = SampledMesh::matched) const
+  {
+    MeshAlignment result;
+    result.T_object_mesh = Eigen::Affine3d::Identity ();
+    result.T_object_mesh.linear () = similarity.scale * similarity.R / mesh_.unit ();
+    result.T_object_mesh.translation () = similarity * (-mesh_.middle () / mesh_.unit ());
+    result.scale = similarity.scale / mesh_.unit ();
+    const double tolerance_m = toleranceOf ();
+    std::vector<double> distances;
+    for (Eigen::Index n = 0; n < points_.size (); ++n)
+    {
+      const Eigen::Vector3d p = points_.positions.col (n);
+      const auto [q, normal] = mesh_.nearest (similarity.R.transpose () * (p - similarity.t) / similarity.scale);
+      distances.push_back ((similarity * q - p).norm ());
+      if ((similarity.R * normal).dot (points_.normals.col (n)) > least_cosine)
+        result.explained += nearness (distances.back (), tolerance_m);
+    }
+    result.explained /= static_cast<double> (points_.size ());
+    result.distance_m = quantile (distances, 0.5);
+
+    double judged = 0.0;
+    for (const Eigen::Index n : visibleSamples (similarity.R, samples))
+    {
+      const Eigen::Vector3d p = similarity * mesh_.position (n), normal = similarity.R * mesh_.normal (n);
+      if (isUnknown (p))
+        continue;
+      Eigen::Index nearest = 0;
+      const double squared = (points_.positions.colwise () - p).colwise ().squaredNorm ().minCoeff (&nearest);
+      const double across = std::abs (points_.normals.col (nearest).dot (points_.positions.col (nearest) - p));
+      judged += 1.0;
+      // Points are a cell apart: along the surface they may be so far.
+      if (points_.normals.col (nearest).dot (normal) > least_cosine && std::sqrt (squared) < 3.0 * tolerance_m)
+        result.confirmed += nearness (across, tolerance_m);
+    }
+    result.confirmed = judged > 0.0 ? result.confirmed / judged : 0.0;
+
+    const Eigen::Index step = std::max<Eigen::Index> (1, SampledMesh::matched / samples);
+    double all = 0.0;
+    for (Eigen::Index n = 0; n < SampledMesh::matched; n += step)
+    {
+      const Eigen::Vector3d p = similarity * mesh_.position (n);
+      all += 1.0;
+      result.contradicted += isFree (p, tolerance_m) || heightOf (p) < -tolerance_m;
+    }
+    result.contradicted /= all;
+    return result;
+  }
+
+  const AlignmentTarget& target_;
+  SampledMesh mesh_;
+  Oriented points_;
+  double size_m_;
+  double cell_m_;                        // between neighbouring points
+  std::vector<Eigen::Vector3d> sensors_; // from the middle of the points
+};
+
+} // namespace
+
+std::optional<MeshAlignment>
+alignMesh (const TriangleMesh& mesh, const AlignmentTarget& target, int threads)
+{
+  if (target.points.size () < least_points)
+    return std::nullopt;
+  const Alignment alignment (mesh, target);
+  if (!alignment.isPossible ())
+    return std::nullopt;
+  return alignment.best (threads);
+}
+
+} // namespace pcl::cosection

@@ -1,0 +1,38 @@
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "mesh_alignment.h"
+#include "pcl_cosection/priors/object_priors.h"
+#include "pcl_cosection/priors/proposal.h"
+
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+namespace pcl::cosection {
+
+/** \brief A mesh that was proposed as an object's shape, where it fits the measurements best. */
+struct ProposedShape
+{
+  std::size_t number = 0; ///< in the order of the proposals
+  MeshAlignment alignment;
+  bool is_used = false; ///< it explains the points, and what was seen confirms it
+  TriangleMesh mesh;    ///< aligned, object frame
+};
+
+/** \brief The best of an object's proposals. They are aligned once. */
+struct ProposedShapes
+{
+  bool aligned = false;
+  std::optional<ProposedShape> best;
+};
+
+/** \brief The best of an object's proposals, aligned with its measurements; null if there are none.
+ * \param[in] planes on which it may stand */
+const ProposedShape* proposedShape (const Observation& object, const ObjectSetting& setting,
+                                    const std::vector<Eigen::Vector4d>& planes);
+
+/** \brief Expect a proposed surface where nothing was measured. */
+void addProposedShape (const ProposedShape& shape, const BodyEnergy& energy, Proposal& proposal);
+
+} // namespace pcl::cosection
