@@ -221,6 +221,16 @@ proposalsOf (int id, const Settings& settings)
   return proposals;
 }
 
+/** \brief Warn of proposals for objects that are not there. */
+void
+warnOfUnknown (const Settings& settings, SceneInput& scene)
+{
+  for (const auto& [id, file] : settings.proposals)
+    if (scene.objects.count (id) == 0)
+      scene.warnings.push_back ("--proposal " + std::to_string (id) + "=" + file + ": there is no object " +
+                                std::to_string (id));
+}
+
 /** \brief The labels of objects that are found in a file. \throws DegenerateInput if there are none */
 std::vector<std::uint32_t>
 findLabels (const std::string& path, const Settings& settings, const PcdViewOptions& reading,
@@ -348,10 +358,7 @@ readScene (const Settings& settings, const ProgressCallback& progress)
       scene.objects[id] = {id, std::move (object.points), posesOf (relative_poses, label), proposalsOf (id, settings)};
     }
   }
-  for (const auto& [id, file] : settings.proposals)
-    if (scene.objects.count (id) == 0)
-      scene.warnings.push_back ("--proposal " + std::to_string (id) + "=" + file + ": there is no object " +
-                                std::to_string (id));
+  warnOfUnknown (settings, scene);
   if (scene.objects.empty ())
   {
     std::string reason = "no object to complete";

@@ -1,8 +1,11 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "proposed_shape.h"
 
+#include "pcl_cosection/common/parallel.h"
 #include "pcl_cosection/mesh/mesh_cleaning.h"
+#include "pcl_cosection/mesh/triangle_shape.h"
 #include "pcl_cosection/priors/resting_planes.h"
+#include "pcl_cosection/volume/mesh_distance/triangle_tree.h"
 
 #include <pcl/cosection/volume/mesh_distance.h>
 
@@ -15,9 +18,11 @@ namespace {
 constexpr double least_explained = 0.6; // true shapes in simulated views have 0.69 to 0.95 ...
 constexpr double least_confirmed = 0.6; // ... and 0.70 to 0.97
 constexpr double most_contradicted = 0.05;
-constexpr double noise_vox = 0.5;        // voxels are as large as the points' noise and spacing ask for
-constexpr float gap_vox = 2.0f;          // nothing is expected nearer to data
-constexpr float far_vox = 6.0f;          // largest expected distance
+constexpr double noise_vox = 0.5;     // voxels are as large as the points' noise and spacing ask for
+constexpr float gap_vox = 2.0f;       // nothing is expected nearer to data
+constexpr float far_vox = 6.0f;       // largest expected distance
+constexpr float wall_weight = 100.0f; // of a wall's hidden side, near data of the other one
+constexpr double least_wall_vox = 1.25;
 constexpr float proposal_weight = 10.0f; // in multiples of beta_extent
 
 /** \brief The larger, the better it fits. */
@@ -65,25 +70,72 @@ proposedShape (const Observation& object, const ObjectSetting& setting, const st
   return shapes.best ? &*shapes.best : nullptr;
 }
 
+double
+wallOf (const ProposedShape& shape)
+{
+  if (!computeTopology (shape.mesh).closed_manifold)
+    return 0.0;
+  double area_m2 = 0.0;
+  for (const auto& [a, b, c] : shape.mesh.triangles)
+    area_m2 += 0.5 * areaVector (shape.mesh.vertices[a].cast<double> (), shape.mesh.vertices[b].cast<double> (),
+                                 shape.mesh.vertices[c].cast<double> ())
+                         .norm ();
+  return area_m2 > 0.0 ? 2.0 * std::abs (computeMassProperties (shape.mesh).volume_m3) / area_m2 : 0.0;
+}
+
 void
-addProposedShape (const ProposedShape& shape, const BodyEnergy& energy, Proposal& proposal)
+addProposedShape (const ProposedShape& shape, BodyEnergy& energy, Proposal& proposal)
 {
   const VoxelGrid& grid = energy.grid;
   const double reach_m = (far_vox + 2.0) * grid.voxel_size_m;
   const SignedDistanceField distance = sampleSignedDistance (shape.mesh, grid, reach_m, energy.options.threads);
-  const float weight = proposal_weight * static_cast<float> (energy.options.beta_extent);
-  for (std::size_t n = 0; n < grid.size (); ++n)
-  {
-    const bool is_known = distance.supported.empty () || distance.supported[n] != 0; // of an open mesh only near it
-    const auto vox = static_cast<float> (distance.values[n] / grid.voxel_size_m);
-    proposal.unbounded[n] = is_known && vox < 1.0f;
-    proposal.surface[n] = is_known && std::abs (vox) < 1.0f;
-    if (!is_known || energy.empty[n] || energy.data_distance_vox[n] < gap_vox)
-      continue;
-    proposal.weight[n] = weight;
-    proposal.target[n] = std::clamp (vox, -far_vox, far_vox);
-    proposal.least[n] = std::clamp (vox, 0.0f, far_vox);
-  }
+  const TriangleTree tree (shape.mesh);
+  const double wall_m = wallOf (shape);
+  // Walls thinner than that vanish between voxels.
+  const auto lacking_vox = static_cast<float> (
+      wall_m > 0.0 ? std::max (0.0, least_wall_vox - wall_m / grid.voxel_size_m) : 0.0);
+  // Whether the nearest place of the mesh is one that was not measured.
+  const auto isHidden = [&] (const Eigen::Vector3d& p) {
+    const NearestPoint nearest = tree.nearest (p);
+    const auto& [a, b, c] = shape.mesh.triangles[nearest.triangle];
+    const Eigen::Vector3d normal = areaVector (shape.mesh.vertices[a].cast<double> (),
+                                               shape.mesh.vertices[b].cast<double> (),
+                                               shape.mesh.vertices[c].cast<double> ())
+                                       .normalized ();
+    return !energy.facing.face ((p - nearest.offset_m).cast<float> (), normal.cast<float> ());
+  };
+  const auto beta = static_cast<float> (energy.options.beta_extent);
+  parallelFor (0, grid.dims.z (), threadsForVoxels (energy.options.threads, grid.size ()), [&] (int k) {
+    for (int j = 0; j < grid.dims.y (); ++j)
+      for (int i = 0; i < grid.dims.x (); ++i)
+      {
+        const std::size_t n = grid.index (i, j, k);
+        const bool is_known = distance.supported.empty () || distance.supported[n] != 0; // of an open mesh only near it
+        if (!is_known)
+          continue;
+        const auto vox = static_cast<float> (distance.values[n] / grid.voxel_size_m);
+        proposal.unbounded[n] = vox < 1.0f;
+        proposal.surface[n] = std::abs (vox) < 1.0f;
+        if (energy.empty[n])
+          continue;
+        const float target = std::clamp (vox, -far_vox, far_vox);
+        if (energy.data_distance_vox[n] >= gap_vox)
+        {
+          proposal.weight[n] = proposal_weight * beta;
+          proposal.target[n] = target;
+          proposal.least[n] = std::max (0.0f, target);
+        }
+        // Behind a measured surface its distance grows on, although the other side of a wall may be near.
+        else if (const float weight = energy.problem.weight[n]; std::abs (vox) < gap_vox + 1.0f &&
+                                                                energy.problem.weighted_target[n] <= 0.0f &&
+                                                                isHidden (grid.center (i, j, k)))
+        {
+          energy.problem.weight[n] = energy.problem.weighted_target[n] = 0.0f;
+          proposal.weight[n] = std::max (weight, wall_weight * beta);
+          proposal.target[n] = target - lacking_vox;
+        }
+      }
+  });
 }
 
 } // namespace pcl::cosection

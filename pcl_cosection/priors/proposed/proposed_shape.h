@@ -32,7 +32,11 @@ struct ProposedShapes
 const ProposedShape* proposedShape (const Observation& object, const ObjectSetting& setting,
                                     const std::vector<Eigen::Vector4d>& planes);
 
-/** \brief Expect a proposed surface where nothing was measured. */
-void addProposedShape (const ProposedShape& shape, const BodyEnergy& energy, Proposal& proposal);
+/** \brief Mean thickness of a closed mesh, metres: twice its volume by its area; 0 for an open one. */
+double wallOf (const ProposedShape& shape);
+
+/** \brief Expect a proposed surface where nothing was measured, and behind a measured one, where a wall ends.
+ * \param[in,out] energy with data term, free space, and which way the points face */
+void addProposedShape (const ProposedShape& shape, BodyEnergy& energy, Proposal& proposal);
 
 } // namespace pcl::cosection
