@@ -10,6 +10,7 @@ namespace {
 
 constexpr std::size_t samples_of_many = 100; // by which many candidates are judged, ...
 constexpr std::size_t samples_of_some = 300; // ... and those that are left
+constexpr std::size_t copies_at_once = 16;   // are judged, before it is asked which candidate is the best
 constexpr int halvings = 5;                  // of the steps of a climb
 constexpr double least_gain = 1e-6;          // of a step
 constexpr double about_as_good = 0.02;       // difference of log-likelihood ratios
@@ -50,26 +51,44 @@ ratioOf (const CopyJudge& judge, const Motions& motions, std::size_t stride)
                           : judge.judge (motions, stride).logLikelihoodRatio ();
 }
 
-std::vector<RatedParameters>
-sortedByEvidence (const CopyJudge& judge, const MakeMotions& motions, std::vector<Parameters> all)
+BestFirst::BestFirst (const CopyJudge& judge, const MakeMotions& motions, std::vector<Parameters> all) : judge_ (judge)
 {
   const std::size_t stride = strideFor (judge, samples_of_many);
-  std::vector<RatedParameters> candidates;
+  candidates_.reserve (all.size ());
+  std::vector<Bound> bounds;
   for (Parameters& at : all)
   {
-    const double ratio = ratioOf (judge, motions (at), stride);
-    candidates.push_back ({std::move (at), ratio});
+    Judgement judgement (motions (at), judge, stride);
+    judgement.goOn (judge, copies_at_once);
+    bounds.push_back ({judgement.most (), candidates_.size ()});
+    candidates_.push_back ({std::move (at), std::move (judgement)});
   }
-  std::stable_sort (candidates.begin (), candidates.end (),
-                    [] (const RatedParameters& a, const RatedParameters& b) { return a.ratio > b.ratio; });
-  return candidates;
+  queue_ = std::priority_queue<Bound> (std::less<Bound> (), std::move (bounds));
+}
+
+RatedParameters
+BestFirst::next (const std::function<bool (const Parameters&)>& is_wanted)
+{
+  while (!queue_.empty ())
+  {
+    const auto [most, n] = queue_.top ();
+    queue_.pop ();
+    Candidate& candidate = candidates_[n];
+    if (!is_wanted (candidate.at))
+      continue;
+    if (candidate.judgement.isDone ())
+      return {candidate.at, most};
+    candidate.judgement.goOn (judge_, copies_at_once);
+    queue_.push ({candidate.judgement.most (), n});
+  }
+  return {};
 }
 
 RatedParameters
 bestOf (const CopyJudge& judge, const MakeMotions& motions, const std::vector<Parameters>& all)
 {
-  const std::vector<RatedParameters> sorted = sortedByEvidence (judge, motions, all);
-  return sorted.empty () || !std::isfinite (sorted.front ().ratio) ? RatedParameters () : sorted.front ();
+  RatedParameters best = BestFirst (judge, motions, all).next ([] (const Parameters&) { return true; });
+  return std::isfinite (best.ratio) ? best : RatedParameters ();
 }
 
 void
@@ -79,23 +98,24 @@ climb (const CopyJudge& judge, const MakeMotions& motions, Parameters steps, Rat
     return;
   const std::size_t stride = judged_by == JudgedBy::SomeSamples ? strideFor (judge, samples_of_some) : 1;
   best.ratio = ratioOf (judge, motions (best.at), stride);
+  const std::size_t neighbours = 2 * steps.size ();
   for (int round = 0; round < halvings; ++round)
   {
-    for (bool moved = true; moved;)
+    // The neighbours in turn, until each of them was found to be no better.
+    std::size_t back = neighbours; // the one from which the last step came
+    for (std::size_t n = 0, no_better = 0; no_better < neighbours; n = (n + 1) % neighbours)
     {
-      moved = false;
-      for (std::size_t k = 0; k < steps.size (); ++k)
-        for (const double sense : {-1.0, 1.0})
-        {
-          Parameters next = best.at;
-          next[k] += sense * steps[k];
-          const double ratio = ratioOf (judge, motions (next), stride);
-          if (ratio > best.ratio + least_gain)
-          {
-            best = {std::move (next), ratio};
-            moved = true;
-          }
-        }
+      const std::size_t k = n / 2, opposite = n ^ 1U;
+      Parameters next = best.at;
+      next[k] += n % 2 == 0 ? -steps[k] : steps[k];
+      const double ratio = n == back ? best.ratio : ratioOf (judge, motions (next), stride);
+      ++no_better;
+      if (ratio > best.ratio + least_gain)
+      {
+        best = {std::move (next), ratio};
+        back = opposite;
+        no_better = 0;
+      }
     }
     for (double& step : steps)
       step *= 0.5;

@@ -6,6 +6,7 @@
 #include <functional>
 #include <limits>
 #include <optional>
+#include <queue>
 #include <vector>
 
 namespace pcl::cosection {
@@ -33,9 +34,39 @@ double ratioOf (const CopyJudge& judge, const Motions& motions, std::size_t stri
 /** \brief The best of some parameters, judged by a part of the samples; empty if all are impossible. */
 RatedParameters bestOf (const CopyJudge& judge, const MakeMotions& motions, const std::vector<Parameters>& all);
 
-/** \brief Evidence of \a all, judged by a part of the samples, the best first. */
-std::vector<RatedParameters> sortedByEvidence (const CopyJudge& judge, const MakeMotions& motions,
-                                               std::vector<Parameters> all);
+/** \brief Hands out parameters, the best first, judged by a part of the samples; those of the same evidence in their
+ * order. Judges each only as far as it takes to know which is next. */
+class BestFirst
+{
+public:
+  /** \param[in] judge must outlive this */
+  BestFirst (const CopyJudge& judge, const MakeMotions& motions, std::vector<Parameters> all);
+
+  /** \brief The next ones of those that are wanted; empty if there are no more. The others are dropped. */
+  RatedParameters next (const std::function<bool (const Parameters&)>& is_wanted);
+
+private:
+  struct Candidate
+  {
+    Parameters at;
+    Judgement judgement;
+  };
+
+  struct Bound
+  {
+    double most; // of the log-likelihood ratio
+    std::size_t candidate;
+
+    bool operator<(const Bound& other) const
+    {
+      return most < other.most || (most == other.most && candidate > other.candidate);
+    }
+  };
+
+  const CopyJudge& judge_;
+  std::vector<Candidate> candidates_;
+  std::priority_queue<Bound> queue_;
+};
 
 /** \brief By how many samples motions are judged. */
 enum class JudgedBy

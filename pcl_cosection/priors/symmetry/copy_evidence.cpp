@@ -9,6 +9,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace pcl::cosection {
 namespace {
@@ -189,13 +190,50 @@ CopyJudge::judge (const OrientedPoint& sample, const Eigen::Affine3d& motion, Co
 CopyEvidence
 CopyJudge::judge (const Motions& motions, std::size_t stride) const
 {
-  CopyEvidence sums;
-  std::size_t copies = 0;
-  for (const Eigen::Affine3d& motion : motions)
-    for (std::size_t s = 0; s < samples_.size (); s += stride, ++copies)
-      judge (samples_[s], motion, sums);
-  const double per_copy = copies > 0 ? 1.0 / static_cast<double> (copies) : 0.0;
-  return {per_copy * sums.support, per_copy * sums.contradiction};
+  Judgement judgement (motions, *this, stride);
+  judgement.goOn (*this, std::numeric_limits<std::size_t>::max ());
+  return judgement.evidence ();
+}
+
+Judgement::Judgement (Motions motions, const CopyJudge& judge, std::size_t stride)
+    : motions_ (std::move (motions))
+    , stride_ (stride)
+    , copies_ (motions_.size () * ((judge.samples ().size () + stride - 1) / stride))
+{}
+
+void
+Judgement::goOn (const CopyJudge& judge, std::size_t copies)
+{
+  for (const std::size_t end = judged_ + std::min (copies, copies_ - judged_); judged_ < end; ++judged_)
+  {
+    judge.judge (judge.samples_[sample_], motions_[motion_], sums_);
+    sample_ += stride_;
+    if (sample_ < judge.samples_.size ())
+      continue;
+    sample_ = 0;
+    ++motion_;
+  }
+}
+
+CopyEvidence
+Judgement::evidence () const
+{
+  const double per_copy = copies_ > 0 ? 1.0 / static_cast<double> (copies_) : 0.0;
+  return {per_copy * sums_.support, per_copy * sums_.contradiction};
+}
+
+double
+Judgement::most () const
+{
+  constexpr double rounding = 1e-9;
+  if (motions_.empty ())
+    return -std::numeric_limits<double>::infinity ();
+  CopyEvidence most = evidence ();
+  if (isDone ())
+    return most.logLikelihoodRatio ();
+  most.support += static_cast<double> (copies_ - judged_) /
+                  static_cast<double> (copies_); // if all that are left support
+  return most.logLikelihoodRatio () + rounding;
 }
 
 } // namespace pcl::cosection

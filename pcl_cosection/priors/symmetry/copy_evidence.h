@@ -45,6 +45,8 @@ public:
   CopyEvidence judge (const Motions& motions, std::size_t stride = 1) const;
 
 private:
+  friend class Judgement;
+
   double freeShare (const Eigen::Vector3d& place) const;
   float nearestReading (std::size_t view, const Eigen::Array2i& pixel) const;
   void judge (const OrientedPoint& sample, const Eigen::Affine3d& motion, CopyEvidence& sums) const;
@@ -56,6 +58,32 @@ private:
   mutable std::vector<std::vector<float>>
       nearest_m_; // per view and pixel: nearest reading around; 0: not asked for yet
   std::vector<OrientedPoint> samples_;
+};
+
+/** \brief The evidence for motions, judged copy by copy: motions that cannot be the best any more need not be judged to
+ * the end. */
+class Judgement
+{
+public:
+  /** \param[in] motions none: they are impossible \param[in] stride as CopyJudge::judge () has it */
+  Judgement (Motions motions, const CopyJudge& judge, std::size_t stride);
+
+  bool isDone () const { return judged_ == copies_; }
+
+  /** \brief Judge so many more copies, or those that are left. */
+  void goOn (const CopyJudge& judge, std::size_t copies);
+
+  /** \brief Of all copies. */
+  CopyEvidence evidence () const;
+
+  /** \brief The log-likelihood ratio; before all copies are judged, one that it cannot exceed. */
+  double most () const;
+
+private:
+  Motions motions_;
+  std::size_t stride_, copies_, judged_ = 0;
+  std::size_t motion_ = 0, sample_ = 0; // of the next copy
+  CopyEvidence sums_;
 };
 
 } // namespace pcl::cosection

@@ -92,16 +92,19 @@ bestMirrors (const CopyJudge& judge, const Footprint& footprint)
     for (int j = -footprint.steps (); j <= footprint.steps (); ++j)
       all.push_back ({M_PI * i / mirror_angles, j * footprint.step ()});
   std::vector<RatedParameters> best;
-  for (const RatedParameters& mirror : sortedByEvidence (judge, motions, std::move (all)))
-  {
-    const bool is_new = std::none_of (best.begin (), best.end (), [&] (const RatedParameters& other) {
-      const double between = std::abs (mirror.at[0] - other.at[0]);
+  const auto isNew = [&best] (const Parameters& mirror) {
+    return std::none_of (best.begin (), best.end (), [&] (const RatedParameters& other) {
+      const double between = std::abs (mirror[0] - other.at[0]);
       return std::min (between, M_PI - between) < same_mirror;
     });
-    if (is_new)
-      best.push_back (mirror);
-    if (best.size () == mirrors_to_pair)
+  };
+  BestFirst candidates (judge, motions, std::move (all));
+  while (best.size () < mirrors_to_pair)
+  {
+    RatedParameters mirror = candidates.next (isNew);
+    if (mirror.at.empty ())
       break;
+    best.push_back (std::move (mirror));
   }
   return best;
 }
@@ -129,9 +132,10 @@ addTurnAboutVertical (const CopyJudge& judge, const Footprint& footprint, const 
     return;
   const Parameters steps = {0.5 * footprint.step (), 0.5 * footprint.step ()};
   climb (judge, motions (fine_turns), steps, best);
+  if (!(best.ratio > least))
+    return;
   center (judge, motions (fine_turns), steps, best);
-  if (best.ratio > least)
-    symmetries.push_back (symmetryOf (judge, "full turn", turn_weight, motions (all_turns) (best.at)));
+  symmetries.push_back (symmetryOf (judge, "full turn", turn_weight, motions (all_turns) (best.at)));
 }
 
 /** \brief Add the full turn about an axis along the plane. It lies in a vertical mirror plane. */
