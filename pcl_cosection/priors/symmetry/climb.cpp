@@ -10,12 +10,26 @@ namespace {
 
 constexpr std::size_t samples_of_many = 100; // by which many candidates are judged, ...
 constexpr std::size_t samples_of_some = 300; // ... and those that are left
-constexpr std::size_t copies_at_once = 16;   // are judged, before it is asked which candidate is the best
-constexpr int halvings = 5;                  // of the steps of a climb
+constexpr std::size_t copies_at_once = 8;    // are judged, before it is asked which candidate is the best
 constexpr double least_gain = 1e-6;          // of a step
 constexpr double about_as_good = 0.02;       // difference of log-likelihood ratios
 constexpr double center_step = 0.25;         // of a climb's first step
-constexpr int most_steps = 8, bisections = 6;
+constexpr int most_steps = 8;
+
+/** \brief How finely parameters are searched. */
+struct Fineness
+{
+  int halvings_of_some = 5; // of the steps of a climb among several, whose best will be climbed further, ...
+  int halvings = 5;         // ... and of others
+  int bisections = 6;       // of the last step within the range in which the evidence is about as good
+};
+
+/** \brief Few samples tell parameters no more finely apart than the evidence is exact: a 16th of a voxel will do. */
+Fineness
+finenessFor (const CopyJudge& judge)
+{
+  return judge.samples ().size () < samples_of_some ? Fineness{2, 3, 3} : Fineness ();
+}
 
 /** \brief How far a parameter can go until the evidence falls below a limit. \param[in] step with a sense */
 double
@@ -27,6 +41,7 @@ reachOf (const CopyJudge& judge, const MakeMotions& motions, const Parameters& f
     next[k] += shift;
     return ratioOf (judge, motions (next)) >= limit;
   };
+  const int bisections = finenessFor (judge).bisections;
   double good = 0.0, bad = step;
   for (; std::abs (bad) < most_steps * std::abs (step) && holds (bad); bad += step)
     good = bad;
@@ -98,6 +113,8 @@ climb (const CopyJudge& judge, const MakeMotions& motions, Parameters steps, Rat
     return;
   const std::size_t stride = judged_by == JudgedBy::SomeSamples ? strideFor (judge, samples_of_some) : 1;
   best.ratio = ratioOf (judge, motions (best.at), stride);
+  const Fineness fineness = finenessFor (judge);
+  const int halvings = judged_by == JudgedBy::SomeSamples ? fineness.halvings_of_some : fineness.halvings;
   const std::size_t neighbours = 2 * steps.size ();
   for (int round = 0; round < halvings; ++round)
   {

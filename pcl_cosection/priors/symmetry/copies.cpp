@@ -128,8 +128,11 @@ hullOfCopies (const Observation& object, const Motions& motions, const Eigen::Ve
       const Eigen::Vector3d turned = motion.linear ().transpose () * n;
       std::transform (some.begin (), some.end (), along.begin (),
                       [&] (const Eigen::Vector3d& p) { return turned.dot (p); });
-      std::nth_element (along.begin (), along.begin () + rank, along.end (), std::greater<> ());
-      farthest = std::max (farthest, along[static_cast<std::size_t> (rank)] + n.dot (motion.translation ()));
+      if (rank > 0)
+        std::nth_element (along.begin (), along.begin () + rank, along.end (), std::greater<> ());
+      const double reach = rank > 0 ? along[static_cast<std::size_t> (rank)]
+                                    : *std::max_element (along.begin (), along.end ());
+      farthest = std::max (farthest, reach + n.dot (motion.translation ()));
     }
     hull.add (n, farthest);
   }

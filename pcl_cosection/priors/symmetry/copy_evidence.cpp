@@ -21,6 +21,7 @@ constexpr double surely_free_vox = 3.0; // distance from which a copy begins to 
 constexpr double free_range_vox = 1.5;  // ... and is so, after as much more
 constexpr double free_sigmas = 5.0;     // the same in front of a reading, standard deviations of its depth ...
 constexpr double free_range_sigmas = 3.0;
+constexpr double least_noise_m = 0.4; // a sensor's depth with the least noise
 constexpr double largely_free = 0.3;  // a copy that is on the surface otherwise is in free space
 constexpr double alike_cosine = 0.7;  // of two normals of one surface
 constexpr double across_cosine = 0.3; // below it they are of two, ...
@@ -28,62 +29,100 @@ constexpr double other_side = -0.5;   // ... unless they are of two sides of a w
 constexpr double ramp_width = 0.2;    // around these cosines
 constexpr double across_weight = 0.5; // of a copy on surface across it, as a contradiction
 
+enum Known : std::uint8_t
+{
+  None,
+  Some,
+  All
+};
+
 /** \brief What a measured shape says of a place, interpolated between voxels. */
 struct Interpolated
 {
   double distance_vox = 0.0, known = 0.0; // known: share of the voxels around that are; 0 outside the grid
-  std::array<double, 8> values{};
-  Eigen::Array3d share = Eigen::Array3d::Zero ();
-
-  /** \brief Of unit length. */
-  Eigen::Vector3d gradient () const
-  {
-    const auto difference = [&] (int along, int u, int v) {
-      double sum = 0.0;
-      for (const int i : {0, 1})
-        for (const int j : {0, 1})
-          sum += (i ? share[u] : 1.0 - share[u]) * (j ? share[v] : 1.0 - share[v]) *
-                 (values[(1 << along) + (i << u) + (j << v)] - values[(i << u) + (j << v)]);
-      return sum;
-    };
-    return Eigen::Vector3d (difference (0, 1, 2), difference (1, 0, 2), difference (2, 0, 1)).normalized ();
-  }
+  Eigen::Vector3d gradient = Eigen::Vector3d::Zero ();
 };
 
-Interpolated
-interpolate (const MeasuredShape& shape, const Eigen::Vector3d& place)
+/** \brief The trilinear function of the values at the corners of a voxel, x fastest, and its gradient.
+ * \param[in] share of the way from the lowest corner to the highest */
+inline std::pair<double, Eigen::Vector3d>
+trilinear (const std::array<double, 8>& values, const Eigen::Vector3d& share)
+{
+  std::array<double, 4> along, slopes; // of the edges along x
+  for (std::size_t edge = 0; edge < 4; ++edge)
+  {
+    slopes[edge] = values[2 * edge + 1] - values[2 * edge];
+    along[edge] = values[2 * edge] + share.x () * slopes[edge];
+  }
+  const auto between = [] (double low, double high, double by) { return low + by * (high - low); };
+  const double low = between (along[0], along[1], share.y ()), high = between (along[2], along[3], share.y ());
+  return {between (low, high, share.z ()),
+          {between (between (slopes[0], slopes[1], share.y ()), between (slopes[2], slopes[3], share.y ()), share.z ()),
+           between (along[1] - along[0], along[3] - along[2], share.z ()), high - low}};
+}
+
+inline Interpolated
+interpolate (const MeasuredShape& shape, const std::vector<std::uint8_t>& known_between, const Eigen::Vector3d& place)
 {
   const VoxelGrid& grid = shape.field.grid;
-  const Eigen::Vector3d at = grid.toVoxel (place);
+  const Eigen::Vector3d at = (place - grid.origin_m) * (1.0 / grid.voxel_size_m);
   if (!((at.array () >= 0.0).all () && (at.array () < (grid.dims.array () - 1).cast<double> ()).all ()))
     return {};
   const Eigen::Vector3i low = at.cast<int> ();
-  Interpolated result;
-  result.share = at - low.cast<double> ();
-  const Eigen::Array3d rest = 1.0 - result.share;
   const std::size_t first = grid.index (low.x (), low.y (), low.z ()), row = static_cast<std::size_t> (grid.dims.x ()),
                     layer = row * static_cast<std::size_t> (grid.dims.y ());
-  const auto isKnown = [&] (std::size_t n) { return shape.known[n] || shape.known[n + 1]; };
-  if (!isKnown (first) && !isKnown (first + row) && !isKnown (first + layer) && !isKnown (first + row + layer))
+  const std::uint8_t known = known_between[first];
+  if (known == Known::None)
     return {};
-  for (int corner = 0; corner < 8; ++corner)
-  {
-    const bool x = (corner & 1) != 0, y = (corner & 2) != 0, z = (corner & 4) != 0;
-    const std::size_t n = first + (x ? 1 : 0) + (y ? row : 0) + (z ? layer : 0);
-    const double weight = (x ? result.share.x () : rest.x ()) * (y ? result.share.y () : rest.y ()) *
-                          (z ? result.share.z () : rest.z ());
-    result.values[corner] = shape.field.values[n];
-    result.distance_vox += weight * result.values[corner];
-    result.known += weight * shape.known[n];
-  }
-  return result;
+  const std::array<std::size_t, 8> corners = {
+      first,         first + 1,         first + row,         first + row + 1,
+      first + layer, first + layer + 1, first + layer + row, first + layer + row + 1};
+  std::array<double, 8> values;
+  std::transform (corners.begin (), corners.end (), values.begin (),
+                  [&] (std::size_t n) { return static_cast<double> (shape.field.values[n]); });
+  const Eigen::Vector3d share = at - low.cast<double> ();
+  const auto [distance_vox, gradient] = trilinear (values, share);
+  if (known == Known::All)
+    return {distance_vox, 1.0, gradient};
+  std::transform (corners.begin (), corners.end (), values.begin (),
+                  [&] (std::size_t n) { return static_cast<double> (shape.known[n]); });
+  return {distance_vox, trilinear (values, share).first, gradient};
+}
+
+/** \brief Per voxel, how many of the eight are known of which it is the lowest. */
+std::vector<std::uint8_t>
+knownBetween (const MeasuredShape& shape)
+{
+  std::vector<std::uint8_t> any = shape.known, all = shape.known;
+  const auto row = static_cast<std::size_t> (shape.field.grid.dims.x ());
+  for (const std::size_t step : {std::size_t (1), row, row * static_cast<std::size_t> (shape.field.grid.dims.y ())})
+    for (std::size_t n = 0; n + step < any.size (); ++n)
+    {
+      any[n] |= any[n + step];
+      all[n] &= all[n + step];
+    }
+  std::transform (any.begin (), any.end (), all.begin (), any.begin (), [] (std::uint8_t one, std::uint8_t every) {
+    return static_cast<std::uint8_t> (every ? Known::All : one ? Known::Some : Known::None);
+  });
+  return any;
+}
+
+/** \brief Metres; 0 without readings. */
+float
+farthestReading (const DepthView& view)
+{
+  float farthest_m = 0.0f;
+  for (const float reading_m : view.depth)
+    if (isReading (reading_m))
+      farthest_m = std::max (farthest_m, reading_m);
+  return farthest_m;
 }
 
 /** \brief From 0 to 1 around a cosine. */
-double
+inline double
 ramp (double cosine, double around)
 {
-  return std::clamp (0.5 + (cosine - around) / ramp_width, 0.0, 1.0);
+  return std::clamp (0.5 + (cosine - around) * (1.0 / ramp_width), 0.0, 1.0);
 }
 
 } // namespace
@@ -93,11 +132,13 @@ CopyJudge::CopyJudge (const MeasuredShape& shape, const std::vector<OrientedPoin
     : shape_ (shape)
     , plane_ (plane)
     , views_ (views)
+    , known_between_ (knownBetween (shape))
 {
   for (const auto& [view, T_object_sensor] : views)
   {
     T_sensor_object_.push_back (T_object_sensor.inverse ());
     nearest_m_.emplace_back (static_cast<std::size_t> (view->camera.width) * view->camera.height, 0.0f);
+    farthest_m_.push_back (farthestReading (*view));
   }
   const VoxelGrid& grid = shape.field.grid;
   const Eigen::Vector3d middle = 0.5 *
@@ -147,6 +188,9 @@ CopyJudge::freeShare (const Eigen::Vector3d& place) const
   for (std::size_t v = 0; v < views_.size () && most < 1.0; ++v)
   {
     const Eigen::Vector3d p = T_sensor_object_[v] * place;
+    // Readings that are nearer are not asked for: noise grows with the distance from where it is least.
+    if (!(p.z () < farthest_m_[v] - (p.z () > least_noise_m ? free_sigmas * depthNoiseSigma (p.z ()) : 0.0)))
+      continue;
     const auto pixel = pixelOf (views_[v].first->camera, p);
     if (!pixel)
       continue;
@@ -174,15 +218,17 @@ CopyJudge::judge (const OrientedPoint& sample, const Eigen::Affine3d& motion, Co
     sums.contradiction += free;
     return;
   }
-  const Interpolated measured = interpolate (shape_, copy);
+  const Interpolated measured = interpolate (shape_, known_between_, copy);
   const double distance_vox = measured.distance_vox, known = measured.known;
   if (!(known > 0.0))
     return;
-  sums.contradiction += known * std::clamp ((distance_vox - surely_free_vox) / free_range_vox, 0.0, 1.0);
+  sums.contradiction += known * std::clamp ((distance_vox - surely_free_vox) * (1.0 / free_range_vox), 0.0, 1.0);
   if (!(std::abs (distance_vox) < surface_vox))
     return;
-  const double nearness = known * tukeyWeight (distance_vox / surface_vox);
-  const double cosine = (motion.linear () * sample.normal.cast<double> ()).dot (measured.gradient ());
+  const double nearness = known * tukeyWeight (distance_vox * (1.0 / surface_vox));
+  const double slope = measured.gradient.norm ();
+  const double cosine = slope > 0.0 ? (motion.linear () * sample.normal.cast<double> ()).dot (measured.gradient) / slope
+                                    : 0.0;
   sums.support += nearness * ramp (cosine, alike_cosine);
   sums.contradiction += across_weight * nearness * (1.0 - ramp (cosine, across_cosine)) * ramp (cosine, other_side);
 }

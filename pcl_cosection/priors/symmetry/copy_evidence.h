@@ -8,6 +8,7 @@
 
 #include <Eigen/Geometry>
 
+#include <cstdint>
 #include <vector>
 
 namespace pcl::cosection {
@@ -56,7 +57,9 @@ private:
   const OcclusionMap::Views& views_;
   std::vector<Eigen::Isometry3d> T_sensor_object_;
   mutable std::vector<std::vector<float>>
-      nearest_m_; // per view and pixel: nearest reading around; 0: not asked for yet
+      nearest_m_;                           // per view and pixel: nearest reading around; 0: not asked for yet
+  std::vector<float> farthest_m_;           // reading, per view
+  std::vector<std::uint8_t> known_between_; // per voxel: which of the eight are known of which it is the lowest
   std::vector<OrientedPoint> samples_;
 };
 
