@@ -7,7 +7,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <unordered_map>
@@ -190,15 +192,21 @@ markTargets (const std::vector<float>& measured, BodyEnergy& energy)
 /** \brief A query whether a place (object frame) may belong to another object: it is in the box of that one's points.
  */
 std::function<bool (const Eigen::Vector3d&)>
-placesOfOthers (const std::vector<SceneObject>& objects, std::size_t own, const CompletionLog& log)
+placesOfOthers (const std::vector<SceneObject>& objects, std::size_t own, const std::vector<std::uint8_t>& alive)
 {
-  std::vector<std::pair<Eigen::AlignedBox3d, std::vector<Eigen::Isometry3d>>> others; // box, T_other_object
-  for (std::size_t o = 0; o < objects.size (); ++o)
-    if (o != own && !log.failed (objects[o].index))
-      others.emplace_back (objects[o].observation->box,
-                           relativePoses (*objects[own].input, objects[own].grid (), objects[o].input));
-  return [others] (const Eigen::Vector3d& p) {
-    return std::any_of (others.begin (), others.end (), [&p] (const auto& other) {
+  // Poses are compared when a place is asked for: most objects ask for none.
+  using Other = std::pair<Eigen::AlignedBox3d, std::vector<Eigen::Isometry3d>>; // box, T_other_object
+  const auto others = std::make_shared<std::optional<std::vector<Other>>> ();
+  return [&objects, own, &alive, others] (const Eigen::Vector3d& p) {
+    if (!*others)
+    {
+      others->emplace ();
+      for (std::size_t o = 0; o < objects.size (); ++o)
+        if (o != own && alive[o])
+          (*others)->emplace_back (objects[o].observation->box,
+                                   relativePoses (*objects[own].input, objects[own].grid (), objects[o].input));
+    }
+    return std::any_of ((*others)->begin (), (*others)->end (), [&p] (const Other& other) {
       return std::any_of (other.second.begin (), other.second.end (), [&] (const Eigen::Isometry3d& T_other_object) {
         return other.first.contains (T_other_object * p);
       });
@@ -261,8 +269,9 @@ std::vector<BodyEnergy>
 objectEnergies (const Scene& scene, CompletionMode mode, const std::vector<SceneObject>& objects, CompletionLog& log)
 {
   std::vector<BodyEnergy> energies (objects.size ());
+  const std::vector<std::uint8_t> alive = aliveObjects (objects, log);
   log.timed ("constraints", [&] {
-    forEachObject (objects, log, [&] (std::size_t o) {
+    forEachObjectAtOnce (objects, scene.options.threads, log, [&] (std::size_t o) {
       const SceneObject& object = objects[o];
       BodyState& body = *object.body;
       BodyEnergy energy = makeBodyEnergy (*body.evidence);
@@ -271,7 +280,7 @@ objectEnergies (const Scene& scene, CompletionMode mode, const std::vector<Scene
       if (!energy.hasData ())
         throw DegenerateInput ("no usable measurements: all of its points lie in space that was seen free");
       ObjectSetting setting = settingOf (scene, *object.input, body);
-      setting.is_of_other = placesOfOthers (objects, o, log);
+      setting.is_of_other = placesOfOthers (objects, o, alive);
       const std::vector<float> measured = energy.problem.weight;
       addPriors (*object.observation, setting, object.planes (), body.hidden, energy);
       markTargets (measured, energy);

@@ -3,6 +3,7 @@
 
 #include "hulls.h"
 #include "joint_solve.h"
+#include "neighbours.h"
 #include "pcl_cosection/energy/body_mesh.h"
 #include "pcl_cosection/energy/expected_error.h"
 #include "pcl_cosection/mesh/mesh_attributes.h"
@@ -11,6 +12,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <utility>
 
 namespace pcl::cosection {
@@ -64,7 +66,7 @@ finishObjects (const Scene& scene, const std::vector<SceneObject>& objects, cons
                UpdateOutput output, std::size_t used_bytes, CompletionLog& log)
 {
   std::vector<ObjectResult> results (objects.size ());
-  forEachObject (objects, log, [&] (std::size_t o) {
+  forEachObjectAtOnce (objects, scene.options.threads, log, [&] (std::size_t o) {
     const SceneObject& object = objects[o];
     const BodySolution& solution = object.body->solution;
     ObjectResult& result = results[o];
@@ -87,12 +89,14 @@ finishObjects (const Scene& scene, const std::vector<SceneObject>& objects, cons
       used_bytes += bytesOf (*field);
     addHulls (scene, objects, used_bytes, results, log);
   }
+  const std::vector<std::uint8_t> alive = aliveObjects (objects, log);
+  const std::vector<std::vector<std::size_t>> neighbours = neighboursOf (objects);
   if (scene.options.use_intersection)
-    forEachObject (objects, log, [&] (std::size_t o) {
+    forEachObjectAtOnce (objects, scene.options.threads, log, [&] (std::size_t o) {
       const SignedDistanceField& field = *results[o].signed_distance;
       double deepest = penetrationOfSurroundings (scene, objects[o], field, background, obstacles);
-      for (std::size_t p = 0; p < objects.size (); ++p)
-        if (p != o && !log.failed (objects[p].index))
+      for (const std::size_t p : neighbours[o])
+        if (alive[p])
           deepest = std::max (deepest,
                               penetration (field, *results[p].signed_distance,
                                            relativePoses (*objects[o].input, objects[o].grid (), objects[p].input),

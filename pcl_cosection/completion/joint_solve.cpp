@@ -1,6 +1,7 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "joint_solve.h"
 
+#include "neighbours.h"
 #include "pcl_cosection/common/parallel.h"
 #include "pcl_cosection/energy/constraints/intersection_constraint.h"
 
@@ -130,9 +131,11 @@ public:
       , energies_ (energies)
       , log_ (log)
       , joint_ (objects.size ())
+      , neighbours_ (neighboursOf (objects))
+      , alive_ (aliveObjects (objects, log))
   {
     for (std::size_t o = 0; o < objects.size (); ++o)
-      if (alive (o)) // in the first pass neighbours are their data alone
+      if (alive_[o]) // in the first pass neighbours are their data alone
         joint_[o].shown = measuredField (energies[o]);
   }
 
@@ -160,8 +163,6 @@ public:
   }
 
 private:
-  bool alive (std::size_t o) const { return !log_.failed (objects_[o].index); }
-
   std::vector<Eigen::Isometry3d> relativePoses (std::size_t of, std::size_t to) const
   {
     return cosection::relativePoses (*objects_[of].input, objects_[of].grid (), objects_[to].input);
@@ -200,9 +201,9 @@ private:
       object.surroundings = surroundingsOf (o);
     IntersectionConstraint constraint = *object.surroundings;
     constraint.scaleWeights (object.beta_surroundings);
-    for (std::size_t p = 0; p < objects_.size (); ++p)
+    for (const std::size_t p : neighbours_[o])
     {
-      if (p == o || !alive (p))
+      if (!alive_[p])
         continue;
       const auto grown = object.beta.find (p);
       const double beta = options.beta_inter * (grown == object.beta.end () ? 1.0 : grown->second);
@@ -214,15 +215,22 @@ private:
   void solvePass (Resolution resolution, int pass)
   {
     std::vector<std::vector<LowerBound>> bounds (objects_.size ());
-    log_.timed ("constraints",
-                [&] { forEachObject (objects_, log_, [&] (std::size_t o) { bounds[o] = boundsOf (o); }); });
+    const int threads = scene_.options.threads;
+    const auto forEach = [&] (const auto& f) {
+      alive_ = aliveObjects (objects_, log_);
+      forEachObjectAtOnce (objects_, threads, log_, f);
+    };
+    log_.timed ("constraints", [&] { forEach ([&] (std::size_t o) { bounds[o] = boundsOf (o); }); });
     const std::size_t all = scene_.objects.size ();
     const PassProgress& progress = resolution == Resolution::Half ? half_progress : full_progress;
     const double begin = pass == 0 ? progress.begin : progress.first;
     const double end = pass == 0 ? progress.first : progress.end;
     const double share = (end - begin) / static_cast<double> (all) /
                          (pass == 0 ? 1 : std::max (1, scene_.options.max_passes - 1));
-    forEachObject (objects_, log_, [&] (std::size_t o) {
+    const auto doneBefore = [&] (std::size_t objects) {
+      return begin + share * static_cast<double> (std::max (0, pass - 1) * all + objects);
+    };
+    const auto solveOne = [&] (std::size_t o, bool is_alone) {
       std::vector<LowerBound>& intersection = energies_[o].problem.intersection;
       joint_[o].changed |= bounds[o] != intersection;
       intersection = std::move (bounds[o]);
@@ -230,26 +238,30 @@ private:
       if ((resolution == Resolution::Half && solution.has (Resolution::Full)) ||
           (!joint_[o].changed && solution.has (resolution)))
         return;
-      const double done = static_cast<double> (std::max (0, pass - 1) * all + objects_[o].index);
-      solveObject (o, resolution, begin + share * done, share);
+      solveObject (o, resolution, [&, o, is_alone] (const std::string&, double f) {
+        if (is_alone)
+          log_.report (nameOf (o), doneBefore (objects_[o].index) + share * f);
+        return true;
+      });
+    };
+    log_.timed ("solve", [&] {
+      forEachObjectAtOnce (objects_, threads, log_, solveOne, [&] (std::size_t end) {
+        log_.report (nameOf (end - 1), doneBefore (objects_[end - 1].index + 1));
+      });
     });
     if (scene_.options.intersect_solved)
-      forEachObject (objects_, log_, [&] (std::size_t o) { showSolution (o); });
+      forEach ([&] (std::size_t o) { showSolution (o); });
   }
 
-  void solveObject (std::size_t o, Resolution resolution, double begin, double share)
+  std::string nameOf (std::size_t o) const { return "object " + std::to_string (objects_[o].input->id); }
+
+  void solveObject (std::size_t o, Resolution resolution, const ProgressCallback& progress)
   {
-    log_.timed ("solve", [&] {
-      JointObject& object = joint_[o];
-      const int before = object.solver.iterations;
-      object.changed = false;
-      object.solver = cosection::solve (
-          energies_[o], resolution, objects_[o].body->solution, [&] (const std::string&, double f) {
-            log_.report ("object " + std::to_string (objects_[o].input->id), begin + share * f);
-            return true;
-          });
-      object.solver.iterations += before;
-    });
+    JointObject& object = joint_[o];
+    const int before = object.solver.iterations;
+    object.changed = false;
+    object.solver = cosection::solve (energies_[o], resolution, objects_[o].body->solution, progress);
+    object.solver.iterations += before;
   }
 
   /** \brief Update the shape that bounds an object's neighbours after a pass. */
@@ -281,17 +293,18 @@ private:
       coarsest = std::max (coarsest, body->grid.voxel_size_m);
     for (const Obstacle& obstacle : obstacles_)
       coarsest = std::max (coarsest, obstacle.field->grid.voxel_size_m);
+    alive_ = aliveObjects (objects_, log_);
     for (std::size_t o = 0; o < objects_.size (); ++o)
     {
-      if (!alive (o))
+      if (!alive_[o])
         continue;
       const double h = objects_[o].grid ().voxel_size_m;
       const double depth = penetrationOfSurroundings (scene_, objects_[o], joint_[o].field, background_, obstacles_);
       if (depth > allowed_voxels * std::clamp (coarsest, h, coarse_voxels * h))
         grow (joint_[o].beta_surroundings);
-      for (std::size_t p = 0; p < objects_.size (); ++p)
+      for (const std::size_t p : neighbours_[o])
       {
-        if (p == o || !alive (p))
+        if (!alive_[p])
           continue;
         const SignedDistanceField &field = joint_[o].field, &other = joint_[p].field;
         const double allowed = allowed_voxels * std::max (field.grid.voxel_size_m, other.grid.voxel_size_m);
@@ -309,6 +322,8 @@ private:
   std::vector<BodyEnergy>& energies_;
   CompletionLog& log_;
   std::vector<JointObject> joint_;
+  std::vector<std::vector<std::size_t>> neighbours_;
+  std::vector<std::uint8_t> alive_; // before the calls for all objects that are being made
 };
 
 } // namespace

@@ -2,9 +2,13 @@
 #pragma once
 
 #include "completion_log.h"
+#include "pcl_cosection/common/parallel.h"
 #include "pcl_cosection/priors/object_priors.h"
 #include "scene.h"
 
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
 #include <vector>
 
 namespace pcl::cosection {
@@ -43,6 +47,52 @@ forEachObject (const std::vector<SceneObject>& objects, CompletionLog& log, Func
   for (std::size_t o = 0; o < objects.size (); ++o)
     if (!log.failed (objects[o].index))
       log.guard (objects[o].index, [&] { f (o); });
+}
+
+/** \brief Call f (o, true) as forEachObject () calls f (o), but f (o, false) for several small objects at the same
+ * time, as none of them keeps all threads busy. Then f may change only what is its object's, and must not use the log.
+ * \param[in] done called on this thread with the number of objects that are done, after those of the same time */
+template <typename Function, typename Done>
+void
+forEachObjectAtOnce (const std::vector<SceneObject>& objects, int threads, CompletionLog& log, Function&& f,
+                     Done&& done)
+{
+  constexpr std::size_t small = 1U << 18; // voxels
+  constexpr std::size_t per_thread = 8;   // objects: some take longer than others
+  const std::size_t most = resolveThreads (threads) > 1 ? per_thread * resolveThreads (threads) : 1;
+  for (std::size_t o = 0; o < objects.size ();)
+  {
+    std::size_t end = o;
+    while (end < objects.size () && end < o + most && objects[end].grid ().size () < small)
+      ++end;
+    const bool is_alone = end <= o + 1;
+    end = std::max (end, o + 1);
+    parallelFor (static_cast<int> (o), static_cast<int> (end), is_alone ? 1 : threads, [&] (int n) {
+      const SceneObject& object = objects[static_cast<std::size_t> (n)];
+      if (!log.failed (object.index))
+        log.guard (object.index, [&] { f (static_cast<std::size_t> (n), is_alone); });
+    });
+    o = end;
+    done (o);
+  }
+}
+
+template <typename Function>
+void
+forEachObjectAtOnce (const std::vector<SceneObject>& objects, int threads, CompletionLog& log, Function&& f)
+{
+  forEachObjectAtOnce (
+      objects, threads, log, [&] (std::size_t o, bool) { f (o); }, [] (std::size_t) {});
+}
+
+/** \brief 1 for each object that has not failed: to be asked while others may fail. */
+inline std::vector<std::uint8_t>
+aliveObjects (const std::vector<SceneObject>& objects, const CompletionLog& log)
+{
+  std::vector<std::uint8_t> alive;
+  for (const SceneObject& object : objects)
+    alive.push_back (!log.failed (object.index));
+  return alive;
 }
 
 /** \brief The surroundings of an object, as priors need them. */
