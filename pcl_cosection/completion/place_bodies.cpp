@@ -360,6 +360,7 @@ placeObjects (const Scene& scene, const std::vector<Observation>& observations,
   });
   // The finest sizes that leave room for all objects and the background: coarse meshes of all rather than of a few.
   const std::size_t limit = options.max_memory_bytes, used = usedBytes () - volumes;
+  std::size_t placed_bytes = volumes; // of the grids of all objects
   std::size_t level = 0;
   while (limit > 0 && level + 1 < bytes.size () &&
          static_cast<double> (used) + static_cast<double> (bytes[level]) / most_of_memory > static_cast<double> (limit))
@@ -368,6 +369,7 @@ placeObjects (const Scene& scene, const std::vector<Observation>& observations,
   std::vector<SceneObject> objects;
   for (std::size_t o = 0; o < scene.objects.size (); ++o)
   {
+    const std::size_t bytes_before = bytesOfGrid (bodyOf (o));
     const bool placed = !log.failed (o) && log.guard (o, [&] {
       BodyState& body = bodyOf (o);
       double voxel_size_m = placements[o].sizes_m[level];
@@ -376,8 +378,9 @@ placeObjects (const Scene& scene, const std::vector<Observation>& observations,
       const bool is_vessel = body.wall_m > 0.0 && !scene.fixedVoxelSize ();
       const double smooth_m = is_vessel ? observations[o].spacing_m : observations[o].voxel_size_m;
       placeBody (placements[o].box, voxel_size_m, std::max (1.0, smooth_m / voxel_size_m), carve,
-                 usedBytes () - bytesOfGrid (body), options, mode, body);
+                 used + placed_bytes - bytes_before, options, mode, body);
     });
+    placed_bytes += bytesOfGrid (bodyOf (o)) - bytes_before;
     if (!placed)
       continue;
     const ObjectInput& input = scene.objects[o];

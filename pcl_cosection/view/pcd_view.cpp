@@ -8,15 +8,35 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
+#include <map>
 #include <sstream>
 #include <utility>
 
 namespace pcl::cosection {
 namespace {
 
-constexpr double farthest_viewpoint = 1e15; // metres; as of the header
-constexpr double millimetre_extent = 100.0; ///< metres; a scene this large is probably not in metres
+constexpr std::size_t most_objects = 10000;   // of one view, of ...
+constexpr std::size_t points_of_object = 100; // ... so many points each
+constexpr double farthest_viewpoint = 1e15;   // metres; as of the header
+constexpr double millimetre_extent = 100.0;   ///< metres; a scene this large is probably not in metres
+
+/** \brief Refuse labels that hardly number objects, before hours are spent on them. \throws DegenerateInput */
+void
+checkLabels (const std::string& path, const SensorCloud& cloud)
+{
+  std::map<std::uint32_t, std::size_t> counts;
+  for (const std::uint32_t label : cloud.labels)
+    ++counts[label];
+  const auto large = static_cast<std::size_t> (std::count_if (
+      counts.begin (), counts.end (), [] (const auto& label) { return label.second >= points_of_object; }));
+  if (large > most_objects)
+    throw DegenerateInput (path + ": has " + std::to_string (large) + " labels of " +
+                           std::to_string (points_of_object) + " points or more, at most " +
+                           std::to_string (most_objects) + " are possible: do they number objects? " +
+                           "(else split the cloud)");
+}
 
 /** \brief Sort the points by label, in the world frame. */
 void
@@ -102,6 +122,7 @@ readPcdView (const std::string& path, const PcdViewOptions& options)
   SensorCloud cloud = readSensorCloud (path, options);
   LabelledView result;
   result.warnings = cloud.warnings;
+  checkLabels (path, cloud);
   checkExtent (path, options, cloud, result);
   result.origin = cloud.origin;
   result.organized = cloud.height > 1;

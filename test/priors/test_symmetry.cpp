@@ -1,6 +1,7 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "volume/analytic_fields.h"
 
+#include "pcl_cosection/priors/symmetry/climb.h"
 #include "pcl_cosection/priors/symmetry/symmetry_search.h"
 
 #include <gtest/gtest.h>
@@ -163,4 +164,37 @@ TEST (CopyEvidence, OfCopiesThatAreSeenAndHidden)
   EXPECT_GT (shifted ({0.0, 0.0, -0.2}).contradiction, 0.99);
   const CopyEvidence hidden = shifted (-0.03 * towards_sensor);
   EXPECT_LT (hidden.contradiction, 0.5);
+}
+
+/** \brief Candidates come by falling evidence, though few of them are judged to the end. */
+TEST (BestFirst, HandsOutTheSameAsJudgingAll)
+{
+  const Seen seen = see (a_box, Eigen::Vector3d::Zero ());
+  const CopyJudge judge = seen.judge ();
+  const MakeMotions motions = [] (const Parameters& p) {
+    return p[1] > 0.0 ? Motions{reflection (Eigen::Vector3d (std::cos (p[0]), std::sin (p[0]), 0.0), p[2])}
+                      : Motions ();
+  };
+  std::vector<Parameters> all;
+  for (int angle = 0; angle < 12; ++angle)
+    for (int offset = -5; offset <= 5; ++offset)
+      all.push_back ({M_PI * angle / 12.0, angle == 3 ? -1.0 : 1.0, 0.01 * offset});
+  const std::size_t stride = judge.samples ().size () / 100 + 1; // as candidates are judged
+  std::vector<double> ratios;
+  for (const Parameters& at : all)
+    ratios.push_back (ratioOf (judge, motions (at), stride));
+  std::sort (ratios.begin (), ratios.end (), std::greater<> ());
+  BestFirst candidates (judge, motions, all);
+  for (const double ratio : ratios)
+  {
+    const RatedParameters next = candidates.next ([] (const Parameters&) { return true; });
+    ASSERT_FALSE (next.at.empty ());
+    EXPECT_EQ (next.ratio, ratio);
+    EXPECT_EQ (ratioOf (judge, motions (next.at), stride), ratio);
+  }
+  EXPECT_TRUE (candidates.next ([] (const Parameters&) { return true; }).at.empty ());
+
+  BestFirst some (judge, motions, all);
+  const RatedParameters wanted = some.next ([] (const Parameters& p) { return p[2] > 0.045; });
+  EXPECT_GT (wanted.at[2], 0.045);
 }

@@ -378,3 +378,20 @@ TEST_F (UnorganizedView, MemoryIsLimited)
   options.max_memory_bytes = 10000000;
   EXPECT_EQ (readPcdView (path, options).objects.at (1).readings, 4000u);
 }
+
+TEST_F (UnorganizedView, LabelsThatNumberNoObjectsAreRefused)
+{
+  pcl::PointCloud<pcl::PointXYZL> cloud;
+  for (std::uint32_t label = 1; label <= 10001; ++label)
+    for (int i = 0; i < 100; ++i)
+      cloud.emplace_back (0.01f * static_cast<float> (i), 0.01f * static_cast<float> (label), 1.0f, label);
+  try
+  {
+    read (cloud);
+    FAIL () << "read";
+  }
+  catch (const DegenerateInput& error)
+  {
+    EXPECT_NE (std::string (error.what ()).find ("10001 labels"), std::string::npos) << error.what ();
+  }
+}

@@ -273,17 +273,22 @@ objectLikeBackground (const SceneInput& scene)
 {
   if (!scene.background.empty () || scene.objects.size () < 2)
     return std::nullopt;
+  int largest = 0;
+  double extent_m = -1.0;
   for (const auto& [id, object] : scene.objects)
-  {
-    std::vector<OrientedPoint> others;
-    for (const auto& [other_id, other] : scene.objects)
-      if (other_id != id)
-        others.insert (others.end (), other.points.begin (), other.points.end ());
-    if (extentOf (object.points).norm () > extentOf (others).norm ())
-      return "object " + std::to_string (id) + " extends farther than all others together; if it is the background, " +
-             "give --background " + std::to_string (id);
-  }
-  return std::nullopt;
+    if (const double other_m = extentOf (object.points).norm (); other_m > extent_m)
+    {
+      largest = id;
+      extent_m = other_m;
+    }
+  std::vector<OrientedPoint> others;
+  for (const auto& [id, object] : scene.objects)
+    if (id != largest)
+      others.insert (others.end (), object.points.begin (), object.points.end ());
+  if (extent_m <= extentOf (others).norm ())
+    return std::nullopt;
+  return "object " + std::to_string (largest) + " extends farther than all others together; if it is the background, " +
+         "give --background " + std::to_string (largest);
 }
 
 } // namespace
