@@ -1,5 +1,6 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "allocation_counter.h"
+#include "completion/many_balls.h"
 #include "table_scene.h"
 
 #include <pcl/cosection/surface/solver.h>
@@ -9,7 +10,7 @@
 #include <algorithm>
 
 // Time and memory of the solver as voxels shrink: the whole energy, from nothing. The memory is that of
-// the problem, its solution, and what the solver needs besides.
+// the problem, its solution, and what the solver needs besides. And time as objects of few points become many.
 
 using namespace pcl::cosection;
 
@@ -35,6 +36,17 @@ scaling (benchmark::State& state)
   state.counters["converged"] = summary.converged ();
 }
 
+void
+manyObjects (benchmark::State& state)
+{
+  const auto count = static_cast<int> (state.range (0));
+  for (auto _ : state)
+    benchmark::DoNotOptimize (test::completeManyBalls (count, 0));
+  state.counters["per_object_s"] = benchmark::Counter (count, benchmark::Counter::kIsIterationInvariantRate |
+                                                                  benchmark::Counter::kInvert);
+}
+
 } // namespace
 
 BENCHMARK (scaling)->Arg (64)->Arg (128)->Arg (256)->Unit (benchmark::kSecond)->UseRealTime ();
+BENCHMARK (manyObjects)->Arg (50)->Arg (100)->Arg (250)->Arg (500)->Unit (benchmark::kSecond)->UseRealTime ();
