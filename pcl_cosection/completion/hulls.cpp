@@ -264,9 +264,9 @@ unseenLayer (const OcclusionMap::Views& views, const Eigen::Vector3d& place, dou
   {
     const Eigen::Vector3d p = T_object_sensor.inverse () * place;
     if (pixelOf (view->camera, p))
-      margin_m = std::min (margin_m, freeSpaceMargin (p.z (), voxel_size_m));
+      margin_m = std::min (margin_m, freeSpaceMargin (*view, p.z (), voxel_size_m));
   }
-  return (margin_m < std::numeric_limits<double>::infinity () ? margin_m : freeSpaceMargin (0.0, voxel_size_m)) +
+  return (margin_m < std::numeric_limits<double>::infinity () ? margin_m : leastFreeSpaceMargin (voxel_size_m)) +
          layer_more_vox * voxel_size_m;
 }
 

@@ -27,8 +27,8 @@ constexpr double outlier_reach_voxels = 3.0;  // cutoff of a point in the data t
 constexpr double max_outlier_share = 0.2;     // if more points seem to be outliers, all points are kept
 constexpr double least_spacings_across = 5.0; // least middle extent of an object, in supported voxels
 constexpr double trimmed_share = 0.005;       // of the points, at either end of each axis of their box
-constexpr double min_extent_m = 1e-6;
-constexpr double worth_saying = 0.02; // share of repeated points
+constexpr double min_extent = 1e-6;           // of the coordinates: less is their rounding
+constexpr double worth_saying = 0.02;         // share of repeated points
 constexpr double points_per_voxel = 3.0;
 // So few points per voxel are enough if more would need voxels so large that they lose the shape:
 constexpr double least_points_per_voxel = 1.5;
@@ -74,7 +74,7 @@ observedBox (const std::vector<OrientedPoint>& points, int threads)
     throw DegenerateInput ("some points have no finite coordinates");
   const auto box = trimmedBox<double> (
       points, trimmed_share, [] (const OrientedPoint& p) { return p.position; }, threads);
-  if (!(box.sizes ().maxCoeff () > min_extent_m))
+  if (!(box.sizes ().maxCoeff () > min_extent * box.min ().cwiseAbs ().maxCoeff ()))
     throw DegenerateInput ("all points lie on one spot");
   return box;
 }

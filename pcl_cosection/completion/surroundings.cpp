@@ -2,6 +2,7 @@
 #include "surroundings.h"
 
 #include "pcl_cosection/common/boxes.h"
+#include "pcl_cosection/view/sensor_noise.h"
 #include "pcl_cosection/view/support_plane.h"
 #include "place_bodies.h"
 #include <pcl/cosection/volume/mesh_distance.h>
@@ -16,12 +17,12 @@ namespace pcl::cosection {
 namespace {
 
 constexpr double plane_inlier_voxels = 2.0;
-constexpr double min_plane_inlier_m = 0.004;
+constexpr double plane_inlier_sigmas = 3.0; // of depth noise, if that is more
 // Of the longest side: a support plane is searched so far away if none is visible near the object. What a camera above
 // sees of a bottle is a quarter as wide as the bottle is high.
 constexpr double hidden_plane_reach = 4.0;
 constexpr double same_plane_cosine = 0.999;
-constexpr double same_plane_m = 0.005;
+constexpr double same_plane_voxels = 2.0;
 constexpr std::size_t most_samples = 2000; // of an object's points
 constexpr double cut_voxels = 2.0;         // noise alone puts no point so deep
 constexpr double max_share_behind = 0.05;  // of an object's points, behind a given plane or in an obstacle
@@ -141,7 +142,9 @@ boundingPlanes (const Scene& scene, const ObjectInput& object, const Observation
   for (OrientedPoint& p : points)
     p.position = (firstPose (object) * p.position.cast<double> ()).cast<float> ();
   SupportPlaneOptions options;
-  options.inlier_distance_m = std::max (min_plane_inlier_m, plane_inlier_voxels * observation.voxel_size_m);
+  options.noise_m = observation.virtual_view ? 0.0 : noiseAt (observation.box.center (), observation.views);
+  options.inlier_distance_m = std::max (plane_inlier_sigmas * options.noise_m,
+                                        plane_inlier_voxels * observation.voxel_size_m);
   std::vector<Eigen::Vector4d> found = findSupportPlanes (scene.background, points, options);
   if (found.empty ()) // other things may hide the background nearby
   {
@@ -188,7 +191,8 @@ differentPlanes (const Scene& scene, const std::vector<Observation>& observation
     {
       const bool known = std::any_of (different.begin (), different.end (), [&] (const Eigen::Vector4d& other) {
         return plane.head<3> ().dot (other.head<3> ()) > same_plane_cosine &&
-               std::abs ((plane - other).head<3> ().dot (center) + plane[3] - other[3]) < same_plane_m;
+               std::abs ((plane - other).head<3> ().dot (center) + plane[3] - other[3]) <
+                   same_plane_voxels * observations[o].voxel_size_m;
       });
       if (!known)
         different.push_back (plane);

@@ -2,7 +2,7 @@
 #include "expected_error.h"
 
 #include "pcl_cosection/common/parallel.h"
-#include "pcl_cosection/view/visibility/visibility.h"
+#include "pcl_cosection/view/sensor_noise.h"
 #include "pcl_cosection/volume/distance_transform.h"
 
 #include <algorithm>
@@ -30,20 +30,6 @@ distanceToPoints (const BodyEnergy& energy, const std::vector<OrientedPoint>& po
   for (float& value : distance.values)
     value = std::min (value, farthest_vox) * static_cast<float> (energy.grid.voxel_size_m);
   return distance;
-}
-
-/** \brief Least noise of the views that show a place; 0 if no view does. */
-double
-noiseAt (const Eigen::Vector3d& place, const SensorViews& views)
-{
-  double depth_m = std::numeric_limits<double>::infinity ();
-  for (const auto& [view, T_body_sensor] : views)
-  {
-    const Eigen::Vector3d seen = T_body_sensor.inverse () * place;
-    if (seen.z () < depth_m && pixelOf (view->camera, seen))
-      depth_m = seen.z ();
-  }
-  return std::isfinite (depth_m) ? depthNoiseSigma (depth_m) : 0.0;
 }
 
 /** \brief Whether a prior has a target at a voxel around a place. */

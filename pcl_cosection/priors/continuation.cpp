@@ -106,7 +106,7 @@ private:
     return static_cast<std::size_t> (pixel.y ()) * view_.camera.width + pixel.x ();
   }
 
-  double marginOf (double depth_m) const { return freeSpaceMargin (depth_m, voxel_size_m_); }
+  double marginOf (double depth_m) const { return freeSpaceMargin (view_, depth_m, voxel_size_m_); }
 
   /** \brief Readings at the edges of surfaces were left out, but are as near: they are the object's, too. */
   void growIntoEdges ()

@@ -67,6 +67,8 @@ DepthView::validate () const
                            std::to_string (camera.width) + " x " + std::to_string (camera.height) + " pixels");
   if (!T_world_sensor.matrix ().allFinite ())
     throw InvalidArgument ("the pose of a view must be finite");
+  if (!(working_range_m > 0.0 && std::isfinite (working_range_m)))
+    throw InvalidArgument ("the working range of a view must be positive and finite");
 }
 
 std::optional<PinholeCamera>

@@ -1,6 +1,8 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "camera_resection.h"
 
+#include "sensor_noise.h"
+
 #include <pcl/cosection/common/error.h>
 
 #include <Eigen/Eigenvalues>
@@ -233,6 +235,7 @@ depthImage (const PinholeCamera& camera, const std::vector<Eigen::Vector3f>& poi
   view.depth.reserve (points.size ());
   for (const Eigen::Vector3f& p : points)
     view.depth.push_back (p.z () > 0.0f ? p.z () : std::numeric_limits<float>::quiet_NaN ());
+  view.working_range_m = workingRange (view.depth);
   return view;
 }
 

@@ -206,7 +206,7 @@ endsInJump (const SensorCloud& cloud, const Eigen::Vector3f& normal, std::size_t
     if (!(along < 0.0f)) // above the horizon of the plane
       return false;
     const float expected = offset / along;
-    const auto noise = static_cast<float> (noise_sigmas * depthNoiseSigma (range));
+    const auto noise = static_cast<float> (noise_sigmas * depthNoiseSigma (range, cloud.working_range_m));
     const float difference = there.norm () - expected;
     if (cloud.labels[j] != cloud.labels[i])
     {
@@ -348,12 +348,15 @@ mendLabels (const std::string& path, const PinholeCamera& camera, SensorCloud& c
 void
 completeOrganized (const std::string& path, const PcdViewOptions& options, SensorCloud& cloud, LabelledView& result)
 {
-  if (const auto camera = findCamera (path, options, cloud, result))
-  {
+  const auto camera = findCamera (path, options, cloud, result);
+  if (camera)
     result.view = depthImage (*camera, cloud.positions, cloud.T_world_sensor);
+  setWorkingRange (membersOf (cloud), cloud, result);
+  if (camera)
     mendLabels (path, *camera, cloud, result);
-  }
   OrganizedNormalsOptions normal_options;
+  normal_options.radius_m *= cloud.working_range_m;
+  normal_options.working_range_m = cloud.working_range_m;
   normal_options.threads = options.threads;
   cloud.normals = computeOrganizedNormals (cloud.positions, cloud.width, cloud.height, cloud.labels, normal_options);
   const Members members = membersOf (cloud);

@@ -3,6 +3,7 @@
 
 #include "pcl_cosection/common/directions.h"
 #include "pcl_cosection/common/quantile.h"
+#include "sensor_noise.h"
 
 #include <algorithm>
 #include <cmath>
@@ -111,7 +112,8 @@ bool
 isHidden (const DepthView& view, const Eigen::Vector3f& p)
 {
   const float nearest = view.depth[pixelOf (view.camera, p)];
-  return p.z () > nearest + hidden_sigmas * depthNoiseSigma (nearest) + hidden_pixels * nearest / view.camera.fx;
+  return p.z () > nearest + hidden_sigmas * depthNoiseSigma (nearest, view.working_range_m) +
+                      hidden_pixels * nearest / view.camera.fx;
 }
 
 double
@@ -143,6 +145,7 @@ draw (const Projection& projection, const Eigen::Isometry3d& T_points_sensor)
     depth = std::min (depth, p.z ());
   }
   std::replace (view.depth.begin (), view.depth.end (), nothing, std::numeric_limits<float>::quiet_NaN ());
+  view.working_range_m = workingRange (view.depth);
   return view;
 }
 

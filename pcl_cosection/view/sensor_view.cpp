@@ -7,6 +7,7 @@
 #include "pcl_cosection/view/normals/estimated_normals.h"
 #include "range_image.h"
 #include "sensor_location.h"
+#include "sensor_noise.h"
 
 #include <algorithm>
 #include <cmath>
@@ -185,6 +186,22 @@ membersOf (const SensorCloud& cloud)
     if (cloud.positions[i].allFinite ())
       members[cloud.labels[i]].push_back (i);
   return members;
+}
+
+void
+setWorkingRange (const Members& members, SensorCloud& cloud, LabelledView& result)
+{
+  const bool has_objects = std::any_of (members.begin (), members.end (), [] (const auto& m) { return m.first != 0; });
+  std::vector<float> distances;
+  for (const auto& [label, indices] : members)
+    if (label != 0 || !has_objects)
+      for (const std::size_t i : indices)
+        distances.push_back (cloud.positions[i].norm ());
+  cloud.working_range_m = workingRange (std::move (distances));
+  if (result.view)
+    result.view->working_range_m = cloud.working_range_m;
+  for (DepthView& view : result.other_views)
+    view.working_range_m = cloud.working_range_m;
 }
 
 std::vector<Eigen::Vector3f>

@@ -22,6 +22,11 @@ using Members = std::map<std::uint32_t, std::vector<std::size_t>>;
 /** \brief The points of each label that have a finite position. */
 Members membersOf (const SensorCloud& cloud);
 
+/** \brief The working range of the sensor follows from the distances of the objects; of all points if there is no
+ * object (workingRange ()). \param[in,out] cloud in the frame of its sensor \param[in,out] result its views get the
+ * range, too */
+void setWorkingRange (const Members& members, SensorCloud& cloud, LabelledView& result);
+
 /** \brief Some of all. */
 std::vector<Eigen::Vector3f> pick (const std::vector<Eigen::Vector3f>& all, const std::vector<std::size_t>& indices);
 

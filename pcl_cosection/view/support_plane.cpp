@@ -11,21 +11,27 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace pcl::cosection {
 namespace {
 
-constexpr double min_reach_m = 0.05;
-constexpr double line_sigma_m = 5e-4; // standard deviation of points on one line
+constexpr double default_inlier_distance = 0.05; // of the longest side of the object
+constexpr double min_reach_noise = 36.0;         // in standard deviations of the points
+constexpr double line_share = 0.1;               // of the inlier distance: standard deviation of points on one line
+constexpr double good_sample = 1e-4;             // least area of a sample, of the squared reach
 constexpr int max_ransac_iterations = 500;
 constexpr std::size_t max_points = 20000; // RANSAC uses an even subset of no more
 
-/** \brief PCL's plane model that redraws samples of nearly collinear points without an error message: such samples are
- * frequent among points some millimetres apart. */
+/** \brief PCL's plane model that redraws samples of nearly collinear points without an error message. PCL's own limit
+ * is an area of 1e-5, whatever the unit; the points here are scaled, so that it is below this one's. */
 class PlaneModel : public pcl::SampleConsensusModelPlane<pcl::PointXYZ>
 {
 public:
-  using SampleConsensusModelPlane::SampleConsensusModelPlane;
+  PlaneModel (const PointCloudConstPtr& cloud, const pcl::Indices& indices, double least_area)
+      : SampleConsensusModelPlane (cloud, indices)
+      , least_area_ (static_cast<float> (least_area))
+  {}
 
 protected:
   bool isSampleGood (const pcl::Indices& samples) const override
@@ -33,13 +39,16 @@ protected:
     const Eigen::Vector3f p = (*input_)[samples[0]].getVector3fMap ();
     const Eigen::Vector3f a = (*input_)[samples[1]].getVector3fMap () - p;
     const Eigen::Vector3f b = (*input_)[samples[2]].getVector3fMap () - p;
-    return a.cross (b).stableNorm () >= Eigen::NumTraits<float>::dummy_precision (); // as PCL asks of them
+    return a.cross (b).stableNorm () >= least_area_;
   }
+
+private:
+  float least_area_;
 };
 
 /** \brief Whether points are not collinear, so that they determine a plane. */
 bool
-spanPlane (const pcl::PointCloud<pcl::PointXYZ>& cloud, const pcl::Indices& indices)
+spanPlane (const pcl::PointCloud<pcl::PointXYZ>& cloud, const pcl::Indices& indices, double inlier_distance)
 {
   Eigen::Vector3d mean = Eigen::Vector3d::Zero ();
   for (const pcl::index_t i : indices)
@@ -51,13 +60,36 @@ spanPlane (const pcl::PointCloud<pcl::PointXYZ>& cloud, const pcl::Indices& indi
     scatter += p * p.transpose () / static_cast<double> (indices.size ());
   }
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen (scatter, Eigen::EigenvaluesOnly);
-  return eigen.eigenvalues ()[1] > line_sigma_m * line_sigma_m;
+  return eigen.eigenvalues ()[1] > std::pow (line_share * inlier_distance, 2);
+}
+
+/** \brief The power of two that makes a length at least one half and less than one; scaling by it rounds nothing. */
+double
+scaleToUnit (double length)
+{
+  int exponent = 0;
+  std::frexp (length, &exponent);
+  return std::ldexp (1.0, -exponent);
 }
 
 double
 height (const Eigen::Vector4d& plane, const OrientedPoint& point)
 {
   return plane.head<3> ().dot (point.position.cast<double> ()) + plane[3];
+}
+
+/** \brief The plane in metres, on the side of which the normals of its points are. \param[in] found of scaled points */
+Eigen::Vector4d
+orientedPlane (const Eigen::VectorXf& found, double scale, const std::vector<const OrientedPoint*>& points,
+               const pcl::Indices& inliers)
+{
+  Eigen::Vector4d plane = found.head<4> ().cast<double> ();
+  plane /= plane.head<3> ().norm ();
+  plane[3] /= scale;
+  double facing = 0.0;
+  for (const pcl::index_t i : inliers)
+    facing += plane.head<3> ().dot (points[i]->normal.cast<double> ());
+  return facing < 0.0 ? Eigen::Vector4d (-plane) : plane;
 }
 
 } // namespace
@@ -72,9 +104,16 @@ findSupportPlanes (const std::vector<OrientedPoint>& background, const std::vect
   Eigen::AlignedBox3f box;
   for (const OrientedPoint& p : object)
     box.extend (p.position);
-  const float margin = static_cast<float> (std::max (min_reach_m, options.reach * box.sizes ().maxCoeff ()));
+  const double longest_m = box.sizes ().maxCoeff ();
+  const double inlier_m = options.inlier_distance_m > 0.0 ? options.inlier_distance_m
+                                                          : default_inlier_distance * longest_m;
+  const auto margin = static_cast<float> (std::max (min_reach_noise * options.noise_m, options.reach * longest_m));
   box.min ().array () -= margin;
   box.max ().array () += margin;
+  const double reach_m = box.sizes ().maxCoeff ();
+  if (!(reach_m >= std::numeric_limits<float>::min () && std::isfinite (reach_m)))
+    return planes;
+  const double scale = scaleToUnit (reach_m), inlier_distance = scale * inlier_m;
 
   std::vector<OrientedPoint> near;
   for (const OrientedPoint& p : background)
@@ -85,21 +124,23 @@ findSupportPlanes (const std::vector<OrientedPoint>& background, const std::vect
   std::vector<const OrientedPoint*> source;
   for (std::size_t n = 0; n < near.size (); n += stride)
   {
-    cloud->push_back (pcl::PointXYZ (near[n].position.x (), near[n].position.y (), near[n].position.z ()));
+    const Eigen::Vector3f p = static_cast<float> (scale) * near[n].position;
+    cloud->push_back (pcl::PointXYZ (p.x (), p.y (), p.z ()));
     source.push_back (&near[n]);
   }
   const auto enough = static_cast<std::size_t> (
       std::max (static_cast<double> (options.min_inliers) / static_cast<double> (stride),
                 options.min_inlier_share * static_cast<double> (cloud->size ())));
 
+  const double least_area = good_sample * std::pow (scale * reach_m, 2);
   pcl::Indices remaining (cloud->size ());
   for (std::size_t n = 0; n < remaining.size (); ++n)
     remaining[n] = static_cast<pcl::index_t> (n);
   while (static_cast<int> (planes.size ()) < options.max_planes &&
-         remaining.size () >= std::max<std::size_t> (3, enough) && spanPlane (*cloud, remaining))
+         remaining.size () >= std::max<std::size_t> (3, enough) && spanPlane (*cloud, remaining, inlier_distance))
   {
-    const pcl::SampleConsensusModelPlane<pcl::PointXYZ>::Ptr model (new PlaneModel (cloud, remaining));
-    pcl::RandomSampleConsensus<pcl::PointXYZ> ransac (model, options.inlier_distance_m);
+    const pcl::SampleConsensusModelPlane<pcl::PointXYZ>::Ptr model (new PlaneModel (cloud, remaining, least_area));
+    pcl::RandomSampleConsensus<pcl::PointXYZ> ransac (model, inlier_distance);
     ransac.setMaxIterations (max_ransac_iterations);
     if (!ransac.computeModel ())
       break;
@@ -110,19 +151,12 @@ findSupportPlanes (const std::vector<OrientedPoint>& background, const std::vect
     if (inliers.size () < enough)
       break;
     model->optimizeModelCoefficients (inliers, coefficients, refined);
-    model->selectWithinDistance (refined, options.inlier_distance_m, inliers);
+    model->selectWithinDistance (refined, inlier_distance, inliers);
     if (inliers.size () < enough)
       break;
-    Eigen::Vector4d plane = refined.head<4> ().cast<double> ();
-    plane /= plane.head<3> ().norm ();
-    double facing = 0.0;
-    for (const pcl::index_t i : inliers)
-      facing += plane.head<3> ().dot (source[i]->normal.cast<double> ());
-    if (facing < 0.0)
-      plane = -plane;
-    const auto below = std::count_if (object.begin (), object.end (), [&] (const OrientedPoint& p) {
-      return height (plane, p) < -options.inlier_distance_m;
-    });
+    const Eigen::Vector4d plane = orientedPlane (refined, scale, source, inliers);
+    const auto below = std::count_if (object.begin (), object.end (),
+                                      [&] (const OrientedPoint& p) { return height (plane, p) < -inlier_m; });
     if (static_cast<double> (below) <= options.max_below * static_cast<double> (object.size ()))
       planes.push_back (plane);
     pcl::Indices rest;

@@ -12,8 +12,9 @@ namespace pcl::cosection {
 /** \brief Parameters of the search for support planes. */
 struct SupportPlaneOptions
 {
-  double inlier_distance_m = 0.006;
-  double reach = 0.5; ///< background within this fraction of the object's longest side (at least 5 cm) of it counts
+  double inlier_distance_m = 0.0; ///< 0: 5 % of the object's longest side
+  double noise_m = 0.0;           ///< standard deviation of the points; 0: not known
+  double reach = 0.5; ///< background within this fraction of the object's longest side, and within 36 noise_m, counts
   int min_inliers = 200;
   double min_inlier_share = 0.1; ///< of the background points in reach
   double max_below = 0.02;       ///< share of the object's points that may lie behind the plane

@@ -260,6 +260,7 @@ completeUnorganized (const std::string& path, const PcdViewOptions& options, Sen
     result.warnings.push_back (path + ": " + percentText (repeated) + " of its points repeat others, and are left out");
   const Members members = membersOf (cloud);
   viewFromSensor (path, options, members, cloud, result);
+  setWorkingRange (members, cloud, result);
   dropUnfilledNormals (cloud);
   const bool given = !cloud.normals.empty ();
   if (!given)

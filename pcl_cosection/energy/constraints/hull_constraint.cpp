@@ -56,7 +56,7 @@ HullConstraint::add (const FreeSpaceView& view, const Eigen::Isometry3d& T_grid_
 
   forEachProjectedVoxel (grid_, camera, T_grid_sensor, threads_, [&] (const ProjectedVoxel& voxel) {
     const float depth = view.view ().depth[voxel.pixel];
-    const double margin = freeSpaceMargin (depth, grid_.voxel_size_m);
+    const double margin = freeSpaceMargin (view.view (), depth, grid_.voxel_size_m);
     const PointVisibility visibility = compareWithReading (voxel.z, depth, margin);
     if (visibility == PointVisibility::AtSurface)
       vote (votes_against_[voxel.index]);
@@ -119,7 +119,7 @@ FreeSpaceCarving::add (const FreeSpaceView& view, const Eigen::Isometry3d& T_gri
   const double focal = 0.5 * (camera.fx + camera.fy);
 
   forEachProjectedVoxel (grid_, camera, T_grid_sensor, threads_, [&] (const ProjectedVoxel& voxel) {
-    const float reach = static_cast<float> (voxel.z + freeSpaceMargin (voxel.z, grid_.voxel_size_m));
+    const float reach = static_cast<float> (voxel.z + freeSpaceMargin (view.view (), voxel.z, grid_.voxel_size_m));
     if (highest[voxel.pixel] <= reach)
       return; // nothing free near
     const double voxels_per_pixel = voxel.z / focal / grid_.voxel_size_m;

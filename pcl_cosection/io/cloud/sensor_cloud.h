@@ -28,6 +28,7 @@ struct SensorCloud
   bool has_viewpoint = false;                                        ///< the file's is not the default one
   bool in_world = false; ///< the file's points are in the world frame, not in the sensor's
   Eigen::Isometry3d T_points_sensor = Eigen::Isometry3d::Identity (); ///< else: the sensor's axes in the file's
+  double working_range_m = 1.0;                                       ///< of the sensor; see DepthView
   bool has_labels = false;
   std::size_t ignored = 0;           ///< points of a negative label, or of ignored_label
   std::vector<std::string> warnings; ///< of the fields, one line each

@@ -197,7 +197,7 @@ CopyJudge::freeShare (const Eigen::Vector3d& place) const
     const double reading_m = nearestReading (v, *pixel);
     if (!std::isfinite (reading_m) || !(reading_m > p.z ()))
       continue;
-    const double sigmas = (reading_m - p.z ()) / depthNoiseSigma (reading_m);
+    const double sigmas = (reading_m - p.z ()) / depthNoiseSigma (reading_m, views_[v].first->working_range_m);
     most = std::max (most, std::min (1.0, (sigmas - free_sigmas) / free_range_sigmas));
   }
   return most;

@@ -84,8 +84,7 @@ public:
         if (cloud_.labels[j] != 0 || !cloud_.positions[j].allFinite ())
           return;
         outer = true;
-        const bool goes_on = onOneSurface (camera_, cloud_.positions[i].z (), cloud_.positions[j].z ()),
-                   on_plane = onPlane (label, j);
+        const bool goes_on = onOneSurface (camera_, cloud_, i, j), on_plane = onPlane (label, j);
         if (goes_on && on_plane) // the object meets what it stands on
           return;
         ++all;
@@ -131,7 +130,7 @@ private:
     bool beside = false;
     visitBeside (cloud_, j, [&] (std::size_t k) {
       const double a = cloud_.positions[j].z (), b = cloud_.positions[k].z ();
-      beside = beside || !(std::abs (a - b) <= smallestEdgeStep (std::min (a, b)));
+      beside = beside || !(std::abs (a - b) <= smallestEdgeStep (std::min (a, b), cloud_.working_range_m));
     });
     return beside;
   }
@@ -164,9 +163,11 @@ growLabels (const PinholeCamera& camera, const Members& members, SensorCloud& cl
     grows.outline = body;
     if (growth.ringAround (grows).empty ()) // not even with what may be of its support planes
       continue;
-    grows.near_plane_m = plane_sigmas * depthNoiseSigma (surroundings.at (label).center ().z ());
+    const double noise_m = depthNoiseSigma (surroundings.at (label).center ().z (), cloud.working_range_m);
+    grows.near_plane_m = plane_sigmas * noise_m;
     SupportPlaneOptions options;
     options.inlier_distance_m = grows.near_plane_m;
+    options.noise_m = noise_m;
     options.reach = plane_reach;
     grows.planes = findSupportPlanes (seen_background, facingPoints (cloud, body), options);
     if (grows.planes.empty ())

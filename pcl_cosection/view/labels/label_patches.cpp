@@ -13,7 +13,7 @@ patchesOf (const PinholeCamera& camera, const SensorCloud& cloud, const std::vec
   std::transform (points.begin (), points.end (), depths.begin (), [] (const auto& p) { return p.z (); });
   const double depth_m = upperMedian (depths);
   // Neighbours in cells may be twice the width of a cell apart.
-  const double reach_m = 0.5 * largestSurfaceStep (depth_m, depth_m / camera.fx);
+  const double reach_m = 0.5 * largestSurfaceStep (depth_m, depth_m / camera.fx, cloud.working_range_m);
   LabelPatches patches;
   patches.patch_of = connectedPatches (
       points.size (), [&] (std::size_t p) { return points[p]; }, points.front ().cast<double> (), reach_m);

@@ -28,12 +28,13 @@ visitBeside (const SensorCloud& cloud, std::size_t i, Visit&& visit)
     visit (i + width);
 }
 
-/** \brief Whether two readings that are side by side in the image may be on one surface. \param[in] a_m,b_m depths */
+/** \brief Whether two readings that are side by side in the image may be on one surface. */
 inline bool
-onOneSurface (const PinholeCamera& camera, double a_m, double b_m)
+onOneSurface (const PinholeCamera& camera, const SensorCloud& cloud, std::size_t i, std::size_t j)
 {
-  const double nearer = std::min (a_m, b_m);
-  return std::abs (a_m - b_m) <= largestSurfaceStep (nearer, nearer / camera.fx);
+  const double a_m = cloud.positions[i].z (), b_m = cloud.positions[j].z ();
+  const double nearer_m = std::min (a_m, b_m);
+  return std::abs (a_m - b_m) <= largestSurfaceStep (nearer_m, nearer_m / camera.fx, cloud.working_range_m);
 }
 
 /** \brief Whether a surface goes on beyond an outline in the image, as beyond no object's.

@@ -45,7 +45,7 @@ outlinesOf (const PinholeCamera& camera, const SensorCloud& cloud, const std::ve
       if (cloud.labels[there] == cloud.labels[here] || !cloud.positions[there].allFinite ())
         return;
       ++outline.all;
-      if (onOneSurface (camera, cloud.positions[here].z (), cloud.positions[there].z ()))
+      if (onOneSurface (camera, cloud, here, there))
         ++outline.continued[cloud.labels[there]];
     });
   }

@@ -162,7 +162,7 @@ public:
         std::clamp<double> (std::round (options_.radius_m / pixel_m), options_.min_radius_px, options_.max_radius_px));
     const int needed = std::max (
         6, static_cast<int> (std::ceil (options_.min_support * (2 * radius + 1) * (2 * radius + 1))));
-    const double sigma = depthNoiseSigma (range);
+    const double sigma = depthNoiseSigma (range, options_.working_range_m);
 
     collect (u, v, radius, window);
     if (window.size < needed)
@@ -217,7 +217,8 @@ private:
       const int i = start + k * stride;
       if (!usable (start, i))
         continue;
-      if (std::abs (range_[i] - range_[start + last * stride]) > largestSurfaceStep (range, pixel_m * (k - last)))
+      if (std::abs (range_[i] - range_[start + last * stride]) >
+          largestSurfaceStep (range, pixel_m * (k - last), options_.working_range_m))
         return;
       visit (k, i);
       last = k;
@@ -320,6 +321,8 @@ void
 OrganizedNormalsOptions::validate () const
 {
   require (std::isfinite (radius_m) && radius_m > 0.0, "normals: radius_m must be positive and finite");
+  require (std::isfinite (working_range_m) && working_range_m > 0.0,
+           "normals: working_range_m must be positive and finite");
   require (min_radius_px >= 1, "normals: min_radius_px must be at least 1");
   require (max_radius_px >= min_radius_px && max_radius_px <= max_radius,
            "normals: max_radius_px must be between min_radius_px and " + std::to_string (max_radius));

@@ -31,15 +31,16 @@ constexpr float pixels_per_spacing = 1.5f; // of the most dense points
 constexpr double most_dense = 0.1;         // share of all points
 constexpr float most_pixels = 2048.0f;     // along a side
 constexpr float most_pixels_beside = 30.0f;
-constexpr float nearest_m = 1e-4f; // and ...
-constexpr float farthest_m = 1e5f; // ... of what can be judged
-constexpr float steepest = 10.0f;  // slope of a ray to the camera's axis
+constexpr float nearest = 1e-4f;  // of the working range, and ...
+constexpr float farthest = 1e5f;  // ... of what can be judged
+constexpr float steepest = 10.0f; // slope of a ray to the camera's axis
 
 /** \brief Is it before the camera, so that it has a place in the image? */
 bool
-isBefore (const Eigen::Vector3f& point)
+isBefore (const Eigen::Vector3f& point, float working_range_m)
 {
-  return point.z () > nearest_m && point.z () < farthest_m && point.head<2> ().norm () < steepest * point.z ();
+  return point.z () > nearest * working_range_m && point.z () < farthest * working_range_m &&
+         point.head<2> ().norm () < steepest * point.z ();
 }
 
 /** \brief Are the points one per pixel of an image, so that the nearest one in the image is nowhere much nearer than is
@@ -60,7 +61,8 @@ isImage (const std::vector<Eigen::Vector3f>& points, int threads)
 class DepthLimit
 {
 public:
-  DepthLimit (const std::vector<Eigen::Vector3f>& points, const std::vector<float>& spacings)
+  DepthLimit (const std::vector<Eigen::Vector3f>& points, const std::vector<float>& spacings, double working_range_m)
+      : working_range_m_ (working_range_m)
   {
     std::vector<float> angles;
     angles.reserve (points.size ());
@@ -78,7 +80,8 @@ public:
   void add (const Eigen::Vector3f& point, float spacing)
   {
     const float z = point.z ();
-    const float behind = z + std::max (behind_spacings * spacing, static_cast<float> (smallestEdgeStep (z)));
+    const float behind = z + std::max (behind_spacings * spacing,
+                                       static_cast<float> (smallestEdgeStep (z, working_range_m_)));
     const float radius = std::min (most_pixels_beside, beside_spacings * spacing / z / pixel_);
     const Eigen::Array2f centre = place (point);
     const Eigen::Array2i first = (centre - radius).ceil ().cast<int> ().max (0);
@@ -108,6 +111,7 @@ private:
     return (slopeOf (point) - slopes_.min ()).array () / pixel_;
   }
 
+  double working_range_m_;
   Eigen::AlignedBox2f slopes_;
   float pixel_ = 0.0f;
   Eigen::Array2i size_;
@@ -116,10 +120,13 @@ private:
 
 /** \brief Which points are in a trail. \param[in] points in the frame of the camera */
 std::vector<bool>
-findBehindEdges (const std::vector<Eigen::Vector3f>& points, int threads)
+findBehindEdges (const std::vector<Eigen::Vector3f>& points, double working_range_m, int threads)
 {
+  const auto range_m = static_cast<float> (working_range_m);
   std::vector<bool> behind (points.size ());
-  if (points.empty () || !std::all_of (points.begin (), points.end (), isBefore) || // wide off, numbers say nothing
+  if (points.empty () ||
+      !std::all_of (points.begin (), points.end (),
+                    [&] (const auto& p) { return isBefore (p, range_m); }) || // wide off, numbers say nothing
       isImage (points, threads))
     return behind;
   std::vector<float> spacings = neighbourDistances (points, spacing_neighbours, threads);
@@ -127,7 +134,7 @@ findBehindEdges (const std::vector<Eigen::Vector3f>& points, int threads)
     spacing *= reach_to_spacing;
   std::vector<float> sorted = spacings;
   const float lonely = lonely_factor * quantile (sorted, 0.5);
-  DepthLimit limit (points, spacings);
+  DepthLimit limit (points, spacings, working_range_m);
   for (std::size_t i = 0; i < points.size (); ++i)
     limit.add (points[i], spacings[i]);
   for (std::size_t i = 0; i < points.size (); ++i)
@@ -167,7 +174,7 @@ leaveOutTrails (const PcdViewOptions& options, const DepthView& view, const std:
   const Eigen::Isometry3f T_view_points = (view.T_world_sensor.inverse () * cloud.T_world_sensor).cast<float> ();
   for (Eigen::Vector3f& point : points)
     point = T_view_points * point;
-  const std::vector<bool> behind = findBehindEdges (points, options.threads);
+  const std::vector<bool> behind = findBehindEdges (points, view.working_range_m, options.threads);
   const auto left_out = static_cast<std::size_t> (std::count (behind.begin (), behind.end (), true));
   if (usable.size () < least_points + left_out ||
       static_cast<double> (left_out) > most_left_out * static_cast<double> (usable.size ()))

@@ -53,9 +53,16 @@ filterWindows (const std::vector<float>& image, const PinholeCamera& camera, int
 } // namespace
 
 double
-freeSpaceMargin (double depth_m, double voxel_size_m)
+leastFreeSpaceMargin (double voxel_size_m)
 {
-  return std::max (margin_voxels * voxel_size_m, margin_sigmas * depthNoiseSigma (depth_m));
+  return margin_voxels * voxel_size_m;
+}
+
+double
+freeSpaceMargin (const DepthView& view, double depth_m, double voxel_size_m)
+{
+  return std::max (leastFreeSpaceMargin (voxel_size_m),
+                   margin_sigmas * depthNoiseSigma (depth_m, view.working_range_m));
 }
 
 std::vector<float>
@@ -76,7 +83,7 @@ FreeSpaceView::FreeSpaceView (DepthView view) : view_ (std::move (view)), edge_ 
     if (!isReading (a) || !isReading (b))
       return;
     const double near = std::min (a, b);
-    if (std::abs (a - b) > smallestEdgeStep (near))
+    if (std::abs (a - b) > smallestEdgeStep (near, view_.working_range_m))
     {
       edge_[static_cast<std::size_t> (v) * width + u] = 1;
       edge_[static_cast<std::size_t> (v2) * width + u2] = 1;

@@ -12,7 +12,10 @@ namespace pcl::cosection {
 
 /** \brief How much the depth along a ray must exceed that of a point for the point to be free, metres:
  * max (3 voxels, 3 sigma_z). */
-double freeSpaceMargin (double depth_m, double voxel_size_m);
+double freeSpaceMargin (const DepthView& view, double depth_m, double voxel_size_m);
+
+/** \brief The least that it can be. */
+double leastFreeSpaceMargin (double voxel_size_m);
 
 /** \brief Minimum or \a maximum of an image over a square window of \a radius pixels around every pixel of a region;
  * other pixels of the result have no meaning. */

@@ -12,9 +12,9 @@
 namespace pcl::cosection {
 namespace {
 
-constexpr double min_margin_m = 0.005;
-constexpr int max_footprint = 12; ///< pixels
-constexpr int min_support = 3;    ///< neighbours of the same depth, as many as a corner of a surface has
+constexpr double min_margin = 0.005; // of the working range
+constexpr int max_footprint = 12;    ///< pixels
+constexpr int min_support = 3;       ///< neighbours of the same depth, as many as a corner of a surface has
 constexpr std::size_t most_samples = 2000;
 constexpr double bad_views = 0.05;  // of all views, may contradict
 constexpr double least_asked = 0.1; // of the points, about which a view must say something
@@ -46,7 +46,7 @@ public:
   }
 
 private:
-  double margin (double z) const { return margin_m_ > 0.0 ? margin_m_ : pointMargin (z); }
+  double margin (double z) const { return margin_m_ > 0.0 ? margin_m_ : pointMargin (depth_, z); }
 
   /** \brief Whether test (depth) holds for all readings in a square window. */
   template <typename Test> bool allReadings (int u, int v, int radius, Test&& test) const
@@ -84,9 +84,9 @@ private:
 } // namespace
 
 double
-pointMargin (double depth_m)
+pointMargin (const DepthView& view, double depth_m)
 {
-  return std::max (min_margin_m, freeSpaceMargin (depth_m, 0.0));
+  return std::max (min_margin * view.working_range_m, freeSpaceMargin (view, depth_m, 0.0));
 }
 
 std::vector<FreeSpaceVotes>

@@ -7,8 +7,8 @@
 namespace pcl::cosection {
 
 /** \brief How much the depth along a ray must exceed that of a point for the point to be free where there are no
- * voxels, metres: max (5 mm, 3 sigma_z) of depthNoiseSigma (). */
-double pointMargin (double depth_m);
+ * voxels, metres: the larger of 0.5 % of the sensor's working range and of 3 sigma_z of depthNoiseSigma (). */
+double pointMargin (const DepthView& view, double depth_m);
 
 /** \brief What depth views say about one point. */
 struct FreeSpaceVotes

@@ -47,22 +47,26 @@ struct PCL_COSECTION_EXPORT DepthView
   std::vector<float> depth; ///< width * height, row by row, metres along the optical axis; NaN or 0: no reading
   Eigen::Isometry3d T_world_sensor = Eigen::Isometry3d::Identity (); ///< pose of the sensor, metres
   std::string name = {};                                             ///< used in warnings; empty: they give its number
+  double working_range_m = 1.0;                                      ///< of the sensor, for depthNoiseSigma ()
 
   /** \brief Depth at column \a u and row \a v, metres; NaN or 0: no reading. */
   float at (int u, int v) const { return depth[static_cast<std::size_t> (v) * camera.width + u]; }
 
-  /** \brief Check all values. \throws InvalidArgument if the camera is not valid, there is not one depth per pixel, or
-   * the pose is not finite. */
+  /** \brief Check all values. \throws InvalidArgument if the camera is not valid, there is not one depth per pixel,
+   * the pose is not finite, or the working range is not positive and finite. */
   void validate () const;
 };
 
 /** \brief Standard deviation of the depth of a structured-light sensor at range \a z, metres
  * (C. Nguyen, S. Izadi, D. Lovell, "Modeling Kinect Sensor Noise for Improved 3D Reconstruction and
- * Tracking", 3DIMPVT 2012, axial noise at small angles). */
+ * Tracking", 3DIMPVT 2012, axial noise at small angles).
+ * \param[in] working_range_m of a sensor of the same construction, but of another size: that one was measured around
+ * one metre */
 inline double
-depthNoiseSigma (double z)
+depthNoiseSigma (double z, double working_range_m = 1.0)
 {
-  return 0.0012 + 0.0019 * (z - 0.4) * (z - 0.4);
+  const double x = z / working_range_m - 0.4;
+  return working_range_m * (0.0012 + 0.0019 * x * x);
 }
 
 /** \brief Least-squares pinhole of an organised cloud in its sensor frame: x/z and y/z as affine
@@ -83,8 +87,9 @@ PCL_COSECTION_EXPORT std::optional<PinholeCamera> fitPinholeCamera (const std::v
  * forward); not finite, or z <= 0 of an organised one: no reading
  * \param[in] width, height of an organised cloud; height 1: not organised
  * \param[in] T_world_points pose of the frame in which the points are
- * \return nothing if there are no points, if an organised cloud is not the image of a pinhole camera (fitPinholeCamera
- * ()), or if more than a tenth of the points of an unorganised one is hidden from the sensor
+ * \return with the median of its depths as its sensor's working range; nothing if there are no points, if an organised
+ * cloud is not the image of a pinhole camera (fitPinholeCamera ()), or if more than a tenth of the points of an
+ * unorganised one is hidden from the sensor
  * \throws InvalidArgument if there are not width * height points */
 PCL_COSECTION_EXPORT std::optional<DepthView>
 toDepthView (const std::vector<Eigen::Vector3f>& points, int width, int height,

@@ -39,8 +39,8 @@ public:
   void clearViews ();
 
   /** \brief Set how much the depth along a ray must exceed that of a point for the point to be free, metres; 0
-   * (default): max (5 mm, 3 sigma_z), with the standard deviation sigma_z of the reading's depth (depthNoiseSigma ()).
-   */
+   * (default): the larger of 0.5 % of the view's working range and of 3 sigma_z, with the standard deviation sigma_z of
+   * the reading's depth (depthNoiseSigma ()). */
   bool setMargin (float margin_m);
 
   /** \brief The margin, metres; 0: that of the sensor's noise. */

@@ -19,6 +19,7 @@ struct PCL_COSECTION_EXPORT OrganizedNormalsOptions
   int max_radius_px = 7;           ///< nor larger, pixels; at most 15
   double min_support = 1.0 / 3.0;  ///< share of the window's pixels that must lie on the fitted plane
   double max_incidence_rad = 1.45; ///< largest angle between the normal and the direction to the sensor
+  double working_range_m = 1.0;    ///< of the sensor, for depthNoiseSigma ()
   int threads = 0;                 ///< 0: all
 
   /** \brief Check all values. \throws InvalidArgument naming the first one outside its domain. */
