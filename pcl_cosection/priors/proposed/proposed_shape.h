@@ -32,7 +32,7 @@ struct ProposedShapes
 const ProposedShape* proposedShape (const Observation& object, const ObjectSetting& setting,
                                     const std::vector<Eigen::Vector4d>& planes);
 
-/** \brief Mean thickness of a closed mesh, metres: twice its volume by its area; 0 for an open one. */
+/** \brief Mean thickness of a mesh, metres: twice its volume by its area; 0 for an open one. */
 double wallOf (const ProposedShape& shape);
 
 /** \brief Expect a proposed surface where nothing was measured, and behind a measured one, where a wall ends.
