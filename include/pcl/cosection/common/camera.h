@@ -87,7 +87,7 @@ PCL_COSECTION_EXPORT std::optional<PinholeCamera> fitPinholeCamera (const std::v
  * forward); not finite, or z <= 0 of an organised one: no reading
  * \param[in] width, height of an organised cloud; height 1: not organised
  * \param[in] T_world_points pose of the frame in which the points are
- * \return with the median of its depths as its sensor's working range; nothing if there are no points, if an organised
+ * \return with the working range of which its depths are typical; nothing if there are no points, if an organised
  * cloud is not the image of a pinhole camera (fitPinholeCamera ()), or if more than a tenth of the points of an
  * unorganised one is hidden from the sensor
  * \throws InvalidArgument if there are not width * height points */
