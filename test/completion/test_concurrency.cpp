@@ -3,8 +3,8 @@
 // Whole uses of the library in several threads, as ThreadSanitizer watches them (run_tests.sh --sanitize-threads).
 // OpenMP's library is not known to it: each has one thread.
 
-#include "imls_sphere.h"
 #include "common/temporary_folder.h"
+#include "imls_sphere.h"
 
 #include <pcl/cosection/io/mesh_io.h>
 #include <pcl/cosection/io/pcd_view.h>

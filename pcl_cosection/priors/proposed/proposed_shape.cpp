@@ -23,7 +23,7 @@ constexpr float gap_vox = 2.0f;       // nothing is expected nearer to data
 constexpr float far_vox = 6.0f;       // largest expected distance
 constexpr float wall_weight = 100.0f; // of a wall's hidden side, near data of the other one
 constexpr double least_wall_vox = 1.25;
-constexpr double most_open = 0.01; // edges per triangle at which a mesh ends: holes that change its volume little
+constexpr double most_open = 0.01;       // edges per triangle at which a mesh ends: holes that change its volume little
 constexpr float proposal_weight = 10.0f; // in multiples of beta_extent
 
 /** \brief The larger, the better it fits. */

@@ -90,7 +90,8 @@ public:
    * nothing was measured. \return false if it has no triangles, or is not consistent or not finite */
   bool addProposal (const TriangleMesh& mesh);
 
-  /** \brief As above, for PCL's mesh. \return false also if fromPolygonMesh () cannot read it */
+  /** \brief Propose a mesh of PCL's, as the other addProposal (). \return false also if fromPolygonMesh () cannot read
+   * it */
   bool addProposal (const pcl::PolygonMesh& mesh);
 
   /** \brief How the proposals fit in the last reconstruct (); nothing if there were none, or none could be aligned. */
