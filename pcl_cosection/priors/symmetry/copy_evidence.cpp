@@ -21,7 +21,7 @@ constexpr double surely_free_vox = 3.0; // distance from which a copy begins to 
 constexpr double free_range_vox = 1.5;  // ... and is so, after as much more
 constexpr double free_sigmas = 5.0;     // the same in front of a reading, standard deviations of its depth ...
 constexpr double free_range_sigmas = 3.0;
-constexpr double least_noise_m = 0.4; // a sensor's depth with the least noise
+constexpr double least_noise = 0.4;   // of a sensor's working range: the depth with the least noise
 constexpr double largely_free = 0.3;  // a copy that is on the surface otherwise is in free space
 constexpr double alike_cosine = 0.7;  // of two normals of one surface
 constexpr double across_cosine = 0.3; // below it they are of two, ...
@@ -189,7 +189,9 @@ CopyJudge::freeShare (const Eigen::Vector3d& place) const
   {
     const Eigen::Vector3d p = T_sensor_object_[v] * place;
     // Readings that are nearer are not asked for: noise grows with the distance from where it is least.
-    if (!(p.z () < farthest_m_[v] - (p.z () > least_noise_m ? free_sigmas * depthNoiseSigma (p.z ()) : 0.0)))
+    const double range_m = views_[v].first->working_range_m;
+    const double noise_m = p.z () > least_noise * range_m ? depthNoiseSigma (p.z (), range_m) : 0.0;
+    if (!(p.z () < farthest_m_[v] - free_sigmas * noise_m))
       continue;
     const auto pixel = pixelOf (views_[v].first->camera, p);
     if (!pixel)
