@@ -60,6 +60,7 @@ struct PCL_COSECTION_EXPORT DepthView
 /** \brief Standard deviation of the depth of a structured-light sensor at range \a z, metres
  * (C. Nguyen, S. Izadi, D. Lovell, "Modeling Kinect Sensor Noise for Improved 3D Reconstruction and
  * Tracking", 3DIMPVT 2012, axial noise at small angles).
+ * \param[in] z range, metres
  * \param[in] working_range_m of a sensor of the same construction, but of another size: that one was measured around
  * one metre */
 inline double
