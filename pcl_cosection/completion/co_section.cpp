@@ -2,7 +2,7 @@
 #include <pcl/cosection/surface/co_section.h>
 
 #include "complete_scene.h"
-#include "pcl_cosection/mesh/mesh_checks.h"
+#include "pcl_cosection/volume/mesh_distance/mesh_surface.h"
 
 #include <pcl/cosection/common/error.h>
 #include <pcl/cosection/volume/mesh_distance.h>
@@ -34,16 +34,6 @@ unknownPose ()
   Eigen::Isometry3d pose;
   pose.matrix ().setConstant (std::numeric_limits<double>::quiet_NaN ());
   return pose;
-}
-
-void
-checkProposal (const TriangleMesh& mesh)
-{
-  checkMesh (mesh);
-  if (mesh.empty ())
-    throw InvalidArgument ("a proposal must have triangles");
-  if (!std::all_of (mesh.vertices.begin (), mesh.vertices.end (), [] (const auto& v) { return v.allFinite (); }))
-    throw InvalidArgument ("a proposal must have finite vertices");
 }
 
 } // namespace
@@ -164,7 +154,7 @@ CoSection::addObject (ObjectInput object)
   if (impl_->scene.find (object.id))
     throw InvalidArgument ("object " + std::to_string (object.id) + " was added twice");
   for (const TriangleMesh& proposal : object.proposals)
-    checkProposal (proposal);
+    requireSurface (proposal, "proposal");
   impl_->scene.batches[object.id] = {{-1, object.points.size ()}};
   impl_->scene.objects.push_back (std::move (object));
 }

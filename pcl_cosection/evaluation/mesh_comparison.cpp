@@ -1,7 +1,7 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include <pcl/cosection/evaluation/mesh_comparison.h>
 
-#include "mesh_surface.h"
+#include "pcl_cosection/volume/mesh_distance/mesh_surface.h"
 #include "point_set.h"
 #include <pcl/cosection/common/error.h>
 

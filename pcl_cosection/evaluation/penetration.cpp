@@ -1,7 +1,7 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include <pcl/cosection/evaluation/penetration.h>
 
-#include "mesh_surface.h"
+#include "pcl_cosection/volume/mesh_distance/mesh_surface.h"
 
 #include "pcl_cosection/common/parallel.h"
 #include "pcl_cosection/mesh/mesh_cleaning.h"

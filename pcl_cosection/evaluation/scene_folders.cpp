@@ -1,8 +1,8 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include <pcl/cosection/evaluation/run_evaluation.h>
 
-#include "mesh_surface.h"
 #include "pcl_cosection/common/files.h"
+#include "pcl_cosection/volume/mesh_distance/mesh_surface.h"
 
 #include <pcl/cosection/common/error.h>
 #include <pcl/cosection/io/mesh_io.h>

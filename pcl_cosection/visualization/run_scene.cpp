@@ -4,9 +4,9 @@
 #include "pcl_cosection/common/files.h"
 #include "pcl_cosection/common/json_depth.h"
 #include "pcl_cosection/common/quantile.h"
-#include "pcl_cosection/evaluation/mesh_surface.h"
 #include "pcl_cosection/evaluation/pictures/error_picture.h"
 #include "pcl_cosection/sequence/stamp_matching.h"
+#include "pcl_cosection/volume/mesh_distance/mesh_surface.h"
 
 #include <pcl/cosection/common/error.h>
 #include <pcl/cosection/common/mesh_decimation.h>

@@ -3,7 +3,7 @@
 
 #include "scene_legend.h"
 
-#include "pcl_cosection/evaluation/mesh_surface.h"
+#include "pcl_cosection/volume/mesh_distance/mesh_surface.h"
 
 #include <algorithm>
 

@@ -4,8 +4,8 @@
 
 #include "pcl_cosection/common/files.h"
 #include "pcl_cosection/common/quantile.h"
-#include "pcl_cosection/evaluation/mesh_surface.h"
 #include "pcl_cosection/view/look_at.h"
+#include "pcl_cosection/volume/mesh_distance/mesh_surface.h"
 
 #include <pcl/cosection/common/error.h>
 

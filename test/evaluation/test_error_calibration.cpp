@@ -3,7 +3,7 @@
 #include "pcl_cosection/evaluation/error_calibration.h"
 
 #include "common/small_meshes.h"
-#include "pcl_cosection/evaluation/mesh_surface.h"
+#include "pcl_cosection/volume/mesh_distance/mesh_surface.h"
 #include <pcl/cosection/common/error.h>
 
 #include <gtest/gtest.h>

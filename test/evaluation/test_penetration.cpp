@@ -3,7 +3,7 @@
 #include "evaluation_meshes.h"
 
 #include "pcl_cosection/evaluation/free_space_violation.h"
-#include "pcl_cosection/evaluation/mesh_surface.h"
+#include "pcl_cosection/volume/mesh_distance/mesh_surface.h"
 #include <pcl/cosection/common/error.h>
 #include <pcl/cosection/evaluation/mesh_comparison.h>
 #include <pcl/cosection/evaluation/penetration.h>

@@ -3,8 +3,8 @@
 #include "common/temporary_folder.h"
 #include "evaluation_meshes.h"
 
-#include "pcl_cosection/evaluation/mesh_surface.h"
 #include "pcl_cosection/evaluation/rigid_alignment.h"
+#include "pcl_cosection/volume/mesh_distance/mesh_surface.h"
 #include <pcl/cosection/common/error.h>
 #include <pcl/cosection/evaluation/trajectory_error.h>
 

@@ -6,7 +6,7 @@
 #include "simulate_command_line.h"
 #include "tool_run.h"
 
-#include "pcl_cosection/evaluation/mesh_surface.h"
+#include "pcl_cosection/volume/mesh_distance/mesh_surface.h"
 #include <pcl/cosection/evaluation/mesh_comparison.h>
 #include <pcl/cosection/io/mesh_io.h>
 #include <pcl/cosection/simulation/simulated_scene.h>

@@ -6,12 +6,12 @@
 #include "option_values.h"
 #include "output_files.h"
 
-#include "pcl_cosection/evaluation/mesh_surface.h"
 #include "pcl_cosection/evaluation/pictures/error_picture.h"
 #include "pcl_cosection/evaluation/point_set.h"
 #include "pcl_cosection/evaluation/rigid_alignment.h"
 #include "pcl_cosection/io/cloud/surface_file.h"
 #include "pcl_cosection/rendering/picture.h"
+#include "pcl_cosection/volume/mesh_distance/mesh_surface.h"
 #include <pcl/cosection/common/error.h>
 #include <pcl/cosection/evaluation/mesh_comparison.h>
 #include <pcl/cosection/io/mesh_io.h>

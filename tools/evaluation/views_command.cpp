@@ -8,9 +8,9 @@
 #include "output_files.h"
 
 #include "pcl_cosection/common/files.h"
-#include "pcl_cosection/evaluation/mesh_surface.h"
 #include "pcl_cosection/evaluation/pictures/error_picture.h"
 #include "pcl_cosection/rendering/picture.h"
+#include "pcl_cosection/volume/mesh_distance/mesh_surface.h"
 #include <pcl/cosection/common/error.h>
 #include <pcl/cosection/io/mesh_io.h>
 

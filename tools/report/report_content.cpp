@@ -3,7 +3,7 @@
 
 #include "embedding.h"
 
-#include "pcl_cosection/evaluation/mesh_surface.h"
+#include "pcl_cosection/volume/mesh_distance/mesh_surface.h"
 #include <pcl/cosection/visualization/scene_picture.h>
 
 #include <opencv2/core.hpp>

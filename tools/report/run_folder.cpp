@@ -3,7 +3,7 @@
 
 #include "pcl_cosection/common/files.h"
 #include "pcl_cosection/common/json_depth.h"
-#include "pcl_cosection/evaluation/mesh_surface.h"
+#include "pcl_cosection/volume/mesh_distance/mesh_surface.h"
 #include <pcl/cosection/common/error.h>
 #include <pcl/cosection/io/mesh_io.h>
 

@@ -3,9 +3,9 @@
 
 #include "picture_canvas.h"
 
-#include "pcl_cosection/evaluation/mesh_surface.h"
 #include "pcl_cosection/mesh/triangle_shape.h"
 #include "pcl_cosection/view/look_at.h"
+#include "pcl_cosection/volume/mesh_distance/mesh_surface.h"
 
 #include <pcl/cosection/common/error.h>
 #include <pcl/cosection/evaluation/mesh_comparison.h>

@@ -2,10 +2,10 @@
 #include "mesh_alignment.h"
 
 #include "pcl_cosection/common/directions.h"
-#include "pcl_cosection/common/lattice_cells.h"
 #include "pcl_cosection/common/parallel.h"
 #include "pcl_cosection/common/quantile.h"
 #include "pcl_cosection/priors/proposed/sampled_mesh.h"
+#include "pcl_cosection/priors/proposed/thinned_points.h"
 #include "pcl_cosection/view/visibility/visibility.h"
 
 #include <Eigen/Cholesky>
@@ -18,12 +18,9 @@
 namespace pcl::cosection {
 namespace {
 
-using Vectors = Eigen::Matrix3Xd;
-
 constexpr std::size_t least_points = 30;
-constexpr double thinning_cells = 25.0; // along the longest side: a point counts for as much surface as any other
-constexpr int start_directions = 162;   // in which the mesh is seen ...
-constexpr int start_turns = 18;         // ... and turned
+constexpr int start_directions = 162; // in which the mesh is seen ...
+constexpr int start_turns = 18;       // ... and turned
 constexpr std::size_t starts_kept = 48;
 constexpr std::size_t finalists = 8;
 constexpr Eigen::Index few = 100; // points and samples that judge a start
@@ -49,80 +46,6 @@ struct Similarity
   Eigen::Vector3d operator* (const Eigen::Vector3d& p) const { return scale * (R * p) + t; }
 };
 
-/** \brief Every k-th column, so that about \a count are left. */
-Vectors
-thinned (const Vectors& all, Eigen::Index count)
-{
-  const Eigen::Index step = std::max<Eigen::Index> (1, all.cols () / count);
-  Vectors result (3, (all.cols () + step - 1) / step);
-  for (Eigen::Index n = 0; n < result.cols (); ++n)
-    result.col (n) = all.col (n * step);
-  return result;
-}
-
-/** \brief Positions with normals. */
-struct Oriented
-{
-  Vectors positions, normals;
-
-  Oriented few (Eigen::Index count) const { return {thinned (positions, count), thinned (normals, count)}; }
-  Eigen::Index size () const { return positions.cols (); }
-};
-
-Eigen::AlignedBox3d
-boxOf (const std::vector<OrientedPoint>& points)
-{
-  Eigen::AlignedBox3d box;
-  for (const OrientedPoint& point : points)
-    box.extend (point.position.cast<double> ());
-  return box;
-}
-
-double
-cellSizeOf (const std::vector<OrientedPoint>& points)
-{
-  return boxOf (points).sizes ().maxCoeff () / thinning_cells;
-}
-
-/** \brief One point per occupied cell: the means of position and normal. */
-Oriented
-thinToCells (const std::vector<OrientedPoint>& points)
-{
-  const Eigen::AlignedBox3d box = boxOf (points);
-  const double cells_per_m = 1.0 / cellSizeOf (points);
-  OccupiedCells cells;
-  std::vector<Eigen::Matrix<double, 7, 1>> sums;
-  for (const OrientedPoint& point : points)
-  {
-    const Eigen::Vector3d p = point.position.cast<double> ();
-    const auto cell = cellOf ((p - box.min ()) * cells_per_m);
-    if (!cell)
-      continue;
-    const std::size_t n = cells.add (*cell);
-    if (n == sums.size ())
-      sums.emplace_back (Eigen::Matrix<double, 7, 1>::Zero ());
-    sums[n].head<3> () += p;
-    sums[n].segment<3> (3) += point.normal.cast<double> ();
-    sums[n][6] += 1.0;
-  }
-  Oriented result;
-  result.positions.resize (3, static_cast<Eigen::Index> (sums.size ()));
-  result.normals.resize (3, static_cast<Eigen::Index> (sums.size ()));
-  for (std::size_t n = 0; n < sums.size (); ++n)
-  {
-    result.positions.col (static_cast<Eigen::Index> (n)) = sums[n].head<3> () / sums[n][6];
-    result.normals.col (static_cast<Eigen::Index> (n)) = sums[n].segment<3> (3).normalized ();
-  }
-  return result;
-}
-
-/** \brief Root mean square distance from the mean. */
-double
-spreadOf (const Vectors& positions)
-{
-  return std::sqrt ((positions.colwise () - positions.rowwise ().mean ()).colwise ().squaredNorm ().mean ());
-}
-
 /** \brief A pair of places that should be one. */
 struct Match
 {
@@ -138,19 +61,16 @@ public:
   Alignment (const TriangleMesh& mesh, const AlignmentTarget& target)
       : target_ (target)
       , mesh_ (mesh)
-      , points_ (thinToCells (target.points))
+      , points_ (thinToCells (target.points, thinnedSpacing (target.points)))
       , size_m_ (spreadOf (points_.positions))
-      , cell_m_ (cellSizeOf (target.points))
+      , cell_m_ (thinnedSpacing (target.points))
   {
     const Eigen::Vector3d middle = points_.positions.rowwise ().mean ();
     for (const auto& [view, T_object_sensor] : target.views)
       sensors_.push_back (T_object_sensor.translation () - middle);
   }
 
-  bool isPossible () const
-  {
-    return points_.size () >= static_cast<Eigen::Index> (least_points) && size_m_ > 0.0 && mesh_.hasExtent ();
-  }
+  bool isPossible () const { return points_.size () >= static_cast<Eigen::Index> (least_points) && size_m_ > 0.0; }
 
   MeshAlignment best (int threads) const
   {
@@ -195,9 +115,9 @@ private:
     return result;
   }
 
-  Oriented moved (const Similarity& to, const std::vector<Eigen::Index>& samples) const
+  OrientedColumns moved (const Similarity& to, const std::vector<Eigen::Index>& samples) const
   {
-    Oriented result;
+    OrientedColumns result;
     result.positions.resize (3, static_cast<Eigen::Index> (samples.size ()));
     result.normals.resize (3, static_cast<Eigen::Index> (samples.size ()));
     for (std::size_t n = 0; n < samples.size (); ++n)
@@ -218,15 +138,15 @@ private:
     const std::vector<Eigen::Index> samples = visibleSamples (similarity.R, few);
     if (samples.size () < 3)
       return {std::numeric_limits<double>::infinity (), similarity};
-    const Oriented seen = moved (similarity, samples);
+    const OrientedColumns seen = moved (similarity, samples);
     similarity.scale = size_m_ / std::max (spreadOf (seen.positions), 1e-6);
     similarity.t = points_.positions.rowwise ().mean () - similarity.scale * seen.positions.rowwise ().mean ();
-    const Oriented placed = moved (similarity, samples);
-    const Oriented points = points_.few (few);
+    const OrientedColumns placed = moved (similarity, samples);
+    const OrientedColumns points = points_.few (few);
     return {startCost (points, placed) + startCost (placed, points), similarity};
   }
 
-  double startCost (const Oriented& from, const Oriented& to) const
+  double startCost (const OrientedColumns& from, const OrientedColumns& to) const
   {
     double sum = 0.0;
     for (Eigen::Index n = 0; n < from.size (); ++n)
@@ -276,7 +196,8 @@ private:
   }
 
   /** \brief Pairs from points to the mesh, from the mesh to points, and from the mesh to the planes. */
-  std::vector<Match> matches (const Similarity& now, const Oriented& points, Eigen::Index samples, double reach_m) const
+  std::vector<Match> matches (const Similarity& now, const OrientedColumns& points, Eigen::Index samples,
+                              double reach_m) const
   {
     std::vector<Match> result;
     const auto weightOf = [reach_m] (double distance_m, double cosine) {
@@ -368,8 +289,8 @@ private:
     return next;
   }
 
-  Similarity refined (Similarity similarity, const Oriented& points, Eigen::Index samples, int steps, double first_m,
-                      double last_m) const
+  Similarity refined (Similarity similarity, const OrientedColumns& points, Eigen::Index samples, int steps,
+                      double first_m, double last_m) const
   {
     const double start_scale = similarity.scale;
     for (int n = 0; n < steps; ++n)
@@ -445,7 +366,7 @@ private:
 
   const AlignmentTarget& target_;
   SampledMesh mesh_;
-  Oriented points_;
+  OrientedColumns points_;
   double size_m_;
   double cell_m_;                        // between neighbouring points
   std::vector<Eigen::Vector3d> sensors_; // from the middle of the points

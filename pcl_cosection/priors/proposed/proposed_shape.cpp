@@ -3,9 +3,8 @@
 
 #include "pcl_cosection/common/parallel.h"
 #include "pcl_cosection/mesh/mesh_cleaning.h"
-#include "pcl_cosection/mesh/triangle_shape.h"
 #include "pcl_cosection/priors/resting_planes.h"
-#include "pcl_cosection/volume/mesh_distance/triangle_tree.h"
+#include "pcl_cosection/volume/mesh_distance/mesh_surface.h"
 
 #include <pcl/cosection/volume/mesh_distance.h>
 
@@ -77,12 +76,7 @@ wallOf (const ProposedShape& shape)
   const MeshTopology topology = computeTopology (shape.mesh);
   if (topology.boundary_edges > most_open * static_cast<double> (shape.mesh.triangles.size ()))
     return 0.0;
-  double area_m2 = 0.0;
-  for (const auto& [a, b, c] : shape.mesh.triangles)
-    area_m2 += 0.5 * areaVector (shape.mesh.vertices[a].cast<double> (), shape.mesh.vertices[b].cast<double> (),
-                                 shape.mesh.vertices[c].cast<double> ())
-                         .norm ();
-  return area_m2 > 0.0 ? 2.0 * std::abs (computeMassProperties (shape.mesh).volume_m3) / area_m2 : 0.0;
+  return 2.0 * std::abs (computeMassProperties (shape.mesh).volume_m3) / surfaceArea (shape.mesh);
 }
 
 void
@@ -91,20 +85,15 @@ addProposedShape (const ProposedShape& shape, BodyEnergy& energy, Proposal& prop
   const VoxelGrid& grid = energy.grid;
   const double reach_m = (far_vox + 2.0) * grid.voxel_size_m;
   const SignedDistanceField distance = sampleSignedDistance (shape.mesh, grid, reach_m, energy.options.threads);
-  const TriangleTree tree (shape.mesh);
+  const SurfaceDistance surface (shape.mesh);
   const double wall_m = wallOf (shape);
   // Walls thinner than that vanish between voxels.
   const auto lacking_vox = static_cast<float> (
       wall_m > 0.0 ? std::max (0.0, least_wall_vox - wall_m / grid.voxel_size_m) : 0.0);
   // Whether the nearest place of the mesh is one that was not measured.
   const auto isHidden = [&] (const Eigen::Vector3d& p) {
-    const NearestPoint nearest = tree.nearest (p);
-    const auto& [a, b, c] = shape.mesh.triangles[nearest.triangle];
-    const Eigen::Vector3d normal = areaVector (shape.mesh.vertices[a].cast<double> (),
-                                               shape.mesh.vertices[b].cast<double> (),
-                                               shape.mesh.vertices[c].cast<double> ())
-                                       .normalized ();
-    return !energy.facing.face ((p - nearest.offset_m).cast<float> (), normal.cast<float> ());
+    const SurfaceDistance::Nearest nearest = surface.nearest (p);
+    return !energy.facing.face (nearest.point.cast<float> (), nearest.normal.cast<float> ());
   };
   const auto beta = static_cast<float> (energy.options.beta_extent);
   parallelFor (0, grid.dims.z (), threadsForVoxels (energy.options.threads, grid.size ()), [&] (int k) {

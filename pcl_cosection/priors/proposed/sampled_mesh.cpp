@@ -2,14 +2,10 @@
 #include "sampled_mesh.h"
 
 #include "pcl_cosection/common/directions.h"
-#include "pcl_cosection/mesh/triangle_shape.h"
-
-#include <Eigen/Geometry>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <random>
 
 namespace pcl::cosection {
 namespace {
@@ -23,64 +19,26 @@ constexpr double least_facing = 0.1;   // cosine: surfaces seen at a lower angle
 
 } // namespace
 
-SampledMesh::SampledMesh (const TriangleMesh& mesh)
+SampledMesh::SampledMesh (const TriangleMesh& mesh) : positions_ (3, samples), normals_ (3, matched)
 {
-  sample (mesh);
+  const std::vector<Eigen::Vector3d> points = sampleSurface (mesh, samples);
+  for (Eigen::Index n = 0; n < samples; ++n)
+    positions_.col (n) = points[static_cast<std::size_t> (n)];
   middle_ = positions_.rowwise ().mean ();
   positions_.colwise () -= middle_;
   unit_ = std::sqrt (positions_.colwise ().squaredNorm ().mean ());
-  if (!(unit_ > 0.0) || !std::isfinite (unit_))
-  {
-    unit_ = 0.0;
-    return;
-  }
   positions_ /= unit_;
   TriangleMesh normalised;
   normalised.triangles = mesh.triangles;
   for (const Eigen::Vector3f& vertex : mesh.vertices)
     normalised.vertices.emplace_back (((vertex.cast<double> () - middle_) / unit_).cast<float> ());
-  tree_ = std::make_unique<const TriangleTree> (normalised);
-  for (const auto& [a, b, c] : mesh.triangles)
-    face_normals_.push_back (areaVector (mesh.vertices[a].cast<double> (), mesh.vertices[b].cast<double> (),
-                                         mesh.vertices[c].cast<double> ())
-                                 .normalized ());
+  surface_.emplace (normalised);
+  for (Eigen::Index n = 0; n < matched; ++n)
+    normals_.col (n) = surface_->nearest (positions_.col (n)).normal;
   for (int n = 0; n < view_directions; ++n)
   {
     directions_.push_back (sphereDirection (n, view_directions).cast<double> ());
     visible_.push_back (findVisible (directions_.back ()));
-  }
-}
-
-void
-SampledMesh::sample (const TriangleMesh& mesh)
-{
-  std::vector<double> up_to; // area of the triangles up to and including each
-  double area = 0.0;
-  std::vector<Eigen::Vector3d> across;
-  for (const auto& [a, b, c] : mesh.triangles)
-  {
-    across.push_back (areaVector (mesh.vertices[a].cast<double> (), mesh.vertices[b].cast<double> (),
-                                  mesh.vertices[c].cast<double> ()));
-    area += across.back ().norm ();
-    up_to.push_back (area);
-  }
-  positions_.resize (3, samples);
-  normals_.resize (3, samples);
-  std::mt19937 random (1); // the same in every run
-  const auto uniform = [&random] { return (static_cast<double> (random ()) + 0.5) * 0x1p-32; };
-  for (Eigen::Index n = 0; n < samples; ++n)
-  {
-    const auto found = std::upper_bound (up_to.begin (), up_to.end (), uniform () * area);
-    const auto t = static_cast<std::size_t> (std::min (found, up_to.end () - 1) - up_to.begin ());
-    double u = uniform (), v = uniform ();
-    if (u + v > 1.0)
-    {
-      u = 1.0 - u;
-      v = 1.0 - v;
-    }
-    const auto corner = [&] (int k) { return mesh.vertices[mesh.triangles[t][k]].cast<double> (); };
-    positions_.col (n) = (1.0 - u - v) * corner (0) + u * corner (1) + v * corner (2);
-    normals_.col (n) = across[t].normalized ();
   }
 }
 
@@ -107,13 +65,6 @@ SampledMesh::findVisible (const Eigen::Vector3d& direction) const
                                             direction.dot (positions_.col (n)) >
                                                 nearest[cellOf (positions_.col (n))] - hidden_behind;
   return visible;
-}
-
-std::pair<Eigen::Vector3d, Eigen::Vector3d>
-SampledMesh::nearest (const Eigen::Vector3d& p) const
-{
-  const NearestPoint found = tree_->nearest (p);
-  return {p - found.offset_m, face_normals_[found.triangle]};
 }
 
 const std::vector<std::uint8_t>&

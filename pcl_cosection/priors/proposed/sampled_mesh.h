@@ -1,15 +1,14 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "pcl_cosection/volume/mesh_distance/triangle_tree.h"
+#include "pcl_cosection/volume/mesh_distance/mesh_surface.h"
 
 #include <pcl/cosection/common/triangle_mesh.h>
 
 #include <Eigen/Core>
 
 #include <cstdint>
-#include <memory>
-#include <utility>
+#include <optional>
 #include <vector>
 
 namespace pcl::cosection {
@@ -20,11 +19,8 @@ class SampledMesh
 public:
   static constexpr Eigen::Index matched = 1500; ///< samples that are compared with points
 
-  /** \param[in] mesh not empty, finite, no triangle without area */
+  /** \param[in] mesh as requireSurface () wants it */
   explicit SampledMesh (const TriangleMesh& mesh);
-
-  /** \brief Whether it has an area. */
-  bool hasExtent () const { return unit_ > 0.0; }
 
   /** \brief Middle of its surface, in its own frame. */
   const Eigen::Vector3d& middle () const { return middle_; }
@@ -39,22 +35,21 @@ public:
   Eigen::Vector3d normal (Eigen::Index n) const { return normals_.col (n); }
 
   /** \brief The nearest point of the surface, and its normal. */
-  std::pair<Eigen::Vector3d, Eigen::Vector3d> nearest (const Eigen::Vector3d& p) const;
+  SurfaceDistance::Nearest nearest (const Eigen::Vector3d& p) const { return surface_->nearest (p); }
 
   /** \brief 1 for the samples that are seen from far away in about a direction. */
   const std::vector<std::uint8_t>& visibleFrom (const Eigen::Vector3d& direction) const;
 
 private:
-  void sample (const TriangleMesh& mesh);
   std::vector<std::uint8_t> findVisible (const Eigen::Vector3d& direction) const;
 
   Eigen::Vector3d middle_ = Eigen::Vector3d::Zero ();
-  double unit_ = 0.0;
-  Eigen::Matrix3Xd positions_, normals_; // more than those that are matched: these fill the depth buffer
+  double unit_ = 1.0;
+  Eigen::Matrix3Xd positions_; // more than those that are matched: these fill the depth buffer
+  Eigen::Matrix3Xd normals_;
   std::vector<Eigen::Vector3d> directions_;
   std::vector<std::vector<std::uint8_t>> visible_; // by direction
-  std::vector<Eigen::Vector3d> face_normals_;
-  std::unique_ptr<const TriangleTree> tree_;
+  std::optional<SurfaceDistance> surface_;         // normalised
 };
 
 } // namespace pcl::cosection

@@ -13,7 +13,7 @@
 #include "pcl_cosection/completion/place_bodies.h"
 #include "pcl_cosection/completion/surroundings.h"
 #include "pcl_cosection/energy/body_mesh.h"
-#include "pcl_cosection/evaluation/mesh_surface.h"
+#include "pcl_cosection/volume/mesh_distance/mesh_surface.h"
 #include <pcl/cosection/io/mesh_io.h>
 #include <pcl/cosection/io/pcd_view.h>
 

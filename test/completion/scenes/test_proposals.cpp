@@ -109,7 +109,7 @@ TEST (Proposals, TheBestOfSeveralIsTaken)
 TEST (Proposals, MeshesThatAreNoneAreRefused)
 {
   CoSection scene;
-  EXPECT_THROW (scene.addObject ({1, {}, {}, {TriangleMesh ()}}), InvalidArgument);
+  EXPECT_THROW (scene.addObject ({1, {}, {}, {TriangleMesh ()}}), DegenerateInput);
   TriangleMesh mesh = meshOf (sphere (0.05));
   mesh.triangles.front ()[0] = static_cast<std::uint32_t> (mesh.vertices.size ());
   EXPECT_THROW (scene.addObject ({1, {}, {}, {mesh}}), InvalidArgument);

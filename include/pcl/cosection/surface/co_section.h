@@ -164,7 +164,9 @@ public:
   /** \brief Add points of what is not an object to the earlier ones, world frame, metres. */
   void addBackground (const std::vector<OrientedPoint>& points);
 
-  /** \brief Add an object. \throws InvalidArgument if the id is not positive or already there */
+  /** \brief Add an object. \throws InvalidArgument if the id is not positive or already there, or a proposal is not
+   * consistent or not finite
+   * \throws DegenerateInput if a proposal has no triangles, or none of any area */
   void addObject (ObjectInput object);
 
   /** \brief Add points of an object, object frame, metres. An object that is not there yet is added; if views named its

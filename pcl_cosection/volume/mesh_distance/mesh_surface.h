@@ -1,8 +1,9 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "pcl_cosection/volume/mesh_distance/triangle_tree.h"
+#include "triangle_tree.h"
 
+#include <pcl/cosection/common/export.h>
 #include <pcl/cosection/common/triangle_mesh.h>
 
 #include <Eigen/Geometry>
@@ -17,20 +18,21 @@ namespace pcl::cosection {
 /** \brief \throws InvalidArgument if a triangle refers to a vertex that does not exist, or to one that is not finite.
  * \throws DegenerateInput if the mesh has no triangles, or none of any area
  * \param[in] name what the message calls the mesh */
-void requireSurface (const TriangleMesh& mesh, const char* name = "mesh");
+PCL_COSECTION_EXPORT void requireSurface (const TriangleMesh& mesh, const char* name = "mesh");
 
 /** \brief The area of a mesh, square metres. */
-double surfaceArea (const TriangleMesh& mesh);
+PCL_COSECTION_EXPORT double surfaceArea (const TriangleMesh& mesh);
 
 /** \brief The box around all vertices, of triangles or not. */
-Eigen::AlignedBox3d vertexBox (const TriangleMesh& mesh);
+PCL_COSECTION_EXPORT Eigen::AlignedBox3d vertexBox (const TriangleMesh& mesh);
 
 /** \brief Points on a mesh, uniform by area and independent of each other: the same for the same \a seed everywhere.
  *
  * Triangles by their share of the area, points in them by R. Osada et al., "Shape Distributions", TOG 2002.
  * \return \a count points, metres, in the frame of the mesh
  * \throws InvalidArgument, DegenerateInput as requireSurface () */
-std::vector<Eigen::Vector3d> sampleSurface (const TriangleMesh& mesh, std::size_t count, std::uint64_t seed = 0);
+PCL_COSECTION_EXPORT std::vector<Eigen::Vector3d> sampleSurface (const TriangleMesh& mesh, std::size_t count,
+                                                                 std::uint64_t seed = 0);
 
 /** \brief The exact distance of points to the triangles of a mesh, unsigned, metres.
  *
@@ -40,7 +42,7 @@ std::vector<Eigen::Vector3d> sampleSurface (const TriangleMesh& mesh, std::size_
  * const SurfaceDistance distance (mesh);
  * const std::vector<double> metres = distance.of (points);
  * \endcode */
-class SurfaceDistance
+class PCL_COSECTION_EXPORT SurfaceDistance
 {
 public:
   /** \throws InvalidArgument, DegenerateInput as requireSurface () */
@@ -63,9 +65,10 @@ private:
 };
 
 /** \brief The share of \a distances_m that are at most \a threshold_m. */
-double shareWithin (const std::vector<double>& distances_m, double threshold_m);
+PCL_COSECTION_EXPORT double shareWithin (const std::vector<double>& distances_m, double threshold_m);
 
 /** \brief The distance of every vertex of \a mesh to \a surface, metres; of vertices without a triangle as well. */
-std::vector<double> vertexDistances (const TriangleMesh& mesh, const SurfaceDistance& surface, int threads = 0);
+PCL_COSECTION_EXPORT std::vector<double> vertexDistances (const TriangleMesh& mesh, const SurfaceDistance& surface,
+                                                          int threads = 0);
 
 } // namespace pcl::cosection
