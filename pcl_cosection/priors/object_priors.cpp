@@ -28,7 +28,6 @@ constexpr double hidden_foot_vox = 6.0;        // height of the lowest points fr
 constexpr double wall_end_vox = 3.0;           // above the lowest points: their normals tell how a wall goes on ...
 constexpr double steep = 0.7;                  // ... if the component of the normal across is larger
 constexpr float expected_bound_weight = 10.0f; // of expected free space, in multiples of beta_extent
-constexpr double thick_wall_vox = 4.0;         // of which voxels need not be smaller
 constexpr std::size_t many_motions = 4;        // of a full turn; mirror planes have at most three on a plane
 constexpr double unmoved = 0.9;                // cosine of a direction with itself, moved
 
@@ -314,10 +313,7 @@ double
 wallThickness (const Observation& object, const ObjectSetting& setting, const std::vector<Eigen::Vector4d>& planes)
 {
   if (const ProposedShape* proposed = usedProposal (object, setting, planes))
-  {
-    const double wall_m = wallOf (*proposed);
-    return wall_m < thick_wall_vox * object.voxel_size_m ? wall_m : 0.0;
-  }
+    return wallOf (*proposed, object.voxel_size_m);
   return shapeOf (object, setting, nearestPlaneBelow (object, planes)).wallThickness ();
 }
 

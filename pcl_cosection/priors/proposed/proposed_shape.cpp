@@ -17,10 +17,12 @@ namespace {
 constexpr double least_explained = 0.6; // true shapes in simulated views have 0.69 to 0.95 ...
 constexpr double least_confirmed = 0.6; // ... and 0.70 to 0.97
 constexpr double most_contradicted = 0.05;
-constexpr double noise_vox = 0.5;     // voxels are as large as the points' noise and spacing ask for
-constexpr float gap_vox = 2.0f;       // nothing is expected nearer to data
-constexpr float far_vox = 6.0f;       // largest expected distance
-constexpr float wall_weight = 100.0f; // of a wall's hidden side, near data of the other one
+constexpr double noise_vox = 0.5;      // voxels are as large as the points' noise and spacing ask for
+constexpr float gap_vox = 2.0f;        // nothing is expected nearer to data
+constexpr float near_vox = 3.0f;       // of the surface: what is a wall's is asked there
+constexpr float far_vox = 6.0f;        // largest expected distance
+constexpr double thick_wall_vox = 4.0; // of which voxels need not be smaller
+constexpr float wall_weight = 100.0f;  // of a wall, which vanishes with less
 constexpr double least_wall_vox = 1.25;
 constexpr double most_open = 0.01;       // edges per triangle at which a mesh ends: holes that change its volume little
 constexpr float proposal_weight = 10.0f; // in multiples of beta_extent
@@ -71,12 +73,13 @@ proposedShape (const Observation& object, const ObjectSetting& setting, const st
 }
 
 double
-wallOf (const ProposedShape& shape)
+wallOf (const ProposedShape& shape, double voxel_size_m)
 {
   const MeshTopology topology = computeTopology (shape.mesh);
   if (topology.boundary_edges > most_open * static_cast<double> (shape.mesh.triangles.size ()))
     return 0.0;
-  return 2.0 * std::abs (computeMassProperties (shape.mesh).volume_m3) / surfaceArea (shape.mesh);
+  const double mean_m = 2.0 * std::abs (computeMassProperties (shape.mesh).volume_m3) / surfaceArea (shape.mesh);
+  return mean_m < thick_wall_vox * voxel_size_m ? mean_m : 0.0;
 }
 
 void
@@ -86,16 +89,15 @@ addProposedShape (const ProposedShape& shape, BodyEnergy& energy, Proposal& prop
   const double reach_m = (far_vox + 2.0) * grid.voxel_size_m;
   const SignedDistanceField distance = sampleSignedDistance (shape.mesh, grid, reach_m, energy.options.threads);
   const SurfaceDistance surface (shape.mesh);
-  const double wall_m = wallOf (shape);
-  // Walls thinner than that vanish between voxels.
-  const auto lacking_vox = static_cast<float> (
-      wall_m > 0.0 ? std::max (0.0, least_wall_vox - wall_m / grid.voxel_size_m) : 0.0);
-  // Whether the nearest place of the mesh is one that was not measured.
-  const auto isHidden = [&] (const Eigen::Vector3d& p) {
-    const SurfaceDistance::Nearest nearest = surface.nearest (p);
-    return !energy.facing.face (nearest.point.cast<float> (), nearest.normal.cast<float> ());
+  // What a wall lacks to be so thick that it does not vanish between voxels.
+  const auto lackingAt = [&] (const SurfaceDistance::Nearest& nearest) {
+    const Eigen::Vector3d within = nearest.point - least_wall_vox * grid.voxel_size_m * nearest.normal;
+    const SurfaceDistance::Nearest other = surface.nearest (within);
+    const double beyond_m = (within - other.point).dot (other.normal); // the other side
+    return static_cast<float> (std::clamp (beyond_m / grid.voxel_size_m, 0.0, least_wall_vox));
   };
   const auto beta = static_cast<float> (energy.options.beta_extent);
+  const bool is_wall = wallOf (shape, grid.voxel_size_m) > 0.0;
   parallelFor (0, grid.dims.z (), threadsForVoxels (energy.options.threads, grid.size ()), [&] (int k) {
     for (int j = 0; j < grid.dims.y (); ++j)
       for (int i = 0; i < grid.dims.x (); ++i)
@@ -109,22 +111,28 @@ addProposedShape (const ProposedShape& shape, BodyEnergy& energy, Proposal& prop
         proposal.surface[n] = std::abs (vox) < 1.0f;
         if (energy.empty[n])
           continue;
-        const float target = std::clamp (vox, -far_vox, far_vox);
+        const bool is_near = std::abs (vox) < near_vox;
+        const SurfaceDistance::Nearest nearest = is_near ? surface.nearest (grid.center (i, j, k))
+                                                         : SurfaceDistance::Nearest ();
+        const float lacking = is_near ? lackingAt (nearest) : 0.0f;
         if (energy.data_distance_vox[n] >= gap_vox)
         {
-          proposal.weight[n] = proposal_weight * beta;
+          const float target = std::clamp (vox - 0.5f * lacking, -far_vox, far_vox); // as much on either side
+          proposal.weight[n] = (is_wall && is_near ? wall_weight : proposal_weight) * beta;
           proposal.target[n] = target;
           proposal.least[n] = std::max (0.0f, target);
+          continue;
         }
         // Behind a measured surface its distance grows on, although the other side of a wall may be near.
-        else if (const float weight = energy.problem.weight[n]; std::abs (vox) < gap_vox + 1.0f &&
-                                                                energy.problem.weighted_target[n] <= 0.0f &&
-                                                                isHidden (grid.center (i, j, k)))
-        {
-          energy.problem.weight[n] = energy.problem.weighted_target[n] = 0.0f;
-          proposal.weight[n] = std::max (weight, wall_weight * beta);
-          proposal.target[n] = target - lacking_vox;
-        }
+        const float weight = energy.problem.weight[n], weighted_target = energy.problem.weighted_target[n];
+        if (!is_near || weighted_target > 0.0f ||
+            energy.facing.face (nearest.point.cast<float> (), nearest.normal.cast<float> ()))
+          continue;
+        const float measured = weight > 0.0f ? weighted_target / weight : -far_vox;
+        const float thin = std::max (lacking, static_cast<float> (least_wall_vox) + measured + vox);
+        energy.problem.weight[n] = energy.problem.weighted_target[n] = 0.0f;
+        proposal.weight[n] = std::max (weight, wall_weight * beta);
+        proposal.target[n] = vox - thin;
       }
   });
 }

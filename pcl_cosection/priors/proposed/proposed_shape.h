@@ -32,8 +32,9 @@ struct ProposedShapes
 const ProposedShape* proposedShape (const Observation& object, const ObjectSetting& setting,
                                     const std::vector<Eigen::Vector4d>& planes);
 
-/** \brief Mean thickness of a mesh, metres: twice its volume by its area; 0 for an open one. */
-double wallOf (const ProposedShape& shape);
+/** \brief Mean thickness of what consists of thin walls, metres: twice its volume by its area. 0 if it is thicker than
+ * some voxels, or open. */
+double wallOf (const ProposedShape& shape, double voxel_size_m);
 
 /** \brief Expect a proposed surface where nothing was measured, and behind a measured one, where a wall ends.
  * \param[in,out] energy with data term, free space, and which way the points face */
