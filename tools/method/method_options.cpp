@@ -150,8 +150,7 @@ parseObjectFile (const std::string& option, const std::string& value)
   const std::optional<double> id = parseNumber (value.substr (0, equals));
   if (equals == std::string::npos || equals + 1 == value.size () || !id || !(*id >= 1.0 && *id <= 2147483647.0) ||
       *id != std::floor (*id))
-    throw UsageError (option + " must be ID=FILE with the number of an object; it is \"" + value +
-                      "\"");
+    throw UsageError (option + " must be ID=FILE with the number of an object; it is \"" + value + "\"");
   if (*id == ignored_label)
     throw UsageError (option + " " + value + ": label " + std::to_string (ignored_label) +
                       " marks what is no object; number it otherwise");
