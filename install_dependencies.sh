@@ -22,6 +22,10 @@ packages=(
   libcli11-dev
   nlohmann-json3-dev
   libjs-three
+  # training of the learned prior
+  python3-numpy
+  python3-onnx
+  python3-torch
   # tests, benchmarks, documentation
   libgtest-dev
   libbenchmark-dev

@@ -130,7 +130,7 @@ summaryJson (const Settings& settings, const SceneResult& result, const Eigen::V
 
 /** \brief Read, complete, write. \return whether every object succeeded */
 bool
-complete (const Settings& settings, const OutputTarget& target, std::vector<std::string>& warnings, Terminal& terminal)
+complete (Settings settings, const OutputTarget& target, std::vector<std::string>& warnings, Terminal& terminal)
 {
   const pcl::StopWatch total;
   SceneInput input = readScene (settings, [&] (const std::string& stage, double fraction) {
@@ -142,6 +142,8 @@ complete (const Settings& settings, const OutputTarget& target, std::vector<std:
   warnings = input.warnings;
   if (!origin.isZero (0.0) && settings.format == "stl")
     warnings.push_back ("STL files have single precision: coordinates in them are relative to " + placeText (origin));
+  if (!settings.model.empty () && settings.method.activePriors ().learned)
+    settings.method.completion_network = loadCompletionNetwork (settings.model);
   for (const std::string& warning : warnings)
     terminal.warning (warning);
 

@@ -29,8 +29,10 @@ public:
     side_ = std::max (1, static_cast<int> (std::sqrt (static_cast<double> (chosen.size ()))));
     if (!chosen.empty ())
       origin_ = box.min ();
+    // Points on a line across an axis are in one cell along it: what rounding makes of their distances is no length.
+    constexpr double rounding = 1e-12;
     for (int axis = 0; axis < 2; ++axis)
-      if (!chosen.empty () && box.sizes ()[axis] > 0.0)
+      if (!chosen.empty () && box.sizes ()[axis] > rounding * (box.min ().norm () + box.max ().norm ()))
         cells_per_length_[axis] = side_ / box.sizes ()[axis];
     begin_.assign (static_cast<std::size_t> (side_) * side_ + 1, 0);
     for (const std::uint32_t n : chosen)
@@ -61,6 +63,8 @@ public:
 private:
   int index (double value, int axis) const
   {
+    if (!(cells_per_length_[axis] > 0.0))
+      return 0;
     const double cell = (value - origin_[axis]) * cells_per_length_[axis];
     return static_cast<int> (std::clamp (cell, 0.0, side_ - 1.0));
   }
@@ -75,8 +79,8 @@ private:
   {
     constexpr double rounding = 1e-6; // of a cell
     // What is beyond the first and the last row counts to them.
-    const double height = cells_per_length_.y () > 0.0 ? 1.0 / cells_per_length_.y () : 0.0;
-    const bool first = row == 0, last = row == side_ - 1;
+    const double height = cells_per_length_.y () > 0.0 ? 1.0 / cells_per_length_.y () : INFINITY;
+    const bool first = row == 0, last = row == side_ - 1 || !std::isfinite (height);
     const double bottom = first ? -INFINITY : origin_.y () + (row - rounding) * height;
     const double top = last ? INFINITY : origin_.y () + (row + 1 + rounding) * height;
     double left = INFINITY, right = -INFINITY;

@@ -135,6 +135,8 @@ sceneResult (const Scene& scene, const std::vector<Observation>& observations,
       object.guessed_plane = support[o].planes.front ();
     if (observations[o].proposed && observations[o].proposed->best)
       object.proposal = fitOf (*observations[o].proposed->best);
+    if (observations[o].proposed && observations[o].proposed->learned)
+      object.learned = fitOf (*observations[o].proposed->learned);
     object.solver = solvers[n];
   }
   for (std::size_t o = 0; o < scene.objects.size (); ++o)

@@ -307,6 +307,7 @@ observeObjects (const Scene& scene, CompletionMode mode, SceneState& state, Comp
     object.fits = std::make_shared<ShapeFits> ();
     object.proposals = &input.proposals;
     object.proposed = std::make_shared<ProposedShapes> ();
+    object.network = options.completion_network;
     std::vector<bool> outliers = leaveOutPoints (input, options, object, log);
     if (!std::equal (body.outliers.begin (), body.outliers.end (), outliers.begin ()))
       body.readPointsAgain ();

@@ -21,7 +21,7 @@ struct NamedPrior
 constexpr NamedPrior all_priors[] = {
     {"extent", &Priors::extent},   {"symmetry", &Priors::symmetry},   {"revolution", &Priors::revolution},
     {"vessels", &Priors::vessels}, {"extrusion", &Priors::extrusion}, {"plane", &Priors::plane},
-    {"rays", &Priors::rays},       {"proposals", &Priors::proposals}};
+    {"rays", &Priors::rays},       {"learned", &Priors::learned},     {"proposals", &Priors::proposals}};
 
 } // namespace
 
@@ -93,6 +93,7 @@ CoSectionOptions::activePriors () const
   active.plane = active.plane && use_planes;
   active.extent = priors.extent && use_extent_prior;
   active.rays = priors.rays && use_extent_prior;
+  active.learned = priors.learned && use_extent_prior;
   active.proposals = priors.proposals && use_extent_prior;
   return active;
 }

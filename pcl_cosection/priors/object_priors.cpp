@@ -258,11 +258,19 @@ symmetryOf (const Observation& object, const Priors& priors, const Eigen::Vector
   return {symmetry, turn != turns.end ()};
 }
 
-/** \brief The shape that the user proposed, if it explains the measurements; else null. */
+/** \brief The shape that the user proposed, if it explains the measurements; else that of the network, if it does, and
+ * no profile was fitted to the points: a surface of revolution is more exact, and the walls of a vessel are finer than
+ * the network's voxels. Else null. */
 const ProposedShape*
 usedProposal (const Observation& object, const ObjectSetting& setting, const std::vector<Eigen::Vector4d>& planes)
 {
   const ProposedShape* shape = setting.priors.proposals ? proposedShape (object, setting, planes) : nullptr;
+  if (shape && shape->is_used)
+    return shape;
+  const std::optional<Eigen::Vector4d> plane = nearestPlaneBelow (object, planes);
+  if (!setting.priors.learned || !object.network || !plane || shapeOf (object, setting, plane))
+    return nullptr;
+  shape = learnedShape (object, setting, *plane);
   return shape && shape->is_used ? shape : nullptr;
 }
 

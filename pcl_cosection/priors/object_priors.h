@@ -40,6 +40,7 @@ struct Observation
   std::shared_ptr<ShapeFits> fits;                        // shapes that were fitted to the points so far
   const std::vector<TriangleMesh>* proposals = nullptr;   // meshes that may be its shape
   std::shared_ptr<ProposedShapes> proposed;               // the best of them, once it is aligned
+  CompletionNetwork::ConstPtr network;                    // of the learned prior, or null
 
   const std::vector<OrientedPoint>& points () const { return inliers.empty () ? *all_points : inliers; }
 

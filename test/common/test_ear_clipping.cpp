@@ -107,6 +107,31 @@ TEST (EarClipping, StarShapedPolygonsAtRandom)
     expectCovered (around (3 + n, [&] (int) { return radius (random); }));
 }
 
+TEST (EarClipping, NotConvexCornersOnALine)
+{
+  std::mt19937 random (5);
+  for (int n = 0; n < 400; ++n)
+  {
+    // Towers of few heights on a wall, turned; in some directions the line is straight but for rounding errors.
+    const int towers = 2 + n % 13, heights = 1 + n % 3;
+    Polygon wall = {{0, -0.3}, {2.0 * towers + 1.0, -0.3}};
+    for (int tower = towers; tower-- > 0;)
+    {
+      const double height = 0.1 + 0.2 * static_cast<double> (random () % heights);
+      const double right = 2.0 * tower + 1.0 + (tower + 1 == towers ? 1.0 : 0.0);
+      wall.insert (wall.end (), {{right, height}, {right - 0.7, height}, {right - 0.7, 0.0}});
+      if (tower > 0)
+        wall.emplace_back (2.0 * tower, 0.0);
+    }
+    wall.emplace_back (0.0, 0.0);
+    const Eigen::Rotation2Dd turn (n % 8 * M_PI_4);
+    for (Eigen::Vector2d& corner : wall)
+      corner = n % 16 < 8 ? Eigen::Vector2d (turn * corner)
+                          : Eigen::Vector2d ((turn * corner) + Eigen::Vector2d (400.0, 5.3e6));
+    EXPECT_EQ (clipEars (wall).size (), wall.size () - 2) << n;
+  }
+}
+
 TEST (EarClipping, CornersOnStraightEdgesAndTwice)
 {
   Polygon square;

@@ -45,6 +45,17 @@ meanOf (const std::vector<float>& values)
               : std::accumulate (values.begin (), values.end (), 0.0) / static_cast<double> (values.size ()));
 }
 
+/** \brief How an expected shape fits the measurements. */
+Json
+fitJson (const ProposalFit& fit)
+{
+  return (Json{{"used", fit.used},
+               {"distance_m", fit.distance_m},
+               {"explained", fit.explained},
+               {"confirmed", fit.confirmed},
+               {"contradicted", fit.contradicted}});
+}
+
 /** \brief \param[in] origin of the object's frame, where that is not the world's */
 Json
 proposalJson (const ProposalFit& fit, const Eigen::Vector3d& origin)
@@ -54,14 +65,11 @@ proposalJson (const ProposalFit& fit, const Eigen::Vector3d& origin)
   Json rows = Json::array ();
   for (int row = 0; row < 4; ++row)
     rows.push_back ({T (row, 0), T (row, 1), T (row, 2), T (row, 3)});
-  return (Json{{"number", fit.proposal},
-               {"used", fit.used},
-               {"scale", fit.scale},
-               {"T_object_proposal", rows},
-               {"distance_m", fit.distance_m},
-               {"explained", fit.explained},
-               {"confirmed", fit.confirmed},
-               {"contradicted", fit.contradicted}});
+  Json result = fitJson (fit);
+  result["number"] = fit.proposal;
+  result["scale"] = fit.scale;
+  result["T_object_proposal"] = rows;
+  return (result);
 }
 
 } // namespace
@@ -105,6 +113,8 @@ objectJson (const ObjectResult& object, const Eigen::Vector3d& origin)
   }
   if (object.proposal)
     result["proposal"] = proposalJson (*object.proposal, origin);
+  if (object.learned)
+    result["learned"] = fitJson (*object.learned);
   result["solver"] = solverJson (object.solver);
   return (result);
 }

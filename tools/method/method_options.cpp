@@ -39,7 +39,7 @@ declareMethodOptions (CLI::App& app, GivenMethod& given)
   method.add (
       "--priors LIST", given.priors,
       "What is expected of hidden surfaces that nothing bounds: names separated by commas, of extent, symmetry, "
-      "revolution, vessels, extrusion, plane, rays, proposals; or none" +
+      "revolution, vessels, extrusion, plane, rays, learned, proposals; or none" +
           byDefault ("all"));
   method.add ("--alpha WEIGHT", given.alpha, positiveNumber (),
               "Weight of smoothness, relative to the voxel" + byDefault (defaults.alpha));

@@ -92,6 +92,14 @@ public:
     return judged (starts.front ().second);
   }
 
+  MeshAlignment inPlace () const
+  {
+    Similarity similarity;
+    similarity.scale = mesh_.unit ();
+    similarity.t = mesh_.middle ();
+    return judged (similarity);
+  }
+
 private:
   static void keep (std::vector<std::pair<double, Similarity>>& starts, std::size_t count)
   {
@@ -383,6 +391,12 @@ alignMesh (const TriangleMesh& mesh, const AlignmentTarget& target, int threads)
   if (!alignment.isPossible ())
     return std::nullopt;
   return alignment.best (threads);
+}
+
+MeshAlignment
+judgeMesh (const TriangleMesh& mesh, const AlignmentTarget& target)
+{
+  return Alignment (mesh, target).inPlace ();
 }
 
 } // namespace pcl::cosection

@@ -41,4 +41,7 @@ struct MeshAlignment
  * \return nothing if there are too few points, or the mesh has no extent */
 std::optional<MeshAlignment> alignMesh (const TriangleMesh& mesh, const AlignmentTarget& target, int threads);
 
+/** \brief How well a mesh explains an object where it is; the mesh is in the object's frame, and not empty. */
+MeshAlignment judgeMesh (const TriangleMesh& mesh, const AlignmentTarget& target);
+
 } // namespace pcl::cosection

@@ -3,6 +3,7 @@
 
 #include "pcl_cosection/common/parallel.h"
 #include "pcl_cosection/mesh/mesh_cleaning.h"
+#include "pcl_cosection/priors/learned/learned_completion.h"
 #include "pcl_cosection/priors/resting_planes.h"
 #include "pcl_cosection/volume/mesh_distance/mesh_surface.h"
 
@@ -17,6 +18,8 @@ namespace {
 constexpr double least_explained = 0.6; // true shapes in simulated views have 0.69 to 0.95 ...
 constexpr double least_confirmed = 0.6; // ... and 0.70 to 0.97
 constexpr double most_contradicted = 0.05;
+constexpr double least_confirmed_learned = 0.34; // a network's voxels are coarse
+constexpr double most_contradicted_learned = 0.06;
 constexpr double noise_vox = 0.5;      // voxels are as large as the points' noise and spacing ask for
 constexpr float gap_vox = 2.0f;        // nothing is expected nearer to data
 constexpr float near_vox = 3.0f;       // of the surface: what is a wall's is asked there
@@ -70,6 +73,28 @@ proposedShape (const Observation& object, const ObjectSetting& setting, const st
     }
   }
   return shapes.best ? &*shapes.best : nullptr;
+}
+
+const ProposedShape*
+learnedShape (const Observation& object, const ObjectSetting& setting, const Eigen::Vector4d& plane)
+{
+  if (!object.network || !object.proposed || object.virtual_view)
+    return nullptr;
+  ProposedShapes& shapes = *object.proposed;
+  if (!shapes.completed)
+  {
+    shapes.completed = true;
+    TriangleMesh mesh = completedByNetwork (*object.network, object.points (), object.views, plane);
+    if (mesh.empty ())
+      return nullptr;
+    const AlignmentTarget target = {
+        object.points (), object.views, setting.hidden, {plane}, noise_vox * object.voxel_size_m};
+    const MeshAlignment alignment = judgeMesh (mesh, target);
+    const bool is_used = alignment.confirmed >= least_confirmed_learned &&
+                         alignment.contradicted <= most_contradicted_learned;
+    shapes.learned = ProposedShape{0, alignment, is_used, std::move (mesh)};
+  }
+  return shapes.learned ? &*shapes.learned : nullptr;
 }
 
 double

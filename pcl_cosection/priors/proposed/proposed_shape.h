@@ -20,17 +20,23 @@ struct ProposedShape
   TriangleMesh mesh;    ///< aligned, object frame
 };
 
-/** \brief The best of an object's proposals. They are aligned once. */
+/** \brief The best of an object's proposals, and what the network completes. They are found once. */
 struct ProposedShapes
 {
-  bool aligned = false;
+  bool aligned = false, completed = false;
   std::optional<ProposedShape> best;
+  std::optional<ProposedShape> learned;
 };
 
 /** \brief The best of an object's proposals, aligned with its measurements; null if there are none.
  * \param[in] planes on which it may stand */
 const ProposedShape* proposedShape (const Observation& object, const ObjectSetting& setting,
                                     const std::vector<Eigen::Vector4d>& planes);
+
+/** \brief The object as the network of the learned prior completes it; null if there is none, no view, or nothing is
+ * expected. \param[in] plane on which it stands */
+const ProposedShape* learnedShape (const Observation& object, const ObjectSetting& setting,
+                                   const Eigen::Vector4d& plane);
 
 /** \brief Mean thickness of what consists of thin walls, metres: twice its volume by its area. 0 if it is thicker than
  * some voxels, or open. */

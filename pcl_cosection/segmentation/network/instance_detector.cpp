@@ -4,13 +4,13 @@
 #include "network_process.h"
 #include "onnx_check.h"
 #include "opencv_network.h"
+#include "opencv_settings.h"
 
 #include "pcl_cosection/common/files.h"
 #include "pcl_cosection/common/process_setting.h"
 
 #include <pcl/cosection/common/error.h>
 
-#include <opencv2/core/utils/logger.hpp>
 #include <opencv2/imgproc.hpp>
 
 #include <algorithm>
@@ -22,25 +22,6 @@ namespace {
 constexpr int one_stage_input = 640; ///< edge, pixels
 constexpr std::uint8_t margin = 114; ///< grey, as YOLO's are trained with
 const char* const tensorflow_detections = "detection_out_final";
-
-/** \brief OpenCV's number of threads, and no messages of it. */
-struct OpenCvSettings
-{
-  using Value = std::pair<cv::utils::logging::LogLevel, int>;
-
-  static Value change (int threads)
-  {
-    const Value before (cv::utils::logging::setLogLevel (cv::utils::logging::LOG_LEVEL_SILENT), cv::getNumThreads ());
-    cv::setNumThreads (threads);
-    return before;
-  }
-
-  static void restore (const Value& before)
-  {
-    cv::setNumThreads (before.second);
-    cv::utils::logging::setLogLevel (before.first);
-  }
-};
 
 NetworkProcess
 readNetwork (const std::string& model, const InstanceDetectorOptions& options)

@@ -136,9 +136,10 @@ watched (const Channel& to_parent, double most_s, const Work& work)
 cv::Mat
 receiveInput (const Reader& reader)
 {
+  const auto channels = static_cast<int> (reader.number (most_values));
   const auto height = static_cast<int> (reader.number (most_values));
   const auto width = static_cast<int> (reader.number (most_values));
-  cv::Mat input ({1, 3, height, width}, CV_32F);
+  cv::Mat input ({1, channels, height, width}, CV_32F);
   reader.bytes (input.data, input.total () * input.elemSize ());
   return (input);
 }
@@ -262,6 +263,7 @@ std::vector<NetworkOutput>
 NetworkProcess::run (const cv::Mat& input)
 {
   const auto send = [&] (const Writer& writer) {
+    writer.number (static_cast<std::uint64_t> (input.size[1]));
     writer.number (static_cast<std::uint64_t> (input.size[2]));
     writer.number (static_cast<std::uint64_t> (input.size[3]));
     writer.bytes (input.data, input.total () * input.elemSize ());

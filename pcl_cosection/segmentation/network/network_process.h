@@ -26,7 +26,7 @@ public:
   /** \brief The outputs that run () gives. */
   const std::vector<std::string>& outputNames () const { return (output_names_); }
 
-  /** \brief The outputs for an input of 1 x 3 x height x width values. \throws IoError why there are none */
+  /** \brief The outputs for an input of 1 x channels x height x width values. \throws IoError why there are none */
   std::vector<NetworkOutput> run (const cv::Mat& input);
 
 private:

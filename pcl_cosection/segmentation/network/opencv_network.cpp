@@ -107,7 +107,7 @@ OpenCvNetwork::checkChannels (const cv::Mat& input)
     return;
   std::vector<int> layers;
   std::vector<std::vector<cv::dnn::MatShape>> inputs, outputs;
-  net_.getLayersShapes (cv::dnn::MatShape{1, 3, size.height, size.width}, layers, inputs, outputs);
+  net_.getLayersShapes (cv::dnn::MatShape{1, input.size[1], size.height, size.width}, layers, inputs, outputs);
   for (std::size_t n = 0; n < layers.size (); ++n)
   {
     const cv::Ptr<cv::dnn::Layer> layer = net_.getLayer (layers[n]);

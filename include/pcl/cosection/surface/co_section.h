@@ -72,8 +72,10 @@ struct PCL_COSECTION_EXPORT ObjectResult
    * unit n towards it: inferred from where it ends, or how it is open. It bounds the mesh. */
   std::optional<Eigen::Vector4d> guessed_plane;
   std::optional<ProposalFit> proposal; ///< the best of ObjectInput::proposals; nothing: none could be aligned
-  SolverSummary solver;                ///< of the last pass; its iterations are those of all passes at full resolution
-  double penetration_m = 0.0;          ///< deepest place of its surface in supported parts of another body
+  /** \brief What CoSectionOptions::completion_network expects; nothing: it was not asked, or expects nothing. */
+  std::optional<ProposalFit> learned;
+  SolverSummary solver;       ///< of the last pass; its iterations are those of all passes at full resolution
+  double penetration_m = 0.0; ///< deepest place of its surface in supported parts of another body
 };
 
 /** \brief A piece of the background, as it was solved. */

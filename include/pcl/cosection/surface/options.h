@@ -4,7 +4,9 @@
 #include <pcl/cosection/common/export.h>
 
 #include <cstddef>
+#include <memory>
 #include <string>
+#include <vector>
 
 namespace pcl::cosection {
 
@@ -40,6 +42,7 @@ struct PCL_COSECTION_EXPORT Priors
   bool extrusion = true;  ///< what is hidden below an observed surface reaches the plane
   bool plane = true;      ///< an object without known surroundings shows the plane on which it stands
   bool rays = true;       ///< nothing is on rays without return beside an object that was cut out
+  bool learned = true;    ///< what CoSectionOptions::completion_network expects, if there is one
   bool proposals = true;  ///< meshes that the user proposes, where they explain what was measured
 
   /** \brief The names of those that are on, separated by commas: those of the members; or "all", or "none". */
@@ -48,6 +51,35 @@ struct PCL_COSECTION_EXPORT Priors
   /** \brief Those that are named, as names () has it. \throws InvalidArgument */
   static Priors named (const std::string& names);
 };
+
+/** \brief A network that has learned what the hidden sides of things look like: the learned prior.
+ *
+ * It sees an object in a cube of voxels that stands on the object's support plane, x away from the sensors. Several
+ * threads may use one network. */
+class PCL_COSECTION_EXPORT CompletionNetwork
+{
+public:
+  /** \brief Shared pointer to what is constant. */
+  using ConstPtr = std::shared_ptr<const CompletionNetwork>;
+
+  static constexpr int size = 32;    ///< voxels along an edge of the cube
+  static constexpr int channels = 4; ///< of the input
+
+  virtual ~CompletionNetwork ();
+
+  /** \brief Where matter is.
+   * \param[in] observed channels x size x size x size values (z, y, x; x fastest): the signed distance from the
+   * object's readings along their rays, in units of three voxels and truncated to [-1, 1], positive in front; 1 where a
+   * view looks through; 1 behind the object's readings; 1 where no view tells anything
+   * \return size x size x size logits of the probability that there is matter
+   * \throws IoError if the network cannot be run */
+  virtual std::vector<float> complete (const std::vector<float>& observed) const = 0;
+};
+
+/** \brief Read a network from an ONNX file: one input of 1 x 128 x 32 x 32 values, one output of 1 x 32 x 32 x 32
+ * (heights are channels). It is checked and tried in a process of its own first. In the library pcl_cosection_dnn.
+ * \throws IoError why it cannot be read or run, or what is wrong with its shapes */
+PCL_COSECTION_EXPORT CompletionNetwork::ConstPtr loadCompletionNetwork (const std::string& path);
 
 /** \brief Parameters of the minimisation. */
 struct PCL_COSECTION_EXPORT SolverOptions
@@ -78,7 +110,8 @@ struct PCL_COSECTION_EXPORT CoSectionOptions
   bool use_planes = true;           ///< find support planes in the background and continue them under the objects
   bool use_extent_prior = true;     ///< remedy for swelling: a weak pull outside where nothing suggests the object
   bool use_symmetric_extent = true; ///< part of the extent prior: hidden parts extend as far as those seen do
-  Priors priors;                    ///< which of the priors; those that the switches above turn off stay off
+  CompletionNetwork::ConstPtr completion_network = nullptr; ///< the learned prior; null: there is none
+  Priors priors;                ///< which of the priors; those that the switches above turn off stay off
   bool carve_free_space = true; ///< with the hull: cut the result along the outlines seen by views, finer than a voxel
   bool revise_votes = true;     ///< free space can be revised by contradicting evidence
   bool intersect_solved = true; ///< neighbours act through their optimised fields (false: through their data alone, the

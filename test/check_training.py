@@ -1,0 +1,31 @@
+#!/usr/bin/env python3
+# Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
+"""A minute of training: the loss falls, and the program can use the network. Arguments: the folder of the programs."""
+import json
+import os
+import re
+import subprocess
+import sys
+import tempfile
+
+here = os.path.dirname(os.path.abspath(__file__))
+programs = os.path.abspath(sys.argv[1])
+with tempfile.TemporaryDirectory() as folder:
+    os.chdir(folder)
+    command = [sys.executable, os.path.join(here, "../tools/prior_training/train.py"), "--generator",
+               os.path.join(programs, "make_training_samples"), "--minutes", "0.7", "--batch", "4", "--kept", "80",
+               "--report", "5", "--output", "short.onnx", "--checkpoint", "short.pt"]
+    text = subprocess.run(command, check=True, capture_output=True, text=True).stdout
+    losses = [float(value) for value in re.findall(r"loss ([\d.]+)", text)]
+    print("losses", losses)
+    assert len(losses) >= 3 and losses[-1] < 0.7 * losses[0], "the loss does not fall"
+
+    subprocess.run([os.path.join(programs, "pcl_cosection_simulate"), "--quiet", "--preset", "table", "--frames", "0:1",
+                    "--views-every", "1", "scene"], check=True)
+    view = os.path.join("scene/views", sorted(os.listdir("scene/views"))[0])
+    subprocess.run([os.path.join(programs, "pcl_cosection"), "--quiet", "--model", "short.onnx", "--json", "run.json",
+                    view, "result"], check=True)
+    with open("run.json", encoding="utf-8") as file:
+        summary = json.load(file)
+    assert not summary["warnings"] or all("learned" not in warning for warning in summary["warnings"])
+    assert any("learned" in thing for thing in summary["objects"]), "the network was not asked"

@@ -1,0 +1,163 @@
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
+
+// The learned prior: what a network sees, and what becomes of its answer. The networks here know the answer.
+
+#include "completion_scene.h"
+#include "surrounding_views.h"
+
+#include "pcl_cosection/priors/learned/completion_cube.h"
+
+#include <pcl/cosection/surface/options.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+using namespace pcl::cosection;
+using namespace pcl::cosection::test;
+
+namespace {
+
+/** \brief A head on a foot that reaches back: nothing seen from the front tells how far. */
+Distance
+figure ()
+{
+  const Distance foot = placed (box ({0.03, 0.06, 0.015}), Eigen::Vector3d (0.0, 0.02, 0.015));
+  const Distance head = placed (sphere (0.03), Eigen::Vector3d (0.0, -0.01, 0.055));
+  return [=] (const Eigen::Vector3d& p) { return std::min (foot (p), head (p)); };
+}
+
+RenderedView
+seen (const Distance& shape)
+{
+  AnalyticScene scene = tableScene (test::Shape::Sphere);
+  AnalyticScene table;
+  table.add (0, scene.shape (0));
+  table.add (1, shape);
+  return table.render (tableCamera (), fromTheFront ());
+}
+
+ObjectResult
+completeWith (const Distance& shape, CompletionNetwork::ConstPtr network)
+{
+  const RenderedView view = seen (shape);
+  CoSectionOptions options = optionsFor (0.004);
+  options.completion_network = std::move (network);
+  CoSection task (options);
+  task.addView (view.view);
+  task.setBackground (view.points.at (0));
+  task.addObject ({1, view.points.at (1), {}});
+  return task.reconstruct ().objects.at (0);
+}
+
+/** \brief The cube of a shape's view. */
+CompletionCube
+cubeOf (const RenderedView& view)
+{
+  const SensorViews views = {{&view.view, view.view.T_world_sensor}};
+  return completionCube (view.points.at (1), views, table_plane).value ();
+}
+
+/** \brief Answers with a shape. */
+class Oracle : public CompletionNetwork
+{
+public:
+  explicit Oracle (const Distance& answer, const Distance& asked) : answer_ (answer), cube_ (cubeOf (seen (asked))) {}
+
+  std::vector<float> complete (const std::vector<float>& observed) const override
+  {
+    EXPECT_EQ (observed.size (), channels * CompletionCube::voxels);
+    // The input is given as it is, and mirrored: here that is known by what is seen.
+    const bool is_mirrored = calls_++ % 2 == 1;
+    std::vector<float> logits (CompletionCube::voxels);
+    for (int k = 0; k < size; ++k)
+      for (int j = 0; j < size; ++j)
+        for (int i = 0; i < size; ++i)
+          logits[CompletionCube::index (i, is_mirrored ? size - 1 - j : j, k)] = static_cast<float> (
+              std::clamp (-answer_ (cube_.center (i, j, k)) / cube_.voxel_size_m / 0.4, -10.0, 10.0));
+    return logits;
+  }
+
+  int calls () const { return calls_; }
+
+private:
+  Distance answer_;
+  CompletionCube cube_;
+  mutable int calls_ = 0;
+};
+
+} // namespace
+
+TEST (LearnedPrior, TheCubeStandsOnTheTableBehindWhatIsSeen)
+{
+  const RenderedView view = seen (figure ());
+  const CompletionCube cube = cubeOf (view);
+  EXPECT_NEAR (cube.T_object_cube.translation ().z (), -CompletionCube::below_vox * cube.voxel_size_m, 1e-9);
+  const Eigen::Vector3d x = cube.T_object_cube.linear ().col (0), z = cube.T_object_cube.linear ().col (2);
+  EXPECT_NEAR (z.z (), 1.0, 1e-9);
+  const Eigen::Vector3d to_object = -view.view.T_world_sensor.translation ();
+  EXPECT_GT (x.dot (Eigen::Vector3d (to_object.x (), to_object.y (), 0.0).normalized ()), 0.9);
+  std::size_t inside = 0;
+  for (const OrientedPoint& point : view.points.at (1))
+  {
+    const Eigen::Vector3d p = cube.T_object_cube.inverse () * point.position.cast<double> () / cube.voxel_size_m;
+    inside += (p.array () > 0.0).all () && (p.array () < CompletionCube::size).all ();
+  }
+  EXPECT_GT (inside, 0.95 * static_cast<double> (view.points.at (1).size ()));
+  EXPECT_FALSE (completionCube ({}, {}, table_plane));
+  EXPECT_FALSE (completionCube ({{Eigen::Vector3f::Zero (), Eigen::Vector3f::UnitZ ()}},
+                                {{&view.view, view.view.T_world_sensor}}, table_plane));
+}
+
+TEST (LearnedPrior, WhatAViewTellsOfTheVoxels)
+{
+  const RenderedView view = seen (figure ());
+  const CompletionCube cube = cubeOf (view);
+  const CompletionInputs inputs = completionInputs (cube, view.points.at (1), {{&view.view, view.view.T_world_sensor}});
+  std::size_t matter = 0, wrong = 0;
+  for (int k = CompletionCube::below_vox; k < CompletionCube::size; ++k)
+    for (int j = 0; j < CompletionCube::size; ++j)
+      for (int i = 0; i < CompletionCube::size; ++i)
+      {
+        const std::size_t n = CompletionCube::index (i, j, k);
+        const double distance = figure () (cube.center (i, j, k));
+        EXPECT_LE (inputs.is_free[n] + inputs.is_behind[n] + inputs.is_unknown[n], 1);
+        matter += distance < -0.5 * cube.voxel_size_m;
+        wrong += distance < -0.5 * cube.voxel_size_m && inputs.is_free[n];
+      }
+  EXPECT_GT (matter, 500u);
+  EXPECT_EQ (wrong, 0u); // no view looks through matter
+}
+
+TEST (LearnedPrior, AnswersThatTheViewConfirmsAreExpected)
+{
+  const auto oracle = std::make_shared<Oracle> (figure (), figure ());
+  const ObjectResult with = completeWith (figure (), oracle), without = completeWith (figure (), nullptr);
+  ASSERT_EQ (with.error, "");
+  EXPECT_EQ (oracle->calls (), 2); // once, and once mirrored
+  ASSERT_TRUE (with.learned);
+  EXPECT_TRUE (with.learned->used);
+  EXPECT_FALSE (without.learned);
+  EXPECT_LT (meanError (with.mesh, figure ()), 0.0025);
+  EXPECT_LT (meanError (with.mesh, figure ()), 0.7 * meanError (without.mesh, figure ()));
+}
+
+TEST (LearnedPrior, AnswersThatTheViewContradictsChangeNothing)
+{
+  const Distance wrong = placed (box ({0.02, 0.02, 0.06}), Eigen::Vector3d (0.06, -0.06, 0.06));
+  const ObjectResult with = completeWith (figure (), std::make_shared<Oracle> (wrong, figure ()));
+  const ObjectResult without = completeWith (figure (), nullptr);
+  ASSERT_TRUE (with.learned);
+  EXPECT_FALSE (with.learned->used);
+  EXPECT_EQ (with.mesh.vertices, without.mesh.vertices);
+  EXPECT_EQ (with.mesh.triangles, without.mesh.triangles);
+}
+
+TEST (LearnedPrior, NoAnswerChangesNothing)
+{
+  const Distance nothing = [] (const Eigen::Vector3d&) { return 1.0; };
+  const ObjectResult with = completeWith (figure (), std::make_shared<Oracle> (nothing, figure ()));
+  EXPECT_FALSE (with.learned);
+  EXPECT_EQ (with.mesh.vertices, completeWith (figure (), nullptr).mesh.vertices);
+}
