@@ -9,6 +9,7 @@
 #include <cmath>
 #include <cstddef>
 #include <deque>
+#include <limits>
 #include <numeric>
 #include <utility>
 
@@ -116,7 +117,13 @@ public:
       , before_ (size_)
       , after_ (size_)
       , grid_ (polygon, notConvex ())
-  {}
+  {
+    Eigen::AlignedBox2d box;
+    for (const Point& p : polygon)
+      box.extend (p);
+    const double farthest = std::max (box.min ().cwiseAbs ().maxCoeff (), box.max ().cwiseAbs ().maxCoeff ());
+    rounding_ = 16.0 * std::numeric_limits<double>::epsilon () * farthest * box.sizes ().maxCoeff ();
+  }
 
   std::vector<std::array<std::uint32_t, 3>> triangles ()
   {
@@ -173,7 +180,7 @@ private:
   bool isEar (std::uint32_t n, bool straight_too) const
   {
     const double area = turn (n);
-    if (straight_too ? area < 0.0 : !(area > 0.0))
+    if (straight_too ? area < -rounding_ : !(area > 0.0))
       return false;
     const std::array<Point, 3> corners = {polygon_[before_[n]], polygon_[n], polygon_[after_[n]]};
     return !grid_.anyOf (corners, [&] (std::uint32_t m) {
@@ -206,6 +213,7 @@ private:
 
   const std::vector<Point>& polygon_;
   std::uint32_t size_;
+  double rounding_ = 0.0; ///< of an area, twice
   std::vector<std::uint32_t> before_, after_;
   std::vector<bool> gone_, convex_;
   std::vector<std::uint32_t> pushed_;                         ///< how often

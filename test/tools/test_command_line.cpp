@@ -117,7 +117,7 @@ TEST (CommandLine, PriorsThatAreListedAreOn)
   EXPECT_EQ (parse ("a.pcd out --priors extrusion --priors extent").method.activePriors ().names (),
              "extent,extrusion");
   EXPECT_EQ (parse ("a.pcd out --no-planes").method.activePriors ().names (),
-             "extent,symmetry,revolution,vessels,extrusion,rays,proposals");
+             "extent,symmetry,revolution,vessels,extrusion,rays,learned,proposals");
   EXPECT_EQ (parse ("a.pcd out --preset paper").method.activePriors ().names (), "none");
   EXPECT_EQ (parse ("a.pcd out --preset paper --priors rays").method.activePriors ().names (), "rays");
 }

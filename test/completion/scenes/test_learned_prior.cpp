@@ -19,12 +19,12 @@ using namespace pcl::cosection::test;
 
 namespace {
 
-/** \brief A head on a foot that reaches back: nothing seen from the front tells how far. */
+/** \brief A head, off the middle of a foot that reaches back: nothing seen from the front tells how far. */
 Distance
 figure ()
 {
   const Distance foot = placed (box ({0.03, 0.06, 0.015}), Eigen::Vector3d (0.0, 0.02, 0.015));
-  const Distance head = placed (sphere (0.03), Eigen::Vector3d (0.0, -0.01, 0.055));
+  const Distance head = placed (box ({0.012, 0.02, 0.03}), Eigen::Vector3d (0.012, -0.01, 0.055));
   return [=] (const Eigen::Vector3d& p) { return std::min (foot (p), head (p)); };
 }
 

@@ -2,6 +2,7 @@
 
 // Meshes that are proposed as the shape of an object, of wrong size and in wrong poses.
 
+#include "completion/lowest_vertex.h"
 #include "completion_scene.h"
 #include "surrounding_views.h"
 
@@ -117,4 +118,38 @@ TEST (Proposals, MeshesThatAreNoneAreRefused)
   mesh.vertices.front ().x () = std::nanf ("");
   EXPECT_THROW (scene.addObject ({1, {}, {}, {mesh}}), InvalidArgument);
   EXPECT_NO_THROW (scene.addObject ({1, {}, {}, {meshOf (sphere (0.05))}}));
+}
+
+TEST (Proposals, WhatIsSunkIntoTheTableComesOutOfIt)
+{
+  const Distance foot = placed (box ({0.05, 0.035, 0.025}), Eigen::Vector3d (0.0, 0.0, 0.005)); // 2 cm below
+  const Distance sunk = [=] (const Eigen::Vector3d& p) { return std::min (figure () (p), foot (p)); };
+  const ObjectResult with = completeWith (figure (), {meshOf (sunk)});
+  ASSERT_TRUE (with.proposal);
+  EXPECT_GT (lowest (with.mesh), -0.002f);
+  EXPECT_LE (with.penetration_m, 0.004);
+  EXPECT_LT (meanError (with.mesh, figure ()), meanError (completeWith (figure (), {}).mesh, figure ()) + 0.0005);
+}
+
+TEST (Proposals, WhatReachesIntoANeighbourKeepsClearOfIt)
+{
+  const Distance wall = placed (box ({0.05, 0.02, 0.08}), Eigen::Vector3d (0.0, 0.06, 0.08));
+  const Distance arm = placed (box ({0.015, 0.02, 0.01}), Eigen::Vector3d (0.0, 0.045, 0.02)); // 2.5 cm into the wall
+  const Distance reaching = [=] (const Eigen::Vector3d& p) { return std::min (figure () (p), arm (p)); };
+  AnalyticScene scene;
+  scene.add (0, tableScene (Shape::Sphere).shape (0));
+  scene.add (1, figure ());
+  scene.add (2, wall);
+  const RenderedView seen = scene.render (tableCamera (), fromTheFront ());
+  CoSection task (optionsFor (0.004));
+  task.addView (seen.view);
+  task.setBackground (seen.points.at (0));
+  task.addObject ({1, seen.points.at (1), {}, {meshOf (reaching)}});
+  task.addObject ({2, seen.points.at (2), {}});
+  const std::vector<ObjectResult> results = task.reconstruct ().objects;
+  ASSERT_TRUE (results.at (0).proposal);
+  EXPECT_TRUE (results[0].proposal->used);
+  for (const ObjectResult& result : results)
+    EXPECT_LE (result.penetration_m, 0.004) << result.id;
+  EXPECT_LT (meanError (results[0].mesh, figure ()), 0.0025);
 }
