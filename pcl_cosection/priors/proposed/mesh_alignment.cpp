@@ -396,7 +396,8 @@ alignMesh (const TriangleMesh& mesh, const AlignmentTarget& target, int threads)
 MeshAlignment
 judgeMesh (const TriangleMesh& mesh, const AlignmentTarget& target)
 {
-  return Alignment (mesh, target).inPlace ();
+  const Alignment alignment (mesh, target);
+  return alignment.isPossible () ? alignment.inPlace () : MeshAlignment ();
 }
 
 } // namespace pcl::cosection

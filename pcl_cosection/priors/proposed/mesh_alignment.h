@@ -25,7 +25,7 @@ struct AlignmentTarget
 /** \brief A mesh moved, turned and scaled onto an object. */
 struct MeshAlignment
 {
-  Eigen::Affine3d T_object_mesh; ///< a rotation, one scale for all axes, and a translation
+  Eigen::Affine3d T_object_mesh = Eigen::Affine3d::Identity (); ///< a rotation, one scale, a translation
   double scale = 1.0;
   double distance_m = 0.0;   ///< median distance of the points from the mesh
   double explained = 0.0;    ///< share of the points that are near the mesh, and face as it does
@@ -41,7 +41,8 @@ struct MeshAlignment
  * \return nothing if there are too few points, or the mesh has no extent */
 std::optional<MeshAlignment> alignMesh (const TriangleMesh& mesh, const AlignmentTarget& target, int threads);
 
-/** \brief How well a mesh explains an object where it is; the mesh is in the object's frame, and not empty. */
+/** \brief How well a mesh explains an object where it is; not at all if there are too few points. The mesh is in
+ * the object's frame, and not empty. */
 MeshAlignment judgeMesh (const TriangleMesh& mesh, const AlignmentTarget& target);
 
 } // namespace pcl::cosection
