@@ -166,7 +166,7 @@ def main():
         if samples.stopped:
             sys.exit("the generator has ended")
         done = (time.time() - begin) / total
-        rate = options.rate * min(1, (step + 1) / 200) * 0.5 * (1 + math.cos(math.pi * done)) + 1e-6
+        rate = options.rate * min(1, 50 * done + 0.01) * 0.5 * (1 + math.cos(math.pi * done)) + 1e-6
         for group in optimizer.param_groups:
             group["lr"] = rate
         batch = samples.batch(rng, options.batch)
