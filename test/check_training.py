@@ -27,5 +27,4 @@ with tempfile.TemporaryDirectory() as folder:
                     view, "result"], check=True)
     with open("run.json", encoding="utf-8") as file:
         summary = json.load(file)
-    assert not summary["warnings"] or all("learned" not in warning for warning in summary["warnings"])
     assert any("learned" in thing for thing in summary["objects"]), "the network was not asked"

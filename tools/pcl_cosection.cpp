@@ -76,6 +76,8 @@ summaryLine (const ObjectResult& object)
     text << ", " << 1000.0 * object.penetration_m << " mm inside another body";
   if (object.proposal)
     text << ", proposal " << (object.proposal->used ? "used" : "not used: it does not explain what was measured");
+  if (object.learned)
+    text << ", the network's answer " << (object.learned->used ? "used" : "not used: the views do not confirm it");
   return (text.str ());
 }
 
@@ -96,6 +98,7 @@ parameters (const Settings& settings)
   result["proposals"] = Json::array ();
   for (const auto& [label, file] : settings.proposals)
     result["proposals"].push_back (std::to_string (label) + "=" + file);
+  result["model"] = settings.model;
   result["max_faces"] = settings.max_faces;
   result["scale"] = settings.reading.scale;
   result["world_points"] = settings.reading.world_points;
@@ -142,7 +145,7 @@ complete (Settings settings, const OutputTarget& target, std::vector<std::string
   warnings = input.warnings;
   if (!origin.isZero (0.0) && settings.format == "stl")
     warnings.push_back ("STL files have single precision: coordinates in them are relative to " + placeText (origin));
-  if (!settings.model.empty () && settings.method.activePriors ().learned)
+  if (!settings.model.empty ())
     settings.method.completion_network = loadCompletionNetwork (settings.model);
   for (const std::string& warning : warnings)
     terminal.warning (warning);

@@ -7,6 +7,7 @@
 #include "pcl_cosection/rendering/picture.h"
 #include "pcl_cosection/view/look_at.h"
 #include "pcl_cosection/view/organized_cloud.h"
+#include "random_numbers.h"
 #include <pcl/cosection/evaluation/mesh_comparison.h>
 #include <pcl/cosection/io/mesh_io.h>
 #include <pcl/cosection/rendering/rasterizer.h>
@@ -30,27 +31,6 @@ namespace {
 const PinholeCamera camera{640, 480, 570.0, 570.0, 319.5, 239.5}; // of the PrimeSense sensors
 constexpr double gap_m = 0.005;                                   // between the circles around things
 constexpr int tries = 3000;                                       // places for each thing
-
-/** \brief Random numbers that are the same with every standard library. */
-class Random
-{
-public:
-  explicit Random (std::uint64_t seed) : engine_ (seed) {}
-
-  double in (double low, double high) { return low + (high - low) * static_cast<double> (engine_ () >> 11) * 0x1p-53; }
-
-  std::vector<std::size_t> permutation (std::size_t count)
-  {
-    std::vector<std::size_t> order (count);
-    std::iota (order.begin (), order.end (), 0);
-    for (std::size_t n = count; n > 1; --n)
-      std::swap (order[n - 1], order[engine_ () % n]);
-    return order;
-  }
-
-private:
-  std::mt19937_64 engine_;
-};
 
 bool
 isMeshFile (const fs::path& file)
@@ -99,37 +79,6 @@ radiusOf (const TriangleMesh& mesh)
   return radius;
 }
 
-/** \brief Labels as a segmentation with these errors would give them: a label grows over neighbours, the smaller label
- * first, or its border becomes background. */
-Image<std::uint16_t>
-withErrors (Image<std::uint16_t> labels, const TableSceneOptions& options)
-{
-  for (int step = 0; step < std::abs (options.mask_dilation_px); ++step)
-  {
-    const Image<std::uint16_t> before = labels;
-    for (int v = 0; v < labels.height; ++v)
-      for (int u = 0; u < labels.width; ++u)
-        for (const auto& [x, y] :
-             {std::pair (u - 1, v), std::pair (u + 1, v), std::pair (u, v - 1), std::pair (u, v + 1)})
-        {
-          if (x < 0 || y < 0 || x >= labels.width || y >= labels.height)
-            continue;
-          if (options.mask_dilation_px > 0 && labels.at (u, v) == 0)
-            labels.at (u, v) = before.at (x, y);
-          else if (options.mask_dilation_px < 0 && before.at (x, y) != before.at (u, v))
-            labels.at (u, v) = 0;
-        }
-  }
-  if (options.mask_shift_px == 0)
-    return labels;
-  Image<std::uint16_t> shifted (labels.width, labels.height, 0);
-  for (int v = 0; v < labels.height; ++v)
-    for (int u = 0; u < labels.width; ++u)
-      if (const int from = u - options.mask_shift_px; from >= 0 && from < labels.width)
-        shifted.at (u, v) = labels.at (from, v);
-  return shifted;
-}
-
 /** \return which things have readings */
 std::vector<bool>
 writeView (const TableScene& scene, int view, std::uint64_t seed, const TableSceneOptions& options,
@@ -151,12 +100,42 @@ writeView (const TableScene& scene, int view, std::uint64_t seed, const TableSce
   for (std::size_t n = 0; n < labels.pixels.size (); ++n)
     if (labels.pixels[n] > 0 && std::isfinite (depth.pixels[n]))
       is_seen[labels.pixels[n] - 1] = true;
-  saveLabelledCloud ({camera, depth.pixels, scene.cameras[view]}, withErrors (std::move (labels), options),
+  saveLabelledCloud ({camera, depth.pixels, scene.cameras[view]},
+                     withMaskErrors (std::move (labels), options.mask_dilation_px, options.mask_shift_px),
                      shade (image, camera), path);
   return is_seen;
 }
 
 } // namespace
+
+Image<std::uint16_t>
+withMaskErrors (Image<std::uint16_t> labels, int dilation_px, int shift_px)
+{
+  for (int step = 0; step < std::abs (dilation_px); ++step)
+  {
+    const Image<std::uint16_t> before = labels;
+    for (int v = 0; v < labels.height; ++v)
+      for (int u = 0; u < labels.width; ++u)
+        for (const auto& [x, y] :
+             {std::pair (u - 1, v), std::pair (u + 1, v), std::pair (u, v - 1), std::pair (u, v + 1)})
+        {
+          if (x < 0 || y < 0 || x >= labels.width || y >= labels.height)
+            continue;
+          if (dilation_px > 0 && labels.at (u, v) == 0)
+            labels.at (u, v) = before.at (x, y);
+          else if (dilation_px < 0 && before.at (x, y) != before.at (u, v))
+            labels.at (u, v) = 0;
+        }
+  }
+  if (shift_px == 0)
+    return labels;
+  Image<std::uint16_t> shifted (labels.width, labels.height, 0);
+  for (int v = 0; v < labels.height; ++v)
+    for (int u = 0; u < labels.width; ++u)
+      if (const int from = u - shift_px; from >= 0 && from < labels.width)
+        shifted.at (u, v) = labels.at (from, v);
+  return shifted;
+}
 
 void
 TableSceneOptions::validate () const
@@ -180,8 +159,8 @@ makeTableScene (const std::vector<std::string>& names, const std::vector<Triangl
   std::vector<std::size_t> order (meshes.size ());
   std::iota (order.begin (), order.end (), 0);
   if (options.per_scene > 1)
-    order = Random (options.seed).permutation (meshes.size ());
-  Random random (options.seed * 1000003u + static_cast<std::uint64_t> (scene) + 1u);
+    order = RandomNumbers (options.seed).permutation (meshes.size ());
+  RandomNumbers random (options.seed * 1000003u + static_cast<std::uint64_t> (scene) + 1u);
 
   TableScene result;
   addBox ({-0.7, -0.5, -0.03}, {0.7, 0.5, 0.0}, result.room);  // table

@@ -48,6 +48,13 @@ struct TableScene
 TableScene makeTableScene (const std::vector<std::string>& names, const std::vector<TriangleMesh>& meshes, int scene,
                            const TableSceneOptions& options);
 
+/** \brief Labels as a segmentation with errors would give them: labels grow over the background beside them, or their
+ * borders become background; then all move to the right.
+ * \param[in] labels 0: background
+ * \param[in] dilation_px negative: they shrink
+ * \param[in] shift_px negative: to the left */
+PCL_COSECTION_EXPORT Image<std::uint16_t> withMaskErrors (Image<std::uint16_t> labels, int dilation_px, int shift_px);
+
 /** \brief Write the scenes of all PLY, OBJ, STL, OFF, VTK and VTP files of a folder into a new one:
  *
  *     SCENE/viewN.pcd         organised, 640 x 480, fields x y z rgba label, VIEWPOINT = pose of the sensor

@@ -122,6 +122,13 @@ TEST (CommandLine, PriorsThatAreListedAreOn)
   EXPECT_EQ (parse ("a.pcd out --preset paper --priors rays").method.activePriors ().names (), "rays");
 }
 
+TEST (CommandLine, ANetworkNeedsTheLearnedPrior)
+{
+  EXPECT_EQ (parse ("a.pcd out --model n.onnx").model, "n.onnx");
+  EXPECT_THROW (parse ("a.pcd out --model n.onnx --priors extent"), UsageError);
+  EXPECT_THROW (parse ("a.pcd out --model n.onnx --preset paper"), UsageError);
+}
+
 TEST (CommandLine, OptionsReachTheMethod)
 {
   const Settings s = parse (

@@ -148,6 +148,8 @@ interpret (Settings& settings)
   for (const std::string& value : settings.proposal_values)
     settings.proposals.push_back (parseObjectFile ("--proposal", value));
   settings.method = methodOptions (settings);
+  if (!settings.model.empty () && !settings.method.activePriors ().learned)
+    throw UsageError ("--model has no effect: --priors or --preset turn the learned prior off");
   settings.method.compute_hull = settings.save_hull;
   settings.method.compute_bounds = settings.save_bounds;
   settings.constraints = constraintsOf (settings.method);

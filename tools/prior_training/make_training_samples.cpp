@@ -6,14 +6,18 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
+#include <cstdint>
 #include <iostream>
+#include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 using namespace pcl::cosection;
 
 namespace {
+
+constexpr std::size_t random_bodies = 600;
 
 std::int8_t
 toByte (double value)
@@ -35,63 +39,114 @@ write (const TrainingSample& sample)
   std::cout.write (bytes.data (), static_cast<std::streamsize> (bytes.size ()));
 }
 
+/** \brief What the command line says. */
+struct Wanted
+{
+  std::uint64_t seed = 0;
+  long count = 0;
+  std::vector<std::string> folders, excluded;
+};
+
+/** \throws std::invalid_argument, std::out_of_range */
+Wanted
+parse (int argc, char** argv)
+{
+  Wanted wanted;
+  std::vector<std::string> numbers;
+  for (int n = 1; n < argc; ++n)
+  {
+    const std::string word = argv[n];
+    if (word == "--exclude" && n + 1 < argc)
+      wanted.excluded.emplace_back (argv[++n]);
+    else if (word.rfind ("--", 0) == 0)
+      throw std::invalid_argument (word);
+    else
+      (numbers.size () < 2 ? numbers : wanted.folders).push_back (word);
+  }
+  if (numbers.size () < 2)
+    throw std::invalid_argument ("no numbers");
+  wanted.seed = std::stoull (numbers[0]);
+  wanted.count = std::stol (numbers[1]);
+  return wanted;
+}
+
+/** \brief Each folder, and random bodies. */
+std::vector<std::vector<TrainingShape>>
+shapeSets (const Wanted& wanted)
+{
+  std::vector<std::vector<TrainingShape>> sets;
+  for (const std::string& folder : wanted.folders)
+  {
+    sets.push_back (loadTrainingShapes (folder, wanted.excluded));
+    std::cerr << folder << ": " << sets.back ().size () << " shapes\n";
+    if (sets.back ().empty ())
+      throw std::runtime_error (folder + " has no mesh that can be used");
+  }
+  std::vector<TrainingShape> bodies;
+  RandomNumbers random (7);
+  while (bodies.size () < random_bodies)
+    try
+    {
+      bodies.emplace_back (randomBody (random));
+    }
+    catch (const std::exception&) // flat, or a profile that crosses itself
+    {}
+  sets.push_back (std::move (bodies));
+  return sets;
+}
+
+void
+makeSamples (const Wanted& wanted)
+{
+  std::vector<std::vector<TrainingShape>> sets = shapeSets (wanted);
+  RandomNumbers random (wanted.seed);
+  const auto any = [&] () -> TrainingShape& { // each set has the same share
+    std::vector<TrainingShape>& set = sets[random.below (static_cast<int> (sets.size ()))];
+    return set[random.below (static_cast<int> (set.size ()))];
+  };
+  for (long made = 0; made < wanted.count;)
+  {
+    TrainingShape& shape = any ();
+    shape.prepare ();
+    std::vector<const TrainingShape*> others;
+    if (random.chance (0.5))
+      for (int n = 1 + random.below (3); n > 0; --n)
+        others.push_back (&any ());
+    if (const auto sample = randomSample (shape, others, random))
+    {
+      write (*sample);
+      ++made;
+    }
+    if (!std::cout.flush ())
+      throw std::runtime_error ("the samples cannot be written");
+  }
+}
+
 } // namespace
 
 int
 main (int argc, char** argv)
 {
-  if (argc < 3)
+  Wanted wanted;
+  try
+  {
+    wanted = parse (argc, argv);
+  }
+  catch (const std::exception&)
   {
     std::cerr
-        << "usage: make_training_samples SEED COUNT [--exclude NAME]... [FOLDER]...\n"
+        << "Usage: make_training_samples SEED COUNT [--exclude NAME]... [FOLDER]...\n"
            "Samples of random bodies and of the meshes in the folders, without files whose names contain a NAME.\n";
+    return 2;
+  }
+  try
+  {
+    makeSamples (wanted);
+  }
+  catch (const std::exception& error)
+  {
+    std::cerr << "make_training_samples: error: " << error.what () << '\n';
     return 1;
   }
-  std::vector<std::string> folders, excluded;
-  for (int n = 3; n < argc; ++n)
-    if (std::string (argv[n]) == "--exclude" && n + 1 < argc)
-      excluded.emplace_back (argv[++n]);
-    else
-      folders.emplace_back (argv[n]);
-  Dice dice (std::strtoull (argv[1], nullptr, 10));
-  const long count = std::strtol (argv[2], nullptr, 10);
-
-  // Each folder, and the random bodies, get the same share.
-  std::vector<std::vector<TrainingShape>> sets;
-  for (const std::string& folder : folders)
-  {
-    sets.push_back (loadTrainingShapes ({folder}, excluded));
-    std::cerr << folder << ": " << sets.back ().size () << " shapes\n";
-    if (sets.back ().empty ())
-      sets.pop_back ();
-  }
-  std::vector<TrainingShape> bodies;
-  Dice body_dice (7);
-  while (bodies.size () < 600)
-    try
-    {
-      bodies.emplace_back (randomBody (body_dice));
-    }
-    catch (const std::exception&) // flat, or a profile that crosses itself
-    {}
-  sets.push_back (std::move (bodies));
-  const auto any = [&] () -> TrainingShape& {
-    std::vector<TrainingShape>& set = sets[dice.below (static_cast<int> (sets.size ()))];
-    return set[dice.below (static_cast<int> (set.size ()))];
-  };
-  for (long made = 0; made < count && std::cout;)
-  {
-    TrainingShape& shape = any ();
-    shape.prepare ();
-    std::vector<const TrainingShape*> others;
-    if (dice.chance (0.5))
-      for (int n = 1 + dice.below (3); n > 0; --n)
-        others.push_back (&any ());
-    if (const auto sample = randomSample (shape, others, dice))
-    {
-      write (*sample);
-      ++made;
-    }
-  }
-  return std::cout ? 0 : 1;
+  return 0;
 }

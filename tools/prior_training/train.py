@@ -4,6 +4,7 @@
 import argparse
 import math
 import os
+import shutil
 import subprocess
 import sys
 import threading
@@ -18,7 +19,7 @@ from torch.nn import functional
 
 SIZE = 32  # voxels along an edge of the cube, CompletionCube::size
 FREE, BEHIND, UNKNOWN = 1, 2, 4  # bits of make_training_samples
-SOFT_VOX = 0.4  # a voxel at this distance inside is occupied with probability 0.73
+SOFT_VOX = 0.4  # a voxel so far inside is occupied with probability 0.73; soft_vox of learned_completion.cpp
 
 
 class CompletionNetwork(nn.Module):
@@ -134,6 +135,12 @@ def main():
     parser.add_argument("--kept", type=int, default=12000, help="samples kept in memory, 100 kB each (%(default)s)")
     options = parser.parse_args()
 
+    if options.minutes <= 0 or options.batch < 1 or options.kept < options.batch or options.report < 1:
+        parser.error("--minutes, --batch and --report must be positive, and --kept not less than --batch")
+    if shutil.which(options.generator) is None:
+        parser.error(f"there is no program {options.generator}: build the target make_training_samples, and name it with "
+                     "--generator")
+
     torch.manual_seed(options.seed)
     torch.set_num_threads(options.threads)
     network = CompletionNetwork()
@@ -152,6 +159,8 @@ def main():
     samples = Samples(options.generator, arguments, options.seed + 1000 * step, options.kept, uses=5)
     while samples.made < min(20 * options.batch, options.kept) and not samples.stopped:
         time.sleep(0.2)
+    if samples.stopped:
+        sys.exit("train.py: error: the generator has ended; what it said is above")
     rng = np.random.default_rng(options.seed + step)
     total, begin, shares, losses = 60 * options.minutes, time.time() - spent, [], []
 
@@ -164,7 +173,7 @@ def main():
 
     while time.time() - begin < total:
         if samples.stopped:
-            sys.exit("the generator has ended")
+            sys.exit("train.py: error: the generator has ended; what it said is above")
         done = (time.time() - begin) / total
         rate = options.rate * min(1, 50 * done + 0.01) * 0.5 * (1 + math.cos(math.pi * done)) + 1e-6
         for group in optimizer.param_groups:

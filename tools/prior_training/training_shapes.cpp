@@ -3,6 +3,7 @@
 
 #include "pcl_cosection/common/directions.h"
 #include "pcl_cosection/mesh/mesh_cleaning.h"
+#include "pcl_cosection/mesh/moved_mesh.h"
 #include "pcl_cosection/view/look_at.h"
 #include "pcl_cosection/view/visibility/visibility.h"
 #include "pcl_cosection/volume/mesh_distance/mesh_surface.h"
@@ -74,42 +75,29 @@ private:
   std::vector<Eigen::Isometry3d> T_sensor_world_;
 };
 
-void
-append (TriangleMesh& mesh, const TriangleMesh& part)
-{
-  const auto first = static_cast<std::uint32_t> (mesh.vertices.size ());
-  mesh.vertices.insert (mesh.vertices.end (), part.vertices.begin (), part.vertices.end ());
-  for (auto triangle : part.triangles)
-  {
-    for (auto& corner : triangle)
-      corner += first;
-    mesh.triangles.push_back (triangle);
-  }
-}
-
 /** \brief A profile from the axis to the axis; it bulges, narrows, has a neck. */
 Polygon2d
-turnedProfile (Dice& dice)
+turnedProfile (RandomNumbers& random)
 {
-  const int count = 6 + dice.below (10);
+  const int count = 6 + random.below (10);
   std::vector<double> radii (count);
-  const double straight = dice.uniform ();
+  const double straight = random.in (0.0, 1.0);
   for (double& r : radii)
-    r = straight < 0.4 ? 1.0 : dice.uniform (0.4, 1.0);
-  for (int pass = dice.below (6) + 1; pass > 0; --pass)
+    r = straight < 0.4 ? 1.0 : random.in (0.4, 1.0);
+  for (int pass = random.below (6) + 1; pass > 0; --pass)
     for (int n = 1; n + 1 < count; ++n)
       radii[n] = 0.25 * (radii[n - 1] + 2.0 * radii[n] + radii[n + 1]);
-  if (dice.chance (0.35)) // a neck
+  if (random.chance (0.35)) // a neck
   {
-    const int from = count / 2 + dice.below (count / 2);
-    const double factor = dice.uniform (0.2, 0.7);
+    const int from = count / 2 + random.below (count / 2);
+    const double factor = random.in (0.2, 0.7);
     for (int n = from; n < count; ++n)
       radii[n] *= factor;
   }
-  if (dice.chance (0.2)) // a point at the end: fruit, eggs
+  if (random.chance (0.2)) // a point at the end: fruit, eggs
     for (int n = 0; n < count; ++n)
       radii[n] *= std::sqrt (std::max (0.02, 1.0 - std::pow (2.0 * n / (count - 1.0) - 1.0, 2.0)));
-  const double height = dice.logUniform (0.3, 4.0);
+  const double height = random.logIn (0.3, 4.0);
   Polygon2d profile{{0.0, 0.0}};
   for (int n = 0; n < count; ++n)
     profile.emplace_back (radii[n], height * n / (count - 1.0));
@@ -118,11 +106,11 @@ turnedProfile (Dice& dice)
 }
 
 Polygon2d
-vesselProfile (Dice& dice)
+vesselProfile (RandomNumbers& random)
 {
   const int count = 10;
-  const double height = dice.logUniform (0.15, 2.2), foot = dice.uniform (0.4, 1.0), bend = dice.uniform (0.4, 2.0);
-  const double wall = dice.uniform (0.03, 0.1), floor = wall * dice.uniform (1.0, 2.0);
+  const double height = random.logIn (0.15, 2.2), foot = random.in (0.4, 1.0), bend = random.in (0.4, 2.0);
+  const double wall = random.in (0.03, 0.1), floor = wall * random.in (1.0, 2.0);
   Polygon2d outer{{0.0, 0.0}}, inner;
   for (int n = 0; n < count; ++n)
   {
@@ -142,17 +130,17 @@ vesselProfile (Dice& dice)
 }
 
 Polygon2d
-outline (Dice& dice)
+outline (RandomNumbers& random)
 {
   Polygon2d polygon;
-  if (dice.chance (0.2)) // a bracket
+  if (random.chance (0.2)) // a bracket
     return {{0.0, 0.0}, {1.0, 0.0}, {1.0, 0.4}, {0.4, 0.4}, {0.4, 1.0}, {0.0, 1.0}};
-  const bool regular = dice.chance (0.4);
-  const int count = regular ? 3 + dice.below (6) : 5 + dice.below (8);
-  const double flat = dice.uniform (0.3, 1.0);
+  const bool regular = random.chance (0.4);
+  const int count = regular ? 3 + random.below (6) : 5 + random.below (8);
+  const double flat = random.in (0.3, 1.0);
   for (int n = 0; n < count; ++n)
   {
-    const double angle = 2.0 * M_PI * n / count, r = regular ? 1.0 : dice.uniform (0.6, 1.0);
+    const double angle = 2.0 * M_PI * n / count, r = regular ? 1.0 : random.in (0.6, 1.0);
     polygon.emplace_back (r * std::cos (angle), flat * r * std::sin (angle));
   }
   return polygon;
@@ -160,9 +148,9 @@ outline (Dice& dice)
 
 /** \brief |x|^a + |y|^b + |z|^a = 1: from boxes with round edges to ellipsoids. */
 TriangleMesh
-superquadric (Dice& dice, double lowest, double highest)
+superquadric (RandomNumbers& random, double lowest, double highest)
 {
-  const double e1 = dice.uniform (lowest, highest), e2 = dice.uniform (lowest, highest);
+  const double e1 = random.in (lowest, highest), e2 = random.in (lowest, highest);
   const auto power = [] (double x, double e) { return std::copysign (std::pow (std::abs (x), e), x); };
   const int around = 48, rows = 25;
   TriangleMesh mesh;
@@ -184,31 +172,31 @@ superquadric (Dice& dice, double lowest, double highest)
       mesh.triangles.push_back ({a, b, d});
       mesh.triangles.push_back ({a, d, c});
     }
-  const Eigen::Vector3f sizes (static_cast<float> (dice.logUniform (0.2, 1.0)),
-                               static_cast<float> (dice.logUniform (0.2, 1.0)),
-                               static_cast<float> (dice.logUniform (0.2, 1.5)));
+  const Eigen::Vector3f sizes (static_cast<float> (random.logIn (0.2, 1.0)),
+                               static_cast<float> (random.logIn (0.2, 1.0)),
+                               static_cast<float> (random.logIn (0.2, 1.5)));
   for (Eigen::Vector3f& vertex : mesh.vertices)
     vertex = vertex.cwiseProduct (sizes);
   return mesh;
 }
 
 TriangleMesh
-randomPart (Dice& dice)
+randomPart (RandomNumbers& random)
 {
   constexpr double chord = 0.01;
-  switch (dice.below (8))
+  switch (random.below (8))
   {
   case 0:
   case 1:
-    return makeRevolution (turnedProfile (dice))->tessellate (chord);
+    return makeRevolution (turnedProfile (random))->tessellate (chord);
   case 2:
-    return makeRevolution (vesselProfile (dice))->tessellate (chord);
+    return makeRevolution (vesselProfile (random))->tessellate (chord);
   case 3:
-    return makeExtrusion (outline (dice), dice.logUniform (0.15, 3.0))->tessellate (chord);
+    return makeExtrusion (outline (random), random.logIn (0.15, 3.0))->tessellate (chord);
   case 4:
-    return superquadric (dice, 0.1, 1.5);
+    return superquadric (random, 0.1, 1.5);
   default:
-    return superquadric (dice, 0.02, 0.3);
+    return superquadric (random, 0.02, 0.3);
   }
 }
 
@@ -220,9 +208,8 @@ normalised (TriangleMesh mesh)
   const double size = box.sizes ().maxCoeff ();
   if (!(size > 0.0) || box.sizes ().minCoeff () < least_thickness * size)
     throw DegenerateInput ("the mesh is flat");
-  for (Eigen::Vector3f& vertex : mesh.vertices)
-    vertex = ((vertex.cast<double> () - box.center ()) / size).cast<float> ();
-  return mesh;
+  return movedMesh (std::move (mesh),
+                    Eigen::Affine3d (Eigen::Scaling (1.0 / size) * Eigen::Translation3d (-box.center ())));
 }
 
 } // namespace
@@ -281,34 +268,31 @@ TrainingShape::distance (const Eigen::Vector3d& p) const
 }
 
 TriangleMesh
-randomBody (Dice& dice)
+randomBody (RandomNumbers& random)
 {
-  TriangleMesh body = normalised (randomPart (dice));
-  if (!dice.chance (0.35))
+  TriangleMesh body = normalised (randomPart (random));
+  if (!random.chance (0.35))
     return body;
-  TriangleMesh part = normalised (randomPart (dice)); // a cap, a handle, a second body
+  TriangleMesh part = normalised (randomPart (random)); // a cap, a handle, a second body
   const Eigen::AlignedBox3d box = vertexBox (body);
-  const auto scale = static_cast<float> (dice.uniform (0.2, 0.7));
-  const Eigen::Vector3d at = box.center () + 0.5 * box.sizes ().cwiseProduct (Eigen::Vector3d (dice.uniform (-1, 1),
-                                                                                               dice.uniform (-1, 1),
-                                                                                               dice.uniform (-0.5, 1)));
-  for (Eigen::Vector3f& vertex : part.vertices)
-    vertex = scale * vertex + at.cast<float> ();
-  append (body, part);
+  const double scale = random.in (0.2, 0.7);
+  const Eigen::Vector3d off (random.in (-0.5, 0.5), random.in (-0.5, 0.5), random.in (-0.25, 0.5));
+  const Eigen::Translation3d at (box.center () + box.sizes ().cwiseProduct (off));
+  part = movedMesh (std::move (part), Eigen::Affine3d (at * Eigen::Scaling (scale)));
+  appendMesh (body, part);
   return body;
 }
 
 std::vector<TrainingShape>
-loadTrainingShapes (const std::vector<std::string>& folders, const std::vector<std::string>& excluded)
+loadTrainingShapes (const std::string& folder, const std::vector<std::string>& excluded)
 {
   std::vector<std::string> files;
-  for (const std::string& folder : folders)
-    for (const auto& entry : std::filesystem::recursive_directory_iterator (folder))
-    {
-      const std::string extension = entry.path ().extension ();
-      if (entry.is_regular_file () && (extension == ".ply" || extension == ".obj" || extension == ".stl"))
-        files.push_back (entry.path ());
-    }
+  for (const auto& entry : std::filesystem::recursive_directory_iterator (folder))
+  {
+    const std::string extension = entry.path ().extension ();
+    if (entry.is_regular_file () && (extension == ".ply" || extension == ".obj" || extension == ".stl"))
+      files.push_back (entry.path ());
+  }
   std::sort (files.begin (), files.end ());
   std::vector<TrainingShape> shapes;
   for (const std::string& file : files)
@@ -320,9 +304,8 @@ loadTrainingShapes (const std::vector<std::string>& folders, const std::vector<s
     try
     {
       TriangleMesh mesh = cleanMesh (loadMesh (file));
-      if (std::filesystem::path (file).extension () == ".obj") // models of furniture have y up
-        for (Eigen::Vector3f& vertex : mesh.vertices)
-          vertex = Eigen::Vector3f (vertex.x (), -vertex.z (), vertex.y ());
+      if (std::filesystem::path (file).extension () == ".obj") // y is up
+        mesh = movedMesh (std::move (mesh), Eigen::AngleAxisd (M_PI_2, Eigen::Vector3d::UnitX ()));
       if (mesh.triangles.size () > most_triangles)
         try
         {

@@ -23,6 +23,6 @@ struct TrainingSample
  * \param[in] shape prepared
  * \param[in] others stand around it */
 std::optional<TrainingSample> randomSample (const TrainingShape& shape, const std::vector<const TrainingShape*>& others,
-                                            Dice& dice);
+                                            RandomNumbers& random);
 
 } // namespace pcl::cosection

@@ -11,10 +11,9 @@ namespace pcl::cosection {
 namespace {
 
 constexpr double outer_share = 0.02; // of the points, beyond which outliers may be
-constexpr double margin = 1.5;       // the cube by what was seen
+constexpr double margin = 1.5;       // edge of the cube by the extent of what was seen: networks are trained with it
 constexpr double before = 0.1;       // of the cube, which is before what was seen
-constexpr double truncation_vox = 3.0;
-constexpr double free_vox = 1.5; // a reading is so much farther where a view looks through a voxel
+constexpr double free_vox = 1.5;     // a reading is so much farther where a view looks through a voxel
 
 /** \brief Which pixels of a view show the object. */
 std::vector<std::uint8_t>
@@ -88,7 +87,7 @@ completionInputs (const CompletionCube& cube, const std::vector<OrientedPoint>& 
   inputs.is_free.assign (CompletionCube::voxels, 0);
   inputs.is_behind.assign (CompletionCube::voxels, 0);
   inputs.is_unknown.assign (CompletionCube::voxels, 0);
-  const double free_m = free_vox * cube.voxel_size_m, truncation_m = truncation_vox * cube.voxel_size_m;
+  const double free_m = free_vox * cube.voxel_size_m, truncation_m = CompletionCube::truncation_vox * cube.voxel_size_m;
   std::vector<std::vector<std::uint8_t>> own;
   std::vector<Eigen::Isometry3d> T_sensor_object;
   for (const auto& [view, T_object_sensor] : views)

@@ -4,6 +4,7 @@
 #include "pcl_cosection/view/sensor_views.h"
 #include <pcl/cosection/common/export.h>
 #include <pcl/cosection/common/oriented_point.h>
+#include <pcl/cosection/surface/options.h>
 
 #include <Eigen/Geometry>
 
@@ -18,8 +19,9 @@ namespace pcl::cosection {
  * below; x points away from the sensors, z up. What was seen fills a third to two thirds of it. */
 struct PCL_COSECTION_EXPORT CompletionCube
 {
-  static constexpr int size = 32;     ///< voxels along an edge
-  static constexpr int below_vox = 2; ///< layers below the plane
+  static constexpr int size = 32;               ///< voxels along an edge
+  static constexpr int below_vox = 2;           ///< layers below the plane
+  static constexpr double truncation_vox = 3.0; ///< of distances
   static constexpr std::size_t voxels = static_cast<std::size_t> (size) * size * size;
   Eigen::Isometry3d T_object_cube = Eigen::Isometry3d::Identity (); ///< metres; the origin is a corner
   double voxel_size_m = 0.0;

@@ -3,18 +3,21 @@
 
 #include "completion_cube.h"
 #include "pcl_cosection/mesh/mesh_parts.h"
+#include "pcl_cosection/mesh/moved_mesh.h"
+#include <pcl/cosection/common/error.h>
 #include <pcl/cosection/volume/iso_surface.h>
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace pcl::cosection {
 namespace {
 
 constexpr int N = CompletionCube::size;
-constexpr float soft_vox = 0.4f;    // distance at which a voxel of a training sample has a logit of 1
-constexpr float outside = 3.0f;     // voxels
-constexpr double least_part = 0.05; // of the largest part's volume
+constexpr float soft_vox = 0.4f; // of a logit: SOFT_VOX of tools/prior_training/train.py
+constexpr auto truncation = static_cast<float> (CompletionCube::truncation_vox);
+constexpr double least_part = 0.05; // of the largest part's volume: less is a network's noise
 
 /** \brief The voxel that a mirror across the direction of view takes n to. */
 std::size_t
@@ -69,6 +72,9 @@ completedByNetwork (const CompletionNetwork& network, const std::vector<Oriented
   const CompletionInputs inputs = completionInputs (*cube, points, views);
   const std::vector<float> logits = network.complete (observedValues (inputs, false));
   const std::vector<float> of_mirror = network.complete (observedValues (inputs, true));
+  if (logits.size () != CompletionCube::voxels || of_mirror.size () != CompletionCube::voxels)
+    throw InvalidArgument ("the completion network answers with " + std::to_string (logits.size ()) + " values; " +
+                           std::to_string (CompletionCube::voxels) + " are needed");
   SignedDistanceField field;
   field.grid.dims.setConstant (N);
   field.grid.voxel_size_m = cube->voxel_size_m;
@@ -78,18 +84,16 @@ completedByNetwork (const CompletionNetwork& network, const std::vector<Oriented
   for (std::size_t n = 0; n < CompletionCube::voxels; ++n)
   {
     const float logit = 0.5f * (logits[n] + of_mirror[mirrored (n)]);
-    float vox = std::clamp (-soft_vox * logit, -outside, outside);
+    float vox = std::clamp (-soft_vox * logit, -truncation, truncation);
     if (inputs.is_free[n])
-      vox = std::max (vox, inputs.distance[n] > 0.0f ? 3.0f * inputs.distance[n] : 0.5f);
+      vox = std::max (vox, inputs.distance[n] > 0.0f ? truncation * inputs.distance[n] : 0.5f);
     const double height_m = field.grid.voxel_size_m * (static_cast<double> (n / (N * N)) + 0.5) - below_m;
     vox = std::max (vox, static_cast<float> (-height_m / cube->voxel_size_m));
     field.values[n] = vox * static_cast<float> (cube->voxel_size_m);
   }
   TriangleMesh mesh = withoutSmallParts (extractIsoSurface (field, {true, 1}));
-  for (Eigen::Vector3f& vertex : mesh.vertices)
-    vertex = (cube->T_object_cube * vertex.cast<double> ()).cast<float> ();
   mesh.normals.clear ();
-  return mesh;
+  return movedMesh (std::move (mesh), cube->T_object_cube);
 }
 
 } // namespace pcl::cosection

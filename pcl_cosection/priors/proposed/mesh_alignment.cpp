@@ -3,22 +3,16 @@
 
 #include "pcl_cosection/common/directions.h"
 #include "pcl_cosection/common/parallel.h"
-#include "pcl_cosection/common/quantile.h"
-#include "pcl_cosection/priors/proposed/sampled_mesh.h"
-#include "pcl_cosection/priors/proposed/thinned_points.h"
-#include "pcl_cosection/view/visibility/visibility.h"
 
 #include <Eigen/Cholesky>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 
 namespace pcl::cosection {
 namespace {
 
-constexpr std::size_t least_points = 30;
 constexpr int start_directions = 162; // in which the mesh is seen ...
 constexpr int start_turns = 18;       // ... and turned
 constexpr std::size_t starts_kept = 48;
@@ -31,20 +25,7 @@ constexpr double normal_weight = 0.1;  // of 1 - cosine against squared distance
 constexpr double most_cost = 0.15;     // of one point at the start
 constexpr double along_surface = 0.05; // weight of the distance along a surface against that across
 constexpr double border_cells = 1.0;
-constexpr double least_cosine = 0.3; // of normals that are of the same surface
-constexpr double scale_range = 1.6;  // of the scale that extents suggest; more is another object
-
-constexpr std::array<std::array<int, 2>, 5> edge_pixels = {{{0, 0}, {-2, 0}, {2, 0}, {0, -2}, {0, 2}}};
-
-/** \brief A similarity that takes the normalised mesh to the object. */
-struct Similarity
-{
-  double scale = 1.0;
-  Eigen::Matrix3d R = Eigen::Matrix3d::Identity ();
-  Eigen::Vector3d t = Eigen::Vector3d::Zero ();
-
-  Eigen::Vector3d operator* (const Eigen::Vector3d& p) const { return scale * (R * p) + t; }
-};
+constexpr double scale_range = 1.6; // of the scale that extents suggest; more is another object
 
 /** \brief A pair of places that should be one. */
 struct Match
@@ -55,22 +36,10 @@ struct Match
   double weight = 0.0;
 };
 
-class Alignment
+class Alignment : public MeshEvidence
 {
 public:
-  Alignment (const TriangleMesh& mesh, const AlignmentTarget& target)
-      : target_ (target)
-      , mesh_ (mesh)
-      , points_ (thinToCells (target.points, thinnedSpacing (target.points)))
-      , size_m_ (spreadOf (points_.positions))
-      , cell_m_ (thinnedSpacing (target.points))
-  {
-    const Eigen::Vector3d middle = points_.positions.rowwise ().mean ();
-    for (const auto& [view, T_object_sensor] : target.views)
-      sensors_.push_back (T_object_sensor.translation () - middle);
-  }
-
-  bool isPossible () const { return points_.size () >= static_cast<Eigen::Index> (least_points) && size_m_ > 0.0; }
+  using MeshEvidence::MeshEvidence;
 
   MeshAlignment best (int threads) const
   {
@@ -83,21 +52,17 @@ public:
       starts[n].first = costOf (starts[n].second, some);
     });
     keep (starts, finalists);
-    const double fine_m = std::max (3.0 * target_.noise_m, 0.03 * size_m_);
+    const double fine_m = std::max (3.0 * object_.noise_m, 0.03 * size_m_);
     parallelFor (0, static_cast<int> (starts.size ()), threads, [&] (int n) {
       starts[n].second = refined (starts[n].second, points_, SampledMesh::matched, fine_steps, 0.15 * size_m_, fine_m);
       starts[n].first = costOf (starts[n].second, SampledMesh::matched);
     });
     keep (starts, 1);
-    return judged (starts.front ().second);
-  }
-
-  MeshAlignment inPlace () const
-  {
-    Similarity similarity;
-    similarity.scale = mesh_.unit ();
-    similarity.t = mesh_.middle ();
-    return judged (similarity);
+    const Similarity& similarity = starts.front ().second;
+    MeshAlignment result{fit (similarity), Eigen::Affine3d::Identity (), similarity.scale / mesh_.unit ()};
+    result.T_object_mesh.linear () = similarity.scale * similarity.R / mesh_.unit ();
+    result.T_object_mesh.translation () = similarity * (-mesh_.middle () / mesh_.unit ());
+    return result;
   }
 
 private:
@@ -105,22 +70,6 @@ private:
   {
     std::stable_sort (starts.begin (), starts.end (), [] (const auto& a, const auto& b) { return a.first < b.first; });
     starts.resize (std::min (starts.size (), count));
-  }
-
-  /** \brief Which samples the views should see, if nothing hides the object. */
-  std::vector<Eigen::Index> visibleSamples (const Eigen::Matrix3d& R, Eigen::Index count) const
-  {
-    std::vector<const std::vector<std::uint8_t>*> by_view;
-    for (const Eigen::Vector3d& sensor : sensors_)
-      by_view.push_back (&mesh_.visibleFrom (R.transpose () * sensor));
-    std::vector<Eigen::Index> result;
-    const Eigen::Index step = std::max<Eigen::Index> (1, SampledMesh::matched / count);
-    for (Eigen::Index n = 0; n < SampledMesh::matched; n += step)
-      if (by_view.empty () || std::any_of (by_view.begin (), by_view.end (), [n] (const auto* seen) {
-            return (*seen)[static_cast<std::size_t> (n)] != 0;
-          }))
-        result.push_back (n);
-    return result;
   }
 
   OrientedColumns moved (const Similarity& to, const std::vector<Eigen::Index>& samples) const
@@ -167,42 +116,6 @@ private:
     return sum / static_cast<double> (from.size ());
   }
 
-  /** \brief Whether the views say nothing about a place on the mesh: something else hides it, or there is no reading.
-   */
-  bool isUnknown (const Eigen::Vector3d& p) const
-  {
-    bool judged = target_.views.empty ();
-    for (const auto& [view, T_object_sensor] : target_.views)
-    {
-      const PointVisibility seen = visibilityOf (T_object_sensor.inverse () * p, *view, target_.noise_m);
-      judged |= seen != PointVisibility::Outside && seen != PointVisibility::NoReading;
-    }
-    return !judged || target_.hidden.at (p) == Hidden::ByOther;
-  }
-
-  /** \brief Whether a view looks through a place, also beside its pixel: readings at edges are mixed. */
-  bool isFree (const Eigen::Vector3d& p, double margin_m) const
-  {
-    return std::any_of (target_.views.begin (), target_.views.end (), [&] (const auto& view) {
-      const auto& [depth, T_object_sensor] = view;
-      const Eigen::Vector3d in_sensor = T_object_sensor.inverse () * p;
-      const auto pixel = pixelOf (depth->camera, in_sensor);
-      return pixel && std::all_of (edge_pixels.begin (), edge_pixels.end (), [&, &depth = depth] (const auto& offset) {
-               const int u = pixel->x () + offset[0], v = pixel->y () + offset[1];
-               return u >= 0 && v >= 0 && u < depth->camera.width && v < depth->camera.height &&
-                      compareWithReading (in_sensor.z (), depth->at (u, v), margin_m) == PointVisibility::Free;
-             });
-    });
-  }
-
-  double heightOf (const Eigen::Vector3d& p) const
-  {
-    double height = std::numeric_limits<double>::infinity ();
-    for (const Eigen::Vector4d& plane : target_.resting)
-      height = std::min (height, plane.head<3> ().dot (p) + plane[3]);
-    return height;
-  }
-
   /** \brief Pairs from points to the mesh, from the mesh to points, and from the mesh to the planes. */
   std::vector<Match> matches (const Similarity& now, const OrientedColumns& points, Eigen::Index samples,
                               double reach_m) const
@@ -231,7 +144,7 @@ private:
       const double squared = (points.positions.colwise () - p).colwise ().squaredNorm ().minCoeff (&nearest);
       const Eigen::Vector3d to = points.normals.col (nearest), away = p - points.positions.col (nearest);
       // Beyond the border of the points, where readings at edges are missing, it is unknown where the surface is.
-      if ((away - to.dot (away) * to).norm () > border_cells * cell_m_ && !isFree (p, 2.0 * target_.noise_m))
+      if ((away - to.dot (away) * to).norm () > border_cells * cell_m_ && !isFree (p, 2.0 * object_.noise_m))
         continue;
       result.push_back ({p, points.positions.col (nearest), to, weightOf (std::sqrt (squared), to.dot (normal))});
     }
@@ -245,7 +158,7 @@ private:
   /** \brief The lowest sample touches each plane, and none is below. */
   void addPlanes (const Similarity& now, Eigen::Index samples, double weight, std::vector<Match>& result) const
   {
-    for (const Eigen::Vector4d& plane : target_.resting)
+    for (const Eigen::Vector4d& plane : object_.resting)
     {
       const Eigen::Vector3d up = plane.head<3> ();
       double lowest = std::numeric_limits<double>::infinity ();
@@ -310,94 +223,24 @@ private:
     return similarity;
   }
 
-  double toleranceOf () const { return std::max (2.0 * target_.noise_m, 0.03 * size_m_); }
-
   double costOf (const Similarity& similarity, Eigen::Index samples) const
   {
-    const MeshAlignment result = judged (similarity, samples);
+    const MeshFit result = fit (similarity, samples);
     return (1.0 - result.explained) + (1.0 - result.confirmed) + 2.0 * result.contradicted;
   }
-
-  /** \brief Near counts 1, farther than the tolerance 0. */
-  static double nearness (double distance, double tolerance)
-  {
-    return std::max (0.0, 1.0 - distance * distance / (tolerance * tolerance));
-  }
-
-  MeshAlignment judged (const Similarity& similarity, Eigen::Index samples = SampledMesh::matched) const
-  {
-    MeshAlignment result;
-    result.T_object_mesh = Eigen::Affine3d::Identity ();
-    result.T_object_mesh.linear () = similarity.scale * similarity.R / mesh_.unit ();
-    result.T_object_mesh.translation () = similarity * (-mesh_.middle () / mesh_.unit ());
-    result.scale = similarity.scale / mesh_.unit ();
-    const double tolerance_m = toleranceOf ();
-    std::vector<double> distances;
-    for (Eigen::Index n = 0; n < points_.size (); ++n)
-    {
-      const Eigen::Vector3d p = points_.positions.col (n);
-      const auto [q, normal] = mesh_.nearest (similarity.R.transpose () * (p - similarity.t) / similarity.scale);
-      distances.push_back ((similarity * q - p).norm ());
-      if ((similarity.R * normal).dot (points_.normals.col (n)) > least_cosine)
-        result.explained += nearness (distances.back (), tolerance_m);
-    }
-    result.explained /= static_cast<double> (points_.size ());
-    result.distance_m = quantile (distances, 0.5);
-
-    double judged = 0.0;
-    for (const Eigen::Index n : visibleSamples (similarity.R, samples))
-    {
-      const Eigen::Vector3d p = similarity * mesh_.position (n), normal = similarity.R * mesh_.normal (n);
-      if (isUnknown (p))
-        continue;
-      Eigen::Index nearest = 0;
-      const double squared = (points_.positions.colwise () - p).colwise ().squaredNorm ().minCoeff (&nearest);
-      const double across = std::abs (points_.normals.col (nearest).dot (points_.positions.col (nearest) - p));
-      judged += 1.0;
-      // Points are a cell apart: along the surface they may be so far.
-      if (points_.normals.col (nearest).dot (normal) > least_cosine && std::sqrt (squared) < 3.0 * tolerance_m)
-        result.confirmed += nearness (across, tolerance_m);
-    }
-    result.confirmed = judged > 0.0 ? result.confirmed / judged : 0.0;
-
-    const Eigen::Index step = std::max<Eigen::Index> (1, SampledMesh::matched / samples);
-    double all = 0.0;
-    for (Eigen::Index n = 0; n < SampledMesh::matched; n += step)
-    {
-      const Eigen::Vector3d p = similarity * mesh_.position (n);
-      all += 1.0;
-      result.contradicted += isFree (p, tolerance_m) || heightOf (p) < -tolerance_m;
-    }
-    result.contradicted /= all;
-    return result;
-  }
-
-  const AlignmentTarget& target_;
-  SampledMesh mesh_;
-  OrientedColumns points_;
-  double size_m_;
-  double cell_m_;                        // between neighbouring points
-  std::vector<Eigen::Vector3d> sensors_; // from the middle of the points
 };
 
 } // namespace
 
 std::optional<MeshAlignment>
-alignMesh (const TriangleMesh& mesh, const AlignmentTarget& target, int threads)
+alignMesh (const TriangleMesh& mesh, const MeasuredObject& object, int threads)
 {
-  if (target.points.size () < least_points)
+  if (object.points.size () < MeshEvidence::least_points)
     return std::nullopt;
-  const Alignment alignment (mesh, target);
+  const Alignment alignment (mesh, object);
   if (!alignment.isPossible ())
     return std::nullopt;
   return alignment.best (threads);
-}
-
-MeshAlignment
-judgeMesh (const TriangleMesh& mesh, const AlignmentTarget& target)
-{
-  const Alignment alignment (mesh, target);
-  return alignment.isPossible () ? alignment.inPlace () : MeshAlignment ();
 }
 
 } // namespace pcl::cosection

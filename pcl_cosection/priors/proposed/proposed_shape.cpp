@@ -3,6 +3,7 @@
 
 #include "pcl_cosection/common/parallel.h"
 #include "pcl_cosection/mesh/mesh_cleaning.h"
+#include "pcl_cosection/mesh/moved_mesh.h"
 #include "pcl_cosection/priors/learned/learned_completion.h"
 #include "pcl_cosection/priors/resting_planes.h"
 #include "pcl_cosection/volume/mesh_distance/mesh_surface.h"
@@ -18,7 +19,7 @@ namespace {
 constexpr double least_explained = 0.6; // true shapes in simulated views have 0.69 to 0.95 ...
 constexpr double least_confirmed = 0.6; // ... and 0.70 to 0.97
 constexpr double most_contradicted = 0.05;
-constexpr double least_confirmed_learned = 0.34; // a network's voxels are coarse
+constexpr double least_confirmed_learned = 0.34; // chosen on single scanned things; too mild in clutter
 constexpr double most_contradicted_learned = 0.06;
 constexpr double noise_vox = 0.5;      // voxels are as large as the points' noise and spacing ask for
 constexpr float gap_vox = 2.0f;        // nothing is expected nearer to data
@@ -37,14 +38,6 @@ merit (const MeshAlignment& alignment)
   return alignment.explained + alignment.confirmed - 2.0 * alignment.contradicted;
 }
 
-TriangleMesh
-moved (TriangleMesh mesh, const Eigen::Affine3d& T)
-{
-  for (Eigen::Vector3f& vertex : mesh.vertices)
-    vertex = (T * vertex.cast<double> ()).cast<float> ();
-  return mesh;
-}
-
 } // namespace
 
 const ProposedShape*
@@ -59,17 +52,17 @@ proposedShape (const Observation& object, const ObjectSetting& setting, const st
     std::vector<Eigen::Vector4d> resting;
     if (const auto plane = nearestPlaneBelow (object, planes))
       resting.push_back (*plane);
-    const AlignmentTarget target = {object.points (), object.views, setting.hidden, resting,
-                                    noise_vox * object.voxel_size_m};
+    const MeasuredObject measured = {object.points (), object.views, setting.hidden, resting,
+                                     noise_vox * object.voxel_size_m};
     for (std::size_t n = 0; n < object.proposals->size (); ++n)
     {
       const TriangleMesh mesh = cleanMesh ((*object.proposals)[n]);
-      const auto alignment = mesh.empty () ? std::nullopt : alignMesh (mesh, target, setting.threads);
+      const auto alignment = mesh.empty () ? std::nullopt : alignMesh (mesh, measured, setting.threads);
       if (!alignment || (shapes.best && merit (*alignment) <= merit (shapes.best->alignment)))
         continue;
       const bool is_used = alignment->explained >= least_explained && alignment->confirmed >= least_confirmed &&
                            alignment->contradicted <= most_contradicted;
-      shapes.best = ProposedShape{n, *alignment, is_used, moved (mesh, alignment->T_object_mesh)};
+      shapes.best = ProposedShape{n, *alignment, is_used, movedMesh (mesh, alignment->T_object_mesh)};
     }
   }
   return shapes.best ? &*shapes.best : nullptr;
@@ -87,12 +80,11 @@ learnedShape (const Observation& object, const ObjectSetting& setting, const Eig
     TriangleMesh mesh = completedByNetwork (*object.network, object.points (), object.views, plane);
     if (mesh.empty ())
       return nullptr;
-    const AlignmentTarget target = {
+    const MeasuredObject measured = {
         object.points (), object.views, setting.hidden, {plane}, noise_vox * object.voxel_size_m};
-    const MeshAlignment alignment = judgeMesh (mesh, target);
-    const bool is_used = alignment.confirmed >= least_confirmed_learned &&
-                         alignment.contradicted <= most_contradicted_learned;
-    shapes.learned = ProposedShape{0, alignment, is_used, std::move (mesh)};
+    const MeshFit fit = fitInPlace (mesh, measured);
+    const bool is_used = fit.confirmed >= least_confirmed_learned && fit.contradicted <= most_contradicted_learned;
+    shapes.learned = ProposedShape{0, {fit}, is_used, std::move (mesh)};
   }
   return shapes.learned ? &*shapes.learned : nullptr;
 }

@@ -21,6 +21,16 @@ around (int n)
   return lookAt ({0.45 * std::sin (angle), -0.45 * std::cos (angle), 0.28 + 0.03 * n}, {0.0, 0.0, 0.04});
 }
 
+/** \brief What one view from the front shows of a shape on the table. */
+inline RenderedView
+seenFromTheFront (const Distance& shape)
+{
+  AnalyticScene table;
+  table.add (0, tableScene (Shape::Sphere).shape (0));
+  table.add (1, shape);
+  return table.render (tableCamera (), fromTheFront ());
+}
+
 /** \brief Complete object 1 of a scene from the views of several sensors. */
 inline ObjectResult
 completeFrom (const AnalyticScene& scene, const std::vector<int>& sensors, const CoSectionOptions& options)

@@ -13,6 +13,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 
 using namespace pcl::cosection;
 using namespace pcl::cosection::test;
@@ -28,20 +29,10 @@ figure ()
   return [=] (const Eigen::Vector3d& p) { return std::min (foot (p), head (p)); };
 }
 
-RenderedView
-seen (const Distance& shape)
-{
-  AnalyticScene scene = tableScene (test::Shape::Sphere);
-  AnalyticScene table;
-  table.add (0, scene.shape (0));
-  table.add (1, shape);
-  return table.render (tableCamera (), fromTheFront ());
-}
-
 ObjectResult
 completeWith (const Distance& shape, CompletionNetwork::ConstPtr network)
 {
-  const RenderedView view = seen (shape);
+  const RenderedView view = seenFromTheFront (shape);
   CoSectionOptions options = optionsFor (0.004);
   options.completion_network = std::move (network);
   CoSection task (options);
@@ -63,7 +54,10 @@ cubeOf (const RenderedView& view)
 class Oracle : public CompletionNetwork
 {
 public:
-  explicit Oracle (const Distance& answer, const Distance& asked) : answer_ (answer), cube_ (cubeOf (seen (asked))) {}
+  explicit Oracle (const Distance& answer, const Distance& asked)
+      : answer_ (answer)
+      , cube_ (cubeOf (seenFromTheFront (asked)))
+  {}
 
   std::vector<float> complete (const std::vector<float>& observed) const override
   {
@@ -91,7 +85,7 @@ private:
 
 TEST (LearnedPrior, TheCubeStandsOnTheTableBehindWhatIsSeen)
 {
-  const RenderedView view = seen (figure ());
+  const RenderedView view = seenFromTheFront (figure ());
   const CompletionCube cube = cubeOf (view);
   EXPECT_NEAR (cube.T_object_cube.translation ().z (), -CompletionCube::below_vox * cube.voxel_size_m, 1e-9);
   const Eigen::Vector3d x = cube.T_object_cube.linear ().col (0), z = cube.T_object_cube.linear ().col (2);
@@ -112,10 +106,10 @@ TEST (LearnedPrior, TheCubeStandsOnTheTableBehindWhatIsSeen)
 
 TEST (LearnedPrior, WhatAViewTellsOfTheVoxels)
 {
-  const RenderedView view = seen (figure ());
+  const RenderedView view = seenFromTheFront (figure ());
   const CompletionCube cube = cubeOf (view);
   const CompletionInputs inputs = completionInputs (cube, view.points.at (1), {{&view.view, view.view.T_world_sensor}});
-  std::size_t matter = 0, wrong = 0;
+  std::size_t matter = 0, wrong = 0, free = 0;
   for (int k = CompletionCube::below_vox; k < CompletionCube::size; ++k)
     for (int j = 0; j < CompletionCube::size; ++j)
       for (int i = 0; i < CompletionCube::size; ++i)
@@ -124,9 +118,11 @@ TEST (LearnedPrior, WhatAViewTellsOfTheVoxels)
         const double distance = figure () (cube.center (i, j, k));
         EXPECT_LE (inputs.is_free[n] + inputs.is_behind[n] + inputs.is_unknown[n], 1);
         matter += distance < -0.5 * cube.voxel_size_m;
+        free += inputs.is_free[n];
         wrong += distance < -0.5 * cube.voxel_size_m && inputs.is_free[n];
       }
   EXPECT_GT (matter, 500u);
+  EXPECT_GT (free, 2000u);
   EXPECT_EQ (wrong, 0u); // no view looks through matter
 }
 
@@ -152,6 +148,16 @@ TEST (LearnedPrior, AnswersThatTheViewContradictsChangeNothing)
   EXPECT_FALSE (with.learned->used);
   EXPECT_EQ (with.mesh.vertices, without.mesh.vertices);
   EXPECT_EQ (with.mesh.triangles, without.mesh.triangles);
+}
+
+TEST (LearnedPrior, AnswersOfWrongSizeAreErrors)
+{
+  class Short : public CompletionNetwork
+  {
+    std::vector<float> complete (const std::vector<float>&) const override { return {1.0f}; }
+  };
+  const ObjectResult result = completeWith (figure (), std::make_shared<Short> ());
+  EXPECT_NE (result.error.find ("32768"), std::string::npos) << result.error;
 }
 
 TEST (LearnedPrior, NoAnswerChangesNothing)

@@ -43,11 +43,7 @@ transformed (TriangleMesh mesh, double scale, const Eigen::Isometry3d& T)
 ObjectResult
 completeWith (const Distance& shape, const std::vector<TriangleMesh>& proposals)
 {
-  AnalyticScene scene = tableScene (Shape::Sphere);
-  AnalyticScene table;
-  table.add (0, scene.shape (0));
-  table.add (1, shape);
-  const RenderedView seen = table.render (tableCamera (), fromTheFront ());
+  const RenderedView seen = seenFromTheFront (shape);
   CoSection task (optionsFor (0.004));
   task.addView (seen.view);
   task.setBackground (seen.points.at (0));
