@@ -31,4 +31,8 @@ install(FILES
   DESTINATION "${package_dir}")
 
 install(FILES "${PROJECT_SOURCE_DIR}/package.xml" DESTINATION "${CMAKE_INSTALL_DATADIR}/pcl_cosection")
+install(FILES "${PROJECT_SOURCE_DIR}/models/completion.onnx" DESTINATION "${CMAKE_INSTALL_DATADIR}/pcl_cosection")
+# Where programs in the build tree look for it.
+configure_file("${PROJECT_SOURCE_DIR}/models/completion.onnx"
+  "${PROJECT_BINARY_DIR}/share/pcl_cosection/completion.onnx" COPYONLY)
 install(FILES "${PROJECT_SOURCE_DIR}/LICENSE" DESTINATION "${CMAKE_INSTALL_DOCDIR}")

@@ -20,6 +20,14 @@ with tempfile.TemporaryDirectory() as folder:
     print("losses", losses)
     assert len(losses) >= 4 and sum(losses[-3:]) < 3 * 0.75 * losses[0], "the loss does not fall"
 
+    again = command + ["--start", "short.onnx", "--minutes", "0.1", "--output", "again.onnx", "--checkpoint", "again.pt"]
+    text = subprocess.run(again, check=True, capture_output=True, text=True).stdout
+    first = float(re.search(r"loss ([\d.]+)", text).group(1))
+    print("first loss from the short run's weights", first)
+    assert first < 0.9 * losses[0], "it does not begin with the weights of the file"
+    wrong = subprocess.run(command + ["--start", os.path.join(here, "check_training.py")], check=False, capture_output=True, text=True)
+    assert wrong.returncode == 2 and "--start" in wrong.stderr.splitlines()[-1], wrong.stderr
+
     subprocess.run([os.path.join(programs, "pcl_cosection_simulate"), "--quiet", "--preset", "table", "--frames", "0:1",
                     "--views-every", "1", "scene"], check=True)
     view = os.path.join("scene/views", sorted(os.listdir("scene/views"))[0])

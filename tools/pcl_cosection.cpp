@@ -131,6 +131,25 @@ summaryJson (const Settings& settings, const SceneResult& result, const Eigen::V
   return (summary);
 }
 
+/** \brief The network that was asked for, or else the installed one; without that one the learned prior is off. */
+void
+loadNetwork (Settings& settings, std::vector<std::string>& warnings)
+{
+  if (!settings.model.empty ())
+    settings.method.completion_network = loadCompletionNetwork (settings.model);
+  else if (const std::string installed = completionNetworkFile ();
+           !installed.empty () && settings.method.activePriors ().learned)
+    try
+    {
+      settings.method.completion_network = loadCompletionNetwork (installed);
+      settings.model = installed;
+    }
+    catch (const IoError& error)
+    {
+      warnings.push_back (std::string ("the learned prior is off: ") + error.what ());
+    }
+}
+
 /** \brief Read, complete, write. \return whether every object succeeded */
 bool
 complete (Settings settings, const OutputTarget& target, std::vector<std::string>& warnings, Terminal& terminal)
@@ -145,8 +164,7 @@ complete (Settings settings, const OutputTarget& target, std::vector<std::string
   warnings = input.warnings;
   if (!origin.isZero (0.0) && settings.format == "stl")
     warnings.push_back ("STL files have single precision: coordinates in them are relative to " + placeText (origin));
-  if (!settings.model.empty ())
-    settings.method.completion_network = loadCompletionNetwork (settings.model);
+  loadNetwork (settings, warnings);
   for (const std::string& warning : warnings)
     terminal.warning (warning);
 

@@ -35,12 +35,11 @@ markInferred (const SceneObject& object, TriangleMesh& mesh)
 }
 
 ProposalFit
-fitOf (const ProposedShape& shape)
+fitOf (const MeshAlignment& alignment, bool is_used, std::size_t number = 0)
 {
-  const MeshAlignment& alignment = shape.alignment;
   ProposalFit fit;
-  fit.proposal = shape.number;
-  fit.used = shape.is_used;
+  fit.proposal = number;
+  fit.used = is_used;
   fit.T_object_proposal = alignment.T_object_mesh;
   fit.scale = alignment.scale;
   fit.distance_m = alignment.distance_m;
@@ -133,10 +132,13 @@ sceneResult (const Scene& scene, const std::vector<Observation>& observations,
     object.contradicted_share = contradicted[o];
     if (support[o].inferred)
       object.guessed_plane = support[o].planes.front ();
-    if (observations[o].proposed && observations[o].proposed->best)
-      object.proposal = fitOf (*observations[o].proposed->best);
-    if (observations[o].proposed && observations[o].proposed->learned)
-      object.learned = fitOf (*observations[o].proposed->learned);
+    if (const ProposedShapes* shapes = observations[o].proposed.get ())
+    {
+      if (shapes->best)
+        object.proposal = fitOf (shapes->best->alignment, shapes->best->is_used, shapes->best->number);
+      if (shapes->learned)
+        object.learned = fitOf ({shapes->learned->fit}, shapes->learned->is_used);
+    }
     object.solver = solvers[n];
   }
   for (std::size_t o = 0; o < scene.objects.size (); ++o)

@@ -12,6 +12,7 @@
 #include "pcl_cosection/priors/vessels/vessel_term.h"
 #include "pcl_cosection/volume/distance_transform.h"
 #include "resting_planes.h"
+#include <pcl/cosection/volume/iso_surface.h>
 
 #include <algorithm>
 #include <cmath>
@@ -258,19 +259,23 @@ symmetryOf (const Observation& object, const Priors& priors, const Eigen::Vector
   return {symmetry, turn != turns.end ()};
 }
 
-/** \brief The shape that the user proposed, if it explains the measurements; else that of the network, if it does, and
- * no profile was fitted to the points: a surface of revolution is more exact, and the walls of a vessel are finer than
- * the network's voxels. Else null. */
+/** \brief The shape that the user proposed, if it explains the measurements; else null. */
 const ProposedShape*
 usedProposal (const Observation& object, const ObjectSetting& setting, const std::vector<Eigen::Vector4d>& planes)
 {
   const ProposedShape* shape = setting.priors.proposals ? proposedShape (object, setting, planes) : nullptr;
-  if (shape && shape->is_used)
-    return shape;
+  return shape && shape->is_used ? shape : nullptr;
+}
+
+/** \brief What the network completes, if the measurements confirm it and no profile was fitted to the points: a surface
+ * of revolution is more exact, and the walls of a vessel are finer than the network's voxels. Else null. */
+const LearnedShape*
+usedCompletion (const Observation& object, const ObjectSetting& setting, const std::vector<Eigen::Vector4d>& planes)
+{
   const std::optional<Eigen::Vector4d> plane = nearestPlaneBelow (object, planes);
   if (!setting.priors.learned || !object.network || !plane || shapeOf (object, setting, plane))
     return nullptr;
-  shape = learnedShape (object, setting, *plane);
+  const LearnedShape* shape = learnedShape (object, setting, *plane);
   return shape && shape->is_used ? shape : nullptr;
 }
 
@@ -315,13 +320,36 @@ proposalOf (const Observation& object, const Priors& priors, const std::vector<E
   return proposal;
 }
 
+/** \brief The signed distance that minimises the energy, without neighbours. */
+SignedDistanceField
+solvedAlone (const BodyEnergy& energy)
+{
+  BodySolution solution;
+  solve (energy, Resolution::Full, solution, nullptr);
+  SignedDistanceField field = solvedField (energy, solution);
+  field.supported.clear ();
+  return field;
+}
+
+/** \brief A proposal, if it explains the object about as well as what is expected without it; else it is not used. */
+TriangleMesh
+betterProposal (const ProposedShape& proposed, const SignedDistanceField& without, const Observation& object,
+                const ObjectSetting& setting, const std::vector<Eigen::Vector4d>& planes)
+{
+  const TriangleMesh other = extractIsoSurface (without, {true, setting.threads});
+  if (explainsAsWell (proposed, other, object, setting, nearestPlaneBelow (object, planes)))
+    return proposed.mesh;
+  object.proposed->best->is_used = false;
+  return {};
+}
+
 } // namespace
 
 double
 wallThickness (const Observation& object, const ObjectSetting& setting, const std::vector<Eigen::Vector4d>& planes)
 {
   if (const ProposedShape* proposed = usedProposal (object, setting, planes))
-    return wallOf (*proposed, object.voxel_size_m);
+    return wallOf (proposed->mesh, object.voxel_size_m);
   return shapeOf (object, setting, nearestPlaneBelow (object, planes)).wallThickness ();
 }
 
@@ -353,9 +381,12 @@ boxDownToPlanes (const Observation& object, const ObjectSetting& setting, const 
     for (const Eigen::Vector4d& plane : planes)
       for (const OrientedPoint& point : continuedBehindOthers (object, plane).points)
         box.extend (point.position.cast<double> ());
-  if (const ProposedShape* shape = usedProposal (object, setting, planes))
-    for (const Eigen::Vector3f& vertex : shape->mesh.vertices)
-      box.extend (vertex.cast<double> ());
+  const ProposedShape* proposed = usedProposal (object, setting, planes);
+  const LearnedShape* learned = proposed ? nullptr : usedCompletion (object, setting, planes);
+  for (const TriangleMesh* mesh : {proposed ? &proposed->mesh : nullptr, learned ? &learned->completion.mesh : nullptr})
+    if (mesh)
+      for (const Eigen::Vector3f& vertex : mesh->vertices)
+        box.extend (vertex.cast<double> ());
   return box;
 }
 
@@ -364,6 +395,7 @@ addPriors (const Observation& object, const ObjectSetting& setting, const std::v
            OcclusionMap& hidden, BodyEnergy& energy)
 {
   const Priors& priors = setting.priors;
+  const bool has_weight = energy.options.beta_extent > 0.0;
   const std::vector<Eigen::Vector4d> resting = restingPlanes (object, setting, planes, energy);
   std::vector<ProfiledShape> profiled;
   if (priors.revolution || priors.vessels)
@@ -374,27 +406,51 @@ addPriors (const Observation& object, const ObjectSetting& setting, const std::v
   const bool is_cut_out = setting.background.empty ();
   if (priors.rays && is_cut_out && vessels.empty ()) // they have no thin walls
     addRaysWithoutReturn (object, energy);
+  const auto addExpected = [&] (const Proposal& proposal) {
+    if (priors.extent)
+      addExtentPrior (is_cut_out ? ExtentPrior::cutOut () : ExtentPrior (), object, hidden,
+                      distanceToExpected (proposal, energy), proposal.unbounded, energy);
+    if (!proposal.empty ())
+      addProposal (proposal, energy);
+  };
   Proposal proposal;
-  const ProposedShape* proposed = usedProposal (object, setting, planes);
-  if (!proposed && vessels.empty () && (priors.symmetry || priors.extrusion || !profiled.empty ()))
+  if (vessels.empty () && (priors.symmetry || priors.extrusion || !profiled.empty ()))
     proposal = proposalOf (object, priors, resting, planes, profiled, energy);
-  if (!(energy.options.beta_extent > 0.0))
+  if (!has_weight)
     return;
-  if (proposed || !vessels.empty ())
+  if (!vessels.empty ())
   {
     proposal = Proposal (energy.grid.size ());
     energy.facing = NormalBinOccupancy (energy.grid, object.points ());
-  }
-  if (proposed)
-    addProposedShape (*proposed, energy, proposal);
-  else
     for (const ProfiledShape& vessel : vessels)
       addVessel (energy, vessel, object.points (), proposal);
-  if (priors.extent)
-    addExtentPrior (is_cut_out ? ExtentPrior::cutOut () : ExtentPrior (), object, hidden,
-                    distanceToExpected (proposal, energy), proposal.unbounded, energy);
-  if (!proposal.empty ())
-    addProposal (proposal, energy);
+  }
+  const ProposedShape* proposed = usedProposal (object, setting, planes);
+  const LearnedShape* learned = proposed || !vessels.empty () ? nullptr : usedCompletion (object, setting, planes);
+  const auto addShape = [&] (const TriangleMesh& shape) {
+    Proposal proposal (energy.grid.size ());
+    energy.facing = NormalBinOccupancy (energy.grid, object.points ());
+    addProposedShape (shape, !learned && wallOf (shape, energy.grid.voxel_size_m) > 0.0, energy, proposal);
+    addExpected (proposal);
+  };
+
+  if (!proposed && !learned)
+  {
+    addExpected (proposal);
+    return;
+  }
+  // What the other priors make of the object tells whether a proposal is better, and is what the network corrects.
+  const EnergyProblem problem = energy.problem;
+  const std::vector<std::uint8_t> expected = energy.expected;
+  addExpected (proposal);
+  const TriangleMesh shape = learned
+                                 ? correctedShape (learned->completion, solvedAlone (energy), energy.options.threads)
+                                 : betterProposal (*proposed, solvedAlone (energy), object, setting, planes);
+  if (shape.empty ())
+    return;
+  energy.problem = problem;
+  energy.expected = expected;
+  addShape (shape);
 }
 
 } // namespace pcl::cosection

@@ -225,7 +225,8 @@ declareOptions (CLI::App& app, Given& given)
   declareSurroundings (app, given);
   declareVolumeOptions (app, given, "twice the smallest object's");
   declareMethodOptions (app, given);
-  OptionGroup (app, "Method").add ("--model FILE.onnx", given.model, "Network of the learned prior (default: none)");
+  OptionGroup (app, "Method")
+      .add ("--model FILE.onnx", given.model, "Network of the learned prior (default: the installed one)");
   declareOutput (app, given);
   declareGeneralOptions (app, "pcl_cosection", given);
 }

@@ -2,6 +2,7 @@
 #include "learned_completion.h"
 
 #include "completion_cube.h"
+#include "pcl_cosection/common/parallel.h"
 #include "pcl_cosection/mesh/mesh_parts.h"
 #include "pcl_cosection/mesh/moved_mesh.h"
 #include <pcl/cosection/common/error.h>
@@ -17,6 +18,8 @@ namespace {
 constexpr int N = CompletionCube::size;
 constexpr float soft_vox = 0.4f; // of a logit: SOFT_VOX of tools/prior_training/train.py
 constexpr auto truncation = static_cast<float> (CompletionCube::truncation_vox);
+// Odds of exp (2) : 1 = 7.4 : 1 that the other priors are right about a place.
+constexpr float reliable_vox = 2.0f * soft_vox;
 constexpr double least_part = 0.05; // of the largest part's volume: less is a network's noise
 
 /** \brief The voxel that a mirror across the direction of view takes n to. */
@@ -62,20 +65,21 @@ withoutSmallParts (const TriangleMesh& mesh)
 
 CompletionNetwork::~CompletionNetwork () = default;
 
-TriangleMesh
+LearnedCompletion
 completedByNetwork (const CompletionNetwork& network, const std::vector<OrientedPoint>& points,
                     const SensorViews& views, const Eigen::Vector4d& plane)
 {
+  LearnedCompletion result;
   const std::optional<CompletionCube> cube = completionCube (points, views, plane);
   if (!cube)
-    return {};
+    return result;
   const CompletionInputs inputs = completionInputs (*cube, points, views);
   const std::vector<float> logits = network.complete (observedValues (inputs, false));
   const std::vector<float> of_mirror = network.complete (observedValues (inputs, true));
   if (logits.size () != CompletionCube::voxels || of_mirror.size () != CompletionCube::voxels)
     throw InvalidArgument ("the completion network answers with " + std::to_string (logits.size ()) + " values; " +
                            std::to_string (CompletionCube::voxels) + " are needed");
-  SignedDistanceField field;
+  SignedDistanceField& field = result.field;
   field.grid.dims.setConstant (N);
   field.grid.voxel_size_m = cube->voxel_size_m;
   field.grid.origin_m = Eigen::Vector3d::Constant (0.5 * cube->voxel_size_m);
@@ -93,7 +97,29 @@ completedByNetwork (const CompletionNetwork& network, const std::vector<Oriented
   }
   TriangleMesh mesh = withoutSmallParts (extractIsoSurface (field, {true, 1}));
   mesh.normals.clear ();
-  return movedMesh (std::move (mesh), cube->T_object_cube);
+  result.mesh = movedMesh (std::move (mesh), cube->T_object_cube);
+  result.T_cube_object = cube->T_object_cube.inverse ();
+  return result;
+}
+
+TriangleMesh
+correctedShape (const LearnedCompletion& learned, SignedDistanceField expected, int threads)
+{
+  const VoxelGrid& grid = expected.grid;
+  const auto most_m = reliable_vox * static_cast<float> (learned.field.grid.voxel_size_m);
+  parallelFor (0, grid.dims.z (), threadsForVoxels (threads, grid.size ()), [&] (int k) {
+    for (int j = 0; j < grid.dims.y (); ++j)
+      for (int i = 0; i < grid.dims.x (); ++i)
+        if (const auto learned_m = learned.field.sample (learned.T_cube_object * grid.center (i, j, k)))
+        {
+          // The log odds of a distance d in the cube's voxels are -d / soft_vox.
+          float& value_m = expected.values[grid.index (i, j, k)];
+          value_m = std::clamp (value_m, -most_m, most_m) + *learned_m;
+        }
+  });
+  TriangleMesh mesh = withoutSmallParts (extractIsoSurface (expected, {true, threads}));
+  mesh.normals.clear ();
+  return mesh;
 }
 
 } // namespace pcl::cosection

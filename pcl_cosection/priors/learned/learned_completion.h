@@ -5,18 +5,32 @@
 #include <pcl/cosection/common/oriented_point.h>
 #include <pcl/cosection/common/triangle_mesh.h>
 #include <pcl/cosection/surface/options.h>
+#include <pcl/cosection/volume/signed_distance_field.h>
 
-#include <Eigen/Core>
+#include <Eigen/Geometry>
 
 #include <vector>
 
 namespace pcl::cosection {
 
-/** \brief An object as a network completes it: closed, in the object's frame, metres. Empty if it expects nothing.
+/** \brief An object as a network completes it. */
+struct LearnedCompletion
+{
+  SignedDistanceField field; ///< metres, in a cube: small where the network is not sure
+  Eigen::Isometry3d T_cube_object;
+  TriangleMesh mesh; ///< its zero set, in the object's frame; empty if nothing is expected
+};
+
+/** \brief Complete an object by a network.
  * \param[in] points of the object
  * \param[in] views of it, and their sensors' poses in its frame
  * \param[in] plane n.x + d = 0 on which it stands, unit n towards it */
-TriangleMesh completedByNetwork (const CompletionNetwork& network, const std::vector<OrientedPoint>& points,
-                                 const SensorViews& views, const Eigen::Vector4d& plane);
+LearnedCompletion completedByNetwork (const CompletionNetwork& network, const std::vector<OrientedPoint>& points,
+                                      const SensorViews& views, const Eigen::Vector4d& plane);
+
+/** \brief What other priors expect, corrected where the network is sure: both are observers of each place, whose log
+ * odds that there is matter are added.
+ * \param[in] expected signed distance, metres, in the object's frame */
+TriangleMesh correctedShape (const LearnedCompletion& learned, SignedDistanceField expected, int threads);
 
 } // namespace pcl::cosection

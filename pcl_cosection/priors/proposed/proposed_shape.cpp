@@ -4,7 +4,6 @@
 #include "pcl_cosection/common/parallel.h"
 #include "pcl_cosection/mesh/mesh_cleaning.h"
 #include "pcl_cosection/mesh/moved_mesh.h"
-#include "pcl_cosection/priors/learned/learned_completion.h"
 #include "pcl_cosection/priors/resting_planes.h"
 #include "pcl_cosection/volume/mesh_distance/mesh_surface.h"
 
@@ -19,8 +18,9 @@ namespace {
 constexpr double least_explained = 0.6; // true shapes in simulated views have 0.69 to 0.95 ...
 constexpr double least_confirmed = 0.6; // ... and 0.70 to 0.97
 constexpr double most_contradicted = 0.05;
-constexpr double least_confirmed_learned = 0.34; // chosen on single scanned things; too mild in clutter
+constexpr double least_confirmed_learned = 0.5; // most of it
 constexpr double most_contradicted_learned = 0.06;
+constexpr double as_well = 0.85;       // of the share that is explained without a proposal; of true shapes 0.84 to 1.25
 constexpr double noise_vox = 0.5;      // voxels are as large as the points' noise and spacing ask for
 constexpr float gap_vox = 2.0f;        // nothing is expected nearer to data
 constexpr float near_vox = 3.0f;       // of the surface: what is a wall's is asked there
@@ -33,9 +33,16 @@ constexpr float proposal_weight = 10.0f; // in multiples of beta_extent
 
 /** \brief The larger, the better it fits. */
 double
-merit (const MeshAlignment& alignment)
+merit (const MeshFit& fit)
 {
-  return alignment.explained + alignment.confirmed - 2.0 * alignment.contradicted;
+  return fit.explained + fit.confirmed - 2.0 * fit.contradicted;
+}
+
+/** \brief What a shape is compared with. \param[in] resting planes on which it rests; must outlive the result */
+MeasuredObject
+measuredObject (const Observation& object, const ObjectSetting& setting, const std::vector<Eigen::Vector4d>& resting)
+{
+  return {object.points (), object.views, setting.hidden, resting, noise_vox * object.voxel_size_m};
 }
 
 } // namespace
@@ -52,8 +59,7 @@ proposedShape (const Observation& object, const ObjectSetting& setting, const st
     std::vector<Eigen::Vector4d> resting;
     if (const auto plane = nearestPlaneBelow (object, planes))
       resting.push_back (*plane);
-    const MeasuredObject measured = {object.points (), object.views, setting.hidden, resting,
-                                     noise_vox * object.voxel_size_m};
+    const MeasuredObject measured = measuredObject (object, setting, resting);
     for (std::size_t n = 0; n < object.proposals->size (); ++n)
     {
       const TriangleMesh mesh = cleanMesh ((*object.proposals)[n]);
@@ -68,7 +74,18 @@ proposedShape (const Observation& object, const ObjectSetting& setting, const st
   return shapes.best ? &*shapes.best : nullptr;
 }
 
-const ProposedShape*
+bool
+explainsAsWell (const ProposedShape& shape, const TriangleMesh& other, const Observation& object,
+                const ObjectSetting& setting, const std::optional<Eigen::Vector4d>& plane)
+{
+  std::vector<Eigen::Vector4d> resting;
+  if (plane)
+    resting.push_back (*plane);
+  const MeshFit of_other = fitInPlace (other, measuredObject (object, setting, resting));
+  return shape.alignment.explained >= as_well * of_other.explained;
+}
+
+const LearnedShape*
 learnedShape (const Observation& object, const ObjectSetting& setting, const Eigen::Vector4d& plane)
 {
   if (!object.network || !object.proposed || object.virtual_view)
@@ -77,35 +94,34 @@ learnedShape (const Observation& object, const ObjectSetting& setting, const Eig
   if (!shapes.completed)
   {
     shapes.completed = true;
-    TriangleMesh mesh = completedByNetwork (*object.network, object.points (), object.views, plane);
-    if (mesh.empty ())
+    LearnedCompletion completion = completedByNetwork (*object.network, object.points (), object.views, plane);
+    if (completion.mesh.empty ())
       return nullptr;
-    const MeasuredObject measured = {
-        object.points (), object.views, setting.hidden, {plane}, noise_vox * object.voxel_size_m};
-    const MeshFit fit = fitInPlace (mesh, measured);
+    const std::vector<Eigen::Vector4d> resting = {plane};
+    const MeshFit fit = fitInPlace (completion.mesh, measuredObject (object, setting, resting));
     const bool is_used = fit.confirmed >= least_confirmed_learned && fit.contradicted <= most_contradicted_learned;
-    shapes.learned = ProposedShape{0, {fit}, is_used, std::move (mesh)};
+    shapes.learned = LearnedShape{std::move (completion), fit, is_used};
   }
   return shapes.learned ? &*shapes.learned : nullptr;
 }
 
 double
-wallOf (const ProposedShape& shape, double voxel_size_m)
+wallOf (const TriangleMesh& shape, double voxel_size_m)
 {
-  const MeshTopology topology = computeTopology (shape.mesh);
-  if (topology.boundary_edges > most_open * static_cast<double> (shape.mesh.triangles.size ()))
+  const MeshTopology topology = computeTopology (shape);
+  if (topology.boundary_edges > most_open * static_cast<double> (shape.triangles.size ()))
     return 0.0;
-  const double mean_m = 2.0 * std::abs (computeMassProperties (shape.mesh).volume_m3) / surfaceArea (shape.mesh);
+  const double mean_m = 2.0 * std::abs (computeMassProperties (shape).volume_m3) / surfaceArea (shape);
   return mean_m < thick_wall_vox * voxel_size_m ? mean_m : 0.0;
 }
 
 void
-addProposedShape (const ProposedShape& shape, BodyEnergy& energy, Proposal& proposal)
+addProposedShape (const TriangleMesh& shape, bool is_wall, BodyEnergy& energy, Proposal& proposal)
 {
   const VoxelGrid& grid = energy.grid;
   const double reach_m = (far_vox + 2.0) * grid.voxel_size_m;
-  const SignedDistanceField distance = sampleSignedDistance (shape.mesh, grid, reach_m, energy.options.threads);
-  const SurfaceDistance surface (shape.mesh);
+  const SignedDistanceField distance = sampleSignedDistance (shape, grid, reach_m, energy.options.threads);
+  const SurfaceDistance surface (shape);
   // What a wall lacks to be so thick that it does not vanish between voxels.
   const auto lackingAt = [&] (const SurfaceDistance::Nearest& nearest) {
     const Eigen::Vector3d within = nearest.point - least_wall_vox * grid.voxel_size_m * nearest.normal;
@@ -114,7 +130,6 @@ addProposedShape (const ProposedShape& shape, BodyEnergy& energy, Proposal& prop
     return static_cast<float> (std::clamp (beyond_m / grid.voxel_size_m, 0.0, least_wall_vox));
   };
   const auto beta = static_cast<float> (energy.options.beta_extent);
-  const bool is_wall = wallOf (shape, grid.voxel_size_m) > 0.0;
   parallelFor (0, grid.dims.z (), threadsForVoxels (energy.options.threads, grid.size ()), [&] (int k) {
     for (int j = 0; j < grid.dims.y (); ++j)
       for (int i = 0; i < grid.dims.x (); ++i)

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "mesh_alignment.h"
+#include "pcl_cosection/priors/learned/learned_completion.h"
 #include "pcl_cosection/priors/object_priors.h"
 #include "pcl_cosection/priors/proposal.h"
 
@@ -20,12 +21,20 @@ struct ProposedShape
   TriangleMesh mesh;    ///< aligned, object frame
 };
 
+/** \brief What the network of the learned prior completes, and how well that fits. */
+struct LearnedShape
+{
+  LearnedCompletion completion;
+  MeshFit fit;
+  bool is_used = false;
+};
+
 /** \brief The best of an object's proposals, and what the network completes. They are found once. */
 struct ProposedShapes
 {
   bool aligned = false, completed = false;
   std::optional<ProposedShape> best;
-  std::optional<ProposedShape> learned;
+  std::optional<LearnedShape> learned;
 };
 
 /** \brief The best of an object's proposals, aligned with its measurements; null if there are none.
@@ -33,17 +42,23 @@ struct ProposedShapes
 const ProposedShape* proposedShape (const Observation& object, const ObjectSetting& setting,
                                     const std::vector<Eigen::Vector4d>& planes);
 
+/** \brief Whether a proposed shape explains about as many of an object's points as another mesh does: the noise is the
+ * same for both.
+ * \param[in] plane on which it stands */
+bool explainsAsWell (const ProposedShape& shape, const TriangleMesh& other, const Observation& object,
+                     const ObjectSetting& setting, const std::optional<Eigen::Vector4d>& plane);
+
 /** \brief The object as the network of the learned prior completes it; null if there is none, no view, or nothing is
  * expected. \param[in] plane on which it stands */
-const ProposedShape* learnedShape (const Observation& object, const ObjectSetting& setting,
-                                   const Eigen::Vector4d& plane);
+const LearnedShape* learnedShape (const Observation& object, const ObjectSetting& setting,
+                                  const Eigen::Vector4d& plane);
 
 /** \brief Mean thickness of what consists of thin walls, metres: twice its volume by its area. 0 if it is thicker than
  * some voxels, or open. */
-double wallOf (const ProposedShape& shape, double voxel_size_m);
+double wallOf (const TriangleMesh& shape, double voxel_size_m);
 
 /** \brief Expect a proposed surface where nothing was measured, and behind a measured one, where a wall ends.
  * \param[in,out] energy with data term, free space, and which way the points face */
-void addProposedShape (const ProposedShape& shape, BodyEnergy& energy, Proposal& proposal);
+void addProposedShape (const TriangleMesh& shape, bool is_wall, BodyEnergy& energy, Proposal& proposal);
 
 } // namespace pcl::cosection

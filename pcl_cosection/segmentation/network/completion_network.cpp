@@ -11,13 +11,18 @@
 
 #include <pcl/cosection/common/error.h>
 
+#include <dlfcn.h>
+
+#include <filesystem>
 #include <mutex>
+#include <system_error>
 #include <vector>
 
 namespace pcl::cosection {
 namespace {
 
 constexpr int edge = CompletionNetwork::size;
+constexpr int most_levels = 4; // from the library or program up to the folder in which it was installed
 
 cv::Mat
 toMat (const std::vector<float>& observed)
@@ -91,6 +96,7 @@ loadCompletionNetwork (const std::string& path)
   {
     checkOnnx (model);
     model = inSinglePrecision (model);
+    if (path != completionNetworkFile ()) // that one is known
     {
       const ProcessSetting<OpenCvSettings> settings (1);
       const std::vector<float> nothing (static_cast<std::size_t> (CompletionNetwork::channels) * edge * edge * edge);
@@ -103,6 +109,29 @@ loadCompletionNetwork (const std::string& path)
   {
     throw IoError (path + ": it is no network of a completion: " + error.what ());
   }
+}
+
+std::string
+completionNetworkFile ()
+{
+  namespace fs = std::filesystem;
+  Dl_info info{};
+  if (dladdr (reinterpret_cast<const void*> (&completionNetworkFile), &info) == 0 || !info.dli_fname)
+    return "";
+  fs::path place = info.dli_fname;
+  if (place.is_relative ()) // a program's name may be without its folder
+    place = "/proc/self/exe";
+  std::error_code error;
+  place = fs::canonical (place, error);
+  for (int level = 0; level < most_levels && !error && place.has_relative_path (); ++level)
+  {
+    place = place.parent_path ();
+    const fs::path file = place / "share" / "pcl_cosection" / "completion.onnx";
+    if (fs::is_regular_file (file, error))
+      return file;
+    error.clear ();
+  }
+  return "";
 }
 
 } // namespace pcl::cosection

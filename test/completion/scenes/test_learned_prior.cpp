@@ -54,8 +54,10 @@ cubeOf (const RenderedView& view)
 class Oracle : public CompletionNetwork
 {
 public:
-  explicit Oracle (const Distance& answer, const Distance& asked)
+  /** \param[in] most_logit how sure it is */
+  explicit Oracle (const Distance& answer, const Distance& asked, double most_logit = 10.0)
       : answer_ (answer)
+      , most_logit_ (most_logit)
       , cube_ (cubeOf (seenFromTheFront (asked)))
   {}
 
@@ -69,7 +71,7 @@ public:
       for (int j = 0; j < size; ++j)
         for (int i = 0; i < size; ++i)
           logits[CompletionCube::index (i, is_mirrored ? size - 1 - j : j, k)] = static_cast<float> (
-              std::clamp (-answer_ (cube_.center (i, j, k)) / cube_.voxel_size_m / 0.4, -10.0, 10.0));
+              std::clamp (-answer_ (cube_.center (i, j, k)) / cube_.voxel_size_m / 0.4, -most_logit_, most_logit_));
     return logits;
   }
 
@@ -77,6 +79,7 @@ public:
 
 private:
   Distance answer_;
+  double most_logit_;
   CompletionCube cube_;
   mutable int calls_ = 0;
 };
@@ -148,6 +151,17 @@ TEST (LearnedPrior, AnswersThatTheViewContradictsChangeNothing)
   EXPECT_FALSE (with.learned->used);
   EXPECT_EQ (with.mesh.vertices, without.mesh.vertices);
   EXPECT_EQ (with.mesh.triangles, without.mesh.triangles);
+}
+
+TEST (LearnedPrior, AnUnsureAnswerChangesLittle)
+{
+  const double without = meanError (completeWith (figure (), nullptr).mesh, figure ());
+  const auto gainWith = [&] (double most_logit) {
+    const ObjectResult result = completeWith (figure (), std::make_shared<Oracle> (figure (), figure (), most_logit));
+    EXPECT_TRUE (result.learned && result.learned->used);
+    return without - meanError (result.mesh, figure ());
+  };
+  EXPECT_LT (std::abs (gainWith (0.5)), 0.5 * gainWith (10.0));
 }
 
 TEST (LearnedPrior, AnswersOfWrongSizeAreErrors)

@@ -94,6 +94,15 @@ TEST (Proposals, WhatDoesNotExplainTheMeasurementsChangesNothing)
   EXPECT_EQ (with.mesh.triangles, without.mesh.triangles);
 }
 
+TEST (Proposals, WrongProportionsChangeNothing)
+{
+  const Distance taller = [] (const Eigen::Vector3d& p) { return figure () ({p.x (), p.y (), p.z () / 1.3}); };
+  const ObjectResult with = completeWith (figure (), {meshOf (taller)}), without = completeWith (figure (), {});
+  ASSERT_TRUE (with.proposal);
+  EXPECT_FALSE (with.proposal->used);
+  EXPECT_LT (meanError (with.mesh, figure ()), meanError (without.mesh, figure ()) + 0.0005);
+}
+
 TEST (Proposals, TheBestOfSeveralIsTaken)
 {
   const TriangleMesh wrong = meshOf (placed (box ({0.1, 0.01, 0.01}), Eigen::Vector3d (0.0, 0.0, 0.02)));

@@ -81,6 +81,10 @@ public:
  * \throws IoError why it cannot be read or run, or what is wrong with its shapes */
 PCL_COSECTION_EXPORT CompletionNetwork::ConstPtr loadCompletionNetwork (const std::string& path);
 
+/** \brief The file of the network that is installed with the library; empty if there is none. In the library
+ * pcl_cosection_dnn. */
+PCL_COSECTION_EXPORT std::string completionNetworkFile ();
+
 /** \brief Parameters of the minimisation. */
 struct PCL_COSECTION_EXPORT SolverOptions
 {
