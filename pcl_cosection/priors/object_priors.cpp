@@ -331,16 +331,15 @@ solvedAlone (const BodyEnergy& energy)
   return field;
 }
 
-/** \brief A proposal, if it explains the object about as well as what is expected without it; else it is not used. */
-TriangleMesh
-betterProposal (const ProposedShape& proposed, const SignedDistanceField& without, const Observation& object,
-                const ObjectSetting& setting, const std::vector<Eigen::Vector4d>& planes)
+/** \brief Whether a proposal explains the object about as well as what is expected without it; else it is not used. */
+bool
+isAsGood (const ProposedShape& proposed, const SignedDistanceField& without, const Observation& object,
+          const ObjectSetting& setting, const std::vector<Eigen::Vector4d>& planes)
 {
   const TriangleMesh other = extractIsoSurface (without, {true, setting.threads});
-  if (explainsAsWell (proposed, other, object, setting, nearestPlaneBelow (object, planes)))
-    return proposed.mesh;
-  object.proposed->best->is_used = false;
-  return {};
+  const bool is_as_good = explainsAsWell (proposed, other, object, setting, nearestPlaneBelow (object, planes));
+  object.proposed->best->is_used = is_as_good;
+  return is_as_good;
 }
 
 } // namespace
@@ -427,13 +426,6 @@ addPriors (const Observation& object, const ObjectSetting& setting, const std::v
   }
   const ProposedShape* proposed = usedProposal (object, setting, planes);
   const LearnedShape* learned = proposed || !vessels.empty () ? nullptr : usedCompletion (object, setting, planes);
-  const auto addShape = [&] (const TriangleMesh& shape) {
-    Proposal proposal (energy.grid.size ());
-    energy.facing = NormalBinOccupancy (energy.grid, object.points ());
-    addProposedShape (shape, !learned && wallOf (shape, energy.grid.voxel_size_m) > 0.0, energy, proposal);
-    addExpected (proposal);
-  };
-
   if (!proposed && !learned)
   {
     addExpected (proposal);
@@ -443,14 +435,18 @@ addPriors (const Observation& object, const ObjectSetting& setting, const std::v
   const EnergyProblem problem = energy.problem;
   const std::vector<std::uint8_t> expected = energy.expected;
   addExpected (proposal);
-  const TriangleMesh shape = learned
-                                 ? correctedShape (learned->completion, solvedAlone (energy), energy.options.threads)
-                                 : betterProposal (*proposed, solvedAlone (energy), object, setting, planes);
-  if (shape.empty ())
+  const SignedDistanceField without = solvedAlone (energy);
+  if (proposed && !isAsGood (*proposed, without, object, setting, planes))
     return;
   energy.problem = problem;
   energy.expected = expected;
-  addShape (shape);
+  energy.facing = NormalBinOccupancy (energy.grid, object.points ());
+  proposal = Proposal (energy.grid.size ());
+  if (proposed)
+    addProposedShape (proposed->mesh, energy, proposal);
+  else
+    addExpectedDistance (correctedDistance (learned->completion, without, energy.options.threads), energy, proposal);
+  addExpected (proposal);
 }
 
 } // namespace pcl::cosection

@@ -102,8 +102,8 @@ completedByNetwork (const CompletionNetwork& network, const std::vector<Oriented
   return result;
 }
 
-TriangleMesh
-correctedShape (const LearnedCompletion& learned, SignedDistanceField expected, int threads)
+SignedDistanceField
+correctedDistance (const LearnedCompletion& learned, SignedDistanceField expected, int threads)
 {
   const VoxelGrid& grid = expected.grid;
   const auto most_m = reliable_vox * static_cast<float> (learned.field.grid.voxel_size_m);
@@ -117,9 +117,25 @@ correctedShape (const LearnedCompletion& learned, SignedDistanceField expected, 
           value_m = std::clamp (value_m, -most_m, most_m) + *learned_m;
         }
   });
-  TriangleMesh mesh = withoutSmallParts (extractIsoSurface (expected, {true, threads}));
-  mesh.normals.clear ();
-  return mesh;
+  // The sum of two distances grows up to twice as fast as one.
+  SignedDistanceField distance = expected;
+  parallelFor (0, grid.dims.z (), threadsForVoxels (threads, grid.size ()), [&] (int k) {
+    for (int j = 0; j < grid.dims.y (); ++j)
+      for (int i = 0; i < grid.dims.x (); ++i)
+      {
+        const auto slopeAlong = [&] (const Eigen::Array3i& step) {
+          const Eigen::Array3i at (i, j, k), low = (at - step).max (0), high = (at + step).min (grid.dims.array () - 1);
+          const double length_m = grid.voxel_size_m * std::max (1, (high - low).sum ());
+          return (expected.values[grid.index (high[0], high[1], high[2])] -
+                  expected.values[grid.index (low[0], low[1], low[2])]) /
+                 length_m;
+        };
+        const double slope = Eigen::Vector3d (slopeAlong ({1, 0, 0}), slopeAlong ({0, 1, 0}), slopeAlong ({0, 0, 1}))
+                                 .norm ();
+        distance.values[grid.index (i, j, k)] /= static_cast<float> (std::max (1.0, slope));
+      }
+  });
+  return distance;
 }
 
 } // namespace pcl::cosection

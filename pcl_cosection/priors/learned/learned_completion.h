@@ -30,7 +30,8 @@ LearnedCompletion completedByNetwork (const CompletionNetwork& network, const st
 
 /** \brief What other priors expect, corrected where the network is sure: both are observers of each place, whose log
  * odds that there is matter are added.
- * \param[in] expected signed distance, metres, in the object's frame */
-TriangleMesh correctedShape (const LearnedCompletion& learned, SignedDistanceField expected, int threads);
+ * \param[in] expected signed distance, metres, in the object's frame
+ * \return about the distance near its zero set */
+SignedDistanceField correctedDistance (const LearnedCompletion& learned, SignedDistanceField expected, int threads);
 
 } // namespace pcl::cosection

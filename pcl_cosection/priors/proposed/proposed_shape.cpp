@@ -45,6 +45,30 @@ measuredObject (const Observation& object, const ObjectSetting& setting, const s
   return {object.points (), object.views, setting.hidden, resting, noise_vox * object.voxel_size_m};
 }
 
+/** \brief Expect a distance at a voxel that is not near data.
+ * \param[in] lacking_vox by how much a wall there is too thin
+ * \param[in] factor of the weight
+ * \return whether nothing else is to be said of the voxel: it is seen free, or not near data, or the distance is
+ * unknown */
+bool
+expectDistance (const SignedDistanceField& distance, float lacking_vox, float factor, std::size_t n,
+                const BodyEnergy& energy, Proposal& proposal)
+{
+  if (!distance.supported.empty () && distance.supported[n] == 0) // of an open mesh only near it
+    return true;
+  const auto vox = static_cast<float> (distance.values[n] / energy.grid.voxel_size_m);
+  proposal.unbounded[n] = vox < 1.0f;
+  proposal.surface[n] = std::abs (vox) < 1.0f;
+  if (energy.empty[n])
+    return true;
+  if (energy.data_distance_vox[n] < gap_vox)
+    return false;
+  proposal.weight[n] = factor * static_cast<float> (energy.options.beta_extent);
+  proposal.target[n] = std::clamp (vox - 0.5f * lacking_vox, -far_vox, far_vox); // as much on either side
+  proposal.least[n] = std::max (0.0f, proposal.target[n]);
+  return true;
+}
+
 } // namespace
 
 const ProposedShape*
@@ -116,7 +140,14 @@ wallOf (const TriangleMesh& shape, double voxel_size_m)
 }
 
 void
-addProposedShape (const TriangleMesh& shape, bool is_wall, BodyEnergy& energy, Proposal& proposal)
+addExpectedDistance (const SignedDistanceField& distance, const BodyEnergy& energy, Proposal& proposal)
+{
+  for (std::size_t n = 0; n < energy.grid.size (); ++n)
+    expectDistance (distance, 0.0f, proposal_weight, n, energy, proposal);
+}
+
+void
+addProposedShape (const TriangleMesh& shape, BodyEnergy& energy, Proposal& proposal)
 {
   const VoxelGrid& grid = energy.grid;
   const double reach_m = (far_vox + 2.0) * grid.voxel_size_m;
@@ -130,31 +161,20 @@ addProposedShape (const TriangleMesh& shape, bool is_wall, BodyEnergy& energy, P
     return static_cast<float> (std::clamp (beyond_m / grid.voxel_size_m, 0.0, least_wall_vox));
   };
   const auto beta = static_cast<float> (energy.options.beta_extent);
+  const bool is_wall = wallOf (shape, grid.voxel_size_m) > 0.0;
   parallelFor (0, grid.dims.z (), threadsForVoxels (energy.options.threads, grid.size ()), [&] (int k) {
     for (int j = 0; j < grid.dims.y (); ++j)
       for (int i = 0; i < grid.dims.x (); ++i)
       {
         const std::size_t n = grid.index (i, j, k);
-        const bool is_known = distance.supported.empty () || distance.supported[n] != 0; // of an open mesh only near it
-        if (!is_known)
-          continue;
         const auto vox = static_cast<float> (distance.values[n] / grid.voxel_size_m);
-        proposal.unbounded[n] = vox < 1.0f;
-        proposal.surface[n] = std::abs (vox) < 1.0f;
-        if (energy.empty[n])
-          continue;
-        const bool is_near = std::abs (vox) < near_vox;
+        const bool is_near = std::abs (vox) < near_vox && !energy.empty[n];
         const SurfaceDistance::Nearest nearest = is_near ? surface.nearest (grid.center (i, j, k))
                                                          : SurfaceDistance::Nearest ();
         const float lacking = is_near ? lackingAt (nearest) : 0.0f;
-        if (energy.data_distance_vox[n] >= gap_vox)
-        {
-          const float target = std::clamp (vox - 0.5f * lacking, -far_vox, far_vox); // as much on either side
-          proposal.weight[n] = (is_wall && is_near ? wall_weight : proposal_weight) * beta;
-          proposal.target[n] = target;
-          proposal.least[n] = std::max (0.0f, target);
+        const float factor = is_wall && is_near ? wall_weight : proposal_weight;
+        if (expectDistance (distance, lacking, factor, n, energy, proposal))
           continue;
-        }
         // Behind a measured surface its distance grows on, although the other side of a wall may be near.
         const float weight = energy.problem.weight[n], weighted_target = energy.problem.weighted_target[n];
         if (!is_near || weighted_target > 0.0f ||

@@ -57,8 +57,13 @@ const LearnedShape* learnedShape (const Observation& object, const ObjectSetting
  * some voxels, or open. */
 double wallOf (const TriangleMesh& shape, double voxel_size_m);
 
+/** \brief Expect a signed distance where nothing was measured.
+ * \param[in] distance metres, on the grid of the energy
+ * \param[in] energy with data term and free space */
+void addExpectedDistance (const SignedDistanceField& distance, const BodyEnergy& energy, Proposal& proposal);
+
 /** \brief Expect a proposed surface where nothing was measured, and behind a measured one, where a wall ends.
  * \param[in,out] energy with data term, free space, and which way the points face */
-void addProposedShape (const TriangleMesh& shape, bool is_wall, BodyEnergy& energy, Proposal& proposal);
+void addProposedShape (const TriangleMesh& shape, BodyEnergy& energy, Proposal& proposal);
 
 } // namespace pcl::cosection
