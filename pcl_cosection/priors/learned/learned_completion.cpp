@@ -20,6 +20,7 @@ constexpr float soft_vox = 0.4f; // of a logit: SOFT_VOX of tools/prior_training
 constexpr auto truncation = static_cast<float> (CompletionCube::truncation_vox);
 // Odds of exp (2) : 1 = 7.4 : 1 that the other priors are right about a place.
 constexpr float reliable_vox = 2.0f * soft_vox;
+constexpr float early_vox = 0.25f;  // networks end early what they do not know; of the cube
 constexpr double least_part = 0.05; // of the largest part's volume: less is a network's noise
 
 /** \brief The voxel that a mirror across the direction of view takes n to. */
@@ -106,7 +107,8 @@ SignedDistanceField
 correctedDistance (const LearnedCompletion& learned, SignedDistanceField expected, int threads)
 {
   const VoxelGrid& grid = expected.grid;
-  const auto most_m = reliable_vox * static_cast<float> (learned.field.grid.voxel_size_m);
+  const auto cube_voxel_m = static_cast<float> (learned.field.grid.voxel_size_m);
+  const float most_m = reliable_vox * cube_voxel_m, early_m = early_vox * cube_voxel_m;
   parallelFor (0, grid.dims.z (), threadsForVoxels (threads, grid.size ()), [&] (int k) {
     for (int j = 0; j < grid.dims.y (); ++j)
       for (int i = 0; i < grid.dims.x (); ++i)
@@ -114,7 +116,7 @@ correctedDistance (const LearnedCompletion& learned, SignedDistanceField expecte
         {
           // The log odds of a distance d in the cube's voxels are -d / soft_vox.
           float& value_m = expected.values[grid.index (i, j, k)];
-          value_m = std::clamp (value_m, -most_m, most_m) + *learned_m;
+          value_m = std::clamp (value_m, -most_m, most_m) + *learned_m - early_m;
         }
   });
   // The sum of two distances grows up to twice as fast as one.
