@@ -196,7 +196,10 @@ def torn_files(folder):
 
 
 def temporaries(folder):
-    return [f"{path.relative_to(folder)} is left" for path in sorted(folder.rglob(".*"))]
+    found = []
+    for place, folders, files in os.walk(folder):  # which a running program changes
+        found += [pathlib.Path(place, name).relative_to(folder) for name in folders + files if name.startswith(".")]
+    return [f"{path} is left" for path in sorted(found)]
 
 
 # --- Running --------------------------------------------------------------------------------------------------------

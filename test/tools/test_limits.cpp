@@ -163,6 +163,20 @@ TEST_F (Limits, FewerThreadsThanAreWanted)
   }
 }
 
+TEST_F (Limits, ADamagedInstalledNetwork)
+{
+  fs::create_directories (path ("bin"));
+  fs::create_directories (path ("share/pcl_cosection"));
+  const std::string program = path ("bin/pcl_cosection");
+  fs::copy_file (PCL_COSECTION_TOOL, program);
+  ASSERT_EQ (runIn ({}, {"ball.pcd", "without.ply"}, program), 0) << errors_;
+  EXPECT_EQ (errors_.find ("learned"), std::string::npos) << errors_;
+  write ("share/pcl_cosection/completion.onnx", "no network");
+  ASSERT_EQ (runIn ({}, {"ball.pcd", "damaged.ply"}, program), 0) << errors_;
+  EXPECT_NE (errors_.find ("the learned prior is off"), std::string::npos) << errors_;
+  EXPECT_EQ (test::readFile (path ("damaged.ply")), test::readFile (path ("without.ply")));
+}
+
 TEST_F (Limits, AFaceOfManyCorners)
 {
   constexpr int corners = 100000;
