@@ -4,6 +4,7 @@
 #include "continuation.h"
 #include "extent_prior.h"
 #include "extrusion.h"
+#include "fitted_profiles.h"
 #include "inferred_support_plane.h"
 #include "pcl_cosection/common/quantile.h"
 #include "pcl_cosection/priors/proposal.h"
@@ -12,7 +13,6 @@
 #include "pcl_cosection/priors/vessels/vessel_term.h"
 #include "pcl_cosection/volume/distance_transform.h"
 #include "resting_planes.h"
-#include <pcl/cosection/volume/iso_surface.h>
 
 #include <algorithm>
 #include <cmath>
@@ -24,51 +24,12 @@ namespace {
 
 constexpr std::size_t most_points = 10000;     // even subset of the points for inferring a plane
 constexpr double along_axis = 0.9;             // cosine: a round object stands on a plane across its axis
-constexpr std::ptrdiff_t least_ground = 20;    // background points seen in the cavity, which make a vessel a tube
 constexpr double hidden_foot_vox = 6.0;        // height of the lowest points from which a foot is hidden
 constexpr double wall_end_vox = 3.0;           // above the lowest points: their normals tell how a wall goes on ...
 constexpr double steep = 0.7;                  // ... if the component of the normal across is larger
 constexpr float expected_bound_weight = 10.0f; // of expected free space, in multiples of beta_extent
 constexpr std::size_t many_motions = 4;        // of a full turn; mirror planes have at most three on a plane
 constexpr double unmoved = 0.9;                // cosine of a direction with itself, moved
-
-/** \brief The shape with a profile that the points show; without floor if background was seen where a vessel would have
- * its floor.
- */
-ProfiledShape
-fitShape (const Observation& object, const ObjectSetting& setting, const std::optional<Eigen::Vector4d>& plane)
-{
-  const Profiles profiles{setting.priors.revolution, setting.priors.vessels};
-  if (!plane)
-    return ProfiledShape (object.points (), setting.is_alone, profiles);
-  const ProfiledShape shape (object.points (), *plane, profiles);
-  if (!(shape.wallThickness () > 0.0))
-    return shape;
-  const Eigen::Vector3d up = plane->head<3> ();
-  const double near_m = object.voxel_size_m;
-  const double floor_m = shape.wallThickness () + 2.0 * near_m;
-  const auto is_at_floor = [&] (const Eigen::Vector3d& p, double reach_m) {
-    return std::abs (heightOver (*plane, p)) < reach_m && shape.depthInCavity (p + floor_m * up) > near_m;
-  };
-  const auto ground = std::count_if (setting.background.begin (), setting.background.end (),
-                                     [&] (const OrientedPoint& p) {
-                                       return is_at_floor (setting.T_object_world * p.position.cast<double> (), near_m);
-                                     });
-  const auto floor = std::count_if (object.points ().begin (), object.points ().end (), [&] (const OrientedPoint& p) {
-    return is_at_floor (p.position.cast<double> (), floor_m);
-  });
-  return ground >= least_ground && ground > floor ? shape.withoutFloor () : shape;
-}
-
-const ProfiledShape&
-shapeOf (const Observation& object, const ObjectSetting& setting, const std::optional<Eigen::Vector4d>& plane)
-{
-  const Eigen::Vector4d p = plane.value_or (Eigen::Vector4d::Zero ());
-  const ShapeFits::key_type key = {p[0], p[1], p[2], p[3]};
-  const auto found = object.fits->find (key);
-  return found != object.fits->end () ? found->second
-                                      : object.fits->emplace (key, fitShape (object, setting, plane)).first->second;
-}
 
 /** \brief Mark voxels on rays without return as empty, for an object that was cut out of its scene. */
 void
@@ -182,20 +143,6 @@ addFoot (const Observation& object, const Eigen::Vector4d& plane, const Motions&
       extrusion.addTo (proposal, lowest_m - step_m);
       return;
     }
-}
-
-/** \brief The shapes with a profile on the planes on which an object rests, or one without a plane. */
-std::vector<ProfiledShape>
-profiledShapes (const Observation& object, const ObjectSetting& setting, const std::vector<Eigen::Vector4d>& resting)
-{
-  std::vector<ProfiledShape> shapes;
-  for (const Eigen::Vector4d& plane : resting)
-    shapes.push_back (shapeOf (object, setting, plane));
-  if (resting.empty ())
-    shapes.push_back (shapeOf (object, setting, std::nullopt));
-  shapes.erase (std::remove_if (shapes.begin (), shapes.end (), [] (const ProfiledShape& shape) { return !shape; }),
-                shapes.end ());
-  return shapes;
 }
 
 /** \brief Whether motions tell how far an object reaches along a direction: a full turn does that moves it, mirror
@@ -331,17 +278,6 @@ solvedAlone (const BodyEnergy& energy)
   return field;
 }
 
-/** \brief Whether a proposal explains the object about as well as what is expected without it; else it is not used. */
-bool
-isAsGood (const ProposedShape& proposed, const SignedDistanceField& without, const Observation& object,
-          const ObjectSetting& setting, const std::vector<Eigen::Vector4d>& planes)
-{
-  const TriangleMesh other = extractIsoSurface (without, {true, setting.threads});
-  const bool is_as_good = explainsAsWell (proposed, other, object, setting, nearestPlaneBelow (object, planes));
-  object.proposed->best->is_used = is_as_good;
-  return is_as_good;
-}
-
 } // namespace
 
 double
@@ -380,12 +316,14 @@ boxDownToPlanes (const Observation& object, const ObjectSetting& setting, const 
     for (const Eigen::Vector4d& plane : planes)
       for (const OrientedPoint& point : continuedBehindOthers (object, plane).points)
         box.extend (point.position.cast<double> ());
-  const ProposedShape* proposed = usedProposal (object, setting, planes);
-  const LearnedShape* learned = proposed ? nullptr : usedCompletion (object, setting, planes);
-  for (const TriangleMesh* mesh : {proposed ? &proposed->mesh : nullptr, learned ? &learned->completion.mesh : nullptr})
-    if (mesh)
-      for (const Eigen::Vector3f& vertex : mesh->vertices)
-        box.extend (vertex.cast<double> ());
+  const auto extend = [&] (const TriangleMesh& guessed) {
+    for (const Eigen::Vector3f& vertex : guessed.vertices)
+      box.extend (vertex.cast<double> ());
+  };
+  if (const ProposedShape* proposed = usedProposal (object, setting, planes))
+    extend (proposed->mesh);
+  else if (const LearnedShape* learned = usedCompletion (object, setting, planes))
+    extend (learned->completion.mesh);
   return box;
 }
 
@@ -436,14 +374,16 @@ addPriors (const Observation& object, const ObjectSetting& setting, const std::v
   const std::vector<std::uint8_t> expected = energy.expected;
   addExpected (proposal);
   const SignedDistanceField without = solvedAlone (energy);
-  if (proposed && !isAsGood (*proposed, without, object, setting, planes))
+  if (proposed && !keepIfAsGood (without, object, setting, planes))
     return;
   energy.problem = problem;
   energy.expected = expected;
-  energy.facing = NormalBinOccupancy (energy.grid, object.points ());
   proposal = Proposal (energy.grid.size ());
   if (proposed)
+  {
+    energy.facing = NormalBinOccupancy (energy.grid, object.points ());
     addProposedShape (proposed->mesh, energy, proposal);
+  }
   else
     addExpectedDistance (correctedDistance (learned->completion, without, energy.options.threads), energy, proposal);
   addExpected (proposal);

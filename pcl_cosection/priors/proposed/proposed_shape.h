@@ -42,11 +42,13 @@ struct ProposedShapes
 const ProposedShape* proposedShape (const Observation& object, const ObjectSetting& setting,
                                     const std::vector<Eigen::Vector4d>& planes);
 
-/** \brief Whether a proposed shape explains about as many of an object's points as another mesh does: the noise is the
- * same for both.
- * \param[in] plane on which it stands */
-bool explainsAsWell (const ProposedShape& shape, const TriangleMesh& other, const Observation& object,
-                     const ObjectSetting& setting, const std::optional<Eigen::Vector4d>& plane);
+/** \brief Use the best proposal only if it explains about as many of an object's points as its shape without proposals
+ * does: the noise is the same for both.
+ * \param[in] without signed distance of that shape
+ * \param[in] planes on which it may stand
+ * \return whether it is used */
+bool keepIfAsGood (const SignedDistanceField& without, const Observation& object, const ObjectSetting& setting,
+                   const std::vector<Eigen::Vector4d>& planes);
 
 /** \brief The object as the network of the learned prior completes it; null if there is none, no view, or nothing is
  * expected. \param[in] plane on which it stands */
