@@ -24,6 +24,8 @@ std::vector<Eigen::Matrix<Real, 2, 1>>
 convexHull (std::vector<Eigen::Matrix<Real, 2, 1>> points)
 {
   using Point = Eigen::Matrix<Real, 2, 1>;
+  if (points.empty ())
+    return points;
   std::sort (points.begin (), points.end (),
              [] (const Point& a, const Point& b) { return a.x () < b.x () || (a.x () == b.x () && a.y () < b.y ()); });
   std::vector<Point> hull;

@@ -1,6 +1,8 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <pcl/cosection/common/triangle_mesh.h>
+
 #include <Eigen/Geometry>
 
 #include <cmath>
@@ -12,6 +14,14 @@ inline Eigen::Vector3d
 areaVector (const Eigen::Vector3d& p, const Eigen::Vector3d& q, const Eigen::Vector3d& r)
 {
   return (q - p).cross (r - p);
+}
+
+/** \brief That of a triangle of a mesh. */
+inline Eigen::Vector3d
+areaVector (const TriangleMesh& mesh, const TriangleMesh::Triangle& triangle)
+{
+  const auto corner = [&] (int n) { return mesh.vertices[triangle[n]].cast<double> (); };
+  return areaVector (corner (0), corner (1), corner (2));
 }
 
 /** \brief 4 sqrt (3) area / sum of squared sides of the triangle with that area vector: 1 for equilateral triangles,

@@ -2,6 +2,7 @@
 #include <pcl/cosection/io/mesh_io.h>
 
 #include "pcl_cosection/common/files.h"
+#include "pcl_cosection/common/number_text.h"
 #include "pcl_cosection/io/lower_case.h"
 #include "pcl_cosection/mesh/mesh_checks.h"
 #include "vtk_errors.h"
@@ -17,8 +18,6 @@
 #include <vtkUnsignedCharArray.h>
 #include <vtkXMLImageDataWriter.h>
 
-#include <array>
-#include <charconv>
 #include <cstring>
 #include <limits>
 #include <locale>
@@ -110,40 +109,30 @@ encodeStl (const TriangleMesh& mesh, const Eigen::Vector3d& /*origin*/)
   return bytes;
 }
 
-/** \brief Appends a number as text, in full precision whatever the locale. */
-template <typename T>
 void
-appendNumber (std::string& text, T value)
+appendLine (std::string& text, const char* keyword, const std::string& values)
 {
-  std::array<char, 32> digits;
-  const auto result = std::to_chars (digits.data (), digits.data () + digits.size (), value);
-  text.append (digits.data (), result.ptr);
-}
-
-template <typename Vector>
-void
-appendVector (std::string& text, const char* keyword, const Vector& v)
-{
-  text += keyword;
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    text += ' ';
-    appendNumber (text, v[axis]);
-  }
+  ((text += keyword) += ' ') += values;
   text += '\n';
 }
 
+/** \brief Text, with normals; colours follow the coordinates, as many programs write them. */
 std::string
 encodeObj (const TriangleMesh& mesh, const Eigen::Vector3d& origin)
 {
+  constexpr float full = 255.0f;
   std::string text = "# metres\n";
-  for (const Eigen::Vector3f& v : mesh.vertices)
-    if (origin.isZero (0.0))
-      appendVector (text, "v", v);
-    else
-      appendVector (text, "v", (v.cast<double> () + origin).eval ());
+  for (std::size_t n = 0; n < mesh.vertices.size (); ++n)
+  {
+    const Eigen::Vector3f& v = mesh.vertices[n];
+    std::string values = origin.isZero (0.0) ? numbersText (v) : numbersText ((v.cast<double> () + origin).eval ());
+    if (!mesh.colours.empty ())
+      for (const std::uint8_t channel : mesh.colours[n])
+        appendNumber (values += ' ', static_cast<float> (channel) / full);
+    appendLine (text, "v", values);
+  }
   for (const Eigen::Vector3f& normal : mesh.normals)
-    appendVector (text, "vn", normal);
+    appendLine (text, "vn", numbersText (normal));
   for (const auto& triangle : mesh.triangles)
   {
     text += 'f';

@@ -3,36 +3,20 @@
 
 #include "triangle_tree.h"
 
+#include "pcl_cosection/mesh/area_samples.h"
+
 #include <pcl/cosection/common/export.h>
 #include <pcl/cosection/common/triangle_mesh.h>
 
 #include <Eigen/Geometry>
 
-#include <cstddef>
-#include <cstdint>
 #include <memory>
 #include <vector>
 
 namespace pcl::cosection {
 
-/** \brief \throws InvalidArgument if a triangle refers to a vertex that does not exist, or to one that is not finite.
- * \throws DegenerateInput if the mesh has no triangles, or none of any area
- * \param[in] name what the message calls the mesh */
-PCL_COSECTION_EXPORT void requireSurface (const TriangleMesh& mesh, const char* name = "mesh");
-
-/** \brief The area of a mesh, square metres. */
-PCL_COSECTION_EXPORT double surfaceArea (const TriangleMesh& mesh);
-
 /** \brief The box around all vertices, of triangles or not. */
 PCL_COSECTION_EXPORT Eigen::AlignedBox3d vertexBox (const TriangleMesh& mesh);
-
-/** \brief Points on a mesh, uniform by area and independent of each other: the same for the same \a seed everywhere.
- *
- * Triangles by their share of the area, points in them by R. Osada et al., "Shape Distributions", TOG 2002.
- * \return \a count points, metres, in the frame of the mesh
- * \throws InvalidArgument, DegenerateInput as requireSurface () */
-PCL_COSECTION_EXPORT std::vector<Eigen::Vector3d> sampleSurface (const TriangleMesh& mesh, std::size_t count,
-                                                                 std::uint64_t seed = 0);
 
 /** \brief The exact distance of points to the triangles of a mesh, unsigned, metres.
  *
