@@ -14,6 +14,7 @@ packages=(
   libvtk9-dev
   libeigen3-dev
   libpng-dev
+  libqhull-dev
   libopencv-dev
   libonnx-dev
   libprotobuf-dev
@@ -29,6 +30,10 @@ packages=(
   # tests, benchmarks, documentation
   libgtest-dev
   libbenchmark-dev
+  libmujoco-dev
+  liburdfdom-dev
+  libsdformat-dev
+  libbullet-dev
   chromium
   clang-format
   clang-tidy

@@ -29,6 +29,7 @@ ROOMS = [
     ["mesh"],
     ["volume"],
     ["io"],
+    ["physics"],
     ["rendering"],
     ["view"],
     ["energy"],

@@ -76,6 +76,7 @@ CASES = [
     Case("simulate", "pcl_cosection_simulate --json OUT/sim.json SCENE OUT/data"),
     Case("simulate tables", "pcl_cosection_simulate --json OUT/sim.json --meshes DATA/gt-mesh --scenes 1 OUT/scenes"),
     Case("fusion", f"pcl_cosection_fusion {FUSE} --save-keyframes --json OUT/f.json DATA OUT/run"),
+    Case("export", "pcl_cosection_export --format mjcf --format urdf --format gltf --format usda RUN OUT/scene"),
     Case("report", "pcl_cosection_report -o OUT/report.html RUN"),
     Case("evaluate mesh", "pcl_cosection_evaluate mesh --samples 200 --json OUT/m.json --csv OUT/m.csv --error-mesh "
                           "OUT/m.ply RUN/mesh/object_1.ply RUN/mesh/object_1.ply"),
@@ -90,7 +91,7 @@ CASES = [
 TEXTS = ("--help", "--version", "--list-presets", "table")
 TEXT_CASES = [Case(f"{program[12:]} {text}".strip(), f"{program} {text}")
               for program in ("pcl_cosection", "pcl_cosection_segment", "pcl_cosection_simulate", "pcl_cosection_fusion",
-                              "pcl_cosection_report", "pcl_cosection_evaluate", "pcl_cosection_viewer")
+                              "pcl_cosection_report", "pcl_cosection_evaluate", "pcl_cosection_export", "pcl_cosection_viewer")
               for text in ("--help", "--version")]
 TEXT_CASES += [Case("simulate --list-presets", "pcl_cosection_simulate --list-presets"),
                Case("simulate --print-preset", "pcl_cosection_simulate --print-preset table")]

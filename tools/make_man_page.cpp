@@ -5,6 +5,7 @@
 
 #include "command_line.h"
 #include "evaluation_commands.h"
+#include "export_command_line.h"
 #include "fusion_command_line.h"
 #include "report_command_line.h"
 #include "segment_command_line.h"
@@ -35,6 +36,8 @@ main (int argc, char** argv)
     print (completionText (), declareOptions);
   else if (program == "pcl_cosection_evaluate")
     std::cout << evaluationManPage ();
+  else if (program == "pcl_cosection_export")
+    print (exportText (), declareExportOptions);
   else if (program == "pcl_cosection_fusion")
     print (fusionText (), declareFusionOptions);
   else if (program == "pcl_cosection_report")

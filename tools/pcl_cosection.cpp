@@ -3,6 +3,7 @@
 // Completes the hidden surfaces of the objects in PCD views; see pcl_cosection --help.
 
 #include "command_line.h"
+#include "export_report.h"
 #include "method_json.h"
 #include "output_files.h"
 #include "output_target.h"
@@ -21,6 +22,7 @@
 
 #include <iomanip>
 #include <sstream>
+#include <tuple>
 #include <utility>
 
 using namespace pcl::cosection;
@@ -87,9 +89,7 @@ parameters (const Settings& settings)
   Json result;
   result["preset"] = settings.preset.empty () ? "default" : settings.preset;
   addMethod (settings.method, result);
-  result["planes"] = Json::array ();
-  for (const Eigen::Vector4d& p : settings.planes)
-    result["planes"].push_back ({p[0], p[1], p[2], p[3]});
+  result["planes"] = planesJson (settings.planes);
   result["free_space"] = settings.free_space;
   result["obstacles"] = settings.obstacles;
   result["object_trajectories"] = Json::object ();
@@ -127,6 +127,7 @@ summaryJson (const Settings& settings, const SceneResult& result, const Eigen::V
           objectJson (object, settings.object_trajectories.count (object.id) == 0 ? origin : Eigen::Vector3d::Zero ()));
     else
       summary["failed"].push_back ({{"id", object.id}, {"error", object.error}});
+  summary["support_planes"] = planesJson (result.planes, origin);
   summary["warnings"] = warnings;
   return (summary);
 }
@@ -150,8 +151,8 @@ loadNetwork (Settings& settings, std::vector<std::string>& warnings)
     }
 }
 
-/** \brief Read, complete, write. \return whether every object succeeded */
-bool
+/** \brief Read, complete, write. \return whether every object succeeded, and whether any did */
+std::pair<bool, bool>
 complete (Settings settings, const OutputTarget& target, std::vector<std::string>& warnings, Terminal& terminal)
 {
   const pcl::StopWatch total;
@@ -181,16 +182,14 @@ complete (Settings settings, const OutputTarget& target, std::vector<std::string
   warnings.insert (warnings.end (), result.warnings.begin (), result.warnings.end ());
   simplify (settings.max_faces, result);
   bool all_good = true;
-  for (ObjectResult& object : result.objects)
-  {
+  for (const ObjectResult& object : result.objects)
     if (object.error.empty ())
-    {
       terminal.result (summaryLine (object));
-      continue;
-    }
+  for (const std::string& failure : failureTexts (result.objects))
+  {
     all_good = false;
-    warnings.push_back ("object " + std::to_string (object.id) + ": " + object.error);
-    terminal.error (warnings.back ());
+    warnings.push_back (failure);
+    terminal.error (failure);
   }
   for (const std::string& file : target.write (result, origin))
     terminal.result ("wrote " + file);
@@ -198,11 +197,10 @@ complete (Settings settings, const OutputTarget& target, std::vector<std::string
   std::map<std::string, double> timings_s = result.timings_s;
   timings_s["read"] = read_s;
   timings_s["total"] = total.getTimeSeconds ();
-  if (!settings.json.empty ())
-    saveJson (summaryJson (settings, result, origin, timings_s, warnings), settings.json);
+  target.writeSummary (summaryJson (settings, result, origin, timings_s, warnings));
   for (const auto& [stage, seconds] : timings_s)
     terminal.detail (stage + ": " + std::to_string (seconds) + " s");
-  return (all_good);
+  return {all_good, anyCompleted (result)};
 }
 
 bool
@@ -211,9 +209,10 @@ run (const Settings& settings, Terminal& terminal)
   catchInterruptions ();
   const OutputTarget target (settings);
   std::vector<std::string> warnings;
+  bool all_good = false, any = false;
   try
   {
-    return (complete (settings, target, warnings, terminal));
+    std::tie (all_good, any) = complete (settings, target, warnings, terminal);
   }
   catch (const Cancelled&)
   {
@@ -221,9 +220,13 @@ run (const Settings& settings, Terminal& terminal)
   }
   catch (const std::exception& error)
   {
-    saveFailure (describe (error, out_of_memory), parameters (settings), warnings, {settings.json});
+    saveFailure (describe (error, out_of_memory), parameters (settings), warnings,
+                 {settings.json, target.formerSummary ()});
     throw;
   }
+  if (any)
+    exportBeside (settings.output, settings.exports, settings.threads, terminal);
+  return (all_good);
 }
 
 } // namespace

@@ -1,5 +1,6 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
-// Compares reconstructed meshes, trajectories and whole runs with the truth; see pcl_cosection_evaluate --help.
+// Compares reconstructed meshes, trajectories and whole runs with the truth, and simulates scenes; see
+// pcl_cosection_evaluate --help.
 
 #include "arguments.h"
 #include "evaluation_commands.h"
@@ -19,7 +20,7 @@ run (int argc, const char* const* argv, Terminal& terminal)
   {
     std::cout << evaluationHelp () << std::flush;
     if (argc == 1)
-      throw UsageError ("a command is missing: mesh, trajectory, run or views");
+      throw UsageError ("a command is missing: mesh, trajectory, run, views or stability");
     return;
   }
   if (word == "--version")
@@ -35,10 +36,10 @@ run (int argc, const char* const* argv, Terminal& terminal)
     words.push_back (command.word);
   }
   if (word[0] == '-')
-    throw UsageError ("the command must come first: mesh, trajectory, run or views; it is " + word);
-  throw UsageError (
-      "unknown command " + word +
-      (nearestName (word, words).empty () ? "; known are mesh, trajectory, run and views" : suggestion (word, words)));
+    throw UsageError ("the command must come first: mesh, trajectory, run, views or stability; it is " + word);
+  throw UsageError ("unknown command " + word +
+                    (nearestName (word, words).empty () ? "; known are mesh, trajectory, run, views and stability"
+                                                        : suggestion (word, words)));
 }
 
 } // namespace

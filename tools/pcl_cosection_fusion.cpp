@@ -2,9 +2,11 @@
 
 // Tracks and completes the objects of an RGB-D sequence; see pcl_cosection_fusion --help.
 
+#include "export_report.h"
 #include "fusion_command_line.h"
 #include "fusion_outputs.h"
 #include "live_view.h"
+#include "method_json.h"
 #include "run_program.h"
 
 #include <pcl/cosection/common/error.h>
@@ -16,6 +18,7 @@
 #include <algorithm>
 #include <map>
 #include <sstream>
+#include <tuple>
 
 using namespace pcl::cosection;
 
@@ -101,12 +104,12 @@ tellOutcome (FusionResult& result, Terminal& terminal)
       const auto fused = result.objects.find (object.id);
       terminal.result (summaryLine (object, fused == result.objects.end () ? std::nullopt : fused->second.best_class));
     }
-    else
-    {
-      all_good = false;
-      result.warnings.push_back ("object " + std::to_string (object.id) + ": " + object.error);
-      terminal.error (result.warnings.back ());
-    }
+  for (const std::string& failure : failureTexts (result.scene.objects))
+  {
+    all_good = false;
+    result.warnings.push_back (failure);
+    terminal.error (failure);
+  }
   if (all_good && result.scene.background.empty () &&
       std::none_of (result.scene.objects.begin (), result.scene.objects.end (),
                     [] (const ObjectResult& object) { return (object.error.empty ()); }))
@@ -126,8 +129,8 @@ tellOutcome (FusionResult& result, Terminal& terminal)
   return (all_good);
 }
 
-/** \return whether every object succeeded */
-bool
+/** \return whether every object succeeded, and whether any did */
+std::pair<bool, bool>
 fuse (const FusionSettings& settings, FusionOutputs& outputs, Terminal& terminal)
 {
   const pcl::StopWatch total;
@@ -182,7 +185,7 @@ fuse (const FusionSettings& settings, FusionOutputs& outputs, Terminal& terminal
   terminal.result (text.str ());
   for (const auto& [stage, seconds] : result.timings_s)
     terminal.detail (stage + ": " + std::to_string (seconds) + " s");
-  return (all_good);
+  return {all_good, anyCompleted (result.scene)};
 }
 
 bool
@@ -190,9 +193,10 @@ run (const FusionSettings& settings, Terminal& terminal)
 {
   catchInterruptions ();
   FusionOutputs outputs (settings);
+  bool all_good = false, any = false;
   try
   {
-    return (fuse (settings, outputs, terminal));
+    std::tie (all_good, any) = fuse (settings, outputs, terminal);
   }
   catch (const Cancelled&)
   {
@@ -203,6 +207,9 @@ run (const FusionSettings& settings, Terminal& terminal)
     outputs.writeFailure (describe (error, out_of_memory));
     throw;
   }
+  if (any)
+    exportBeside (settings.output, settings.exports, settings.threads, terminal);
+  return (all_good);
 }
 
 } // namespace

@@ -1,10 +1,12 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 
-// Bytes as summary.json of a run, as the report and the viewer read it, or as a viewpoint; the first line says which.
+// Bytes as summary.json of a run, as the report and the viewer read it, as that of a result that is exported, or as a
+// viewpoint; the first line says which.
 
 #include "fuzz_target.h"
 #include "memory_file.h"
 
+#include "completed_result.h"
 #include "report_page.h"
 #include "scene_data.h"
 
@@ -81,6 +83,31 @@ readSummary (const std::string& bytes)
   return (viewRun (path));
 }
 
+/** \brief What the export makes of a tetrahedron with a summary. */
+bool
+readResult (const std::string& bytes)
+{
+  static fuzz::MemoryFolder folder;
+  static const bool is_filled = [] {
+    folder.set ("object_1.ply", "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\n"
+                                "property float z\nelement face 4\nproperty list uchar int vertex_indices\n"
+                                "end_header\n0 0 0\n0.1 0 0\n0 0.1 0\n0 0 0.1\n3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n");
+    return (true);
+  }();
+  static_cast<void> (is_filled);
+  folder.set ("summary.json", bytes);
+  const CompletedResult result = readCompletedResult (folder.path ());
+  requireMessages (result.warnings);
+  PhysicsOptions options;
+  options.threads = 1;
+  const PhysicalScene scene = buildPhysicalScene (result.scene, options);
+  requireMessages (scene.warnings);
+  for (const PhysicalBody& body : scene.bodies)
+    fuzz::require (!body.name.empty () && body.mass_kg > 0.0 && body.centre_m.allFinite () && !body.parts.empty (),
+                   "a body has a name, mass and parts");
+  return (true);
+}
+
 bool
 readViewpoint (const std::string& bytes)
 {
@@ -116,6 +143,9 @@ fuzz::seeds ()
 {"camera": {"width": 640, "height": 480, "fx": 525, "fy": 525, "cx": 319.5, "cy": 239.5}, "objects": [{"id": 3,
 "class": "7"}, {"id": 4, "closed": false}], "parameters": {"images": {"format": "tum", "depth_scale": 5000,
 "intrinsics": [525, 525, 319.5, 239.5]}}})",
+      R"(result.json
+{"objects": [{"id": 1, "voxel_size_m": 0.01, "class": "cup"}], "failed": [], "origin_m": [10.0, 0.0, 0.0],
+"support_planes": [[0.0, 0.0, 1.0, 0.0], [0.0, 1.0, 0.2, -0.5]], "parameters": {"object_trajectories": {}}})",
       R"(viewpoint.json
 {"eye": [1.0, -2.0, 0.5], "target": [0.0, 0.0, 0.0], "up": [0.0, 0.0, 1.0], "angle_deg": 40.0})"};
 }
@@ -127,6 +157,11 @@ fuzz::dictionary ()
   return {std::string (deep, '[') + std::string (deep, ']'),
           "summary.json\n",
           "viewpoint.json\n",
+          "result.json\n",
+          "\"support_planes\"",
+          "\"origin_m\"",
+          "\"voxel_size_m\"",
+          "[0, 0, 1e-300, 0]",
           "\"id\": 999999999",
           "\"id\": 1e300",
           "\"id\"",
@@ -166,10 +201,12 @@ bool
 fuzz::accepts (const std::string& input)
 {
   const auto [kind, bytes] = splitFirstLine (input);
-  if (kind != "summary.json" && kind != "viewpoint.json")
+  if (kind != "summary.json" && kind != "viewpoint.json" && kind != "result.json")
     return (false);
   try
   {
+    if (kind == "result.json")
+      return (readResult (bytes));
     return (kind == "summary.json" ? readSummary (bytes) : readViewpoint (bytes));
   }
   catch (const Error& error)

@@ -6,6 +6,7 @@
 #include "command_line.h"
 #include "common/temporary_folder.h"
 #include "evaluation_commands.h"
+#include "export_command_line.h"
 #include "fusion_command_line.h"
 #include "report_command_line.h"
 #include "scene_files.h"
@@ -117,6 +118,17 @@ TEST_F (Help, SegmentationIsExplained)
   declareSegmentationOptions (app, given);
   const std::string screen = helpText (app, segmentationText ());
   EXPECT_GE (expectEverywhere (app, screen, manPage (app, segmentationText ()), "pcl_cosection_segment.md"), 12);
+  for (const std::string& line : linesOf (screen))
+    EXPECT_LE (line.size (), 80u) << line;
+}
+
+TEST_F (Help, ExportIsExplained)
+{
+  CLI::App app;
+  ExportProgramSettings given;
+  declareExportOptions (app, given);
+  const std::string screen = helpText (app, exportText ());
+  EXPECT_GE (expectEverywhere (app, screen, manPage (app, exportText ()), "pcl_cosection_export.md"), 10);
   for (const std::string& line : linesOf (screen))
     EXPECT_LE (line.size (), 80u) << line;
 }

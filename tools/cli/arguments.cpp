@@ -179,6 +179,15 @@ verbosityOf (const GeneralOptions& given)
 }
 
 void
+requirePath (const std::vector<std::string>& paths, const std::string& name)
+{
+  if (paths.empty ())
+    throw UsageError (name + " is missing; see --help");
+  if (paths.size () > 1)
+    throw UsageError ("there is one argument too many: " + paths[1]);
+}
+
+void
 requirePaths (const std::vector<std::string>& paths, const std::string& first, const std::string& last,
               bool may_be_more)
 {

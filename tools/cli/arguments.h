@@ -40,6 +40,9 @@ std::string configurationFile (const std::vector<std::string>& arguments);
 /** \brief \throws UsageError if the program is to be quiet and verbose */
 Verbosity verbosityOf (const GeneralOptions& given);
 
+/** \brief \throws UsageError unless there is one path \param[in] name what it is */
+void requirePath (const std::vector<std::string>& paths, const std::string& name);
+
 /** \brief \throws UsageError unless there are two paths, or more if there may be more of the first
  * \param[in] first, last what they are */
 void requirePaths (const std::vector<std::string>& paths, const std::string& first, const std::string& last,

@@ -1,6 +1,8 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "command_line.h"
 
+#include "export_report.h"
+
 #include "option_values.h"
 #include "output_files.h"
 
@@ -82,6 +84,7 @@ declareOutput (CLI::App& app, Given& given)
       "(_outer)");
   output.addFlag ("--save-sdf", given.save_sdf, "Write each object's signed distance beside its mesh (.vti)");
   output.add ("--json FILE", given.json, "Write a summary for programs");
+  declareExport (output, given.exports);
 }
 
 void
@@ -103,6 +106,8 @@ setPaths (Settings& settings)
   const std::string mesh = meshExtension (settings.output);
   if (!mesh.empty () && !settings.format.empty () && settings.format != mesh)
     throw UsageError ("--format " + settings.format + " contradicts OUTPUT " + settings.output);
+  if (!mesh.empty () && !settings.exports.empty ())
+    throw UsageError ("--export needs a folder as OUTPUT, not " + settings.output);
   if (!mesh.empty () || settings.format.empty ())
     settings.format = mesh.empty () ? "ply" : mesh;
 }

@@ -30,6 +30,7 @@ struct Given : GivenMethod
   std::string format;                  ///< extension of the meshes
   std::string model;                   ///< network of the learned prior
   std::string json;                    ///< empty: no summary
+  std::vector<std::string> exports;    ///< formats for simulators
   std::size_t max_faces = 0;           ///< of each mesh; 0: as many as there are
   bool save_sdf = false, save_hull = false, save_bounds = false;
 };

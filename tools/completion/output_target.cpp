@@ -80,6 +80,8 @@ OutputTarget::isOwnName (const fs::path& name) const
   if (single_file_)
     return (name == fs::path (settings_.output).filename () ||
             (is_beside && stem.rfind (fs::path (settings_.output).stem (), 0) == 0));
+  if (name == "summary.json")
+    return (true);
   return ((is_sdf || extension == "." + settings_.format) && (stem == "background" || stem.rfind ("object_", 0) == 0));
 }
 
@@ -114,7 +116,8 @@ OutputTarget::refuseToOverwrite () const
     if (!settings_.json.empty () && isSameFile (input, settings_.json))
       throw UsageError (input + ": is an input that --json would overwrite; give another file");
   }
-  if (!settings_.json.empty () && isOwn (settings_.json))
+  const bool is_summary = !single_file_ && isSameFile (settings_.json, summaryPath ());
+  if (!settings_.json.empty () && !is_summary && isOwn (settings_.json))
     throw UsageError ("--json " + settings_.json + ": is a file for a mesh; give another one");
 }
 
@@ -156,6 +159,28 @@ OutputTarget::write (const SceneResult& result, const Eigen::Vector3d& origin) c
       saveSignedDistance (*object.signed_distance, files.back (), originOf (object));
     }
   return (files);
+}
+
+void
+OutputTarget::writeSummary (const nlohmann::ordered_json& summary) const
+{
+  if (!single_file_)
+    saveJson (summary, summaryPath ());
+  if (!settings_.json.empty () && (single_file_ || !isSameFile (settings_.json, summaryPath ())))
+    saveJson (summary, settings_.json);
+}
+
+std::string
+OutputTarget::formerSummary () const
+{
+  std::error_code failure;
+  return (!single_file_ && fs::exists (summaryPath (), failure) ? summaryPath () : std::string ());
+}
+
+std::string
+OutputTarget::summaryPath () const
+{
+  return ((fs::path (settings_.output) / "summary.json").string ());
 }
 
 std::string

@@ -5,6 +5,8 @@
 
 #include <pcl/cosection/surface/co_section.h>
 
+#include <nlohmann/json.hpp>
+
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -27,6 +29,13 @@ public:
    * \throws pcl::cosection::IoError */
   std::vector<std::string> write (const pcl::cosection::SceneResult& result, const Eigen::Vector3d& origin) const;
 
+  /** \brief Write the summary: summary.json beside meshes in a folder, and what --json asks for.
+   * \throws pcl::cosection::IoError */
+  void writeSummary (const nlohmann::ordered_json& summary) const;
+
+  /** \brief The summary of an earlier run in the folder; empty if there is none. */
+  std::string formerSummary () const;
+
 private:
   /** \brief Whether a file of this name in the folder of the output may be written. */
   bool isOwnName (const std::filesystem::path& name) const;
@@ -35,6 +44,8 @@ private:
 
   std::string objectPath (const pcl::cosection::ObjectResult& object, const std::string& extension, bool only,
                           const std::string& suffix = "") const;
+
+  std::string summaryPath () const; ///< of a folder
 
   const Settings& settings_;
   const bool single_file_;

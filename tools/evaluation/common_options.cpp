@@ -44,10 +44,13 @@ void
 executeCommand (const CommonOptions& given, const std::string& first, const std::string& second,
                 const std::function<void ()>& check, const std::function<bool ()>& work, Terminal& terminal)
 {
-  requirePaths (given.paths, first, second);
+  if (second.empty ())
+    requirePath (given.paths, first);
+  else
+    requirePaths (given.paths, first, second);
   for (const std::string& path : given.paths)
     if (path.empty ())
-      throw UsageError (first + " and " + second + " must not be empty");
+      throw UsageError (first + (second.empty () ? "" : " and " + second) + " must not be empty");
   terminal.setVerbosity (verbosityOf (given));
   std::vector<std::string> inputs = given.paths;
   inputs.push_back (configurationFile (given.arguments));

@@ -38,7 +38,8 @@ void declareSurfaceOptions (OptionGroup& group, SurfaceOptions& given);
 
 /** \brief Do the work of a command, unless a path would be overwritten by --json or --csv. If it throws, {"error": ...}
  * is left in the JSON file, if that was asked for.
- * \param[in] first, second what the two paths are \param[in] check \throws UsageError
+ * \param[in] first, second what the two paths are; an empty second: there is only one \param[in] check \throws
+ * UsageError
  * \param[in] work returns whether every file that is there could be read
  * \throws UsageError, pcl::cosection::Error */
 void executeCommand (const CommonOptions& given, const std::string& first, const std::string& second,

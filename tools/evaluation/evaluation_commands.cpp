@@ -4,6 +4,7 @@
 #include "help_text.h"
 #include "mesh_command.h"
 #include "run_command.h"
+#include "stability_command.h"
 #include "trajectory_command.h"
 #include "views_command.h"
 
@@ -18,8 +19,9 @@ evaluationText ()
       "pcl_cosection_evaluate",
       "compare reconstructed meshes and trajectories with the truth",
       "pcl_cosection_evaluate mesh|trajectory [OPTIONS] TRUTH ESTIMATE\n       pcl_cosection_evaluate run [OPTIONS] "
-      "OUTPUT DATASET\n       pcl_cosection_evaluate views [OPTIONS] TRUTH RESULT",
-      "Compares reconstructed meshes, trajectories and whole runs with the truth.",
+      "OUTPUT DATASET\n       pcl_cosection_evaluate views [OPTIONS] TRUTH RESULT\n       pcl_cosection_evaluate "
+      "stability [OPTIONS] SCENE",
+      "Compares reconstructed meshes, trajectories and whole runs with the truth, and simulates scenes.",
       {"Lengths are in metres in options, JSON and CSV, and in millimetres on the terminal. An unknown command, file "
        "or option is refused; what cannot be measured is said."},
       {
@@ -27,6 +29,7 @@ evaluationText ()
           {"pcl_cosection_evaluate trajectory groundtruth.txt camera.txt", "how near a trajectory is to the true one"},
           {"pcl_cosection_evaluate run output dataset", "all objects, the camera and the background of a run"},
           {"pcl_cosection_evaluate views scenes completed", "the completed objects of many scenes"},
+          {"pcl_cosection_evaluate stability scene", "which bodies of a scene for a simulator stay where they are"},
       },
       {"f-threshold = 0.005", "threads = 2"},
   };
@@ -56,7 +59,7 @@ const std::vector<EvaluationCommand>&
 evaluationCommands ()
 {
   static const std::vector<EvaluationCommand> commands = {meshCommand (), trajectoryCommand (), runCommand (),
-                                                          viewsCommand ()};
+                                                          viewsCommand (), stabilityCommand ()};
   return (commands);
 }
 

@@ -1,6 +1,7 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "fusion_command_line.h"
 
+#include "export_report.h"
 #include "option_values.h"
 
 #include <pcl/cosection/common/error.h>
@@ -66,7 +67,9 @@ declareRun (CLI::App& app, GivenFusion& given)
                     "same in any case");
   sequence.addFlag ("--live", given.live,
                     "Show it in a window while it runs, and the result then; without influence on that");
-  OptionGroup (app, "General").add ("--json FILE", given.json, "Write the summary to this file as well");
+  OptionGroup general (app, "General");
+  general.add ("--json FILE", given.json, "Write the summary to this file as well");
+  declareExport (general, given.exports);
 }
 
 void

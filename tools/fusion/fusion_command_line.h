@@ -19,10 +19,11 @@ struct GivenFusion : GivenMethod
 {
   std::vector<std::string> intrinsics, trajectory_values;
   std::string format, depth_dir, mask_ids, frames;
-  std::string camera_trajectory; ///< file; empty: the poses that come with the images, or tracking
-  std::string masks;             ///< folder; empty: there are no objects
-  std::string segmentation;      ///< what finds objects without masks; empty: nothing
-  std::string json;              ///< a further summary
+  std::string camera_trajectory;    ///< file; empty: the poses that come with the images, or tracking
+  std::string masks;                ///< folder; empty: there are no objects
+  std::string segmentation;         ///< what finds objects without masks; empty: nothing
+  std::string json;                 ///< a further summary
+  std::vector<std::string> exports; ///< formats for simulators
   GivenNetwork given_network;
   GivenIgnoredArea given_area;
   std::optional<double> depth_scale, max_depth;

@@ -259,6 +259,7 @@ FusionOutputs::writeSummary (const FusionResult& result) const
     }
     else
       summary["failed"].push_back ({{"id", object.id}, {"error", object.error}});
+  summary["support_planes"] = planesJson (result.scene.planes);
   summary["background"] = {{"vertices", result.scene.background.vertices.size ()}};
   for (const BackgroundResult& piece : result.scene.background_pieces)
   {

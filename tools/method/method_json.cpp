@@ -119,6 +119,15 @@ objectJson (const ObjectResult& object, const Eigen::Vector3d& origin)
   return (result);
 }
 
+Json
+planesJson (const std::vector<Eigen::Vector4d>& planes, const Eigen::Vector3d& origin)
+{
+  Json list = Json::array ();
+  for (const Eigen::Vector4d& p : planes)
+    list.push_back ({p[0], p[1], p[2], p[3] - p.head<3> ().dot (origin)});
+  return (list);
+}
+
 void
 addMethod (const CoSectionOptions& method, Json& result)
 {
@@ -139,6 +148,26 @@ addMethod (const CoSectionOptions& method, Json& result)
   result["tolerance_vox"] = method.solver.tolerance_vox;
   result["threads"] = method.threads;
   result["max_memory_bytes"] = method.max_memory_bytes;
+}
+
+std::vector<std::string>
+failureTexts (const std::vector<ObjectResult>& objects)
+{
+  std::vector<std::pair<std::string, std::string>> reasons; // and the objects
+  for (const ObjectResult& object : objects)
+    if (!object.error.empty ())
+    {
+      const auto found = std::find_if (reasons.begin (), reasons.end (),
+                                       [&] (const auto& reason) { return (reason.first == object.error); });
+      if (found == reasons.end ())
+        reasons.emplace_back (object.error, std::to_string (object.id));
+      else
+        found->second += ", " + std::to_string (object.id);
+    }
+  std::vector<std::string> texts;
+  for (const auto& [reason, ids] : reasons)
+    texts.push_back ((ids.find (',') == std::string::npos ? "object " : "objects ") + ids + ": " + reason);
+  return (texts);
 }
 
 void

@@ -14,8 +14,15 @@ nlohmann::ordered_json solverJson (const pcl::cosection::SolverSummary& solver);
 nlohmann::ordered_json objectJson (const pcl::cosection::ObjectResult& object,
                                    const Eigen::Vector3d& origin = Eigen::Vector3d::Zero ());
 
+/** \brief Planes n.x + d = 0 as lists of four numbers. \param[in] origin of their frame */
+nlohmann::ordered_json planesJson (const std::vector<Eigen::Vector4d>& planes,
+                                   const Eigen::Vector3d& origin = Eigen::Vector3d::Zero ());
+
 /** \brief Add the parameters of the method. */
 void addMethod (const pcl::cosection::CoSectionOptions& method, nlohmann::ordered_json& parameters);
+
+/** \brief Why objects could not be completed, a line for each reason: "object 3: ..." or "objects 1, 2: ...". */
+std::vector<std::string> failureTexts (const std::vector<pcl::cosection::ObjectResult>& objects);
 
 /** \brief Save the summary of a run that failed as a whole, without objects and with the field error. Does nothing if
  * it cannot be written. */

@@ -1,8 +1,6 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "run_folder.h"
 
-#include "pcl_cosection/common/files.h"
-#include "pcl_cosection/common/json_depth.h"
 #include "pcl_cosection/volume/mesh_distance/mesh_surface.h"
 #include <pcl/cosection/common/error.h>
 #include <pcl/cosection/io/mesh_io.h>
@@ -10,7 +8,6 @@
 #include <sys/stat.h>
 
 #include <algorithm>
-#include <cmath>
 #include <ctime>
 #include <filesystem>
 #include <map>
@@ -116,20 +113,17 @@ readSummary (RunFolder& run)
     run.notes.push_back (path.string () + " is missing: the run was interrupted, or these are not all of its files");
     return;
   }
-  std::string text;
   try
   {
-    text = readBytes (path.string ());
+    run.summary = readJsonObject (path.string ());
   }
   catch (const IoError& error)
   {
     run.notes.push_back (std::string (error.what ()) + "; its numbers are left out");
     return;
   }
-  run.summary = nestsDeeply (text) ? Json () : Json::parse (text, nullptr, false);
   if (!run.summary.is_object ())
   {
-    run.summary = Json ();
     run.notes.push_back (path.string () + ": is not JSON as pcl_cosection_fusion writes it; its numbers are left out");
     return;
   }
@@ -182,51 +176,6 @@ noteWhatIsMissing (RunFolder& run)
 }
 
 } // namespace
-
-const Json&
-member (const Json& json, const std::string& key)
-{
-  static const Json missing;
-  if (!json.is_object ())
-    return (missing);
-  const auto found = json.find (key);
-  return (found == json.end () ? missing : *found);
-}
-
-std::optional<double>
-numberIn (const Json& json, const std::string& key)
-{
-  const Json& value = member (json, key);
-  if (!value.is_number () || !std::isfinite (value.get<double> ()))
-    return (std::nullopt);
-  return (value.get<double> ());
-}
-
-std::optional<bool>
-flagIn (const Json& json, const std::string& key)
-{
-  const Json& value = member (json, key);
-  return (value.is_boolean () ? std::optional<bool> (value.get<bool> ()) : std::nullopt);
-}
-
-std::string
-textIn (const Json& json, const std::string& key)
-{
-  const Json& value = member (json, key);
-  return (value.is_string () ? value.get<std::string> () : std::string ());
-}
-
-std::vector<std::string>
-textsIn (const Json& json, const std::string& key)
-{
-  std::vector<std::string> texts;
-  const Json& list = member (json, key);
-  if (list.is_array ())
-    for (const Json& value : list)
-      if (value.is_string ())
-        texts.push_back (value.get<std::string> ());
-  return (texts);
-}
 
 RunFolder
 readRunFolder (const std::string& path)

@@ -1,6 +1,8 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "json_fields.h"
+
 #include <pcl/cosection/common/camera.h>
 #include <pcl/cosection/common/triangle_mesh.h>
 #include <pcl/cosection/evaluation/run_evaluation.h>
@@ -12,24 +14,6 @@
 #include <optional>
 #include <string>
 #include <vector>
-
-/** \brief The content of a file, in which fields may be missing or of another type. */
-using Json = nlohmann::ordered_json;
-
-/** \brief A member; null if it is missing. */
-const Json& member (const Json& json, const std::string& key);
-
-/** \brief A member that is a finite number. */
-std::optional<double> numberIn (const Json& json, const std::string& key);
-
-/** \brief A member that is true or false. */
-std::optional<bool> flagIn (const Json& json, const std::string& key);
-
-/** \brief A member that is text; empty if it is not. */
-std::string textIn (const Json& json, const std::string& key);
-
-/** \brief The texts in a member that is a list. */
-std::vector<std::string> textsIn (const Json& json, const std::string& key);
 
 /** \brief What pcl_cosection_fusion wrote of an object; what is missing is empty. */
 struct RunObject

@@ -80,7 +80,7 @@ TEST_F (Evaluate, NeedsACommand)
   EXPECT_EQ (run ({"mehs", "a.ply", "b.ply"}), 2);
   expectOneLine ("did you mean mesh?");
   EXPECT_EQ (run ({"frobnicate"}), 2);
-  expectOneLine ("known are mesh, trajectory, run and views");
+  expectOneLine ("known are mesh, trajectory, run, views and stability");
   EXPECT_EQ (run ({"--json", "a.json", "mesh"}), 2);
   expectOneLine ("the command must come first");
 }

@@ -1,0 +1,337 @@
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
+#include "pcl_cosection/physics/scene_builder.h"
+
+#include "pcl_cosection/common/convex_hull.h"
+#include "pcl_cosection/physics/background_parts.h"
+#include "pcl_cosection/physics/body_parts.h"
+#include "pcl_cosection/physics/resting.h"
+#include "pcl_cosection/physics/scene_frame.h"
+#include "pcl_cosection/physics/visual_mesh.h"
+
+#include <pcl/cosection/common/error.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <limits>
+#include <set>
+#include <sstream>
+
+namespace pcl::cosection {
+
+namespace {
+
+constexpr double touching_voxels = 2.0;      // what is nearer to a plane or another body than so many voxels touches it
+constexpr double flat_tolerance_m = 1e-5;    // of what lies on a plane, for rounding
+constexpr double noticeable_shift_m = 0.001; // of a centre of mass
+constexpr double lower_half = 0.5;
+constexpr double highest_gap = 0.5; // below a body that is taken for one that stands, of its height
+constexpr double flat_share = 0.25; // of a body's height, which is made flat at most
+
+/** \brief Letters, digits and underscores, and unlike all others. */
+std::string
+uniqueName (const std::string& text, std::set<std::string>& used)
+{
+  std::string plain = text;
+  for (char& c : plain)
+    if (std::isalnum (static_cast<unsigned char> (c)) == 0)
+      c = '_';
+  if (std::isdigit (static_cast<unsigned char> (plain[0])) != 0)
+    plain = "object_" + plain;
+  const std::string part = "_part_"; // and a number: how files call the parts of bodies
+  if (const std::size_t end = plain.find_last_not_of ("0123456789") + 1;
+      end >= part.size () && end < plain.size () && plain.compare (end - part.size (), part.size (), part) == 0)
+    plain += "_object";
+  std::string name = plain;
+  for (int n = 2; !used.insert (name).second; ++n)
+    name = plain + "_" + std::to_string (n);
+  return name;
+}
+
+/** \brief The volume of a closed mesh. \throws InvalidArgument naming the object */
+MassProperties
+massOf (const CompletedObject& object, const TriangleMesh& mesh)
+{
+  const std::string name = "object " + std::to_string (object.id) + ": ";
+  if (const MeshTopology topology = computeTopology (mesh); !topology.closed_manifold)
+    throw InvalidArgument (name + "its mesh is not closed (" + std::to_string (topology.boundary_edges) +
+                           " open edges): it has no volume");
+  const MassProperties mass = computeMassProperties (mesh);
+  if (!(mass.volume_m3 > 0.0))
+    throw InvalidArgument (name + "its mesh is turned inside out");
+  return mass;
+}
+
+std::string
+planeName (std::size_t number)
+{
+  return "support_" + std::to_string (number + 1);
+}
+
+/** \brief A plane as a body, as large as what is near it. */
+PhysicalPlane
+planeBody (const Eigen::Vector4d& plane, const CompletedScene& scene, const PhysicalScene& result, std::size_t number)
+{
+  PhysicalPlane body;
+  body.name = planeName (number);
+  const Eigen::Vector3d normal = plane.head<3> ();
+  body.T_scene_plane.linear () = Eigen::Quaterniond::FromTwoVectors (Eigen::Vector3d::UnitZ (), normal)
+                                     .toRotationMatrix ();
+  body.T_scene_plane.translation () = -plane[3] * normal;
+  const Eigen::Isometry3d T_plane_scene = body.T_scene_plane.inverse ();
+  const Eigen::Isometry3d T_plane_world = T_plane_scene * result.T_result_scene.inverse ();
+  Eigen::AlignedBox2d extent;
+  double voxel = 0.0, deepest = 0.0;
+  for (std::size_t n = 0; n < scene.objects.size (); ++n)
+  {
+    const PhysicalBody& object = result.bodies[n];
+    voxel = std::max (voxel, scene.objects[n].voxel_size_m);
+    for (const Eigen::Vector3f& vertex : object.visual.vertices)
+    {
+      const Eigen::Vector3d p = T_plane_scene * (object.T_scene_body * vertex.cast<double> ());
+      extent.extend (Eigen::Vector2d (p.head<2> ()));
+      deepest = std::min (deepest, p.z ());
+    }
+  }
+  const Eigen::AlignedBox2d objects = extent;
+  for (const Eigen::Vector3f& vertex : scene.background.vertices)
+    if (const Eigen::Vector3d p = T_plane_world * vertex.cast<double> (); std::abs (p.z ()) < touching_voxels * voxel)
+      extent.extend (Eigen::Vector2d (p.head<2> ()));
+  if (scene.background.vertices.empty ())
+    extent = {objects.min () - objects.sizes (), objects.max () + objects.sizes ()};
+  body.endless = deepest > -touching_voxels * voxel;
+  body.half_size_m = 0.5 * extent.sizes ();
+  body.T_scene_plane.translation () += body.T_scene_plane.linear () *
+                                       Eigen::Vector3d (extent.center ().x (), extent.center ().y (), 0.0);
+  return body;
+}
+
+/** \brief The plane that an object stands on: the one nearest to its lowest point, if that is near. */
+int
+planeBelow (const TriangleMesh& mesh, const std::vector<Eigen::Vector4d>& planes, const Eigen::Vector3d& up,
+            double reach_m)
+{
+  constexpr double level = 0.9; // cosine: steeper planes are walls
+  int nearest = -1;
+  for (std::size_t n = 0; n < planes.size (); ++n)
+    if (const double gap = std::abs (lowestOver (planes[n], mesh));
+        planes[n].head<3> ().dot (up) > level && gap < reach_m)
+    {
+      nearest = static_cast<int> (n);
+      reach_m = gap;
+    }
+  return nearest;
+}
+
+std::vector<Eigen::Vector3d>
+cornersOf (const std::vector<ConvexHull>& hulls)
+{
+  std::vector<Eigen::Vector3d> corners;
+  for (const ConvexHull& hull : hulls)
+    corners.insert (corners.end (), hull.corners.begin (), hull.corners.end ());
+  return corners;
+}
+
+/** \brief Move the centre of mass of what stands alone over what it stands on. */
+void
+makeStand (PhysicalBody& body, const BodyParts& parts, const Eigen::Vector4d& plane, bool may_lean,
+           std::vector<std::string>& warnings)
+{
+  const Stance stance = stanceOf (cornersOf (parts.hulls), plane, body.T_scene_body * body.centre_m, flat_tolerance_m);
+  for (const Eigen::Vector3d& foot : stance.feet)
+    body.feet.push_back (body.T_scene_body.inverse () * foot);
+  if (!stance.stands && !may_lean)
+    warnings.push_back (body.name + ": will fall over: its centre of mass is not over what it stands on");
+  if (!stance.stands || may_lean || stance.shift_m == 0.0)
+    return;
+  body.centre_m = body.T_scene_body.inverse () * stance.centre;
+  body.centre_shift_m = stance.shift_m;
+  if (stance.shift_m < noticeable_shift_m)
+    return;
+  std::ostringstream text;
+  text.precision (2);
+  text << body.name << ": its centre of mass was moved by " << 1000.0 * stance.shift_m << " mm, over what it stands on";
+  warnings.push_back (text.str ());
+}
+
+PhysicalBody
+bodyOf (const CompletedObject& object, const PhysicsOptions& options, const Eigen::Isometry3d& T_scene_world,
+        std::set<std::string>& names)
+{
+  PhysicalBody body;
+  body.id = object.id;
+  const std::string label = object.label.empty () ? "object" : object.label;
+  body.name = uniqueName (label + "_" + std::to_string (object.id), names);
+  const MassProperties mass = massOf (object, object.mesh);
+  const Eigen::Isometry3d T_scene_object = T_scene_world * object.T_world_object;
+  body.T_scene_body.translation () = T_scene_object * mass.centroid_m;
+  body.visual = moved (object.mesh, body.T_scene_body.inverse () * T_scene_object);
+  body.colour = meanColour (object.mesh, body.colour);
+  const auto given = options.masses_kg.find (object.id);
+  body.volume_m3 = mass.volume_m3;
+  body.mass_kg = given == options.masses_kg.end () ? options.density_kg_m3 * mass.volume_m3 : given->second;
+  const Eigen::Matrix3d& R = T_scene_object.linear ();
+  body.inertia = body.mass_kg / mass.volume_m3 * (R * mass.inertia * R.transpose ());
+  return body;
+}
+
+/** \brief The voxel size of the estimate, or else the mean length of the mesh's edges. */
+double
+voxelOf (const CompletedObject& object)
+{
+  if (object.voxel_size_m > 0.0)
+    return object.voxel_size_m;
+  double sum = 0.0;
+  for (const TriangleMesh::Triangle& t : object.mesh.triangles)
+    sum += (object.mesh.vertices[t[1]] - object.mesh.vertices[t[0]]).norm ();
+  return sum / static_cast<double> (object.mesh.triangles.size ());
+}
+
+/** \brief What an object's parts are made of. \throws InvalidArgument if there is no outer bound where one is needed */
+CollisionSource
+sourceOf (const CompletedObject& object, const PhysicsOptions& options, const Eigen::Isometry3d& T_scene_world)
+{
+  const bool outer = options.collision == CollisionShape::Outer;
+  if (outer && object.outer.empty ())
+    throw InvalidArgument ("object " + std::to_string (object.id) +
+                           ": has no outer bound; let pcl_cosection write it (--save-bounds)");
+  if (outer)
+    massOf (object, object.outer);
+  CollisionSource source;
+  source.mesh.vertices = outer ? object.outer.vertices : object.mesh.vertices;
+  source.mesh.triangles = outer ? object.outer.triangles : object.mesh.triangles;
+  source.mesh = movedMesh (std::move (source.mesh), T_scene_world * object.T_world_object);
+  source.estimate = outer ? moved (object.mesh, T_scene_world * object.T_world_object) : source.mesh;
+  source.voxel_size_m = voxelOf (object);
+  return source;
+}
+
+/** \brief Whether something of another body is below the middle of one, within its outline as seen from above. */
+bool
+isOverOther (const std::vector<CollisionSource>& sources, std::size_t self, const Eigen::Vector3d& up)
+{
+  const Eigen::Quaterniond vertical = Eigen::Quaterniond::FromTwoVectors (up, Eigen::Vector3d::UnitZ ());
+  std::vector<Eigen::Vector2d> points;
+  Eigen::AlignedBox3d box;
+  for (const Eigen::Vector3f& vertex : sources[self].mesh.vertices)
+  {
+    const Eigen::Vector3d p = vertical * vertex.cast<double> ();
+    box.extend (p);
+    points.emplace_back (p.head<2> ());
+  }
+  const std::vector<Eigen::Vector2d> outline = convexHull (points);
+  for (std::size_t other = 0; other < sources.size (); ++other)
+    if (other != self)
+      for (const Eigen::Vector3f& vertex : sources[other].mesh.vertices)
+        if (const Eigen::Vector3d p = vertical * vertex.cast<double> ();
+            p.z () < box.center ().z () && isInside (outline, Eigen::Vector2d (p.head<2> ())))
+          return true;
+  return false;
+}
+
+double
+heightAlong (const Eigen::Vector3d& up, const TriangleMesh& mesh)
+{
+  const Eigen::Vector4d ground (up.x (), up.y (), up.z (), 0.0);
+  return -lowestOver (-ground, mesh) - lowestOver (ground, mesh);
+}
+
+/** \brief Find what each body stands on, and make its bottom flat there. What touches nothing, and is no higher over a
+ * plane than half its height, was seen at rest, and its bottom was not seen: the outline of its lower half reaches down
+ * to the plane. */
+void
+standOnPlanes (const std::vector<Eigen::Vector4d>& planes, const Eigen::Vector3d& up,
+               std::vector<CollisionSource>& sources, PhysicalScene& result)
+{
+  for (std::size_t n = 0; n < sources.size (); ++n)
+  {
+    CollisionSource& source = sources[n];
+    PhysicalBody& body = result.bodies[n];
+    body.stands_on = planeBelow (source.mesh, planes, up, touching_voxels * source.voxel_size_m);
+    if (body.stands_on < 0 && !isOverOther (sources, n, up))
+      body.stands_on = planeBelow (source.mesh, planes, up, highest_gap * heightAlong (up, source.mesh));
+    if (body.stands_on < 0)
+      continue;
+    const Eigen::Vector4d& plane = planes[body.stands_on];
+    const double gap = std::max (0.0, lowestOver (plane, source.mesh));
+    const double height = heightAlong (plane.head<3> (), source.mesh);
+    if (!(-lowestOver (-plane, source.mesh) > gap)) // it is below the plane
+    {
+      body.stands_on = -1;
+      continue;
+    }
+    source.extended = gap >= touching_voxels * source.voxel_size_m;
+    const double band = source.extended ? lower_half * height : std::min (source.voxel_size_m, flat_share * height);
+    source.mesh = flattenedOn (plane, std::move (source.mesh), gap + band);
+    if (!source.extended)
+      continue;
+    std::ostringstream text;
+    text.precision (2);
+    text << body.name << ": ends " << 1000.0 * gap << " mm above what it must stand on; its parts reach down to that";
+    result.warnings.push_back (text.str ());
+  }
+}
+
+} // namespace
+
+void
+PhysicsOptions::validate () const
+{
+  if (!(density_kg_m3 > 0.0) || !std::isfinite (density_kg_m3))
+    throw InvalidArgument ("the density must be a number of kg/m^3 greater than 0");
+  for (const auto& [id, mass] : masses_kg)
+    if (!(mass > 0.0) || !std::isfinite (mass))
+      throw InvalidArgument ("the mass of object " + std::to_string (id) + " must be a number of kg greater than 0");
+  if (max_parts < 1)
+    throw InvalidArgument ("there must be at least one part for each object");
+  if (!(contact_tolerance_m >= 0.0))
+    throw InvalidArgument ("the contact tolerance must not be less than 0");
+}
+
+PhysicalScene
+buildPhysicalScene (const CompletedScene& scene, const PhysicsOptions& options)
+{
+  options.validate ();
+  if (scene.objects.empty ())
+    throw InvalidArgument ("there are no objects");
+  PhysicalScene result;
+  result.contact_tolerance_m = options.contact_tolerance_m;
+  const FrameOfScene frame = frameOfScene (scene, options.frame);
+  result.T_result_scene = frame.T_world_scene;
+  result.gravity = -standard_gravity * frame.up;
+  const Eigen::Isometry3d T_scene_world = frame.T_world_scene.inverse ();
+  std::set<std::string> names;
+  for (std::size_t n = 0; n < scene.planes.size (); ++n)
+    names.insert (planeName (n));
+  names.insert (background_name);
+  for (const CompletedObject& object : scene.objects)
+    result.bodies.push_back (bodyOf (object, options, T_scene_world, names));
+  std::vector<Eigen::Vector4d> planes;
+  for (const Eigen::Vector4d& plane : scene.planes)
+  {
+    const Eigen::Vector3d n = T_scene_world.linear () * plane.head<3> ();
+    planes.emplace_back (n.x (), n.y (), n.z (), plane[3] - n.dot (T_scene_world.translation ()));
+  }
+  for (std::size_t n = 0; n < planes.size (); ++n)
+    result.planes.push_back (planeBody (planes[n], scene, result, n));
+  if (planes.empty ())
+    result.warnings.emplace_back ("there is no support plane: objects will fall; give one to pcl_cosection (--plane)");
+
+  std::vector<CollisionSource> sources;
+  for (const CompletedObject& object : scene.objects)
+    sources.push_back (sourceOf (object, options, T_scene_world));
+  standOnPlanes (planes, frame.up, sources, result);
+  const std::vector<BodyParts> parts = divideBodies (sources, options);
+  for (std::size_t n = 0; n < sources.size (); ++n)
+  {
+    PhysicalBody& body = result.bodies[n];
+    if (body.stands_on >= 0)
+      makeStand (body, parts[n], planes[body.stands_on], parts[n].touches_others && !sources[n].extended,
+                 result.warnings);
+    setParts (parts[n], sources[n], options, body);
+  }
+  addBackground (scene, planes, parts, result);
+  return result;
+}
+
+} // namespace pcl::cosection

@@ -1,0 +1,24 @@
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
+
+// Makes rigid bodies of completed objects; see pcl_cosection_export --help.
+
+#include "export_command_line.h"
+#include "export_report.h"
+#include "run_program.h"
+
+namespace {
+
+bool
+run (const ExportProgramSettings& settings, Terminal& terminal)
+{
+  report (exportScene (settings.result, settings.output, settings), settings.output, terminal);
+  return (true);
+}
+
+} // namespace
+
+int
+main (int argc, char** argv)
+{
+  return (runProgram ({"pcl_cosection_export"}, argc, argv, parseExportCommandLine, run));
+}
