@@ -1,6 +1,8 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "pcl_cosection/physics/background_parts.h"
 
+#include "pcl_cosection/common/lattice_cells.h"
+#include "pcl_cosection/physics/object_solid.h"
 #include "pcl_cosection/physics/part_contacts.h"
 #include "pcl_cosection/physics/visual_mesh.h"
 
@@ -8,8 +10,9 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
+#include <cstdint>
 #include <map>
+#include <optional>
 
 namespace pcl::cosection {
 
@@ -20,26 +23,30 @@ constexpr double first_cell_voxels = 10.0; // edge of a patch
 constexpr double growth = 1.5;             // of patches, while there are too many
 constexpr std::size_t most_patches = 200;
 
-/** \brief Triangles that are not near planes, nor behind them. */
+/** \brief Triangles that are not near planes, nor behind them, and have numbers as coordinates. */
 std::vector<TriangleMesh::Triangle>
 remainder (const TriangleMesh& mesh, const std::vector<Eigen::Vector4d>& planes, double reach_m)
 {
-  std::vector<bool> is_in_plane (mesh.vertices.size (), false);
+  std::vector<bool> is_left_out (mesh.vertices.size (), false);
   for (std::size_t v = 0; v < mesh.vertices.size (); ++v)
+  {
+    is_left_out[v] = !mesh.vertices[v].allFinite ();
     for (const Eigen::Vector4d& plane : planes)
       if (plane.head<3> ().dot (mesh.vertices[v].cast<double> ()) + plane[3] < reach_m)
-        is_in_plane[v] = true;
+        is_left_out[v] = true;
+  }
   std::vector<TriangleMesh::Triangle> rest;
   for (const TriangleMesh::Triangle& t : mesh.triangles)
-    if (!is_in_plane[t[0]] && !is_in_plane[t[1]] && !is_in_plane[t[2]])
+    if (!is_left_out[t[0]] && !is_left_out[t[1]] && !is_left_out[t[2]])
       rest.push_back (t);
   return rest;
 }
 
-using Patches = std::map<std::array<int, 3>, std::vector<Eigen::Vector3d>>;
+using Patches = std::map<std::array<std::int64_t, 3>, std::vector<Eigen::Vector3d>>;
 
-/** \brief The points of triangles by cells of a grid: on the surface, and a voxel behind it. */
-Patches
+/** \brief The points of triangles by cells of a grid: on the surface, and a voxel behind it. \return nothing if these
+ * are too many cells, or too far away */
+std::optional<Patches>
 patchesOf (const TriangleMesh& mesh, const std::vector<TriangleMesh::Triangle>& triangles, double cell_m,
            double thickness_m)
 {
@@ -51,12 +58,15 @@ patchesOf (const TriangleMesh& mesh, const std::vector<TriangleMesh::Triangle>& 
       corners[n] = mesh.vertices[t[n]].cast<double> ();
     const Eigen::Vector3d normal = (corners[1] - corners[0]).cross (corners[2] - corners[0]).normalized ();
     const Eigen::Vector3d middle = (corners[0] + corners[1] + corners[2]) / 3.0;
-    std::array<int, 3> cell{};
-    for (int axis = 0; axis < 3; ++axis)
-      cell[axis] = static_cast<int> (std::floor (middle[axis] / cell_m));
+    const std::optional<CellIndex> cell = cellOf (middle / cell_m);
+    if (!cell)
+      return std::nullopt;
+    std::vector<Eigen::Vector3d>& points = patches[{cell->x (), cell->y (), cell->z ()}];
+    if (patches.size () > most_patches)
+      return std::nullopt;
     for (const Eigen::Vector3d& corner : corners)
       for (const double depth : {0.0, thickness_m})
-        patches[cell].push_back (corner - depth * normal);
+        points.push_back (corner - depth * normal);
   }
   return patches;
 }
@@ -85,27 +95,22 @@ addBackground (const CompletedScene& scene, const std::vector<Eigen::Vector4d>& 
 {
   if (scene.background.empty ())
     return;
-  double voxel = 0.0;
-  for (const CompletedObject& object : scene.objects)
-    voxel = std::max (voxel, object.voxel_size_m);
+  const double voxel = largestVoxelSizeOf (scene);
   PhysicalBody body;
   body.name = background_name;
   body.visual = moved (scene.background, result.T_result_scene.inverse ());
   body.colour = meanColour (scene.background, body.colour);
   const std::vector<TriangleMesh::Triangle> rest = remainder (body.visual, planes, plane_voxels * voxel);
-  Patches patches;
-  for (double cell = first_cell_voxels * voxel; voxel > 0.0; cell *= growth)
-  {
+  std::optional<Patches> patches;
+  for (double cell = first_cell_voxels * voxel; !patches; cell *= growth)
     patches = patchesOf (body.visual, rest, cell, voxel);
-    if (patches.size () <= most_patches)
-      break;
-  }
-  for (const auto& [cell, points] : patches)
+  for (const auto& [cell, points] : *patches)
   {
     const ConvexHull hull = clearOf (objects, convexHullOf (points), result.contact_tolerance_m);
-    if (hull.empty ())
+    const TriangleMesh part = hull.mesh ();
+    if (!isSolid (part))
       continue;
-    body.parts.push_back (hull.mesh ());
+    body.parts.push_back (part);
     body.parts_volume_m3 += hull.volume_m3;
   }
   result.bodies.push_back (std::move (body));

@@ -5,22 +5,26 @@
 #include "pcl_cosection/physics/convex_decomposition.h"
 #include "pcl_cosection/physics/part_contacts.h"
 
+#include <pcl/cosection/common/error.h>
 #include <pcl/cosection/volume/mesh_distance.h>
 
 #include <Eigen/Geometry>
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <utility>
 
 namespace pcl::cosection {
 
 namespace {
 
 constexpr double touching_voxels = 2.0;
-constexpr std::size_t most_avoided = 3000; // points of the other bodies, for one
-constexpr int passes = 3;                  // cutting one pair does not part another
-constexpr int grid_along = 64;             // voxels on which the excess is measured
-constexpr int points_along = 6;            // of a face on which it is measured, at most
+constexpr std::size_t most_avoided = 3000;     // points of the other bodies, for one
+constexpr int passes = 3;                      // cutting one pair does not part another
+constexpr int grid_along = 64;                 // voxels on which the excess is measured
+constexpr std::size_t most_depths = 200000000; // of vertices below faces, for one body
+constexpr int points_along = 6;                // of a face on which it is measured, at most
 
 Eigen::AlignedBox3d
 boxOf (const TriangleMesh& mesh)
@@ -45,12 +49,13 @@ distanceAround (const TriangleMesh& mesh, int threads)
 
 /** \brief Vertices of other bodies in the box of one, but not in the body itself, whose parts cannot avoid these. */
 std::vector<Eigen::Vector3d>
-pointsOfOthers (const std::vector<CollisionSource>& sources, std::size_t self, int threads)
+pointsOfOthers (const std::vector<CollisionSource>& sources, const std::vector<Eigen::AlignedBox3d>& boxes,
+                std::size_t self, int threads)
 {
-  const Eigen::AlignedBox3d box = boxOf (sources[self].mesh);
+  const Eigen::AlignedBox3d& box = boxes[self];
   std::vector<Eigen::Vector3d> points;
   for (std::size_t other = 0; other < sources.size (); ++other)
-    if (other != self)
+    if (other != self && boxes[other].intersects (box))
       for (const Eigen::Vector3f& vertex : sources[other].mesh.vertices)
         if (const Eigen::Vector3d p = vertex.cast<double> (); box.contains (p))
           points.push_back (p);
@@ -65,28 +70,39 @@ pointsOfOthers (const std::vector<CollisionSource>& sources, std::size_t self, i
   return chosen;
 }
 
+/** \brief How far apart the boxes of two bodies may be if the bodies touch. */
+double
+reachOf (const CollisionSource& a, const CollisionSource& b)
+{
+  return touching_voxels * std::max (a.voxel_size_m, b.voxel_size_m);
+}
+
 bool
 areNear (const CollisionSource& a, const CollisionSource& b, const Separation& gap)
 {
-  return -gap.depth_m < touching_voxels * std::max (a.voxel_size_m, b.voxel_size_m);
+  return -gap.depth_m < reachOf (a, b);
 }
 
-/** \brief Cut what overlaps, each by half. */
+/** \brief Find out which bodies touch others, and cut what overlaps, each by half, if \a cuts. */
 void
-cutApart (const std::vector<CollisionSource>& sources, const PhysicsOptions& options, std::vector<BodyParts>& bodies)
+cutApart (const std::vector<CollisionSource>& sources, const std::vector<Eigen::AlignedBox3d>& boxes,
+          double tolerance_m, bool cuts, std::vector<BodyParts>& bodies)
 {
   for (int pass = 0; pass < passes; ++pass)
   {
     bool any = false;
     for (std::size_t a = 0; a < bodies.size (); ++a)
       for (std::size_t b = a + 1; b < bodies.size (); ++b)
+      {
+        if (boxes[a].exteriorDistance (boxes[b]) > reachOf (sources[a], sources[b]))
+          continue;
         for (ConvexHull& first : bodies[a].hulls)
           for (ConvexHull& second : bodies[b].hulls)
           {
             const Separation found = separationOf (first, second);
             if (areNear (sources[a], sources[b], found))
               bodies[a].touches_others = bodies[b].touches_others = true;
-            if (found.depth_m <= options.contact_tolerance_m)
+            if (!cuts || found.depth_m <= tolerance_m)
               continue;
             Eigen::Vector4d plane;
             plane << found.normal, -found.offset;
@@ -97,6 +113,7 @@ cutApart (const std::vector<CollisionSource>& sources, const PhysicsOptions& opt
             second = std::move (rest_of_second);
             any = true;
           }
+      }
     if (!any)
       break;
   }
@@ -122,17 +139,22 @@ excessOf (const std::vector<ConvexHull>& hulls, const TriangleMesh& estimate, in
   return excess;
 }
 
-/** \brief The largest distance of a vertex from the part that it lies in, or is nearest to. */
+/** \brief The largest distance of a vertex from the part that it lies in, or is nearest to; of some of the vertices, if
+ * there are very many. */
 double
 missingOf (const std::vector<ConvexHull>& hulls, const TriangleMesh& mesh)
 {
   constexpr double rounding_m = 1e-6;
+  std::size_t planes = 1;
+  for (const ConvexHull& hull : hulls)
+    planes += hull.planes.size ();
+  const std::size_t step = 1 + mesh.vertices.size () / (1 + most_depths / planes);
   double missing = 0.0;
-  for (const Eigen::Vector3f& vertex : mesh.vertices)
+  for (std::size_t v = 0; v < mesh.vertices.size (); v += step)
   {
     double depth = -std::numeric_limits<double>::infinity ();
     for (const ConvexHull& hull : hulls)
-      depth = std::max (depth, hull.depthOf (vertex.cast<double> ()));
+      depth = std::max (depth, hull.depthOf (mesh.vertices[v].cast<double> ()));
     missing = std::max (missing, -depth);
   }
   return missing > rounding_m ? missing : 0.0;
@@ -144,6 +166,9 @@ std::vector<BodyParts>
 divideBodies (const std::vector<CollisionSource>& sources, const PhysicsOptions& options)
 {
   std::vector<BodyParts> bodies (sources.size ());
+  std::vector<Eigen::AlignedBox3d> boxes; // of the bodies, and so of all their parts
+  for (const CollisionSource& source : sources)
+    boxes.push_back (boxOf (source.mesh));
   for (std::size_t n = 0; n < sources.size (); ++n)
   {
     ConvexDecompositionOptions division;
@@ -151,11 +176,18 @@ divideBodies (const std::vector<CollisionSource>& sources, const PhysicsOptions&
     division.max_parts = one ? 1 : options.max_parts;
     division.threads = options.threads;
     division.tolerance_m = options.contact_tolerance_m;
-    division.avoid = pointsOfOthers (sources, n, options.threads);
-    bodies[n].hulls = decomposeConvex (sources[n].mesh, division);
+    try
+    {
+      division.avoid = pointsOfOthers (sources, boxes, n, options.threads);
+      bodies[n].hulls = decomposeConvex (sources[n].mesh, division);
+    }
+    catch (const InvalidArgument& error) // it is as good as flat
+    {
+      throw InvalidArgument (sources[n].name + ": " + error.what ());
+    }
   }
-  if (options.collision == CollisionShape::Parts || options.collision == CollisionShape::Hull)
-    cutApart (sources, options, bodies);
+  const bool cuts = options.collision == CollisionShape::Parts || options.collision == CollisionShape::Hull;
+  cutApart (sources, boxes, options.contact_tolerance_m, cuts, bodies);
   return bodies;
 }
 
@@ -175,8 +207,11 @@ setParts (const BodyParts& parts, const CollisionSource& source, const PhysicsOp
   }
   for (const ConvexHull& hull : parts.hulls)
   {
+    TriangleMesh part = movedMesh (hull.mesh (), T_body_scene);
+    if (!isSolid (part))
+      continue;
     body.parts_volume_m3 += hull.volume_m3;
-    body.parts.push_back (movedMesh (hull.mesh (), T_body_scene));
+    body.parts.push_back (std::move (part));
   }
   body.excess_m = excessOf (parts.hulls, source.estimate, options.threads);
   body.missing_m = missingOf (parts.hulls, source.estimate);

@@ -4,6 +4,7 @@
 #include "pcl_cosection/physics/convex_hull_mesh.h"
 #include "pcl_cosection/physics/scene_builder.h"
 
+#include <string>
 #include <vector>
 
 namespace pcl::cosection {
@@ -11,6 +12,7 @@ namespace pcl::cosection {
 /** \brief The mesh that a body's parts are made of, scene frame. */
 struct CollisionSource
 {
+  std::string name;      ///< of the object, for messages
   TriangleMesh mesh;     ///< with a flat bottom
   TriangleMesh estimate; ///< as it was
   double voxel_size_m = 0.0;

@@ -26,6 +26,8 @@ namespace {
 constexpr std::size_t search_triangles = 1500; // of the mesh on which planes are searched
 constexpr double samples_inside = 20000.0;     // voxels by which volumes are measured
 constexpr double most_voxels = 2e6;            // of the grid around a thin body
+constexpr double largest_grid = 2.0;           // times as many, where voxels are larger than a body is thick
+constexpr double growth = 0.1;                 // of voxels, while there are too many
 constexpr int offsets = 7;                     // planes tried along an axis
 constexpr int refinements = 2;                 // halvings of their distance around the best one
 constexpr double more_parts = 1.5;             // times as many as asked for, before pairs are united
@@ -189,7 +191,10 @@ interiorSamples (const TriangleMesh& mesh, double volume_m3, int threads)
     box.extend (vertex.cast<double> ());
   VoxelGrid grid;
   grid.voxel_size_m = std::cbrt (std::max (volume_m3 / samples_inside, box.volume () / most_voxels));
-  grid.dims = (box.sizes () / grid.voxel_size_m).array ().ceil ().cast<int> ().max (1);
+  const auto voxelsAlong = [&] { return (box.sizes () / grid.voxel_size_m).array ().ceil ().max (1.0).eval (); };
+  while (!(voxelsAlong ().prod () <= largest_grid * most_voxels)) // it is flat
+    grid.voxel_size_m *= 1.0 + growth;
+  grid.dims = voxelsAlong ().cast<int> ();
   grid.origin_m = box.center () - 0.5 * grid.voxel_size_m * (grid.dims.cast<double> ().array () - 1.0).matrix ();
   const SignedDistanceField field = sampleSignedDistance (mesh, grid, grid.voxel_size_m, threads);
   std::vector<Eigen::Vector3d> samples;

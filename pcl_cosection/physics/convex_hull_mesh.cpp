@@ -138,4 +138,14 @@ convexHullOf (const std::vector<Eigen::Vector3d>& points)
   return hull;
 }
 
+bool
+isSolid (const TriangleMesh& part)
+{
+  std::vector<Eigen::Vector3d> points;
+  points.reserve (part.vertices.size ());
+  for (const Eigen::Vector3f& vertex : part.vertices)
+    points.push_back (vertex.cast<double> ());
+  return !convexHullOf (points).empty ();
+}
+
 } // namespace pcl::cosection

@@ -30,4 +30,7 @@ struct ConvexHull
  * ACM TOMS 1996). O (n log n). \return empty if all points lie in a plane, but for rounding */
 ConvexHull convexHullOf (const std::vector<Eigen::Vector3d>& points);
 
+/** \brief Whether a part has a volume in single precision, too: simulators make the hull once more. */
+bool isSolid (const TriangleMesh& part);
+
 } // namespace pcl::cosection

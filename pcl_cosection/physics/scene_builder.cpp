@@ -4,6 +4,7 @@
 #include "pcl_cosection/common/convex_hull.h"
 #include "pcl_cosection/physics/background_parts.h"
 #include "pcl_cosection/physics/body_parts.h"
+#include "pcl_cosection/physics/object_solid.h"
 #include "pcl_cosection/physics/resting.h"
 #include "pcl_cosection/physics/scene_frame.h"
 #include "pcl_cosection/physics/visual_mesh.h"
@@ -26,9 +27,10 @@ constexpr double flat_tolerance_m = 1e-5;    // of what lies on a plane, for rou
 constexpr double noticeable_shift_m = 0.001; // of a centre of mass
 constexpr double lower_half = 0.5;
 constexpr double highest_gap = 0.5; // below a body that is taken for one that stands, of its height
+constexpr std::size_t longest_label = 100;
 constexpr double flat_share = 0.25; // of a body's height, which is made flat at most
 
-/** \brief Letters, digits and underscores, and unlike all others. */
+/** \brief Letters, digits and underscores, and unlike all others. Files have it, whose names are short. */
 std::string
 uniqueName (const std::string& text, std::set<std::string>& used)
 {
@@ -46,20 +48,6 @@ uniqueName (const std::string& text, std::set<std::string>& used)
   for (int n = 2; !used.insert (name).second; ++n)
     name = plain + "_" + std::to_string (n);
   return name;
-}
-
-/** \brief The volume of a closed mesh. \throws InvalidArgument naming the object */
-MassProperties
-massOf (const CompletedObject& object, const TriangleMesh& mesh)
-{
-  const std::string name = "object " + std::to_string (object.id) + ": ";
-  if (const MeshTopology topology = computeTopology (mesh); !topology.closed_manifold)
-    throw InvalidArgument (name + "its mesh is not closed (" + std::to_string (topology.boundary_edges) +
-                           " open edges): it has no volume");
-  const MassProperties mass = computeMassProperties (mesh);
-  if (!(mass.volume_m3 > 0.0))
-    throw InvalidArgument (name + "its mesh is turned inside out");
-  return mass;
 }
 
 std::string
@@ -81,11 +69,11 @@ planeBody (const Eigen::Vector4d& plane, const CompletedScene& scene, const Phys
   const Eigen::Isometry3d T_plane_scene = body.T_scene_plane.inverse ();
   const Eigen::Isometry3d T_plane_world = T_plane_scene * result.T_result_scene.inverse ();
   Eigen::AlignedBox2d extent;
-  double voxel = 0.0, deepest = 0.0;
+  const double voxel = largestVoxelSizeOf (scene);
+  double deepest = 0.0;
   for (std::size_t n = 0; n < scene.objects.size (); ++n)
   {
     const PhysicalBody& object = result.bodies[n];
-    voxel = std::max (voxel, scene.objects[n].voxel_size_m);
     for (const Eigen::Vector3f& vertex : object.visual.vertices)
     {
       const Eigen::Vector3d p = T_plane_scene * (object.T_scene_body * vertex.cast<double> ());
@@ -160,9 +148,9 @@ bodyOf (const CompletedObject& object, const PhysicsOptions& options, const Eige
 {
   PhysicalBody body;
   body.id = object.id;
-  const std::string label = object.label.empty () ? "object" : object.label;
+  const std::string label = object.label.empty () ? "object" : object.label.substr (0, longest_label);
   body.name = uniqueName (label + "_" + std::to_string (object.id), names);
-  const MassProperties mass = massOf (object, object.mesh);
+  const MassProperties mass = solidOf (object, object.mesh);
   const Eigen::Isometry3d T_scene_object = T_scene_world * object.T_world_object;
   body.T_scene_body.translation () = T_scene_object * mass.centroid_m;
   body.visual = moved (object.mesh, body.T_scene_body.inverse () * T_scene_object);
@@ -175,18 +163,6 @@ bodyOf (const CompletedObject& object, const PhysicsOptions& options, const Eige
   return body;
 }
 
-/** \brief The voxel size of the estimate, or else the mean length of the mesh's edges. */
-double
-voxelOf (const CompletedObject& object)
-{
-  if (object.voxel_size_m > 0.0)
-    return object.voxel_size_m;
-  double sum = 0.0;
-  for (const TriangleMesh::Triangle& t : object.mesh.triangles)
-    sum += (object.mesh.vertices[t[1]] - object.mesh.vertices[t[0]]).norm ();
-  return sum / static_cast<double> (object.mesh.triangles.size ());
-}
-
 /** \brief What an object's parts are made of. \throws InvalidArgument if there is no outer bound where one is needed */
 CollisionSource
 sourceOf (const CompletedObject& object, const PhysicsOptions& options, const Eigen::Isometry3d& T_scene_world)
@@ -196,13 +172,14 @@ sourceOf (const CompletedObject& object, const PhysicsOptions& options, const Ei
     throw InvalidArgument ("object " + std::to_string (object.id) +
                            ": has no outer bound; let pcl_cosection write it (--save-bounds)");
   if (outer)
-    massOf (object, object.outer);
+    solidOf (object, object.outer);
   CollisionSource source;
   source.mesh.vertices = outer ? object.outer.vertices : object.mesh.vertices;
   source.mesh.triangles = outer ? object.outer.triangles : object.mesh.triangles;
   source.mesh = movedMesh (std::move (source.mesh), T_scene_world * object.T_world_object);
   source.estimate = outer ? moved (object.mesh, T_scene_world * object.T_world_object) : source.mesh;
-  source.voxel_size_m = voxelOf (object);
+  source.name = "object " + std::to_string (object.id);
+  source.voxel_size_m = voxelSizeOf (object);
   return source;
 }
 
@@ -272,6 +249,28 @@ standOnPlanes (const std::vector<Eigen::Vector4d>& planes, const Eigen::Vector3d
   }
 }
 
+/** \brief What a simulation of a body would show, and its line in a report does not say. */
+void
+warnOf (const PhysicalBody& body, const BodyParts& parts, bool has_planes, std::vector<std::string>& warnings)
+{
+  constexpr double least_share = 0.75, smallest_m = 0.001, largest_m = 1000.0;
+  if (has_planes && body.stands_on < 0 && !parts.touches_others)
+    warnings.push_back (body.name + ": will not stay: it stands on no support plane, and beside no other object");
+  if (const double share = body.parts_volume_m3 / body.volume_m3; share < least_share)
+    warnings.push_back (body.name + ": its parts have only " + std::to_string (std::lround (100.0 * share)) +
+                        " % of its volume, as other objects are in its place, or planes");
+  Eigen::AlignedBox3f box;
+  for (const Eigen::Vector3f& vertex : body.visual.vertices)
+    box.extend (vertex);
+  const double size_m = box.sizes ().cast<double> ().norm ();
+  std::ostringstream size;
+  size.precision (2);
+  size << size_m << " m";
+  if (size_m < smallest_m || size_m > largest_m)
+    warnings.push_back (body.name + ": is " + size.str () +
+                        " large, which simulators may refuse; lengths must be in metres");
+}
+
 } // namespace
 
 void
@@ -329,6 +328,7 @@ buildPhysicalScene (const CompletedScene& scene, const PhysicsOptions& options)
       makeStand (body, parts[n], planes[body.stands_on], parts[n].touches_others && !sources[n].extended,
                  result.warnings);
     setParts (parts[n], sources[n], options, body);
+    warnOf (body, parts[n], !planes.empty (), result.warnings);
   }
   addBackground (scene, planes, parts, result);
   return result;

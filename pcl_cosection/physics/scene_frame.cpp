@@ -2,6 +2,7 @@
 #include "pcl_cosection/physics/scene_frame.h"
 
 #include "pcl_cosection/mesh/moved_mesh.h"
+#include "pcl_cosection/physics/object_solid.h"
 #include "pcl_cosection/physics/resting.h"
 
 #include <cmath>
@@ -27,7 +28,7 @@ mainPlane (const CompletedScene& scene)
       TriangleMesh positions;
       positions.vertices = object.mesh.vertices;
       const double gap = lowestOver (scene.planes[n], movedMesh (positions, object.T_world_object));
-      score += std::abs (gap) < touching_voxels * object.voxel_size_m ? 1.0 : 0.0;
+      score += std::abs (gap) < touching_voxels * voxelSizeOf (object) ? 1.0 : 0.0;
     }
     if (score > best_score)
     {

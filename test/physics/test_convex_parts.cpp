@@ -324,5 +324,21 @@ TEST (ConvexDecomposition, RefusesWhatItCannotDivide)
   EXPECT_THROW (decomposeConvex (box, options), InvalidArgument);
 }
 
+TEST (ConvexDecomposition, AFlatBodyTakesNoMoreMemoryThanAThickOne)
+{
+  const std::vector<ConvexHull> parts = decomposeConvex (boxMesh ({0, 0, 0}, {10.0f, 10.0f, 1e-6f}), {});
+  ASSERT_EQ (parts.size (), 1u);
+  EXPECT_NEAR (parts[0].volume_m3, 1e-4, 1e-9);
+}
+
+TEST (ConvexHull3d, IsNotSolidIfRoundingMakesItFlat)
+{
+  const Points card = boxCorners ({0.1, 0.1, 1e-6});
+  const ConvexHull far = convexHullOf (movedPoints (card, Eigen::Affine3d (Eigen::Translation3d (0.0, 0.0, 1000.01))));
+  EXPECT_FALSE (far.empty ());
+  EXPECT_FALSE (isSolid (far.mesh ()));
+  EXPECT_TRUE (isSolid (convexHullOf (card).mesh ()));
+}
+
 } // namespace
 } // namespace pcl::cosection::test

@@ -11,10 +11,14 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <regex>
 #include <set>
+#include <utility>
 
 namespace pcl::cosection::test {
 namespace {
@@ -151,6 +155,105 @@ TEST (SceneInput, NoLengthInMetresDecides)
         EXPECT_NEAR (other.excess_m, factor * body.excess_m, 1e-6 * factor) << body.name;
       }
     }
+  }
+}
+
+/** \brief How often some text is among the warnings of a scene. */
+std::size_t
+countOf (const PhysicalScene& scene, const std::string& part)
+{
+  return static_cast<std::size_t> (
+      std::count_if (scene.warnings.begin (), scene.warnings.end (),
+                     [&] (const std::string& text) { return text.find (part) != std::string::npos; }));
+}
+
+/** \brief A mesh of two, of which the second one may be turned inside out. */
+TriangleMesh
+joined (TriangleMesh first, const TriangleMesh& second, bool reversed)
+{
+  const auto offset = static_cast<std::uint32_t> (first.vertices.size ());
+  first.vertices.insert (first.vertices.end (), second.vertices.begin (), second.vertices.end ());
+  for (TriangleMesh::Triangle triangle : second.triangles)
+  {
+    if (reversed)
+      std::swap (triangle[0], triangle[1]);
+    first.triangles.push_back ({triangle[0] + offset, triangle[1] + offset, triangle[2] + offset});
+  }
+  return first;
+}
+
+TEST (SceneInput, OnlyWhatMatterCanBeHasAMass)
+{
+  const TriangleMesh box = boxMesh ({0.0f, 0.0f, 0.0f}, {0.1f, 0.1f, 0.1f});
+  const auto messageFor = [] (const TriangleMesh& mesh) {
+    return messageOf<InvalidArgument> ([&] { buildPhysicalScene (sceneOf ({objectOf (7, "x", mesh)}), {}); });
+  };
+  EXPECT_NE (messageFor (boxMesh ({0.0f, 0.0f, 0.0f}, {0.1f, 0.1f, 0.0f})).find ("object 7: its mesh has no volume"),
+             std::string::npos);
+  const TriangleMesh hole = boxMesh ({0.2f, 0.0f, 0.0f}, {0.3f, 0.1f, 0.099f});
+  EXPECT_NE (messageFor (joined (box, hole, true)).find ("object 7: its mesh has no inertia"), std::string::npos);
+  EXPECT_NE (messageFor (boxMesh ({0.0f, 0.0f, 0.0f}, {1000.0f, 1e-4f, 1e-4f})).find ("object 7: "), std::string::npos);
+
+  const TriangleMesh cavity = boxMesh ({0.03f, 0.03f, 0.03f}, {0.07f, 0.07f, 0.07f});
+  for (const TriangleMesh& mesh : {joined (box, hole, false), joined (box, cavity, true)})
+    EXPECT_GT (buildPhysicalScene (sceneOf ({objectOf (7, "x", mesh)}), {}).bodies.at (0).mass_kg, 0.0);
+}
+
+TEST (SceneInput, LongNamesAreCut)
+{
+  const CompletedScene scene = sceneOf (
+      {objectOf (3, std::string (5000, 'x'), boxMesh ({0, 0, 0}, {0.1f, 0.1f, 0.1f}))});
+  const TemporaryFolder folder;
+  EXPECT_NO_THROW (writeUrdf (buildPhysicalScene (scene, {}), folder.file ("")));
+}
+
+TEST (SceneInput, WarnsOfWhatASimulationWouldShow)
+{
+  const TriangleMesh box = boxMesh ({-0.05f, -0.05f, 0.0f}, {0.05f, 0.05f, 0.1f});
+  const auto up = [] (double z) { return Eigen::Isometry3d (Eigen::Translation3d (0.0, 0.0, z)); };
+  const PhysicalScene good = buildPhysicalScene (sceneOf ({objectOf (1, "a", box), objectOf (2, "b", box, up (0.1))}),
+                                                 {});
+  EXPECT_TRUE (good.warnings.empty ()) << good.warnings.front ();
+  const PhysicalScene high = buildPhysicalScene (sceneOf ({objectOf (1, "a", box), objectOf (2, "b", box, up (0.5))}),
+                                                 {});
+  EXPECT_EQ (countOf (high, "b_2: will not stay"), 1u);
+  EXPECT_EQ (high.warnings.size (), 1u);
+  CompletedScene below = sceneOf ({objectOf (1, "a", box)});
+  below.planes = {-floor_plane}; // turned the wrong way
+  EXPECT_EQ (countOf (buildPhysicalScene (below, {}), "a_1: will not stay"), 1u);
+  const PhysicalScene twice = buildPhysicalScene (sceneOf ({objectOf (1, "a", box), objectOf (2, "b", box)}), {});
+  EXPECT_EQ (countOf (twice, "of its volume"), 2u);
+  for (const double factor : {0.001, 20000.0})
+    EXPECT_EQ (countOf (buildPhysicalScene (scaledScene (sceneOf ({objectOf (1, "a", box)}), factor), {}),
+                        "which simulators may refuse"),
+               1u);
+}
+
+TEST (SceneInput, WhatLeansIsNotMoved)
+{
+  const TriangleMesh box = boxMesh ({0.03f, 0.0f, 0.0f}, {0.12f, 0.05f, 0.07f});
+  const CompletedScene scene = sceneOf ({objectOf (1, "arm", overhangingMesh ()), objectOf (2, "box", box)});
+  for (const CollisionShape shape : {CollisionShape::Parts, CollisionShape::Mesh})
+  {
+    PhysicsOptions options;
+    options.collision = shape;
+    const PhysicalScene built = buildPhysicalScene (scene, options);
+    EXPECT_EQ (built.bodies.at (0).centre_shift_m, 0.0);
+  }
+}
+
+TEST (SceneInput, TheBackgroundNeedsNeitherVoxelSizeNorNumbers)
+{
+  CompletedScene scene = sceneOf ({objectOf (1, "a", boxMesh ({-0.05f, -0.05f, 0.0f}, {0.05f, 0.05f, 0.1f}))});
+  scene.background = joined (boxMesh ({-0.5f, 0.5f, 0.0f}, {0.5f, 0.6f, 0.5f}),
+                             boxMesh ({1.0f, 1.0f, 0.1f}, {2.0f, std::nanf (""), 0.5f}), false);
+  for (const double voxel_m : {0.0, 1e-300, 0.002})
+  {
+    scene.objects[0].voxel_size_m = voxel_m;
+    const PhysicalScene built = buildPhysicalScene (scene, {});
+    ASSERT_EQ (built.bodies.size (), 2u);
+    EXPECT_EQ (built.planes.at (0).endless, true);
+    EXPECT_EQ (built.bodies[1].parts.empty (), voxel_m == 1e-300); // patches of this thickness are flat
   }
 }
 

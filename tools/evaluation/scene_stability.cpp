@@ -229,7 +229,9 @@ countSteps (const mjModel& model, double duration_s)
 {
   constexpr double tolerance = 1e-6; // so that 5 s of 0.002 s are 2500 steps
   const double steps = std::ceil (duration_s / model.opt.timestep - tolerance);
-  if (!(steps <= most_steps && steps >= 0.0))
+  if (!(model.opt.timestep > 0.0))
+    throw IoError ("has a time step of " + std::to_string (model.opt.timestep) + " s, which is not greater than 0");
+  if (!(steps <= most_steps))
     throw IoError ("has a time step of " + std::to_string (model.opt.timestep) + " s: too many steps");
   return (static_cast<std::size_t> (steps));
 }

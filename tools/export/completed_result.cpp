@@ -7,10 +7,14 @@
 #include <pcl/cosection/io/mesh_io.h>
 #include <pcl/cosection/io/trajectory.h>
 
+#include <Eigen/Geometry>
+
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <initializer_list>
+#include <limits>
+#include <sstream>
 
 namespace fs = std::filesystem;
 using namespace pcl::cosection;
@@ -71,6 +75,8 @@ planesOf (const Json& summary, const Eigen::Vector3d& origin, const std::string&
 {
   std::vector<Eigen::Vector4d> planes;
   const Json& list = member (summary, "support_planes");
+  if (!list.is_null () && !list.is_array ())
+    throw IoError (path + ": support_planes must be lists of four numbers");
   if (list.is_array ())
     for (const Json& entry : list)
     {
@@ -91,18 +97,57 @@ planesOf (const Json& summary, const Eigen::Vector3d& origin, const std::string&
 
 /** \brief The last pose of an object that moves, if there is one. */
 void
-readPose (const fs::path& folder, const Json& summary, CompletedObject& object, CompletedResult& result)
+readPose (const fs::path& folder, const Json& summary, bool is_tracked, CompletedObject& object,
+          CompletedResult& result)
 {
   const std::string number = std::to_string (object.id);
   std::error_code failure;
   std::string path = (folder / "trajectory" / ("object_" + number + ".txt")).string ();
-  if (!fs::exists (path, failure))
+  const bool is_there = fs::exists (path, failure);
+  if (!is_there && is_tracked)
+    throw IoError (path + ": is missing, though summary.json says that the object was tracked");
+  if (!is_there)
     path = textIn (member (member (summary, "parameters"), "object_trajectories"), number);
   if (path.empty ())
     return;
   const std::vector<StampedPose> poses = loadTrajectory (path);
   object.T_world_object = poses.back ().pose;
   result.files.push_back (path);
+}
+
+/** \brief An entry of summary.json. */
+CompletedObject
+readEntry (const Json& entry, const std::string& path)
+{
+  const std::optional<double> id = numberIn (entry, "id");
+  if (!id || !(*id >= 0.0 && *id < 1e9) || *id != std::floor (*id))
+    throw IoError (path + ": an object has no id");
+  CompletedObject object;
+  object.id = static_cast<int> (*id);
+  object.label = textIn (entry, "class");
+  object.voxel_size_m = numberIn (entry, "voxel_size_m").value_or (0.0);
+  return (object);
+}
+
+/** \brief Find out whether voxels and coordinates fit a mesh. */
+void
+checkLengths (const CompletedObject& object, const std::string& mesh, std::vector<std::string>& warnings)
+{
+  constexpr double smallest_share = 1e-5, noticeable_share = 1e-3; // of its size
+  Eigen::AlignedBox3d box;
+  for (const Eigen::Vector3f& vertex : object.mesh.vertices)
+    box.extend (vertex.cast<double> ());
+  const double size = box.diagonal ().norm ();
+  if (const double voxel = object.voxel_size_m; voxel != 0.0 && !(voxel > smallest_share * size && voxel < size))
+    throw IoError (mesh + ": cannot have voxels of the voxel_size_m in summary.json");
+  const double farthest = std::max (box.min ().cwiseAbs ().maxCoeff (), box.max ().cwiseAbs ().maxCoeff ());
+  if (const double rounding = farthest * std::numeric_limits<float>::epsilon (); rounding > noticeable_share * size)
+  {
+    std::ostringstream text;
+    text.precision (3);
+    text << mesh << ": is so far from its origin that its coordinates are rounded to " << 1000.0 * rounding << " mm";
+    warnings.push_back (text.str ());
+  }
 }
 
 } // namespace
@@ -119,8 +164,13 @@ readCompletedResult (const std::string& folder_name)
   result.files.push_back (path);
   std::error_code failure;
   const fs::path meshes = fs::is_directory (folder / "mesh", failure) ? folder / "mesh" : folder;
-  if (const std::vector<double> origin = numbersOf (member (summary, "origin_m"), 3); !origin.empty ())
+  if (const Json& given = member (summary, "origin_m"); !given.is_null ())
+  {
+    const std::vector<double> origin = numbersOf (given, 3);
+    if (origin.empty ())
+      throw IoError (path + ": origin_m must be a list of three numbers");
     result.origin = Eigen::Vector3d (origin[0], origin[1], origin[2]);
+  }
   result.scene.planes = planesOf (summary, result.origin, path);
   const Json& failed = member (summary, "failed");
   if (failed.is_array () && !failed.empty ())
@@ -128,24 +178,19 @@ readCompletedResult (const std::string& folder_name)
                                " objects could not be completed; they are left out");
   for (const Json& entry : member (summary, "objects"))
   {
-    const std::optional<double> id = numberIn (entry, "id");
-    if (!id || !(*id >= 0.0 && *id < 1e9))
-      throw IoError (path + ": an object has no id");
-    CompletedObject object;
-    object.id = static_cast<int> (*id);
-    object.label = textIn (entry, "class");
-    object.voxel_size_m = numberIn (entry, "voxel_size_m").value_or (0.0);
+    CompletedObject object = readEntry (entry, path);
     const std::string stem = (meshes / ("object_" + std::to_string (object.id))).string ();
     const std::string mesh = existing (stem);
     if (mesh.empty ())
       throw IoError (stem + ".ply: is missing, though summary.json has object " + std::to_string (object.id));
-    readPose (folder, summary, object, result);
+    readPose (folder, summary, numberIn (entry, "frames_tracked").value_or (0.0) > 0.0, object, result);
     const bool moves = !object.T_world_object.isApprox (Eigen::Isometry3d::Identity (), 0.0);
     const Eigen::Vector3d origin = moves ? Eigen::Vector3d::Zero () : result.origin;
     object.mesh = readSurface (mesh, origin);
     if (!computeTopology (object.mesh).closed_manifold)
       throw IoError (mesh + ": is not a closed surface; an open one has no volume");
     result.files.push_back (mesh);
+    checkLengths (object, mesh, result.warnings);
     if (const std::string outer = existing (stem + "_outer"); !outer.empty ())
     {
       object.outer = readSurface (outer, origin);

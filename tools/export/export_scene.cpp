@@ -85,12 +85,12 @@ exportScene (const std::string& result, const std::string& output, const ExportS
   report.scene.warnings.insert (report.scene.warnings.begin (), completed.warnings.begin (), completed.warnings.end ());
   makeFolder (output);
   requireWritableFolder (output, output);
+  const std::vector<std::string> samples = writeSamples (report.scene, completed.scene, output, settings);
   for (const auto& [name, writer] : writers)
     if (std::find (settings.formats.begin (), settings.formats.end (), name) != settings.formats.end ())
       for (const std::string& file : writer (report.scene, output))
         if (std::find (report.files.begin (), report.files.end (), file) == report.files.end ())
           report.files.push_back (file);
-  for (const std::string& file : writeSamples (report.scene, completed.scene, output, settings))
-    report.files.push_back (file);
+  report.files.insert (report.files.end (), samples.begin (), samples.end ());
   return (report);
 }

@@ -84,7 +84,8 @@ addAssets (XmlText& xml, const PhysicalScene& scene)
     if (hasVolume (body.visual))
       add_mesh (body.name);
     for (std::size_t k = 0; k < body.parts.size (); ++k)
-      add_mesh (partName (body, k));
+      if (hasVolume (body.parts[k]))
+        add_mesh (partName (body, k));
   }
   xml.close ();
 }
@@ -125,10 +126,11 @@ addBody (XmlText& xml, const PhysicalScene& scene, const PhysicalBody& body)
   if (!body.convex)
     xml.addComment ("MuJoCo takes the convex hull of each part, which is larger than the part");
   for (std::size_t k = 0; k < body.parts.size (); ++k)
-    xml.add ("geom", {{"class", "collision"},
-                      {"name", partName (body, k)},
-                      {"mesh", partName (body, k)},
-                      {"rgba", rgbaText (body.colour)}});
+    if (hasVolume (body.parts[k]))
+      xml.add ("geom", {{"class", "collision"},
+                        {"name", partName (body, k)},
+                        {"mesh", partName (body, k)},
+                        {"rgba", rgbaText (body.colour)}});
   // Between a plane and a convex mesh MuJoCo finds a few contacts side by side, on which a body rocks and turns.
   for (const Eigen::Vector3d& foot : body.feet)
   {

@@ -170,6 +170,7 @@ TEST_F (Stability, SaysWhatIsWrongWithAScene)
   writeFile (folder_.file ("mesh.xml"), "<mujoco><asset><mesh name='m' file='no.obj'/></asset></mujoco>");
   writeFile (folder_.file ("fixed.xml"), sceneText ("<body><geom type='sphere' size='1'/></body>"));
   writeFile (folder_.file ("step.xml"), sceneText (boxBody ("box", 0, 0), "<option timestep='1e-300'/>"));
+  writeFile (folder_.file ("back.xml"), sceneText (boxBody ("box", 0, 0), "<option timestep='-10'/>"));
   std::filesystem::create_directory (folder_.file ("nothing"));
   ASSERT_EQ (::mkfifo (folder_.file ("pipe").c_str (), 0600), 0);
   const std::size_t entries = folder_.entries ();
@@ -181,6 +182,7 @@ TEST_F (Stability, SaysWhatIsWrongWithAScene)
                                                         {"mesh.xml", "no.obj"},
                                                         {"fixed.xml", "fixed.xml: has no body with a free joint"},
                                                         {"step.xml", "too many steps"},
+                                                        {"back.xml", "not greater than 0"},
                                                         {"missing.xml", "cannot read 'missing.xml'"},
                                                         {"nothing", "cannot read 'nothing/scene.xml'"},
                                                         {"pipe", "cannot read 'pipe': not a regular file"}})

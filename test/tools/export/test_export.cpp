@@ -36,8 +36,8 @@ protected:
   {
     fs::create_directory (folder_.file ("result"));
     save ("result/object_1.ply");
-    writeSummary ("{\"objects\": [{\"id\": 1, \"class\": \"box\", \"voxel_size_m\": 0.002}], " +
-                  std::string (plane) + "}");
+    writeSummary ("{\"objects\": [{\"id\": 1, \"class\": \"box\", \"voxel_size_m\": 0.002}], " + std::string (plane) +
+                  "}");
   }
 
   void save (const std::string& name) const
@@ -179,6 +179,13 @@ TEST_F (Export, SaysWhatIsWrongWithTheSummary)
       {"{\"objects\": [{\"id\": \"1\"}]}", summary + "an object has no id"},
       {"{\"objects\": [{\"id\": -1}]}", summary + "an object has no id"},
       {"{\"objects\": [{\"id\": 1e300}]}", summary + "an object has no id"},
+      {"{\"objects\": [{\"id\": 1.5}]}", summary + "an object has no id"},
+      {"{\"objects\": [{\"id\": 1}], \"support_planes\": 5}", summary + "support_planes"},
+      {"{\"objects\": [{\"id\": 1}], \"origin_m\": [0, 0]}", summary + "origin_m"},
+      {"{\"objects\": [{\"id\": 1, \"voxel_size_m\": -1}]}", "object_1.ply: cannot have voxels"},
+      {"{\"objects\": [{\"id\": 1, \"voxel_size_m\": 1e-300}]}", "object_1.ply: cannot have voxels"},
+      {"{\"objects\": [{\"id\": 1, \"voxel_size_m\": 1e300}]}", "object_1.ply: cannot have voxels"},
+      {"{\"objects\": [{\"id\": 1, \"frames_tracked\": 9}]}", "trajectory/object_1.txt: is missing"},
       {"{\"objects\": [{\"id\": 1}], \"support_planes\": [[0, 0, 1]]}", summary + "support_planes"},
       {"{\"objects\": [{\"id\": 1}], \"support_planes\": [[0, 0, 0, 1]]}", summary + "support_planes"},
       {"{\"objects\": [{\"id\": 1}], \"support_planes\": [[0, 0, 1, \"a\"]]}", summary + "support_planes"},
@@ -236,6 +243,20 @@ TEST_F (Export, WarnsOfWhatIsMissing)
   EXPECT_NE (errors_.find ("could not be completed"), std::string::npos) << errors_;
   EXPECT_NE (errors_.find ("there is no support plane"), std::string::npos) << errors_;
   EXPECT_EQ (std::count (errors_.begin (), errors_.end (), '\n'), 2) << errors_;
+}
+
+TEST_F (Export, WarnsOfRoundedCoordinates)
+{
+  saveMesh (boxMesh ({1e5f, 0.0f, 0.5f}, {1e5f + 0.125f, 0.1f, 0.56f}), folder_.file ("result/object_1.ply"));
+  EXPECT_EQ (run ({"--format", "urdf", "result", "out"}), 0) << errors_;
+  EXPECT_NE (errors_.find ("object_1.ply: is so far from its origin"), std::string::npos) << errors_;
+}
+
+TEST_F (Export, WritesNothingIfASignedDistanceIsTooLarge)
+{
+  writeSummary ("{\"objects\": [{\"id\": 1, \"voxel_size_m\": 0.0001}], " + std::string (plane) + "}");
+  expectFailure (1, {"--format", "urdf", "--save-points", "10", "--save-sdf", "--sdf-margin", "9", "result", "out"},
+                 "make the margin smaller");
 }
 
 TEST_F (Export, LeavesNothingOnAFullDisk)
