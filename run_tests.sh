@@ -53,6 +53,7 @@ done
 
 cd "$(dirname "${BASH_SOURCE[0]}")"
 jobs=$(nproc)
+export TSAN_OPTIONS="suppressions=$PWD/test/tsan_suppressions.txt" # also while the build asks programs for their tests
 
 step ()
 {
