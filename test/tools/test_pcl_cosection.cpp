@@ -114,8 +114,9 @@ TEST_F (PclCosection, LabelledSceneGivesAMeshPerObject)
   writeTableScene (path ("scene.pcd"));
   ToolRun run ({"--resolution", "32", "--save-sdf", "--json", "s.json", "scene.pcd", "out"}, folder_.string ());
   ASSERT_EQ (run.wait (), 0) << run.errors ();
-  EXPECT_EQ (files ("out"),
-             (std::set<std::string>{"background.ply", "object_1.ply", "object_1.vti", "object_2.ply", "object_2.vti"}));
+  EXPECT_EQ (files ("out"), (std::set<std::string>{"background.ply", "object_1.ply", "object_1.vti", "object_2.ply",
+                                                   "object_2.vti", "summary.json"}));
+  EXPECT_EQ (read ("out/summary.json"), read ("s.json"));
   for (const char* name : {"out/object_1.ply", "out/object_2.ply"})
   {
     const TriangleMesh mesh = loadPlyMesh (path (name));
@@ -142,7 +143,8 @@ TEST_F (PclCosection, LabelledSceneGivesAMeshPerObject)
       names.insert (item.key ());
     return (names);
   };
-  EXPECT_EQ (keys (summary), (std::set<std::string>{"timings_s", "parameters", "objects", "failed", "warnings"}));
+  EXPECT_EQ (keys (summary),
+             (std::set<std::string>{"timings_s", "parameters", "objects", "failed", "support_planes", "warnings"}));
   EXPECT_EQ (keys (summary["timings_s"]),
              (std::set<std::string>{"read", "data_term", "constraints", "solve", "mesh", "total"}));
   ASSERT_EQ (summary["objects"].size (), 2u);
