@@ -12,6 +12,7 @@ Each program runs on small simulated inputs.
   read, where no more threads can be made, and with little memory. The exit status is 1 and standard error has one line beside warnings, unless all was delivered. Nothing that is
   not whole is left, and no temporary file.
 """
+import collections
 import json
 import os
 import pathlib
@@ -25,6 +26,7 @@ import subprocess
 import sys
 import tempfile
 import time
+import xml.etree.ElementTree
 import zlib
 
 TIMEOUT_S = 60
@@ -170,8 +172,23 @@ def check_text(data):
     require(data.endswith(b"\n"), "the last line is cut")
 
 
+def check_obj(data):
+    check_text(data)
+    kinds = collections.Counter(line.partition(b" ")[0] for line in data.split(b"\n"))
+    largest = max(int(word.partition(b"/")[0]) for line in data.split(b"\n") if line.startswith(b"f ")
+                  for word in line.split()[1:])
+    require(kinds[b"v"] == largest, "the last vertex has no face, or a face no vertex")
+
+
+def check_glb(data):
+    magic, _, length = struct.unpack_from("<4sII", data)
+    require(magic == b"glTF" and length == len(data), "not as long as its header says")
+
+
 CHECKS = {".ply": check_ply, ".pcd": check_pcd, ".png": check_png, ".txt": check_text, ".csv": check_text,
-          ".json": lambda data: json.loads(data.decode()),
+          ".json": lambda data: json.loads(data.decode()), ".obj": check_obj, ".glb": check_glb,
+          ".urdf": xml.etree.ElementTree.fromstring, ".xml": xml.etree.ElementTree.fromstring,
+          ".usda": lambda data: require(data.count(b"{") == data.count(b"}") > 0, "a block is open"),
           ".html": lambda data: require(data.endswith(b"</body></html>\n"), "the page is cut")}
 
 
