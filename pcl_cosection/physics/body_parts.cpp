@@ -3,6 +3,7 @@
 
 #include "pcl_cosection/mesh/moved_mesh.h"
 #include "pcl_cosection/physics/convex_decomposition.h"
+#include "pcl_cosection/physics/object_solid.h"
 #include "pcl_cosection/physics/part_contacts.h"
 
 #include <pcl/cosection/common/error.h>
@@ -19,7 +20,6 @@ namespace pcl::cosection {
 
 namespace {
 
-constexpr double touching_voxels = 2.0;
 constexpr std::size_t most_avoided = 3000;     // points of the other bodies, for one
 constexpr int passes = 3;                      // cutting one pair does not part another
 constexpr int grid_along = 64;                 // voxels on which the excess is measured
@@ -70,19 +70,6 @@ pointsOfOthers (const std::vector<CollisionSource>& sources, const std::vector<E
   return chosen;
 }
 
-/** \brief How far apart the boxes of two bodies may be if the bodies touch. */
-double
-reachOf (const CollisionSource& a, const CollisionSource& b)
-{
-  return touching_voxels * std::max (a.voxel_size_m, b.voxel_size_m);
-}
-
-bool
-areNear (const CollisionSource& a, const CollisionSource& b, const Separation& gap)
-{
-  return -gap.depth_m < reachOf (a, b);
-}
-
 /** \brief Find out which bodies touch others, and cut what overlaps, each by half, if \a cuts. */
 void
 cutApart (const std::vector<CollisionSource>& sources, const std::vector<Eigen::AlignedBox3d>& boxes,
@@ -94,13 +81,14 @@ cutApart (const std::vector<CollisionSource>& sources, const std::vector<Eigen::
     for (std::size_t a = 0; a < bodies.size (); ++a)
       for (std::size_t b = a + 1; b < bodies.size (); ++b)
       {
-        if (boxes[a].exteriorDistance (boxes[b]) > reachOf (sources[a], sources[b]))
+        const double reach_m = touching_voxels * std::max (sources[a].voxel_size_m, sources[b].voxel_size_m);
+        if (boxes[a].exteriorDistance (boxes[b]) > reach_m)
           continue;
         for (ConvexHull& first : bodies[a].hulls)
           for (ConvexHull& second : bodies[b].hulls)
           {
             const Separation found = separationOf (first, second);
-            if (areNear (sources[a], sources[b], found))
+            if (-found.depth_m < reach_m)
               bodies[a].touches_others = bodies[b].touches_others = true;
             if (!cuts || found.depth_m <= tolerance_m)
               continue;

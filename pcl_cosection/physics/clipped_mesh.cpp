@@ -1,6 +1,8 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "pcl_cosection/physics/clipped_mesh.h"
 
+#include "pcl_cosection/common/plane_height.h"
+
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 
@@ -14,12 +16,6 @@ namespace pcl::cosection {
 namespace {
 
 constexpr double parallel_planes = 1e-9; // determinant of three unit normals
-
-double
-heightOver (const Eigen::Vector4d& plane, const Eigen::Vector3d& point)
-{
-  return plane.head<3> ().dot (point) + plane[3];
-}
 
 /** \brief Where the line between points on both sides of a plane meets it. */
 Eigen::Vector3d

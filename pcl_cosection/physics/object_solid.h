@@ -7,6 +7,9 @@
 
 namespace pcl::cosection {
 
+/** \brief What is nearer to a plane or another body than so many voxels touches it. */
+constexpr double touching_voxels = 2.0;
+
 /** \brief Volume, centroid and inertia of a mesh of an object. \throws InvalidArgument naming the object if the mesh
  * encloses no volume as a body does: it is open, flat, or turned inside out */
 MassProperties solidOf (const CompletedObject& object, const TriangleMesh& mesh);

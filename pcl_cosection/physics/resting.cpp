@@ -2,6 +2,7 @@
 #include "pcl_cosection/physics/resting.h"
 
 #include "pcl_cosection/common/convex_hull.h"
+#include "pcl_cosection/common/plane_height.h"
 #include "pcl_cosection/physics/convex_hull_mesh.h"
 
 #include <Eigen/Geometry>
@@ -13,8 +14,9 @@ namespace pcl::cosection {
 
 namespace {
 
-// Of the way to the middle of the contact polygon: a centre over its edge would tip. Of a body whose contact polygon is
-// 30 mm wide, 0.05 is enough for MuJoCo, and 0.1 not always for Bullet, which adds a margin to shapes.
+// A centre over the edge of the contact polygon would tip: it is moved this share of the way on to the polygon's
+// middle. With a contact polygon 30 mm wide, 0.05 is enough for MuJoCo, and 0.1 not always for Bullet, which adds a
+// margin.
 constexpr double margin = 0.2;
 constexpr int halvings = 30; // of the way there
 constexpr std::size_t most_feet = 8;
@@ -42,12 +44,6 @@ fewerCorners (Polygon polygon)
     polygon.erase (polygon.begin () + static_cast<std::ptrdiff_t> (chosen));
   }
   return polygon;
-}
-
-double
-heightOver (const Eigen::Vector4d& plane, const Eigen::Vector3d& point)
-{
-  return plane.head<3> ().dot (point) + plane[3];
 }
 
 } // namespace

@@ -22,7 +22,6 @@ namespace pcl::cosection {
 
 namespace {
 
-constexpr double touching_voxels = 2.0;      // what is nearer to a plane or another body than so many voxels touches it
 constexpr double flat_tolerance_m = 1e-5;    // of what lies on a plane, for rounding
 constexpr double noticeable_shift_m = 0.001; // of a centre of mass
 constexpr double lower_half = 0.5;

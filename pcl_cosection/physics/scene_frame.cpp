@@ -11,7 +11,6 @@ namespace pcl::cosection {
 
 namespace {
 
-constexpr double touching_voxels = 2.0;
 constexpr double vertical_cosine = 0.9994; // 2 degrees: the z axis of the result points up
 
 /** \brief The plane that most objects stand on; of equals, the one that is most level in the result. */

@@ -3,6 +3,8 @@
 
 #include "object_priors.h"
 
+#include "pcl_cosection/common/plane_height.h"
+
 #include <Eigen/Geometry>
 
 #include <optional>
@@ -13,12 +15,6 @@ namespace pcl::cosection {
 // On which planes an object rests. Planes are n.x + d = 0, unit n towards the object, in its frame.
 
 constexpr double lowest_share = 0.01; // of an object's points: outliers among the lowest ones
-
-inline double
-heightOver (const Eigen::Vector4d& plane, const Eigen::Vector3d& p)
-{
-  return plane.head<3> ().dot (p) + plane[3];
-}
 
 /** \brief The plane nearest to the object's middle of those that its lowest points come near to. */
 std::optional<Eigen::Vector4d> nearestPlaneBelow (const Observation& object,

@@ -201,6 +201,16 @@ ChildProcess::look (int options)
 // --- Limits
 // ---------------------------------------------------------------------------------------------------------------
 
+std::string
+causeOfEnd (int signal, const std::string& library)
+{
+  if (signal == SIGXCPU)
+    return (library + " takes too long");
+  if (signal == SIGKILL)
+    return ("the process in which " + library + " runs was killed; perhaps it took too much memory");
+  return (library + " crashes" + (signal > 0 ? std::string (" (") + strsignal (signal) + ")" : ""));
+}
+
 void
 limitProcessorTime (double seconds)
 {

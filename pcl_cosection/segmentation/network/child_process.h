@@ -6,6 +6,7 @@
 #include <array>
 #include <cstddef>
 #include <functional>
+#include <string>
 
 namespace pcl::cosection {
 
@@ -62,6 +63,10 @@ private:
   pid_t process_ = -1; // -1 once it has ended
   int signal_ = 0;
 };
+
+/** \brief What to say of a child process that ended by a signal. \param[in] signal as of ChildProcess::waitForEnd ()
+ * \param[in] library that ran in it */
+std::string causeOfEnd (int signal, const std::string& library);
 
 /** \brief Let this process use some seconds of processor time from now on, and be ended by SIGXCPU after them. */
 void limitProcessorTime (double seconds);

@@ -6,9 +6,7 @@
 #include <pcl/cosection/common/error.h>
 
 #include <algorithm>
-#include <csignal>
 #include <cstdint>
-#include <cstring>
 #include <exception>
 #include <memory>
 
@@ -195,16 +193,6 @@ serve (const Channel& to_parent, const InstanceDetectorOptions& options, const s
 // --- The process that asks
 // ---------------------------------------------------------------------------------------------------------------
 
-std::string
-causeOfEnd (int signal)
-{
-  if (signal == SIGXCPU)
-    return ("OpenCV takes too long");
-  if (signal == SIGKILL)
-    return ("the process in which OpenCV runs was killed; perhaps it took too much memory");
-  return (signal > 0 ? std::string ("OpenCV crashes (") + strsignal (signal) + ")" : "OpenCV crashes");
-}
-
 /** \brief What \a receive makes of the answer to what \a ask sends. \throws IoError what went wrong there */
 template <typename Ask, typename Receive>
 auto
@@ -220,7 +208,7 @@ answered (ChildProcess& process, const Ask& ask, const Receive& receive)
   }
   catch (const NoAnswer&)
   {
-    throw IoError (causeOfEnd (process.waitForEnd ()));
+    throw IoError (causeOfEnd (process.waitForEnd (), "OpenCV"));
   }
 }
 
