@@ -21,22 +21,18 @@ END
 }
 
 selection=(--label-regex '^(quick|data)$')
+preset=release
 build=build
-options=()
-targets=()
 for argument in "$@"; do
   case $argument in
     --all) selection=() ;;
     --sanitize)
-      build=build-sanitize
-      # Debug keeps the assertions, also Eigen's. -O2 builds more slowly than -O1, and tests run in half the time.
-      options=(-DPCL_COSECTION_SANITIZE=ON -DPCL_COSECTION_BUILD_BENCHMARKS=OFF
-        -DCMAKE_BUILD_TYPE=Debug "-DCMAKE_CXX_FLAGS_DEBUG=-O2 -g1")
+      preset=sanitize
+      build="build-sanitize"
       ;;
     --sanitize-threads)
-      build=build-sanitize-threads
-      options=(-DPCL_COSECTION_SANITIZE=thread -DPCL_COSECTION_BUILD_BENCHMARKS=OFF)
-      targets=(--target test_completion)
+      preset=sanitize-threads
+      build="build-sanitize-threads"
       selection=(--tests-regex 'Concurrency\.')
       ;;
     --help)
@@ -53,7 +49,7 @@ done
 
 cd "$(dirname "${BASH_SOURCE[0]}")"
 jobs=$(nproc)
-export TSAN_OPTIONS="suppressions=$PWD/test/tsan_suppressions.txt" # also while the build asks programs for their tests
+export TSAN_OPTIONS="suppressions=$PWD/test/tsan_suppressions.txt"
 
 step ()
 {
@@ -63,9 +59,9 @@ step ()
 step "Dependencies"
 ./install_dependencies.sh
 step "Configure $build/"
-cmake -G Ninja -S . -B "$build" "${options[@]}"
+cmake --preset "$preset"
 step "Build with $jobs jobs"
-cmake --build "$build" --parallel "$jobs" "${targets[@]}"
+cmake --build --preset "$preset" --parallel "$jobs"
 step "Test"
 # Several tests run at once: threads that wait by spinning would hold each other up.
 export OMP_WAIT_POLICY=passive

@@ -92,13 +92,15 @@ done
 
 step "lintian"
 if command -v lintian > /dev/null; then
-  lintian --allow-root --no-cfg --profile debian --fail-on error "${packages[@]}"
+  lintian --allow-root --no-cfg --profile debian --fail-on error "${packages[@]}" | tee "$work/lintian.log"
+  echo "$(wc --lines < "$work/lintian.log") warnings"
 else
   echo "lintian is not installed"
 fi
 
 step "A new Debian $suite"
 make_root "$suite" "$root" ca-certificates
+in_root "$root" apt-get update --quiet > "$work/update.log" 2>&1 || { cat "$work/update.log"; exit 1; }
 mkdir "$root/tmp/packages" "$root/tmp/consumer"
 cp "${packages[@]}" "$root/tmp/packages"
 cp --recursive "$source_dir/test/consumer/." "$root/tmp/consumer"

@@ -291,7 +291,8 @@ wallThickness (const Observation& object, const ObjectSetting& setting, const st
 std::optional<Eigen::Vector4d>
 inferSupportPlane (const Observation& object, const ObjectSetting& setting)
 {
-  const ProfiledShape& shape = shapeOf (object, setting, std::nullopt);
+  const std::optional<Eigen::Vector4d> no_plane;
+  const ProfiledShape& shape = shapeOf (object, setting, no_plane);
   if (shape.wallThickness () > 0.0)
     return std::nullopt;
   const std::vector<OrientedPoint>& all = object.points ();
