@@ -145,10 +145,11 @@ if(python IN_LIST components)
     "completes hidden surfaces in point clouds - module for Python"
     "${method_text}
 This package has the module pcl_cosection for Python.")
-  string(CONCAT CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS
+  string(CONCAT CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS # what is compiled is for this one
     "python3 (>= ${Python3_VERSION_MAJOR}.${Python3_VERSION_MINOR}~), "
     "python3 (<< ${Python3_VERSION_MAJOR}.${next_minor}), python3-numpy")
-  set(CPACK_DEBIAN_PYTHON_PACKAGE_RECOMMENDS python3-distributed) # completes many views at once
+  # To run the programs on many inputs at once.
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_RECOMMENDS "pcl-cosection, python3-distributed")
   set(CPACK_DEBIAN_PYTHON_PACKAGE_CONTROL_EXTRA # what Python compiles is removed with it
     "${PROJECT_SOURCE_DIR}/cmake/packages/python/postinst" "${PROJECT_SOURCE_DIR}/cmake/packages/python/prerm")
   set(CPACK_COMPONENT_PYTHON_DEPENDS data)

@@ -69,7 +69,7 @@ make_root ()
     options+=("--aptopt=$option")
   done < <(apt_options)
   if ! mirrors "$suite" | mmdebstrap --variant=minbase --include="$(IFS=,; echo "$*")" "${options[@]}" \
-    --aptopt='APT::Install-Recommends "false"' "$suite" "$folder" - &> "$log"; then
+    --aptopt='APT::Install-Recommends "false"' --dpkgopt=force-unsafe-io "$suite" "$folder" - &> "$log"; then
     if grep --quiet --extended-regexp 'Could not (resolve|connect)|Failed to fetch|Temporary failure' "$log"; then
       rm --force "$log"
       skip "no mirror of Debian $suite can be reached"

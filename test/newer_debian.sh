@@ -104,7 +104,9 @@ in_root "$root" bash -euc '
 
 step "Test"
 # shellcheck disable=SC2016
-in_root "$root" bash -euc 'cd /source && ctest --preset release --label-regex "^quick\$" --parallel "$1"' test "$jobs"
+in_root "$root" bash -euc '
+  export OMP_WAIT_POLICY=passive
+  ctest --test-dir /source/build --output-on-failure --no-tests=error --label-regex "^quick\$" --parallel "$1"' test "$jobs"
 
 if [[ -n $packages_dir ]]; then
   step "Build the packages"

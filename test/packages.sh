@@ -163,7 +163,8 @@ in_root "$root" bash -euc '
 
 if in_root "$root" dpkg-query --show python3-pcl-cosection > /dev/null 2>&1; then
   step "Use the module for Python"
-  in_root "$root" python3 -c 'import pcl_cosection; print (pcl_cosection.__file__)'
+  cp "$source_dir/test/packages_python.py" "$root/tmp"
+  in_root "$root" python3 /tmp/packages_python.py
 fi
 
 step "Remove the packages"
