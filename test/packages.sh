@@ -63,7 +63,7 @@ build=$source_dir/build-package-test # in the source's folder, as ccache then kn
 clean_up ()
 {
   if $keep; then
-    echo "$script: kept $work and $build" >&2
+    echo "$script: kept $work" "$([[ -n $packages_dir ]] || echo "and $build")" >&2
   else
     rm --recursive --force --one-file-system "$work"
     [[ -n $packages_dir ]] || rm --recursive --force "$build"
