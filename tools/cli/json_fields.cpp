@@ -9,12 +9,12 @@
 using namespace pcl::cosection;
 
 const Json&
-member (const Json& json, const std::string& key)
+member (const Json& json, std::string_view key)
 {
   static const Json missing;
   if (!json.is_object ())
     return (missing);
-  const auto found = json.find (key);
+  const auto found = json.find (std::string (key));
   return (found == json.end () ? missing : *found);
 }
 

@@ -5,13 +5,14 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 /** \brief The content of a file, in which fields may be missing or of another type. */
 using Json = nlohmann::ordered_json;
 
 /** \brief A member; null if it is missing. */
-const Json& member (const Json& json, const std::string& key);
+const Json& member (const Json& json, std::string_view key);
 
 /** \brief A member that is a finite number. */
 std::optional<double> numberIn (const Json& json, const std::string& key);

@@ -78,7 +78,7 @@ Terminal::progress (const std::string& stage, double fraction)
     return;
   const double clamped = std::min (1.0, std::max (0.0, fraction));
   const int filled = static_cast<int> (clamped * bar_width);
-  char percent[8];
+  char percent[16]; // the compiler does not see that it is at most 100
   std::snprintf (percent, sizeof (percent), "%3d%%", static_cast<int> (100.0 * clamped));
   const std::string bar = "[" + std::string (filled, '#') + std::string (bar_width - filled, ' ') + "] " + percent +
                           " " + oneLine (stage.substr (0, stage_width));
