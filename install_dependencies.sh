@@ -23,8 +23,15 @@ packages=(
   libcli11-dev
   nlohmann-json3-dev
   libjs-three
-  # training of the learned prior
+  # Python module
+  pybind11-dev
+  python3-dev
   python3-numpy
+  python3-pip
+  python3-setuptools
+  python3-venv
+  python3-wheel
+  # training of the learned prior
   python3-onnx
   python3-torch
   # tests, benchmarks, documentation
@@ -38,7 +45,10 @@ packages=(
   clang-tidy
   doxygen
   git
+  mypy
   python3
+  python3-matplotlib
+  python3-opencv
   xvfb
   xdotool
   # Debian packages, and their test

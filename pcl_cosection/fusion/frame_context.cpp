@@ -11,22 +11,31 @@
 #include <cmath>
 #include <iterator>
 #include <map>
+#include <utility>
 
 namespace pcl::cosection {
 namespace {
+
+/** \brief The masks of files; no source without files. */
+MaskSource
+sourceOf (const MaskSequence* masks)
+{
+  if (!masks)
+    return {};
+  return [masks] (const RgbdFrame& frame) { return masks->read (frame.stamp); };
+}
 
 /** \brief Reads masks, and collects warnings about them. */
 class MaskReader
 {
 public:
-  /** \param[in] masks null: no frame has one */
-  explicit MaskReader (const MaskSequence* masks) : masks_ (masks) {}
+  explicit MaskReader (MaskSource masks) : masks_ (std::move (masks)) {}
 
   /** \brief The mask of a frame; nothing if it has none or the mask is damaged. */
   std::optional<Image<std::uint16_t>> read (const RgbdFrame& frame)
   try
   {
-    std::optional<Image<std::uint16_t>> mask = masks_ ? masks_->read (frame.stamp) : std::nullopt;
+    std::optional<Image<std::uint16_t>> mask = masks_ ? masks_ (frame) : std::nullopt;
     used_ += mask.has_value ();
     return mask;
   }
@@ -41,7 +50,7 @@ public:
   }
 
   /** \brief Whether there are masks, and none could be used. */
-  bool lacksMasks () const { return masks_ != nullptr && used_ == 0; }
+  bool lacksMasks () const { return masks_ && used_ == 0; }
 
   std::vector<std::string> warnings () const
   {
@@ -52,7 +61,7 @@ public:
   }
 
 private:
-  const MaskSequence* masks_;
+  MaskSource masks_; // empty: no frame has one
   std::vector<std::string> warnings_;
   std::size_t more_ = 0;
   std::size_t used_ = 0;
@@ -85,7 +94,7 @@ public:
   KnownPoses (const KnownSequence& sequence, const FusionOptions& options)
       : sequence_ (sequence)
       , options_ (options)
-      , masks_ (sequence.masks)
+      , masks_ (sourceOf (sequence.masks))
   {
     const std::vector<double> stamps = sequence.images->stamps ();
     const double period = sequence.images->period ();
@@ -214,12 +223,12 @@ frontEndOptions (DynamicFusionOptions options, bool has_objects)
 class TrackedPoses : public FrameContext
 {
 public:
-  TrackedPoses (const TrackedSequence& sequence, const FusionOptions& options)
-      : masks_ (sequence.masks)
-      , has_objects_ (sequence.masks || sequence.segmenter)
-      , fusion_ (sequence.images->camera (), frontEndOptions (options.front_end, has_objects_))
+  TrackedPoses (const TrackedFrames& frames, const FusionOptions& options)
+      : masks_ (frames.masks)
+      , has_objects_ (frames.has_objects)
+      , fusion_ (frames.camera, frontEndOptions (options.front_end, has_objects_))
   {
-    fusion_.setSegmenter (sequence.segmenter);
+    fusion_.setSegmenter (frames.segmenter);
   }
 
   FrameKnowns next (const RgbdFrame& frame) override
@@ -330,7 +339,15 @@ makeKnownPoses (const KnownSequence& sequence, const FusionOptions& options)
 std::unique_ptr<FrameContext>
 makeTrackedPoses (const TrackedSequence& sequence, const FusionOptions& options)
 {
-  return std::make_unique<TrackedPoses> (sequence, options);
+  return makeTrackedPoses (
+      {sequence.images->camera (), sourceOf (sequence.masks), sequence.segmenter, sequence.masks || sequence.segmenter},
+      options);
+}
+
+std::unique_ptr<FrameContext>
+makeTrackedPoses (const TrackedFrames& frames, const FusionOptions& options)
+{
+  return std::make_unique<TrackedPoses> (frames, options);
 }
 
 std::map<int, FusedObject>::iterator

@@ -6,6 +6,7 @@
 #include <pcl/cosection/fusion/sequence_fusion.h>
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <set>
@@ -57,6 +58,20 @@ public:
 };
 
 std::unique_ptr<FrameContext> makeKnownPoses (const KnownSequence& sequence, const FusionOptions& options);
+
+/** \brief The mask of a frame; nothing if it has none. */
+using MaskSource = std::function<std::optional<Image<std::uint16_t>> (const RgbdFrame& frame)>;
+
+/** \brief Frames of which poses are not known. */
+struct TrackedFrames
+{
+  PinholeCamera camera;
+  MaskSource masks; ///< empty: no frame has one
+  std::shared_ptr<FrameSegmenter> segmenter;
+  bool has_objects = false; ///< there will be masks, or there is a segmenter
+};
+
+std::unique_ptr<FrameContext> makeTrackedPoses (const TrackedFrames& frames, const FusionOptions& options);
 
 std::unique_ptr<FrameContext> makeTrackedPoses (const TrackedSequence& sequence, const FusionOptions& options);
 

@@ -1,7 +1,7 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include <pcl/cosection/fusion/sequence_fusion.h>
 
-#include "frame_context.h"
+#include "fusion_run.h"
 #include "pcl_cosection/sequence/stamp_matching.h"
 
 #include <pcl/cosection/fusion/frame_segmenter.h>
@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
+#include <cmath>
 #include <cstdio>
 #include <limits>
 #include <sstream>
@@ -19,8 +20,7 @@ namespace {
 
 constexpr double frames_share = 0.5; // of the progress; the rest is the last solution
 constexpr std::size_t min_object_points = 100;
-constexpr std::size_t status_every = 10;           // frames
-constexpr std::chrono::milliseconds patience (50); // until a cancellation is noticed
+constexpr std::size_t status_every = 10; // frames
 
 /** \brief Check what is known before any frame is read. \throws InvalidArgument if there is no frame in the range, or
  * the ignored pixels are not of the images' size */
@@ -106,96 +106,22 @@ private:
   std::chrono::steady_clock::time_point status_time_ = std::chrono::steady_clock::now ();
 };
 
-/** \brief The back end, in a thread beside the front end if there are updates at keyframes. */
-class RunBackend
-{
-public:
-  explicit RunBackend (const FusionOptions& options) : backend_ (options.backend)
-  {
-    if (options.updates != KeyframeUpdates::None)
-      thread_.emplace (backend_);
-  }
-
-  void addKeyframe (Keyframe keyframe, const CoSectionBackend::Poses& T_world_object)
-  {
-    if (thread_)
-      thread_->addKeyframe (std::move (keyframe), T_world_object);
-    else
-      backend_.addKeyframe (keyframe, T_world_object);
-  }
-
-  void addFrame (DepthView view, const CoSectionBackend::Poses& T_world_object)
-  {
-    if (thread_)
-      thread_->addFrame (std::move (view), T_world_object);
-    else
-      backend_.addFrame (std::move (view), T_world_object);
-  }
-
-  /** \brief Pass updates on, when no more than so many views wait for the back end; 0: when all updates are done. */
-  void followUpdates (std::size_t waiting_views, const RunProgress& progress,
-                      const SequenceFusion::KeyframeCallback& callback, double& seconds)
-  {
-    if (!thread_)
-      return;
-    while (!thread_->wait (waiting_views, patience))
-      progress.reportKeyframe ();
-    for (const BackendUpdate& update : thread_->takeUpdates ())
-    {
-      seconds += update.seconds;
-      progress.reportKeyframe ();
-      if (callback)
-        callback ({update.stamp, update.scene});
-    }
-  }
-
-  /** \brief The back end with all views, as if there had been no updates. */
-  CoSectionBackend& withoutUpdates ()
-  {
-    thread_.reset ();
-    backend_.forgetUpdates ();
-    return backend_;
-  }
-
-private:
-  CoSectionBackend backend_;
-  std::optional<BackendThread> thread_;
-};
-
-/** \brief Numbers of points in all keyframes. */
-struct KeyframePoints
-{
-  std::size_t all = 0;
-  std::size_t without_pose = 0; ///< of objects whose pose is not known in the keyframe
-};
-
+/** \brief Warn of frames that were asked for and are not there. */
 void
-countPoints (const Keyframe& keyframe, const CoSectionBackend::Poses& T_world_object,
-             std::map<int, FusedObject>& objects, KeyframePoints& points)
+warnOfRange (const RgbdSequence& images, const FrameRange& frames, FusionResult& result)
 {
-  for (const auto& [id, of_object] : keyframe.points)
-  {
-    points.all += of_object.size ();
-    if (id == 0)
-      continue;
-    if (T_world_object.count (id) > 0)
-      objects[id].points += of_object.size ();
-    else
-      points.without_pose += of_object.size ();
-  }
-}
-
-FusionResult
-emptyResult (const RgbdSequence& images, const FrameRange& frames)
-{
-  FusionResult result;
-  for (const char* stage : {"read", "tracking", "raycast", "segmentation", "integration", "keyframes", "updates"})
-    result.timings_s[stage] = 0.0;
-  result.intrinsics = images.camera ();
   if (frames.last > images.size () && frames.last != FrameRange ().last)
     result.warnings.push_back ("frames from " + std::to_string (images.size ()) +
                                " on are not there; the sequence has 0:" + std::to_string (images.size ()));
-  return result;
+}
+
+/** \brief Take the readings of pixels that are ignored. */
+void
+leaveOut (const Image<std::uint8_t>& ignored, RgbdFrame& frame)
+{
+  for (std::size_t n = 0; n < ignored.pixels.size (); ++n)
+    if (ignored.pixels[n] != 0)
+      frame.depth.pixels[n] = std::numeric_limits<float>::quiet_NaN ();
 }
 
 /** \brief The next frame, without readings where pixels are ignored; nothing at the end. */
@@ -204,9 +130,8 @@ readFrame (FrameReader& reader, const Image<std::uint8_t>& ignored, double& seco
 {
   const ScopedSeconds timer (seconds);
   std::optional<RgbdFrame> frame = reader.next ();
-  for (std::size_t n = 0; frame && n < ignored.pixels.size (); ++n)
-    if (ignored.pixels[n] != 0)
-      frame->depth.pixels[n] = std::numeric_limits<float>::quiet_NaN ();
+  if (frame)
+    leaveOut (ignored, *frame);
   return frame;
 }
 
@@ -233,51 +158,6 @@ requireKeyframes (std::size_t frames_read, std::size_t points, const std::vector
          << firstOf (frame_warnings);
     throw IoError (text.str ());
   }
-}
-
-/** \brief Leave out objects of too few points, which are no failure: masks have outliers. */
-void
-leaveOutSmallObjects (FusionResult& result)
-{
-  for (auto object = result.objects.begin (); object != result.objects.end ();)
-  {
-    const std::size_t points = object->second.points;
-    if (points >= min_object_points)
-    {
-      ++object;
-      continue;
-    }
-    if (points > 0)
-      result.warnings.push_back ("object " + std::to_string (object->first) + " was left out: it has only " +
-                                 std::to_string (points) + " points in all keyframes; " +
-                                 std::to_string (min_object_points) + " are needed");
-    object = eraseObject (object, false, result);
-  }
-}
-
-/** \brief Complete everything from all views. */
-void
-completeSequence (CoSectionBackend& backend, const RunProgress& progress, FrameContext& context,
-                  std::size_t points_without_pose, FusionResult& result)
-{
-  for (const int id : context.wrongObjects ())
-    backend.removeObject (id);
-  {
-    const ScopedSeconds timer (result.timings_s["final_solve"]);
-    result.scene = backend.solve ([&] (const std::string& stage, double fraction) {
-      progress.report (stage, frames_share + (1.0 - frames_share) * fraction);
-      return true;
-    });
-  }
-  for (const auto& [stage, seconds] : result.scene.timings_s)
-    result.timings_s[stage] += seconds;
-  result.kept_keyframes = backend.keyframes ();
-  context.finish (result);
-  if (points_without_pose > 0)
-    result.warnings.push_back (std::to_string (points_without_pose) +
-                               " points of objects were left out: their trajectories have no pose for those frames");
-  leaveOutSmallObjects (result);
-  result.warnings.insert (result.warnings.end (), result.scene.warnings.begin (), result.scene.warnings.end ());
 }
 
 } // namespace
@@ -328,62 +208,101 @@ SequenceFusion::run (const ProgressCallback& progress, const KeyframeCallback& o
                      const FrameCallback& on_frame) const
 {
   const RgbdSequence& images = tracked_ ? *tracked_->images : *sequence_.images;
-  const std::unique_ptr<FrameContext> context = tracked_ ? makeTrackedPoses (*tracked_, options_)
-                                                         : makeKnownPoses (sequence_, options_);
-  const auto every = static_cast<std::size_t> (options_.keyframe_every);
-  FusionResult result = emptyResult (images, options_.frames);
-  KeyframePoints points;
+  FusionRun run (images.camera (), options_,
+                 tracked_ ? makeTrackedPoses (*tracked_, options_) : makeKnownPoses (sequence_, options_));
+  FusionResult& result = run.result ();
+  warnOfRange (images, options_.frames, result);
   RunProgress run_progress (progress, options_.frames, images.size ());
-  RunBackend backend (options_);
+  const auto report = [&] { run_progress.reportKeyframe (); };
   FrameReader reader (images, options_.frames);
-  std::optional<std::size_t> next_keyframe;
   while (const auto frame = readFrame (reader, options_.ignored, result.timings_s["read"]))
   {
-    run_progress.reportFrame (frame->index, *context);
-
-    // Poses and instances of the frame.
-    const FrameKnowns known = context->next (*frame);
-    if (!known.T_world_camera)
-      continue;
-    ++result.frames;
-    result.camera.push_back ({frame->stamp, *known.T_world_camera});
-
-    // Points of the frame, if a keyframe is due. It waits for a mask for as long as one may still come.
-    const std::size_t due = next_keyframe.value_or (frame->index);
-    const bool is_keyframe = frame->index >= due && known.instances && (known.masked || frame->index - due >= every);
-    next_keyframe = is_keyframe ? due + (frame->index - due) / every * every + every : due;
-    std::optional<Keyframe> keyframe;
-    if (const ScopedSeconds timer (result.timings_s["keyframes"]); is_keyframe)
-      keyframe = makeKeyframe (*frame, images.camera (), *known.instances, *known.T_world_camera, options_.keyframe);
-
-    // Surfaces and trajectories of objects.
-    const CoSectionBackend::Poses T_world_object = context->mapObjects (*frame, known, keyframe ? &*keyframe : nullptr);
-    for (const auto& [id, T] : T_world_object)
-      result.objects[id].trajectory.push_back ({frame->stamp, T});
-
-    // Points and free space for the completion.
-    if (keyframe)
-    {
-      ++result.keyframes;
-      countPoints (*keyframe, T_world_object, result.objects, points);
-    }
-    if (const ScopedSeconds timer (result.timings_s["keyframes"]); keyframe)
-      backend.addKeyframe (std::move (*keyframe), T_world_object);
-    else
-      backend.addFrame (makeDepthView (frame->depth, images.camera (), *known.T_world_camera, options_.keyframe),
-                        T_world_object);
-
-    if (on_frame)
-      on_frame ({*frame, *known.T_world_camera, T_world_object, known.instances ? &*known.instances : nullptr,
-                 is_keyframe, [&] (int id) { return context->surfaceMesh (id); }});
-    backend.followUpdates (is_keyframe && options_.updates == KeyframeUpdates::InStep ? 0 : options_.backend.max_views,
-                           run_progress, on_keyframe, result.timings_s["updates"]);
+    run_progress.reportFrame (frame->index, run.context ());
+    if (run.add (*frame, on_frame))
+      run.followUpdates (report, on_keyframe, false);
   }
-  requireKeyframes (run_progress.framesRead (), points.all, reader.warnings (), *context, options_, result);
+  requireKeyframes (run_progress.framesRead (), run.points (), reader.warnings (), run.context (), options_, result);
   result.frames_left_out = std::min (options_.frames.last, images.size ()) - options_.frames.first - result.frames;
-  backend.followUpdates (0, run_progress, on_keyframe, result.timings_s["updates"]);
-  completeSequence (backend.withoutUpdates (), run_progress, *context, points.without_pose, result);
-  return result;
+  run.followUpdates (report, on_keyframe, true);
+  return run.complete ([&] (const std::string& stage, double fraction) {
+    run_progress.report (stage, frames_share + (1.0 - frames_share) * fraction);
+    return true;
+  });
+}
+
+/** \brief What a stream of frames has: its options outlive what refers to them. */
+struct OnlineFusion::Impl
+{
+  Impl (const PinholeCamera& of_images, const FusionOptions& given, std::shared_ptr<FrameSegmenter> segmenter)
+      : camera (of_images)
+      , options (given)
+      , run (of_images, options,
+             makeTrackedPoses ({of_images, [this] (const RgbdFrame&) { return std::exchange (mask, std::nullopt); },
+                                std::move (segmenter), given.front_end.objects},
+                               options))
+  {}
+
+  const PinholeCamera camera;
+  const FusionOptions options;
+  std::optional<Image<std::uint16_t>> mask; ///< of the next frame
+  std::size_t frames = 0;
+  double stamp = 0.0; ///< of the last frame
+  FusionRun run;
+};
+
+OnlineFusion::OnlineFusion (const PinholeCamera& camera, const FusionOptions& options,
+                            std::shared_ptr<FrameSegmenter> segmenter)
+{
+  FusionOptions own = options;
+  if (segmenter && segmenter->isExact ())
+    own.backend.method.leave_out_moved = true;
+  own.updates = KeyframeUpdates::None;
+  own.validate ();
+  camera.validate ();
+  impl_ = std::make_unique<Impl> (camera, own, std::move (segmenter));
+}
+
+OnlineFusion::~OnlineFusion () = default;
+OnlineFusion::OnlineFusion (OnlineFusion&&) noexcept = default;
+OnlineFusion& OnlineFusion::operator= (OnlineFusion&&) noexcept = default;
+
+bool
+OnlineFusion::add (RgbdFrame frame, const Image<std::uint16_t>* mask, const SequenceFusion::FrameCallback& on_frame)
+{
+  const auto requireSize = [&] (int width, int height, const char* what) {
+    if (width != impl_->camera.width || height != impl_->camera.height)
+      throw InvalidArgument (std::string (what) + " has " + std::to_string (width) + " x " + std::to_string (height) +
+                             " pixels, the camera " + std::to_string (impl_->camera.width) + " x " +
+                             std::to_string (impl_->camera.height));
+  };
+  requireSize (frame.depth.width, frame.depth.height, "the depth image");
+  if (!frame.colour.pixels.empty ())
+    requireSize (frame.colour.width, frame.colour.height, "the colour image");
+  if (mask)
+    requireSize (mask->width, mask->height, "the mask");
+  if (!std::isfinite (frame.stamp) || (impl_->frames > 0 && frame.stamp <= impl_->stamp))
+    throw InvalidArgument ("the stamp of a frame must be finite, and larger than that of the frame before");
+  impl_->stamp = frame.stamp;
+  frame.index = impl_->frames++;
+  if (mask)
+    impl_->mask = *mask;
+  leaveOut (impl_->options.ignored, frame);
+  return impl_->run.add (frame, on_frame);
+}
+
+FusionResult
+OnlineFusion::complete (const ProgressCallback& progress)
+{
+  if (impl_->run.result ().frames == 0)
+    throw DegenerateInput (impl_->frames == 0 ? "there is no frame" : "the camera could not be tracked in any frame");
+  if (impl_->run.points () == 0)
+  {
+    std::ostringstream text;
+    text << "no keyframe has a surface nearer than " << impl_->options.keyframe.max_depth_m << " m";
+    throw DegenerateInput (text.str ());
+  }
+  impl_->run.result ().frames_left_out = impl_->frames - impl_->run.result ().frames;
+  return impl_->run.complete (progress);
 }
 
 } // namespace pcl::cosection

@@ -94,6 +94,35 @@ checkExtent (const std::string& path, const PcdViewOptions& options, const Senso
   }
 }
 
+/** \brief Give points that were read their rays and normals, and sort them by label. */
+LabelledView
+toView (const std::string& path, const PcdViewOptions& options, SensorCloud cloud)
+{
+  LabelledView result;
+  result.warnings = cloud.warnings;
+  checkLabels (path, cloud);
+  checkExtent (path, options, cloud, result);
+  result.origin = cloud.origin;
+  result.organized = cloud.height > 1;
+  result.has_labels = cloud.has_labels;
+  result.has_colour = !cloud.colours.empty ();
+  result.has_intensity = !cloud.intensities.empty ();
+  if (cloud.ignored > 0)
+    result.warnings.push_back (path + ": " + std::to_string (cloud.ignored) + " points of a negative label, or of " +
+                               (options.ignored_labels.empty () ? "65535" : "one that is ignored") + ", are ignored");
+  labelGround (options, cloud);
+  if (cloud.height > 1)
+    completeOrganized (path, options, cloud, result);
+  else
+    completeUnorganized (path, options, cloud, result);
+  if (result.view)
+    result.view->name = path;
+  for (DepthView& view : result.other_views)
+    view.name = path;
+  collectObjects (cloud, result);
+  return (result);
+}
+
 } // namespace
 
 void
@@ -119,30 +148,16 @@ LabelledView
 readPcdView (const std::string& path, const PcdViewOptions& options)
 {
   options.validate ();
-  SensorCloud cloud = readSensorCloud (path, options);
-  LabelledView result;
-  result.warnings = cloud.warnings;
-  checkLabels (path, cloud);
-  checkExtent (path, options, cloud, result);
-  result.origin = cloud.origin;
-  result.organized = cloud.height > 1;
-  result.has_labels = cloud.has_labels;
-  result.has_colour = !cloud.colours.empty ();
-  result.has_intensity = !cloud.intensities.empty ();
-  if (cloud.ignored > 0)
-    result.warnings.push_back (path + ": " + std::to_string (cloud.ignored) + " points of a negative label, or of " +
-                               (options.ignored_labels.empty () ? "65535" : "one that is ignored") + ", are ignored");
-  labelGround (options, cloud);
-  if (cloud.height > 1)
-    completeOrganized (path, options, cloud, result);
-  else
-    completeUnorganized (path, options, cloud, result);
-  if (result.view)
-    result.view->name = path;
-  for (DepthView& view : result.other_views)
-    view.name = path;
-  collectObjects (cloud, result);
-  return (result);
+  return (toView (path, options, readSensorCloud (path, options)));
+}
+
+LabelledView
+toLabelledView (const PCLPointCloud2& cloud, const Eigen::Isometry3d& T_world_sensor, const PcdViewOptions& options,
+                const std::string& name)
+{
+  options.validate ();
+  const CloudHeader header = describeCloud (name, cloud, T_world_sensor);
+  return (toView (name, options, toSensorCloud (name, header, cloud, options)));
 }
 
 } // namespace pcl::cosection

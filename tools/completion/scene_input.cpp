@@ -2,8 +2,8 @@
 #include "scene_input.h"
 
 #include "object_poses.h"
+#include "scene_warnings.h"
 
-#include "pcl_cosection/common/boxes.h"
 #include "pcl_cosection/segmentation/clusters/cloud_segmentation.h"
 #include "pcl_cosection/view/organized_cloud.h"
 
@@ -18,7 +18,6 @@
 #include <iterator>
 #include <limits>
 #include <optional>
-#include <sstream>
 #include <utility>
 
 using namespace pcl::cosection;
@@ -26,11 +25,7 @@ using namespace pcl::cosection;
 namespace {
 
 constexpr std::size_t min_points = 100;
-constexpr double whole_image_share = 0.5;   ///< of the pixels; an object that was cut out has fewer ...
-constexpr std::size_t image_pixels = 70000; ///< ... or is smaller than a camera's image
-constexpr double long_object = 5.0;         ///< metres; what is longer is hardly one thing in metres
-constexpr double outlier_share = 0.02;      ///< of its points, on each side
-constexpr float large_extent = 100.0f;      ///< metres; what is larger is probably not in metres
+constexpr float large_extent = 100.0f; ///< metres; what is larger is probably not in metres
 
 std::string
 tooFew (std::uint32_t label, const LabelledView::Points& object)
@@ -42,56 +37,6 @@ tooFew (std::uint32_t label, const LabelledView::Points& object)
   else
     text += "it has " + std::to_string (object.readings) + " valid points";
   return (text + ", at least " + std::to_string (min_points) + " are needed");
-}
-
-/** \brief Whether an image without labels shows more than an object that was cut out. */
-bool
-isWholeImage (const LabelledView& view)
-{
-  if (view.has_labels || !view.view || view.objects.empty ())
-    return (false);
-  const std::size_t pixels = view.view->depth.size ();
-  const std::size_t readings = view.objects.begin ()->second.readings;
-  return (view.organized && pixels >= image_pixels &&
-          static_cast<double> (readings) > whole_image_share * static_cast<double> (pixels));
-}
-
-/** \brief How far points extend along the axes, without outliers, metres. */
-Eigen::Vector3d
-extentOf (const std::vector<OrientedPoint>& points)
-{
-  return trimmedBox<double> (points, outlier_share, [] (const OrientedPoint& p) { return p.position; }).sizes ();
-}
-
-/** \brief A warning of an object that is too long to be one, if it is: without labels it may be a whole scene, or its
- * unit is not the metre. */
-std::optional<std::string>
-tooLong (std::uint32_t label, const std::vector<OrientedPoint>& points)
-{
-  const double longest = extentOf (points).maxCoeff ();
-  if (longest <= long_object)
-    return std::nullopt;
-  std::ostringstream text;
-  text.precision (3);
-  text << "object " << label << " is " << longest
-       << " m long: is it one (else give labels), and is its unit the metre (else --scale 0.01 for "
-       << "centimetres, 0.001 for millimetres)?";
-  return text.str ();
-}
-
-/** \brief A warning about a background that extends no farther than an object, if it does: it may be the first object.
- */
-std::optional<std::string>
-smallBackground (const SceneInput& scene)
-{
-  if (scene.background.empty ())
-    return std::nullopt;
-  const double extent_m = extentOf (scene.background).norm ();
-  for (const auto& [id, object] : scene.objects)
-    if (extent_m <= extentOf (object.points).norm ())
-      return "label 0 is the background, and extends no farther than object " + std::to_string (id) +
-             ": if labels count the objects from 0, add 1 to them";
-  return std::nullopt;
 }
 
 /** \brief A view that says nothing, in the place of a file without rays. */
@@ -170,9 +115,10 @@ merge (const std::string& path, std::size_t index, LabelledView& view, const Obj
 }
 
 TriangleMesh
-readObstacle (const std::string& path, const Eigen::Vector3d& origin, std::vector<std::string>& warnings)
+readObstacle (const std::string& path, const Eigen::Vector3d& origin, const SceneReaders& readers,
+              std::vector<std::string>& warnings)
 {
-  TriangleMesh mesh = loadMesh (path, origin);
+  TriangleMesh mesh = readers.obstacle (path, origin);
   Eigen::AlignedBox3f box;
   for (const Eigen::Vector3f& v : mesh.vertices)
     box.extend (v);
@@ -205,19 +151,24 @@ optionsOf (std::size_t view, const Settings& settings, const Labels& labels)
   return (options);
 }
 
+/** \brief A mesh of any frame. */
+TriangleMesh
+readProposal (const std::string& path)
+{
+  if (!localOrigin (path).isZero (0.0))
+    throw InvalidArgument (path + ": is so far from the origin of its frame that single precision loses its shape; "
+                                  "move it there");
+  return (loadMesh (path));
+}
+
 /** \brief The meshes that may be the shape of an object. */
 std::vector<TriangleMesh>
-proposalsOf (int id, const Settings& settings)
+proposalsOf (int id, const Settings& settings, const SceneReaders& readers)
 {
   std::vector<TriangleMesh> proposals;
-  for (const auto& [label, file] : settings.proposals)
+  for (const auto& [label, name] : settings.proposals)
     if (label == id)
-    {
-      if (!localOrigin (file).isZero (0.0))
-        throw InvalidArgument (file + ": is so far from the origin of its frame that single precision loses its shape; "
-                                      "move it there");
-      proposals.push_back (loadMesh (file));
-    }
+      proposals.push_back (readers.proposal (name));
   return proposals;
 }
 
@@ -267,28 +218,25 @@ findLabels (const std::string& path, const Settings& settings, const PcdViewOpti
   return std::move (found.labels);
 }
 
-/** \brief A warning of an object that extends about all the others, if there is no background: it may be that. */
-std::optional<std::string>
-objectLikeBackground (const SceneInput& scene)
+/** \brief Take the background and the objects of which there are enough points. */
+void
+addObjects (const Settings& settings, const SceneReaders& readers, const ObjectPoses& poses, Labels& labels,
+            SceneInput& scene)
 {
-  if (!scene.background.empty () || scene.objects.size () < 2)
-    return std::nullopt;
-  int largest = 0;
-  double extent_m = -1.0;
-  for (const auto& [id, object] : scene.objects)
-    if (const double other_m = extentOf (object.points).norm (); other_m > extent_m)
+  for (auto& [label, object] : labels)
+  {
+    const int id = static_cast<int> (label);
+    if (object.points.size () < min_points)
+      scene.warnings.push_back (tooFew (label, object));
+    else if (label == 0)
+      scene.background = std::move (object.points);
+    else
     {
-      largest = id;
-      extent_m = other_m;
+      if (const auto warning = tooLong (label, object.points))
+        scene.warnings.push_back (*warning);
+      scene.objects[id] = {id, std::move (object.points), posesOf (poses, label), proposalsOf (id, settings, readers)};
     }
-  std::vector<OrientedPoint> others;
-  for (const auto& [id, object] : scene.objects)
-    if (id != largest)
-      others.insert (others.end (), object.points.begin (), object.points.end ());
-  if (extent_m <= extentOf (others).norm ())
-    return std::nullopt;
-  return "object " + std::to_string (largest) + " extends farther than all others together; if it is the background, " +
-         "give --background " + std::to_string (largest);
+  }
 }
 
 } // namespace
@@ -299,12 +247,19 @@ relativeTo (const Eigen::Vector3d& origin, const Eigen::Vector4d& plane)
   return {plane[0], plane[1], plane[2], plane[3] + plane.head<3> ().dot (origin)};
 }
 
+SceneReaders
+SceneReaders::ofFiles ()
+{
+  return {readPcdView, [] (const std::string& path, const Eigen::Vector3d& origin) { return loadMesh (path, origin); },
+          readProposal, readPoses};
+}
+
 SceneInput
-readScene (const Settings& settings, const ProgressCallback& progress)
+readScene (const Settings& settings, const ProgressCallback& progress, const SceneReaders& readers)
 {
   SceneInput scene;
   const std::size_t files = settings.inputs.size () + settings.free_space.size ();
-  const ObjectPoses poses = readPoses (settings.object_trajectories, files);
+  const ObjectPoses poses = readers.poses (settings.object_trajectories, files);
   Labels labels;
   std::vector<std::size_t> inputs; // of each view, the file that it is of
   std::size_t begun = 0;
@@ -317,7 +272,7 @@ readScene (const Settings& settings, const ProgressCallback& progress)
       options.origin = {scene.origin.x (), scene.origin.y (), scene.origin.z ()};
     if (settings.segment && begun == 1)
       options.labels = findLabels (path, settings, options, scene.warnings);
-    LabelledView view = readPcdView (path, options);
+    LabelledView view = readers.view (path, options);
     scene.origin = view.origin;
     std::move (view.warnings.begin (), view.warnings.end (), std::back_inserter (scene.warnings));
     return (view);
@@ -346,23 +301,10 @@ readScene (const Settings& settings, const ProgressCallback& progress)
     addViews (view, begun - 1, true, scene.free_space, inputs);
   }
   for (const std::string& file : settings.obstacles)
-    scene.obstacles.push_back (readObstacle (file, scene.origin, scene.warnings));
+    scene.obstacles.push_back (readObstacle (file, scene.origin, readers, scene.warnings));
   const ObjectPoses relative_poses = ofInputs (inputs, relativeTo (scene.origin, poses));
 
-  for (auto& [label, object] : labels)
-  {
-    const int id = static_cast<int> (label);
-    if (object.points.size () < min_points)
-      scene.warnings.push_back (tooFew (label, object));
-    else if (label == 0)
-      scene.background = std::move (object.points);
-    else
-    {
-      if (const auto warning = tooLong (label, object.points))
-        scene.warnings.push_back (*warning);
-      scene.objects[id] = {id, std::move (object.points), posesOf (relative_poses, label), proposalsOf (id, settings)};
-    }
-  }
+  addObjects (settings, readers, relative_poses, labels, scene);
   warnOfUnknown (settings, scene);
   if (scene.objects.empty ())
   {

@@ -2,11 +2,15 @@
 #pragma once
 
 #include "command_line.h"
+#include "object_poses.h"
 
 #include <pcl/cosection/common/camera.h>
 #include <pcl/cosection/common/error.h>
+#include <pcl/cosection/io/pcd_view.h>
 #include <pcl/cosection/surface/co_section.h>
 
+#include <cstddef>
+#include <functional>
 #include <map>
 #include <string>
 #include <vector>
@@ -26,6 +30,19 @@ struct SceneInput
 /** \brief A plane of the world in a frame with another origin. */
 Eigen::Vector4d relativeTo (const Eigen::Vector3d& origin, const Eigen::Vector4d& plane);
 
+/** \brief Where what the settings name comes from. */
+struct SceneReaders
+{
+  std::function<pcl::cosection::LabelledView (const std::string& name, const pcl::cosection::PcdViewOptions& options)>
+      view;
+  std::function<pcl::cosection::TriangleMesh (const std::string& name, const Eigen::Vector3d& origin)> obstacle;
+  std::function<pcl::cosection::TriangleMesh (const std::string& name)> proposal;
+  std::function<ObjectPoses (const std::map<int, std::string>& names, std::size_t views)> poses;
+
+  static SceneReaders ofFiles ();
+};
+
 /** \brief Read and merge the views; labels of too few points are dropped with a warning.
  * \throws pcl::cosection::Error also if no object is left, or if \a progress returns false */
-SceneInput readScene (const Settings& settings, const pcl::cosection::ProgressCallback& progress);
+SceneInput readScene (const Settings& settings, const pcl::cosection::ProgressCallback& progress,
+                      const SceneReaders& readers = SceneReaders::ofFiles ());

@@ -3,6 +3,8 @@
 
 #include <pcl/PCLPointCloud2.h>
 
+#include <Eigen/Geometry>
+
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -64,6 +66,13 @@ struct CloudHeader
  * the header neither leaves the file nor allocates more than a small multiple of it.
  * \throws IoError for anything but a well formed file, DegenerateInput if it holds no points */
 CloudHeader readCloudHeader (const std::string& path);
+
+/** \brief Describe a cloud in memory as the header of a file would. \param[in] name for messages \param[in]
+ * T_world_sensor its viewpoint
+ * \throws InvalidArgument unless the cloud has the bytes that its size and its fields ask for, DegenerateInput if it
+ * holds no points */
+CloudHeader describeCloud (const std::string& name, const PCLPointCloud2& cloud,
+                           const Eigen::Isometry3d& T_world_sensor);
 
 /** \brief Read the points that \a header, from readCloudHeader (), describes.
  *

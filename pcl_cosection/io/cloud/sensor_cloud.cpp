@@ -112,6 +112,13 @@ readSensorCloud (const std::string& path, const PcdViewOptions& options, bool wi
     requireNumber (path, header, name);
   checkMemory (path, header, options.max_memory_bytes);
   const PCLPointCloud2 cloud = readCloudPoints (path, header);
+  return (toSensorCloud (path, header, cloud, options, with_labels));
+}
+
+SensorCloud
+toSensorCloud (const std::string& path, const CloudHeader& header, const PCLPointCloud2& cloud,
+               const PcdViewOptions& options, bool with_labels)
+{
   const Fields position_fields = {&requireNumber (path, header, "x"), &requireNumber (path, header, "y"),
                                   &requireNumber (path, header, "z")};
 

@@ -1,6 +1,8 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "cloud_file.h"
+
 #include <pcl/cosection/io/pcd_view.h>
 
 #include <Eigen/Geometry>
@@ -37,5 +39,10 @@ struct SensorCloud
 /** \brief Read the points of a PCD or PLY file; see readPcdView () for the fields and the errors. \param[in]
  * with_labels else they are not looked at */
 SensorCloud readSensorCloud (const std::string& path, const PcdViewOptions& options, bool with_labels = true);
+
+/** \brief The points of a file that were read, in the sensor frame. \param[in] path for messages \param[in] header
+ * describes \a cloud */
+SensorCloud toSensorCloud (const std::string& path, const CloudHeader& header, const PCLPointCloud2& cloud,
+                           const PcdViewOptions& options, bool with_labels = true);
 
 } // namespace pcl::cosection

@@ -178,4 +178,46 @@ private:
   FusionOptions options_;
 };
 
+/** \brief Tracks the camera and the objects of frames that come one by one, as from a camera, and completes what they
+ * have shown: what SequenceFusion does with a tracked sequence.
+ *
+ * \code
+ * OnlineFusion fusion (camera);
+ * while (const auto frame = sensor.next ())
+ *   fusion.add (*frame, maskOf (*frame));
+ * const FusionResult result = fusion.complete ();
+ * \endcode
+ * Not for two threads at once. */
+class PCL_COSECTION_EXPORT OnlineFusion
+{
+public:
+  /** \brief Begin with nothing. \param[in] camera of all frames \param[in] options their frames and updates are not
+   * used; DynamicFusionOptions::objects says whether there will be masks \param[in] segmenter finds objects in frames
+   * without a mask; null: none \throws InvalidArgument if an option or the camera is not valid */
+  explicit OnlineFusion (const PinholeCamera& camera, const FusionOptions& options = {},
+                         std::shared_ptr<FrameSegmenter> segmenter = nullptr);
+  ~OnlineFusion ();
+  /** \brief Takes over what the other one has. */
+  OnlineFusion (OnlineFusion&& other) noexcept;
+  /** \brief Takes over what the other one has. */
+  OnlineFusion& operator= (OnlineFusion&& other) noexcept;
+
+  /** \brief Track, segment and map the next frame.
+   * \param[in] frame of the camera's size, with a larger stamp than the one before; its index is not used
+   * \param[in] mask a pixel is the number of an instance; null: the frame has none
+   * \param[in] on_frame called if the frame is used
+   * \return whether it is: false if the camera could not be tracked
+   * \throws InvalidArgument if a size or the stamp is wrong; nothing is changed then */
+  bool add (RgbdFrame frame, const Image<std::uint16_t>* mask = nullptr,
+            const SequenceFusion::FrameCallback& on_frame = {});
+
+  /** \brief Complete everything that was shown so far; further frames may follow.
+   * \throws DegenerateInput if no frame could be tracked, or none shows a surface; Cancelled */
+  FusionResult complete (const ProgressCallback& progress = {});
+
+private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
 } // namespace pcl::cosection

@@ -5,7 +5,10 @@
 #include <pcl/cosection/common/export.h>
 #include <pcl/cosection/common/oriented_point.h>
 
+#include <pcl/PCLPointCloud2.h>
+
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 
 #include <array>
 #include <cstddef>
@@ -101,5 +104,16 @@ struct PCL_COSECTION_EXPORT LabelledView
  * \throws DegenerateInput if it holds no finite point
  * \throws InvalidArgument if an option is outside its domain */
 PCL_COSECTION_EXPORT LabelledView readPcdView (const std::string& path, const PcdViewOptions& options = {});
+
+/** \brief Read a cloud in memory as a view.
+ * \param[in] cloud with the fields of a file; colours in one field, rgb or rgba
+ * \param[in] T_world_sensor its viewpoint, metres
+ * \param[in] options how to read it
+ * \param[in] name for messages
+ * \throws DegenerateInput, InvalidArgument as readPcdView (), the latter also if the bytes are not those that the
+ * fields ask for; IoError if a field that is needed is missing, or of another type */
+PCL_COSECTION_EXPORT LabelledView toLabelledView (const PCLPointCloud2& cloud, const Eigen::Isometry3d& T_world_sensor,
+                                                  const PcdViewOptions& options = {},
+                                                  const std::string& name = "the cloud");
 
 } // namespace pcl::cosection

@@ -1,0 +1,86 @@
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
+#include "scene_warnings.h"
+
+#include "pcl_cosection/common/boxes.h"
+
+#include <cstddef>
+#include <sstream>
+
+using namespace pcl::cosection;
+
+namespace {
+
+constexpr double whole_image_share = 0.5;   ///< of the pixels; an object that was cut out has fewer ...
+constexpr std::size_t image_pixels = 70000; ///< ... or is smaller than a camera's image
+constexpr double long_object = 5.0;         ///< metres; what is longer is hardly one thing in metres
+constexpr double outlier_share = 0.02;      ///< of its points, on each side
+
+/** \brief How far points extend along the axes, without outliers, metres. */
+Eigen::Vector3d
+extentOf (const std::vector<OrientedPoint>& points)
+{
+  return trimmedBox<double> (points, outlier_share, [] (const OrientedPoint& p) { return p.position; }).sizes ();
+}
+
+} // namespace
+
+bool
+isWholeImage (const LabelledView& view)
+{
+  if (view.has_labels || !view.view || view.objects.empty ())
+    return (false);
+  const std::size_t pixels = view.view->depth.size ();
+  const std::size_t readings = view.objects.begin ()->second.readings;
+  return (view.organized && pixels >= image_pixels &&
+          static_cast<double> (readings) > whole_image_share * static_cast<double> (pixels));
+}
+
+std::optional<std::string>
+tooLong (std::uint32_t label, const std::vector<OrientedPoint>& points)
+{
+  const double longest = extentOf (points).maxCoeff ();
+  if (longest <= long_object)
+    return std::nullopt;
+  std::ostringstream text;
+  text.precision (3);
+  text << "object " << label << " is " << longest
+       << " m long: is it one (else give labels), and is its unit the metre (else --scale 0.01 for "
+       << "centimetres, 0.001 for millimetres)?";
+  return text.str ();
+}
+
+std::optional<std::string>
+smallBackground (const SceneInput& scene)
+{
+  if (scene.background.empty ())
+    return std::nullopt;
+  const double extent_m = extentOf (scene.background).norm ();
+  for (const auto& [id, object] : scene.objects)
+    if (extent_m <= extentOf (object.points).norm ())
+      return "label 0 is the background, and extends no farther than object " + std::to_string (id) +
+             ": if labels count the objects from 0, add 1 to them";
+  return std::nullopt;
+}
+
+std::optional<std::string>
+objectLikeBackground (const SceneInput& scene)
+{
+  if (!scene.background.empty () || scene.objects.size () < 2)
+    return std::nullopt;
+  int largest = 0;
+  double extent_m = -1.0;
+  for (const auto& [id, object] : scene.objects)
+    if (const double other_m = extentOf (object.points).norm (); other_m > extent_m)
+    {
+      largest = id;
+      extent_m = other_m;
+    }
+  std::vector<OrientedPoint> others;
+  for (const auto& [id, object] : scene.objects)
+    if (id != largest)
+      others.insert (others.end (), object.points.begin (), object.points.end ());
+  if (extent_m <= extentOf (others).norm ())
+    return std::nullopt;
+  return "object " + std::to_string (largest) + " extends farther than all others together; if it is the background, " +
+         "give --background " + std::to_string (largest);
+}

@@ -1,0 +1,26 @@
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "scene_input.h"
+
+#include <pcl/cosection/common/oriented_point.h>
+#include <pcl/cosection/io/pcd_view.h>
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+/** \brief Whether an image without labels shows more than an object that was cut out. */
+bool isWholeImage (const pcl::cosection::LabelledView& view);
+
+/** \brief A warning of an object that is too long to be one, if it is: without labels it may be a whole scene, or its
+ * unit is not the metre. */
+std::optional<std::string> tooLong (std::uint32_t label, const std::vector<pcl::cosection::OrientedPoint>& points);
+
+/** \brief A warning about a background that extends no farther than an object, if it does: it may be the first object.
+ */
+std::optional<std::string> smallBackground (const SceneInput& scene);
+
+/** \brief A warning of an object that extends about all the others, if there is no background: it may be that. */
+std::optional<std::string> objectLikeBackground (const SceneInput& scene);
