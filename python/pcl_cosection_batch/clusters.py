@@ -33,6 +33,7 @@ def configure(verbose: bool) -> None:
         "logging.asyncio": "critical",
         "distributed.scheduler.allowed-failures": 0,  # the batch counts the attempts
         "distributed.scheduler.work-stealing": False,
+        "distributed.worker.multiprocessing-method": "forkserver",  # starts workers twice as fast as "spawn"
         "distributed.comm.timeouts.connect": f"{CONNECT_TIMEOUT_S}s",
         "distributed.admin.tick.limit": "1h",
     })
