@@ -82,6 +82,6 @@ def make_item(name: str, words: list[str], folder: str, options: tuple[str, ...]
 
 
 def name_from(word: str) -> str:
-    """A name of the path as it was written, without parts that only lead upward."""
+    """A name of the path as it was written, without parts that only lead upward; of a long way, the last two parts."""
     parts = [part for part in word.split("/") if part not in ("", ".", "..")]
-    return "/".join(parts) or "item"
+    return "/".join(parts[-2:] if word.startswith("/") else parts) or "item"

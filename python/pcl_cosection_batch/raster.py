@@ -55,17 +55,23 @@ def project(camera: Camera, points: Any, width: int, height: int) -> Any:
 
 def fragments(corners: Any, chosen: Any, low: Any, size: int, width: int, height: int) -> Iterator[tuple[Any, Any, Any]]:
     """Pixels, inverse depths and numbers of the triangles that cover them; boxes have at most SIZE pixels a side."""
-    offsets = np.stack(np.meshgrid(np.arange(size), np.arange(size), indexing="xy"), -1).reshape(-1, 2)
-    at_a_time = max(1, FRAGMENTS // len(offsets))
+    steps = np.arange(size, dtype=np.float32)
+    at_a_time = max(1, FRAGMENTS // size**2)
     for begin in range(0, len(chosen), at_a_time):
         numbers = chosen[begin:begin + at_a_time]
-        pixels = low[numbers][:, None, :] + offsets[None]
-        weights = barycentric(corners[numbers][:, None], pixels + 0.5)
-        inside = (weights >= 0).all(-1) & (pixels >= 0).all(-1) & (pixels[..., 0] < width) & (pixels[..., 1] < height)
-        which, where = np.nonzero(inside)
-        covered = pixels[which, where]
-        depths = (weights[which, where] * corners[numbers[which], :, 2]).sum(-1)
-        yield covered[:, 1] * width + covered[:, 0], depths, numbers[which]
+        # Weights of the corners are linear over the box: their values at its first pixel, and from pixel to pixel.
+        first, right, below = (barycentric(corners[numbers], low[numbers] + 0.5 + offset).astype(np.float32)
+                               for offset in ((0, 0), (1, 0), (0, 1)))
+        columns = (right - first)[:, :, None] * steps  # triangle, corner, column
+        rows = first[:, :, None] + (below - first)[:, :, None] * steps
+        least = columns[:, 0, None, :] + rows[:, 0, :, None]
+        for corner in (1, 2):
+            np.minimum(least, columns[:, corner, None, :] + rows[:, corner, :, None], out=least)
+        which, row, column = np.nonzero(least >= 0)
+        depths = ((columns[which, :, column] + rows[which, :, row]) * corners[numbers[which], :, 2]).sum(-1)
+        x, y = low[numbers[which], 0] + column, low[numbers[which], 1] + row
+        on_screen = (x < width) & (y < height)
+        yield (y * width + x)[on_screen], depths[on_screen], numbers[which[on_screen]]
 
 
 def barycentric(corners: Any, points: Any) -> Any:

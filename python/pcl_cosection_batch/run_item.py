@@ -159,7 +159,7 @@ def last_message(log: str) -> str:
         lines = file.read().decode(errors="replace").splitlines()
     lines = [line.strip() for line in lines if line.strip() and not re.match(r"[\w-]+: warning: ", line)]
     errors = [line for line in lines if re.match(r"pcl_cosection\w*: ", line)]
-    return re.sub(r"^pcl_cosection\w*: ", "", (errors or lines or [""])[-1])[:1000]
+    return re.sub(r"^pcl_cosection\w*: (error: )?", "", (errors or lines or [""])[-1])[:1000]
 
 
 def hide_staging(log: str, made: str, place: str) -> None:
