@@ -23,7 +23,9 @@ packages=(
   libcli11-dev
   nlohmann-json3-dev
   libjs-three
-  # training of the learned prior
+  # pcl_cosection_batch
+  python3-distributed
+  # training of the learned prior; python3-numpy also for pcl_cosection_batch
   python3-numpy
   python3-onnx
   python3-torch
@@ -39,6 +41,7 @@ packages=(
   clang-tidy
   doxygen
   git
+  mypy
   python3
   xvfb
   xdotool

@@ -174,7 +174,10 @@ def open_cluster(arguments: Arguments, items: int, folder: str, terminal: Termin
 
 
 def dashboard_of(client: Any) -> str:
-    """The address of the scheduler's pages: the dashboard, or the plain ones where there is no bokeh."""
+    """The address of the scheduler's pages: the dashboard, or the plain ones where there is no bokeh. Nothing, if the
+    scheduler has no such."""
+    if "dashboard" not in client.scheduler_info().get("services", {}):
+        return ""
     link = str(client.dashboard_link)
     if importlib.util.find_spec("bokeh") is None:
         link = link.removesuffix("/status") + "/info/main/workers.html"

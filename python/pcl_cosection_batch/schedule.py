@@ -93,7 +93,9 @@ class Schedule:
                 raise BatchError(f"{self.cluster.address}: there is no scheduler: {str(error).splitlines()[0]}") from None
             time.sleep(RECONNECT_S)
             return False
-        self.terminal.note(f"dashboard: {dashboard_of(self.client)}")
+        dashboard = dashboard_of(self.client)
+        if dashboard:
+            self.terminal.note(f"dashboard: {dashboard}")
         self.alive = time.monotonic()
         return True
 

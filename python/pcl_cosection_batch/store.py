@@ -98,8 +98,11 @@ class Store:
         return read_json(self.path("failed", name, STATE_FILE))
 
     def is_foreign(self, name: str) -> bool:
-        """Whether something is in the place of a result that no batch has put there."""
-        return os.path.lexists(self.result(name)) and not self.done(name)
+        """Whether something is in the place of a result that no batch has put there, other than an empty folder."""
+        place = self.result(name)
+        if not os.path.lexists(place) or self.done(name):
+            return False
+        return os.path.islink(place) or not os.path.isdir(place) or bool(os.listdir(place))
 
     # --- writing -------------------------------------------------------------------------------------------------
 

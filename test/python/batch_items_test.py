@@ -54,13 +54,14 @@ class Items(BatchTest):
         for name in ("a.pcd", "b c.pcd", "scene/1.pcd", "scene/2.pcd", "seq/depth.txt"):
             self.view(name)
         (self.inputs / "list.txt").write_text(
-            "\ufeff# comment\r\n\r\na.pcd\r\n'b c.pcd' a.pcd -- --resolution 20\nscene\nmy cup: scene/1.pcd\nseq\nmine: a.pcd\n"
+            "\ufeff# comment\r\n\r\na.pcd\r\n'b c.pcd' a.pcd -- --resolution 20\nscene\n'my cup:' scene/1.pcd\nseq\nmine: a.pcd\n"
             "gone.pcd\n")
         items = self.items(self.inputs / "list.txt")
         self.assertEqual(items["a"], ("pcl_cosection", ["a.pcd"]))
         self.assertEqual(items["b c"], ("pcl_cosection", ["b c.pcd", "a.pcd"]))
         self.assertEqual(items["scene"], ("pcl_cosection", ["1.pcd", "2.pcd"]))
         self.assertEqual(items["seq"], ("pcl_cosection_fusion", ["seq"]))
+        self.assertEqual(items["my cup"], ("pcl_cosection", ["1.pcd"]))
         self.assertEqual(items["mine"], ("pcl_cosection", ["a.pcd"]))
         self.assertIn("gone.pcd is not there", items["gone"][1][-1])
 
