@@ -4,6 +4,7 @@ import importlib.util
 import logging
 import os
 import sys
+import warnings
 import zipfile
 from typing import Any
 
@@ -122,10 +123,15 @@ class SshHosts(OwnCluster):
 
     def __init__(self, arguments: Arguments, folder: str) -> None:
         require("asyncssh", "python3-asyncssh", "--ssh")
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")  # asyncssh knows old ciphers, of which another package warns
+            import asyncssh  # noqa: F401
+        import dask
         from distributed import Scheduler, SpecCluster
         from distributed.deploy.ssh import Worker
         from distributed.utils import get_ip
 
+        dask.config.set({"logging.distributed": "info"})  # of the workers: that they have started is read from their log
         workers = arguments.workers or 1
         host = arguments.listen or get_ip()  # type: ignore[no-untyped-call]
         spec = {
@@ -138,7 +144,10 @@ class SshHosts(OwnCluster):
             cluster = SpecCluster(  # type: ignore[no-untyped-call]
                 workers=spec, scheduler=scheduler, name="pcl_cosection_batch", silence_logs=False)
         except Exception as error:  # asyncssh has many kinds
-            raise BatchError(f"--ssh {','.join(arguments.ssh)}: no worker could be started: {error}") from None
+            cause: BaseException = error
+            while cause.__context__ is not None:
+                cause = cause.__context__
+            raise BatchError(f"--ssh {','.join(arguments.ssh)}: no worker could be started: {cause}") from None
         super().__init__(cluster, folder)
 
 

@@ -1,9 +1,11 @@
 # Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 """The program pcl_cosection_batch."""
+import concurrent.futures
 import dataclasses
 import os
 import signal
 import sys
+import threading
 import time
 import uuid
 
@@ -125,15 +127,24 @@ class Batch:
             self.store.clear_staging(self.run_id)
 
     def _open_cluster(self, items: int) -> clusters.Cluster:
-        """Starts the cluster."""
+        """Starts the cluster in a thread, so that signals interrupt this. Raises Stopped, BatchError."""
         clusters.configure(self.arguments.verbose)
         folder = self.store.path("staging", self.run_id, "cluster")
-        # Signals from the terminal are for this process. The cluster's processes and threads inherit what is blocked.
-        before = signal.pthread_sigmask(signal.SIG_BLOCK, (signal.SIGINT, signal.SIGHUP))
-        try:
-            return clusters.open_cluster(self.arguments, items, folder, self.terminal)
-        finally:
-            signal.pthread_sigmask(signal.SIG_SETMASK, before)
+        opened: concurrent.futures.Future[clusters.Cluster] = concurrent.futures.Future()
+
+        def start() -> None:
+            # Signals from the terminal are for this process. The cluster's processes inherit what is blocked.
+            signal.pthread_sigmask(signal.SIG_BLOCK, (signal.SIGINT, signal.SIGHUP))
+            try:
+                opened.set_result(clusters.open_cluster(self.arguments, items, folder, self.terminal))
+            except BaseException as error:
+                opened.set_exception(error)
+
+        threading.Thread(target=start, daemon=True).start()
+        while not opened.done():
+            concurrent.futures.wait([opened], timeout=0.1)
+            self.signals.check()
+        return opened.result()
 
     def _stop_workers(self, schedule: Schedule) -> None:
         """Asks workers elsewhere to end their programs, and gives them time to do so."""
@@ -209,6 +220,7 @@ def locked_batch(batch: Batch, lock: OutputLock) -> int:
 
 def main(argv: list[str]) -> int:
     """The program. Returns the exit status."""
+    signal.signal(signal.SIGINT, signal.SIG_DFL)  # until there is something to bring to an end
     terminal = Terminal(quiet=False, verbose=False)
     try:
         arguments, parser, asked = parse_arguments(argv)
@@ -230,5 +242,6 @@ def main(argv: list[str]) -> int:
         terminal.error(f"{error.filename}: {error.strerror}" if error.filename else str(error.strerror))
     except Stopped as stopped:
         terminal.error("interrupted; what is done stays, and the same command goes on from there")
-        return 128 + stopped.signal_number
+        sys.stdout.flush()
+        os._exit(128 + stopped.signal_number)  # a cluster that was just being started is not waited for
     return 1

@@ -1,6 +1,8 @@
 # Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 """Hands the items to workers, and tries again what was lost on the way."""
+import asyncio
 import collections
+import concurrent.futures
 import dataclasses
 import os
 import signal
@@ -18,6 +20,7 @@ from pcl_cosection_batch.terminal import Progress, Terminal, counted, duration_t
 POLL_S = 0.05
 LOOK_AT_WORKERS_S = 0.5
 RECONNECT_S = 1.0
+ANSWER_TIMEOUT_S = 30
 
 
 class Signals:
@@ -142,13 +145,24 @@ class Schedule:
         ended = [(future, task) for future, task in self.running if future.done()]
         self.running = [(future, task) for future, task in self.running if not future.done()] if ended else self.running
         for future, task in ended:
-            if future.status == "finished":
-                self._finish(task, future.result(timeout=60))
-            elif future.status == "error":
-                self._finish(task, self._record_of_error(task, future.exception(timeout=60)))
+            record = self._record_of(future, task)
+            if record:
+                self._finish(task, record)
             else:
                 self.waiting.appendleft(task)  # the connection was lost
             future.release()
+
+    def _record_of(self, future: Any, task: Task) -> Record:
+        """What came of a task; nothing, if this cannot be known."""
+        if future.status not in ("finished", "error"):
+            return {}
+        try:
+            record: Record = future.result(timeout=ANSWER_TIMEOUT_S)
+            return record
+        except (concurrent.futures.CancelledError, asyncio.CancelledError, TimeoutError, OSError):
+            return {}
+        except Exception as error:  # of the task, or because its worker was lost with the result
+            return self._record_of_error(task, error)
 
     def _record_of_error(self, task: Task, error: BaseException) -> Record:
         from distributed import KilledWorker

@@ -4,6 +4,7 @@ pcl_cosection."""
 import collections
 import json
 import os
+import pathlib
 import signal
 import socket
 import stat
@@ -69,13 +70,13 @@ class Killed(BatchTest):
 
     def test_a_killed_worker(self):
         for number in range(6):
-            self.view(f"{number}.pcd", sleep=0.6)
+            self.view(f"{number}.pcd", sleep=1.0)
         batch = self.start("--workers", "2", self.inputs, self.output)
-        wait_for(lambda: len(self.calls()) >= 2, "items are being done")
-        program = self.running_programs()[0]
+        wait_for(lambda: len(self.running_programs()) == 2, "items are being done")
+        program = self.running_programs()[-1]
         guard = next(number for number, command in descendants(batch.pid)
                      if b"guard" in command and program in [child for child, _ in descendants(number)])
-        worker = int(open(f"/proc/{guard}/stat").read().rpartition(")")[2].split()[1])
+        worker = int(pathlib.Path(f"/proc/{guard}/stat").read_text().rpartition(")")[2].split()[1])
         os.kill(worker, signal.SIGKILL)
         wait_for(lambda: not is_alive(program), "the program of the killed worker ends", 5)
         printed, errors = batch.communicate()
@@ -93,7 +94,7 @@ class Killed(BatchTest):
         wait_for(lambda: len(self.calls()) >= 4, "items are being done")
         processes = [number for number, _ in descendants(batch.pid)] + self.running_programs()
         batch.kill()
-        wait_for(lambda: not any(map(is_alive, processes)), "all processes of the batch end", 10)
+        wait_for(lambda left=processes: not any(map(is_alive, left)), "all processes of the batch end", 10)
         done = {path.parent.name for path in self.output.glob("*/batch.json")}
         self.assertTrue(done)
         self.check_whole()
@@ -123,6 +124,21 @@ class Killed(BatchTest):
         self.interrupted(signal.SIGTERM, 143)
         self.assertEqual(self.called(), ["slow.pcd"])
         self.check_whole()
+
+
+    def test_an_early_interruption(self):
+        """While the cluster is being started."""
+        self.view("a.pcd", sleep=100)
+        for number, status in ((signal.SIGTERM, 143), (signal.SIGINT, 130)):
+            output = self.output / str(status)
+            batch = self.start(self.inputs, output)
+            wait_for(lambda place=output: list(place.glob(".batch/staging/*")), "the batch begins")
+            processes = [process for process, _ in descendants(batch.pid)]
+            batch.send_signal(number)
+            _, errors = batch.communicate(timeout=30)
+            self.assertEqual(batch.returncode, status, errors)
+            self.assertNotIn("Traceback", errors)
+            wait_for(lambda left=processes: not any(map(is_alive, left)), "all processes of the batch end", 10)
 
 
 class Clusters(BatchTest):
