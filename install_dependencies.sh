@@ -23,9 +23,10 @@ packages=(
   libcli11-dev
   nlohmann-json3-dev
   libjs-three
-  # Python module
+  # Python module, and pcl_cosection_batch
   pybind11-dev
   python3-dev
+  python3-distributed
   python3-numpy
   python3-pip
   python3-setuptools
