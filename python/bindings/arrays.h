@@ -28,7 +28,7 @@ viewOf (const std::vector<Element>& elements, std::vector<pybind11::ssize_t> sha
   return array;
 }
 
-/** \brief The same of one row per element; None of an empty vector. */
+/** \brief An array of one row per element, as viewOf () makes it; None of an empty vector. */
 template <typename Scalar, typename Element>
 pybind11::object
 rowsOf (const std::vector<Element>& elements, const pybind11::object& owner)
