@@ -29,7 +29,7 @@ def main():
     depth = numpy.where(is_ball, (DISTANCE_M - numpy.sqrt(numpy.maximum(discriminant, 0))) / a, 0.8)
     result = pcl_cosection.complete(depth.astype(numpy.float32), is_ball.astype(numpy.uint16),
                                     intrinsics=(FOCAL_LENGTH_PX, FOCAL_LENGTH_PX, *centre))
-    volume = result.objects[1].volume_m3
+    volume = result.objects[1].volume
     truth = 4 / 3 * math.pi * RADIUS_M**3
     print(f"{pcl_cosection.__file__}: a ball of {1000 * volume:.2f} litres instead of {1000 * truth:.2f}")
     return 0 if 0.7 < volume / truth < 1.3 else 1

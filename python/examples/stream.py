@@ -28,5 +28,5 @@ def show(frame):
 
 result = pcl_cosection.fuse(frames(), intrinsics, keyframe_every=5, on_frame=show)
 for number, thing in result.objects.items():
-    print(number, thing, f"{1000 * thing.volume_m3:.3f} litres")
+    print(number, thing, f"{1000 * thing.volume:.3f} litres")
 result.save(folder)

@@ -23,7 +23,7 @@ for count in (1, 2):
     result = pcl_cosection.complete(views[:count])
     ball = result.objects[1]
     errors = np.abs(np.linalg.norm(ball.vertices - np.array(BALL_PLACE), axis=1) - BALL_RADIUS)
-    print(f"{count} view(s): {1000 * ball.volume_m3:.3f} litres, mean error {1000 * errors.mean():.2f} mm, "
+    print(f"{count} view(s): {1000 * ball.volume:.3f} litres, mean error {1000 * errors.mean():.2f} mm, "
           f"the largest {1000 * errors.max():.2f} mm, closed: {ball.is_closed}")
 
 # %% What was seen and what was guessed

@@ -5,7 +5,7 @@
 
     result = pcl_cosection.complete(depth, labels, intrinsics=(fx, fy, cx, cy))
     for number, thing in result.objects.items():
-        print(number, thing.volume_m3, thing.vertices.shape, thing.faces.shape)
+        print(number, thing.volume, thing.vertices.shape, thing.faces.shape)
     result.save("meshes")
 
 Units are metres, radians and pixels. A pose T_a_b is a 4 x 4 matrix that takes points of frame b to frame a. Sensor

@@ -81,7 +81,7 @@ class Completion:
         """What the program pcl_cosection writes to summary.json."""
         return dict(json.loads(self._data.summary()))
 
-    def save(self, output: "str | os.PathLike[str]", format: str = "") -> List[str]:
+    def save(self, output: str | os.PathLike[str], format: str = "") -> List[str]:
         """Write meshes and summary.json into a folder, as the program pcl_cosection does; or all objects into one file
         that ends in .ply, .stl or .obj.
 
@@ -99,7 +99,7 @@ def complete(view: Any, labels: Any = None, intrinsics: Any = None, T_world_sens
               colours: Any = None, normals: Any = None, depth_scale: Optional[float] = None,
               free_space: Sequence[Any] = (), planes: Sequence[Any] = (), obstacles: Sequence[Any] = (),
               proposals: Optional[Mapping[int, Any]] = None, progress: Optional[Progress] = None,
-              options: "Options | Mapping[str, Any] | None" = None) -> Completion:
+              options: Options | Mapping[str, Any] | None = None) -> Completion:
     """Complete the hidden surfaces of the objects in one or several views.
 
     view         a depth image (height, width) with labels and intrinsics; or points, (n, 3) or (height, width, 3); or a

@@ -22,7 +22,7 @@ class Export(NamedTuple):
     """Lines about bodies."""
 
 
-def export(result: Union[Completion, FusionResult, str, "os.PathLike[str]"], output: "str | os.PathLike[str]",
+def export(result: Union[Completion, FusionResult, str, "os.PathLike[str]"], output: str | os.PathLike[str],
             formats: Union[str, Sequence[str]], *, density_kg_m3: Optional[float] = None,
             masses_kg: Optional[Mapping[int, float]] = None, collision: Optional[str] = None,
             frame: Optional[str] = None, max_parts: Optional[int] = None, save_points: Optional[int] = None,
@@ -62,7 +62,7 @@ def export(result: Union[Completion, FusionResult, str, "os.PathLike[str]"], out
     return _write(os.fspath(result), output, arguments)
 
 
-def _write(folder: str, output: "str | os.PathLike[str]", arguments: List[str]) -> Export:
+def _write(folder: str, output: str | os.PathLike[str], arguments: List[str]) -> Export:
     files: Any
     warnings: Any
     files, warnings = _core.export_result(folder, os.fspath(output), arguments)

@@ -94,7 +94,7 @@ class FusionResult:
             else:
                 self.objects[values["id"]] = TrackedObject(values, self.warnings)
 
-    def save(self, output: "str | os.PathLike[str]") -> List[str]:
+    def save(self, output: str | os.PathLike[str]) -> List[str]:
         """Write meshes, trajectories and summary.json into a folder, as the program pcl_cosection_fusion does.
 
         Returns the names of the files. Raises IoError.
@@ -119,7 +119,7 @@ class Fusion:
     def __init__(self, size: Tuple[int, int], intrinsics: Any, *, masks: bool = False, persistent_ids: bool = False,
                   segmentation: Optional[str] = None, keyframe_every: Optional[int] = None,
                   max_depth_m: Optional[float] = None, max_views: Optional[int] = None,
-                  options: "Options | Mapping[str, Any] | None" = None) -> None:
+                  options: Options | Mapping[str, Any] | None = None) -> None:
         """Begin with nothing.
 
         size            (height, width) of all images
@@ -183,7 +183,7 @@ class Fusion:
 def fuse(frames: Iterable[Any], intrinsics: Any = None, *, masks: Optional[bool] = None, persistent_ids: bool = False,
           segmentation: Optional[str] = None, keyframe_every: Optional[int] = None, max_depth_m: Optional[float] = None,
           max_views: Optional[int] = None, on_frame: Optional[Callable[[TrackedFrame], Optional[bool]]] = None,
-          progress: Optional[Progress] = None, options: "Options | Mapping[str, Any] | None" = None) -> FusionResult:
+          progress: Optional[Progress] = None, options: Options | Mapping[str, Any] | None = None) -> FusionResult:
     """Track the camera and the objects of a stream of frames, and complete what they have shown.
 
     frames      Frames, or tuples (depth, colour, mask, stamp) of which the last ones may be missing; any iterable, as a
@@ -244,7 +244,7 @@ class Sequence:
     Raises IoError.
     """
 
-    def __init__(self, folder: "str | os.PathLike[str]", masks: "Optional[str | os.PathLike[str]]" = None) -> None:
+    def __init__(self, folder: str | os.PathLike[str], masks: Optional[str | os.PathLike[str]] = None) -> None:
         self._data = SequenceData(os.fspath(folder), "" if masks is None else os.fspath(masks))
         self.has_masks = masks is not None
 

@@ -106,7 +106,7 @@ class Mesh:
         return self._data.is_closed
 
     @property
-    def volume_m3(self) -> float:
+    def volume(self) -> float:
         """Of a closed mesh, cubic metres."""
         return self._data.mass_properties()[0]
 
@@ -120,7 +120,7 @@ class Mesh:
         """(3, 3): about the centroid, for a density of 1 kg/m^3: kg m^2."""
         return self._data.mass_properties()[2]
 
-    def save(self, path: "str | os.PathLike[str]", origin: Tuple[float, float, float] = (0.0, 0.0, 0.0)) -> None:
+    def save(self, path: str | os.PathLike[str], origin: Tuple[float, float, float] = (0.0, 0.0, 0.0)) -> None:
         """Write a .ply, .stl or .obj file. origin is added to the vertices, metres. Raises IoError."""
         self._data.save(os.fspath(path), origin)
 
@@ -137,7 +137,7 @@ class Mesh:
         return mesh
 
     def trimesh_arguments(self) -> Dict[str, Any]:
-        """Arguments of trimesh.Trimesh: trimesh.Trimesh (**mesh.trimesh_arguments())."""
+        """Arguments of trimesh.Trimesh: trimesh.Trimesh(**mesh.trimesh_arguments())."""
         arguments: Dict[str, Any] = {"vertices": self.vertices.astype(np.float64),
                                      "faces": self.faces.astype(np.int64), "process": False}
         if self.normals is not None:
@@ -164,7 +164,7 @@ def as_mesh(name: str, value: Any) -> Mesh:
                            f"got {type(value).__name__}")
 
 
-def load_mesh(path: "str | os.PathLike[str]") -> Mesh:
+def load_mesh(path: str | os.PathLike[str]) -> Mesh:
     """Read a mesh: .ply, .stl, .obj, .off, .vtk or .vtp, metres. Raises IoError."""
     return Mesh._of(_core.load_mesh(os.fspath(path)))
 

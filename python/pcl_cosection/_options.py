@@ -124,7 +124,7 @@ def _number(value: Any) -> str:
         return repr(float(value))
 
 
-def option_arguments(options: "Options | Mapping[str, Any] | None") -> List[str]:
+def option_arguments(options: Options | Mapping[str, Any] | None) -> List[str]:
     """Arguments of options that users give as they like."""
     if options is None:
         return []

@@ -38,7 +38,7 @@ class View:
     def __init__(self, depth: Any = None, labels: Any = None, intrinsics: Any = None, T_world_sensor: Any = None, *,
                   points: Any = None, colours: Any = None, normals: Any = None, depth_scale: Optional[float] = None,
                   T_world_object: Optional[Mapping[int, Any]] = None,
-                  file: "Optional[str | os.PathLike[str]]" = None) -> None:
+                  file: Optional[str | os.PathLike[str]] = None) -> None:
         given = [name for name, value in (("depth", depth), ("points", points), ("file", file)) if value is not None]
         if len(given) != 1:
             raise InvalidArgument("depth: expected either depth, or points, or file"

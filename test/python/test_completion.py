@@ -34,9 +34,9 @@ class Result(unittest.TestCase):
         self.assertEqual(self.result.failed, {})
         ball = self.result.objects[1]
         self.assertTrue(ball.is_closed)
-        self.assertAlmostEqual(ball.volume_m3 / (4 / 3 * np.pi * 0.05**3), 1.0, delta=0.1)
-        self.assertAlmostEqual(self.result.objects[2].volume_m3 / (0.1 * 0.08 * 0.12), 1.0, delta=0.25)
-        self.assertAlmostEqual(np.trace(ball.inertia) / (6 / 5 * ball.volume_m3 * 0.05**2), 1.0, delta=0.1)
+        self.assertAlmostEqual(ball.volume / (4 / 3 * np.pi * 0.05**3), 1.0, delta=0.1)
+        self.assertAlmostEqual(self.result.objects[2].volume / (0.1 * 0.08 * 0.12), 1.0, delta=0.25)
+        self.assertAlmostEqual(np.trace(ball.inertia) / (6 / 5 * ball.volume * 0.05**2), 1.0, delta=0.1)
 
     def test_arrays(self):
         for thing in self.result.objects.values():
@@ -77,9 +77,9 @@ class Result(unittest.TestCase):
 
     def test_bounds_enclose_each_other(self):
         thing = self.result.objects[2]
-        self.assertLess(thing.inner_bound.volume_m3, thing.volume_m3)
-        self.assertGreater(thing.outer_bound.volume_m3, thing.volume_m3)
-        self.assertGreater(thing.hull.volume_m3, 0.9 * thing.volume_m3)
+        self.assertLess(thing.inner_bound.volume, thing.volume)
+        self.assertGreater(thing.outer_bound.volume, thing.volume)
+        self.assertGreater(thing.hull.volume, 0.9 * thing.volume)
         self.assertIsNone(pcl_cosection.complete(*small_view(), options=COARSE).objects[1].hull)
 
     def test_planes_and_background(self):
@@ -161,7 +161,7 @@ class Inputs(unittest.TestCase):
         tenths = pcl_cosection.complete(10 * millimetres.astype(np.int32), labels, intrinsics, depth_scale=0.0001,
                                         options=COARSE)
         self.assertTrue(same_mesh(first.objects[1], second.objects[1]))
-        np.testing.assert_allclose(tenths.objects[1].volume_m3, first.objects[1].volume_m3, rtol=1e-3)
+        np.testing.assert_allclose(tenths.objects[1].volume, first.objects[1].volume, rtol=1e-3)
 
     def test_camera_matrix_and_layouts(self):
         depth, labels, (fx, fy, cx, cy) = small_view()
