@@ -246,6 +246,7 @@ placeBlocks (const Scene& scene, const Eigen::AlignedBox3d& box, double voxel_si
                          isSame (old->second.domain, domain);
     BackgroundBlock block = is_kept ? std::move (old->second) : makeBlock (next, core, domain, options);
     block.solved_share = 0.0;
+    block.solver.iterations = 0;
     if (!block.body.evidence)
       block.body.evidence = std::make_unique<ShapeEvidence> (*block.body.grid, whole, options);
     next.blocks.emplace (place, std::move (block));

@@ -89,6 +89,8 @@ public:
           blocks_.blocks.begin (), blocks_.blocks.end (), [] (const auto& entry) { return !entry.second.is_current; }));
       double done = 0.0;
       for (auto& [place, block] : blocks_.blocks)
+      {
+        block.has_changed = false;
         if (!block.is_current)
         {
           solveBlock (block, sweep > 0, [&] (const std::string&, double f) {
@@ -98,6 +100,7 @@ public:
           block.is_current = true;
           ++done;
         }
+      }
       if (count == 0.0 || !findDisagreement ())
         return;
     }
@@ -178,9 +181,12 @@ private:
     BodyEnergy energy = log_.timed ("constraints", [&] { return energyOf (block); });
     block.has_data = energy.hasData ();
     block.seam.clear ();
-    block.solver = {};
-    block.solver.termination = Termination::Converged;
-    block.solved_share = 1.0;
+    if (!again || !block.has_data)
+    {
+      block.solver = {};
+      block.solver.termination = Termination::Converged;
+      block.solved_share = 1.0;
+    }
     if (!block.has_data)
       return;
     findSeam (block, energy);
@@ -189,8 +195,12 @@ private:
     holdBorder (freeVoxels (blocks_, block), solution.u, energy.problem);
     log_.timed ("solve", [&] {
       double share = 1.0;
+      const int before = block.solver.iterations;
       block.solver = again ? solveNearData (energy, solution, progress, share)
                            : solve (energy, Resolution::Full, solution, progress);
+      block.solver.iterations += before;
+      block.solved_share = std::max (block.solved_share, share);
+      block.has_changed = share > 0.0;
     });
   }
 
@@ -222,7 +232,7 @@ private:
                                                        static_cast<int> (at / dims.x () % dims.y ()),
                                                        static_cast<int> (at / dims.x () / dims.y ()));
         BackgroundBlock* const owner = ownerOf (blocks_, voxel);
-        if (!owner || std::abs (u) > near_surface_vox)
+        if (!owner || !(block.has_changed || owner->has_changed) || std::abs (u) > near_surface_vox)
           continue;
         const Eigen::Vector3i there = voxel - owner->domain.min ();
         const std::size_t m = owner->body.grid->index (there.x (), there.y (), there.z ());
