@@ -89,18 +89,15 @@ public:
           blocks_.blocks.begin (), blocks_.blocks.end (), [] (const auto& entry) { return !entry.second.is_current; }));
       double done = 0.0;
       for (auto& [place, block] : blocks_.blocks)
-      {
-        block.has_changed = false;
         if (!block.is_current)
         {
-          solveBlock (block, sweep > 0, [&] (const std::string&, double f) {
+          solveBlock (block, [&] (const std::string&, double f) {
             report (sweep, (done + f) / count);
             return true;
           });
           block.is_current = true;
           ++done;
         }
-      }
       if (count == 0.0 || !findDisagreement ())
         return;
     }
@@ -175,33 +172,24 @@ private:
     return energy;
   }
 
-  /** \param[in] again with its evidence as before, and other fields around it */
-  void solveBlock (BackgroundBlock& block, bool again, const ProgressCallback& progress)
+  /** \brief Solve a block from its present field, with the fields around it as its boundary. */
+  void solveBlock (BackgroundBlock& block, const ProgressCallback& progress)
   {
     BodyEnergy energy = log_.timed ("constraints", [&] { return energyOf (block); });
     block.has_data = energy.hasData ();
     block.seam.clear ();
-    if (!again || !block.has_data)
-    {
-      block.solver = {};
-      block.solver.termination = Termination::Converged;
-      block.solved_share = 1.0;
-    }
+    block.solved_share = 1.0;
+    const int before = block.solver.iterations;
+    block.solver = {};
+    block.solver.termination = Termination::Converged;
     if (!block.has_data)
       return;
     findSeam (block, energy);
     takeFromNeighbours (blocks_, block);
     BodySolution& solution = block.body.solution;
     holdBorder (freeVoxels (blocks_, block), solution.u, energy.problem);
-    log_.timed ("solve", [&] {
-      double share = 1.0;
-      const int before = block.solver.iterations;
-      block.solver = again ? solveNearData (energy, solution, progress, share)
-                           : solve (energy, Resolution::Full, solution, progress);
-      block.solver.iterations += before;
-      block.solved_share = std::max (block.solved_share, share);
-      block.has_changed = share > 0.0;
-    });
+    log_.timed ("solve", [&] { block.solver = solve (energy, Resolution::Full, solution, progress); });
+    block.solver.iterations += before;
   }
 
   /** \brief The voxels beside a block at which its field should be that of its neighbours. */
@@ -232,7 +220,7 @@ private:
                                                        static_cast<int> (at / dims.x () % dims.y ()),
                                                        static_cast<int> (at / dims.x () / dims.y ()));
         BackgroundBlock* const owner = ownerOf (blocks_, voxel);
-        if (!owner || !(block.has_changed || owner->has_changed) || std::abs (u) > near_surface_vox)
+        if (!owner || std::abs (u) > near_surface_vox)
           continue;
         const Eigen::Vector3i there = voxel - owner->domain.min ();
         const std::size_t m = owner->body.grid->index (there.x (), there.y (), there.z ());
