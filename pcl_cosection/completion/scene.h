@@ -119,7 +119,6 @@ struct BackgroundBlock
       seam; // voxels of the domain beside the core and near data, where its neighbours' fields count
   bool has_data = false;
   bool is_current = false;   // solved with its evidence and its neighbours' fields
-  bool has_changed = false;  // in the last sweep over the blocks
   SolverSummary solver;      // of the last solve
   double solved_share = 0.0; // in this completion
 };

@@ -198,31 +198,20 @@ solve (const BodyEnergy& energy, Resolution resolution, BodySolution& solution, 
 }
 
 SolverSummary
-solveNearData (const BodyEnergy& energy, BodySolution& solution, const ProgressCallback& progress, double& solved_share)
-{
-  std::optional<LocalSolution> local;
-  if (solution.has (Resolution::Full) && energy.options.solver.type == SolverType::Multigrid)
-  {
-    const auto reach_vox = static_cast<float> (energy.options.max_bound_vox + follow_margin_vox);
-    local = solveNearData (energy.problem, solverOptions (energy.options), {energy.data_distance_vox, reach_vox},
-                           solution.u, progress);
-  }
-  solved_share = local ? static_cast<double> (local->voxels) / static_cast<double> (energy.grid.size ()) : 1.0;
-  return local ? local->summary : solve (energy, Resolution::Full, solution, progress);
-}
-
-SolverSummary
 followSolution (const BodyEnergy& energy, BodySolution& solution, const ProgressCallback& progress,
                 double& solved_share)
 {
+  const SolverOptions solver = solverOptions (energy.options);
   QuarterResolution quarter;
   std::swap (quarter, solution.quarter); // returned at the end
-  SolverSummary summary;
-  solved_share = 1.0;
-  if (quarter.update (energy.problem, solverOptions (energy.options), solution.u, progress))
-    summary = solveNearData (energy, solution, progress, solved_share);
-  else
-    summary = solve (energy, Resolution::Full, solution, progress);
+  std::optional<LocalSolution> local;
+  if (quarter.update (energy.problem, solver, solution.u, progress) && solution.solved_fully)
+  {
+    const auto reach_vox = static_cast<float> (energy.options.max_bound_vox + follow_margin_vox);
+    local = solveNearData (energy.problem, solver, {energy.data_distance_vox, reach_vox}, solution.u, progress);
+  }
+  solved_share = local ? static_cast<double> (local->voxels) / static_cast<double> (energy.grid.size ()) : 1.0;
+  SolverSummary summary = local ? local->summary : solve (energy, Resolution::Full, solution, progress);
   solution.quarter = std::move (quarter);
   return summary;
 }

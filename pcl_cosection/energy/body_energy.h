@@ -91,13 +91,6 @@ SolverSummary solve (const BodyEnergy& energy, Resolution resolution, BodySoluti
 SolverSummary followSolution (const BodyEnergy& energy, BodySolution& solution, const ProgressCallback& progress,
                               double& solved_share);
 
-/** \brief Minimise again near data where the field is not the minimiser, as after a change at the border of a part:
- * elsewhere it is right. Calls solve () where that takes no longer.
- * \param[out] solved_share part of the voxels that was solved
- * \throws Cancelled */
-SolverSummary solveNearData (const BodyEnergy& energy, BodySolution& solution, const ProgressCallback& progress,
-                             double& solved_share);
-
 /** \brief The carved minimiser max (u, c) at a voxel, in voxels. */
 float carvedValue (const BodyEnergy& energy, const BodySolution& solution, std::size_t voxel);
 
