@@ -118,6 +118,7 @@ CoSection::removeViews (const std::vector<bool>& remove)
   for (auto& [id, body] : impl_->state.objects)
     body.readAgain ();
   impl_->state.background.readAgain ();
+  impl_->state.blocks.readAgain ();
 }
 
 void
@@ -137,6 +138,7 @@ CoSection::setBackground (std::vector<OrientedPoint> points)
   impl_->scene.background = std::move (points);
   impl_->scene.batches[0] = {{-1, impl_->scene.background.size ()}};
   impl_->state.background = {};
+  impl_->state.blocks = {};
 }
 
 void

@@ -1,7 +1,7 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "complete_scene.h"
 
-#include "background.h"
+#include "background/background.h"
 #include "energy_terms.h"
 #include "finish_objects.h"
 #include "joint_solve.h"
@@ -37,10 +37,10 @@ completeScene (const Scene& scene, CompletionMode mode, UpdateOutput output, con
   });
 
   // Sums over points for equation (2), and votes on free space for (3).
-  const std::vector<double> contradicted = gatherEvidence (scene, mode, objects, bodies.bodies, log);
+  const std::vector<double> contradicted = gatherEvidence (scene, mode, objects, bodies, log);
 
   // The background first, E_data + E_reg + E_hull: it is a constraint for all objects.
-  Background background = solveBackground (scene, objects, mode, output, bodies.bodies, log);
+  Background background = solveBackground (scene, objects, mode, output, bodies, log);
   bodies = {}; // a piece of the background is not needed once it is solved
 
   // The energy of each object, equations (1) to (3), and the priors on its hidden sides.

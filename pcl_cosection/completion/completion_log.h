@@ -69,7 +69,6 @@ public:
 
   const std::map<std::string, double>& timings () const { return timings_s_; }
 
-private:
   /** \brief Call f () and return the reason of its failure; empty if it succeeds. \throws Cancelled */
   template <typename Function> static std::string reasonOfFailure (Function&& f)
   {
@@ -92,6 +91,7 @@ private:
     }
   }
 
+private:
   struct Stopwatch
   {
     double& seconds;

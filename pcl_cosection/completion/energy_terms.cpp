@@ -149,17 +149,18 @@ backgroundAtRest (const Scene& scene, const std::vector<SceneObject>& objects)
 
 void
 readBackground (const Scene& scene, CompletionMode mode, const std::vector<SceneObject>& objects,
-                const std::vector<BodyState*>& background)
+                BackgroundBodies& background)
 {
   const bool all = !scene.options.leave_out_moved || mode == CompletionMode::Incremental;
-  const std::vector<OrientedPoint> at_rest = all ? std::vector<OrientedPoint> () : backgroundAtRest (scene, objects);
-  for (BodyState* body : background)
+  if (!all)
+    background.at_rest = backgroundAtRest (scene, objects);
+  for (BodyState* body : background.bodies)
   {
     if (all)
       body->evidence->addPoints (
           {scene.background.begin () + static_cast<std::ptrdiff_t> (body->points_read), scene.background.end ()});
     else
-      body->evidence->addPoints (at_rest);
+      body->evidence->addPoints (*background.at_rest);
     body->points_read = scene.background.size ();
   }
 }
@@ -218,7 +219,7 @@ placesOfOthers (const std::vector<SceneObject>& objects, std::size_t own, const 
 
 std::vector<double>
 gatherEvidence (const Scene& scene, CompletionMode mode, const std::vector<SceneObject>& objects,
-                const std::vector<BodyState*>& background, CompletionLog& log)
+                BackgroundBodies& background, CompletionLog& log)
 {
   const bool use_hull = scene.options.use_hull;
   log.timed ("data_term", [&] {
@@ -249,8 +250,13 @@ gatherEvidence (const Scene& scene, CompletionMode mode, const std::vector<Scene
           (*with)->add (static_cast<int> (v), *view, T_body_sensor, scene.options.threads);
       };
       if (is_full)
-        for (BodyState* body : background)
+      {
+        for (BodyState* body : background.bodies)
           show (*body, nullptr, depth.T_world_sensor);
+        if (background.blocks)
+          for (auto& [place, block] : background.blocks->blocks)
+            show (block.body, nullptr, depth.T_world_sensor);
+      }
       if (use_hull)
         forEachObject (objects, log, [&] (std::size_t o) {
           show (*objects[o].body, &agreement[o], poseAt (*objects[o].input, v).inverse () * depth.T_world_sensor);

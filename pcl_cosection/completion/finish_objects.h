@@ -1,7 +1,7 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "background.h"
+#include "background/background.h"
 #include "pcl_cosection/energy/expected_error.h"
 #include "surroundings.h"
 

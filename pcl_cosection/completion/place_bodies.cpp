@@ -1,6 +1,7 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "place_bodies.h"
 
+#include "background/background_blocks.h"
 #include "pcl_cosection/common/boxes.h"
 #include "pcl_cosection/common/byte_text.h"
 #include "pcl_cosection/common/parallel.h"
@@ -309,6 +310,7 @@ bytesInUse (const Scene& scene, const SceneState& state, const std::vector<Obser
   bytes += largest_view * FreeSpaceView::bytes_per_pixel;
   if (state.background.grid)
     bytes += estimateBytes (*state.background.grid);
+  bytes += bytesOf (state.blocks);
   return bytes + points * sizeof (OrientedPoint);
 }
 

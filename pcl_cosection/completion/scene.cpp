@@ -46,6 +46,18 @@ BodyState::readPointsAgain ()
   hidden.clear ();
 }
 
+void
+BackgroundBlocks::readAgain ()
+{
+  for (auto& [place, block] : blocks)
+  {
+    block.body.evidence.reset ();
+    block.body.views_read = 0;
+    block.body.points_read = 0;
+    block.is_current = false;
+  }
+}
+
 Eigen::Isometry3d
 poseAt (const ObjectInput& object, std::size_t view)
 {

@@ -6,6 +6,9 @@
 #include "pcl_cosection/priors/occlusion_map.h"
 #include <pcl/cosection/surface/co_section.h>
 
+#include <Eigen/Geometry>
+
+#include <array>
 #include <cstddef>
 #include <map>
 #include <memory>
@@ -104,11 +107,42 @@ struct BodyState
   void readPointsAgain ();
 };
 
+/** \brief A part of a background that is too large for one volume. Boxes are of voxels of the blocks' lattice; both
+ * ends belong to them. */
+struct BackgroundBlock
+{
+  Eigen::AlignedBox3i core;   // the voxels whose values are this block's
+  Eigen::AlignedBox3i domain; // those in which it is solved: with a margin in which blocks overlap
+  BodyState body;             // on the domain; its evidence has the views' votes, and points only while they are needed
+  std::vector<bool> free_space; // of the domain, when it was last solved
+  std::vector<std::size_t>
+      seam; // voxels of the domain beside the core and near data, where its neighbours' fields count
+  bool has_data = false;
+  bool is_current = false;   // solved with its evidence and its neighbours' fields
+  SolverSummary solver;      // of the last solve
+  double solved_share = 0.0; // in this completion
+};
+
+/** \brief A background in overlapping blocks; none if one volume is enough. */
+struct BackgroundBlocks
+{
+  double voxel_size_m = 0.0;                            // 0: there are no blocks
+  Eigen::Vector3d origin_m = Eigen::Vector3d::Zero ();  // centre of voxel (0, 0, 0) of the lattice, world frame
+  int core_edge = 0;                                    // voxels
+  Eigen::AlignedBox3i whole;                            // the voxels of the background
+  std::map<std::array<int, 3>, BackgroundBlock> blocks; // those with data near; by core.min () / core_edge: z, y, x
+  std::vector<PlaneContinuation> planes;                // of the last completion
+
+  /** \brief Read all points and views again; the solution stays as a start. */
+  void readAgain ();
+};
+
 /** \brief The incremental state of a scene, kept from one update to the next. */
 struct SceneState
 {
   std::map<int, BodyState> objects; // by id
-  BodyState background;             // if all of it is completed
+  BodyState background;             // if all of it is completed; with blocks, on coarser voxels
+  BackgroundBlocks blocks;          // of the background, if one volume is too small for its voxels
 };
 
 /** \brief T_world_object at a view; not finite if it is not known. */

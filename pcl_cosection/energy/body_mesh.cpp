@@ -151,6 +151,20 @@ observedComponents (const BodyEnergy& energy, const TriangleMesh& mesh)
   return extractTriangles (mesh, keep);
 }
 
+/** \brief Zero set of a field between some voxels. \param[in] within empty: everywhere */
+TriangleMesh
+openMesh (const SignedDistanceField& field, const Eigen::AlignedBox3i& within, int threads)
+{
+  if (within.isEmpty ())
+    return extractIsoSurface (field, IsoSurfaceOptions{false, threads});
+  std::vector<std::uint8_t> marks (field.grid.size (), 0);
+  for (int k = within.min ().z (); k <= within.max ().z (); ++k)
+    for (int j = within.min ().y (); j <= within.max ().y (); ++j)
+      std::fill_n (marks.begin () + static_cast<std::ptrdiff_t> (field.grid.index (within.min ().x (), j, k)),
+                   within.sizes ().x () + 1, std::uint8_t (1));
+  return extractOpenIsoSurface (field, marks, threads);
+}
+
 } // namespace
 
 TriangleMesh
@@ -180,7 +194,8 @@ innerMesh (const BodyEnergy& energy, const BodySolution& solution, const std::ve
 }
 
 TriangleMesh
-trimmedMesh (const BodyEnergy& energy, const BodySolution& solution, const std::vector<OrientedPoint>& points)
+trimmedMesh (const BodyEnergy& energy, const BodySolution& solution, const std::vector<OrientedPoint>& points,
+             const Eigen::AlignedBox3i& within)
 {
   std::vector<std::uint8_t> seen = energy.continued;
   seen.resize (energy.grid.size (), 0);
@@ -190,8 +205,7 @@ trimmedMesh (const BodyEnergy& energy, const BodySolution& solution, const std::
   const std::vector<float> distance_vox = distanceTransform (energy.grid.dims, seen, energy.options.threads);
   const double reach_vox = energy.options.max_bound_vox - half_cells_vox;
   const SignedDistanceField field = solvedField (energy, solution);
-  const IsoSurfaceOptions open{false, energy.options.threads};
-  TriangleMesh mesh = extractIsoSurface (field, open);
+  TriangleMesh mesh = openMesh (field, within, energy.options.threads);
   attachEvidence (energy, solution, mesh);
   std::vector<bool> near (mesh.vertices.size ());
   for (std::size_t v = 0; v < near.size (); ++v)

@@ -16,8 +16,9 @@ TriangleMesh closedMesh (const BodyEnergy& energy, const BodySolution& solution)
 TriangleMesh innerMesh (const BodyEnergy& energy, const BodySolution& solution,
                         const std::vector<OrientedPoint>& points);
 
-/** \brief Open mesh of the minimiser, trimmed to its supported part near \a points and continued planes. */
+/** \brief Open mesh of the minimiser, trimmed to its supported part near \a points and continued planes.
+ * \param[in] within only the part between these voxels; both ends belong to them. Empty: everywhere */
 TriangleMesh trimmedMesh (const BodyEnergy& energy, const BodySolution& solution,
-                          const std::vector<OrientedPoint>& points);
+                          const std::vector<OrientedPoint>& points, const Eigen::AlignedBox3i& within = {});
 
 } // namespace pcl::cosection

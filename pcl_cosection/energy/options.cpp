@@ -108,6 +108,8 @@ CoSectionOptions::validate () const
   require (padding >= 0.0 && padding <= 10.0, "padding", padding, "between 0 and 10");
   require (finite (background_voxel_size_m) && background_voxel_size_m >= 0.0, "background voxel size",
            background_voxel_size_m, "positive, in metres");
+  require (background_block_vox == 0 || (background_block_vox >= 32 && background_block_vox <= 1024),
+           "background block", background_block_vox, "between 32 and 1024 voxels, or 0");
   require (alpha > 0.0 && alpha <= 1e6, "alpha", alpha, "positive and at most 1e6");
   require (beta_hull >= 0.0 && beta_hull <= 1e6, "beta-hull", beta_hull, "between 0 and 1e6");
   require (beta_inter >= 0.0 && beta_inter <= 1e6, "beta-inter", beta_inter, "between 0 and 1e6");

@@ -133,6 +133,7 @@ interpret (FusionSettings& settings)
   fusion.backend.method = methodOptions (settings);
   fusion.backend.method.whole_background = defaults.whole_background;
   fusion.backend.method.min_points = defaults.min_points;
+  override (fusion.backend.method.background_block_vox, settings.background_block);
   if (!settings.frames.empty ())
   {
     const FrameSpan frames = parseFrames (settings.frames, last_number);
@@ -199,6 +200,10 @@ declareFusionOptions (CLI::App& app, GivenFusion& given)
   declareKnown (app, given);
   declareNetworkOptions (app, given.given_network);
   declareVolumeOptions (app, given, "0.02, or a 128th of a small scene");
+  OptionGroup (app, "Volume")
+      .add ("--background-block VOXELS", given.background_block, wholeRange (32, 1024),
+            "Edge of the largest volume of the background; what needs more than its cube is solved in blocks" +
+                byDefault (256));
   declareMethodOptions (app, given);
   declareRun (app, given);
   declareGeneralOptions (app, "pcl_cosection_fusion", given);

@@ -27,7 +27,7 @@ struct GivenFusion : GivenMethod
   GivenNetwork given_network;
   GivenIgnoredArea given_area;
   std::optional<double> depth_scale, max_depth;
-  std::optional<int> keyframe_every, max_views;
+  std::optional<int> keyframe_every, max_views, background_block;
   bool save_keyframes = false, deterministic = false, live = false;
 };
 

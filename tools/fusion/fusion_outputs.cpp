@@ -8,6 +8,8 @@
 #include <pcl/cosection/io/mesh_io.h>
 #include <pcl/cosection/io/trajectory.h>
 
+#include <Eigen/Geometry>
+
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -147,6 +149,40 @@ parameters (const FusionSettings& settings)
   result["max_views"] = settings.fusion.backend.max_views;
   result["max_depth_m"] = settings.fusion.keyframe.max_depth_m;
   addMethod (settings.fusion.backend.method, result);
+  if (settings.background_block)
+    result["background_block_vox"] = *settings.background_block;
+  return (result);
+}
+
+/** \brief The background: how it was solved; several blocks in one. */
+Json
+backgroundJson (const SceneResult& scene)
+{
+  Json result = {{"vertices", scene.background.vertices.size ()}};
+  if (scene.background_pieces.empty ())
+    return (result);
+  Eigen::AlignedBox3d box;
+  SolverSummary solver;
+  solver.termination = Termination::Converged;
+  for (const BackgroundResult& piece : scene.background_pieces)
+  {
+    const VoxelGrid& grid = piece.signed_distance->grid;
+    box.extend (grid.origin_m).extend (grid.center (grid.dims.x () - 1, grid.dims.y () - 1, grid.dims.z () - 1));
+    solver.iterations = std::max (solver.iterations, piece.solver.iterations);
+    solver.energy = piece.solver.energy;
+    if (!piece.solver.converged ())
+      solver.termination = piece.solver.termination;
+  }
+  const double voxel_size_m = scene.background_pieces[0].signed_distance->grid.voxel_size_m;
+  const Eigen::Vector3i dims = (box.sizes () / voxel_size_m).array ().round ().cast<int> () + 1;
+  result["voxel_size_m"] = voxel_size_m;
+  result["dimensions"] = {dims.x (), dims.y (), dims.z ()};
+  result["solver"] = solverJson (solver);
+  if (scene.background_pieces.size () > 1)
+  {
+    result["solver"].erase ("energy"); // there is none of the whole
+    result["blocks"] = scene.background_pieces.size ();
+  }
   return (result);
 }
 
@@ -260,14 +296,7 @@ FusionOutputs::writeSummary (const FusionResult& result) const
     else
       summary["failed"].push_back ({{"id", object.id}, {"error", object.error}});
   summary["support_planes"] = planesJson (result.scene.planes);
-  summary["background"] = {{"vertices", result.scene.background.vertices.size ()}};
-  for (const BackgroundResult& piece : result.scene.background_pieces)
-  {
-    const VoxelGrid& grid = piece.signed_distance->grid;
-    summary["background"]["voxel_size_m"] = grid.voxel_size_m;
-    summary["background"]["dimensions"] = {grid.dims.x (), grid.dims.y (), grid.dims.z ()};
-    summary["background"]["solver"] = solverJson (piece.solver);
-  }
+  summary["background"] = backgroundJson (result.scene);
   if (result.tracked)
     summary["events"] = result.events;
   summary["warnings"] = result.warnings;

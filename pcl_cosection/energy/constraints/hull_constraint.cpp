@@ -30,8 +30,9 @@ vote (std::uint8_t& votes)
 
 } // namespace
 
-HullConstraint::HullConstraint (const VoxelGrid& grid, int threads)
+HullConstraint::HullConstraint (const VoxelGrid& grid, const VoxelGrid& whole, int threads)
     : grid_ (grid)
+    , whole_ (whole)
     , threads_ (threads)
     , votes_for_ (grid.size (), 0)
     , votes_against_ (grid.size (), 0)
@@ -43,16 +44,23 @@ HullConstraint::add (const FreeSpaceView& view, const Eigen::Isometry3d& T_grid_
   const PinholeCamera& camera = view.view ().camera;
   const Eigen::Isometry3d T_sensor_grid = T_grid_sensor.inverse ();
 
+  const PixelRegion region = projectedRegion (grid_, camera, T_grid_sensor);
+  const std::vector<Eigen::Vector3d> own = corners (grid_);
+  const bool is_behind = std::all_of (
+      own.begin (), own.end (), [&] (const Eigen::Vector3d& corner) { return !((T_sensor_grid * corner).z () > 0.0); });
+  if (is_behind || region.left >= region.right || region.top >= region.bottom)
+    return;
+
   // The footprint at the nearest corner of the volume serves all its voxels.
   double nearest = std::numeric_limits<double>::infinity ();
-  for (const Eigen::Vector3d& corner : corners (grid_))
+  for (const Eigen::Vector3d& corner : corners (whole_))
     nearest = std::min (nearest, (T_sensor_grid * corner).z ());
   const double focal = std::max (camera.fx, camera.fy);
   const double half_diagonal = 0.5 * std::sqrt (3.0) * grid_.voxel_size_m;
   const int radius = nearest > half_diagonal
                          ? std::min (max_footprint, static_cast<int> (std::ceil (half_diagonal * focal / nearest)))
                          : max_footprint;
-  const std::vector<float> nearest_depth = view.nearestDepth (radius, projectedRegion (grid_, camera, T_grid_sensor));
+  const std::vector<float> nearest_depth = view.nearestDepth (radius, region);
 
   forEachProjectedVoxel (grid_, camera, T_grid_sensor, threads_, [&] (const ProjectedVoxel& voxel) {
     const float depth = view.view ().depth[voxel.pixel];

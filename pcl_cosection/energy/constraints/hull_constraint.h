@@ -22,7 +22,10 @@ namespace pcl::cosection {
 class HullConstraint
 {
 public:
-  explicit HullConstraint (const VoxelGrid& grid, int threads = 0);
+  explicit HullConstraint (const VoxelGrid& grid, int threads = 0) : HullConstraint (grid, grid, threads) {}
+
+  /** \param[in] whole the volume of which \a grid is a part: voxels get the votes that they get there */
+  HullConstraint (const VoxelGrid& grid, const VoxelGrid& whole, int threads);
 
   /** \brief Add the votes of one view. \param[in] T_grid_sensor pose of the sensor in the grid's frame */
   void add (const FreeSpaceView& view, const Eigen::Isometry3d& T_grid_sensor);
@@ -33,6 +36,7 @@ public:
 
 private:
   VoxelGrid grid_;
+  VoxelGrid whole_;
   int threads_;
   std::vector<std::uint8_t> votes_for_;
   std::vector<std::uint8_t> votes_against_;

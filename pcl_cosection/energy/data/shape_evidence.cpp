@@ -22,6 +22,12 @@ ShapeEvidence::ShapeEvidence (const VoxelGrid& grid, const CoSectionOptions& opt
   clearPoints ();
 }
 
+ShapeEvidence::ShapeEvidence (const VoxelGrid& grid, const VoxelGrid& whole, const CoSectionOptions& options)
+    : grid_ (grid)
+    , options_ (options)
+    , hull_ (grid, whole, options.threads)
+{}
+
 void
 ShapeEvidence::clearPoints ()
 {

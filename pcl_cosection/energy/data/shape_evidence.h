@@ -23,12 +23,19 @@ public:
   /** \param[in] carve also gather FreeSpaceCarving */
   ShapeEvidence (const VoxelGrid& grid, const CoSectionOptions& options, bool carve);
 
+  /** \brief Evidence on a part of a volume, as on the whole of it; without carving, and without points until some are
+   * added. */
+  ShapeEvidence (const VoxelGrid& grid, const VoxelGrid& whole, const CoSectionOptions& options);
+
   void addPoints (const std::vector<OrientedPoint>& points)
   {
     data_.add (grid_, points, options_.sigma_vox, options_.threads);
   }
 
   void clearPoints ();
+
+  /** \brief As clearPoints (), and free their memory until points are added. */
+  void forgetPoints () { data_ = {}; }
 
   /** \param[in] silhouettes false: only votes on voxels, without carving, in a third of the time */
   void addView (const FreeSpaceView& view, const Eigen::Isometry3d& T_grid_sensor, bool silhouettes);

@@ -17,7 +17,6 @@ namespace pcl::cosection {
 namespace {
 
 constexpr int brick_edge = 16;             // voxels
-constexpr int fixed_layers = 2;            // radius of the Hessian's stencil
 constexpr int margin = 8;                  // voxels of a box beyond its bricks, including the fixed layers
 constexpr double fixed_weight = 50.0;      // of a fixed voxel, in diagonal elements of the regulariser
 constexpr double interior_diagonal = 42.0; // of H^T H
@@ -192,7 +191,7 @@ private:
     extract (problem_.exterior, part.exterior);
     extract (problem_.intersection, part.intersection);
     extract (u_, u);
-    holdBorder (domain, u, part);
+    holdBorder (freeVoxels (domain), u, part);
 
     SolverOptions options = options_;
     options.threads = 1;
@@ -214,30 +213,17 @@ private:
     return inner;
   }
 
-  /** \brief Fix the outermost layers of a domain, except at the border of the whole grid. */
-  void holdBorder (const Box& domain, const std::vector<float>& u, EnergyProblem& part) const
+  /** \brief The voxels of a domain that are not fixed: all but the outermost layers, except at the border of the whole
+   * grid. */
+  Box freeVoxels (const Box& domain) const
   {
-    Eigen::Vector3i first, last; // of the voxels that are not fixed
+    Eigen::Vector3i first, last;
     for (int a = 0; a < 3; ++a)
     {
       first[a] = domain.min ()[a] == 0 ? 0 : fixed_layers;
-      last[a] = part.dims[a] - 1 - (domain.max ()[a] == problem_.dims[a] - 1 ? 0 : fixed_layers);
+      last[a] = domain.sizes ()[a] - (domain.max ()[a] == problem_.dims[a] - 1 ? 0 : fixed_layers);
     }
-    const Box free (first, last);
-    const auto weight = static_cast<float> (fixed_weight * interior_diagonal * problem_.alpha);
-    std::size_t n = 0;
-    for (int k = 0; k < part.dims.z (); ++k)
-      for (int j = 0; j < part.dims.y (); ++j)
-        for (int i = 0; i < part.dims.x (); ++i, ++n)
-        {
-          if (free.contains (Eigen::Vector3i (i, j, k)))
-            continue;
-          part.weight[n] = weight;
-          part.weighted_target[n] = weight * u[n];
-          for (std::vector<LowerBound>* bounds : {&part.exterior, &part.intersection})
-            if (!bounds->empty ())
-              (*bounds)[n] = LowerBound ();
-        }
+    return {first, last};
   }
 
   const EnergyProblem& problem_;
@@ -251,6 +237,25 @@ private:
 };
 
 } // namespace
+
+void
+holdBorder (const Eigen::AlignedBox3i& free, const std::vector<float>& u, EnergyProblem& part)
+{
+  const auto weight = static_cast<float> (fixed_weight * interior_diagonal * part.alpha);
+  std::size_t n = 0;
+  for (int k = 0; k < part.dims.z (); ++k)
+    for (int j = 0; j < part.dims.y (); ++j)
+      for (int i = 0; i < part.dims.x (); ++i, ++n)
+      {
+        if (free.contains (Eigen::Vector3i (i, j, k)))
+          continue;
+        part.weight[n] = weight;
+        part.weighted_target[n] = weight * u[n];
+        for (std::vector<LowerBound>* bounds : {&part.exterior, &part.intersection})
+          if (!bounds->empty ())
+            (*bounds)[n] = LowerBound ();
+      }
+}
 
 std::optional<LocalSolution>
 solveNearData (const EnergyProblem& problem, const SolverOptions& options, const NearData& near, std::vector<float>& u,

@@ -3,10 +3,20 @@
 
 #include <pcl/cosection/surface/solver.h>
 
+#include <Eigen/Geometry>
+
 #include <optional>
 #include <vector>
 
 namespace pcl::cosection {
+
+constexpr int fixed_layers = 2; ///< of voxels at the border of a part of a grid: the radius of the Hessian's stencil
+
+/** \brief Fix a field at its values at the border of a part of a larger grid, as a boundary condition of Dirichlet's
+ * kind: by strong data terms, without bounds.
+ * \param[in] free the voxels that are not fixed; both ends belong to it
+ * \param[in] u one value per voxel of \a part, voxels */
+void holdBorder (const Eigen::AlignedBox3i& free, const std::vector<float>& u, EnergyProblem& part);
 
 /** \brief The voxels at which a field is to minimise an energy: those no farther from data than reach_vox. */
 struct NearData

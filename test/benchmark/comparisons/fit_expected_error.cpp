@@ -5,7 +5,7 @@
 // is even have no part in it, and show what the constants are worth for others; then the halves change places, and in
 // the end all things count.
 
-#include "pcl_cosection/completion/background.h"
+#include "pcl_cosection/completion/background/background.h"
 #include "pcl_cosection/completion/energy_terms.h"
 #include "pcl_cosection/completion/finish_objects.h"
 #include "pcl_cosection/completion/joint_solve.h"
@@ -81,8 +81,8 @@ measure (const Scene& scene, const fs::path& folder, const std::map<int, std::st
   const std::vector<SupportPlanes> support = findObjectPlanes (scene, observations, state, log);
   const std::vector<SceneObject> objects = placeObjects (scene, observations, support, mode, state, log);
   BackgroundBodies bodies = placeBackground (scene, objects, mode, bytesInUse (scene, state, observations), state, log);
-  gatherEvidence (scene, mode, objects, bodies.bodies, log);
-  const Background background = solveBackground (scene, objects, mode, UpdateOutput::Fields, bodies.bodies, log);
+  gatherEvidence (scene, mode, objects, bodies, log);
+  const Background background = solveBackground (scene, objects, mode, UpdateOutput::Fields, bodies, log);
   std::vector<BodyEnergy> energies = objectEnergies (scene, mode, objects, log);
   solveJointly (scene, objects, background.fields (), {}, energies, log);
   forEachObject (objects, log, [&] (std::size_t o) {

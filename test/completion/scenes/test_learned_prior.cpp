@@ -22,7 +22,7 @@ namespace {
 
 /** \brief A head, off the middle of a foot that reaches back: nothing seen from the front tells how far. */
 Distance
-figure ()
+guessedFigure ()
 {
   const Distance foot = placed (box ({0.03, 0.06, 0.015}), Eigen::Vector3d (0.0, 0.02, 0.015));
   const Distance head = placed (box ({0.012, 0.02, 0.03}), Eigen::Vector3d (0.012, -0.01, 0.055));
@@ -30,7 +30,7 @@ figure ()
 }
 
 ObjectResult
-completeWith (const Distance& shape, CompletionNetwork::ConstPtr network)
+completeWithNetwork (const Distance& shape, CompletionNetwork::ConstPtr network)
 {
   const RenderedView view = seenFromTheFront (shape);
   CoSectionOptions options = optionsFor (0.004);
@@ -88,7 +88,7 @@ private:
 
 TEST (LearnedPrior, TheCubeStandsOnTheTableBehindWhatIsSeen)
 {
-  const RenderedView view = seenFromTheFront (figure ());
+  const RenderedView view = seenFromTheFront (guessedFigure ());
   const CompletionCube cube = cubeOf (view);
   EXPECT_NEAR (cube.T_object_cube.translation ().z (), -CompletionCube::below_vox * cube.voxel_size_m, 1e-9);
   const Eigen::Vector3d x = cube.T_object_cube.linear ().col (0), z = cube.T_object_cube.linear ().col (2);
@@ -109,7 +109,7 @@ TEST (LearnedPrior, TheCubeStandsOnTheTableBehindWhatIsSeen)
 
 TEST (LearnedPrior, WhatAViewTellsOfTheVoxels)
 {
-  const RenderedView view = seenFromTheFront (figure ());
+  const RenderedView view = seenFromTheFront (guessedFigure ());
   const CompletionCube cube = cubeOf (view);
   const CompletionInputs inputs = completionInputs (cube, view.points.at (1), {{&view.view, view.view.T_world_sensor}});
   std::size_t matter = 0, wrong = 0, free = 0;
@@ -118,7 +118,7 @@ TEST (LearnedPrior, WhatAViewTellsOfTheVoxels)
       for (int i = 0; i < CompletionCube::size; ++i)
       {
         const std::size_t n = CompletionCube::index (i, j, k);
-        const double distance = figure () (cube.center (i, j, k));
+        const double distance = guessedFigure () (cube.center (i, j, k));
         EXPECT_LE (inputs.is_free[n] + inputs.is_behind[n] + inputs.is_unknown[n], 1);
         matter += distance < -0.5 * cube.voxel_size_m;
         free += inputs.is_free[n];
@@ -131,22 +131,23 @@ TEST (LearnedPrior, WhatAViewTellsOfTheVoxels)
 
 TEST (LearnedPrior, AnswersThatTheViewConfirmsAreExpected)
 {
-  const auto oracle = std::make_shared<Oracle> (figure (), figure ());
-  const ObjectResult with = completeWith (figure (), oracle), without = completeWith (figure (), nullptr);
+  const auto oracle = std::make_shared<Oracle> (guessedFigure (), guessedFigure ());
+  const ObjectResult with = completeWithNetwork (guessedFigure (), oracle),
+                     without = completeWithNetwork (guessedFigure (), nullptr);
   ASSERT_EQ (with.error, "");
   EXPECT_EQ (oracle->calls (), 2); // once, and once mirrored
   ASSERT_TRUE (with.learned);
   EXPECT_TRUE (with.learned->used);
   EXPECT_FALSE (without.learned);
-  EXPECT_LT (meanError (with.mesh, figure ()), 0.0025);
-  EXPECT_LT (meanError (with.mesh, figure ()), 0.7 * meanError (without.mesh, figure ()));
+  EXPECT_LT (meanError (with.mesh, guessedFigure ()), 0.0025);
+  EXPECT_LT (meanError (with.mesh, guessedFigure ()), 0.7 * meanError (without.mesh, guessedFigure ()));
 }
 
 TEST (LearnedPrior, AnswersThatTheViewContradictsChangeNothing)
 {
   const Distance wrong = placed (box ({0.02, 0.02, 0.06}), Eigen::Vector3d (0.06, -0.06, 0.06));
-  const ObjectResult with = completeWith (figure (), std::make_shared<Oracle> (wrong, figure ()));
-  const ObjectResult without = completeWith (figure (), nullptr);
+  const ObjectResult with = completeWithNetwork (guessedFigure (), std::make_shared<Oracle> (wrong, guessedFigure ()));
+  const ObjectResult without = completeWithNetwork (guessedFigure (), nullptr);
   ASSERT_TRUE (with.learned);
   EXPECT_FALSE (with.learned->used);
   EXPECT_EQ (with.mesh.vertices, without.mesh.vertices);
@@ -155,11 +156,12 @@ TEST (LearnedPrior, AnswersThatTheViewContradictsChangeNothing)
 
 TEST (LearnedPrior, AnUnsureAnswerChangesLittle)
 {
-  const double without = meanError (completeWith (figure (), nullptr).mesh, figure ());
+  const double without = meanError (completeWithNetwork (guessedFigure (), nullptr).mesh, guessedFigure ());
   const auto gainWith = [&] (double most_logit) {
-    const ObjectResult result = completeWith (figure (), std::make_shared<Oracle> (figure (), figure (), most_logit));
+    const ObjectResult result = completeWithNetwork (
+        guessedFigure (), std::make_shared<Oracle> (guessedFigure (), guessedFigure (), most_logit));
     EXPECT_TRUE (result.learned && result.learned->used);
-    return without - meanError (result.mesh, figure ());
+    return without - meanError (result.mesh, guessedFigure ());
   };
   EXPECT_LT (std::abs (gainWith (0.5)), 0.5 * gainWith (10.0));
 }
@@ -170,14 +172,15 @@ TEST (LearnedPrior, AnswersOfWrongSizeAreErrors)
   {
     std::vector<float> complete (const std::vector<float>&) const override { return {1.0f}; }
   };
-  const ObjectResult result = completeWith (figure (), std::make_shared<Short> ());
+  const ObjectResult result = completeWithNetwork (guessedFigure (), std::make_shared<Short> ());
   EXPECT_NE (result.error.find ("32768"), std::string::npos) << result.error;
 }
 
 TEST (LearnedPrior, NoAnswerChangesNothing)
 {
   const Distance nothing = [] (const Eigen::Vector3d&) { return 1.0; };
-  const ObjectResult with = completeWith (figure (), std::make_shared<Oracle> (nothing, figure ()));
+  const ObjectResult with = completeWithNetwork (guessedFigure (),
+                                                 std::make_shared<Oracle> (nothing, guessedFigure ()));
   EXPECT_FALSE (with.learned);
-  EXPECT_EQ (with.mesh.vertices, completeWith (figure (), nullptr).mesh.vertices);
+  EXPECT_EQ (with.mesh.vertices, completeWithNetwork (guessedFigure (), nullptr).mesh.vertices);
 }

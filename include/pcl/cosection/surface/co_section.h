@@ -92,7 +92,7 @@ struct PCL_COSECTION_EXPORT SceneResult
 {
   std::vector<ObjectResult> objects;               ///< in the order of addObject ()
   TriangleMesh background;                         ///< open, trimmed to supported regions; world frame
-  std::vector<BackgroundResult> background_pieces; ///< around the objects, or the whole in one
+  std::vector<BackgroundResult> background_pieces; ///< around the objects, or the whole: in one, or in blocks that meet
   std::vector<Eigen::Vector4d>
       planes; ///< support planes used: unit normal n towards the objects, n.x + d = 0, world frame
   std::map<std::string, double> timings_s; ///< data_term, constraints, solve, mesh
@@ -203,8 +203,9 @@ public:
 
   /** \brief Complete what changed since the last update: measurements are gathered once, and every shape starts from
    * the last one. The minimum is that of reconstruct () within the solver's tolerance; for a whole background, near
-   * data. Volumes grow (or shrink) with what is observed; their voxels keep their places unless points ask for a size
-   * that differs by over a fifth.
+   * data; where that is in blocks, only blocks with new points, free space or planes are solved, and those beside them
+   * that then disagree. Volumes grow (or shrink) with what is observed; their voxels keep their places unless points
+   * ask for a size that differs by over a fifth.
    * \throws Cancelled; the next call then goes on from what was gathered */
   SceneResult update (UpdateOutput output = UpdateOutput::Meshes, const ProgressCallback& progress = {});
 

@@ -131,8 +131,12 @@ struct PCL_COSECTION_EXPORT CoSectionOptions
   HullDistance hull_distance = HullDistance::Exact; ///< d_hull
 
   /** \brief Complete all of the background, not only what is near objects: with voxels of 2 cm unless given, smaller in
-   * small scenes and larger where there would be more than 256^3. */
+   * small scenes. */
   bool whole_background = false;
+  /** \brief Edge in voxels of the largest volume in which a whole background is solved: one that needs more voxels than
+   * the cube of it is solved in overlapping blocks of at most this edge, where there are points. From 32 to 1024; 0:
+   * 256. Smaller blocks need less memory and more time. */
+  int background_block_vox = 0;
   /** \brief reconstruct () leaves out points of the background that are of objects, before these were known as such:
    * those that views look through, more than a few by mistake would, and those on the surface of an object where it
    * was, or began. */
