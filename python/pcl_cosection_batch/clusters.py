@@ -37,6 +37,7 @@ def configure(verbose: bool) -> None:
         "distributed.worker.multiprocessing-method": "forkserver",  # starts workers twice as fast as "spawn"
         "distributed.comm.timeouts.connect": f"{CONNECT_TIMEOUT_S}s",
         "distributed.admin.tick.limit": "1h",
+        "distributed.nanny.pre-spawn-environ": {"OPENBLAS_NUM_THREADS": 1},  # nothing that slows memory down
     })
     for name in ("distributed", "tornado", "asyncio", "asyncssh"):
         logging.getLogger(name).setLevel(getattr(logging, level.upper()))

@@ -5,11 +5,11 @@ import importlib.util
 import json
 import os
 import re
+import select
 import shutil
 import signal
 import subprocess
 import sys
-import time
 from dataclasses import dataclass
 from typing import Any, Callable
 
@@ -217,8 +217,8 @@ def guarded(spec: dict[str, Any], wanted: Callable[[], bool]) -> dict[str, Any]:
         try:
             guard.stdin.write(json.dumps(spec).encode() + b"\n")
             guard.stdin.flush()
-            while guard.poll() is None and wanted():
-                time.sleep(POLL_S)
+            while not select.select([guard.stdout], [], [], POLL_S)[0] and wanted():
+                pass
         except BrokenPipeError:
             pass
         finally:
