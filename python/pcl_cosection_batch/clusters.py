@@ -132,7 +132,8 @@ class SshHosts(OwnCluster):
         from distributed.deploy.ssh import Worker
         from distributed.utils import get_ip
 
-        dask.config.set({"logging.distributed": "info"})  # of the workers: that they have started is read from their log
+        # The workers' own: that they have started is read from their log.
+        dask.config.set({"logging.distributed": "info"})
         workers = arguments.workers or 1
         host = arguments.listen or get_ip()  # type: ignore[no-untyped-call]
         spec = {

@@ -52,7 +52,8 @@ def project(camera: Camera, points: Any, width: int, height: int) -> Any:
     return np.stack([0.5 * width + focal * seen[:, 0] / depth, 0.5 * height + focal * seen[:, 1] / depth, inverse], 1)
 
 
-def fragments(corners: Any, chosen: Any, low: Any, size: int, width: int, height: int) -> Iterator[tuple[Any, Any, Any]]:
+def fragments(corners: Any, chosen: Any, low: Any, size: int, width: int,
+              height: int) -> Iterator[tuple[Any, Any, Any]]:
     """Pixels, inverse depths and numbers of the triangles that cover them; boxes have at most SIZE pixels a side."""
     steps = np.arange(size, dtype=np.float32)
     at_a_time = max(1, FRAGMENTS // size**2)

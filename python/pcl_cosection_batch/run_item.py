@@ -206,7 +206,8 @@ def guard_command() -> list[str]:
     assert spec is not None and spec.loader is not None
     if spec.origin and os.path.isfile(spec.origin):
         return [sys.executable, "-I", spec.origin]
-    return [sys.executable, "-I", "-c", spec.loader.get_source("pcl_cosection_batch.guard")]  # type: ignore[attr-defined]
+    source = spec.loader.get_source("pcl_cosection_batch.guard")  # type: ignore[attr-defined]
+    return [sys.executable, "-I", "-c", source]
 
 
 def guarded(spec: dict[str, Any], wanted: Callable[[], bool]) -> dict[str, Any]:

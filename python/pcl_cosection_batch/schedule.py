@@ -96,7 +96,8 @@ class Schedule:
             self.client = self.cluster.connect()
         except (OSError, TimeoutError) as error:
             if time.monotonic() - self.alive > self.patience_s:
-                raise BatchError(f"{self.cluster.address}: there is no scheduler: {str(error).splitlines()[0]}") from None
+                said = (str(error).splitlines() or ["no answer"])[0]
+                raise BatchError(f"{self.cluster.address}: there is no scheduler: {said}") from None
             time.sleep(RECONNECT_S)
             return False
         dashboard = dashboard_of(self.client)
