@@ -37,6 +37,7 @@ def configure(verbose: bool) -> None:
         "distributed.worker.multiprocessing-method": "forkserver",  # starts workers twice as fast as "spawn"
         "distributed.comm.timeouts.connect": f"{CONNECT_TIMEOUT_S}s",
         "distributed.admin.tick.limit": "1h",
+        "distributed.nanny.pre-spawn-environ": {"OPENBLAS_NUM_THREADS": 1},  # nothing that slows memory down
     })
     for name in ("distributed", "tornado", "asyncio", "asyncssh"):
         logging.getLogger(name).setLevel(getattr(logging, level.upper()))
@@ -131,7 +132,8 @@ class SshHosts(OwnCluster):
         from distributed.deploy.ssh import Worker
         from distributed.utils import get_ip
 
-        dask.config.set({"logging.distributed": "info"})  # of the workers: that they have started is read from their log
+        # The workers' own: that they have started is read from their log.
+        dask.config.set({"logging.distributed": "info"})
         workers = arguments.workers or 1
         host = arguments.listen or get_ip()  # type: ignore[no-untyped-call]
         spec = {

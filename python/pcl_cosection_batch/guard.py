@@ -83,6 +83,8 @@ class Watch:
         self.peak_bytes = 0
         self.start = time.monotonic()
         guard = os.getpid()
+        environment = {**os.environ, **task["environment"]}
+        environment.pop("MALLOC_TRIM_THRESHOLD_", None)  # Dask sets it for its workers; it slows programs down
 
         def before_program() -> None:
             control_process(PR_SET_PDEATHSIG, signal.SIGKILL)
@@ -95,7 +97,7 @@ class Watch:
         with open(task["log"], "ab") as log:
             self.program = subprocess.Popen(
                 task["command"], stdin=subprocess.DEVNULL, stdout=log, stderr=log, cwd=task["folder"],
-                env={**os.environ, **task["environment"]}, start_new_session=True, preexec_fn=before_program)
+                env=environment, start_new_session=True, preexec_fn=before_program)
 
     def reason_to_end(self) -> str:
         """Why the program must not go on; empty if it may."""

@@ -14,11 +14,13 @@ STATUS_ORDER = ("failed", "partial", "missing", "outdated", "done")
 STATUS_WORDS = {"failed": "failed", "partial": "some objects failed", "missing": "not done yet",
                 "outdated": "of older inputs", "done": "done"}
 STYLE = """
-body { font: 15px/1.45 system-ui, sans-serif; margin: 0 auto; max-width: 1320px; padding: 24px; color: #222; background: #f4f5f7 }
+body { font: 15px/1.45 system-ui, sans-serif; margin: 0 auto; max-width: 1320px; padding: 24px;
+  color: #222; background: #f4f5f7 }
 h1 { font-size: 22px; margin: 0 0 4px } h1 + p { margin: 0 0 4px; color: #555 } .key { color: #555; margin: 4px 0 20px }
 .key i { display: inline-block; width: 11px; height: 11px; border-radius: 2px; margin: 0 5px 0 12px }
 main { display: grid; grid-template-columns: repeat(auto-fill, minmax(400px, 1fr)); gap: 16px }
-article { background: #fff; border: 1px solid #dcdfe3; border-radius: 8px; overflow: hidden; border-top: 4px solid #8fbc8f }
+article { background: #fff; border: 1px solid #dcdfe3; border-radius: 8px; overflow: hidden;
+  border-top: 4px solid #8fbc8f }
 article.failed { border-top-color: #c0392b } article.partial { border-top-color: #e08e2b }
 article.missing, article.outdated { border-top-color: #999 }
 article img { display: block; width: 100%; aspect-ratio: 800 / 340; object-fit: contain; background: #fff }
@@ -104,10 +106,11 @@ def page(store: Store, records: list[Record], written: str) -> str:
 </head>
 <body>
 <h1>{title}</h1>
-<p>{counted(len(records), "item")}: {escaped(summary)}. The worst come first: what failed, then by the number of warnings,
-then by the expected error relative to the object's size. <a href="summary.csv">summary.csv</a> has all numbers. Written {escaped(written[:16].replace("T", " "))} UTC.</p>
-<p class="key">Left as the sensor saw it, right from behind:<i style="background:#bebebe"></i>observed<i style="background:#f09632"></i>inferred<i
-style="background:#5082dc"></i>bounded by free space<i style="background:#5ab45a"></i>bounded by another body</p>
+<p>{counted(len(records), "item")}: {escaped(summary)}. The worst come first: what failed, then by the
+number of warnings, then by the expected error relative to the object's size. <a href="summary.csv">summary.csv</a> has
+all numbers. Written {escaped(written[:16].replace("T", " "))} UTC.</p>
+<p class="key">Left as the sensor saw it, right from behind:<i style="background:#bebebe"></i>observed<i
+style="background:#f09632"></i>inferred<i style="background:#5082dc"></i>bounded by free space<i style="background:#5ab45a"></i>bounded by another body</p>
 <main>
 {cards}
 </main>

@@ -57,7 +57,8 @@ def item_options(item: Item, given: tuple[str, ...], name: str) -> tuple[str, ..
     """The options of an item, with {input}, {folder} and {name} replaced."""
     first = item.inputs[0]
     values = {"input": first, "folder": first if item.kind == SEQUENCE else os.path.dirname(first), "name": name}
-    return tuple(re.sub(r"\{(input|folder|name)\}", lambda found: values[str(found.group(1))], option) for option in given)
+    return tuple(re.sub(r"\{(input|folder|name)\}", lambda found: values[str(found.group(1))], option)
+                 for option in given)
 
 
 def sets_threads(options: tuple[str, ...]) -> bool:

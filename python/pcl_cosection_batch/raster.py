@@ -8,10 +8,9 @@ from typing import Any, Iterator
 import numpy as np
 
 OVERSAMPLING = 2  # in each direction
-FRAGMENTS = 1 << 21  # that are worked on at a time
+FRAGMENTS = 1 << 18  # that are worked on at a time
 FIELD_OF_VIEW_DEG = 30.0
 NEAR = 0.05  # of the distance to the target
-PAPER = (255, 255, 255)
 AMBIENT = 0.35
 
 
@@ -53,7 +52,8 @@ def project(camera: Camera, points: Any, width: int, height: int) -> Any:
     return np.stack([0.5 * width + focal * seen[:, 0] / depth, 0.5 * height + focal * seen[:, 1] / depth, inverse], 1)
 
 
-def fragments(corners: Any, chosen: Any, low: Any, size: int, width: int, height: int) -> Iterator[tuple[Any, Any, Any]]:
+def fragments(corners: Any, chosen: Any, low: Any, size: int, width: int,
+              height: int) -> Iterator[tuple[Any, Any, Any]]:
     """Pixels, inverse depths and numbers of the triangles that cover them; boxes have at most SIZE pixels a side."""
     steps = np.arange(size, dtype=np.float32)
     at_a_time = max(1, FRAGMENTS // size**2)
@@ -119,18 +119,19 @@ def draw(scene: Triangles, camera: Camera, width: int, height: int) -> Any:
     pixels = np.nonzero(shown >= 0)[0]
     corners = scene.corners[shown[pixels]]
     points = np.stack([pixels % wide, pixels // wide], -1) + 0.5
-    weights = barycentric(screen[corners], points)[..., None]
-    colours = (weights * scene.colours[corners]).sum(1)
-    normals = (weights * scene.normals[corners]).sum(1)
+    weights = barycentric(screen[corners], points)
+    colours = np.einsum("nk,nkc->nc", weights, scene.colours[corners])
+    normals = np.einsum("nk,nkc->nc", weights, scene.normals[corners])
     right, down, forward = camera.axes()
     light = -forward - 0.5 * down - 0.25 * right
     light = light / np.linalg.norm(light)
-    lengths = np.linalg.norm(normals, axis=1)
+    lengths = np.sqrt(np.einsum("nc,nc->n", normals, normals))
     cosines = np.clip((normals @ light) / np.where(lengths > 0, lengths, 1), 0, 1)
-    picture = np.empty((high * wide, 3))
-    picture[:] = PAPER
+    picture = np.full((high * wide, 3), 255, np.float32)  # white paper
     picture[pixels] = colours * (AMBIENT + (1 - AMBIENT) * cosines)[:, None]
-    smooth = picture.reshape(height, OVERSAMPLING, width, OVERSAMPLING, 3).mean((1, 3))
+    picture = picture.reshape(high, wide, 3)
+    steps = [(row, column) for row in range(OVERSAMPLING) for column in range(OVERSAMPLING)]
+    smooth = sum(picture[row::OVERSAMPLING, column::OVERSAMPLING] for row, column in steps) / len(steps)
     return np.clip(np.rint(smooth), 0, 255).astype(np.uint8)
 
 

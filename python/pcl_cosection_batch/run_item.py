@@ -5,11 +5,11 @@ import importlib.util
 import json
 import os
 import re
+import select
 import shutil
 import signal
 import subprocess
 import sys
-import time
 from dataclasses import dataclass
 from typing import Any, Callable
 
@@ -206,7 +206,8 @@ def guard_command() -> list[str]:
     assert spec is not None and spec.loader is not None
     if spec.origin and os.path.isfile(spec.origin):
         return [sys.executable, "-I", spec.origin]
-    return [sys.executable, "-I", "-c", spec.loader.get_source("pcl_cosection_batch.guard")]  # type: ignore[attr-defined]
+    source = spec.loader.get_source("pcl_cosection_batch.guard")  # type: ignore[attr-defined]
+    return [sys.executable, "-I", "-c", source]
 
 
 def guarded(spec: dict[str, Any], wanted: Callable[[], bool]) -> dict[str, Any]:
@@ -217,8 +218,8 @@ def guarded(spec: dict[str, Any], wanted: Callable[[], bool]) -> dict[str, Any]:
         try:
             guard.stdin.write(json.dumps(spec).encode() + b"\n")
             guard.stdin.flush()
-            while guard.poll() is None and wanted():
-                time.sleep(POLL_S)
+            while not select.select([guard.stdout], [], [], POLL_S)[0] and wanted():
+                pass
         except BrokenPipeError:
             pass
         finally:

@@ -6,6 +6,7 @@ import concurrent.futures
 import dataclasses
 import os
 import signal
+import threading
 import time
 import uuid
 from types import FrameType
@@ -17,7 +18,7 @@ from pcl_cosection_batch.run_item import Task, failed, new_record, run_item
 from pcl_cosection_batch.store import COMPLETE, Record, Store
 from pcl_cosection_batch.terminal import Progress, Terminal, counted, duration_text
 
-POLL_S = 0.05
+POLL_S = 0.1
 LOOK_AT_WORKERS_S = 0.5
 RECONNECT_S = 1.0
 ANSWER_TIMEOUT_S = 30
@@ -60,6 +61,7 @@ class Schedule:
         self.slots = 0
         self.looked = 0.0
         self.alive = time.monotonic()  # when there were workers last
+        self.ended = threading.Event()  # set when a task has ended
         self.records: dict[str, Record] = {}
 
     def run(self, tasks: list[Task]) -> dict[str, Record]:
@@ -70,10 +72,11 @@ class Schedule:
                 self.signals.check()
                 if self._is_connected():
                     self._count_workers()
-                    self._submit()
                     self._collect()
+                    self._submit()
                 self.terminal.progress(self.progress.text())
-                time.sleep(POLL_S)
+                if self.ended.wait(POLL_S):
+                    self.ended.clear()
         finally:
             self._disconnect()
         return self.records
@@ -93,7 +96,8 @@ class Schedule:
             self.client = self.cluster.connect()
         except (OSError, TimeoutError) as error:
             if time.monotonic() - self.alive > self.patience_s:
-                raise BatchError(f"{self.cluster.address}: there is no scheduler: {str(error).splitlines()[0]}") from None
+                said = (str(error).splitlines() or ["no answer"])[0]
+                raise BatchError(f"{self.cluster.address}: there is no scheduler: {said}") from None
             time.sleep(RECONNECT_S)
             return False
         dashboard = dashboard_of(self.client)
@@ -139,7 +143,9 @@ class Schedule:
         while self.waiting and len(self.running) < self.slots:
             task = self.waiting.popleft()
             key = f"item-{task.attempt}-{uuid.uuid4().hex}"
-            self.running.append((self.client.submit(run_item, task, key=key, pure=False, retries=0), task))
+            future = self.client.submit(run_item, task, key=key, pure=False, retries=0)
+            future.add_done_callback(lambda _: self.ended.set())
+            self.running.append((future, task))
 
     def _collect(self) -> None:
         ended = [(future, task) for future, task in self.running if future.done()]

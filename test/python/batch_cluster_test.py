@@ -165,7 +165,8 @@ class Clusters(BatchTest):
 
     def worker(self, port):
         """Starts a worker, which does not have the batch's package."""
-        return self.dask("dask_worker", f"tcp://127.0.0.1:{port}", "--nthreads", "1", "--no-nanny", "--memory-limit", "0")
+        return self.dask("dask_worker", f"tcp://127.0.0.1:{port}", "--nthreads", "1", "--no-nanny",
+                         "--memory-limit", "0")
 
     def test_a_scheduler_is_restarted(self):
         for number in range(6):
@@ -239,7 +240,8 @@ class Clusters(BatchTest):
 
     def environment(self):
         """Slurm's commands are found, and looked at often."""
-        return {**super().environment(), "PATH": f"{self.bin}:{os.environ['PATH']}", "PCL_COSECTION_BATCH_SLURM_LOOK_S": "1"}
+        return {**super().environment(), "PATH": f"{self.bin}:{os.environ['PATH']}",
+                "PCL_COSECTION_BATCH_SLURM_LOOK_S": "1"}
 
     def test_missing_packages_and_programs(self):
         self.view("a.pcd")
@@ -275,12 +277,14 @@ class Guard(BatchTest):
         """A program whose children leave its group, and that ignores signals, ends when the guard's input does."""
         from batch_stand_in import SOURCE
         script = self.folder / "program"
-        script.write_text("#!/bin/sh\ntrap '' TERM INT HUP\nsetsid sh -c 'echo $$ >> pids; setsid sleep 200 & sleep 200' &\n"
+        script.write_text("#!/bin/sh\ntrap '' TERM INT HUP\n"
+                          "setsid sh -c 'echo $$ >> pids; setsid sleep 200 & sleep 200' &\n"
                           "echo $$ >> pids\nwhile true; do sleep 1; done\n")
         script.chmod(stat.S_IRWXU)
         guard = subprocess.Popen([sys.executable, SOURCE / "python" / "pcl_cosection_batch" / "guard.py"],
                                  stdin=subprocess.PIPE, stdout=subprocess.PIPE)
-        guard.stdin.write(json.dumps({"command": [str(script)], "log": str(self.folder / "log"), "folder": str(self.folder),
+        guard.stdin.write(json.dumps({"command": [str(script)], "log": str(self.folder / "log"),
+                                      "folder": str(self.folder),
                                       "environment": {}}).encode() + b"\n")
         guard.stdin.flush()
         pids = self.folder / "pids"

@@ -40,7 +40,8 @@ class Items(BatchTest):
     def test_each_view_of_a_subfolder(self):
         self.view("scene/view1.pcd")
         self.view("scene/view2.pcd")
-        self.assertEqual(list(self.items(self.inputs, options=["--subfolders", "views"])), ["scene-view1", "scene-view2"])
+        self.assertEqual(list(self.items(self.inputs, options=["--subfolders", "views"])),
+                         ["scene-view1", "scene-view2"])
         self.assertEqual(list(self.items(self.inputs / "scene")), ["view1", "view2"])
 
     def test_the_output_is_no_input(self):
@@ -54,7 +55,8 @@ class Items(BatchTest):
         for name in ("a.pcd", "b c.pcd", "scene/1.pcd", "scene/2.pcd", "seq/depth.txt"):
             self.view(name)
         (self.inputs / "list.txt").write_text(
-            "\ufeff# comment\r\n\r\na.pcd\r\n'b c.pcd' a.pcd -- --resolution 20\nscene\n'my cup:' scene/1.pcd\nseq\nmine: a.pcd\n"
+            "\ufeff# comment\r\n\r\na.pcd\r\n'b c.pcd' a.pcd -- --resolution 20\nscene\n"
+            "'my cup:' scene/1.pcd\nseq\nmine: a.pcd\n"
             "gone.pcd\n")
         items = self.items(self.inputs / "list.txt")
         self.assertEqual(items["a"], ("pcl_cosection", ["a.pcd"]))
