@@ -4,5 +4,12 @@ import sys
 
 from pcl_cosection_batch.main import main
 
+
+
+def run() -> int:
+    """The program, as pip installs it."""
+    return main(sys.argv[1:])
+
+
 if __name__ == "__main__":
-    sys.exit(main(sys.argv[1:]))
+    sys.exit(run())
