@@ -35,8 +35,8 @@ from ._segmentation import Segmentation, labels_from_masks, segment
 from ._view import View
 
 __all__ = [
-    "Cancelled", "Completion", "DegenerateInput", "Error", "Frame", "Fusion", "FusionResult", "InvalidArgument", "IoError",
-    "MemoryLimitExceeded", "Mesh", "Object", "Options", "Provenance", "Segmentation", "Sequence", "SignedDistance",
-    "TrackedFrame", "TrackedObject", "View", "__version__", "complete", "evaluate", "export", "fuse",
-    "labels_from_masks", "load_mesh", "segment",
+    "Cancelled", "Completion", "DegenerateInput", "Error", "Frame", "Fusion", "FusionResult", "InvalidArgument",
+    "IoError", "MemoryLimitExceeded", "Mesh", "Object", "Options", "Provenance", "Segmentation", "Sequence",
+    "SignedDistance", "TrackedFrame", "TrackedObject", "View", "__version__", "complete", "evaluate", "export",
+    "fuse", "labels_from_masks", "load_mesh", "segment",
 ]

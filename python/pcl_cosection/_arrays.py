@@ -1,5 +1,5 @@
 # Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
-"""Checks of what users give: each function returns what the bindings take, or says what is wrong with which argument."""
+"""Checks of what users give: each function returns what the bindings take, or says which argument is wrong."""
 
 from __future__ import annotations
 

@@ -56,7 +56,7 @@ class Completion:
     failed      why an object could not be completed, by label
     background  Mesh of what the objects stand on, open; None without a background
     planes      (n, 4): support planes (a, b, c, d), a x + b y + c z + d = 0, the unit normal towards the objects
-    origin_m    (3,): of the frame of the meshes in the world, metres; zero unless the scene is far from the world's origin
+    origin_m    (3,): of the frame of the meshes in the world, metres; zero unless the scene is far from its origin
     warnings    lines about the whole and its objects
     timings_s   seconds by stage
     """

@@ -21,8 +21,8 @@ class Frame(NamedTuple):
     colour: Any = None
     """(height, width, 3) bytes, red, green, blue; None: none."""
     mask: Any = None
-    """(height, width) whole numbers: the number of an instance, which may be another in the next mask; 0: none. None: the
-    frame has no mask."""
+    """(height, width) whole numbers: the number of an instance, which may be another in the next mask; 0: none. None:
+    it has no mask."""
     stamp: Optional[float] = None
     """Seconds, larger than that of the frame before; None: one more than that."""
 
@@ -154,7 +154,9 @@ class Fusion:
                                  persistent_ids, segmentation or "")
 
     def add(self, depth: Any, colour: Any = None, mask: Any = None, stamp: Optional[float] = None) -> TrackedFrame:
-        """Track, segment and map the next frame, as Frame describes it. Raises InvalidArgument; nothing is changed then.
+        """Track, segment and map the next frame, as Frame describes it.
+
+        Raises InvalidArgument; nothing is changed then.
         """
         image = _arrays.check_shape("depth", _arrays.depth_image("depth", depth), self._size)
         if mask is not None and not self._masks:

@@ -40,8 +40,8 @@ class Mesh:
     sigma_m     (n,) float32: expected error, metres; the truth is within two of it for 95 % of the vertices
     provenance  (n,) uint8: why a vertex is where it is, as Provenance
 
-    What a mesh does not have is None. Arrays show the memory of the library, without a copy, and cannot be written; they
-    stay valid as long as they are used.
+    What a mesh does not have is None. Arrays show the memory of the library, without a copy, and cannot be written;
+    they stay valid as long as they are used.
     """
 
     def __init__(self, vertices: Any, faces: Any) -> None:
@@ -151,7 +151,7 @@ class Mesh:
 
 
 def as_mesh(name: str, value: Any) -> Mesh:
-    """A mesh from what has vertices and faces (a Mesh, trimesh), or vertices and triangles (Open3D), or both as a pair."""
+    """A mesh from what has vertices and faces (trimesh) or triangles (Open3D), or from both as a pair."""
     if isinstance(value, Mesh):
         return value
     if hasattr(value, "vertices"):
@@ -160,8 +160,8 @@ def as_mesh(name: str, value: Any) -> Mesh:
             return Mesh(np.asarray(value.vertices), np.asarray(faces))
     if isinstance(value, (tuple, list)) and len(value) == 2:
         return Mesh(*value)
-    raise InvalidArgument(f"{name}: expected a mesh (with vertices and faces, or a pair of these) or the name of a file, "
-                           f"got {type(value).__name__}")
+    raise InvalidArgument(f"{name}: expected a mesh (with vertices and faces, or a pair of these) or the name of a "
+                           f"file, got {type(value).__name__}")
 
 
 def load_mesh(path: str | os.PathLike[str]) -> Mesh:

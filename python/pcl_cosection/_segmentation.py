@@ -20,8 +20,8 @@ class Segmentation(NamedTuple):
     labels: _arrays.Array
     """(height, width) int32: 0 background or no reading, 1 ... objects, larger ones first; (n,) of points."""
     planes: _arrays.Array
-    """(m, 4): (a, b, c, d) of the planes on which objects stand, a x + b y + c z + d = 0 (sensor frame, metres), the unit
-    normal towards the sensor; the one that is seen best is the first."""
+    """(m, 4): (a, b, c, d) of the planes on which objects stand, a x + b y + c z + d = 0 (sensor frame, metres), the
+    unit normal towards the sensor; the one that is seen best is the first."""
 
 
 def segment(view: Any, intrinsics: Any = None, *, depth_scale: Optional[float] = None, max_object_size_m: float = 0.5,

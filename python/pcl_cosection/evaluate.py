@@ -41,8 +41,8 @@ def mesh(truth: Any, reconstruction: Any, *, samples: int = 10000, seed: int = 0
           threads: int = 0) -> MeshComparison:
     """Compare a reconstruction with the truth, in one frame, by exact distances of area-uniform samples.
 
-    truth, reconstruction  a Mesh, one of Open3D or trimesh, a pair of (n, 3) vertices and (m, 3) faces, or the name of a
-                           file; metres
+    truth, reconstruction  a Mesh, one of Open3D or trimesh, a pair of (n, 3) vertices and (m, 3) faces, or the name of
+                           a file; metres
     samples                on each mesh
     seed                   of the samples
     f_threshold_m          of precision, recall and F-score

@@ -110,7 +110,8 @@ def page(store: Store, records: list[Record], written: str) -> str:
 number of warnings, then by the expected error relative to the object's size. <a href="summary.csv">summary.csv</a> has
 all numbers. Written {escaped(written[:16].replace("T", " "))} UTC.</p>
 <p class="key">Left as the sensor saw it, right from behind:<i style="background:#bebebe"></i>observed<i
-style="background:#f09632"></i>inferred<i style="background:#5082dc"></i>bounded by free space<i style="background:#5ab45a"></i>bounded by another body</p>
+style="background:#f09632"></i>inferred<i
+style="background:#5082dc"></i>bounded by free space<i style="background:#5ab45a"></i>bounded by another body</p>
 <main>
 {cards}
 </main>

@@ -36,7 +36,8 @@ def save_pcd(path: str, depth: Any, labels: Any, intrinsics: Any, T_world_sensor
     T = np.eye(4) if T_world_sensor is None else T_world_sensor
     viewpoint = " ".join(repr(float(number)) for number in (*T[:3, 3], *_quaternion(T[:3, :3])))
     header = (f"# .PCD v0.7\nVERSION 0.7\nFIELDS x y z label\nSIZE 4 4 4 4\nTYPE F F F U\nCOUNT 1 1 1 1\n"
-              f"WIDTH {depth.shape[1]}\nHEIGHT {depth.shape[0]}\nVIEWPOINT {viewpoint}\nPOINTS {depth.size}\nDATA binary\n")
+              f"WIDTH {depth.shape[1]}\nHEIGHT {depth.shape[0]}\nVIEWPOINT {viewpoint}\n"
+              f"POINTS {depth.size}\nDATA binary\n")
     with open(path, "wb") as file:
         file.write(header.encode() + points.tobytes())
 

@@ -28,10 +28,12 @@ class Arguments(unittest.TestCase):
         return lambda: pcl_cosection.complete(*args, **kwargs)
 
     def test_shapes(self):
-        self.check(self.complete(DEPTH, LABELS[:10], CAMERA), "labels: expected an array of shape (120, 160)", "(10, 160)")
+        self.check(self.complete(DEPTH, LABELS[:10], CAMERA), "labels: expected an array of shape (120, 160)",
+                   "(10, 160)")
         self.check(self.complete(DEPTH, LABELS), "intrinsics: expected")
         self.check(self.complete(DEPTH, LABELS, (1, 2, 3)), "intrinsics: expected an array of shape (4,) or (3, 3)")
-        self.check(self.complete(DEPTH[None], LABELS, CAMERA), "view: expected an array of shape (height, width)", "(1, 120, 160)")
+        self.check(self.complete(DEPTH[None], LABELS, CAMERA), "view: expected an array of shape (height, width)",
+                   "(1, 120, 160)")
         self.check(self.complete(DEPTH, LABELS, CAMERA, np.eye(3)), "T_world_sensor: expected an array of shape (4, 4)")
         self.check(self.complete(DEPTH, LABELS, CAMERA, colours=LABELS), "colours: expected", "(120, 160, 3)")
         self.check(self.complete(DEPTH, LABELS, CAMERA, planes=[(1, 2)]), "planes: expected an array of shape (4,)")
@@ -47,7 +49,8 @@ class Arguments(unittest.TestCase):
         self.check(self.complete(["a.pcd", 3]), "view[1]: expected a View or the name of a file, got int")
         self.check(self.complete(np.array(["a"])), "view: expected an array of numbers")
         self.check(self.complete(DEPTH > 0, LABELS, CAMERA), "depth: expected depths, got an array of truth values")
-        self.check(self.complete(DEPTH, LABELS, CAMERA, colours=np.zeros((120, 160, 3), np.int64)), "colours: expected bytes")
+        self.check(self.complete(DEPTH, LABELS, CAMERA, colours=np.zeros((120, 160, 3), np.int64)),
+                   "colours: expected bytes")
         self.check(self.complete(DEPTH, LABELS, CAMERA, obstacles=[3]), "obstacles[0]: expected a mesh", "got int")
         self.check(self.complete(DEPTH, LABELS, CAMERA, progress=3), "progress: expected a function", "got int")
         self.check(lambda: pcl_cosection.evaluate.mesh(TRIANGLE, 3), "reconstruction: expected a mesh")
@@ -61,13 +64,16 @@ class Arguments(unittest.TestCase):
         self.check(self.complete(DEPTH, LABELS, CAMERA, np.full((4, 4), np.nan)), "T_world_sensor: expected finite")
         self.check(self.complete(DEPTH, LABELS, CAMERA, depth_scale=-1.0), "depth_scale: expected a positive number")
         self.check(self.complete("view.pcd", LABELS), "labels: expected nothing beside a View or a file")
-        self.check(lambda: pcl_cosection.View(DEPTH, points=np.zeros((4, 3))), "depth: expected either depth, or points")
-        self.check(lambda: pcl_cosection.View(points=np.zeros((4, 3)), intrinsics=CAMERA), "intrinsics: expected nothing")
+        self.check(lambda: pcl_cosection.View(DEPTH, points=np.zeros((4, 3))),
+                   "depth: expected either depth, or points")
+        self.check(lambda: pcl_cosection.View(points=np.zeros((4, 3)), intrinsics=CAMERA),
+                   "intrinsics: expected nothing")
         self.check(lambda: pcl_cosection.fuse([]), "frames: expected at least one frame")
         self.check(lambda: pcl_cosection.Fusion((0, 5), CAMERA), "size: expected (height, width)")
         self.check(lambda: pcl_cosection.Fusion(DEPTH.shape, CAMERA, segmentation="x"), "segmentation: expected")
         self.check(lambda: pcl_cosection.labels_from_masks([]), "masks: expected at least one mask")
-        self.check(lambda: pcl_cosection.labels_from_masks([LABELS, LABELS[1:]]), "masks[1]: expected an array of shape")
+        self.check(lambda: pcl_cosection.labels_from_masks([LABELS, LABELS[1:]]),
+                   "masks[1]: expected an array of shape")
 
     def test_options(self):
         def options(**given):
@@ -93,7 +99,8 @@ class Arguments(unittest.TestCase):
         self.check(lambda: pcl_cosection.segment(none, CAMERA), "", error=degenerate)
         self.check(lambda: pcl_cosection.load_mesh("missing.ply"), "missing.ply", error=pcl_cosection.IoError)
         self.check(lambda: pcl_cosection.fuse([none], CAMERA), "could not be tracked", error=degenerate)
-        self.check(lambda: pcl_cosection.fuse([DEPTH, DEPTH[1:]], CAMERA), "depth: expected an array of shape (120, 160)")
+        self.check(lambda: pcl_cosection.fuse([DEPTH, DEPTH[1:]], CAMERA),
+                   "depth: expected an array of shape (120, 160)")
         self.check(lambda: pcl_cosection.evaluate.mesh((np.zeros((3, 3)), [[0, 1, 2]]), TRIANGLE), "", error=degenerate)
 
     def test_hierarchy(self):
@@ -114,8 +121,8 @@ class Arguments(unittest.TestCase):
             self.assertNotIn("\n", reason)
 
     def test_every_option_of_the_program_is_there(self):
-        elsewhere = {"help", "version", "config", "verbose", "quiet", "json", "export", "format", "segment", "save-labels",
-                     "intrinsics", "object-trajectory", "free-space", "plane", "obstacle", "proposal"}
+        elsewhere = {"help", "version", "config", "verbose", "quiet", "json", "export", "format", "segment",
+                     "save-labels", "intrinsics", "object-trajectory", "free-space", "plane", "obstacle", "proposal"}
         names = {field.name.replace("_", "-") for field in dataclasses.fields(pcl_cosection.Options)}
         self.assertEqual(set(pcl_cosection._core.option_names()) - elsewhere, names)
 

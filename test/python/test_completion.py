@@ -272,8 +272,9 @@ class Running(unittest.TestCase):
     def test_two_threads_at_once(self):
         expected = pcl_cosection.complete(*small_view(), options=COARSE)
         results, ticks = [], []
-        workers = [threading.Thread(target=lambda: results.append(pcl_cosection.complete(*small_view(), options=COARSE)))
-                   for _ in range(2)]
+        def work():
+            results.append(pcl_cosection.complete(*small_view(), options=COARSE))
+        workers = [threading.Thread(target=work) for _ in range(2)]
         for worker in workers:
             worker.start()
         while any(worker.is_alive() for worker in workers):  # this thread goes on meanwhile

@@ -78,9 +78,10 @@ class Streams(unittest.TestCase):
     def test_same_as_program(self):
         with tempfile.TemporaryDirectory() as folder:
             data, program, mine = (os.path.join(folder, name) for name in ("data", "program", "module"))
-            subprocess.run([os.path.join(PROGRAMS, "pcl_cosection_simulate"), "--quiet", "--preset", "table", "--frames",
-                            "0:3", "--views-every", "0", data], check=True)
-            options = ["--resolution", "16", "--priors", "none", "--background-voxel-size", "0.04", "--keyframe-every", "2"]
+            subprocess.run([os.path.join(PROGRAMS, "pcl_cosection_simulate"), "--quiet", "--preset", "table",
+                            "--frames", "0:3", "--views-every", "0", data], check=True)
+            options = ["--resolution", "16", "--priors", "none", "--background-voxel-size", "0.04",
+                       "--keyframe-every", "2"]
             subprocess.run([os.path.join(PROGRAMS, "pcl_cosection_fusion"), "--quiet", *options, "--masks",
                             os.path.join(data, "mask"), data, program], check=True)
             frames = pcl_cosection.Sequence(data, os.path.join(data, "mask"))
@@ -129,7 +130,8 @@ class Outputs(unittest.TestCase):
         self.assertEqual(arguments["vertices"].shape, thing.vertices.shape)
 
     def test_nothing_heavy_is_imported(self):
-        code = "import sys, pcl_cosection; print([n for n in ('open3d', 'trimesh', 'cv2', 'matplotlib') if n in sys.modules])"
+        code = ("import sys, pcl_cosection\n"
+                "print([name for name in ('open3d', 'trimesh', 'cv2', 'matplotlib') if name in sys.modules])")
         done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
         self.assertEqual(done.stdout, "[]\n")
 
@@ -157,8 +159,8 @@ class Example(unittest.TestCase):
 
     def run_example(self, name, *arguments):
         """Its output."""
-        done = subprocess.run([sys.executable, os.path.join(EXAMPLES, name), *arguments], capture_output=True, text=True,
-                              check=False, env={**os.environ, "MPLBACKEND": "Agg"})
+        done = subprocess.run([sys.executable, os.path.join(EXAMPLES, name), *arguments], capture_output=True,
+                              text=True, check=False, env={**os.environ, "MPLBACKEND": "Agg"})
         self.assertEqual(done.returncode, 0, done.stderr)
         return done.stdout
 
@@ -223,7 +225,8 @@ class Pictures(Example):
             self.cv2.imwrite(os.path.join(folder, "depth.png"), np.rint(1000.0 * depth).astype(np.uint16))
             self.cv2.imwrite(os.path.join(folder, "colour.png"), np.full((480, 640, 3), (40, 160, 220), np.uint8))
             for number in (1, 2):
-                self.cv2.imwrite(os.path.join(folder, f"masks/{number}.png"), (255 * (labels == number)).astype(np.uint8))
+                self.cv2.imwrite(os.path.join(folder, f"masks/{number}.png"),
+                                 (255 * (labels == number)).astype(np.uint8))
             self.run_example("depth_image.py", folder)
             self.assertGreater(np.std(self.cv2.imread(os.path.join(folder, "completed.png"))), 10.0)
 
