@@ -106,6 +106,7 @@ set(CPACK_DEBIAN_DOCUMENTATION_PACKAGE_ARCHITECTURE all)
 set(doc_dir "${CMAKE_INSTALL_DATADIR}/doc/pcl-cosection-doc/manual")
 install(FILES README.md CHANGES.md CITATION.cff DESTINATION "${doc_dir}" COMPONENT documentation)
 install(FILES models/README.md DESTINATION "${doc_dir}/models" COMPONENT documentation)
+install(DIRECTORY python/examples DESTINATION "${doc_dir}/python" COMPONENT documentation FILES_MATCHING PATTERN "*.py")
 install(DIRECTORY doc/ DESTINATION "${doc_dir}/doc" COMPONENT documentation
   FILES_MATCHING PATTERN "*.md" PATTERN "*.cpp" PATTERN "*.png" PATTERN "*.svg" PATTERN "*.jpg"
   PATTERN demo EXCLUDE)

@@ -6,8 +6,10 @@
 #include <sstream>
 #include <vector>
 
+using pcl::cosection::test::onnx_int64;
 using pcl::cosection::test::OnnxGraph;
 using pcl::cosection::test::ProtobufMessage;
+using pcl::cosection::test::rawBytes;
 using pcl::cosection::test::TensorShape;
 
 namespace fuzz {
@@ -72,12 +74,13 @@ networkText ()
           "integers four 4\n"
           "integers one 1\n"
           "integers shape 1 6 -1\n"
+          "scalar second 1\n"
           "Conv image kernel bias > conv strides=1,1 dilations=1,1 kernel_shape=3,3 pads=1,1,1,1 group=1\n"
           "BatchNormalization conv bias bias bias bias > normal\n"
           "PRelu normal slope > relu\n"
           "MaxPool relu > pool kernel_shape=2,2 strides=2,2\n"
           "Slice pool zero four one one > slice\n"
-          "Gather slice one > gather axis=1\n"
+          "Gather slice second > gather axis=1\n"
           "Unsqueeze gather > channel axes=1,\n"
           "Split slice > left right mask axis=1 split=2,1,1\n"
           "Sigmoid mask > output1\n"
@@ -100,19 +103,24 @@ onnxFromText (const std::string& text)
     std::istringstream words (line);
     std::string kind, name;
     words >> kind;
-    if (kind != "input" && kind != "output" && kind != "tensor" && kind != "integers")
+    if (kind != "input" && kind != "output" && kind != "tensor" && kind != "integers" && kind != "scalar")
     {
       addNode (graph, kind, words);
       continue;
     }
     words >> name;
-    const TensorShape values = numbers (words);
+    TensorShape values = numbers (words);
     if (kind == "input")
       graph.input (name, values);
     else if (kind == "output")
       graph.output (name, values);
     else if (kind == "integers")
       graph.integers (name, values);
+    else if (kind == "scalar")
+    {
+      values.resize (1);
+      graph.tensor (name, {}, onnx_int64, rawBytes (values));
+    }
     else
       addTensor (graph, name, values);
   }

@@ -9,8 +9,8 @@ namespace fuzz {
 std::string networkText ();
 
 /** \brief An ONNX file whose encoding is whole, whatever its network is. Each line is an input, output or tensor, its
- * name and its sizes; "integers", a name and their values; or an operator, its inputs, ">", its outputs, and attributes
- * as strides=1,1. Other lines are nodes as well. */
+ * name and its sizes; "integers" or "scalar", a name and values; or an operator, its inputs, ">", its outputs, and
+ * attributes as strides=1,1. Other lines are nodes as well. */
 std::string onnxFromText (const std::string& text);
 
 } // namespace fuzz
