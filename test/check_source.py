@@ -168,7 +168,7 @@ def main():
     for path in tracked("*.md", "*.sh", "*.cmake", "*CMakeLists.txt"):
         if path.name != "CHANGES.md":
             violations += check_words(path, path.read_text().split("\n"))
-    for path in tracked("*.py"):
+    for path in tracked("python/*.py", "test/python/*.py"):
         violations += check_columns(path, path.read_text().split("\n"))
     for folder, count in collections.Counter(path.parent for path in sources).items():
         if count > MAX_SOURCES:

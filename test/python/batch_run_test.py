@@ -114,7 +114,8 @@ class Results(BatchTest):
         self.assertEqual(calls["a.pcd"]["arguments"][:-2],
                          ["--threads", "3", "--first", "--json", f"{self.inputs}/in-a.json", "--own", "x y"])
         self.assertEqual(calls["seq"]["arguments"][:-2],
-                         ["--threads", "3", "--masks", f"{self.inputs}/seq/mask", "--json", f"{self.inputs}/seq/in-seq.json"])
+                         ["--threads", "3", "--masks", f"{self.inputs}/seq/mask", "--json",
+                          f"{self.inputs}/seq/in-seq.json"])
         self.assertEqual({call["threads"] for call in self.calls()}, {"3"})
 
     def test_closed_output(self):
