@@ -129,6 +129,7 @@ struct BackgroundBlocks
   double voxel_size_m = 0.0;                            // 0: there are no blocks
   Eigen::Vector3d origin_m = Eigen::Vector3d::Zero ();  // centre of voxel (0, 0, 0) of the lattice, world frame
   int core_edge = 0;                                    // voxels
+  int margin = 0;                                       // voxels by which a block's volume reaches into others
   Eigen::AlignedBox3i whole;                            // the voxels of the background
   std::map<std::array<int, 3>, BackgroundBlock> blocks; // those with data near; by core.min () / core_edge: z, y, x
   std::vector<PlaneContinuation> planes;                // of the last completion
