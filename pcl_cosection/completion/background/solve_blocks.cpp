@@ -111,8 +111,9 @@ public:
     Background background;
     for (auto& [place, block] : blocks_.blocks)
       takeFromNeighbours (blocks_, block);
-    for (auto& [place, block] : blocks_.blocks)
+    for (auto& entry : blocks_.blocks)
     {
+      BackgroundBlock& block = entry.second;
       log_.report ("background", end);
       if (!block.has_data)
         continue;
