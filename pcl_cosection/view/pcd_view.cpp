@@ -157,6 +157,7 @@ toLabelledView (const PCLPointCloud2& cloud, const Eigen::Isometry3d& T_world_se
 {
   options.validate ();
   const CloudHeader header = describeCloud (name, cloud, T_world_sensor);
+  checkMemory (name, header, options.max_memory_bytes);
   return (toView (name, options, toSensorCloud (name, header, cloud, options)));
 }
 

@@ -2,7 +2,7 @@
 #include "arrays.h"
 #include "bindings.h"
 #include "mesh_arrays.h"
-#include "python_text.h"
+#include "result_parts.h"
 #include "running.h"
 #include "view_data.h"
 
@@ -36,20 +36,14 @@ struct SceneData
 Settings
 settingsOf (const SceneData& scene, const std::string& output, const std::string& format)
 {
-  std::vector<std::string> arguments = {"pcl_cosection"};
-  arguments.insert (arguments.end (), scene.options.begin (), scene.options.end ());
+  std::vector<std::string> options = scene.options;
   for (const auto& [label, poses] : scene.T_world_object)
-    arguments.push_back ("--object-trajectory=" + std::to_string (label) + "=poses of object " +
-                         std::to_string (label));
+    options.push_back ("--object-trajectory=" + std::to_string (label) + "=poses of object " + std::to_string (label));
   if (!format.empty ())
-    arguments.push_back ("--format=" + format);
-  arguments.emplace_back ("--"); // what follows are no options
-  arguments.insert (arguments.end (), scene.views.begin (), scene.views.end ());
-  arguments.push_back (output);
-  std::vector<const char*> argv;
-  for (const std::string& argument : arguments)
-    argv.push_back (argument.c_str ());
-  return parseCommandLine (static_cast<int> (argv.size ()), argv.data ()).value ();
+    options.push_back ("--format=" + format);
+  std::vector<std::string> paths = scene.views;
+  paths.push_back (output);
+  return settingsOf (parseCommandLine, options, paths);
 }
 
 SceneReaders
@@ -115,36 +109,6 @@ save (const CompletionData& data, const std::string& output, const std::string& 
   std::vector<std::string> files = target.write (data.completed.scene, data.completed.origin);
   target.writeSummary (summaryJson (settings, data.completed));
   return files;
-}
-
-/** \brief A mesh of a result, which lives as long as the result does. */
-std::shared_ptr<TriangleMesh>
-part (const SharedCompletion& data, TriangleMesh& mesh)
-{
-  return {data, &mesh};
-}
-
-py::object
-partOrNone (const SharedCompletion& data, TriangleMesh& mesh)
-{
-  return mesh.empty () ? py::object (py::none ()) : py::cast (part (data, mesh));
-}
-
-py::dict
-objectDict (const SharedCompletion& data, ObjectResult& object)
-{
-  py::dict dict;
-  dict["id"] = object.id;
-  dict["error"] = object.error;
-  dict["mesh"] = part (data, object.mesh);
-  dict["hull"] = partOrNone (data, object.hull);
-  dict["inner_bound"] = partOrNone (data, object.inner_bound);
-  dict["outer_bound"] = partOrNone (data, object.outer_bound);
-  dict["sdf"] = object.signed_distance;
-  dict["contradicted_share"] = object.contradicted_share;
-  dict["penetration_m"] = object.penetration_m;
-  dict["outlier_points"] = object.outlier_points;
-  return dict;
 }
 
 py::list
@@ -228,12 +192,7 @@ bindCompletion (py::module_& module)
       .def_property_readonly ("planes", planesOf)
       .def_property_readonly ("origin_m", [] (const CompletionData& data) { return toArray (data.completed.origin); })
       .def_property_readonly ("warnings",
-                              [] (const CompletionData& data) {
-                                std::vector<std::string> lines;
-                                for (const std::string& line : data.completed.warnings)
-                                  lines.push_back (inPython (line));
-                                return lines;
-                              })
+                              [] (const CompletionData& data) { return inPython (data.completed.warnings); })
       .def_property_readonly ("timings_s", [] (const CompletionData& data) { return data.completed.scene.timings_s; })
       .def ("summary", [] (const CompletionData& data) { return summaryJson (data.settings, data.completed).dump (); })
       .def ("save", save, py::arg ("output"), py::arg ("format"));

@@ -1,6 +1,7 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "arrays.h"
 #include "bindings.h"
+#include "result_parts.h"
 
 #include "export_command_line.h"
 
@@ -47,16 +48,10 @@ compare (const TriangleMesh& truth, const TriangleMesh& reconstruction, std::siz
 
 /** \brief Write a result's folder in formats of simulators. \return files and warnings */
 std::pair<std::vector<std::string>, std::vector<std::string>>
-exportResult (const std::string& result, const std::string& output, std::vector<std::string> options)
+exportResult (const std::string& result, const std::string& output, const std::vector<std::string>& options)
 {
   const py::gil_scoped_release unlocked;
-  options.insert (options.begin (), "pcl_cosection_export");
-  options.insert (options.end (), {"--", result, output});
-  std::vector<const char*> argv;
-  for (const std::string& option : options)
-    argv.push_back (option.c_str ());
-  const ExportProgramSettings settings = parseExportCommandLine (static_cast<int> (argv.size ()), argv.data ())
-                                             .value ();
+  const ExportProgramSettings settings = settingsOf (parseExportCommandLine, options, {result, output});
   ExportReport report = exportScene (settings.result, settings.output, settings);
   return {std::move (report.files), std::move (report.scene.warnings)};
 }

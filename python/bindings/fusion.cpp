@@ -1,7 +1,7 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "arrays.h"
 #include "bindings.h"
-#include "python_text.h"
+#include "result_parts.h"
 #include "running.h"
 #include "view_data.h"
 
@@ -51,13 +51,7 @@ fromImage (const Image<Pixel>& image)
 FusionSettings
 settingsOf (const std::vector<std::string>& options, const std::string& output)
 {
-  std::vector<std::string> arguments = {"pcl_cosection_fusion"};
-  arguments.insert (arguments.end (), options.begin (), options.end ());
-  arguments.insert (arguments.end (), {"--", "frames", output});
-  std::vector<const char*> argv;
-  for (const std::string& argument : arguments)
-    argv.push_back (argument.c_str ());
-  return parseFusionCommandLine (static_cast<int> (argv.size ()), argv.data ()).value ();
+  return settingsOf (parseFusionCommandLine, options, {"frames", output});
 }
 
 py::dict
@@ -173,18 +167,9 @@ objectsOf (const SharedResult& data)
   py::list objects;
   for (ObjectResult& object : data->result.scene.objects)
   {
-    py::dict dict;
-    dict["id"] = object.id;
-    dict["error"] = object.error;
-    dict["mesh"] = std::shared_ptr<TriangleMesh> (data, &object.mesh);
-    for (const char* name : {"hull", "inner_bound", "outer_bound"})
-      dict[name] = py::none ();
-    dict["sdf"] = object.signed_distance;
-    dict["contradicted_share"] = object.contradicted_share;
-    dict["penetration_m"] = object.penetration_m;
-    dict["outlier_points"] = object.outlier_points;
+    py::dict dict = objectDict (data, object);
     FusedObject& fused = data->result.objects[object.id];
-    dict["seen"] = std::shared_ptr<TriangleMesh> (data, &fused.tsdf);
+    dict["seen"] = part (data, fused.tsdf);
     dict["trajectory"] = trajectoryOf (fused.trajectory);
     dict["class"] = fused.best_class
                         ? py::object (py::make_tuple (fused.best_class->class_name, fused.best_class->score))
@@ -213,17 +198,19 @@ struct SequenceData
 {
   SequenceData (const std::string& folder, const std::string& mask_folder) : images (folder)
   {
-    if (!mask_folder.empty ())
-      masks.emplace (mask_folder, images);
+    warnings = images.warnings ();
+    if (mask_folder.empty ())
+      return;
+    masks.emplace (mask_folder, images);
+    warnings.insert (warnings.end (), masks->warnings ().begin (), masks->warnings ().end ());
   }
 
-  py::tuple read (std::size_t index) const
+  py::tuple read (std::size_t index)
   {
     RgbdFrame frame;
     std::optional<Image<std::uint16_t>> mask;
     {
       const py::gil_scoped_release unlocked;
-      std::vector<std::string> warnings;
       frame = images.read (index, warnings);
       if (masks)
         mask = masks->read (frame.stamp);
@@ -236,6 +223,7 @@ struct SequenceData
 
   RgbdSequence images;
   std::optional<MaskSequence> masks;
+  std::vector<std::string> warnings;
 };
 
 } // namespace
@@ -252,21 +240,10 @@ bindFusion (py::module_& module)
       .def ("complete", &StreamData::complete, py::arg ("progress"));
   py::class_<FusionResultData, SharedResult> (module, "FusionResultData")
       .def_property_readonly ("objects", objectsOf)
-      .def_property_readonly ("background",
-                              [] (const SharedResult& data) -> py::object {
-                                TriangleMesh& mesh = data->result.scene.background;
-                                if (mesh.empty ())
-                                  return py::none ();
-                                return py::cast (std::shared_ptr<TriangleMesh> (data, &mesh));
-                              })
+      .def_property_readonly (
+          "background", [] (const SharedResult& data) { return partOrNone (data, data->result.scene.background); })
       .def_property_readonly ("camera", [] (const FusionResultData& data) { return trajectoryOf (data.result.camera); })
-      .def_property_readonly ("warnings",
-                              [] (const FusionResultData& data) {
-                                std::vector<std::string> lines;
-                                for (const std::string& line : data.result.warnings)
-                                  lines.push_back (inPython (line));
-                                return lines;
-                              })
+      .def_property_readonly ("warnings", [] (const FusionResultData& data) { return inPython (data.result.warnings); })
       .def_property_readonly ("events", [] (const FusionResultData& data) { return data.result.events; })
       .def_property_readonly ("timings_s", [] (const FusionResultData& data) { return data.result.timings_s; })
       .def_property_readonly ("frames", [] (const FusionResultData& data) { return data.result.frames; })
@@ -277,6 +254,7 @@ bindFusion (py::module_& module)
       .def (py::init<const std::string&, const std::string&> (), py::arg ("folder"), py::arg ("masks"))
       .def ("__len__", [] (const SequenceData& data) { return data.images.size (); })
       .def ("read", &SequenceData::read, py::arg ("index"))
+      .def_readonly ("warnings", &SequenceData::warnings)
       .def_property_readonly ("size",
                               [] (const SequenceData& data) {
                                 return std::pair (data.images.camera ().height, data.images.camera ().width);

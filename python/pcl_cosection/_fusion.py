@@ -216,7 +216,10 @@ def fuse(frames: Iterable[Any], intrinsics: Any = None, *, masks: Optional[bool]
             break
     if fusion is None:
         raise InvalidArgument("frames: expected at least one frame, got none")
-    return fusion.complete(progress)
+    result = fusion.complete(progress)
+    if isinstance(frames, Sequence):
+        result.warnings[:0] = frames.warnings
+    return result
 
 
 def _iterator(frames: Any) -> Iterator[Any]:
@@ -260,6 +263,11 @@ class Sequence:
     def size(self) -> Tuple[int, int]:
         """(height, width) of the images."""
         return self._data.size
+
+    @property
+    def warnings(self) -> List[str]:
+        """Lines about what is odd: in the folders, and in the frames that were read."""
+        return self._data.warnings
 
     def __len__(self) -> int:
         return len(self._data)

@@ -26,7 +26,6 @@ constexpr double whole_margin_vox = 4.0;
 constexpr const char* background_name = "the background"; // in warnings
 constexpr double progress_begin = 0.05, progress_coarse = 0.1, progress_end = 0.3;
 constexpr std::size_t solved_bytes_per_voxel = 2 * sizeof (float) + 1; // the solution and the field of a coarse volume
-constexpr double growth_vox = 12.0; // margin of an incremental background where it grows, as it will grow again
 
 /** \brief The voxels that one volume of a whole background may have. */
 double

@@ -4,6 +4,7 @@
 #include "pcl_cosection/common/boxes.h"
 #include "pcl_cosection/common/byte_text.h"
 #include "pcl_cosection/completion/place_bodies.h"
+#include "pcl_cosection/energy/data/imls_data_term.h"
 #include <pcl/cosection/common/error.h>
 
 #include <algorithm>
@@ -25,8 +26,6 @@ constexpr int default_edge = 256; // voxels
 // points hardly determine differed by more than .1 voxels from those of a single volume; with 24, none did.
 constexpr int largest_margin = 24;
 constexpr int margins_of_edge = 4; // a quarter of the edge at most, so that half of it is left
-constexpr int growth_vox = 12;     // room for further growth, as of a single volume
-constexpr double cutoff_sigmas = 3.0;
 constexpr std::size_t kept_bytes_per_voxel = sizeof (float) + 2 * sizeof (std::uint8_t) + 1; // field, votes, marks
 constexpr std::size_t result_bytes_per_voxel = sizeof (float) + sizeof (std::uint8_t);
 

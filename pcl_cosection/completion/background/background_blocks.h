@@ -8,6 +8,9 @@
 
 namespace pcl::cosection {
 
+/** \brief Margin of an incremental background where it grows, as it will grow again; voxels. */
+constexpr int growth_vox = 12;
+
 /** \brief Longest edge of the volumes in which a background is solved, voxels; no volume has more than its cube. */
 int blockEdge (const CoSectionOptions& options);
 

@@ -4,6 +4,7 @@
 #include "background_blocks.h"
 #include "pcl_cosection/common/boxes.h"
 #include "pcl_cosection/energy/body_mesh.h"
+#include "pcl_cosection/energy/data/imls_data_term.h"
 #include "pcl_cosection/energy/expected_error.h"
 #include "pcl_cosection/mesh/mesh_attributes.h"
 #include "pcl_cosection/volume/lattice_weld.h"
@@ -11,6 +12,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <sstream>
 
 namespace pcl::cosection {
 namespace {
@@ -21,7 +23,7 @@ constexpr int max_sweeps = 4;
 constexpr int seam_layers = 2;              // beside a block, in which its field is compared with its neighbours'
 constexpr float seam_tolerance_vox = 0.03f; // largest difference of the fields of neighbours near the surface
 constexpr float near_surface_vox = 2.0f;    // where it counts
-constexpr double cutoff_sigmas = 3.0;       // of a point's Gaussian
+constexpr float told_difference_vox = 0.1f; // what remains of such a difference is told from here on
 constexpr double begin = 0.1, swept = 0.25, end = 0.3; // progress: at the first block, after one sweep, after all
 
 /** \brief Points in a volume, or so near that they count there. */
@@ -83,6 +85,7 @@ public:
   /** \brief Solve blocks one after the other, until all agree. */
   void sweep ()
   {
+    float difference_vox = 0.0f;
     for (int sweep = 0; sweep < max_sweeps; ++sweep)
     {
       const auto count = static_cast<double> (std::count_if (
@@ -98,11 +101,21 @@ public:
           block.is_current = true;
           ++done;
         }
-      if (count == 0.0 || !findDisagreement ())
+      if (count == 0.0)
+        return;
+      difference_vox = findDisagreement ();
+      if (difference_vox == 0.0f)
         return;
     }
     for (auto& [place, block] : blocks_.blocks)
       block.is_current = true; // as near as it gets
+    if (difference_vox > told_difference_vox)
+    {
+      std::ostringstream text;
+      text.precision (2);
+      text << "the background: where its blocks meet, their surfaces differ by up to " << difference_vox << " voxels";
+      log_.warn (text.str ());
+    }
   }
 
   /** \brief The fields, and a mesh if asked for. */
@@ -206,10 +219,10 @@ private:
     });
   }
 
-  /** \brief Find the blocks that have to be solved again. \return whether there are any */
-  bool findDisagreement ()
+  /** \brief Find the blocks that have to be solved again. \return the largest difference; 0 if there are none */
+  float findDisagreement ()
   {
-    bool any = false;
+    float largest_vox = 0.0f;
     for (auto& [place, block] : blocks_.blocks)
       for (const std::size_t n : block.seam)
       {
@@ -225,12 +238,13 @@ private:
           continue;
         const Eigen::Vector3i there = voxel - owner->domain.min ();
         const std::size_t m = owner->body.grid->index (there.x (), there.y (), there.z ());
-        if (std::abs (u - owner->body.solution.u[m]) <= seam_tolerance_vox)
+        const float difference_vox = std::abs (u - owner->body.solution.u[m]);
+        if (difference_vox <= seam_tolerance_vox)
           continue;
         block.is_current = owner->is_current = false;
-        any = true;
+        largest_vox = std::max (largest_vox, difference_vox);
       }
-    return any;
+    return largest_vox;
   }
 
   /** \brief The voxels from the first of a block to the first of the next ones: cells between them are the block's. */

@@ -15,7 +15,6 @@
 namespace pcl::cosection {
 namespace {
 
-constexpr double cutoff_sigmas = 3.0;
 constexpr int max_reach = 64; // values of the Gaussian along one axis: 2 * 3 sigma + 1, sigma <= 10
 
 /** \brief A point in voxel coordinates. */

@@ -9,6 +9,9 @@
 
 namespace pcl::cosection {
 
+/** \brief Where the Gaussian of a point is cut off, in its widths. */
+constexpr double cutoff_sigmas = 3.0;
+
 /** \brief The data term of equation (2), gathered on a grid: per voxel x and over the points within
  * 3 sigma, with w_i (x) = a_i exp (-(|x - p_i| / sigma)^2) and f_i (x) = <x - p_i, n_i>. Lengths in voxels. */
 struct ImlsDataTerm

@@ -3,36 +3,21 @@
 
 #include <pcl/cosection/common/error.h>
 
+#include <pcl/common/io.h>
+
 #include <optional>
 
 namespace pcl::cosection {
 namespace {
 
-/** \brief Type and bytes of an element; nothing for what PCL does not know. */
+/** \brief Type and bytes of an element; nothing for what a file cannot have. */
 std::optional<CloudField>
 elementOf (const PCLPointField& field)
 {
-  switch (field.datatype)
-  {
-  case PCLPointField::INT8:
-    return CloudField{field.name, 1, 'I', field.count};
-  case PCLPointField::UINT8:
-    return CloudField{field.name, 1, 'U', field.count};
-  case PCLPointField::INT16:
-    return CloudField{field.name, 2, 'I', field.count};
-  case PCLPointField::UINT16:
-    return CloudField{field.name, 2, 'U', field.count};
-  case PCLPointField::INT32:
-    return CloudField{field.name, 4, 'I', field.count};
-  case PCLPointField::UINT32:
-    return CloudField{field.name, 4, 'U', field.count};
-  case PCLPointField::FLOAT32:
-    return CloudField{field.name, 4, 'F', field.count};
-  case PCLPointField::FLOAT64:
-    return CloudField{field.name, 8, 'F', field.count};
-  default:
+  const char type = pcl::getFieldType (static_cast<int> (field.datatype));
+  if (type != 'I' && type != 'U' && type != 'F')
     return std::nullopt;
-  }
+  return CloudField{field.name, static_cast<std::size_t> (pcl::getFieldSize (field.datatype)), type, field.count};
 }
 
 } // namespace

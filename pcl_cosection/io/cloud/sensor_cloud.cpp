@@ -88,7 +88,8 @@ setPose (const CloudHeader& header, const PcdViewOptions& options, SensorCloud& 
   cloud.T_world_sensor = cloud.T_world_sensor * cloud.T_points_sensor;
 }
 
-/** \brief A file: its points as it has them, and as they are returned. */
+} // namespace
+
 void
 checkMemory (const std::string& path, const CloudHeader& header, std::size_t limit_bytes)
 {
@@ -101,8 +102,6 @@ checkMemory (const std::string& path, const CloudHeader& header, std::size_t lim
                              byteText (static_cast<std::size_t> (needed)) + "; " + byteText (limit_bytes) +
                              " are left of what is allowed: thin the cloud (pcl_voxel_grid) or allow more memory");
 }
-
-} // namespace
 
 SensorCloud
 readSensorCloud (const std::string& path, const PcdViewOptions& options, bool with_labels)

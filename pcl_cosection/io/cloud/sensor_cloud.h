@@ -40,6 +40,10 @@ struct SensorCloud
  * with_labels else they are not looked at */
 SensorCloud readSensorCloud (const std::string& path, const PcdViewOptions& options, bool with_labels = true);
 
+/** \brief Refuse points that need more memory than is allowed: as they are given, and as they are returned.
+ * \throws MemoryLimitExceeded */
+void checkMemory (const std::string& path, const CloudHeader& header, std::size_t limit_bytes);
+
 /** \brief The points of a file that were read, in the sensor frame. \param[in] path for messages \param[in] header
  * describes \a cloud */
 SensorCloud toSensorCloud (const std::string& path, const CloudHeader& header, const PCLPointCloud2& cloud,

@@ -110,8 +110,8 @@ PCL_COSECTION_EXPORT LabelledView readPcdView (const std::string& path, const Pc
  * \param[in] T_world_sensor its viewpoint, metres
  * \param[in] options how to read it
  * \param[in] name for messages
- * \throws DegenerateInput, InvalidArgument as readPcdView (), the latter also if the bytes are not those that the
- * fields ask for; IoError if a field that is needed is missing, or of another type */
+ * \throws MemoryLimitExceeded, DegenerateInput, InvalidArgument as readPcdView (), the latter also if the bytes are not
+ * those that the fields ask for; IoError if a field that is needed is missing, or of another type */
 PCL_COSECTION_EXPORT LabelledView toLabelledView (const PCLPointCloud2& cloud, const Eigen::Isometry3d& T_world_sensor,
                                                   const PcdViewOptions& options = {},
                                                   const std::string& name = "the cloud");
