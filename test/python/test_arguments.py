@@ -109,7 +109,8 @@ class Arguments(unittest.TestCase):
                               (pcl_cosection.MemoryLimitExceeded, MemoryError)):
             self.assertTrue(issubclass(error, pcl_cosection.Error) and issubclass(error, parent))
             self.assertEqual(error.__module__, "pcl_cosection")
-        self.check(self.complete(DEPTH, LABELS, CAMERA, options={"max_memory": 100000}), "view 0: its 19200 points need",
+        self.check(self.complete(DEPTH, LABELS, CAMERA, options={"max_memory": 100000}),
+                   "view 0: its 19200 points need",
                    error=pcl_cosection.MemoryLimitExceeded)
 
     def test_an_object_that_fails_loses_nothing(self):

@@ -20,10 +20,10 @@ namespace {
 using Box = Eigen::AlignedBox3i;
 
 constexpr int max_sweeps = 4;
-constexpr int seam_layers = 2;              // beside a block, in which its field is compared with its neighbours'
-constexpr float seam_tolerance_vox = 0.03f; // largest difference of the fields of neighbours near the surface
-constexpr float near_surface_vox = 2.0f;    // where it counts
-constexpr float told_difference_vox = 0.1f; // what remains of such a difference is told from here on
+constexpr int seam_layers = 2;                // beside a block, in which its field is compared with its neighbours'
+constexpr float seam_tolerance_vox = 0.03f;   // largest difference of the fields of neighbours near the surface
+constexpr float near_surface_vox = 2.0f;      // where it counts
+constexpr float warned_difference_vox = 0.1f; // what remains of such a difference is a warning from here on
 constexpr double begin = 0.1, swept = 0.25, end = 0.3; // progress: at the first block, after one sweep, after all
 
 /** \brief Points in a volume, or so near that they count there. */
@@ -109,7 +109,7 @@ public:
     }
     for (auto& [place, block] : blocks_.blocks)
       block.is_current = true; // as near as it gets
-    if (difference_vox > told_difference_vox)
+    if (difference_vox > warned_difference_vox)
     {
       std::ostringstream text;
       text.precision (2);
