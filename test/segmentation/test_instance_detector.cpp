@@ -181,6 +181,17 @@ TEST_F (Detector, TakesTheImagesSizeUnlessItIsAOneStageNetwork)
   EXPECT_NE (failure (options).find ("640 x 640"), std::string::npos);
 }
 
+TEST_F (Detector, ReadsANetworkAnewForEachSize)
+{
+  InstanceDetectorOptions options = spotNetwork (NetworkOutputForm::BoxList, 255.0f, false);
+  options.input_width = options.input_height = 0;
+  InstanceDetector detector (options);
+  const Picture picture = test::spotPicture (2, 4);
+  expectSpot (detector.detect (picture), picture, NetworkOutputForm::BoxList);
+  EXPECT_THROW (detector.detect (Picture (7, 5, red)), IoError); // its products are of one size
+  expectSpot (detector.detect (picture), picture, NetworkOutputForm::BoxList);
+}
+
 TEST_F (Detector, TakesRedOrBlueFirst)
 {
   InstanceDetectorOptions options = spotNetwork (NetworkOutputForm::Prototypes);

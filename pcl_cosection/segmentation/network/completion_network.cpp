@@ -3,6 +3,7 @@
 
 #include "network_process.h"
 #include "onnx_check.h"
+#include "onnx_rewriting.h"
 #include "opencv_network.h"
 #include "opencv_settings.h"
 

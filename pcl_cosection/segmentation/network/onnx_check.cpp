@@ -3,7 +3,6 @@
 
 #include <pcl/cosection/common/error.h>
 
-#include <Eigen/Core>
 #include <onnx/onnx_pb.h>
 
 #include <algorithm>
@@ -219,30 +218,6 @@ checkOnnx (const std::string& bytes)
     throw IoError ("it holds no network");
   checkGraph (model.graph ());
   checkOrder (model.graph ());
-}
-
-std::string
-inSinglePrecision (const std::string& bytes)
-{
-  onnx::ModelProto model;
-  if (!model.ParseFromArray (bytes.data (), static_cast<int> (bytes.size ())))
-    throw IoError ("it is not an ONNX file, or damaged");
-  for (onnx::TensorProto& tensor : *model.mutable_graph ()->mutable_initializer ())
-  {
-    if (tensor.data_type () != onnx::TensorProto::FLOAT16 || tensor.raw_data ().empty ())
-      continue;
-    const std::string half = tensor.raw_data ();
-    std::vector<float> values (half.size () / sizeof (Eigen::half));
-    for (std::size_t n = 0; n < values.size (); ++n)
-    {
-      Eigen::half value;
-      std::memcpy (&value, half.data () + n * sizeof (value), sizeof (value));
-      values[n] = static_cast<float> (value);
-    }
-    tensor.set_data_type (onnx::TensorProto::FLOAT);
-    tensor.set_raw_data (values.data (), values.size () * sizeof (float));
-  }
-  return (model.SerializeAsString ());
 }
 
 } // namespace pcl::cosection

@@ -12,8 +12,4 @@ namespace pcl::cosection {
  * \param[in] bytes contents of a file \throws IoError saying what is wrong with them */
 void checkOnnx (const std::string& bytes);
 
-/** \brief An ONNX file whose weights are of single precision, where they were of half: OpenCV reads no others.
- * \param[in] bytes of a file that checkOnnx () has nothing against */
-std::string inSinglePrecision (const std::string& bytes);
-
 } // namespace pcl::cosection

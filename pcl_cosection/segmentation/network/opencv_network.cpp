@@ -1,12 +1,15 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "opencv_network.h"
 
+#include "onnx_rewriting.h"
+
 #include <pcl/cosection/common/error.h>
 
 namespace pcl::cosection {
 namespace {
 
 constexpr std::size_t longest_reason = 200;
+constexpr int input_dimensions = 4; // one, channels, height, width
 const char* const tensorflow_detections = "detection_out_final";
 const char* const tensorflow_masks = "detection_masks";
 
@@ -75,9 +78,22 @@ endsIn (const std::string& path, const std::string& ending)
 
 OpenCvNetwork::OpenCvNetwork (const InstanceDetectorOptions& options, const std::string& model,
                               const std::string& config)
+    : options_ (options)
+{
+  if (endsIn (options.model, ".onnx") && leavesInputOpen (model, input_dimensions))
+  {
+    open_model_ = model;
+    output_names_ = outputNamesOf (model);
+  }
+  else
+    read (model, config);
+}
+
+void
+OpenCvNetwork::read (const std::string& model, const std::string& config)
 {
   withReasons ([&] {
-    net_ = readNetwork (options, model, config);
+    net_ = readNetwork (options_, model, config);
     const bool of_tensorflow = net_.getLayerId (tensorflow_detections) >= 0 && net_.getLayerId (tensorflow_masks) >= 0;
     output_names_ = of_tensorflow ? std::vector<std::string>{tensorflow_detections, tensorflow_masks}
                                   : net_.getUnconnectedOutLayersNames ();
@@ -87,9 +103,16 @@ OpenCvNetwork::OpenCvNetwork (const InstanceDetectorOptions& options, const std:
 std::vector<NetworkOutput>
 OpenCvNetwork::run (const cv::Mat& input)
 {
+  const std::vector<int> shape (input.size.p, input.size.p + input.dims);
   return (withReasons ([&] {
+    if (shape != shape_)
+    {
+      if (!open_model_.empty ())
+        read (withInputShape (open_model_, shape), "");
+      checkChannels (shape);
+    }
+    shape_ = shape;
     net_.setInput (input);
-    checkChannels (input);
     std::vector<cv::Mat> mats;
     net_.forward (mats, output_names_);
     std::vector<NetworkOutput> outputs;
@@ -100,14 +123,11 @@ OpenCvNetwork::run (const cv::Mat& input)
 }
 
 void
-OpenCvNetwork::checkChannels (const cv::Mat& input)
+OpenCvNetwork::checkChannels (const std::vector<int>& shape)
 {
-  const cv::Size size (input.size[3], input.size[2]);
-  if (size == checked_)
-    return;
   std::vector<int> layers;
   std::vector<std::vector<cv::dnn::MatShape>> inputs, outputs;
-  net_.getLayersShapes (cv::dnn::MatShape{1, input.size[1], size.height, size.width}, layers, inputs, outputs);
+  net_.getLayersShapes (shape, layers, inputs, outputs);
   for (std::size_t n = 0; n < layers.size (); ++n)
   {
     const cv::Ptr<cv::dnn::Layer> layer = net_.getLayer (layers[n]);
@@ -119,7 +139,6 @@ OpenCvNetwork::checkChannels (const cv::Mat& input)
         throw IoError ("layer " + layer->name + " has " + std::to_string (blob.total ()) + " values for " +
                        std::to_string (channels) + " channels");
   }
-  checked_ = size;
 }
 
 } // namespace pcl::cosection

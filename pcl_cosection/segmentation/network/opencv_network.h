@@ -17,8 +17,9 @@ bool endsIn (const std::string& path, const std::string& ending);
 class OpenCvNetwork
 {
 public:
-  /** \brief Read a network. \param[in] options say of which form the model is \param[in] model, config contents of the
-   * files \throws IoError why it cannot be read */
+  /** \brief Read a network. An ONNX file that leaves the size of its input open is read when the first input comes, and
+   * again for each other size. \param[in] options say of which form the model is \param[in] model, config contents of
+   * the files \throws IoError why it cannot be read */
   OpenCvNetwork (const InstanceDetectorOptions& options, const std::string& model, const std::string& config);
 
   /** \brief The outputs that run () gives; in OpenCV, a layer that another one uses is not an output by itself. */
@@ -28,11 +29,15 @@ public:
   std::vector<NetworkOutput> run (const cv::Mat& input);
 
 private:
+  void read (const std::string& model, const std::string& config);
+
   /** \brief Where OpenCV does not look whether there are as many values as channels. \throws IoError if not */
-  void checkChannels (const cv::Mat& input);
+  void checkChannels (const std::vector<int>& shape);
 
   cv::dnn::Net net_;
-  cv::Size checked_; ///< size of the last input
+  InstanceDetectorOptions options_;
+  std::string open_model_; ///< the file, if it leaves the size of its input open; otherwise empty
+  std::vector<int> shape_; ///< of the last input
   std::vector<std::string> output_names_;
 };
 
