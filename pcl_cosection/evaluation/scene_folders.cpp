@@ -1,5 +1,5 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
-#include <pcl/cosection/evaluation/run_evaluation.h>
+#include "scene_folders.h"
 
 #include "pcl_cosection/common/files.h"
 #include "pcl_cosection/volume/mesh_distance/mesh_surface.h"
@@ -34,25 +34,6 @@ inFolder (const std::string& folder, const std::string& name)
   return (fs::path (folder) / name).string ();
 }
 
-/** \brief The files of a folder whose names match, by name: the path, and what the groups of the pattern are. */
-std::vector<std::vector<std::string>>
-matchingFiles (const std::string& folder, const std::regex& pattern)
-{
-  std::error_code error;
-  std::vector<std::string> names;
-  for (const fs::directory_entry& entry : fs::directory_iterator (folder, error))
-    names.push_back (entry.path ().filename ().string ());
-  std::sort (names.begin (), names.end ());
-  std::vector<std::vector<std::string>> files;
-  for (const std::string& name : names)
-    if (std::smatch match; std::regex_match (name, match, pattern))
-    {
-      files.emplace_back (match.begin (), match.end ());
-      files.back ().front () = inFolder (folder, name);
-    }
-  return files;
-}
-
 /** \brief What \a read () returns; an empty value, and a warning that begins with \a whose, if it fails. */
 template <typename Read>
 auto
@@ -70,37 +51,10 @@ readOrWarn (ReadingNotes& notes, const std::string& whose, Read&& read) -> declt
   }
 }
 
-/** \brief A mesh with its provenance if it has one; empty if there is no file. */
-TriangleMesh
-readMesh (const std::string& path, ReadingNotes& notes)
-{
-  if (!fs::exists (path))
-    return {};
-  return readOrWarn (notes, "", [&] {
-    TriangleMesh mesh;
-    try
-    {
-      mesh = loadPlyMesh (path);
-    }
-    catch (const IoError&) // not one of ours
-    {
-      mesh = loadMesh (path);
-    }
-    requireSurface (mesh, path.c_str ());
-    return mesh;
-  });
-}
-
 TriangleMesh
 readTrueMesh (const std::string& path, ReadingNotes& notes)
 {
   return readOrWarn (notes, "", [&] { return loadMesh (path); });
-}
-
-std::vector<StampedPose>
-readPoses (const std::string& path, ReadingNotes& notes)
-{
-  return readOrWarn (notes, "", [&] { return loadTrajectory (path); });
 }
 
 std::optional<PinholeCamera>
@@ -128,6 +82,50 @@ readCalibration (const std::string& path, ReadingNotes& notes)
 
 } // namespace
 
+std::vector<std::vector<std::string>>
+matchingFiles (const std::string& folder, const std::regex& pattern)
+{
+  std::error_code error;
+  std::vector<std::string> names;
+  for (const fs::directory_entry& entry : fs::directory_iterator (folder, error))
+    names.push_back (entry.path ().filename ().string ());
+  std::sort (names.begin (), names.end ());
+  std::vector<std::vector<std::string>> files;
+  for (const std::string& name : names)
+    if (std::smatch match; std::regex_match (name, match, pattern))
+    {
+      files.emplace_back (match.begin (), match.end ());
+      files.back ().front () = inFolder (folder, name);
+    }
+  return files;
+}
+
+TriangleMesh
+readMeshIfThere (const std::string& path, ReadingNotes& notes, const Eigen::Vector3d& origin)
+{
+  if (!fs::exists (path))
+    return {};
+  return readOrWarn (notes, "", [&] {
+    TriangleMesh mesh;
+    try
+    {
+      mesh = loadPlyMesh (path, origin);
+    }
+    catch (const IoError&) // not one of ours
+    {
+      mesh = loadMesh (path, origin);
+    }
+    requireSurface (mesh, path.c_str ());
+    return mesh;
+  });
+}
+
+std::vector<StampedPose>
+readPosesOrWarn (const std::string& path, ReadingNotes& notes)
+{
+  return readOrWarn (notes, "", [&] { return loadTrajectory (path); });
+}
+
 SceneRecord
 readRun (const std::string& folder, ReadingNotes& notes)
 {
@@ -142,15 +140,15 @@ readRun (const std::string& folder, ReadingNotes& notes)
     SceneRecord::Object object;
     object.id = std::stoi (file[1]);
     object.name = std::to_string (object.id);
-    object.poses = readPoses (file[0], notes);
-    object.mesh = readMesh (inFolder (folder, "mesh/object_" + file[1] + ".ply"), notes);
+    object.poses = readPosesOrWarn (file[0], notes);
+    object.mesh = readMeshIfThere (inFolder (folder, "mesh/object_" + file[1] + ".ply"), notes);
     run.objects.push_back (std::move (object));
   }
   std::sort (run.objects.begin (), run.objects.end (), [] (const auto& a, const auto& b) { return a.id < b.id; });
   for (const auto& file : matchingFiles (inFolder (folder, "mesh"), std::regex ("object_([0-9]{1,9})\\.ply")))
     if (!fs::exists (inFolder (folder, "trajectory/object_" + file[1] + ".txt")))
       notes.warnings.push_back (file[0] + ": has no trajectory/object_" + file[1] + ".txt; it is left out");
-  run.background = readMesh (inFolder (folder, "mesh/background.ply"), notes);
+  run.background = readMeshIfThere (inFolder (folder, "mesh/background.ply"), notes);
   return run;
 }
 
@@ -168,7 +166,7 @@ readTruth (const std::string& folder, ReadingNotes& notes)
     SceneRecord::Object object;
     object.id = std::stoi (file[2]);
     object.name = file[1];
-    object.poses = readPoses (file[0], notes);
+    object.poses = readPosesOrWarn (file[0], notes);
     const std::string mesh = inFolder (folder, "gt-mesh/" + object.name + ".ply");
     if (fs::exists (mesh))
       object.mesh = readTrueMesh (mesh, notes);

@@ -1,6 +1,9 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include <pcl/cosection/visualization/run_scene.h>
 
+#include "completed_scene.h"
+#include "scene_summary.h"
+
 #include "pcl_cosection/common/files.h"
 #include "pcl_cosection/common/json_depth.h"
 #include "pcl_cosection/common/quantile.h"
@@ -12,8 +15,6 @@
 #include <pcl/cosection/common/mesh_decimation.h>
 #include <pcl/cosection/io/mesh_io.h>
 
-#include <nlohmann/json.hpp>
-
 #include <algorithm>
 #include <filesystem>
 
@@ -24,7 +25,6 @@ namespace {
 
 using Json = nlohmann::json;
 
-constexpr int largest_image = 8192;
 constexpr PinholeCamera usual_camera = {640, 480, 525.0, 525.0, 319.5, 239.5}; ///< if it is not known
 constexpr double usual_share = 0.95; ///< of the errors that the colours distinguish
 
@@ -48,83 +48,6 @@ nearestPose (const std::vector<StampedPose>& poses, double stamp, double limit)
   if (!nearest || !(std::abs (nearest->stamp - stamp) < limit))
     return std::nullopt;
   return nearest->pose;
-}
-
-/** \brief A field of an object; null if there is none. */
-const Json&
-fieldOf (const Json& json, const char* name)
-{
-  static const Json none;
-  const auto field = json.find (name);
-  return field != json.end () ? *field : none;
-}
-
-std::string
-textOf (const Json& json, const char* name)
-{
-  const Json& field = fieldOf (json, name);
-  return field.is_string () ? field.get<std::string> () : std::string ();
-}
-
-double
-numberOf (const Json& json, const char* name)
-{
-  const Json& field = fieldOf (json, name);
-  return field.is_number () ? field.get<double> () : 0.0;
-}
-
-std::optional<PinholeCamera>
-cameraOf (const Json& json)
-{
-  const double width = numberOf (json, "width"), height = numberOf (json, "height");
-  if (!(width >= 1.0 && width <= largest_image && height >= 1.0 && height <= largest_image))
-    return std::nullopt;
-  const PinholeCamera camera = {static_cast<int> (width), static_cast<int> (height), numberOf (json, "fx"),
-                                numberOf (json, "fy"),    numberOf (json, "cx"),     numberOf (json, "cy")};
-  try
-  {
-    camera.validate ();
-    return camera;
-  }
-  catch (const InvalidArgument&)
-  {
-    return std::nullopt;
-  }
-}
-
-SequenceSource
-sourceOf (const Json& json)
-{
-  SequenceSource source;
-  const std::string format = textOf (json, "format");
-  source.format = format == "cofusion"  ? SequenceFormat::CoFusion
-                  : format == "tum"     ? SequenceFormat::Tum
-                  : format == "7scenes" ? SequenceFormat::SevenScenes
-                                        : SequenceFormat::Detect;
-  source.depth_folder = textOf (json, "depth_dir");
-  source.depth_scale = std::max (0.0, numberOf (json, "depth_scale"));
-  const Json& intrinsics = fieldOf (json, "intrinsics");
-  if (intrinsics.is_array () && intrinsics.size () == 4 &&
-      std::all_of (intrinsics.begin (), intrinsics.end (), [] (const Json& value) { return value.is_number (); }))
-    source.intrinsics = intrinsics.get<std::array<double, 4>> ();
-  return source;
-}
-
-/** \brief By object; classes that have a number only have no name. */
-std::map<int, std::string>
-classesOf (const Json& objects)
-{
-  std::map<int, std::string> classes;
-  if (!objects.is_array ())
-    return classes;
-  for (const Json& object : objects)
-  {
-    const Json& id = fieldOf (object, "id");
-    const std::string name = textOf (object, "class");
-    if (id.is_number_integer () && name.find_first_not_of ("0123456789") != std::string::npos)
-      classes[id.get<int> ()] = name;
-  }
-  return classes;
 }
 
 /** \brief What is in summary.json, which may lack anything, as those of earlier versions do; nothing if there is no
@@ -165,8 +88,8 @@ requireRun (const std::string& folder, const std::string& error)
     throw IoError (folder + ": that run failed: " + error);
   std::error_code ignored;
   if (fs::is_directory (path, ignored) && !isThere (path / "gt-cam-0.txt"))
-    throw IoError (folder + ": has no trajectory/camera.txt: it is not what pcl_cosection_fusion wrote, or that run "
-                            "did not come to its end");
+    throw IoError (folder + ": has no trajectory/camera.txt: it is not what pcl_cosection_fusion or "
+                            "pcl_cosection wrote, or that run did not come to its end");
 }
 
 void
@@ -275,12 +198,18 @@ loadRunScene (const std::string& folder, ReadingNotes& notes, const RunSceneOpti
 {
   const std::optional<Json> summary = readSummary (folder, notes);
   const Json json = summary.value_or (Json ());
-  requireRun (folder, textOf (json, "error"));
   RunScene scene;
   scene.folder = folder;
-  scene.run = readRun (folder, notes);
-  scene.run.intrinsics = cameraOf (fieldOf (json, "camera"));
+  if (isCompletion (folder, json))
+    scene.run = readCompletion (folder, json, notes);
+  else
+  {
+    requireRun (folder, textOf (json, "error"));
+    scene.run = readRun (folder, notes);
+    scene.run.intrinsics = cameraOf (fieldOf (json, "camera"));
+  }
   scene.classes = classesOf (fieldOf (json, "objects"));
+  scene.up = firstNormalOf (fieldOf (json, "support_planes"));
   const Json& parameters = fieldOf (json, "parameters");
   scene.dataset = textOf (parameters, "dataset");
   scene.source = sourceOf (fieldOf (parameters, "images"));

@@ -116,6 +116,8 @@ Viewpoint::validate () const
 Eigen::Vector3d
 upDirection (const RunScene& scene)
 {
+  if (scene.up)
+    return *scene.up;
   Eigen::Vector3d of_pictures = Eigen::Vector3d::Zero ();
   for (const StampedPose& pose : scene.run.camera)
     of_pictures -= pose.pose.linear ().col (1);
@@ -136,7 +138,7 @@ upDirection (const RunScene& scene)
 }
 
 Viewpoint
-overview (const RunScene& scene, double turn_rad)
+overview (const RunScene& scene, double turn_rad, bool with_cameras)
 {
   Eigen::AlignedBox3d box = boxOfObjects (scene);
   if (box.isEmpty () && !scene.run.background.vertices.empty ())
@@ -166,8 +168,8 @@ overview (const RunScene& scene, double turn_rad)
                                         (Eigen::AngleAxisd (turn_rad, view.up) * level.normalized ()) +
                                     std::sin (raised_rad_now) * view.up;
   const double radius = std::max (least_radius_m, 0.5 * box.diagonal ().norm ());
-  view.eye = view.target +
-             std::max (beyond * radius / std::sin (0.5 * view.angle_rad), behind_cameras * back.norm ()) * direction;
+  const double least = with_cameras ? behind_cameras * back.norm () : 0.0;
+  view.eye = view.target + std::max (beyond * radius / std::sin (0.5 * view.angle_rad), least) * direction;
   return view;
 }
 

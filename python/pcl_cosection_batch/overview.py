@@ -23,7 +23,8 @@ article { background: #fff; border: 1px solid #dcdfe3; border-radius: 8px; overf
   border-top: 4px solid #8fbc8f }
 article.failed { border-top-color: #c0392b } article.partial { border-top-color: #e08e2b }
 article.missing, article.outdated { border-top-color: #999 }
-article img { display: block; width: 100%; aspect-ratio: 800 / 340; object-fit: contain; background: #fff }
+figure { display: flex; margin: 0; background: #f6f7f9 } figure a { flex: 1 }
+article img { display: block; width: 100%; aspect-ratio: 400 / 340; object-fit: contain }
 article div { padding: 10px 14px 12px } h2 { font-size: 16px; margin: 0; overflow-wrap: anywhere }
 h2 a { color: inherit } .status { float: right; font-size: 13px; margin-left: 10px; color: #555 }
 .failed .status { color: #c0392b } .partial .status { color: #b36b12 }
@@ -71,9 +72,13 @@ def card(store: Store, record: Record) -> str:
     has_result = status in COMPLETE or status == "outdated"
     title = f'<a href="{link(name)}/">{escaped(name)}</a>' if has_result else escaped(name)
     lines = [f'<article class="{escaped(status)}">']
-    if has_result and record.get("picture") and os.path.isfile(os.path.join(store.result(name), record["picture"])):
-        lines.append(f'<a href="{link(name, record["picture"])}"><img src="{link(name, record["picture"])}" '
-                     f'alt="{escaped(name)} from the sensor and from behind" loading="lazy"></a>')
+    pictures = [picture for picture in record.get("pictures") or []
+                if has_result and os.path.isfile(os.path.join(store.result(name), picture))]
+    if pictures:
+        sides = ("from the sensor", "from behind")
+        lines.append("<figure>" + "".join(
+            f'<a href="{link(name, picture)}"><img src="{link(name, picture)}" alt="{escaped(name)} {side}" '
+            f'loading="lazy"></a>' for picture, side in zip(pictures, sides)) + "</figure>")
     lines.append(f'<div><span class="status">{escaped(STATUS_WORDS.get(status, status))}</span><h2>{title}</h2>')
     if record.get("reason"):
         lines.append(f'<p class="reason">{escaped(record["reason"])}</p>')

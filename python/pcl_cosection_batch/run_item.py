@@ -113,7 +113,7 @@ def attempt(task: Task, store: Store, record: Record, staging: str) -> Record:
         os.mkdir(reasons)
         os.rename(log, os.path.join(reasons, "log.txt"))
         return store.commit_failed(reasons, record)
-    record["picture"] = pictures.draw_result(made, os.path.join(made, "picture.png"))
+    record["pictures"] = pictures.draw_result(program, made, staging)
     os.rename(log, os.path.join(made, "log.txt"))
     return store.commit_done(made, record, replace=task.redo)
 

@@ -1,7 +1,7 @@
 # Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 """What lies in OUTPUT, and how it gets there: a result appears by one renaming, with all that is known of it.
 
-    OUTPUT/NAME/                  a result: the program's files, picture.png, log.txt, batch.json
+    OUTPUT/NAME/                  a result: the program's files, its pictures, log.txt, batch.json
     OUTPUT/.batch/failed/NAME/    why an item failed: batch.json, log.txt
     OUTPUT/.batch/staging/RUN/    what is being made
     OUTPUT/.batch/names.json      which name belongs to which input

@@ -78,6 +78,20 @@ class Results(BatchTest):
         for link in page.links:
             self.assertTrue((self.output / urllib.parse.unquote(link)).exists(), link)
 
+    def test_pictures(self):
+        """Two for each result, by the viewer; without it, there are none, and nothing fails."""
+        self.view("a.pcd")
+        self.batch(self.inputs, self.output)
+        for name, view in (("picture.png", "overview"), ("picture_behind.png", "behind")):
+            words = (self.output / "a" / name).read_text().split()
+            self.assertEqual(words[words.index("--view") + 1], view)
+            self.assertIn(f"a/{name}", Page((self.output / "index.html").read_text()).links)
+        (self.bin / "blind").touch()
+        self.batch("--force", self.inputs, self.output)
+        self.assertEqual(self.summary()["a"]["status"], "done")
+        self.assertFalse(list(self.output.glob("a/*.png")))
+        self.assertNotIn("img", Page((self.output / "index.html").read_text()).tags)
+
     def test_names_of_all_kinds(self):
         names = ["a b.pcd", "it's.pcd", 'say "x".pcd', "line\nbreak.pcd", "größe 画.pcd", "<b>&amp;.pcd",
                  "$(touch x).pcd",

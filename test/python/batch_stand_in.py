@@ -93,6 +93,15 @@ def descendants(process):
     return found
 
 
+# Stands in for the viewer: its picture is a list of its arguments.
+VIEWER = r'''#!/usr/bin/python3 -SE
+import os, sys
+with open(sys.argv[sys.argv.index("--screenshot") + 1], "w") as file:
+    print(*sys.argv[1:], file=file)
+sys.exit(os.path.exists(os.path.dirname(os.path.abspath(__file__)) + "/blind"))
+'''
+
+
 class BatchTest(unittest.TestCase):
     """A folder with the stand-in, inputs and an output."""
 
@@ -105,8 +114,9 @@ class BatchTest(unittest.TestCase):
         self.bin.mkdir()
         self.inputs.mkdir()
         (self.bin / "version").write_text("1.0")
-        for name in ("pcl_cosection", "pcl_cosection_fusion"):
-            (self.bin / name).write_text(PROGRAM)
+        for name, text in {"pcl_cosection": PROGRAM, "pcl_cosection_fusion": PROGRAM,
+                           "pcl_cosection_viewer": VIEWER}.items():
+            (self.bin / name).write_text(text)
             (self.bin / name).chmod(stat.S_IRWXU | stat.S_IRWXG | stat.S_IRWXO)
 
     def view(self, path, /, **wish):

@@ -143,8 +143,13 @@ TEST_F (PclCosection, LabelledSceneGivesAMeshPerObject)
       names.insert (item.key ());
     return (names);
   };
-  EXPECT_EQ (keys (summary),
-             (std::set<std::string>{"timings_s", "parameters", "objects", "failed", "support_planes", "warnings"}));
+  EXPECT_EQ (keys (summary), (std::set<std::string>{"timings_s", "parameters", "objects", "failed", "support_planes",
+                                                    "views", "warnings"}));
+  ASSERT_EQ (summary["views"].size (), 1u);
+  const nlohmann::json& pose = summary["views"][0]["T_world_sensor"];
+  const Eigen::Vector3d place (pose[0][3], pose[1][3], pose[2][3]), sight (pose[0][2], pose[1][2], pose[2][2]);
+  EXPECT_LT ((place - Eigen::Vector3d (0.0, -0.4, 0.35)).norm (), 1e-3); // looking at the origin
+  EXPECT_LT ((sight + place.normalized ()).norm (), 1e-3);
   EXPECT_EQ (keys (summary["timings_s"]),
              (std::set<std::string>{"read", "data_term", "constraints", "solve", "mesh", "total"}));
   ASSERT_EQ (summary["objects"].size (), 2u);

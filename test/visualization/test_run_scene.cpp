@@ -2,7 +2,10 @@
 
 #include "run_folder.h"
 
+#include "common/small_meshes.h"
+
 #include <pcl/cosection/common/error.h>
+#include <pcl/cosection/visualization/scene_picture.h>
 
 #include <gtest/gtest.h>
 
@@ -145,6 +148,93 @@ TEST_F (RunSceneFolder, AnySummaryIsBorne)
     EXPECT_FALSE (scene.run.intrinsics) << text;
     EXPECT_EQ (scene.run.objects.size (), 2u) << text;
     EXPECT_TRUE (scene.classes.empty ()) << text;
+  }
+}
+
+/** \brief What pcl_cosection made of two views, 60 km from the origin of the world; the second object moves. */
+class CompletionFolder : public testing::Test
+{
+protected:
+  CompletionFolder ()
+  {
+    fs::create_directories (result_);
+    saveMesh (boxMesh ({-0.1f, -0.2f, -0.3f}, {0.1f, 0.2f, 0.3f}), result_ + "/object_2.ply", origin_);
+    saveMesh (boxMesh ({-0.1f, -0.1f, -0.1f}, {0.1f, 0.1f, 0.1f}), result_ + "/object_10.ply");
+    saveMesh (planeMesh (1.0, 4), result_ + "/background.ply", origin_);
+    StampedPose first, second;
+    first.pose.translation () = origin_ + Eigen::Vector3d (0.5, 0.0, 0.0);
+    second.pose.translation () = origin_ + Eigen::Vector3d (0.0, 0.5, 0.0);
+    second.stamp = 1.0;
+    saveTrajectory ({first, second}, folder_.file ("moves.txt"));
+    const std::string
+        camera = R"("camera": {"width": 320, "height": 240, "fx": 260, "fy": 260, "cx": 159.5, "cy": 119.5})";
+    writeFile (result_ + "/summary.json",
+               R"({"parameters": {"object_trajectories": {"10": ")" + folder_.file ("moves.txt") +
+                   R"("}}, "origin_m": [60000, 0, 0], "support_planes": [[0, 0, 2, 1]], "views": [{)" + camera +
+                   R"(, "T_world_sensor": [[1, 0, 0, 60000], [0, -1, 0, 0], [0, 0, -1, 2], [0, 0, 0, 1]]}, {)" +
+                   camera + R"(, "T_world_sensor": [[1, 0, 0, 60001], [0, -1, 0, 0], [0, 0, -1, 2], [0, 0, 0, 1]]}]})");
+  }
+
+  RunScene load () { return loadRunScene (result_, notes_); }
+
+  TemporaryFolder folder_;
+  const std::string result_ = folder_.file ("result");
+  const Eigen::Vector3d origin_{60000.0, 0.0, 0.0};
+  ReadingNotes notes_;
+};
+
+TEST_F (CompletionFolder, ViewsAreFrames)
+{
+  const RunScene scene = load ();
+  EXPECT_TRUE (notes_.warnings.empty ()) << notes_.warnings.front ();
+  EXPECT_EQ (scene.stamps (), (std::vector<double>{0.0, 1.0}));
+  EXPECT_EQ (scene.camera ().fx, 260.0);
+  EXPECT_TRUE (scene.cameraAt (1.0)->translation ().isApprox (Eigen::Vector3d (1.0, 0.0, 2.0)));
+  ASSERT_EQ (scene.run.objects.size (), 2u);
+  EXPECT_EQ (scene.run.objects[0].id, 2);
+  EXPECT_TRUE (scene.poseAt (scene.run.objects[0], 1.0)->isApprox (Eigen::Isometry3d::Identity ()));
+  EXPECT_TRUE (scene.poseAt (scene.run.objects[1], 1.0)->translation ().isApprox (Eigen::Vector3d (0.0, 0.5, 0.0)));
+  for (const int id : {2, 10, RunScene::background})
+    for (const Eigen::Vector3f& vertex : scene.surface (id, SurfaceMode::Completed).vertices)
+      EXPECT_LT (vertex.norm (), 2.0f) << id; // relative to origin_m
+  EXPECT_TRUE (upDirection (scene).isApprox (Eigen::Vector3d::UnitZ ()));
+  EXPECT_NO_THROW (overview (scene).validate ());
+}
+
+TEST_F (CompletionFolder, OverviewComesNearWithoutCameras)
+{
+  const RunScene scene = load ();
+  const Viewpoint with = overview (scene, M_PI), without = overview (scene, M_PI, false);
+  EXPECT_LT ((without.eye - without.target).norm (), 0.8 * (with.eye - with.target).norm ());
+}
+
+TEST_F (CompletionFolder, WithoutViewsItIsSeenFromTheObservedSide)
+{
+  TriangleMesh box = boxMesh ({-0.1f, -0.2f, -0.3f}, {0.1f, 0.2f, 0.3f});
+  box.normals.clear ();
+  box.provenance.clear ();
+  for (const Eigen::Vector3f& vertex : box.vertices)
+  {
+    box.normals.push_back (vertex.normalized ());
+    box.provenance.push_back (
+        static_cast<std::uint8_t> (vertex.x () > 0 ? Provenance::Observed : Provenance::Inferred));
+  }
+  saveMesh (box, result_ + "/object_2.ply");
+  fs::remove (result_ + "/object_10.ply");
+  for (const char* const text :
+       {"{}", R"({"views": []})", R"({"views": [3, {}, {"T_world_sensor": 5}, {"T_world_sensor": [[1]]}]})",
+        R"({"views": [{"T_world_sensor": [[2, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]]}]})",
+        R"({"views": [{"T_world_sensor": [[1, 0, 0, "a"], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]]}],
+            "support_planes": [[0, 0, 0, 1]], "origin_m": [0, 1]})"})
+  {
+    writeFile (result_ + "/summary.json", text);
+    notes_ = {};
+    const RunScene scene = load ();
+    ASSERT_EQ (notes_.warnings.size (), 1u) << text;
+    EXPECT_NE (notes_.warnings[0].find ("does not say from where it was seen"), std::string::npos);
+    EXPECT_GT (scene.cameraAt (0.0)->translation ().x (), 0.3) << text;
+    EXPECT_TRUE (scene.poseAt (scene.run.objects[0], 0.0));
+    EXPECT_FALSE (scene.up) << text;
   }
 }
 

@@ -9,6 +9,7 @@
 
 #include <pcl/common/time.h>
 
+#include <algorithm>
 #include <utility>
 
 using namespace pcl::cosection;
@@ -34,6 +35,21 @@ toScene (const Settings& settings, SceneInput input)
   for (TriangleMesh& obstacle : input.obstacles)
     scene.addObstacle (std::move (obstacle));
   return (scene);
+}
+
+std::vector<ViewOrigin>
+originsOf (const SceneInput& input)
+{
+  std::vector<ViewOrigin> origins;
+  for (std::size_t n = 0; n < input.views.size (); ++n)
+  {
+    const std::vector<float>& depth = input.views[n].depth;
+    if (std::none_of (depth.begin (), depth.end (), [] (float z) { return (z > 0.0f); })) // has no viewpoint
+      continue;
+    origins.push_back ({input.view_inputs[n], input.views[n].camera, input.views[n].T_world_sensor});
+    origins.back ().T_world_sensor.pretranslate (input.origin);
+  }
+  return (origins);
 }
 
 /** \brief Fewer triangles, if that is asked for. The bounds stay as they are, lest they bound no more. */
@@ -87,6 +103,7 @@ completeViews (Settings& settings, const SceneReaders& readers, const ProgressCa
   const double read_s = total.getTimeSeconds ();
   CompletedViews completed;
   completed.origin = input.origin;
+  completed.views = originsOf (input);
   completed.warnings = input.warnings;
   if (!input.origin.isZero (0.0) && settings.format == "stl")
     completed.warnings.push_back ("STL files have single precision: coordinates in them are relative to " +
@@ -147,6 +164,11 @@ summaryJson (const Settings& settings, const CompletedViews& completed)
   summary["parameters"] = parametersJson (settings);
   if (!origin.isZero (0.0))
     summary["origin_m"] = {origin.x (), origin.y (), origin.z ()};
+  summary["views"] = nlohmann::ordered_json::array ();
+  for (const ViewOrigin& view : completed.views)
+    summary["views"].push_back ({{"input", view.input},
+                                 {"camera", cameraJson (view.camera)},
+                                 {"T_world_sensor", transformJson (view.T_world_sensor)}});
   summary["objects"] = nlohmann::ordered_json::array ();
   summary["failed"] = nlohmann::ordered_json::array ();
   for (const ObjectResult& object : scene.objects)

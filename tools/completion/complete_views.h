@@ -13,11 +13,20 @@
 #include <string>
 #include <vector>
 
+/** \brief From where an input was taken. */
+struct ViewOrigin
+{
+  std::size_t input = 0; ///< its number, from 0
+  pcl::cosection::PinholeCamera camera;
+  Eigen::Isometry3d T_world_sensor; ///< metres
+};
+
 /** \brief The completed objects of views. */
 struct CompletedViews
 {
   pcl::cosection::SceneResult scene;                 ///< with the times of all stages
   Eigen::Vector3d origin = Eigen::Vector3d::Zero (); ///< of the frame of the scene, in the world
+  std::vector<ViewOrigin> views;                     ///< of the inputs, as far as they have a viewpoint
   std::vector<std::string> warnings;                 ///< all, those about objects that failed among them
 };
 

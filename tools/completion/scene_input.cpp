@@ -302,6 +302,7 @@ readScene (const Settings& settings, const ProgressCallback& progress, const Sce
   }
   for (const std::string& file : settings.obstacles)
     scene.obstacles.push_back (readObstacle (file, scene.origin, readers, scene.warnings));
+  scene.view_inputs.assign (inputs.begin (), inputs.begin () + static_cast<std::ptrdiff_t> (scene.views.size ()));
   const ObjectPoses relative_poses = ofInputs (inputs, relativeTo (scene.origin, poses));
 
   addObjects (settings, readers, relative_poses, labels, scene);

@@ -21,6 +21,7 @@ struct SceneInput
   std::map<int, pcl::cosection::ObjectInput> objects; ///< by label
   std::vector<pcl::cosection::OrientedPoint> background;
   std::vector<pcl::cosection::DepthView> views;        ///< of the INPUTs
+  std::vector<std::size_t> view_inputs;                ///< of each view, the number of its INPUT, from 0
   std::vector<pcl::cosection::DepthView> free_space;   ///< further views, of which nothing else is used
   std::vector<pcl::cosection::TriangleMesh> obstacles; ///< world frame
   Eigen::Vector3d origin = Eigen::Vector3d::Zero ();   ///< of the frame of all this, in the world

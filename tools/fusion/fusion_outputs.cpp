@@ -188,13 +188,6 @@ backgroundJson (const SceneResult& scene)
 
 } // namespace
 
-Json
-cameraJson (const PinholeCamera& camera)
-{
-  return {{"width", camera.width}, {"height", camera.height}, {"fx", camera.fx},
-          {"fy", camera.fy},       {"cx", camera.cx},         {"cy", camera.cy}};
-}
-
 FusionOutputs::FusionOutputs (const FusionSettings& settings) : settings_ (settings), folder_ (settings.output)
 {
   std::vector<std::string> inputs = inputFiles (settings);

@@ -11,9 +11,6 @@
 #include <string>
 #include <vector>
 
-/** \brief For summaries: "width", "height", "fx", "fy", "cx", "cy". */
-nlohmann::ordered_json cameraJson (const pcl::cosection::PinholeCamera& camera);
-
 /** \brief The folder that a run writes. Each file is whole or not there. */
 class FusionOutputs
 {

@@ -1,7 +1,7 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "live_view.h"
 
-#include "fusion_outputs.h"
+#include "method_json.h"
 #include "output_files.h"
 
 #include <pcl/cosection/common/error.h>

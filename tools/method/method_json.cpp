@@ -60,19 +60,21 @@ fitJson (const ProposalFit& fit)
 Json
 proposalJson (const ProposalFit& fit, const Eigen::Vector3d& origin)
 {
-  Eigen::Matrix4d T = fit.T_object_proposal.matrix ();
-  T.topRightCorner<3, 1> () += origin;
-  Json rows = Json::array ();
-  for (int row = 0; row < 4; ++row)
-    rows.push_back ({T (row, 0), T (row, 1), T (row, 2), T (row, 3)});
   Json result = fitJson (fit);
   result["number"] = fit.proposal;
   result["scale"] = fit.scale;
-  result["T_object_proposal"] = rows;
+  result["T_object_proposal"] = transformJson (fit.T_object_proposal, origin);
   return (result);
 }
 
 } // namespace
+
+Json
+cameraJson (const PinholeCamera& camera)
+{
+  return {{"width", camera.width}, {"height", camera.height}, {"fx", camera.fx},
+          {"fy", camera.fy},       {"cx", camera.cx},         {"cy", camera.cy}};
+}
 
 Json
 solverJson (const SolverSummary& solver)
@@ -117,6 +119,15 @@ objectJson (const ObjectResult& object, const Eigen::Vector3d& origin)
     result["learned"] = fitJson (*object.learned);
   result["solver"] = solverJson (object.solver);
   return (result);
+}
+
+Json
+transformJson (const Eigen::Affine3d& T, const Eigen::Vector3d& origin)
+{
+  Json rows = Json::array ();
+  for (int row = 0; row < 4; ++row)
+    rows.push_back ({T (row, 0), T (row, 1), T (row, 2), T (row, 3) + (row < 3 ? origin[row] : 0.0)});
+  return (rows);
 }
 
 Json

@@ -14,6 +14,13 @@ nlohmann::ordered_json solverJson (const pcl::cosection::SolverSummary& solver);
 nlohmann::ordered_json objectJson (const pcl::cosection::ObjectResult& object,
                                    const Eigen::Vector3d& origin = Eigen::Vector3d::Zero ());
 
+/** \brief "width", "height", "fx", "fy", "cx", "cy". */
+nlohmann::ordered_json cameraJson (const pcl::cosection::PinholeCamera& camera);
+
+/** \brief A transformation as four rows. \param[in] origin of the frame to which it leads */
+nlohmann::ordered_json transformJson (const Eigen::Affine3d& T,
+                                      const Eigen::Vector3d& origin = Eigen::Vector3d::Zero ());
+
 /** \brief Planes n.x + d = 0 as lists of four numbers. \param[in] origin of their frame */
 nlohmann::ordered_json planesJson (const std::vector<Eigen::Vector4d>& planes,
                                    const Eigen::Vector3d& origin = Eigen::Vector3d::Zero ());

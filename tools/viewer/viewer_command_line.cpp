@@ -94,7 +94,7 @@ void
 setPaths (ViewerSettings& settings)
 {
   if (settings.paths.empty ())
-    throw UsageError ("OUTPUT is missing: the folder that pcl_cosection_fusion wrote; see --help");
+    throw UsageError ("OUTPUT is missing: the folder that pcl_cosection or pcl_cosection_fusion wrote; see --help");
   if (settings.paths.size () > 1)
     throw UsageError ("there is one argument too many: " + settings.paths[1]);
   settings.run = settings.paths[0];
@@ -142,11 +142,11 @@ viewerText ()
 {
   static const ProgramText text = {
       "pcl_cosection_viewer",
-      "look at what pcl_cosection_fusion made of a sequence",
+      "look at completed objects and at tracked sequences",
       "pcl_cosection_viewer [OPTIONS] OUTPUT",
-      "Shows the background and the objects of a run along their trajectories: in a window, or as pictures where there "
-      "is no display.",
-      {"OUTPUT is the folder that pcl_cosection_fusion wrote. It is only read.",
+      "Shows the background and the objects that pcl_cosection completed, or those of a sequence along their "
+      "trajectories: in a window, or as pictures where there is no display.",
+      {"OUTPUT is the folder that pcl_cosection or pcl_cosection_fusion wrote. It is only read.",
        "In the window, the key h shows all keys: space plays, the arrows step, m and c change surfaces and colours, f "
        "follows the camera, v saves the viewpoint."},
       {

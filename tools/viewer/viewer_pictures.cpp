@@ -128,7 +128,8 @@ chosenViewpoint (const ViewerSettings& settings, const RunScene& scene)
     return (loadViewpoint (settings.viewpoint));
   if (settings.choice == ViewChoice::Camera)
     return (std::nullopt);
-  return (overview (scene, settings.choice == ViewChoice::Behind ? M_PI : 0.0));
+  return (overview (scene, settings.choice == ViewChoice::Behind ? M_PI : 0.0,
+                    settings.view.path || settings.view.frustum));
 }
 
 std::size_t

@@ -4,6 +4,8 @@
 
 #include "fused_scene.h"
 
+#include "tools/scene_files.h"
+
 #include "pcl_cosection/io/image_io.h"
 
 #include <nlohmann/json.hpp>
@@ -78,6 +80,30 @@ TEST_F (Viewer, EveryModeIsAnotherPicture)
   }
 }
 
+TEST_F (Viewer, CompletedViewsAreShown)
+{
+  writeTableScene (file ("table.pcd"));
+  ToolRun completion ({"--voxel-size", "0.01", "table.pcd", "table"}, file (""));
+  ASSERT_EQ (completion.wait (), 0) << completion.errors ();
+  std::set<std::string> pictures;
+  for (const Words& mode :
+       std::vector<Words>{{}, {"--view", "behind"}, {"--view", "camera"}, {"--colour", "provenance"}})
+  {
+    Words words = {"--screenshot", "table.png", "--size", "200x150", "table"};
+    words.insert (words.begin (), mode.begin (), mode.end ());
+    ASSERT_EQ (view (words), 0) << errors_;
+    EXPECT_EQ (errors_, "");
+    EXPECT_EQ (output_, "wrote table.png: frame 1 of 1, 200 x 150\n");
+    EXPECT_TRUE (pictures.insert (readFile (file ("table.png"))).second) << testing::PrintToString (mode);
+  }
+  const nlohmann::json summary = nlohmann::json::parse (readFile (file ("table/summary.json")));
+  EXPECT_EQ (summary["views"][0]["input"], 0);
+  EXPECT_EQ (summary["views"][0]["camera"]["width"], 160);
+  fs::remove (file ("table/summary.json"));
+  ASSERT_EQ (view ({"--screenshot", "table.png", "table"}), 0) << errors_;
+  EXPECT_NE (errors_.find ("a place is assumed"), std::string::npos) << errors_;
+}
+
 TEST_F (Viewer, FramesAreRecorded)
 {
   ASSERT_EQ (view ({"--record", "film", "--size", "160x120", "--every", "5", "out"}), 0) << errors_;
@@ -128,7 +154,7 @@ TEST_F (Viewer, OtherFoldersAreTold)
   expectNoView (with ("sim"), 1, "sim: is a dataset");
   fs::create_directory (file ("foreign"));
   expectNoView (with ("foreign"), 1,
-                "foreign: has no trajectory/camera.txt: it is not what pcl_cosection_fusion wrote");
+                "foreign: has no trajectory/camera.txt: it is not what pcl_cosection_fusion or pcl_cosection wrote");
   expectNoView (with ("sim/calibration.txt"), 1, "is no folder");
   writeFile (file ("foreign/summary.json"), R"({"error": "no frame can be read"})");
   expectNoView (with ("foreign"), 1, "that run failed: no frame can be read");

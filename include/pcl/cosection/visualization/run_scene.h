@@ -44,6 +44,7 @@ struct PCL_COSECTION_EXPORT RunScene
   std::map<int, std::string> classes; ///< what objects are, by object, as far as the summary names them
   std::string dataset;                ///< that the run has read, as its summary names it; may be empty
   SequenceSource source;              ///< how it was read
+  std::optional<Eigen::Vector3d> up;  ///< normal of what the objects stand on, as the summary has it; unit
 
   /** \brief The camera's stamps, ascending: the frames of the run. */
   std::vector<double> stamps () const;
@@ -74,7 +75,8 @@ struct PCL_COSECTION_EXPORT RunSceneOptions
 };
 
 /** \brief Read what a run wrote: as readRun (), and mesh/object_ID_tsdf.ply, and of summary.json the camera, the
- * dataset and the objects' classes. Nothing is written.
+ * dataset, the planes and the objects' classes. What pcl_cosection made of views is read too: each view is a frame,
+ * numbered from 0, and coordinates are relative to the origin_m of its summary. Nothing is written.
  * \param[in] folder of the run
  * \param[out] notes what is missing or cannot be read
  * \param[in] options how much of it

@@ -35,15 +35,17 @@ struct PCL_COSECTION_EXPORT Viewpoint
   void validate () const;
 };
 
-/** \brief What is above in a scene: where its floor or table faces, among what is above in the pictures; those alone
- * where there is none. Unit. */
+/** \brief What is above in a scene: RunScene::up; else where its floor or table faces, among what is above in the
+ * pictures; those alone where there is none. Unit. */
 PCL_COSECTION_EXPORT Eigen::Vector3d upDirection (const RunScene& scene);
 
 /** \brief From above and behind the cameras, with all objects in the picture, wherever they were; of a scene without
  * objects, with the background.
  * \param[in] scene the run
- * \param[in] turn_rad go around the middle of what is to be seen; with pi, one sees what the cameras did not */
-PCL_COSECTION_EXPORT Viewpoint overview (const RunScene& scene, double turn_rad = 0.0);
+ * \param[in] turn_rad go around the middle of what is to be seen; with pi, one sees what the cameras did not
+ * \param[in] with_cameras stay behind the cameras, so that they are in the picture; else no farther away than the
+ * objects need */
+PCL_COSECTION_EXPORT Viewpoint overview (const RunScene& scene, double turn_rad = 0.0, bool with_cameras = true);
 
 /** \brief A camera of \a width x \a height pixels that sees all that \a camera sees, and more to the sides or above and
  * below where the pictures have other proportions. */

@@ -1,0 +1,134 @@
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
+#include "scene_summary.h"
+
+#include <pcl/cosection/common/error.h>
+
+#include <algorithm>
+
+namespace pcl::cosection {
+namespace {
+
+using Json = nlohmann::json;
+
+constexpr int largest_image = 8192;
+constexpr double rigid = 1e-6; ///< largest deviation from a rotation
+
+double
+numberOf (const Json& json, const char* name)
+{
+  const Json& field = fieldOf (json, name);
+  return field.is_number () ? field.get<double> () : 0.0;
+}
+
+} // namespace
+
+const Json&
+fieldOf (const Json& json, const char* name)
+{
+  static const Json none;
+  const auto field = json.find (name);
+  return field != json.end () ? *field : none;
+}
+
+std::string
+textOf (const Json& json, const char* name)
+{
+  const Json& field = fieldOf (json, name);
+  return field.is_string () ? field.get<std::string> () : std::string ();
+}
+
+std::vector<double>
+numbersOf (const Json& json, const char* name, std::size_t count)
+{
+  const Json& field = fieldOf (json, name);
+  const bool fits = field.is_array () && field.size () == count &&
+                    std::all_of (field.begin (), field.end (), [] (const Json& value) { return value.is_number (); });
+  return fits ? field.get<std::vector<double>> () : std::vector<double> ();
+}
+
+std::optional<PinholeCamera>
+cameraOf (const Json& json)
+{
+  const double width = numberOf (json, "width"), height = numberOf (json, "height");
+  if (!(width >= 1.0 && width <= largest_image && height >= 1.0 && height <= largest_image))
+    return std::nullopt;
+  const PinholeCamera camera = {static_cast<int> (width), static_cast<int> (height), numberOf (json, "fx"),
+                                numberOf (json, "fy"),    numberOf (json, "cx"),     numberOf (json, "cy")};
+  try
+  {
+    camera.validate ();
+    return camera;
+  }
+  catch (const InvalidArgument&)
+  {
+    return std::nullopt;
+  }
+}
+
+SequenceSource
+sourceOf (const Json& json)
+{
+  SequenceSource source;
+  const std::string format = textOf (json, "format");
+  source.format = format == "cofusion"  ? SequenceFormat::CoFusion
+                  : format == "tum"     ? SequenceFormat::Tum
+                  : format == "7scenes" ? SequenceFormat::SevenScenes
+                                        : SequenceFormat::Detect;
+  source.depth_folder = textOf (json, "depth_dir");
+  source.depth_scale = std::max (0.0, numberOf (json, "depth_scale"));
+  const Json& intrinsics = fieldOf (json, "intrinsics");
+  if (intrinsics.is_array () && intrinsics.size () == 4 &&
+      std::all_of (intrinsics.begin (), intrinsics.end (), [] (const Json& value) { return value.is_number (); }))
+    source.intrinsics = intrinsics.get<std::array<double, 4>> ();
+  return source;
+}
+
+std::map<int, std::string>
+classesOf (const Json& objects)
+{
+  std::map<int, std::string> classes;
+  if (!objects.is_array ())
+    return classes;
+  for (const Json& object : objects)
+  {
+    const Json& id = fieldOf (object, "id");
+    const std::string name = textOf (object, "class");
+    if (id.is_number_integer () && name.find_first_not_of ("0123456789") != std::string::npos)
+      classes[id.get<int> ()] = name;
+  }
+  return classes;
+}
+
+std::optional<Eigen::Vector3d>
+firstNormalOf (const Json& planes)
+{
+  if (!planes.is_array () || planes.empty ())
+    return std::nullopt;
+  const std::vector<double> plane = numbersOf ({{"plane", planes.front ()}}, "plane", 4);
+  if (plane.empty ())
+    return std::nullopt;
+  const Eigen::Vector3d normal (plane.data ());
+  return normal.allFinite () && normal.norm () > rigid ? std::optional (normal.normalized ()) : std::nullopt;
+}
+
+std::optional<Eigen::Isometry3d>
+poseOf (const Json& json, const char* name)
+{
+  const Json& rows = fieldOf (json, name);
+  if (!rows.is_array () || rows.size () != 4)
+    return std::nullopt;
+  Eigen::Isometry3d pose;
+  for (int row = 0; row < 4; ++row)
+  {
+    const std::vector<double> values = numbersOf ({{"row", rows[static_cast<std::size_t> (row)]}}, "row", 4);
+    if (values.empty ())
+      return std::nullopt;
+    pose.matrix ().row (row) = Eigen::Map<const Eigen::RowVector4d> (values.data ());
+  }
+  const Eigen::Matrix3d rotation = pose.linear ();
+  const bool is_rigid = pose.matrix ().allFinite () && pose.matrix ().row (3) == Eigen::RowVector4d (0, 0, 0, 1) &&
+                        (rotation * rotation.transpose ()).isIdentity (rigid) && rotation.determinant () > 0.0;
+  return is_rigid ? std::optional (pose) : std::nullopt;
+}
+
+} // namespace pcl::cosection
