@@ -25,7 +25,7 @@ constexpr double upward = 0.6;         ///< cosine of the angle up to which a no
 constexpr double floor_share = 0.1;    ///< of the vertices, for a floor
 constexpr double behind_cameras = 1.8; ///< of their distance
 constexpr double beyond = 1.15;        ///< room around what is to be seen
-constexpr double least_radius_m = 0.05;
+constexpr double least_distance_m = 0.1;
 constexpr double deepest_share = 0.02; ///< of a background's vertices, beyond its box at each end
 
 /** \brief The corners of the objects' boxes, wherever the objects were. */
@@ -44,6 +44,21 @@ boxOfObjects (const RunScene& scene)
         all.extend (pose.pose * box.corner (static_cast<Eigen::AlignedBox3d::CornerType> (corner)));
   }
   return all;
+}
+
+/** \brief How far from the middle of a box one sees all of it in a square picture. */
+double
+distanceToSee (const Eigen::AlignedBox3d& box, const Eigen::Vector3d& direction, const Viewpoint& view)
+{
+  const Eigen::Matrix3d R_camera_world = lookAt (direction, Eigen::Vector3d::Zero (), view.up).linear ().transpose ();
+  double distance = 0.0;
+  for (int corner = 0; corner < 8; ++corner)
+  {
+    const Eigen::Vector3d p = R_camera_world *
+                              (box.corner (static_cast<Eigen::AlignedBox3d::CornerType> (corner)) - box.center ());
+    distance = std::max (distance, p.head<2> ().cwiseAbs ().maxCoeff () / std::tan (0.5 * view.angle_rad) - p.z ());
+  }
+  return distance;
 }
 
 /** \brief Where most of a mesh is. */
@@ -167,9 +182,8 @@ overview (const RunScene& scene, double turn_rad, bool with_cameras)
   const Eigen::Vector3d direction = std::cos (raised_rad_now) *
                                         (Eigen::AngleAxisd (turn_rad, view.up) * level.normalized ()) +
                                     std::sin (raised_rad_now) * view.up;
-  const double radius = std::max (least_radius_m, 0.5 * box.diagonal ().norm ());
-  const double least = with_cameras ? behind_cameras * back.norm () : 0.0;
-  view.eye = view.target + std::max (beyond * radius / std::sin (0.5 * view.angle_rad), least) * direction;
+  const double least = with_cameras ? behind_cameras * back.norm () : least_distance_m;
+  view.eye = view.target + std::max (beyond * distanceToSee (box, direction, view), least) * direction;
   return view;
 }
 
