@@ -1,7 +1,7 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 
-// Bytes as summary.json of a run, as the report and the viewer read it, as that of a result that is exported, or as a
-// viewpoint; the first line says which.
+// Bytes as summary.json of a run, as the report and the viewer read it, as that of a result that is exported or
+// viewed, or as a viewpoint; the first line says which.
 
 #include "fuzz_target.h"
 #include "memory_file.h"
@@ -83,9 +83,9 @@ readSummary (const std::string& bytes)
   return (viewRun (path));
 }
 
-/** \brief What the export makes of a tetrahedron with a summary. */
-bool
-readResult (const std::string& bytes)
+/** \brief A tetrahedron as the only object of a result, with this summary. */
+std::string
+resultFolder (const std::string& summary)
 {
   static fuzz::MemoryFolder folder;
   static const bool is_filled = [] {
@@ -95,8 +95,35 @@ readResult (const std::string& bytes)
     return (true);
   }();
   static_cast<void> (is_filled);
-  folder.set ("summary.json", bytes);
-  const CompletedResult result = readCompletedResult (folder.path ());
+  folder.set ("summary.json", summary);
+  return (folder.path ());
+}
+
+/** \brief What the viewer makes of a result. */
+bool
+viewResult (const std::string& bytes)
+{
+  ReadingNotes notes;
+  const RunScene scene = loadRunScene (resultFolder (bytes), notes);
+  requireMessages (notes.warnings);
+  fuzz::require (!scene.stamps ().empty (), "a result has a frame");
+  SceneView view;
+  view.width = view.height = 64;
+  view.oversampling = 1;
+  for (const bool with_cameras : {true, false})
+  {
+    view.viewpoint = overview (scene, 0.0, with_cameras);
+    view.viewpoint->validate ();
+    fuzz::require (drawScene (scene, scene.stamps ().back (), view).width == view.width, "there is a picture");
+  }
+  return (notes.warnings.empty ());
+}
+
+/** \brief What the export makes of it. */
+bool
+readResult (const std::string& bytes)
+{
+  const CompletedResult result = readCompletedResult (resultFolder (bytes));
   requireMessages (result.warnings);
   PhysicsOptions options;
   options.threads = 1;
@@ -146,6 +173,10 @@ fuzz::seeds ()
       R"(result.json
 {"objects": [{"id": 1, "voxel_size_m": 0.01, "class": "cup"}], "failed": [], "origin_m": [10.0, 0.0, 0.0],
 "support_planes": [[0.0, 0.0, 1.0, 0.0], [0.0, 1.0, 0.2, -0.5]], "parameters": {"object_trajectories": {}}})",
+      R"(views.json
+{"views": [{"input": 0, "camera": {"width": 64, "height": 48, "fx": 60.0, "fy": 60.0, "cx": 31.5, "cy": 23.5},
+"T_world_sensor": [[1, 0, 0, 10.0], [0, 1, 0, 0.5], [0, 0, 1, -1.0], [0, 0, 0, 1]]}], "origin_m": [10.0, 0.0, 0.0],
+"support_planes": [[0.0, 0.0, -1.0, 0.2]], "parameters": {"object_trajectories": {}}, "objects": []})",
       R"(viewpoint.json
 {"eye": [1.0, -2.0, 0.5], "target": [0.0, 0.0, 0.0], "up": [0.0, 0.0, 1.0], "angle_deg": 40.0})"};
 }
@@ -158,6 +189,8 @@ fuzz::dictionary ()
           "summary.json\n",
           "viewpoint.json\n",
           "result.json\n",
+          "views.json\n",
+          "\"T_world_sensor\"",
           "\"support_planes\"",
           "\"origin_m\"",
           "\"voxel_size_m\"",
@@ -201,12 +234,14 @@ bool
 fuzz::accepts (const std::string& input)
 {
   const auto [kind, bytes] = splitFirstLine (input);
-  if (kind != "summary.json" && kind != "viewpoint.json" && kind != "result.json")
+  if (kind != "summary.json" && kind != "viewpoint.json" && kind != "result.json" && kind != "views.json")
     return (false);
   try
   {
     if (kind == "result.json")
       return (readResult (bytes));
+    if (kind == "views.json")
+      return (viewResult (bytes));
     return (kind == "summary.json" ? readSummary (bytes) : readViewpoint (bytes));
   }
   catch (const Error& error)
