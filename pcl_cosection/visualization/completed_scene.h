@@ -1,6 +1,7 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <pcl/cosection/common/export.h>
 #include <pcl/cosection/evaluation/run_evaluation.h>
 
 #include <nlohmann/json.hpp>
@@ -10,12 +11,13 @@
 namespace pcl::cosection {
 
 /** \brief Whether a folder has what pcl_cosection makes of views, which is no run. \param[in] summary of the folder */
-bool isCompletion (const std::string& folder, const nlohmann::json& summary);
+PCL_COSECTION_EXPORT bool isCompletion (const std::string& folder, const nlohmann::json& summary);
 
 /** \brief Read the completed objects of views, as a run of which each view is a frame, numbered from 0. If the summary
  * says from nowhere that they were seen, there is one frame, before what was observed. The frame is moved to the
  * summary's origin_m.
  * \param[in] summary of the folder \param[out] notes what is missing or cannot be read */
-SceneRecord readCompletion (const std::string& folder, const nlohmann::json& summary, ReadingNotes& notes);
+PCL_COSECTION_EXPORT SceneRecord readCompletion (const std::string& folder, const nlohmann::json& summary,
+                                                 ReadingNotes& notes);
 
 } // namespace pcl::cosection

@@ -44,12 +44,12 @@ void
 interpret (ReportSettings& settings)
 {
   if (settings.paths.empty ())
-    throw UsageError ("OUTPUT is missing, the folder that pcl_cosection_fusion wrote; see --help");
+    throw UsageError ("OUTPUT is missing, the folder that pcl_cosection_fusion or pcl_cosection wrote; see --help");
   if (settings.paths.size () > 1)
     throw UsageError ("there is one argument too many: " + settings.paths[1] + "; the report is named with -o");
   settings.run = settings.paths[0];
   if (settings.run.empty ())
-    throw UsageError ("OUTPUT is empty; it must be the folder that pcl_cosection_fusion wrote");
+    throw UsageError ("OUTPUT is empty; it must be the folder that pcl_cosection_fusion or pcl_cosection wrote");
   if (settings.output.empty ())
     settings.output = "report.html";
   if (!isPage (settings.output))
@@ -64,12 +64,13 @@ reportText ()
 {
   static const ProgramText text = {
       "pcl_cosection_report",
-      "show a run in one HTML file",
+      "show a run or completed views in one HTML file",
       "pcl_cosection_report [OPTIONS] OUTPUT",
-      "Writes one HTML file that shows what a run of pcl_cosection_fusion did: tables, pictures before and after, "
-      "trajectories, times, and the meshes to turn and to play. It needs no network and can be sent, printed and read "
-      "on a phone.",
-      {"OUTPUT is the folder that pcl_cosection_fusion wrote. It is only read.",
+      "Writes one HTML file that shows what pcl_cosection_fusion made of a sequence, or pcl_cosection of views: "
+      "tables, "
+      "pictures before and after, trajectories, times, and the meshes to turn and to play. It needs no network and can "
+      "be sent, printed and read on a phone.",
+      {"OUTPUT is the folder that pcl_cosection_fusion or pcl_cosection wrote. It is only read.",
        "With --truth, DATASET is a folder with the truth as pcl_cosection_simulate writes it: accuracy, completeness "
        "and errors of trajectories come into the report. With --compare, other runs stand beside this one."},
       {

@@ -53,8 +53,9 @@ methodOf (const RunFolder& run)
   const std::string masks = textIn (parameters, "masks"), segmentation = textIn (parameters, "segmentation");
   const std::string constraints = constraintsOf (run);
   std::string text = textIn (parameters, "camera_trajectory").empty () ? "" : "poses given, ";
-  text += !segmentation.empty () ? "segmentation " + segmentation : masks.empty () ? "no masks" : "masks given";
-  return (text + (constraints.empty () || constraints[0] == ',' ? "" : ", ") + constraints);
+  if (!member (run.summary, "views").is_array ()) // else a result of views, which have labels
+    text += !segmentation.empty () ? "segmentation " + segmentation : masks.empty () ? "no masks" : "masks given";
+  return (text + (text.empty () || constraints.empty () || constraints[0] == ',' ? "" : ", ") + constraints);
 }
 
 /** \brief A parameter in words. */
@@ -312,6 +313,7 @@ trajectoriesOf (const ReportContent& content)
  *
  * - `version`, `title`, `path`, `date`, `method`, `truth_folder`, `licence` (of three.js): texts;
  * - `failure`, `has_summary`, `failed` (`id`, `error`), `warnings`, `events`: what went wrong;
+ * - `has_seen`: whether there are surfaces as they were seen;
  * - `frames`, `frames_per_second`, `timings_s` (by stage, `total`), `parameters` (name and value in words);
  * - `has_background`, `objects`: `id`, `name`, `completed`, `is_known` (more than a trajectory), `size_m`, `volume_m3`,
  *   `closed`, `provenance` (shares), `penetration_m`, `frames`, `iterations`, `converged`, `pictures`;
@@ -339,6 +341,7 @@ reportData (const ReportContent& content, const ProgressCallback& progress)
                {"licence", std::string (three_library.text.empty () ? "" : three_notice.text)},
                {"failure", run.failure},
                {"has_summary", !run.summary.is_null ()},
+               {"has_seen", !content.scene.tsdf.empty ()},
                {"failed", failedObjects (run)},
                {"warnings", warnings},
                {"events", textsIn (run.summary, "events")},

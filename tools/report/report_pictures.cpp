@@ -158,7 +158,9 @@ drawScenePanels (const ReportContent& content)
   view.height = scene_height_px;
   view.legend = view.caption = view.path = view.frustum = false;
   const auto add = [&] (double turn_rad, SurfaceMode surface, ColourMode colour, const std::string& caption) {
-    view.viewpoint = overview (scene, turn_rad);
+    if (surface == SurfaceMode::Tsdf && scene.tsdf.empty ())
+      return;
+    view.viewpoint = overview (scene, turn_rad, false);
     view.surface = surface;
     view.colour = colour;
     pictures.push_back (

@@ -1,6 +1,7 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "run_folder.h"
 
+#include "pcl_cosection/visualization/completed_scene.h"
 #include "pcl_cosection/volume/mesh_distance/mesh_surface.h"
 #include <pcl/cosection/common/error.h>
 #include <pcl/cosection/io/mesh_io.h>
@@ -53,9 +54,9 @@ requireRun (const std::string& path)
   std::error_code failure;
   const fs::path folder (path);
   if (!fs::exists (folder, failure))
-    throw IoError (path + ": there is no such folder; it must be what pcl_cosection_fusion wrote");
+    throw IoError (path + ": there is no such folder; it must be what pcl_cosection_fusion or pcl_cosection wrote");
   if (!fs::is_directory (folder, failure))
-    throw IoError (path + ": is a file; it must be the folder that pcl_cosection_fusion wrote");
+    throw IoError (path + ": is a file; it must be the folder that pcl_cosection_fusion or pcl_cosection wrote");
   std::vector<std::string> names = namesIn (folder / "mesh");
   const std::vector<std::string> trajectories = namesIn (folder / "trajectory");
   names.insert (names.end (), trajectories.begin (), trajectories.end ());
@@ -68,12 +69,11 @@ requireRun (const std::string& path)
     throw IoError (path + ": is a run in which nothing is left: no meshes, trajectories or summary.json");
   const std::vector<std::string> top = namesIn (folder);
   if (std::any_of (top.begin (), top.end (), isRunFile))
-    throw IoError (path + ": has meshes as pcl_cosection writes them, not a run of pcl_cosection_fusion with its "
-                          "folders mesh and trajectory");
+    return;
   throw IoError (path +
                  (top.empty () ? ": is an empty folder"
                                : ": is not a run: it has neither summary.json nor mesh/ nor trajectory/") +
-                 "; it must be what pcl_cosection_fusion wrote");
+                 "; it must be what pcl_cosection_fusion or pcl_cosection wrote");
 }
 
 std::string
@@ -159,6 +159,43 @@ objectOf (std::map<int, RunObject>& objects, const std::string& number)
 }
 
 void
+readRunFiles (RunFolder& run, std::map<int, RunObject>& objects)
+{
+  const fs::path folder (run.path), mesh = folder / "mesh", trajectory = folder / "trajectory";
+  std::error_code failure;
+  if (fs::exists (trajectory / "camera.txt", failure))
+    tryToRead (run, [&] { run.camera = loadTrajectory ((trajectory / "camera.txt").string ()); });
+  if (fs::exists (mesh / "background.ply", failure))
+    tryToRead (run, [&] { run.background = readMesh (mesh / "background.ply"); });
+  static const std::regex mesh_name ("object_([0-9]{1,9})(_tsdf)?\\.ply"),
+      trajectory_name ("object_([0-9]{1,9})\\.txt");
+  std::smatch match;
+  for (const std::string& name : namesIn (trajectory))
+    if (std::regex_match (name, match, trajectory_name))
+      tryToRead (run, [&] { objectOf (objects, match[1]).poses = loadTrajectory ((trajectory / name).string ()); });
+  for (const std::string& name : namesIn (mesh))
+    if (std::regex_match (name, match, mesh_name))
+      tryToRead (run, [&] {
+        RunObject& object = objectOf (objects, match[1]);
+        (match[2].matched ? object.seen : object.completed) = readMesh (mesh / name);
+      });
+}
+
+/** \brief What pcl_cosection wrote, each view as a frame. */
+void
+readCompletedViews (const nlohmann::json& summary, RunFolder& run, std::map<int, RunObject>& objects)
+{
+  ReadingNotes notes;
+  SceneRecord record = readCompletion (run.path, summary, notes);
+  run.notes.insert (run.notes.end (), notes.warnings.begin (), notes.warnings.end ());
+  run.camera = std::move (record.camera);
+  run.intrinsics = record.intrinsics;
+  run.background = std::move (record.background);
+  for (SceneRecord::Object& object : record.objects)
+    objects[object.id] = {object.id, std::move (object.poses), std::move (object.mesh), {}, {}};
+}
+
+void
 noteWhatIsMissing (RunFolder& run)
 {
   if (run.camera.empty ())
@@ -184,27 +221,12 @@ readRunFolder (const std::string& path)
   RunFolder run;
   run.path = path;
   readSummary (run);
-  const fs::path folder (path), mesh = folder / "mesh", trajectory = folder / "trajectory";
-  run.date = dateOf (folder / "summary.json");
-  std::error_code failure;
-  if (fs::exists (trajectory / "camera.txt", failure))
-    tryToRead (run, [&] { run.camera = loadTrajectory ((trajectory / "camera.txt").string ()); });
-  if (fs::exists (mesh / "background.ply", failure))
-    tryToRead (run, [&] { run.background = readMesh (mesh / "background.ply"); });
-
+  run.date = dateOf (fs::path (path) / "summary.json");
   std::map<int, RunObject> objects;
-  static const std::regex mesh_name ("object_([0-9]{1,9})(_tsdf)?\\.ply"),
-      trajectory_name ("object_([0-9]{1,9})\\.txt");
-  std::smatch match;
-  for (const std::string& name : namesIn (trajectory))
-    if (std::regex_match (name, match, trajectory_name))
-      tryToRead (run, [&] { objectOf (objects, match[1]).poses = loadTrajectory ((trajectory / name).string ()); });
-  for (const std::string& name : namesIn (mesh))
-    if (std::regex_match (name, match, mesh_name))
-      tryToRead (run, [&] {
-        RunObject& object = objectOf (objects, match[1]);
-        (match[2].matched ? object.seen : object.completed) = readMesh (mesh / name);
-      });
+  if (const nlohmann::json summary = run.summary; isCompletion (path, summary))
+    readCompletedViews (summary, run, objects);
+  else
+    readRunFiles (run, objects);
   const Json& entries = member (run.summary, "objects");
   if (entries.is_array ())
     for (const Json& entry : entries)

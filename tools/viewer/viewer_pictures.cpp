@@ -116,6 +116,8 @@ loadScene (const ViewerSettings& settings, Terminal& terminal)
       std::all_of (scene.run.objects.begin (), scene.run.objects.end (),
                    [] (const auto& object) { return (object.mesh.empty ()); }))
     terminal.warning (settings.run + ": has no meshes; there is only the path of the camera to show");
+  else if (settings.view.surface == SurfaceMode::Tsdf && scene.tsdf.empty ())
+    terminal.warning (settings.run + ": has no surfaces as they were seen, so --mode tsdf shows the background alone");
   if (!scene.run.intrinsics)
     terminal.warning (settings.run + ": its summary.json does not give the camera; one of 640 x 480 pixels is assumed");
   return (scene);

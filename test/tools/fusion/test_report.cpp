@@ -8,6 +8,8 @@
 #include "report_command_line.h"
 #include "report_scene.h"
 
+#include "tools/scene_files.h"
+
 #include <nlohmann/json.hpp>
 
 #include <cmath>
@@ -96,6 +98,26 @@ TEST_F (Report, ObjectsAreAsTheSummarySays)
   EXPECT_EQ (html.find ("No warnings.") == std::string::npos, !summary["warnings"].empty ());
 }
 
+TEST_F (Report, CompletedViewsAreShown)
+{
+  if (!hasBrowser ())
+    GTEST_SKIP () << "there is no browser";
+  writeTableScene (file ("table.pcd"));
+  ToolRun completion ({"--voxel-size", "0.01", "table.pcd", "table"}, file (""));
+  ASSERT_EQ (completion.wait (), 0) << completion.errors ();
+  const std::string html = shown ({"table"});
+  for (const nlohmann::json& object : json ("table/summary.json")["objects"])
+    EXPECT_EQ (cell (html, "objects", "object " + object["id"].dump (), "Volume (ml)"),
+               inMillilitres (object["volume_m3"]));
+  EXPECT_NE (html.find ("Completed, from behind, by provenance"), std::string::npos);
+  for (const char* const part : {"Seen, from", "no masks", "Before and after", "no trajectory"})
+    EXPECT_EQ (html.find (part), std::string::npos) << part;
+  EXPECT_NE (html.find ("No warnings."), std::string::npos);
+  fs::remove (file ("table/summary.json"));
+  EXPECT_EQ (report ({"table"}), 0) << errors_;
+  EXPECT_NE (errors_.find ("a place is assumed"), std::string::npos) << errors_;
+}
+
 TEST_F (Report, ErrorsAreAsTheEvaluationSays)
 {
   if (!hasBrowser ())
@@ -165,7 +187,8 @@ TEST_F (Report, WrongUsage)
 
 TEST_F (Report, FoldersThatAreNoRuns)
 {
-  expectNoReport ({"nowhere"}, 1, "nowhere: there is no such folder; it must be what pcl_cosection_fusion wrote");
+  expectNoReport ({"nowhere"}, 1,
+                  "nowhere: there is no such folder; it must be what pcl_cosection_fusion or pcl_cosection wrote");
   expectNoReport ({"out/summary.json"}, 1, "out/summary.json: is a file; it must be the folder");
   expectNoReport ({"sim"}, 1, "sim: is a dataset, not a run; first run pcl_cosection_fusion sim OUTPUT");
   fs::create_directory (file ("empty"));
@@ -173,8 +196,6 @@ TEST_F (Report, FoldersThatAreNoRuns)
   fs::create_directory (file ("foreign"));
   writeFile (file ("foreign/holiday.jpg"), "beach");
   expectNoReport ({"foreign"}, 1, "foreign: is not a run: it has neither summary.json nor mesh/ nor trajectory/");
-  fs::copy (file ("out/mesh/object_1.ply"), file ("foreign/object_1.ply"));
-  expectNoReport ({"foreign"}, 1, "foreign: has meshes as pcl_cosection writes them");
   fs::create_directories (file ("void/mesh"));
   expectNoReport ({"void"}, 1, "void: is a run in which nothing is left");
   expectNoReport ({"--truth", "nowhere", "out"}, 1, "nowhere: is no folder; it must be a dataset with truth");

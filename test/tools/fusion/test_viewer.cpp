@@ -96,6 +96,8 @@ TEST_F (Viewer, CompletedViewsAreShown)
     EXPECT_EQ (output_, "wrote table.png: frame 1 of 1, 200 x 150\n");
     EXPECT_TRUE (pictures.insert (readFile (file ("table.png"))).second) << testing::PrintToString (mode);
   }
+  ASSERT_EQ (view ({"--screenshot", "table.png", "--mode", "tsdf", "table"}), 0);
+  EXPECT_NE (errors_.find ("has no surfaces as they were seen"), std::string::npos) << errors_;
   const nlohmann::json summary = nlohmann::json::parse (readFile (file ("table/summary.json")));
   EXPECT_EQ (summary["views"][0]["input"], 0);
   EXPECT_EQ (summary["views"][0]["camera"]["width"], 160);

@@ -140,9 +140,10 @@
     const keys = longProvenanceNames.map(function (name, n) { return [key("p" + n), name]; });
     if (isNumber(data.error_max_m))
       keys.push([make("i", {"class": "scale"}), "error, 0 to " + Number((1000 * data.error_max_m).toPrecision(14)) + " mm and more"]);
-    const part = section("pictures", "Before and after", make("p", {},
+    const sides = "Above from the side of the camera, below from behind.";
+    const part = section("pictures", data.has_seen ? "Before and after" : "Completed", make("p", {}, data.has_seen ?
       "Left what was seen, the zero level of the truncated distances averaged over all frames; then what was completed. " +
-      "Above from the side of the camera, below from behind."), legend(keys),
+      sides : sides), legend(keys),
       make("div", {"class": "panels scene"}, ...data.scene_pictures.map(figure)));
     data.objects.forEach(function (object) {
       if (object.pictures.length)
