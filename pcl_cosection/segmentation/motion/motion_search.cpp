@@ -2,11 +2,9 @@
 #include "motion_search.h"
 
 #include "body_alignment.h"
+#include "moving_patches.h"
 #include "pcl_cosection/common/parallel.h"
 #include "pcl_cosection/segmentation/geometry/surface_patches.h"
-
-#include <Eigen/SparseCholesky>
-#include <Eigen/SparseCore>
 
 #include <algorithm>
 #include <cmath>
@@ -28,70 +26,6 @@ constexpr float near_m = 0.1f;    // parts of one body, which something in front
 constexpr std::size_t points_of_part = 500;
 constexpr int rounds = 2;               // of alignment and votes
 constexpr double least_explained = 0.4; // of what is new in it, for a hypothesis to be right
-constexpr double rest = 1e-3;           // strength of being at rest, per pixel, where nothing is said
-constexpr double undecided = 0.3;       // mean of a patch's votes: noise that its pixels share
-constexpr double border_weight = 1.0;   // per pixel of a border
-constexpr int gap_px = 3;               // within which pixels are one part, if they are in depth, too
-
-/** \brief Patches that move, by what their pixels say and what they are joined to: the minimum of
- * sum_i a_i (x_i - y_i)^2 + sum_ij w_ij (x_i - x_j)^2, from which on x_i exceeds 1/2.
- * \param[in] votes one per pixel, from -1, it is plainly at rest, to 1
- * \param[in] borders of patches; what is not positive joins nothing
- * \return one per patch */
-std::vector<char>
-movingPatches (const PatchImage& image, const std::vector<float>& votes, const PatchEvidence& borders)
-{
-  const auto count = static_cast<Eigen::Index> (image.patches.size ());
-  Eigen::VectorXd sum = Eigen::VectorXd::Zero (count);
-  for (std::size_t i = 0; i < votes.size (); ++i)
-    if (image.patch_of[i] >= 0)
-      sum[image.patch_of[i]] += votes[i];
-  for (Eigen::Index k = 0; k < count; ++k)
-  {
-    const double open = std::min (std::abs (sum[k]), undecided * image.patches[k].pixels);
-    sum[k] -= sum[k] > 0.0 ? open : -open;
-  }
-  std::vector<Eigen::Triplet<double>> entries;
-  for (Eigen::Index k = 0; k < count; ++k)
-    entries.emplace_back (k, k, std::abs (sum[k]) + rest * std::max (1, image.patches[k].pixels));
-  for (const auto& [pair, evidence] : borders)
-  {
-    const double weight = border_weight * std::max (0.0f, evidence);
-    if (!(weight > 0.0))
-      continue;
-    entries.emplace_back (pair.first, pair.first, weight);
-    entries.emplace_back (pair.second, pair.second, weight);
-    entries.emplace_back (pair.first, pair.second, -weight);
-    entries.emplace_back (pair.second, pair.first, -weight);
-  }
-  Eigen::SparseMatrix<double> matrix (count, count);
-  matrix.setFromTriplets (entries.begin (), entries.end ());
-  const Eigen::VectorXd x = Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> (matrix).solve (sum.cwiseMax (0.0));
-  std::vector<char> moving (image.patches.size (), 0);
-  for (Eigen::Index k = 0; k < count; ++k)
-    moving[k] = x[k] > 0.5;
-  return moving;
-}
-
-/** \brief Numbers, from 1, of the connected parts of pixels that are set; 0: not set, or of a part of fewer than \a
- * min_pixels. */
-std::vector<int>
-connectedParts (const DepthGrid& grid, const std::vector<char>& set, int min_pixels)
-{
-  DisjointSets sets = connectPixels (grid, gap_px, [&] (int i, int j) { return set[i] && set[j]; });
-  std::vector<int> parts = sets.numbers ([&] (std::size_t i) { return set[i]; });
-  std::vector<int> sizes (set.size (), 0), numbers (set.size (), 0);
-  for (const int part : parts)
-    if (part >= 0)
-      ++sizes[part];
-  int next = 0;
-  for (std::size_t k = 0; k < sizes.size (); ++k)
-    if (sizes[k] >= std::max (1, min_pixels))
-      numbers[k] = ++next;
-  for (int& part : parts)
-    part = part < 0 ? 0 : numbers[part];
-  return parts;
-}
 
 class MotionSearch
 {
