@@ -87,8 +87,8 @@ matchingFiles (const std::string& folder, const std::regex& pattern)
 {
   std::error_code error;
   std::vector<std::string> names;
-  for (const fs::directory_entry& entry : fs::directory_iterator (folder, error))
-    names.push_back (entry.path ().filename ().string ());
+  for (fs::directory_iterator entry (folder, error), end; entry != end; entry.increment (error))
+    names.push_back (entry->path ().filename ().string ());
   std::sort (names.begin (), names.end ());
   std::vector<std::vector<std::string>> files;
   for (const std::string& name : names)
@@ -103,7 +103,8 @@ matchingFiles (const std::string& folder, const std::regex& pattern)
 TriangleMesh
 readMeshIfThere (const std::string& path, ReadingNotes& notes, const Eigen::Vector3d& origin)
 {
-  if (!fs::exists (path))
+  std::error_code failure;
+  if (!fs::exists (path, failure) && !failure)
     return {};
   return readOrWarn (notes, "", [&] {
     TriangleMesh mesh;

@@ -25,7 +25,6 @@ namespace {
 
 using Json = nlohmann::json;
 
-constexpr PinholeCamera usual_camera = {640, 480, 525.0, 525.0, 319.5, 239.5}; ///< if it is not known
 constexpr double usual_share = 0.95; ///< of the errors that the colours distinguish
 
 bool
@@ -84,10 +83,12 @@ requireRun (const std::string& folder, const std::string& error)
   const fs::path path (folder);
   if (isThere (path / "trajectory" / "camera.txt"))
     return;
+  std::error_code ignored;
+  if (!fs::is_directory (path, ignored))
+    throw IoError (folder + ": is no folder; it must be what pcl_cosection_fusion or pcl_cosection wrote");
   if (!error.empty ())
     throw IoError (folder + ": that run failed: " + error);
-  std::error_code ignored;
-  if (fs::is_directory (path, ignored) && !isThere (path / "gt-cam-0.txt"))
+  if (!isThere (path / "gt-cam-0.txt"))
     throw IoError (folder + ": has no trajectory/camera.txt: it is not what pcl_cosection_fusion or "
                             "pcl_cosection wrote, or that run did not come to its end");
 }
@@ -200,7 +201,8 @@ loadRunScene (const std::string& folder, ReadingNotes& notes, const RunSceneOpti
   const Json json = summary.value_or (Json ());
   RunScene scene;
   scene.folder = folder;
-  if (isCompletion (folder, json))
+  scene.of_views = isCompletion (folder, json);
+  if (scene.of_views)
     scene.run = readCompletion (folder, json, notes);
   else
   {
@@ -219,7 +221,7 @@ loadRunScene (const std::string& folder, ReadingNotes& notes, const RunSceneOpti
     simplify (object.mesh, options.triangles / 2);
   for (auto& [id, mesh] : scene.tsdf)
     simplify (mesh, options.triangles / 2);
-  if (!summary)
+  if (!summary && !scene.of_views)
     notes.warnings.push_back (folder + ": has no summary.json: the run did not come to its end");
   return scene;
 }

@@ -13,7 +13,7 @@ namespace {
 constexpr TriangleMesh::Colour path_colour = {30, 90, 200};
 constexpr TriangleMesh::Colour frustum_colour = {20, 40, 110};
 constexpr double longest_frustum_m = 0.5;
-constexpr double frustum_share = 0.25; ///< of the way of the camera and its distance to the world's middle
+constexpr double frustum_share = 0.25; ///< of the distance from the camera to the nearest object
 
 void
 addPath (const RunScene& scene, double stamp, std::vector<SceneLine>& lines)
@@ -29,8 +29,11 @@ addFrustum (const RunScene& scene, const Eigen::Isometry3d& T_world_camera, std:
   double nearest_m = longest_frustum_m / frustum_share;
   for (const SceneRecord::Object& object : scene.run.objects)
     if (!object.poses.empty ())
-      nearest_m = std::min (nearest_m,
-                            (object.poses.front ().pose.translation () - T_world_camera.translation ()).norm ());
+    {
+      const Eigen::Vector3d middle = object.mesh.vertices.empty () ? Eigen::Vector3d::Zero ().eval ()
+                                                                   : vertexBox (object.mesh).center ().eval ();
+      nearest_m = std::min (nearest_m, (object.poses.front ().pose * middle - T_world_camera.translation ()).norm ());
+    }
   const double depth_m = frustum_share * nearest_m;
   const PinholeCamera camera = scene.camera ();
   const Eigen::Vector3d eye = T_world_camera.translation ();

@@ -32,6 +32,8 @@ constexpr double most_points = 6000.0; ///< of a line
 std::unique_ptr<RgbdSequence>
 openImages (const RunScene& scene, const std::string& dataset)
 {
+  if (scene.of_views)
+    throw IoError (scene.folder + ": is made of views, not of a sequence of images: there are no points to show");
   const std::string folder = dataset.empty () ? scene.dataset : dataset;
   if (folder.empty ())
     throw IoError (

@@ -4,6 +4,7 @@
 #include <pcl/cosection/common/error.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace pcl::cosection {
 namespace {
@@ -11,7 +12,9 @@ namespace {
 using Json = nlohmann::json;
 
 constexpr int largest_image = 8192;
-constexpr double rigid = 1e-6; ///< largest deviation from a rotation
+constexpr double rigid = 1e-6;           ///< largest deviation from a rotation
+constexpr double shortest_normal = 1e-6; ///< of a plane that is one
+constexpr double farthest_m = 1e9;       ///< of a place from the origin
 
 double
 numberOf (const Json& json, const char* name)
@@ -35,6 +38,12 @@ textOf (const Json& json, const char* name)
 {
   const Json& field = fieldOf (json, name);
   return field.is_string () ? field.get<std::string> () : std::string ();
+}
+
+bool
+isPlace (const Eigen::Vector3d& place)
+{
+  return place.cwiseAbs ().maxCoeff () <= farthest_m && place.allFinite ();
 }
 
 std::vector<double>
@@ -108,7 +117,8 @@ firstNormalOf (const Json& planes)
   if (plane.empty ())
     return std::nullopt;
   const Eigen::Vector3d normal (plane.data ());
-  return normal.allFinite () && normal.norm () > rigid ? std::optional (normal.normalized ()) : std::nullopt;
+  const bool is_one = normal.norm () > shortest_normal && std::isfinite (normal.norm ());
+  return is_one ? std::optional (normal.normalized ()) : std::nullopt;
 }
 
 std::optional<Eigen::Isometry3d>
@@ -126,7 +136,8 @@ poseOf (const Json& json, const char* name)
     pose.matrix ().row (row) = Eigen::Map<const Eigen::RowVector4d> (values.data ());
   }
   const Eigen::Matrix3d rotation = pose.linear ();
-  const bool is_rigid = pose.matrix ().allFinite () && pose.matrix ().row (3) == Eigen::RowVector4d (0, 0, 0, 1) &&
+  const bool is_rigid = pose.matrix ().allFinite () && isPlace (pose.translation ()) &&
+                        pose.matrix ().row (3) == Eigen::RowVector4d (0, 0, 0, 1) &&
                         (rotation * rotation.transpose ()).isIdentity (rigid) && rotation.determinant () > 0.0;
   return is_rigid ? std::optional (pose) : std::nullopt;
 }

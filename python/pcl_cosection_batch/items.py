@@ -55,7 +55,8 @@ def is_result(folder: str) -> bool:
         return True
     if not os.path.isfile(os.path.join(folder, "summary.json")):
         return False
-    return any(name == "background.ply" or name.startswith("object_") for name in visible_entries(folder))
+    return any(name.startswith(("background.", "object_")) and name.endswith((".ply", ".stl", ".obj"))
+               for name in visible_entries(folder)) or os.path.isdir(os.path.join(folder, "trajectory"))
 
 
 class Finder:
@@ -74,6 +75,8 @@ class Finder:
         elif is_sequence(absolute):
             self.items.append(Item(SEQUENCE, (absolute,), os.path.basename(absolute)))
         else:
+            if is_result(absolute):
+                raise UsageError(f"{path}: is what a program or a batch wrote, and no input")
             before = len(self.items)
             self._add_folder(absolute, "", top=True)
             if len(self.items) == before:

@@ -13,7 +13,7 @@ from pcl_cosection_batch import clusters, measures
 from pcl_cosection_batch.arguments import PROGRAM, Arguments, parse_arguments
 from pcl_cosection_batch.errors import BatchError, Stopped, UsageError
 from pcl_cosection_batch.fingerprint import fingerprint
-from pcl_cosection_batch.items import SEQUENCE, Finder, Item
+from pcl_cosection_batch.items import SEQUENCE, Finder, Item, is_result
 from pcl_cosection_batch.list_file import read_list
 from pcl_cosection_batch.lock import OutputLock
 from pcl_cosection_batch.names import assign_names
@@ -57,6 +57,8 @@ class Batch:
         self.arguments = arguments
         self.terminal = terminal
         self.store = Store(arguments.output)
+        if is_result(arguments.output) and not os.path.isdir(self.store.state):
+            raise UsageError(f"{arguments.output}: has what a program wrote, which would be lost; give another OUTPUT")
         self.items = find_items(arguments)
         self.run_id = uuid.uuid4().hex[:12]
         kinds = sorted({item.kind for item in self.items})

@@ -92,9 +92,10 @@ def attempt(task: Task, store: Store, record: Record, staging: str) -> Record:
     log = os.path.join(staging, "log.txt")
     threads = task.threads or share_of_cores(task.sharers)
     program = on_this_host(task.program, task.version)
+    working_folder = task.folder if os.path.isdir(task.folder) else "/"
     spec = {
         "command": command_line(program, task.inputs, task.options, threads, made), "log": log,
-        "folder": task.folder if os.path.isdir(task.folder) else "/",
+        "folder": working_folder,
         "environment": {"OMP_NUM_THREADS": str(threads), "OMP_WAIT_POLICY": "passive"},
         "time_limit_s": task.time_limit_s, "memory_limit": task.memory_limit}
     ended = guarded(spec, watch_for_stop(store, task.run))
@@ -113,7 +114,8 @@ def attempt(task: Task, store: Store, record: Record, staging: str) -> Record:
         os.mkdir(reasons)
         os.rename(log, os.path.join(reasons, "log.txt"))
         return store.commit_failed(reasons, record)
-    record["pictures"] = pictures.draw_result(program, made, staging)
+    record["pictures"], remarks = pictures.draw_result(program, made, staging, working_folder)
+    record["notes"] = [*(record.get("notes") or []), *remarks]
     os.rename(log, os.path.join(made, "log.txt"))
     return store.commit_done(made, record, replace=task.redo)
 

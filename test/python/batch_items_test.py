@@ -92,7 +92,12 @@ class Items(BatchTest):
         self.view("a.pcd")
         (self.folder / "file").write_text("")
         (self.folder / "empty").mkdir()
+        (self.folder / "result").mkdir()
+        for name in ("summary.json", "object_1.stl"):
+            (self.folder / "result" / name).write_text("{}")
         for arguments, expected in (
+                ([self.inputs, self.folder / "result"], "has what a program wrote"),
+                ([self.folder / "result", self.output], "and no input"),
                 ([], "INPUT and an OUTPUT"), ([self.inputs], "INPUT and an OUTPUT"),
                 ([self.inputs, self.output, "--nonsense"], "--nonsense"),
                 (["gone", self.output], "no such file"), ([self.inputs, self.folder / "file"], "must be a folder"),

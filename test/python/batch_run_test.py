@@ -79,18 +79,24 @@ class Results(BatchTest):
             self.assertTrue((self.output / urllib.parse.unquote(link)).exists(), link)
 
     def test_pictures(self):
-        """Two for each result, by the viewer; without it, there are none, and nothing fails."""
+        """Two for each result, by the viewer; if it fails, the result stays, and a remark says why there are none."""
         self.view("a.pcd")
         self.batch(self.inputs, self.output)
         for name, view in (("picture.png", "overview"), ("picture_behind.png", "behind")):
-            words = (self.output / "a" / name).read_text().split()
+            words = (self.output / "a" / name).read_bytes().decode(errors="replace").split()
             self.assertEqual(words[words.index("--view") + 1], view)
             self.assertIn(f"a/{name}", Page((self.output / "index.html").read_text()).links)
-        (self.bin / "blind").touch()
+        for how, remark in (("error", "it is dark"), ("no file", "no picture"), ("no picture", "no picture")):
+            (self.bin / "viewing").write_text(how)
+            self.batch("--force", self.inputs, self.output)
+            row = self.summary()["a"]
+            self.assertEqual(row["status"], "done")
+            self.assertIn(remark, str(row["remarks"]))
+            self.assertFalse(list(self.output.glob("a/*.png")))
+            self.assertNotIn("img", Page((self.output / "index.html").read_text()).tags)
+        (self.bin / "pcl_cosection_viewer").unlink()
         self.batch("--force", self.inputs, self.output)
         self.assertEqual(self.summary()["a"]["status"], "done")
-        self.assertFalse(list(self.output.glob("a/*.png")))
-        self.assertNotIn("img", Page((self.output / "index.html").read_text()).tags)
 
     def test_names_of_all_kinds(self):
         names = ["a b.pcd", "it's.pcd", 'say "x".pcd', "line\nbreak.pcd", "größe 画.pcd", "<b>&amp;.pcd",

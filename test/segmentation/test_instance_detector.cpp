@@ -192,6 +192,23 @@ TEST_F (Detector, ReadsANetworkAnewForEachSize)
   expectSpot (detector.detect (picture), picture, NetworkOutputForm::BoxList);
 }
 
+TEST_F (Detector, OutputsThatTheImporterLeavesOutStopNothing)
+{
+  for (const bool is_constant : {true, false})
+  {
+    InstanceDetectorOptions options = spotNetwork (NetworkOutputForm::BoxList, 255.0f, false);
+    OnnxGraph more; // the parts of a file may follow each other
+    more.output ("more", {2});
+    if (is_constant)
+      more.integers ("more", {1, 2});
+    std::ofstream (options.model, std::ios::binary | std::ios::app) << more.bytes ();
+    InstanceDetector detector (options);
+    const Picture picture = test::spotPicture (2, 4);
+    for (int time = 0; time < 2; ++time)
+      expectSpot (detector.detect (picture), picture, NetworkOutputForm::BoxList);
+  }
+}
+
 TEST_F (Detector, TakesRedOrBlueFirst)
 {
   InstanceDetectorOptions options = spotNetwork (NetworkOutputForm::Prototypes);

@@ -151,31 +151,40 @@ TEST_F (RunSceneFolder, AnySummaryIsBorne)
   }
 }
 
-/** \brief What pcl_cosection made of two views, 60 km from the origin of the world; the second object moves. */
+/** \brief What pcl_cosection made of two of three inputs, 60 km from the origin of the world; the first of them has two
+ * views, and the second object moves. */
 class CompletionFolder : public testing::Test
 {
 protected:
   CompletionFolder ()
   {
     fs::create_directories (result_);
-    saveMesh (boxMesh ({-0.1f, -0.2f, -0.3f}, {0.1f, 0.2f, 0.3f}), result_ + "/object_2.ply", origin_);
-    saveMesh (boxMesh ({-0.1f, -0.1f, -0.1f}, {0.1f, 0.1f, 0.1f}), result_ + "/object_10.ply");
-    saveMesh (planeMesh (1.0, 4), result_ + "/background.ply", origin_);
-    StampedPose first, second;
-    first.pose.translation () = origin_ + Eigen::Vector3d (0.5, 0.0, 0.0);
-    second.pose.translation () = origin_ + Eigen::Vector3d (0.0, 0.5, 0.0);
-    second.stamp = 1.0;
-    saveTrajectory ({first, second}, folder_.file ("moves.txt"));
-    const std::string
-        camera = R"("camera": {"width": 320, "height": 240, "fx": 260, "fy": 260, "cx": 159.5, "cy": 119.5})";
-    writeFile (result_ + "/summary.json",
-               R"({"parameters": {"object_trajectories": {"10": ")" + folder_.file ("moves.txt") +
-                   R"("}}, "origin_m": [60000, 0, 0], "support_planes": [[0, 0, 2, 1]], "views": [{)" + camera +
-                   R"(, "T_world_sensor": [[1, 0, 0, 60000], [0, -1, 0, 0], [0, 0, -1, 2], [0, 0, 0, 1]]}, {)" +
-                   camera + R"(, "T_world_sensor": [[1, 0, 0, 60001], [0, -1, 0, 0], [0, 0, -1, 2], [0, 0, 0, 1]]}]})");
+    write ("ply");
   }
 
-  RunScene load () { return loadRunScene (result_, notes_); }
+  /** \brief The files, and the poses "[1, 0, 0, x], ..." of rotations by pi about x. */
+  void write (const std::string& format)
+  {
+    saveMesh (boxMesh ({-0.1f, -0.2f, -0.3f}, {0.1f, 0.2f, 0.3f}), result_ + "/object_2." + format, origin_);
+    saveMesh (boxMesh ({-0.1f, -0.1f, -0.1f}, {0.1f, 0.1f, 0.1f}), result_ + "/object_10." + format);
+    saveMesh (planeMesh (1.0, 4), result_ + "/background." + format, origin_);
+    const auto view = [] (int input, const std::string& x, const std::string& y) {
+      return R"({"camera": {"width": 320, "height": 240, "fx": 260, "fy": 260, "cx": 159.5, "cy": 119.5}, "input": )" +
+             std::to_string (input) + R"(, "T_world_sensor": [[1, 0, 0, 6000)" + x +
+             R"(], [0, -1, 0, 0], [0, 0, -1, 2], [0, 0, 0, 1]], "T_world_object": {"10": [[1, 0, 0, 60000], [0, 1, 0, )" +
+             y + R"(], [0, 0, 1, 0], [0, 0, 0, 1]]}})";
+    };
+    writeFile (result_ + "/summary.json",
+               R"({"objects": [{"id": 2}, {"id": 10}], "parameters": {"format": ")" + format +
+                   R"("}, "origin_m": [60000, 0, 0], "support_planes": [[0, 0, 2, 1]], "views": [)" +
+                   view (1, "0", "0.5") + "," + view (1, "7", "7.5") + "," + view (2, "1", "1.5") + "]}");
+  }
+
+  RunScene load ()
+  {
+    notes_ = {};
+    return loadRunScene (result_, notes_);
+  }
 
   TemporaryFolder folder_;
   const std::string result_ = folder_.file ("result");
@@ -183,22 +192,47 @@ protected:
   ReadingNotes notes_;
 };
 
-TEST_F (CompletionFolder, ViewsAreFrames)
+TEST_F (CompletionFolder, InputsAreFrames)
 {
+  for (const char* const format : {"ply", "stl", "obj"})
+  {
+    SCOPED_TRACE (format);
+    write (format); // beside those of the other formats
+    const RunScene scene = load ();
+    EXPECT_TRUE (notes_.warnings.empty ()) << notes_.warnings.front ();
+    EXPECT_TRUE (scene.of_views);
+    EXPECT_EQ (scene.stamps (), (std::vector<double>{1.0, 2.0}));
+    EXPECT_EQ (scene.camera ().fx, 260.0);
+    EXPECT_TRUE (scene.cameraAt (1.0)->translation ().isApprox (Eigen::Vector3d (0.0, 0.0, 2.0)));
+    EXPECT_TRUE (scene.cameraAt (2.0)->translation ().isApprox (Eigen::Vector3d (1.0, 0.0, 2.0)));
+    ASSERT_EQ (scene.run.objects.size (), 2u);
+    EXPECT_EQ (scene.run.objects[0].id, 2);
+    EXPECT_TRUE (scene.poseAt (scene.run.objects[0], 2.0)->isApprox (Eigen::Isometry3d::Identity ()));
+    for (const double stamp : {1.0, 2.0})
+      EXPECT_NEAR (scene.poseAt (scene.run.objects[1], stamp)->translation ().y (), stamp - 0.5, 1e-9);
+    for (const int id : {2, 10, RunScene::background})
+    {
+      EXPECT_FALSE (scene.surface (id, SurfaceMode::Completed).empty ()) << id;
+      for (const Eigen::Vector3f& vertex : scene.surface (id, SurfaceMode::Completed).vertices)
+        EXPECT_LT (vertex.norm (), 2.0f) << id; // relative to origin_m
+    }
+    EXPECT_TRUE (upDirection (scene).isApprox (Eigen::Vector3d::UnitZ ()));
+    EXPECT_NO_THROW (overview (scene).validate ());
+  }
+}
+
+TEST_F (CompletionFolder, OtherFilesAreTold)
+{
+  fs::copy (result_ + "/object_2.ply", result_ + "/object_3.ply");
+  fs::remove (result_ + "/object_10.ply");
+  fs::remove (result_ + "/background.ply");
+  fs::create_symlink ("background.ply", result_ + "/background.ply"); // to itself
   const RunScene scene = load ();
-  EXPECT_TRUE (notes_.warnings.empty ()) << notes_.warnings.front ();
-  EXPECT_EQ (scene.stamps (), (std::vector<double>{0.0, 1.0}));
-  EXPECT_EQ (scene.camera ().fx, 260.0);
-  EXPECT_TRUE (scene.cameraAt (1.0)->translation ().isApprox (Eigen::Vector3d (1.0, 0.0, 2.0)));
-  ASSERT_EQ (scene.run.objects.size (), 2u);
-  EXPECT_EQ (scene.run.objects[0].id, 2);
-  EXPECT_TRUE (scene.poseAt (scene.run.objects[0], 1.0)->isApprox (Eigen::Isometry3d::Identity ()));
-  EXPECT_TRUE (scene.poseAt (scene.run.objects[1], 1.0)->translation ().isApprox (Eigen::Vector3d (0.0, 0.5, 0.0)));
-  for (const int id : {2, 10, RunScene::background})
-    for (const Eigen::Vector3f& vertex : scene.surface (id, SurfaceMode::Completed).vertices)
-      EXPECT_LT (vertex.norm (), 2.0f) << id; // relative to origin_m
-  EXPECT_TRUE (upDirection (scene).isApprox (Eigen::Vector3d::UnitZ ()));
-  EXPECT_NO_THROW (overview (scene).validate ());
+  EXPECT_EQ (scene.run.objects.size (), 2u);
+  ASSERT_EQ (notes_.warnings.size (), 3u);
+  EXPECT_NE (notes_.warnings[0].find ("object 3"), std::string::npos);
+  EXPECT_NE (notes_.warnings[1].find ("object 10 is missing"), std::string::npos);
+  EXPECT_NE (notes_.warnings[2].find ("background.ply"), std::string::npos);
 }
 
 TEST_F (CompletionFolder, OverviewComesNearWithoutCameras)
@@ -220,12 +254,15 @@ TEST_F (CompletionFolder, WithoutViewsItIsSeenFromTheObservedSide)
         static_cast<std::uint8_t> (vertex.x () > 0 ? Provenance::Observed : Provenance::Inferred));
   }
   saveMesh (box, result_ + "/object_2.ply");
-  fs::remove (result_ + "/object_10.ply");
+  for (const char* const name : {"/object_10.ply", "/background.ply"})
+    fs::remove (result_ + name);
   for (const char* const text :
        {"{}", R"({"views": []})", R"({"views": [3, {}, {"T_world_sensor": 5}, {"T_world_sensor": [[1]]}]})",
         R"({"views": [{"T_world_sensor": [[2, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]]}]})",
         R"({"views": [{"T_world_sensor": [[1, 0, 0, "a"], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]]}],
-            "support_planes": [[0, 0, 0, 1]], "origin_m": [0, 1]})"})
+            "support_planes": [[0, 0, 0, 1]]})",
+        R"({"views": [{"T_world_sensor": [[1, 0, 0, 1e300], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]]}],
+            "support_planes": [[1e200, 0, 0, 1]]})"})
   {
     writeFile (result_ + "/summary.json", text);
     notes_ = {};

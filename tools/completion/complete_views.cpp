@@ -46,8 +46,10 @@ originsOf (const SceneInput& input)
     const std::vector<float>& depth = input.views[n].depth;
     if (std::none_of (depth.begin (), depth.end (), [] (float z) { return (z > 0.0f); })) // has no viewpoint
       continue;
-    origins.push_back ({input.view_inputs[n], input.views[n].camera, input.views[n].T_world_sensor});
-    origins.back ().T_world_sensor.pretranslate (input.origin);
+    origins.push_back ({input.view_inputs[n], input.views[n].camera, input.views[n].T_world_sensor, {}});
+    for (const auto& [id, object] : input.objects)
+      if (n < object.T_world_object.size () && object.T_world_object[n].matrix ().allFinite ())
+        origins.back ().T_world_object[id] = object.T_world_object[n];
   }
   return (origins);
 }
@@ -149,6 +151,7 @@ parametersJson (const Settings& settings)
   result["viewpoints"] = settings.viewpoints;
   result["segment"] = settings.segment;
   result["axes"] = settings.axes;
+  result["format"] = settings.format;
   result["background"] = settings.reading.background_labels;
   result["ignore"] = settings.reading.ignored_labels;
   return (result);
@@ -166,9 +169,14 @@ summaryJson (const Settings& settings, const CompletedViews& completed)
     summary["origin_m"] = {origin.x (), origin.y (), origin.z ()};
   summary["views"] = nlohmann::ordered_json::array ();
   for (const ViewOrigin& view : completed.views)
-    summary["views"].push_back ({{"input", view.input},
-                                 {"camera", cameraJson (view.camera)},
-                                 {"T_world_sensor", transformJson (view.T_world_sensor)}});
+  {
+    nlohmann::ordered_json entry = {{"input", view.input},
+                                    {"camera", cameraJson (view.camera)},
+                                    {"T_world_sensor", transformJson (view.T_world_sensor, origin)}};
+    for (const auto& [id, T_world_object] : view.T_world_object)
+      entry["T_world_object"][std::to_string (id)] = transformJson (T_world_object, origin);
+    summary["views"].push_back (std::move (entry));
+  }
   summary["objects"] = nlohmann::ordered_json::array ();
   summary["failed"] = nlohmann::ordered_json::array ();
   for (const ObjectResult& object : scene.objects)

@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include <functional>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -18,7 +19,8 @@ struct ViewOrigin
 {
   std::size_t input = 0; ///< its number, from 0
   pcl::cosection::PinholeCamera camera;
-  Eigen::Isometry3d T_world_sensor; ///< metres
+  Eigen::Isometry3d T_world_sensor;                ///< metres
+  std::map<int, Eigen::Isometry3d> T_world_object; ///< of the objects that move, as far as they are known there
 };
 
 /** \brief The completed objects of views. */

@@ -14,6 +14,7 @@
 #include <filesystem>
 #include <initializer_list>
 #include <limits>
+#include <optional>
 #include <sstream>
 
 namespace fs = std::filesystem;
@@ -23,22 +24,25 @@ namespace {
 
 const char* const who_wrote_it = "what pcl_cosection or pcl_cosection_fusion wrote into a folder";
 
-/** \brief The name with the first of some endings that is there; empty: there is no such file. */
+/** \brief The name with the ending of a format, else the first of the others that is there; empty: there is no such
+ * file. */
 std::string
-existing (const fs::path& stem)
+existing (const fs::path& stem, const std::string& format)
 {
   std::error_code failure;
-  for (const char* ending : {".ply", ".obj", ".stl"})
-    if (const std::string name = stem.string () + ending; fs::exists (name, failure))
+  for (const std::string& ending : {format, std::string ("ply"), std::string ("obj"), std::string ("stl")})
+    if (const std::string name = stem.string () + "." + ending; !ending.empty () && fs::exists (name, failure))
       return (name);
   return ("");
 }
 
+/** \brief Relative to \a origin, as STL files are already. */
 TriangleMesh
 readSurface (const std::string& path, const Eigen::Vector3d& origin)
 {
-  return (path.size () > 4 && path.compare (path.size () - 4, 4, ".ply") == 0 ? loadPlyMesh (path, origin)
-                                                                              : loadMesh (path, origin));
+  const fs::path ending = fs::path (path).extension ();
+  return (ending == ".ply" ? loadPlyMesh (path, origin)
+                           : loadMesh (path, ending == ".stl" ? Eigen::Vector3d::Zero ().eval () : origin));
 }
 
 /** \brief The numbers of a list of \a size; nothing if it is anything else. */
@@ -95,6 +99,32 @@ planesOf (const Json& summary, const Eigen::Vector3d& origin, const std::string&
   return (planes);
 }
 
+/** \brief The pose of an object in the last view in which it is known. */
+std::optional<Eigen::Isometry3d>
+lastPose (const Json& views, const std::string& number)
+{
+  std::optional<Eigen::Isometry3d> last;
+  if (views.is_array ())
+    for (const Json& view : views)
+    {
+      const Json& rows = member (member (view, "T_world_object"), number);
+      Eigen::Isometry3d pose;
+      bool is_pose = rows.is_array () && rows.size () == 4;
+      for (int row = 0; is_pose && row < 4; ++row)
+      {
+        const std::vector<double> numbers = numbersOf (rows[static_cast<std::size_t> (row)], 4);
+        is_pose = !numbers.empty ();
+        if (is_pose)
+          pose.matrix ().row (row) = Eigen::Map<const Eigen::RowVector4d> (numbers.data ());
+      }
+      constexpr double rigid = 1e-6; // largest deviation from a rotation
+      if (is_pose && (pose.linear () * pose.linear ().transpose ()).isIdentity (rigid) &&
+          pose.linear ().determinant () > 0.0)
+        last = pose;
+    }
+  return (last);
+}
+
 /** \brief The last pose of an object that moves, if there is one. */
 void
 readPose (const fs::path& folder, const Json& summary, bool is_tracked, CompletedObject& object,
@@ -106,7 +136,12 @@ readPose (const fs::path& folder, const Json& summary, bool is_tracked, Complete
   const bool is_there = fs::exists (path, failure);
   if (!is_there && is_tracked)
     throw IoError (path + ": is missing, though summary.json says that the object was tracked");
-  if (!is_there)
+  if (const auto pose = lastPose (member (summary, "views"), number); pose && !is_there)
+  {
+    object.T_world_object = *pose;
+    return;
+  }
+  if (!is_there) // a result of an earlier version
     path = textIn (member (member (summary, "parameters"), "object_trajectories"), number);
   if (path.empty ())
     return;
@@ -163,6 +198,7 @@ readCompletedResult (const std::string& folder_name)
   CompletedResult result;
   result.files.push_back (path);
   std::error_code failure;
+  const std::string format = textIn (member (summary, "parameters"), "format");
   const fs::path meshes = fs::is_directory (folder / "mesh", failure) ? folder / "mesh" : folder;
   if (const Json& given = member (summary, "origin_m"); !given.is_null ())
   {
@@ -180,7 +216,7 @@ readCompletedResult (const std::string& folder_name)
   {
     CompletedObject object = readEntry (entry, path);
     const std::string stem = (meshes / ("object_" + std::to_string (object.id))).string ();
-    const std::string mesh = existing (stem);
+    const std::string mesh = existing (stem, format);
     if (mesh.empty ())
       throw IoError (stem + ".ply: is missing, though summary.json has object " + std::to_string (object.id));
     readPose (folder, summary, numberIn (entry, "frames_tracked").value_or (0.0) > 0.0, object, result);
@@ -191,7 +227,7 @@ readCompletedResult (const std::string& folder_name)
       throw IoError (mesh + ": is not a closed surface; an open one has no volume");
     result.files.push_back (mesh);
     checkLengths (object, mesh, result.warnings);
-    if (const std::string outer = existing (stem + "_outer"); !outer.empty ())
+    if (const std::string outer = existing (stem + "_outer", format); !outer.empty ())
     {
       object.outer = readSurface (outer, origin);
       result.files.push_back (outer);
@@ -200,7 +236,7 @@ readCompletedResult (const std::string& folder_name)
   }
   if (result.scene.objects.empty ())
     throw IoError (path + ": has no objects");
-  if (const std::string background = existing ((meshes / "background").string ()); !background.empty ())
+  if (const std::string background = existing ((meshes / "background").string (), format); !background.empty ())
   {
     result.scene.background = readSurface (background, result.origin);
     result.files.push_back (background);

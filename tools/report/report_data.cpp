@@ -51,7 +51,7 @@ methodOf (const RunFolder& run)
   const std::string masks = textIn (parameters, "masks"), segmentation = textIn (parameters, "segmentation");
   const std::string constraints = constraintsOf (run);
   std::string text = textIn (parameters, "camera_trajectory").empty () ? "" : "poses given, ";
-  if (!member (run.summary, "views").is_array ()) // else a result of views, which have labels
+  if (!run.of_views) // these have labels
     text += !segmentation.empty () ? "segmentation " + segmentation : masks.empty () ? "no masks" : "masks given";
   return (text + (text.empty () || constraints.empty () || constraints[0] == ',' ? "" : ", ") + constraints);
 }

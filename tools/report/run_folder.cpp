@@ -2,6 +2,7 @@
 #include "run_folder.h"
 
 #include "pcl_cosection/visualization/completed_scene.h"
+#include "pcl_cosection/visualization/scene_summary.h"
 #include "pcl_cosection/volume/mesh_distance/mesh_surface.h"
 #include <pcl/cosection/common/error.h>
 #include <pcl/cosection/io/mesh_io.h>
@@ -67,12 +68,12 @@ requireRun (const std::string& path)
                    " OUTPUT, then give OUTPUT" + (hasAny (folder, {"gt-cam-0.txt"}) ? ", and --truth " + path : ""));
   if (hasAny (folder, {"trajectory", "mesh"}) && !fs::is_empty (folder, failure))
     throw IoError (path + ": is a run in which nothing is left: no meshes, trajectories or summary.json");
-  const std::vector<std::string> top = namesIn (folder);
-  if (std::any_of (top.begin (), top.end (), isRunFile))
+  if (isCompletion (path, nlohmann::json ()))
     return;
+  const std::vector<std::string> top = namesIn (folder);
   throw IoError (path +
                  (top.empty () ? ": is an empty folder"
-                               : ": is not a run: it has neither summary.json nor mesh/ nor trajectory/") +
+                               : ": is not a result: it has neither summary.json nor mesh/ nor trajectory/") +
                  "; it must be what pcl_cosection_fusion or pcl_cosection wrote");
 }
 
@@ -110,7 +111,8 @@ readSummary (RunFolder& run)
   std::error_code failure;
   if (!fs::exists (path, failure))
   {
-    run.notes.push_back (path.string () + " is missing: the run was interrupted, or these are not all of its files");
+    if (!isCompletion (run.path, nlohmann::json ())) // that says it itself
+      run.notes.push_back (path.string () + " is missing: the run was interrupted, or these are not all of its files");
     return;
   }
   try
@@ -124,7 +126,7 @@ readSummary (RunFolder& run)
   }
   if (!run.summary.is_object ())
   {
-    run.notes.push_back (path.string () + ": is not JSON as pcl_cosection_fusion writes it; its numbers are left out");
+    run.notes.push_back (path.string () + ": is not JSON as the programs write it; its numbers are left out");
     return;
   }
   run.failure = textIn (run.summary, "error");
@@ -187,6 +189,7 @@ readCompletedViews (const nlohmann::json& summary, RunFolder& run, std::map<int,
 {
   ReadingNotes notes;
   SceneRecord record = readCompletion (run.path, summary, notes);
+  run.of_views = true;
   run.notes.insert (run.notes.end (), notes.warnings.begin (), notes.warnings.end ());
   run.camera = std::move (record.camera);
   run.intrinsics = record.intrinsics;
@@ -205,9 +208,9 @@ noteWhatIsMissing (RunFolder& run)
   for (const RunObject& object : run.objects)
   {
     const std::string name = "object " + std::to_string (object.id);
-    if (object.completed.empty ())
+    if (object.completed.empty () && !run.of_views) // what is missing there has been told
       run.notes.push_back (name + " has no completed mesh");
-    if (object.poses.empty ())
+    if (object.poses.empty () && !run.of_views)
       run.notes.push_back (name + " has no trajectory: it is shown in its own frame");
   }
 }
@@ -243,6 +246,8 @@ sceneOf (const RunFolder& run)
 {
   RunScene scene;
   scene.folder = run.path;
+  scene.of_views = run.of_views;
+  scene.up = firstNormalOf (nlohmann::json (member (run.summary, "support_planes")));
   scene.run.camera = run.camera;
   scene.run.intrinsics = run.intrinsics;
   scene.run.background = run.background;

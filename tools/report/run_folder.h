@@ -25,13 +25,14 @@ struct RunObject
   Json summary;                                   ///< its entry in summary.json
 };
 
-/** \brief A folder that pcl_cosection_fusion wrote. */
+/** \brief A folder that pcl_cosection_fusion or pcl_cosection wrote. */
 struct RunFolder
 {
   std::string path;
-  std::string date;    ///< when the run ended, by the time of its summary: "2026-01-31 12:00 UTC"
-  Json summary;        ///< null: the run has no summary
-  std::string failure; ///< why the run as a whole failed; empty: it did not
+  std::string date;      ///< when the run ended, by the time of its summary: "2026-01-31 12:00 UTC"
+  Json summary;          ///< null: the run has no summary
+  std::string failure;   ///< why the run as a whole failed; empty: it did not
+  bool of_views = false; ///< what pcl_cosection wrote
   std::vector<pcl::cosection::StampedPose> camera; ///< T_world_camera
   std::optional<pcl::cosection::PinholeCamera> intrinsics;
   std::vector<RunObject> objects;          ///< by ascending ids

@@ -35,6 +35,20 @@ sizeOf (const SceneView& view)
   return (std::to_string (view.width) + " x " + std::to_string (view.height));
 }
 
+/** \brief What no mesh has, though its colours shall show it: STL files have no attributes, OBJ files hardly any. */
+const char*
+missingAttribute (const RunScene& scene, const SceneView& view)
+{
+  const auto hasNone = [&] (auto attribute) {
+    return (view.surface == SurfaceMode::Completed && !scene.run.objects.empty () &&
+            std::all_of (scene.run.objects.begin (), scene.run.objects.end (),
+                         [&] (const auto& object) { return ((object.mesh.*attribute).empty ()); }));
+  };
+  if (view.colour == ColourMode::Provenance && hasNone (&TriangleMesh::provenance))
+    return ("provenance");
+  return (view.colour == ColourMode::Confidence && hasNone (&TriangleMesh::confidence) ? "confidence" : nullptr);
+}
+
 /** \brief Draws frames one after the other. */
 class FrameDrawer
 {
@@ -68,6 +82,9 @@ record (const ViewerSettings& settings, const RunScene& scene, Terminal& termina
   requireWritableFolder (settings.record, settings.record);
   const std::vector<double> stamps = scene.stamps ();
   std::size_t number = 0;
+  const std::size_t frames = (stamps.size () + settings.every - 1) / settings.every;
+  if (fs::exists (fs::path (settings.record) / nameOfFrame (frames + 1)))
+    terminal.warning (settings.record + ": has further frames, of another recording");
   for (std::size_t n = 0; n < stamps.size (); n += settings.every)
   {
     terminal.progress ("frames", static_cast<double> (n) / static_cast<double> (stamps.size ()));
@@ -112,12 +129,16 @@ loadScene (const ViewerSettings& settings, Terminal& terminal)
   }
   for (const std::string& warning : notes.warnings)
     terminal.warning (warning);
-  if (scene.run.background.empty () && scene.tsdf.empty () &&
+  const bool no_background = scene.run.background.empty ();
+  if (no_background && scene.tsdf.empty () &&
       std::all_of (scene.run.objects.begin (), scene.run.objects.end (),
                    [] (const auto& object) { return (object.mesh.empty ()); }))
     terminal.warning (settings.run + ": has no meshes; there is only the path of the camera to show");
   else if (settings.view.surface == SurfaceMode::Tsdf && scene.tsdf.empty ())
-    terminal.warning (settings.run + ": has no surfaces as they were seen, so --mode tsdf shows the background alone");
+    terminal.warning (settings.run + ": has no surfaces as they were seen, so --mode tsdf shows " +
+                      (no_background ? "nothing" : "the background alone"));
+  if (const char* const missing = missingAttribute (scene, settings.view))
+    terminal.warning (settings.run + ": its meshes have no " + missing + ", so --colour shows them grey");
   if (!scene.run.intrinsics)
     terminal.warning (settings.run + ": its summary.json does not give the camera; one of 640 x 480 pixels is assumed");
   return (scene);

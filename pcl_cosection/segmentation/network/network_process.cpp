@@ -104,9 +104,13 @@ sendOutputs (const Writer& writer, const std::vector<NetworkOutput>& outputs)
     values += output.values.size ();
   if (values > most_values)
     throw IoError ("its outputs have " + std::to_string (values) + " values");
+  if (outputs.size () > most_outputs)
+    throw IoError ("it has " + std::to_string (outputs.size ()) + " outputs");
   writer.number (is_done);
+  writer.number (outputs.size ()); // may be others than the file names, as an importer leaves some out
   for (const NetworkOutput& output : outputs)
   {
+    writer.text (output.name);
     writer.number (output.shape.size ());
     for (const int size : output.shape)
       writer.number (static_cast<std::uint64_t> (size));
@@ -213,10 +217,10 @@ answered (ChildProcess& process, const Ask& ask, const Receive& receive)
 }
 
 NetworkOutput
-receiveOutput (const Reader& reader, const std::string& name)
+receiveOutput (const Reader& reader)
 {
   NetworkOutput output;
-  output.name = name;
+  output.name = reader.text ();
   output.shape.resize (reader.number (most_dimensions));
   std::uint64_t values = output.shape.empty () ? 0 : 1;
   for (int& size : output.shape)
@@ -257,9 +261,9 @@ NetworkProcess::run (const cv::Mat& input)
     writer.bytes (input.data, input.total () * input.elemSize ());
   };
   return (answered (process_, send, [&] (const Reader& reader) {
-    std::vector<NetworkOutput> outputs;
-    for (const std::string& name : output_names_)
-      outputs.push_back (receiveOutput (reader, name));
+    std::vector<NetworkOutput> outputs (reader.number (most_outputs));
+    for (NetworkOutput& output : outputs)
+      output = receiveOutput (reader);
     return (outputs);
   }));
 }

@@ -21,14 +21,14 @@ parse (const std::string& bytes)
   return (model);
 }
 
-/** \brief The dimensions of the first input that no weights are given for, or nullptr. Old files list weights too. */
-onnx::TensorShapeProto*
-inputShape (onnx::GraphProto& graph)
+/** \brief The first input that no weights are given for, or nullptr. Old files list weights too. */
+onnx::ValueInfoProto*
+inputOf (onnx::GraphProto& graph)
 {
   for (onnx::ValueInfoProto& input : *graph.mutable_input ())
     if (std::none_of (graph.initializer ().begin (), graph.initializer ().end (),
                       [&] (const onnx::TensorProto& tensor) { return (tensor.name () == input.name ()); }))
-      return (input.mutable_type ()->mutable_tensor_type ()->mutable_shape ());
+      return (&input);
   return (nullptr);
 }
 
@@ -63,34 +63,34 @@ inSinglePrecision (const std::string& bytes)
   return (model.SerializeAsString ());
 }
 
-bool
-leavesInputOpen (const std::string& bytes, int dimensions)
+std::optional<std::vector<std::string>>
+outputsOfOpenInput (const std::string& bytes, int dimensions)
 {
   onnx::ModelProto model = parse (bytes);
-  const onnx::TensorShapeProto* const shape = inputShape (*model.mutable_graph ());
-  return (shape && shape->dim_size () == dimensions &&
-          std::any_of (shape->dim ().begin (), shape->dim ().end (), isOpen));
+  const onnx::ValueInfoProto* const input = inputOf (*model.mutable_graph ());
+  if (!input || !input->type ().has_tensor_type ())
+    return (std::nullopt);
+  const onnx::TensorShapeProto& shape = input->type ().tensor_type ().shape ();
+  if (shape.dim_size () != dimensions || std::none_of (shape.dim ().begin (), shape.dim ().end (), isOpen))
+    return (std::nullopt);
+  std::vector<std::string> names;
+  for (const onnx::ValueInfoProto& output : model.graph ().output ())
+    names.push_back (output.name ());
+  return (names);
 }
 
 std::string
 withInputShape (const std::string& bytes, const std::vector<int>& shape)
 {
   onnx::ModelProto model = parse (bytes);
-  onnx::TensorShapeProto* const given = inputShape (*model.mutable_graph ());
-  for (int n = 0; given && n < given->dim_size () && n < static_cast<int> (shape.size ()); ++n)
-    if (isOpen (given->dim (n)))
-      given->mutable_dim (n)->set_dim_value (shape[static_cast<std::size_t> (n)]);
+  if (onnx::ValueInfoProto* const input = inputOf (*model.mutable_graph ()); input && input->type ().has_tensor_type ())
+  {
+    onnx::TensorShapeProto& given = *input->mutable_type ()->mutable_tensor_type ()->mutable_shape ();
+    for (int n = 0; n < given.dim_size () && n < static_cast<int> (shape.size ()); ++n)
+      if (isOpen (given.dim (n)))
+        given.mutable_dim (n)->set_dim_value (shape[static_cast<std::size_t> (n)]);
+  }
   return (model.SerializeAsString ());
-}
-
-std::vector<std::string>
-outputNamesOf (const std::string& bytes)
-{
-  const onnx::ModelProto model = parse (bytes);
-  std::vector<std::string> names;
-  for (const onnx::ValueInfoProto& output : model.graph ().output ())
-    names.push_back (output.name ());
-  return (names);
 }
 
 } // namespace pcl::cosection

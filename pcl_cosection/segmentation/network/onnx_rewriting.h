@@ -1,6 +1,7 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -10,17 +11,14 @@ namespace pcl::cosection {
  * \param[in] bytes of a file that checkOnnx () has nothing against */
 std::string inSinglePrecision (const std::string& bytes);
 
-/** \brief Whether a file says of its input that it has so many dimensions, and leaves one of them open.
+/** \brief The names of the outputs of a file that says of its input that it has so many dimensions, and leaves one of
+ * them open; nothing of others.
  * \param[in] bytes of a file that checkOnnx () has nothing against */
-bool leavesInputOpen (const std::string& bytes, int dimensions);
+std::optional<std::vector<std::string>> outputsOfOpenInput (const std::string& bytes, int dimensions);
 
 /** \brief An ONNX file that says the size of its input, where it left it open: from it, OpenCV knows while it reads
  * what products and changes of shape get, which versions from 4.7 on insist on.
  * \param[in] bytes of a file that checkOnnx () has nothing against \param[in] shape of the input, all dimensions */
 std::string withInputShape (const std::string& bytes, const std::vector<int>& shape);
-
-/** \brief The outputs in the order of the file.
- * \param[in] bytes of a file that checkOnnx () has nothing against */
-std::vector<std::string> outputNamesOf (const std::string& bytes);
 
 } // namespace pcl::cosection

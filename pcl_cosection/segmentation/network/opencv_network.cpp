@@ -80,13 +80,16 @@ OpenCvNetwork::OpenCvNetwork (const InstanceDetectorOptions& options, const std:
                               const std::string& config)
     : options_ (options)
 {
-  if (endsIn (options.model, ".onnx") && leavesInputOpen (model, input_dimensions))
-  {
-    open_model_ = model;
-    output_names_ = outputNamesOf (model);
-  }
-  else
-    read (model, config);
+  if (endsIn (options.model, ".onnx"))
+    if (auto names = outputsOfOpenInput (model, input_dimensions))
+    {
+      if (names->empty ())
+        throw IoError ("it has no output");
+      open_model_ = model;
+      output_names_ = std::move (*names);
+      return;
+    }
+  read (model, config);
 }
 
 void
@@ -107,6 +110,7 @@ OpenCvNetwork::run (const cv::Mat& input)
   return (withReasons ([&] {
     if (shape != shape_)
     {
+      shape_.clear ();
       if (!open_model_.empty ())
         read (withInputShape (open_model_, shape), "");
       checkChannels (shape);

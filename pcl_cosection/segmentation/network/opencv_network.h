@@ -22,7 +22,8 @@ public:
    * the files \throws IoError why it cannot be read */
   OpenCvNetwork (const InstanceDetectorOptions& options, const std::string& model, const std::string& config);
 
-  /** \brief The outputs that run () gives; in OpenCV, a layer that another one uses is not an output by itself. */
+  /** \brief The outputs that run () gives; in OpenCV, a layer that another one uses is not an output by itself. Until
+   * an open file has been read, those that it names. */
   const std::vector<std::string>& outputNames () const { return (output_names_); }
 
   /** \brief The outputs for an input of 1 x channels x height x width values. \throws IoError why there are none */

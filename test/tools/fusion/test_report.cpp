@@ -195,7 +195,7 @@ TEST_F (Report, FoldersThatAreNoRuns)
   expectNoReport ({"empty"}, 1, "empty: is an empty folder");
   fs::create_directory (file ("foreign"));
   writeFile (file ("foreign/holiday.jpg"), "beach");
-  expectNoReport ({"foreign"}, 1, "foreign: is not a run: it has neither summary.json nor mesh/ nor trajectory/");
+  expectNoReport ({"foreign"}, 1, "foreign: is not a result: it has neither summary.json nor mesh/ nor trajectory/");
   fs::create_directories (file ("void/mesh"));
   expectNoReport ({"void"}, 1, "void: is a run in which nothing is left");
   expectNoReport ({"--truth", "nowhere", "out"}, 1, "nowhere: is no folder; it must be a dataset with truth");
@@ -292,7 +292,7 @@ TEST_F (Report, DamagedAndOddSummaries)
   {
     writeFile (file ("out/summary.json"), text);
     page ({"out"});
-    EXPECT_NE (errors_.find ("is not JSON as pcl_cosection_fusion writes it"), std::string::npos) << text;
+    EXPECT_NE (errors_.find ("is not JSON as the programs write it"), std::string::npos) << text;
   }
   writeFile (file ("out/summary.json"),
              R"({"error": 5, "timings_s": {"total": "long", "read": []}, "frames": -3, "parameters": [1],

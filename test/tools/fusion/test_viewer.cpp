@@ -98,6 +98,8 @@ TEST_F (Viewer, CompletedViewsAreShown)
   }
   ASSERT_EQ (view ({"--screenshot", "table.png", "--mode", "tsdf", "table"}), 0);
   EXPECT_NE (errors_.find ("has no surfaces as they were seen"), std::string::npos) << errors_;
+  expectNoView ({"--screenshot", "table.png", "--mode", "points", "--dataset", "sim", "table"}, 1,
+                "there are no points to show");
   const nlohmann::json summary = nlohmann::json::parse (readFile (file ("table/summary.json")));
   EXPECT_EQ (summary["views"][0]["input"], 0);
   EXPECT_EQ (summary["views"][0]["camera"]["width"], 160);

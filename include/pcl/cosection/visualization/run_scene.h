@@ -44,6 +44,7 @@ struct PCL_COSECTION_EXPORT RunScene
   std::map<int, std::string> classes; ///< what objects are, by object, as far as the summary names them
   std::string dataset;                ///< that the run has read, as its summary names it; may be empty
   SequenceSource source;              ///< how it was read
+  bool of_views = false;              ///< what pcl_cosection made of views, which has no images
   std::optional<Eigen::Vector3d> up;  ///< normal of what the objects stand on, as the summary has it; unit
 
   /** \brief The camera's stamps, ascending: the frames of the run. */
