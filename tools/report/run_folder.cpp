@@ -208,7 +208,7 @@ noteWhatIsMissing (RunFolder& run)
   for (const RunObject& object : run.objects)
   {
     const std::string name = "object " + std::to_string (object.id);
-    if (object.completed.empty () && !run.of_views) // what is missing there has been told
+    if (object.completed.empty () && !run.of_views) // else what is missing is among its notes
       run.notes.push_back (name + " has no completed mesh");
     if (object.poses.empty () && !run.of_views)
       run.notes.push_back (name + " has no trajectory: it is shown in its own frame");
