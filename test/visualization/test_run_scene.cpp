@@ -169,8 +169,9 @@ protected:
     saveMesh (boxMesh ({-0.1f, -0.1f, -0.1f}, {0.1f, 0.1f, 0.1f}), result_ + "/object_10." + format);
     saveMesh (planeMesh (1.0, 4), result_ + "/background." + format, origin_);
     const auto view = [] (int input, const std::string& x, const std::string& y) {
-      return R"({"camera": {"width": 320, "height": 240, "fx": 260, "fy": 260, "cx": 159.5, "cy": 119.5},)" +
-             R"( "input": )" + std::to_string (input) + R"(, "T_world_sensor": [[1, 0, 0, 6000)" + x +
+      return R"({"camera": {"width": 320, "height": 240, "fx": 260, "fy": 260, "cx": 159.5, "cy": 119.5}, )"
+             R"("input": )" +
+             std::to_string (input) + R"(, "T_world_sensor": [[1, 0, 0, 6000)" + x +
              R"(], [0, -1, 0, 0], [0, 0, -1, 2], [0, 0, 0, 1]], "T_world_object": {"10": [[1, 0, 0, 60000], [0, 1, 0, )" +
              y + R"(], [0, 0, 1, 0], [0, 0, 0, 1]]}})";
     };
