@@ -172,8 +172,8 @@ protected:
       return R"({"camera": {"width": 320, "height": 240, "fx": 260, "fy": 260, "cx": 159.5, "cy": 119.5}, )"
              R"("input": )" +
              std::to_string (input) + R"(, "T_world_sensor": [[1, 0, 0, 6000)" + x +
-             R"(], [0, -1, 0, 0], [0, 0, -1, 2], [0, 0, 0, 1]], "T_world_object": {"10": [[1, 0, 0, 60000], [0, 1, 0, )" +
-             y + R"(], [0, 0, 1, 0], [0, 0, 0, 1]]}})";
+             R"(], [0, -1, 0, 0], [0, 0, -1, 2], [0, 0, 0, 1]], "T_world_object": {"10": )" +
+             R"([[1, 0, 0, 60000], [0, 1, 0, )" + y + R"(], [0, 0, 1, 0], [0, 0, 0, 1]]}})";
     };
     writeFile (result_ + "/summary.json",
                R"({"objects": [{"id": 2}, {"id": 10}], "parameters": {"format": ")" + format +
