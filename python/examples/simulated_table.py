@@ -2,7 +2,7 @@
 """A table in a corner with a ball and a box, as a depth camera sees it: something to try the module with.
 
 >>> depth, labels, intrinsics = view_of_table()
->>> depth.shape, depth.dtype, sorted(set(labels.flat))
+>>> depth.shape, depth.dtype, np.unique(labels).tolist()
 ((240, 320), dtype('float32'), [0, 1, 2])
 """
 from typing import Any, Tuple
