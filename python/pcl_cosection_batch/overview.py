@@ -75,7 +75,7 @@ def card(store: Store, record: Record) -> str:
     pictures = [picture for picture in record.get("pictures") or []
                 if has_result and os.path.isfile(os.path.join(store.result(name), picture))]
     if pictures:
-        sides = ("from the sensor", "from behind")
+        sides = ("from the side of the sensor", "from behind")
         lines.append("<figure>" + "".join(
             f'<a href="{link(name, picture)}"><img src="{link(name, picture)}" alt="{escaped(name)} {side}" '
             f'loading="lazy"></a>' for picture, side in zip(pictures, sides)) + "</figure>")
@@ -114,7 +114,7 @@ def page(store: Store, records: list[Record], written: str) -> str:
 <p>{counted(len(records), "item")}: {escaped(summary)}. The worst come first: what failed, then by the
 number of warnings, then by the expected error relative to the object's size. <a href="summary.csv">summary.csv</a> has
 all numbers. Written {escaped(written[:16].replace("T", " "))} UTC.</p>
-<p class="key">Left as the sensor saw it, right from behind:<i style="background:#bebebe"></i>observed<i
+<p class="key">Left from the side of the sensor, right from behind:<i style="background:#bebebe"></i>observed<i
 style="background:#f09632"></i>inferred<i
 style="background:#5082dc"></i>bounded by free space<i style="background:#5ab45a"></i>bounded by another body</p>
 <main>

@@ -39,8 +39,8 @@ struct PCL_COSECTION_EXPORT Viewpoint
  * pictures; those alone where there is none. Unit. */
 PCL_COSECTION_EXPORT Eigen::Vector3d upDirection (const RunScene& scene);
 
-/** \brief From above and behind the cameras, with all objects in the picture, wherever they were; of a scene without
- * objects, with the background.
+/** \brief From above and behind the cameras, with all objects in the picture, wherever they were, if it is at least as
+ * wide as high; of a scene without objects, with the background.
  * \param[in] scene the run
  * \param[in] turn_rad go around the middle of what is to be seen; with pi, one sees what the cameras did not
  * \param[in] with_cameras stay behind the cameras, so that they are in the picture; else no farther away than the
