@@ -3,6 +3,7 @@
 
 #include "scene_summary.h"
 
+#include "pcl_cosection/common/json_pose.h"
 #include "pcl_cosection/evaluation/scene_folders.h"
 #include "pcl_cosection/view/look_at.h"
 #include "pcl_cosection/volume/mesh_distance/mesh_surface.h"
@@ -94,10 +95,10 @@ public:
       warn (": its summary.json does not say from where it was seen; a place is assumed");
       record_.camera.push_back ({0.0, assumedCamera (record_.objects)});
       record_.intrinsics = usual_camera;
-      for (SceneRecord::Object& object : record_.objects)
-        if (object.poses.empty ())
-          object.poses = atRest (record_);
     }
+    for (SceneRecord::Object& object : record_.objects)
+      if (moving_.count (object.id) == 0)
+        object.poses = atRest (record_);
     return std::move (record_);
   }
 
@@ -114,7 +115,7 @@ private:
     for (const Json& view : views)
     {
       const Json& number = fieldOf (view, "input");
-      if (poseOf (view, "T_world_sensor"))
+      if (poseFromRows (fieldOf (view, "T_world_sensor")))
         first.emplace (number.is_number_unsigned () ? number.get<double> () : static_cast<double> (first.size ()),
                        &view);
     }
@@ -122,11 +123,11 @@ private:
     {
       if (record_.camera.empty ())
         record_.intrinsics = cameraOf (fieldOf (*view, "camera"));
-      record_.camera.push_back ({stamp, inFrame (*poseOf (*view, "T_world_sensor"))});
+      record_.camera.push_back ({stamp, inFrame (*poseFromRows (fieldOf (*view, "T_world_sensor")))});
       const Json& objects = fieldOf (*view, "T_world_object");
       if (objects.is_object ())
         for (const auto& [id, rows] : objects.items ())
-          if (const std::optional<Eigen::Isometry3d> pose = poseOf (objects, id.c_str ()))
+          if (const std::optional<Eigen::Isometry3d> pose = poseFromRows (rows))
             moves_[id].push_back ({stamp, inFrame (*pose)});
     }
   }
@@ -182,9 +183,13 @@ private:
         object.mesh = readMesh ("object_" + object.name + "." + ending, moves ? Eigen::Vector3d::Zero () : origin_);
     if (object.mesh.empty () && notes_.warnings.size () == warnings)
       warn (": the mesh of object " + object.name + " is missing");
-    object.poses = moves ? moves_[object.name] : atRest (record_);
-    if (moves && object.poses.empty ())
-      warn (": its summary.json does not say where object " + object.name + " was; it is not shown");
+    if (moves)
+    {
+      moving_.insert (id);
+      object.poses = moves_[object.name];
+      if (object.poses.empty ())
+        warn (": its summary.json does not say where object " + object.name + " was; it is not shown");
+    }
     record_.objects.push_back (std::move (object));
   }
 
@@ -193,6 +198,7 @@ private:
   ReadingNotes& notes_;
   Eigen::Vector3d origin_ = Eigen::Vector3d::Zero ();
   std::map<std::string, std::vector<StampedPose>> moves_; ///< poses by object
+  std::set<int> moving_;                                  ///< objects that do not rest
   SceneRecord record_;
 };
 

@@ -12,9 +12,7 @@ namespace {
 using Json = nlohmann::json;
 
 constexpr int largest_image = 8192;
-constexpr double rigid = 1e-6;           ///< largest deviation from a rotation
 constexpr double shortest_normal = 1e-6; ///< of a plane that is one
-constexpr double farthest_m = 1e9;       ///< of a place from the origin
 
 double
 numberOf (const Json& json, const char* name)
@@ -38,12 +36,6 @@ textOf (const Json& json, const char* name)
 {
   const Json& field = fieldOf (json, name);
   return field.is_string () ? field.get<std::string> () : std::string ();
-}
-
-bool
-isPlace (const Eigen::Vector3d& place)
-{
-  return place.cwiseAbs ().maxCoeff () <= farthest_m && place.allFinite ();
 }
 
 std::vector<double>
@@ -85,10 +77,8 @@ sourceOf (const Json& json)
                                         : SequenceFormat::Detect;
   source.depth_folder = textOf (json, "depth_dir");
   source.depth_scale = std::max (0.0, numberOf (json, "depth_scale"));
-  const Json& intrinsics = fieldOf (json, "intrinsics");
-  if (intrinsics.is_array () && intrinsics.size () == 4 &&
-      std::all_of (intrinsics.begin (), intrinsics.end (), [] (const Json& value) { return value.is_number (); }))
-    source.intrinsics = intrinsics.get<std::array<double, 4>> ();
+  if (const std::vector<double> k = numbersOf (json, "intrinsics", 4); !k.empty ())
+    source.intrinsics = {k[0], k[1], k[2], k[3]};
   return source;
 }
 
@@ -119,27 +109,6 @@ firstNormalOf (const Json& planes)
   const Eigen::Vector3d normal (plane.data ());
   const bool is_one = normal.norm () > shortest_normal && std::isfinite (normal.norm ());
   return is_one ? std::optional (normal.normalized ()) : std::nullopt;
-}
-
-std::optional<Eigen::Isometry3d>
-poseOf (const Json& json, const char* name)
-{
-  const Json& rows = fieldOf (json, name);
-  if (!rows.is_array () || rows.size () != 4)
-    return std::nullopt;
-  Eigen::Isometry3d pose;
-  for (int row = 0; row < 4; ++row)
-  {
-    const std::vector<double> values = numbersOf ({{"row", rows[static_cast<std::size_t> (row)]}}, "row", 4);
-    if (values.empty ())
-      return std::nullopt;
-    pose.matrix ().row (row) = Eigen::Map<const Eigen::RowVector4d> (values.data ());
-  }
-  const Eigen::Matrix3d rotation = pose.linear ();
-  const bool is_rigid = pose.matrix ().allFinite () && isPlace (pose.translation ()) &&
-                        pose.matrix ().row (3) == Eigen::RowVector4d (0, 0, 0, 1) &&
-                        (rotation * rotation.transpose ()).isIdentity (rigid) && rotation.determinant () > 0.0;
-  return is_rigid ? std::optional (pose) : std::nullopt;
 }
 
 } // namespace pcl::cosection

@@ -20,9 +20,6 @@ namespace pcl::cosection {
 /** \brief If the camera is not known. */
 constexpr PinholeCamera usual_camera = {640, 480, 525.0, 525.0, 319.5, 239.5};
 
-/** \brief Whether coordinates are such as a place can have, metres: finite and not absurd. */
-bool isPlace (const Eigen::Vector3d& place);
-
 /** \brief A field of an object; null if there is none. */
 const nlohmann::json& fieldOf (const nlohmann::json& json, const char* name);
 
@@ -43,8 +40,5 @@ std::map<int, std::string> classesOf (const nlohmann::json& objects);
 
 /** \brief The unit normal of the first plane [a, b, c, d] of a list. */
 PCL_COSECTION_EXPORT std::optional<Eigen::Vector3d> firstNormalOf (const nlohmann::json& planes);
-
-/** \brief A field that has the four rows of a rigid transformation to a place. */
-std::optional<Eigen::Isometry3d> poseOf (const nlohmann::json& json, const char* name);
 
 } // namespace pcl::cosection

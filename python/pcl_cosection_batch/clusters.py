@@ -70,13 +70,14 @@ class Cluster:
         """A new client. Raises OSError."""
         from distributed import Client
 
-        client = Client(self.address, timeout=CONNECT_TIMEOUT_S, set_as_default=False)  # type: ignore[no-untyped-call]
+        client: Any = Client(  # type: ignore[no-untyped-call]
+            self.address, timeout=CONNECT_TIMEOUT_S, set_as_default=False)
         try:
             if self.sends_package:
                 self.archive = self.archive or package_archive(self.folder)
-                client.upload_file(self.archive)  # type: ignore[no-untyped-call]
+                client.upload_file(self.archive)
         except BaseException:
-            client.close(timeout=1)  # type: ignore[no-untyped-call]
+            client.close(timeout=1)
             raise
         return client
 

@@ -43,12 +43,27 @@ def save_pcd(path: str, depth: Any, labels: Any, intrinsics: Any, T_world_sensor
 
 
 def _quaternion(rotation: Any) -> Tuple[float, float, float, float]:
-    """w, x, y, z of a rotation by less than half a turn."""
-    w = np.sqrt(1.0 + np.trace(rotation)) / 2.0
-    x = (rotation[2, 1] - rotation[1, 2]) / (4.0 * w)
-    y = (rotation[0, 2] - rotation[2, 0]) / (4.0 * w)
-    z = (rotation[1, 0] - rotation[0, 1]) / (4.0 * w)
-    return float(w), float(x), float(y), float(z)
+    """w, x, y, z of a rotation, to the last bit as Eigen has them (K. Shoemake, "Quaternion Calculus and Fast
+    Animation", SIGGRAPH course notes 1987)."""
+    trace = rotation[0, 0] + rotation[1, 1] + rotation[2, 2]
+    xyz = [0.0, 0.0, 0.0]
+    if trace > 0.0:
+        root = np.sqrt(trace + 1.0)
+        w = 0.5 * root
+        factor = 0.5 / root
+        for i in range(3):
+            j, k = (i + 1) % 3, (i + 2) % 3
+            xyz[i] = float((rotation[k, j] - rotation[j, k]) * factor)
+    else:
+        i = int(np.argmax(np.diag(rotation)))
+        j, k = (i + 1) % 3, (i + 2) % 3
+        root = np.sqrt(rotation[i, i] - rotation[j, j] - rotation[k, k] + 1.0)
+        factor = 0.5 / root
+        xyz[i] = float(0.5 * root)
+        w = (rotation[k, j] - rotation[j, k]) * factor
+        xyz[j] = float((rotation[j, i] + rotation[i, j]) * factor)
+        xyz[k] = float((rotation[k, i] + rotation[i, k]) * factor)
+    return float(w), xyz[0], xyz[1], xyz[2]
 
 
 __all__ = ["COARSE", "EXAMPLES", "PROGRAMS", "SOURCE", "pose_of_camera", "save_pcd", "small_view", "view_of_table"]

@@ -3,6 +3,8 @@
 
 #include "json_fields.h"
 
+#include "pcl_cosection/common/json_pose.h"
+
 #include <pcl/cosection/common/error.h>
 #include <pcl/cosection/io/mesh_io.h>
 #include <pcl/cosection/io/trajectory.h>
@@ -106,22 +108,8 @@ lastPose (const Json& views, const std::string& number)
   std::optional<Eigen::Isometry3d> last;
   if (views.is_array ())
     for (const Json& view : views)
-    {
-      const Json& rows = member (member (view, "T_world_object"), number);
-      Eigen::Isometry3d pose;
-      bool is_pose = rows.is_array () && rows.size () == 4;
-      for (int row = 0; is_pose && row < 4; ++row)
-      {
-        const std::vector<double> numbers = numbersOf (rows[static_cast<std::size_t> (row)], 4);
-        is_pose = !numbers.empty ();
-        if (is_pose)
-          pose.matrix ().row (row) = Eigen::Map<const Eigen::RowVector4d> (numbers.data ());
-      }
-      constexpr double rigid = 1e-6; // largest deviation from a rotation
-      if (is_pose && (pose.linear () * pose.linear ().transpose ()).isIdentity (rigid) &&
-          pose.linear ().determinant () > 0.0)
+      if (const auto pose = poseFromRows (member (member (view, "T_world_object"), number)))
         last = pose;
-    }
   return (last);
 }
 

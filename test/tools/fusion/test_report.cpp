@@ -196,6 +196,8 @@ TEST_F (Report, FoldersThatAreNoRuns)
   fs::create_directory (file ("foreign"));
   writeFile (file ("foreign/holiday.jpg"), "beach");
   expectNoReport ({"foreign"}, 1, "foreign: is not a result: it has neither summary.json nor mesh/ nor trajectory/");
+  fs::copy (file ("out/trajectory/camera.txt"), file ("foreign/camera.txt"));
+  expectNoReport ({"foreign"}, 1, "foreign: is not a result: it has neither summary.json nor mesh/ nor trajectory/");
   fs::create_directories (file ("void/mesh"));
   expectNoReport ({"void"}, 1, "void: is a run in which nothing is left");
   expectNoReport ({"--truth", "nowhere", "out"}, 1, "nowhere: is no folder; it must be a dataset with truth");

@@ -76,8 +76,9 @@ struct PCL_COSECTION_EXPORT RunSceneOptions
 };
 
 /** \brief Read what a run wrote: as readRun (), and mesh/object_ID_tsdf.ply, and of summary.json the camera, the
- * dataset, the planes and the objects' classes. What pcl_cosection made of views is read too: each view is a frame,
- * numbered from 0, and coordinates are relative to the origin_m of its summary. Nothing is written.
+ * dataset, the planes and the objects' classes. What pcl_cosection made of views is read too: each INPUT with a
+ * viewpoint is a frame, whose stamp is its number, and coordinates are relative to the origin_m of its summary. Nothing
+ * is written.
  * \param[in] folder of the run
  * \param[out] notes what is missing or cannot be read
  * \param[in] options how much of it
