@@ -10,6 +10,7 @@
 #include "pcl_cosection/priors/proposal.h"
 #include "pcl_cosection/priors/proposed/proposed_shape.h"
 #include "pcl_cosection/priors/symmetry/copies.h"
+#include "pcl_cosection/priors/symmetry/level_mirror.h"
 #include "pcl_cosection/priors/vessels/vessel_term.h"
 #include "pcl_cosection/volume/distance_transform.h"
 #include "resting_planes.h"
@@ -181,11 +182,11 @@ addColumns (const BodyEnergy& energy, const std::vector<OrientedPoint>& points, 
   extrusion.addTo (proposal);
 }
 
-/** \brief The likeliest symmetry, and whether its axis or centre was fitted to the normals.
- * \param[in] round surfaces of revolution */
-std::pair<std::optional<Symmetry>, bool>
-symmetryOf (const Observation& object, const Priors& priors, const Eigen::Vector4d& plane,
-            const std::vector<ProfiledShape>& round, const MeasuredShape& shape, const BodyEnergy& energy)
+/** \brief The motions of the likeliest symmetry, and whether its axis or centre was fitted to the normals.
+ * \param[in] rests whether the object rests on the plane \param[in] round surfaces of revolution */
+std::pair<Motions, bool>
+likeliestMotions (const Observation& object, const Priors& priors, const Eigen::Vector4d& plane, bool rests,
+                  const std::vector<ProfiledShape>& round, const MeasuredShape& shape, const BodyEnergy& energy)
 {
   const CopyJudge judge (shape, object.points (), plane, object.views);
   std::vector<Symmetry> symmetries;
@@ -201,9 +202,12 @@ symmetryOf (const Observation& object, const Priors& priors, const Eigen::Vector
   const auto turn = std::find_if (turns.begin (), turns.end (),
                                   [&] (const Symmetry& other) { return symmetry && isAsLikely (other, *symmetry); });
   if (turn != turns.end ())
-    symmetry = *turn;
-
-  return {symmetry, turn != turns.end ()};
+    return {turn->motions, true};
+  const Motions motions = symmetry ? symmetry->motions : Motions ();
+  if (priors.symmetry && rests && motions.size () < many_motions) // a full turn shows all of a profile, its foot too
+    if (const std::optional<Eigen::Affine3d> mirror = findLevelMirror (judge, plane))
+      return {unitedWith (*mirror, motions), false};
+  return {motions, false};
 }
 
 /** \brief The shape that the user proposed, if it explains the measurements; else null. */
@@ -239,14 +243,13 @@ proposalOf (const Observation& object, const Priors& priors, const std::vector<E
                                                    : Eigen::Vector4d (Eigen::Vector4d::Zero ());
   const bool extrudes = priors.extrusion && !resting.empty ();
   const MeasuredShape shape = measuredShape (energy);
-  const auto [symmetry, is_fitted] = symmetryOf (object, priors, plane, round, shape, energy);
-  Motions motions = symmetry ? symmetry->motions : Motions ();
+  auto [motions, is_fitted] = likeliestMotions (object, priors, plane, !resting.empty (), round, shape, energy);
   Proposal proposal (energy.grid.size ());
   const Continuation continued = extrudes ? continuedBehindOthers (object, plane) : Continuation ();
   if (continued.points.empty () || tellExtentAlong (continued.direction, motions) ||
       explain (motions, continued.points, energy))
   {
-    if (symmetry)
+    if (!motions.empty ())
       addCopies (energy, shape, motions, object, plane, proposal);
     if (extrudes && is_fitted)
       addFoot (object, plane, motions, energy, proposal);
@@ -259,8 +262,7 @@ proposalOf (const Observation& object, const Priors& priors, const std::vector<E
   whole.inliers.insert (whole.inliers.end (), continued.points.begin (), continued.points.end ());
   const BodyEnergy of_whole = withExpectedPoints (energy, continued.points);
   const MeasuredShape shape_of_whole = measuredShape (of_whole);
-  const std::optional<Symmetry> symmetry_of_whole = symmetryOf (whole, priors, plane, {}, shape_of_whole, energy).first;
-  motions = symmetry_of_whole ? symmetry_of_whole->motions : Motions ();
+  motions = likeliestMotions (whole, priors, plane, true, {}, shape_of_whole, energy).first;
   motions.push_back (Eigen::Affine3d::Identity ());
   addCopies (of_whole, shape_of_whole, motions, whole, plane, proposal);
   addColumns (energy, whole.points (), plane, motions.size (), proposal);

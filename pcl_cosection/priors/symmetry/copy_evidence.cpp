@@ -14,7 +14,7 @@
 namespace pcl::cosection {
 namespace {
 
-constexpr std::size_t most_samples = 1500;
+constexpr std::size_t least_samples = 20, most_samples = 1500;
 constexpr double first_cell_vox = 2.0;  // a sample per cell; cells grow until there are few enough samples
 constexpr double surface_vox = 1.5;     // distance of a copy that is on the surface
 constexpr double surely_free_vox = 3.0; // distance from which a copy begins to be in free space ...
@@ -161,6 +161,12 @@ CopyJudge::CopyJudge (const MeasuredShape& shape, const std::vector<OrientedPoin
     if (samples_.size () <= most_samples)
       break;
   }
+}
+
+bool
+CopyJudge::hasEnoughSamples () const
+{
+  return samples_.size () >= least_samples;
 }
 
 /** \brief The nearest reading at a pixel and around it, metres; infinite if there is none. */

@@ -40,6 +40,8 @@ public:
   /** \brief Evenly spread points of the object, at most some fifteen hundred. */
   const std::vector<OrientedPoint>& samples () const { return samples_; }
 
+  bool hasEnoughSamples () const;
+
   bool onPlane () const { return !plane_.head<3> ().isZero (); }
 
   /** \param[in] stride only every stride-th sample */

@@ -16,7 +16,6 @@
 namespace pcl::cosection {
 namespace {
 
-constexpr std::size_t least_samples = 20;
 constexpr int mirror_angles = 60;
 constexpr int axis_heights = 11;
 constexpr int coarse_turns = 8, fine_turns = 12, all_turns = 32;
@@ -285,7 +284,7 @@ std::vector<Symmetry>
 findSymmetries (const CopyJudge& judge, const VoxelGrid& grid, const Eigen::Vector4d& plane)
 {
   std::vector<Symmetry> symmetries;
-  if (judge.samples ().size () < least_samples)
+  if (!judge.hasEnoughSamples ())
     return symmetries;
   if (!plane.head<3> ().isZero ())
   {
