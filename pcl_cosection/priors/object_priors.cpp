@@ -10,7 +10,7 @@
 #include "pcl_cosection/priors/proposal.h"
 #include "pcl_cosection/priors/proposed/proposed_shape.h"
 #include "pcl_cosection/priors/symmetry/copies.h"
-#include "pcl_cosection/priors/symmetry/level_mirror.h"
+#include "pcl_cosection/priors/symmetry/object_symmetry.h"
 #include "pcl_cosection/priors/vessels/vessel_term.h"
 #include "pcl_cosection/volume/distance_transform.h"
 #include "resting_planes.h"
@@ -29,8 +29,6 @@ constexpr double hidden_foot_vox = 6.0;        // height of the lowest points fr
 constexpr double wall_end_vox = 3.0;           // above the lowest points: their normals tell how a wall goes on ...
 constexpr double steep = 0.7;                  // ... if the component of the normal across is larger
 constexpr float expected_bound_weight = 10.0f; // of expected free space, in multiples of beta_extent
-constexpr std::size_t many_motions = 4;        // of a full turn; mirror planes have at most three on a plane
-constexpr double unmoved = 0.9;                // cosine of a direction with itself, moved
 
 /** \brief Mark voxels on rays without return as empty, for an object that was cut out of its scene. */
 void
@@ -146,17 +144,6 @@ addFoot (const Observation& object, const Eigen::Vector4d& plane, const Motions&
     }
 }
 
-/** \brief Whether motions tell how far an object reaches along a direction: a full turn does that moves it, mirror
- * planes do not. */
-bool
-tellExtentAlong (const Eigen::Vector3d& direction, const Motions& motions)
-{
-  return motions.size () >= many_motions &&
-         std::any_of (motions.begin (), motions.end (), [&] (const Eigen::Affine3d& motion) {
-           return (motion.linear () * direction).dot (direction) < unmoved;
-         });
-}
-
 /** \brief Whether motions take most of some points to observed surface: then copies are there already. */
 bool
 explain (const Motions& motions, const std::vector<OrientedPoint>& points, const BodyEnergy& energy)
@@ -180,34 +167,6 @@ addColumns (const BodyEnergy& energy, const std::vector<OrientedPoint>& points, 
   if (motions <= 1) // several motions tell how far it reaches on all sides
     extrusion.emptyBesideTops (proposal);
   extrusion.addTo (proposal);
-}
-
-/** \brief The motions of the likeliest symmetry, and whether its axis or centre was fitted to the normals.
- * \param[in] rests whether the object rests on the plane \param[in] round surfaces of revolution */
-std::pair<Motions, bool>
-likeliestMotions (const Observation& object, const Priors& priors, const Eigen::Vector4d& plane, bool rests,
-                  const std::vector<ProfiledShape>& round, const MeasuredShape& shape, const BodyEnergy& energy)
-{
-  const CopyJudge judge (shape, object.points (), plane, object.views);
-  std::vector<Symmetry> symmetries;
-  if (priors.symmetry)
-    symmetries = findSymmetries (judge, energy.grid, plane);
-  std::vector<Symmetry> turns;
-  for (const ProfiledShape& surface : round)
-    turns.push_back (
-        givenTurn (judge, surface.center (), surface.axisDirection ().value_or (Eigen::Vector3d::Zero ())));
-  symmetries.insert (symmetries.end (), turns.begin (), turns.end ());
-  std::optional<Symmetry> symmetry = likeliest (symmetries);
-  // The axis by all normals is more exact than one by a search.
-  const auto turn = std::find_if (turns.begin (), turns.end (),
-                                  [&] (const Symmetry& other) { return symmetry && isAsLikely (other, *symmetry); });
-  if (turn != turns.end ())
-    return {turn->motions, true};
-  const Motions motions = symmetry ? symmetry->motions : Motions ();
-  if (priors.symmetry && rests && motions.size () < many_motions) // a full turn shows all of a profile, its foot too
-    if (const std::optional<Eigen::Affine3d> mirror = findLevelMirror (judge, plane))
-      return {unitedWith (*mirror, motions), false};
-  return {motions, false};
 }
 
 /** \brief The shape that the user proposed, if it explains the measurements; else null. */
@@ -243,15 +202,16 @@ proposalOf (const Observation& object, const Priors& priors, const std::vector<E
                                                    : Eigen::Vector4d (Eigen::Vector4d::Zero ());
   const bool extrudes = priors.extrusion && !resting.empty ();
   const MeasuredShape shape = measuredShape (energy);
-  auto [motions, is_fitted] = likeliestMotions (object, priors, plane, !resting.empty (), round, shape, energy);
+  const ObjectSymmetry symmetry = symmetryOf (object, priors, plane, !resting.empty (), round, shape, energy);
   Proposal proposal (energy.grid.size ());
   const Continuation continued = extrudes ? continuedBehindOthers (object, plane) : Continuation ();
-  if (continued.points.empty () || tellExtentAlong (continued.direction, motions) ||
-      explain (motions, continued.points, energy))
+  if (continued.points.empty () || symmetry.tellsExtentAlong (continued.direction) ||
+      explain (symmetry.motions, continued.points, energy))
   {
+    const Motions motions = symmetry.all ();
     if (!motions.empty ())
       addCopies (energy, shape, motions, object, plane, proposal);
-    if (extrudes && is_fitted)
+    if (extrudes && symmetry.is_fitted)
       addFoot (object, plane, motions, energy, proposal);
     else if (extrudes)
       addColumns (energy, object.points (), plane, motions.size (), proposal);
@@ -262,7 +222,7 @@ proposalOf (const Observation& object, const Priors& priors, const std::vector<E
   whole.inliers.insert (whole.inliers.end (), continued.points.begin (), continued.points.end ());
   const BodyEnergy of_whole = withExpectedPoints (energy, continued.points);
   const MeasuredShape shape_of_whole = measuredShape (of_whole);
-  motions = likeliestMotions (whole, priors, plane, true, {}, shape_of_whole, energy).first;
+  Motions motions = symmetryOf (whole, priors, plane, true, {}, shape_of_whole, energy).all ();
   motions.push_back (Eigen::Affine3d::Identity ());
   addCopies (of_whole, shape_of_whole, motions, whole, plane, proposal);
   addColumns (energy, whole.points (), plane, motions.size (), proposal);

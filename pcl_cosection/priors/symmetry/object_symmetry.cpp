@@ -1,0 +1,59 @@
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
+#include "object_symmetry.h"
+
+#include "level_mirror.h"
+#include "symmetry_search.h"
+
+#include <algorithm>
+
+namespace pcl::cosection {
+namespace {
+
+constexpr std::size_t many_motions = 4; // of a full turn; mirror planes have at most three on a plane
+constexpr double unmoved = 0.9;         // cosine of a direction with itself, moved
+
+} // namespace
+
+Motions
+ObjectSymmetry::all () const
+{
+  return mirror ? unitedWith (*mirror, motions) : motions;
+}
+
+bool
+ObjectSymmetry::tellsExtentAlong (const Eigen::Vector3d& direction) const
+{
+  return motions.size () >= many_motions &&
+         std::any_of (motions.begin (), motions.end (), [&] (const Eigen::Affine3d& motion) {
+           return (motion.linear () * direction).dot (direction) < unmoved;
+         });
+}
+
+ObjectSymmetry
+symmetryOf (const Observation& object, const Priors& priors, const Eigen::Vector4d& plane, bool rests,
+            const std::vector<ProfiledShape>& round, const MeasuredShape& shape, const BodyEnergy& energy)
+{
+  const CopyJudge judge (shape, object.points (), plane, object.views);
+  std::vector<Symmetry> symmetries;
+  if (priors.symmetry)
+    symmetries = findSymmetries (judge, energy.grid, plane);
+  std::vector<Symmetry> turns;
+  for (const ProfiledShape& surface : round)
+    turns.push_back (
+        givenTurn (judge, surface.center (), surface.axisDirection ().value_or (Eigen::Vector3d::Zero ())));
+  symmetries.insert (symmetries.end (), turns.begin (), turns.end ());
+  std::optional<Symmetry> symmetry = likeliest (symmetries);
+  // The axis by all normals is more exact than one by a search.
+  const auto turn = std::find_if (turns.begin (), turns.end (),
+                                  [&] (const Symmetry& other) { return symmetry && isAsLikely (other, *symmetry); });
+  if (turn != turns.end ())
+    return {turn->motions, true, std::nullopt};
+  ObjectSymmetry result;
+  if (symmetry)
+    result.motions = symmetry->motions;
+  if (priors.symmetry && rests && result.motions.size () < many_motions) // a full turn shows the foot, too
+    result.mirror = findLevelMirror (judge, plane);
+  return result;
+}
+
+} // namespace pcl::cosection
