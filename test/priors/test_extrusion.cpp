@@ -104,6 +104,32 @@ TEST_F (HiddenWalls, OfAWedgeAreNoCopies)
   EXPECT_NEAR (litres (), truth, 0.15 * truth);
 }
 
+/** \brief What is round at its edges above and on its visible side is so below, too: no wall reaches the table. */
+TEST_F (HiddenWalls, OfWhatLooksFromBelowAsFromAboveEndAboveTheTable)
+{
+  constexpr double radius = 0.025;
+  const Eigen::Vector3d half (0.06, 0.04, radius);
+  const Distance flat = box ({half.x (), half.y (), 1e-4});
+  const Distance tin = [&] (const Eigen::Vector3d& p) { return flat (p) - radius; };
+  scene_.add (0, halfSpace (table_plane));
+  scene_.add (thing, placed (tin, Eigen::Vector3d (0.0, 0.0, radius)));
+  seen_ = scene_.render (tableCamera (), lookAt ({0.1, -0.5, 0.4}, {0.0, 0.0, 0.03}));
+  const auto errorBelow = [&] (const CoSectionOptions& options) {
+    double sum = 0.0, count = 0.0;
+    for (const Eigen::Vector3f& vertex : complete (seen_, options).objects.at (0).mesh.vertices)
+      if (vertex.z () < radius)
+      {
+        sum += std::abs (tin (vertex.cast<double> () - Eigen::Vector3d (0.0, 0.0, radius)));
+        count += 1.0;
+      }
+    return sum / count;
+  };
+  CoSectionOptions options = optionsFor (0.0025);
+  const double with = errorBelow (options);
+  options.priors.symmetry = false;
+  EXPECT_LT (with, 0.4 * errorBelow (options));
+}
+
 /** \brief The enclosed space is solid, although it is as far from observed surface as the can is high. */
 TEST_F (HiddenWalls, OfACanAreNoTube)
 {

@@ -2,6 +2,7 @@
 #include "volume/analytic_fields.h"
 
 #include "pcl_cosection/priors/symmetry/climb.h"
+#include "pcl_cosection/priors/symmetry/level_mirror.h"
 #include "pcl_cosection/priors/symmetry/symmetry_search.h"
 
 #include <gtest/gtest.h>
@@ -87,6 +88,21 @@ const Distance a_box = standing (
 const Distance a_can = standing (
     [] (const Eigen::Vector3d& p) { return std::max (p.head<2> ().norm () - 0.05, std::abs (p.z ()) - 0.06); }, 0.12);
 
+/** \brief What lies, round at its edges above and below. */
+const Distance a_tin = standing (
+    [] (const Eigen::Vector3d& p) {
+      const Eigen::Vector3d q = p.cwiseAbs () - Eigen::Vector3d (0.06, 0.04, 0.0);
+      return q.cwiseMax (0.0).norm () + std::min (q.maxCoeff (), 0.0) - 0.025;
+    },
+    0.05);
+
+/** \brief What is narrow at its top. */
+const Distance a_cone = standing (
+    [] (const Eigen::Vector3d& p) {
+      return std::max (0.86 * p.head<2> ().norm () + 0.5 * p.z () - 0.04, std::abs (p.z ()) - 0.045);
+    },
+    0.09);
+
 const Eigen::Vector3d origins[] = {Eigen::Vector3d::Zero (), {0.4, -0.3, 1.6}};
 
 } // namespace
@@ -136,6 +152,43 @@ TEST (SymmetrySearch, ABoxAloneHasThreeMirrorPlanes)
     for (const Eigen::Affine3d& motion : symmetry->motions)
       EXPECT_LE ((motion * middle - middle).norm (), 2.0 * step_m);
   }
+}
+
+/** \brief The lower half of a side that is visible tells whether what lies looks from below as from above. */
+TEST (LevelMirror, IsConfirmedByVisibleSides)
+{
+  for (const Eigen::Vector3d& origin : origins)
+  {
+    const Seen tin = see (a_tin, origin), cone = see (a_cone, origin);
+    const std::optional<Eigen::Affine3d> mirror = findLevelMirror (tin.judge (), tin.plane);
+    ASSERT_TRUE (mirror);
+    const Eigen::Vector3d bottom = *mirror * (origin + Eigen::Vector3d (0.01, 0.02, 0.05));
+    EXPECT_LE ((bottom - origin - Eigen::Vector3d (0.01, 0.02, 0.0)).norm (), step_m);
+    EXPECT_FALSE (findLevelMirror (cone.judge (), cone.plane));
+  }
+}
+
+/** \brief Nothing tells it of what shows its top alone. */
+TEST (LevelMirror, IsNotGuessed)
+{
+  Seen seen = see (a_tin, Eigen::Vector3d::Zero ());
+  seen.points.erase (std::remove_if (seen.points.begin (), seen.points.end (),
+                                     [] (const OrientedPoint& point) { return point.position.z () < 0.03f; }),
+                     seen.points.end ());
+  EXPECT_FALSE (findLevelMirror (seen.judge (), seen.plane));
+  seen.points.resize (10);
+  EXPECT_FALSE (findLevelMirror (seen.judge (), seen.plane));
+}
+
+TEST (LevelMirror, UnitesWithOtherMotions)
+{
+  const Eigen::Affine3d level = reflection (Eigen::Vector3d::UnitZ (), 0.1);
+  const Motions motions = unitedWith (level, {reflection (Eigen::Vector3d::UnitX (), 0.0)});
+  ASSERT_EQ (motions.size (), 3u);
+  const Eigen::Vector3d place (0.1, 0.2, 0.0);
+  EXPECT_TRUE ((motions[0] * place).isApprox (Eigen::Vector3d (-0.1, 0.2, 0.0)));
+  EXPECT_TRUE ((motions[1] * place).isApprox (Eigen::Vector3d (-0.1, 0.2, 0.2)));
+  EXPECT_TRUE ((motions[2] * place).isApprox (Eigen::Vector3d (0.1, 0.2, 0.2)));
 }
 
 TEST (SymmetrySearch, FewPointsHaveNone)
