@@ -168,16 +168,20 @@ TEST (LevelMirror, IsConfirmedByVisibleSides)
   }
 }
 
-/** \brief Nothing tells it of what shows its top alone. */
+/** \brief Nothing tells it of what shows its top alone, or its sides alone. */
 TEST (LevelMirror, IsNotGuessed)
 {
-  Seen seen = see (a_tin, Eigen::Vector3d::Zero ());
-  seen.points.erase (std::remove_if (seen.points.begin (), seen.points.end (),
-                                     [] (const OrientedPoint& point) { return point.position.z () < 0.03f; }),
-                     seen.points.end ());
-  EXPECT_FALSE (findLevelMirror (seen.judge (), seen.plane));
-  seen.points.resize (10);
-  EXPECT_FALSE (findLevelMirror (seen.judge (), seen.plane));
+  const auto isFound = [] (const std::function<bool (const OrientedPoint&)>& is_seen) {
+    Seen seen = see (a_tin, Eigen::Vector3d::Zero ());
+    seen.points.erase (std::remove_if (seen.points.begin (), seen.points.end (), std::not_fn (is_seen)),
+                       seen.points.end ());
+    return findLevelMirror (seen.judge (), seen.plane).has_value ();
+  };
+  EXPECT_TRUE (isFound ([] (const OrientedPoint&) { return true; }));
+  EXPECT_FALSE (isFound ([] (const OrientedPoint& point) { return point.position.z () > 0.03f; }));
+  EXPECT_FALSE (isFound ([] (const OrientedPoint& point) { return point.normal.z () < 0.7f; }));
+  int count = 0;
+  EXPECT_FALSE (isFound ([&] (const OrientedPoint&) { return count++ < 10; }));
 }
 
 TEST (LevelMirror, UnitesWithOtherMotions)
