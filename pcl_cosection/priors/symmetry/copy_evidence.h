@@ -40,7 +40,7 @@ public:
   /** \brief Evenly spread points of the object, at most some fifteen hundred. */
   const std::vector<OrientedPoint>& samples () const { return samples_; }
 
-  bool hasEnoughSamples () const;
+  bool hasEnoughSamples () const; ///< for any evidence
 
   bool onPlane () const { return !plane_.head<3> ().isZero (); }
 
