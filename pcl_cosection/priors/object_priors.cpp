@@ -177,23 +177,30 @@ usedProposal (const Observation& object, const ObjectSetting& setting, const std
   return shape && shape->is_used ? shape : nullptr;
 }
 
-/** \brief What the network completes, if the measurements confirm it and no profile was fitted to the points: a surface
- * of revolution is more exact, and the walls of a vessel are finer than the network's voxels. Else null. */
+/** \brief What the network completes, if the measurements confirm it and the object is no vessel, whose walls are finer
+ * than the network's voxels. Else null. */
 const LearnedShape*
 usedCompletion (const Observation& object, const ObjectSetting& setting, const std::vector<Eigen::Vector4d>& planes)
 {
   const std::optional<Eigen::Vector4d> plane = nearestPlaneBelow (object, planes);
-  if (!setting.priors.learned || !object.network || !plane || shapeOf (object, setting, plane))
+  if (!setting.priors.learned || !object.network || !plane || shapeOf (object, setting, plane).wallThickness () > 0.0)
     return nullptr;
   const LearnedShape* shape = learnedShape (object, setting, *plane);
   return shape && shape->is_used ? shape : nullptr;
 }
 
+/** \brief What priors expect that know nothing of the network. */
+struct Expected
+{
+  Proposal proposal;
+  bool is_round = false; ///< a surface of revolution
+};
+
 /** \brief What symmetry, revolution and extrusion expect.
  * \param[in] resting planes on which the object rests, of all \a planes
  * \param[in] round surfaces of revolution */
-Proposal
-proposalOf (const Observation& object, const Priors& priors, const std::vector<Eigen::Vector4d>& resting,
+Expected
+expectedOf (const Observation& object, const Priors& priors, const std::vector<Eigen::Vector4d>& resting,
             const std::vector<Eigen::Vector4d>& planes, const std::vector<ProfiledShape>& round,
             const BodyEnergy& energy)
 {
@@ -215,7 +222,7 @@ proposalOf (const Observation& object, const Priors& priors, const std::vector<E
       addFoot (object, plane, motions, energy, proposal);
     else if (extrudes)
       addColumns (energy, object.points (), plane, motions.size (), proposal);
-    return proposal;
+    return {proposal, symmetry.is_round};
   }
   Observation whole = object;
   whole.inliers = object.points ();
@@ -226,7 +233,7 @@ proposalOf (const Observation& object, const Priors& priors, const std::vector<E
   motions.push_back (Eigen::Affine3d::Identity ());
   addCopies (of_whole, shape_of_whole, motions, whole, plane, proposal);
   addColumns (energy, whole.points (), plane, motions.size (), proposal);
-  return proposal;
+  return {proposal, false};
 }
 
 /** \brief The signed distance that minimises the energy, without neighbours. */
@@ -313,9 +320,10 @@ addPriors (const Observation& object, const ObjectSetting& setting, const std::v
     if (!proposal.empty ())
       addProposal (proposal, energy);
   };
-  Proposal proposal;
+  Expected expected;
   if (vessels.empty () && (priors.symmetry || priors.extrusion || !profiled.empty ()))
-    proposal = proposalOf (object, priors, resting, planes, profiled, energy);
+    expected = expectedOf (object, priors, resting, planes, profiled, energy);
+  Proposal& proposal = expected.proposal;
   if (!has_weight)
     return;
   if (!vessels.empty ())
@@ -326,6 +334,8 @@ addPriors (const Observation& object, const ObjectSetting& setting, const std::v
       addVessel (energy, vessel, object.points (), proposal);
   }
   const ProposedShape* proposed = usedProposal (object, setting, planes);
+  if (expected.is_round) // its profile is more exact
+    leaveOutLearned (object);
   const LearnedShape* learned = proposed || !vessels.empty () ? nullptr : usedCompletion (object, setting, planes);
   if (!proposed && !learned)
   {
@@ -334,13 +344,13 @@ addPriors (const Observation& object, const ObjectSetting& setting, const std::v
   }
   // What the other priors make of the object tells whether a proposal is better, and is what the network corrects.
   const EnergyProblem problem = energy.problem;
-  const std::vector<std::uint8_t> expected = energy.expected;
+  const std::vector<std::uint8_t> claimed = energy.expected;
   addExpected (proposal);
   const SignedDistanceField without = solvedAlone (energy);
   if (proposed && !keepIfAsGood (without, object, setting, planes))
     return;
   energy.problem = problem;
-  energy.expected = expected;
+  energy.expected = claimed;
   proposal = Proposal (energy.grid.size ());
   if (proposed)
   {

@@ -3,6 +3,7 @@
 
 #include "pcl_cosection/priors/symmetry/climb.h"
 #include "pcl_cosection/priors/symmetry/level_mirror.h"
+#include "pcl_cosection/priors/symmetry/object_symmetry.h"
 #include "pcl_cosection/priors/symmetry/symmetry_search.h"
 
 #include <gtest/gtest.h>
@@ -134,6 +135,27 @@ TEST (SymmetrySearch, ACanLooksTheSameFromAllSides)
     const Eigen::Vector3d on_axis = origin + Eigen::Vector3d (0.0, 0.0, 0.06);
     for (const Eigen::Affine3d& motion : symmetry->motions)
       EXPECT_LE ((motion * on_axis - on_axis).norm (), 2.0 * step_m);
+  }
+}
+
+/** \brief A handle is not copied to other sides, so it does not contradict the turn of the rest. */
+TEST (SymmetrySearch, AHandleDoesNotSpeakAgainstATurn)
+{
+  const Distance pitcher = [] (const Eigen::Vector3d& p) {
+    const Eigen::Vector3d q = (p - Eigen::Vector3d (0.075, 0.0, 0.06)).cwiseAbs () -
+                              Eigen::Vector3d (0.03, 0.01, 0.045);
+    return std::min (a_can (p), q.maxCoeff ());
+  };
+  for (const Eigen::Vector3d& origin : origins)
+  {
+    const Seen seen = see (pitcher, origin);
+    const ProfiledShape surface (seen.points, seen.plane);
+    ASSERT_TRUE (surface);
+    const Symmetry turn = fittedTurn (surface, seen.shape, seen.points, seen.plane, seen.views);
+    const Symmetry with_handle = givenTurn (seen.judge (), surface.center (), surface.axisDirection ().value ());
+    EXPECT_LT (turn.evidence.contradiction, 0.5 * with_handle.evidence.contradiction);
+    EXPECT_TRUE (likeliest ({turn}));
+    EXPECT_FALSE (likeliest ({with_handle}));
   }
 }
 

@@ -138,6 +138,13 @@ learnedShape (const Observation& object, const ObjectSetting& setting, const Eig
   return shapes.learned ? &*shapes.learned : nullptr;
 }
 
+void
+leaveOutLearned (const Observation& object)
+{
+  if (object.proposed && object.proposed->learned)
+    object.proposed->learned->is_used = false;
+}
+
 double
 wallOf (const TriangleMesh& shape, double voxel_size_m)
 {

@@ -55,6 +55,9 @@ bool keepIfAsGood (const SignedDistanceField& without, const Observation& object
 const LearnedShape* learnedShape (const Observation& object, const ObjectSetting& setting,
                                   const Eigen::Vector4d& plane);
 
+/** \brief Do not use what the network completes. */
+void leaveOutLearned (const Observation& object);
+
 /** \brief Mean thickness of what consists of thin walls, metres: twice its volume by its area. 0 if it is thicker than
  * some voxels, or open. */
 double wallOf (const TriangleMesh& shape, double voxel_size_m);

@@ -2,9 +2,9 @@
 #include "object_symmetry.h"
 
 #include "level_mirror.h"
-#include "symmetry_search.h"
 
 #include <algorithm>
+#include <iterator>
 
 namespace pcl::cosection {
 namespace {
@@ -29,6 +29,17 @@ ObjectSymmetry::tellsExtentAlong (const Eigen::Vector3d& direction) const
          });
 }
 
+Symmetry
+fittedTurn (const ProfiledShape& surface, const MeasuredShape& shape, const std::vector<OrientedPoint>& points,
+            const Eigen::Vector4d& plane, const OcclusionMap::Views& views)
+{
+  std::vector<OrientedPoint> held;
+  std::copy_if (points.begin (), points.end (), std::back_inserter (held),
+                [&] (const OrientedPoint& point) { return surface.holds (point.position.cast<double> ()); });
+  const CopyJudge judge (shape, held, plane, views);
+  return givenTurn (judge, surface.center (), surface.axisDirection ().value_or (Eigen::Vector3d::Zero ()));
+}
+
 ObjectSymmetry
 symmetryOf (const Observation& object, const Priors& priors, const Eigen::Vector4d& plane, bool rests,
             const std::vector<ProfiledShape>& round, const MeasuredShape& shape, const BodyEnergy& energy)
@@ -39,18 +50,21 @@ symmetryOf (const Observation& object, const Priors& priors, const Eigen::Vector
     symmetries = findSymmetries (judge, energy.grid, plane);
   std::vector<Symmetry> turns;
   for (const ProfiledShape& surface : round)
-    turns.push_back (
-        givenTurn (judge, surface.center (), surface.axisDirection ().value_or (Eigen::Vector3d::Zero ())));
+    turns.push_back (fittedTurn (surface, shape, object.points (), plane, object.views));
   symmetries.insert (symmetries.end (), turns.begin (), turns.end ());
   std::optional<Symmetry> symmetry = likeliest (symmetries);
   // The axis by all normals is more exact than one by a search.
   const auto turn = std::find_if (turns.begin (), turns.end (),
                                   [&] (const Symmetry& other) { return symmetry && isAsLikely (other, *symmetry); });
   if (turn != turns.end ())
-    return {turn->motions, true, std::nullopt};
+    return {turn->motions, true, true, std::nullopt};
   ObjectSymmetry result;
   if (symmetry)
+  {
     result.motions = symmetry->motions;
+    result.is_round = std::any_of (turns.begin (), turns.end (),
+                                   [&] (const Symmetry& other) { return isAboutSameAxis (other, *symmetry); });
+  }
   if (priors.symmetry && rests && result.motions.size () < many_motions) // a full turn shows the foot, too
     result.mirror = findLevelMirror (judge, plane);
   return result;

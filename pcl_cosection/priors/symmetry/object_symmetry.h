@@ -4,6 +4,7 @@
 #include "measured_shape.h"
 #include "motions.h"
 #include "pcl_cosection/priors/object_priors.h"
+#include "symmetry_search.h"
 
 #include <Eigen/Geometry>
 
@@ -17,6 +18,7 @@ struct ObjectSymmetry
 {
   Motions motions;
   bool is_fitted = false;                ///< its axis or centre, to the normals
+  bool is_round = false;                 ///< a full turn, by copies and by normals
   std::optional<Eigen::Affine3d> mirror; ///< a level one
 
   /** \brief Those with the level mirror plane, too. */
@@ -26,6 +28,11 @@ struct ObjectSymmetry
    * mirror planes do not. */
   bool tellsExtentAlong (const Eigen::Vector3d& direction) const;
 };
+
+/** \brief The full turn about the axis of a surface that was fitted to points, judged by the points that the surface
+ * holds: a handle is not copied. \param[in] plane unit normal and offset, or zeros */
+Symmetry fittedTurn (const ProfiledShape& surface, const MeasuredShape& shape, const std::vector<OrientedPoint>& points,
+                     const Eigen::Vector4d& plane, const OcclusionMap::Views& views);
 
 /** \param[in] plane unit normal and offset, or zeros \param[in] rests whether the object rests on it
  * \param[in] round surfaces of revolution that were fitted to its points */

@@ -61,16 +61,6 @@ isAmidst (const std::vector<OrientedPoint>& samples, const Eigen::Vector3d& norm
   return share > least_side && share < 1.0 - least_side;
 }
 
-/** \brief Whether two full turns are about parallel axes. */
-bool
-isAboutSameAxis (const Symmetry& a, const Symmetry& b)
-{
-  if (a.motions.size () != all_turns - 1 || b.motions.size () != all_turns - 1)
-    return false;
-  const auto axis = [] (const Symmetry& s) { return Eigen::AngleAxisd (s.motions.front ().linear ()).axis (); };
-  return std::abs (axis (a).dot (axis (b))) > parallel;
-}
-
 MakeMotions
 mirrorPlane (const CopyJudge& judge, const Footprint& footprint)
 {
@@ -332,6 +322,15 @@ likeliest (const std::vector<Symmetry>& symmetries)
          (s.motions.size () == best->motions.size () && s.value () > best->value ())))
       best = s;
   return best;
+}
+
+bool
+isAboutSameAxis (const Symmetry& a, const Symmetry& b)
+{
+  if (a.motions.size () != all_turns - 1 || b.motions.size () != all_turns - 1)
+    return false;
+  const auto axis = [] (const Symmetry& s) { return Eigen::AngleAxisd (s.motions.front ().linear ()).axis (); };
+  return std::abs (axis (a).dot (axis (b))) > parallel;
 }
 
 bool

@@ -37,6 +37,9 @@ Symmetry givenTurn (const CopyJudge& judge, const Eigen::Vector3d& center, const
  * \return nothing if all are contradicted, or there is no evidence for any */
 std::optional<Symmetry> likeliest (const std::vector<Symmetry>& symmetries);
 
+/** \brief Whether two full turns are about parallel axes. */
+bool isAboutSameAxis (const Symmetry& a, const Symmetry& b);
+
 /** \brief Whether a symmetry is about as likely as the best one. */
 bool isAsLikely (const Symmetry& symmetry, const Symmetry& best);
 

@@ -6,6 +6,7 @@
 #include "surrounding_views.h"
 
 #include "pcl_cosection/priors/learned/completion_cube.h"
+#include "pcl_cosection/priors/shape/profiled_shape.h"
 
 #include <pcl/cosection/surface/options.h>
 
@@ -27,6 +28,26 @@ guessedFigure ()
   const Distance foot = placed (box ({0.03, 0.06, 0.015}), Eigen::Vector3d (0.0, 0.02, 0.015));
   const Distance head = placed (box ({0.012, 0.02, 0.03}), Eigen::Vector3d (0.012, -0.01, 0.055));
   return [=] (const Eigen::Vector3d& p) { return std::min (foot (p), head (p)); };
+}
+
+/** \brief A vertical cylinder with an elliptic outline. \param[in] deep half of its extent away from the sensor */
+Distance
+oval (double wide, double deep)
+{
+  return placed (
+      [=] (const Eigen::Vector3d& p) {
+        const Eigen::Vector2d q (p.x () / wide, p.y () / deep);
+        const double slope = std::max (1.0, 2.0 * Eigen::Vector2d (q.x () / wide, q.y () / deep).norm ());
+        return std::max ((q.squaredNorm () - 1.0) / slope, std::abs (p.z ()) - 0.05);
+      },
+      Eigen::Vector3d (0.0, 0.0, 0.05));
+}
+
+bool
+hasRoundProfile (const Distance& shape)
+{
+  const ProfiledShape profiled (seenFromTheFront (shape).points.at (1), table_plane);
+  return profiled && !(profiled.wallThickness () > 0.0);
 }
 
 ObjectResult
@@ -183,4 +204,27 @@ TEST (LearnedPrior, NoAnswerChangesNothing)
                                                  std::make_shared<Oracle> (nothing, guessedFigure ()));
   EXPECT_FALSE (with.learned);
   EXPECT_EQ (with.mesh.vertices, completeWithNetwork (guessedFigure (), nullptr).mesh.vertices);
+}
+
+TEST (LearnedPrior, SurfacesOfRevolutionAreMoreExact)
+{
+  const Distance can = oval (0.03, 0.03);
+  ASSERT_TRUE (hasRoundProfile (can));
+  const Distance other = [can] (const Eigen::Vector3d& p) { return can (p) - (p.y () > 0.0 ? 0.006 : 0.0); };
+  const ObjectResult with = completeWithNetwork (can, std::make_shared<Oracle> (other, can));
+  ASSERT_TRUE (with.learned);
+  EXPECT_FALSE (with.learned->used);
+  EXPECT_LT (meanError (with.mesh, can), 0.001);
+}
+
+/** \brief A round profile fits, but its copies lie where the view looked through. */
+TEST (LearnedPrior, WhatOnlySeemsRoundIsCompleted)
+{
+  const Distance shampoo = oval (0.045, 0.02);
+  ASSERT_TRUE (hasRoundProfile (shampoo));
+  const ObjectResult with = completeWithNetwork (shampoo, std::make_shared<Oracle> (shampoo, shampoo));
+  ASSERT_TRUE (with.learned);
+  EXPECT_TRUE (with.learned->used);
+  EXPECT_LT (meanError (with.mesh, shampoo), 0.003);
+  EXPECT_LT (meanError (with.mesh, shampoo), 0.7 * meanError (completeWithNetwork (shampoo, nullptr).mesh, shampoo));
 }
