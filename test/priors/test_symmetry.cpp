@@ -151,12 +151,29 @@ TEST (SymmetrySearch, AHandleDoesNotSpeakAgainstATurn)
     const Seen seen = see (pitcher, origin);
     const ProfiledShape surface (seen.points, seen.plane);
     ASSERT_TRUE (surface);
-    const Symmetry turn = fittedTurn (surface, seen.shape, seen.points, seen.plane, seen.views);
+    const Symmetry turn = fittedTurn (surface, seen.shape, seen.points, seen.plane, true, seen.views);
     const Symmetry with_handle = givenTurn (seen.judge (), surface.center (), surface.axisDirection ().value ());
     EXPECT_LT (turn.evidence.contradiction, 0.5 * with_handle.evidence.contradiction);
     EXPECT_TRUE (likeliest ({turn}));
     EXPECT_FALSE (likeliest ({with_handle}));
   }
+}
+
+/** \brief What stands on a plane is not tilted by a few degrees, whatever its normals tell; what leans is. */
+TEST (SymmetrySearch, AnAxisThatIsNearlyVerticalIsVertical)
+{
+  const auto axisOf = [] (double tilt) {
+    const Eigen::AngleAxisd turn (tilt, Eigen::Vector3d::UnitX ());
+    const Eigen::Vector3d middle (0.0, 0.0, 0.06);
+    const Seen seen = see ([=] (const Eigen::Vector3d& p) { return a_can (turn.inverse () * (p - middle) + middle); },
+                           Eigen::Vector3d::Zero ());
+    const ProfiledShape surface (seen.points, seen.plane);
+    EXPECT_TRUE (surface);
+    const Symmetry turned = fittedTurn (surface, seen.shape, seen.points, seen.plane, true, seen.views);
+    return Eigen::Vector3d (Eigen::AngleAxisd (turned.motions.front ().linear ()).axis ());
+  };
+  EXPECT_NEAR (std::abs (axisOf (0.1).z ()), 1.0, 1e-6);
+  EXPECT_NEAR (std::abs (axisOf (0.5).z ()), std::cos (0.5), 0.02);
 }
 
 /** \brief Without a plane, three mirror planes tell of the hidden corner. */

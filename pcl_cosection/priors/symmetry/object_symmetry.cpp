@@ -4,6 +4,7 @@
 #include "level_mirror.h"
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 
 namespace pcl::cosection {
@@ -31,13 +32,17 @@ ObjectSymmetry::tellsExtentAlong (const Eigen::Vector3d& direction) const
 
 Symmetry
 fittedTurn (const ProfiledShape& surface, const MeasuredShape& shape, const std::vector<OrientedPoint>& points,
-            const Eigen::Vector4d& plane, const OcclusionMap::Views& views)
+            const Eigen::Vector4d& plane, bool rests, const OcclusionMap::Views& views)
 {
   std::vector<OrientedPoint> held;
   std::copy_if (points.begin (), points.end (), std::back_inserter (held),
                 [&] (const OrientedPoint& point) { return surface.holds (point.position.cast<double> ()); });
   const CopyJudge judge (shape, held, plane, views);
-  return givenTurn (judge, surface.center (), surface.axisDirection ().value_or (Eigen::Vector3d::Zero ()));
+  Eigen::Vector3d axis = surface.axisDirection ().value_or (Eigen::Vector3d::Zero ());
+  const Eigen::Vector3d up = plane.head<3> ();
+  if (rests && std::abs (axis.dot (up)) > vertical_cosine) // what stands is vertical; its normals alone may tilt it
+    axis = up;
+  return givenTurn (judge, surface.center (), axis);
 }
 
 ObjectSymmetry
@@ -50,7 +55,7 @@ symmetryOf (const Observation& object, const Priors& priors, const Eigen::Vector
     symmetries = findSymmetries (judge, energy.grid, plane);
   std::vector<Symmetry> turns;
   for (const ProfiledShape& surface : round)
-    turns.push_back (fittedTurn (surface, shape, object.points (), plane, object.views));
+    turns.push_back (fittedTurn (surface, shape, object.points (), plane, rests, object.views));
   symmetries.insert (symmetries.end (), turns.begin (), turns.end ());
   std::optional<Symmetry> symmetry = likeliest (symmetries);
   // The axis by all normals is more exact than one by a search.

@@ -30,9 +30,10 @@ struct ObjectSymmetry
 };
 
 /** \brief The full turn about the axis of a surface that was fitted to points, judged by the points that the surface
- * holds: a handle is not copied. \param[in] plane unit normal and offset, or zeros */
+ * holds: a handle is not copied. A nearly vertical axis of what rests is made vertical.
+ * \param[in] plane unit normal and offset, or zeros \param[in] rests whether the object rests on it */
 Symmetry fittedTurn (const ProfiledShape& surface, const MeasuredShape& shape, const std::vector<OrientedPoint>& points,
-                     const Eigen::Vector4d& plane, const OcclusionMap::Views& views);
+                     const Eigen::Vector4d& plane, bool rests, const OcclusionMap::Views& views);
 
 /** \param[in] plane unit normal and offset, or zeros \param[in] rests whether the object rests on it
  * \param[in] round surfaces of revolution that were fitted to its points */
