@@ -141,8 +141,8 @@ learnedShape (const Observation& object, const ObjectSetting& setting, const Eig
 void
 leaveOutLearned (const Observation& object)
 {
-  if (object.proposed && object.proposed->learned)
-    object.proposed->learned->is_used = false;
+  if (object.proposed)
+    object.proposed->learned.reset ();
 }
 
 double

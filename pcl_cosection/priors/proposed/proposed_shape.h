@@ -55,7 +55,7 @@ bool keepIfAsGood (const SignedDistanceField& without, const Observation& object
 const LearnedShape* learnedShape (const Observation& object, const ObjectSetting& setting,
                                   const Eigen::Vector4d& plane);
 
-/** \brief Do not use what the network completes. */
+/** \brief Forget what the network completes. */
 void leaveOutLearned (const Observation& object);
 
 /** \brief Mean thickness of what consists of thin walls, metres: twice its volume by its area. 0 if it is thicker than
