@@ -334,7 +334,7 @@ addPriors (const Observation& object, const ObjectSetting& setting, const std::v
       addVessel (energy, vessel, object.points (), proposal);
   }
   const ProposedShape* proposed = usedProposal (object, setting, planes);
-  if (expected.is_round) // its profile is more exact
+  if (expected.is_round) // that is more exact than the network
     leaveOutLearned (object);
   const LearnedShape* learned = proposed || !vessels.empty () ? nullptr : usedCompletion (object, setting, planes);
   if (!proposed && !learned)
