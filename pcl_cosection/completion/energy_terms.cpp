@@ -4,6 +4,7 @@
 #include "pcl_cosection/common/lattice_cells.h"
 #include "pcl_cosection/view/outliers/point_clusters.h"
 #include "pcl_cosection/view/visibility/free_space_votes.h"
+#include "shown_bodies.h"
 
 #include <algorithm>
 #include <cmath>
@@ -236,7 +237,7 @@ gatherEvidence (const Scene& scene, CompletionMode mode, const std::vector<Scene
       const bool is_full = scene.views[v].use == ViewUse::Full;
       const DepthView& depth = scene.views[v].depth;
       std::optional<FreeSpaceView> view; // prepared on first use, and shared by all bodies that have not read it
-      const auto show = [&] (BodyState& body, std::optional<ViewAgreement>* with,
+      const auto show = [&] (BodyState& body, int id, std::optional<ViewAgreement>* with,
                              const Eigen::Isometry3d& T_body_sensor) {
         if (body.views_read > v)
           return;
@@ -244,22 +245,23 @@ gatherEvidence (const Scene& scene, CompletionMode mode, const std::vector<Scene
         if (!T_body_sensor.matrix ().allFinite ())
           return;
         if (!view)
-          view.emplace (depth);
-        body.evidence->addView (*view, T_body_sensor, is_full);
+          view.emplace (depth, bodiesShown (scene, v));
+        body.evidence->addView (*view, T_body_sensor, is_full, id);
         if (with && *with)
           (*with)->add (static_cast<int> (v), *view, T_body_sensor, scene.options.threads);
       };
       if (is_full)
       {
         for (BodyState* body : background.bodies)
-          show (*body, nullptr, depth.T_world_sensor);
+          show (*body, 0, nullptr, depth.T_world_sensor);
         if (background.blocks)
           for (auto& [place, block] : background.blocks->blocks)
-            show (block.body, nullptr, depth.T_world_sensor);
+            show (block.body, 0, nullptr, depth.T_world_sensor);
       }
       if (use_hull)
         forEachObject (objects, log, [&] (std::size_t o) {
-          show (*objects[o].body, &agreement[o], poseAt (*objects[o].input, v).inverse () * depth.T_world_sensor);
+          show (*objects[o].body, objects[o].input->id, &agreement[o],
+                poseAt (*objects[o].input, v).inverse () * depth.T_world_sensor);
         });
       log.report ("free space", 0.05 * static_cast<double> (v + 1) / static_cast<double> (scene.views.size ()));
     }

@@ -6,6 +6,7 @@
 #include "pcl_cosection/view/visibility/visibility.h"
 #include "pcl_cosection/volume/distance_transform.h"
 #include "place_bodies.h"
+#include "shown_bodies.h"
 #include <pcl/cosection/volume/iso_surface.h>
 
 #include <algorithm>
@@ -118,11 +119,11 @@ public:
       carving_.emplace (grid, options.revise_votes, options.threads);
   }
 
-  void add (const FreeSpaceView& view, const Eigen::Isometry3d& T_object_sensor)
+  void add (const FreeSpaceView& view, const Eigen::Isometry3d& T_object_sensor, int id)
   {
-    votes_.add (view, T_object_sensor);
+    votes_.add (view, T_object_sensor, id);
     if (carving_)
-      carving_->add (view, T_object_sensor);
+      carving_->add (view, T_object_sensor, id);
   }
 
   void finish (const std::vector<OrientedPoint>& points)
@@ -339,11 +340,11 @@ addHulls (const Scene& scene, const std::vector<SceneObject>& objects, std::size
   });
   for (std::size_t v = 0; v < scene.views.size (); ++v)
   {
-    const FreeSpaceView view (scene.views[v].depth);
+    const FreeSpaceView view (scene.views[v].depth, bodiesShown (scene, v));
     for (std::size_t o = 0; o < objects.size (); ++o)
       if (hulls[o])
         if (const Eigen::Isometry3d T = sensorPose (scene, objects[o], v); T.matrix ().allFinite ())
-          hulls[o]->add (view, T);
+          hulls[o]->add (view, T, objects[o].input->id);
   }
   forEachObject (objects, log, [&] (std::size_t o) {
     ObjectHull hull = *std::exchange (hulls[o], std::nullopt);

@@ -10,6 +10,27 @@ namespace {
 
 constexpr std::ptrdiff_t least_ground = 20; // background points seen in the cavity, which make a vessel a tube
 
+/** \brief Whether the way from a place on the ground to a sensor leads through the opening of a vessel, not through
+ * its wall. \param[in] p object frame \param[in] over_m height over the ground at which a cavity begins, above a floor
+ */
+bool
+leadsThroughOpening (const ProfiledShape& shape, const Eigen::Vector3d& p, const Eigen::Vector3d& sensor,
+                     const Eigen::Vector3d& up, double over_m, double step_m)
+{
+  const Eigen::Vector3d way = (sensor - p).normalized ();
+  if (!(way.dot (up) > 0.0))
+    return false;
+  Eigen::Vector3d at = p + over_m / way.dot (up) * way;
+  if (!(shape.depthInCavity (at) > 0.0))
+    return false;
+  while (shape.depthInCavity (at) > 0.0)
+    at += step_m * way;
+  // Beside a place above the opening there is no cavity either.
+  const Eigen::Vector3d axis = shape.axisDirection ().value_or (up);
+  const Eigen::Vector3d on_axis = shape.center () + axis.dot (at - shape.center ()) * axis;
+  return !(shape.depthInCavity (on_axis) > 0.0);
+}
+
 /** \brief The shape with a profile that the points show; without floor if background was seen where a vessel would have
  * its floor.
  */
@@ -28,10 +49,17 @@ fitShape (const Observation& object, const ObjectSetting& setting, const std::op
   const auto is_at_floor = [&] (const Eigen::Vector3d& p, double reach_m) {
     return std::abs (heightOver (*plane, p)) < reach_m && shape.depthInCavity (p + floor_m * up) > near_m;
   };
-  const auto ground = std::count_if (setting.background.begin (), setting.background.end (),
-                                     [&] (const OrientedPoint& p) {
-                                       return is_at_floor (setting.T_object_world * p.position.cast<double> (), near_m);
-                                     });
+  // Profiles are not exact: what a view saw beside the vessel's foot says nothing of its floor.
+  const auto is_seen_inside = [&] (const Eigen::Vector3d& p) {
+    return object.views.empty () || std::any_of (object.views.begin (), object.views.end (), [&] (const auto& view) {
+             return leadsThroughOpening (shape, p, view.second.translation (), up, floor_m, near_m);
+           });
+  };
+  const auto ground = std::count_if (
+      setting.background.begin (), setting.background.end (), [&] (const OrientedPoint& point) {
+        const Eigen::Vector3d p = setting.T_object_world * point.position.cast<double> ();
+        return is_at_floor (p, near_m) && is_seen_inside (p);
+      });
   const auto floor = std::count_if (object.points ().begin (), object.points ().end (), [&] (const OrientedPoint& p) {
     return is_at_floor (p.position.cast<double> (), floor_m);
   });

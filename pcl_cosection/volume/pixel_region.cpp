@@ -1,6 +1,7 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "pixel_region.h"
 
+#include <algorithm>
 #include <limits>
 
 namespace pcl::cosection {
@@ -9,6 +10,13 @@ PixelRegion
 wholeImage (const PinholeCamera& camera)
 {
   return {0, 0, camera.width, camera.height};
+}
+
+PixelRegion
+grown (const PixelRegion& region, int radius, const PinholeCamera& camera)
+{
+  return {std::max (0, region.left - radius), std::max (0, region.top - radius),
+          std::min (camera.width, region.right + radius), std::min (camera.height, region.bottom + radius)};
 }
 
 PixelRegion

@@ -20,6 +20,9 @@ struct PixelRegion
 /** \brief The whole image. */
 PixelRegion wholeImage (const PinholeCamera& camera);
 
+/** \brief A region and the pixels of the image around it, up to \a radius. */
+PixelRegion grown (const PixelRegion& region, int radius, const PinholeCamera& camera);
+
 /** \brief The pixels onto which a camera projects a grid; the whole image if the grid reaches behind the camera. */
 PixelRegion projectedRegion (const VoxelGrid& grid, const PinholeCamera& camera,
                              const Eigen::Isometry3d& T_grid_sensor);

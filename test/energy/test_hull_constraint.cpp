@@ -303,6 +303,35 @@ TEST (HullVotes, DoNotOverflow)
   EXPECT_EQ (hull.freeSpace (true)[at_front.index (1, 1, 1)], 1);
 }
 
+/** \brief The surface of another body bounds what is free without a margin, and does not speak for this body. */
+TEST (HullVotes, ReachTheSurfaceOfAnotherBody)
+{
+  constexpr double voxel_size_m = 0.005;
+  const DepthView wall = rendered (wallOnly ());
+  const std::vector<int> bodies (wall.depth.size (), 7);
+  const auto isFree = [&] (double before_wall_m, int body, bool seen_through) {
+    const VoxelGrid grid = gridAbout ({0.0, 0.0, wall_m - before_wall_m}, 3, voxel_size_m);
+    HullConstraint hull (grid, 1);
+    hull.add (FreeSpaceView (wall, bodies), Eigen::Isometry3d::Identity (), body);
+    if (seen_through)
+    {
+      AnalyticScene farther;
+      farther.add (0, halfSpace ({0.0, 0.0, -1.0, 2.0 * wall_m}));
+      hull.add (FreeSpaceView (rendered (farther)), Eigen::Isometry3d::Identity (), body);
+    }
+    return hull.freeSpace (true)[grid.index (1, 1, 1)] != 0;
+  };
+  for (const double before_m : {0.001, 0.5 * voxel_size_m, 2.0 * voxel_size_m})
+  {
+    EXPECT_TRUE (isFree (before_m, 3, false)) << before_m;
+    EXPECT_FALSE (isFree (before_m, 7, false)) << before_m;
+    EXPECT_FALSE (isFree (before_m, FreeSpaceView::unknown_body, false)) << before_m;
+  }
+  EXPECT_FALSE (isFree (-0.001, 3, false));
+  EXPECT_TRUE (isFree (-0.001, 3, true));
+  EXPECT_FALSE (isFree (-0.001, 7, true)) << "a tie frees nothing";
+}
+
 /** \brief Poses and grids turn together. */
 TEST (HullVotes, FollowThePose)
 {

@@ -7,9 +7,12 @@
 #include "observed_box.h"
 #include "round_things.h"
 
-#include "pcl_cosection/priors/shape/profiled_shape.h"
+#include "pcl_cosection/priors/fitted_profiles.h"
 
 #include <gtest/gtest.h>
+
+#include <algorithm>
+#include <memory>
 
 using namespace pcl::cosection;
 using namespace pcl::cosection::test;
@@ -156,4 +159,30 @@ TEST (Vessel, ThinWallsComeOutAsThickAsTheyAre)
   EXPECT_GT (in_little_memory.signed_distance->grid.voxel_size_m, vessel.signed_distance->grid.voxel_size_m);
   options.voxel_size_m = 0.005;
   EXPECT_EQ (completeFrom (scene, {0}, options).signed_distance->grid.voxel_size_m, 0.005);
+}
+
+/** \brief Profiles are not exact: ground that was seen beside a vessel may lie within its profile. Only what was seen
+ * through the opening shows that there is no floor. */
+TEST (Vessel, GroundThatWasSeenBesideItOpensNoFloor)
+{
+  const std::vector<OrientedPoint> points = observedCup (0.05);
+  std::vector<OrientedPoint> seen_ground; // a ring within the wall's inner side
+  for (double angle = 0.0; angle < 2.0 * M_PI; angle += 0.1)
+    seen_ground.push_back (pointAt ({0.03 * std::cos (angle), 0.03 * std::sin (angle), 0.0}, {0.0, 0.0, 1.0}));
+  const auto hasFloor = [&] (const Eigen::Vector3d& sensor) {
+    DepthView view;
+    Observation object;
+    object.all_points = &points;
+    object.voxel_size_m = 0.002;
+    object.views = {{&view, lookAt (sensor, {0.0, 0.0, 0.04})}};
+    object.fits = std::make_shared<ShapeFits> ();
+    const OcclusionMap hidden;
+    const ObjectSetting setting{false, seen_ground, Eigen::Isometry3d::Identity (), hidden};
+    const std::vector<OrientedPoint> all = shapeOf (object, setting, ground).hiddenSide (points, 0.001);
+    return std::any_of (all.begin (), all.end (), [] (const OrientedPoint& p) {
+      return p.normal.z () > 0.95f && p.position.head<2> ().norm () < 0.02f && p.position.z () < 0.01f;
+    });
+  };
+  EXPECT_TRUE (hasFloor ({0.0, -0.6, 0.4}));
+  EXPECT_FALSE (hasFloor ({0.0, -0.05, 0.8}));
 }

@@ -16,10 +16,10 @@ namespace {
 
 constexpr int max_footprint = 12; // pixels
 constexpr int window = 4;         // pixels around a projection in which the boundary is looked for
-constexpr double inset_px = 1.0;  // the cut lies so far inside the silhouette, as pixels at a depth edge say nothing
+constexpr double inset_px = 0.5;  // the cut lies so far inside the silhouette, which is known to half a pixel
 constexpr float far_vox = 3.0f;   // distances are clamped to this
 // A cut by one view of several is made so much farther out than one that four views support.
-constexpr float single_view_offset_vox = 0.6f;
+constexpr float single_view_offset_vox = 0.3f;
 
 void
 vote (std::uint8_t& votes)
@@ -39,7 +39,7 @@ HullConstraint::HullConstraint (const VoxelGrid& grid, const VoxelGrid& whole, i
 {}
 
 void
-HullConstraint::add (const FreeSpaceView& view, const Eigen::Isometry3d& T_grid_sensor)
+HullConstraint::add (const FreeSpaceView& view, const Eigen::Isometry3d& T_grid_sensor, int body)
 {
   const PinholeCamera& camera = view.view ().camera;
   const Eigen::Isometry3d T_sensor_grid = T_grid_sensor.inverse ();
@@ -60,17 +60,21 @@ HullConstraint::add (const FreeSpaceView& view, const Eigen::Isometry3d& T_grid_
   const int radius = nearest > half_diagonal
                          ? std::min (max_footprint, static_cast<int> (std::ceil (half_diagonal * focal / nearest)))
                          : max_footprint;
-  const std::vector<float> nearest_depth = view.nearestDepth (radius, region);
+  const std::vector<float> free_depth = filterDepth (view.freeDepth (view.view ().depth, body, grid_.voxel_size_m,
+                                                                     std::numeric_limits<float>::infinity (),
+                                                                     grown (region, radius, camera)),
+                                                     camera, radius, false, region);
 
   forEachProjectedVoxel (grid_, camera, T_grid_sensor, threads_, [&] (const ProjectedVoxel& voxel) {
     const float depth = view.view ().depth[voxel.pixel];
     const double margin = freeSpaceMargin (view.view (), depth, grid_.voxel_size_m);
     const PointVisibility visibility = compareWithReading (voxel.z, depth, margin);
-    if (visibility == PointVisibility::AtSurface)
-      vote (votes_against_[voxel.index]);
-    else if (visibility == PointVisibility::Free && !view.atEdge (voxel.column, voxel.row) &&
-             nearest_depth[voxel.pixel] - voxel.z > margin)
+    if (visibility == PointVisibility::NoReading || visibility == PointVisibility::Occluded)
+      return;
+    if (!view.atEdge (voxel.column, voxel.row) && free_depth[voxel.pixel] > voxel.z)
       vote (votes_for_[voxel.index]);
+    else if (visibility == PointVisibility::AtSurface && !view.showsOther (voxel.pixel, body))
+      vote (votes_against_[voxel.index]);
   });
 }
 
@@ -116,18 +120,19 @@ FreeSpaceCarving::FreeSpaceCarving (const VoxelGrid& grid, bool revise, int thre
 {}
 
 void
-FreeSpaceCarving::add (const FreeSpaceView& view, const Eigen::Isometry3d& T_grid_sensor)
+FreeSpaceCarving::add (const FreeSpaceView& view, const Eigen::Isometry3d& T_grid_sensor, int body)
 {
   ++views_;
   const PinholeCamera& camera = view.view ().camera;
-  const std::vector<float>& opened = view.openedDepth ();
   const PixelRegion region = projectedRegion (grid_, camera, T_grid_sensor);
+  const std::vector<float> opened = view.freeDepth (view.openedDepth (), body, grid_.voxel_size_m, 0.0f,
+                                                    grown (region, window, camera));
   const std::vector<float> lowest = filterDepth (opened, camera, window, false, region);
   const std::vector<float> highest = filterDepth (opened, camera, window, true, region);
   const double focal = 0.5 * (camera.fx + camera.fy);
 
   forEachProjectedVoxel (grid_, camera, T_grid_sensor, threads_, [&] (const ProjectedVoxel& voxel) {
-    const float reach = static_cast<float> (voxel.z + freeSpaceMargin (view.view (), voxel.z, grid_.voxel_size_m));
+    const auto reach = static_cast<float> (voxel.z);
     if (highest[voxel.pixel] <= reach)
       return; // nothing free near
     const double voxels_per_pixel = voxel.z / focal / grid_.voxel_size_m;
@@ -158,7 +163,8 @@ FreeSpaceCarving::add (const FreeSpaceView& view, const Eigen::Isometry3d& T_gri
     else
       inside_vox_[n] = std::max (inside_vox_[n], signed_vox);
     const float depth = view.view ().depth[voxel.pixel];
-    if (!free_here && std::abs (depth - voxel.z) <= reach - voxel.z)
+    if (!free_here && !view.showsOther (voxel.pixel, body) &&
+        std::abs (depth - voxel.z) <= freeSpaceMargin (view.view (), voxel.z, grid_.voxel_size_m))
       vote (votes_against_[n]);
   });
 }

@@ -27,8 +27,9 @@ public:
   /** \param[in] whole the volume of which \a grid is a part: voxels get the votes that they get there */
   HullConstraint (const VoxelGrid& grid, const VoxelGrid& whole, int threads);
 
-  /** \brief Add the votes of one view. \param[in] T_grid_sensor pose of the sensor in the grid's frame */
-  void add (const FreeSpaceView& view, const Eigen::Isometry3d& T_grid_sensor);
+  /** \brief Add the votes of one view. \param[in] T_grid_sensor pose of the sensor in the grid's frame
+   * \param[in] body whose volume it is, as the view numbers them */
+  void add (const FreeSpaceView& view, const Eigen::Isometry3d& T_grid_sensor, int body = FreeSpaceView::unknown_body);
 
   /** \brief 1 where free.
    * \param[in] revise free means more votes for than against; else one vote suffices for ever (paper) */
@@ -62,7 +63,8 @@ public:
   /** \param[in] revise false: one view that sees a voxel free suffices */
   FreeSpaceCarving (const VoxelGrid& grid, bool revise, int threads = 0);
 
-  void add (const FreeSpaceView& view, const Eigen::Isometry3d& T_grid_sensor);
+  /** \param[in] body see HullConstraint::add () */
+  void add (const FreeSpaceView& view, const Eigen::Isometry3d& T_grid_sensor, int body = FreeSpaceView::unknown_body);
 
   /** \brief Distances in voxels within [-3, 3], positive in free space: near the boundary, lower bounds of a
    * field that keeps out of it.

@@ -37,12 +37,12 @@ ShapeEvidence::clearPoints ()
 }
 
 void
-ShapeEvidence::addView (const FreeSpaceView& view, const Eigen::Isometry3d& T_grid_sensor, bool silhouettes)
+ShapeEvidence::addView (const FreeSpaceView& view, const Eigen::Isometry3d& T_grid_sensor, bool silhouettes, int body)
 {
-  hull_.add (view, T_grid_sensor);
+  hull_.add (view, T_grid_sensor, body);
   if (!carving_ || !silhouettes)
     return;
-  carving_->add (view, T_grid_sensor);
+  carving_->add (view, T_grid_sensor, body);
   seen_ = true;
 }
 

@@ -37,8 +37,9 @@ public:
   /** \brief As clearPoints (), and free their memory until points are added. */
   void forgetPoints () { data_ = {}; }
 
-  /** \param[in] silhouettes false: only votes on voxels, without carving, in a third of the time */
-  void addView (const FreeSpaceView& view, const Eigen::Isometry3d& T_grid_sensor, bool silhouettes);
+  /** \param[in] silhouettes false: only votes on voxels, without carving, in a third of the time
+   * \param[in] body whose measurements they are, as the view numbers them */
+  void addView (const FreeSpaceView& view, const Eigen::Isometry3d& T_grid_sensor, bool silhouettes, int body);
 
   bool carves () const { return carving_.has_value (); }
 

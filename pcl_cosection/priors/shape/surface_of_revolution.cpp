@@ -147,14 +147,21 @@ findBall (const std::vector<NormalLine>& lines)
   return ball;
 }
 
-/** \brief An axis of a ball about which a half turn takes its seen side to the hidden one. */
+/** \brief An axis of a ball about which a half turn takes its seen side to the hidden one, as vertical as can be: so it
+ * turns with the scene. */
 Axis
-axisOf (const Ball& ball, const std::vector<NormalLine>& lines)
+axisOf (const Ball& ball, const std::vector<NormalLine>& lines, const std::optional<Eigen::Vector4d>& plane)
 {
   Eigen::Vector3d seen = Eigen::Vector3d::Zero ();
   for (const NormalLine& line : lines)
     seen += line.normal;
-  return {seen.norm () > 0.0 ? Eigen::Vector3d (seen.unitOrthogonal ()) : Eigen::Vector3d::UnitX (), ball.center};
+  if (!(seen.norm () > 0.0))
+    return {Eigen::Vector3d::UnitX (), ball.center};
+  const Eigen::Vector3d up = plane ? Eigen::Vector3d (plane->head<3> ()) : Eigen::Vector3d::Zero ();
+  const Eigen::Vector3d across = up - up.dot (seen) / seen.squaredNorm () * seen;
+  return {across.norm () > Eigen::NumTraits<double>::dummy_precision () ? Eigen::Vector3d (across.normalized ())
+                                                                        : Eigen::Vector3d (seen.unitOrthogonal ()),
+          ball.center};
 }
 
 /** \brief A surface of revolution: a bottle, a can, a bowl, a ball, a mug without its handle. */
@@ -177,7 +184,8 @@ public:
       const Eigen::Vector3d center = normals.origin + normals.size * ball->center;
       if (!plane || plane->head<3> ().dot (center) + (*plane)[3] > (1.0 - sunk) * radius)
       {
-        const Ptr surface = about (axisOf (*ball, normals.lines), normals, points, plane, seen_sectors, Hollow::None);
+        const Ptr surface = about (axisOf (*ball, normals.lines, plane), normals, points, plane, seen_sectors,
+                                   Hollow::None);
         if (surface)
           surface->is_ball_ = true;
         return surface;

@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 namespace pcl::cosection {
@@ -73,7 +72,10 @@ filterDepth (const std::vector<float>& image, const PinholeCamera& camera, int r
                  : filterWindows (image, camera, radius, region, [] (float a, float b) { return b < a ? b : a; });
 }
 
-FreeSpaceView::FreeSpaceView (DepthView view) : view_ (std::move (view)), edge_ (view_.depth.size (), 0)
+FreeSpaceView::FreeSpaceView (DepthView view, std::vector<int> bodies)
+    : view_ (std::move (view))
+    , bodies_ (std::move (bodies))
+    , edge_ (view_.depth.size (), 0)
 {
   const int width = view_.camera.width;
   const int height = view_.camera.height;
@@ -107,20 +109,19 @@ FreeSpaceView::FreeSpaceView (DepthView view) : view_ (std::move (view)), edge_ 
 }
 
 std::vector<float>
-FreeSpaceView::nearestDepth (int radius, const PixelRegion& region) const
+FreeSpaceView::freeDepth (const std::vector<float>& depth, int body, double voxel_size_m, float no_reading,
+                          const PixelRegion& region) const
 {
-  std::vector<float> depth (view_.depth.size ());
-  const int left = std::max (0, region.left - radius);
-  const int right = std::min (view_.camera.width, region.right + radius);
-  for (int v = std::max (0, region.top - radius); v < std::min (view_.camera.height, region.bottom + radius); ++v)
-    for (int u = left; u < right; ++u)
+  std::vector<float> free (depth.size (), no_reading);
+  for (int v = region.top; v < region.bottom; ++v)
+    for (int u = region.left; u < region.right; ++u)
     {
-      const float z = view_.at (u, v);
-      depth[static_cast<std::size_t> (v) * view_.camera.width + u] = isReading (z)
-                                                                         ? z
-                                                                         : std::numeric_limits<float>::infinity ();
+      const std::size_t pixel = static_cast<std::size_t> (v) * view_.camera.width + u;
+      const float z = depth[pixel];
+      if (isReading (z))
+        free[pixel] = showsOther (pixel, body) ? z : static_cast<float> (z - freeSpaceMargin (view_, z, voxel_size_m));
     }
-  return filterDepth (depth, view_.camera, radius, false, region);
+  return free;
 }
 
 } // namespace pcl::cosection

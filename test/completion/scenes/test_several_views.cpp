@@ -6,6 +6,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <limits>
 
@@ -81,6 +83,34 @@ TEST_P (SeveralViews, ShrinkTheHull)
   }
   double truth = volume (extractIsoSurface (sampleField (scene_.shape (1), 0.15, 0.003)));
   EXPECT_GT (hull_before, 0.95 * truth); // nothing of the body was cut off
+}
+
+/** \brief Near a table views cannot look through the space beside a thing by more than the margin of free space. That
+ * they see the table there says as much. */
+TEST (SeveralViewsOfATable, WhatLiesThereDoesNotSpread)
+{
+  AnalyticScene scene;
+  scene.add (0, halfSpace ({0.0, 0.0, 1.0, 0.0}));
+  const Distance rod = placed (box ({0.06, 0.006, 0.003}), Eigen::Vector3d (0.0, 0.0, 0.013)); // like a spoon's handle
+  scene.add (1, rod);
+  const ObjectResult object = completeFrom (scene, {0, 1, 2}, optionsFor (voxel_m));
+  ASSERT_EQ (object.error, "");
+  double beside_m = 0.0;
+  for (const Eigen::Vector3f& vertex : object.mesh.vertices)
+    beside_m = std::max (beside_m, std::abs (vertex.y ()) - 0.006);
+  std::printf ("widest %.1f mm beside the rod\n", 1e3 * beside_m);
+  EXPECT_LT (beside_m, voxel_m);
+}
+
+TEST (SeveralViewsOfATable, SilhouettesDoNotBreakThroughAThinWall)
+{
+  constexpr double wall_m = 0.004;
+  AnalyticScene scene;
+  scene.add (0, halfSpace ({0.0, 0.0, 1.0, 0.0}));
+  scene.add (1, cup (0.04, 0.08, wall_m));
+  const ObjectResult object = completeFrom (scene, {0, 1, 2}, optionsFor (0.0));
+  ASSERT_EQ (object.error, "");
+  EXPECT_EQ (computeTopology (object.mesh).euler, 2);
 }
 
 INSTANTIATE_TEST_SUITE_P (Shapes, SeveralViews, testing::Values (Shape::Sphere, Shape::Box, Shape::Torus, Shape::Cup),
