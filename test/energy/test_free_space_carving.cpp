@@ -98,7 +98,7 @@ TEST (FreeSpaceCarving, TwoViewsCutAlongTheirSilhouettes)
   // The rays that touch the ball pass its middle plane a little outside.
   const double touching_vox = radius_m / std::sqrt (1.0 - std::pow (radius_m / distance_m, 2)) / voxel_size_m;
   const double pixel_vox = distance_m / camera.fx / voxel_size_m;
-  EXPECT_NEAR (farthest_kept_vox, touching_vox - 0.5 * pixel_vox, 1.0);
+  EXPECT_NEAR (farthest_kept_vox, touching_vox - pixel_vox, 1.0);
 }
 
 TEST (FreeSpaceCarving, ManyNoisyViewsCutAsExactOnes)

@@ -129,7 +129,7 @@ FreeSpaceCarving::add (const FreeSpaceView& view, const Eigen::Isometry3d& T_gri
   const std::vector<float> highest = filterDepth (opened, camera, window, true, region);
   const double focal = 0.5 * (camera.fx + camera.fy);
   const Eigen::Vector3d middle = grid_.center (grid_.dims.x () / 2, grid_.dims.y () / 2, grid_.dims.z () / 2);
-  pixel_vox_ = std::max (pixel_vox_, (middle - T_grid_sensor.translation ()).norm () / focal / grid_.voxel_size_m);
+  pixel_vox_ = std::min (pixel_vox_, (middle - T_grid_sensor.translation ()).norm () / focal / grid_.voxel_size_m);
 
   forEachProjectedVoxel (grid_, camera, T_grid_sensor, threads_, [&] (const ProjectedVoxel& voxel) {
     const auto reach = static_cast<float> (voxel.z);

@@ -8,6 +8,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -98,7 +99,8 @@ private:
   };
 
   VoxelGrid grid_;
-  double pixel_vox_ = 0.0; // largest size of a pixel of the views at the grid's middle
+  // Smallest size of a pixel of the views at the grid's middle: no bound decreases when a view is added.
+  double pixel_vox_ = std::numeric_limits<double>::infinity ();
   bool revise_;
   int threads_;
   std::vector<Supported> bound_vox_; // distance to what a view sees free
