@@ -131,7 +131,7 @@ public:
     const int threads = options_.threads;
     free_space_ = votes_.freeSpace (options_.revise_votes);
     // Signed distance to the space that was seen free, positive in it, clamped; voxels.
-    std::vector<float> value = carving_ ? carving_->lowerBounds () : std::vector<float> (grid_.size (), -0.5f);
+    std::vector<float> value = carving_ ? carving_->lowerBounds (true) : std::vector<float> (grid_.size (), -0.5f);
 
     std::vector<std::uint8_t> data (grid_.size (), 0);
     for (const OrientedPoint& point : points)

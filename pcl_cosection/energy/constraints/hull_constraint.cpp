@@ -18,7 +18,8 @@ constexpr int max_footprint = 12; // pixels
 constexpr int window = 4;         // pixels around a projection in which the boundary is looked for
 constexpr double inset_px = 1.0;  // the cut lies so far inside the silhouette, as pixels at a depth edge say nothing
 constexpr float far_vox = 3.0f;   // distances are clamped to this
-constexpr double single_view_offset_px = 0.5; // a cut by one view is so much farther out than one that four support
+// A cut by one view of several is made so much farther out than one that four views support.
+constexpr double single_view_offset_px = 0.5;
 
 void
 vote (std::uint8_t& votes)
@@ -122,6 +123,7 @@ void
 FreeSpaceCarving::add (const FreeSpaceView& view, const Eigen::Isometry3d& T_grid_sensor, int body)
 {
   const PinholeCamera& camera = view.view ().camera;
+  ++views_;
   const PixelRegion region = projectedRegion (grid_, camera, T_grid_sensor);
   const std::vector<float> opened = view.freeDepth (view.openedDepth (), body, grid_.voxel_size_m, 0.0f,
                                                     grown (region, window, camera));
@@ -170,9 +172,9 @@ FreeSpaceCarving::add (const FreeSpaceView& view, const Eigen::Isometry3d& T_gri
 }
 
 std::vector<float>
-FreeSpaceCarving::lowerBounds () const
+FreeSpaceCarving::lowerBounds (bool offset_any) const
 {
-  const auto offset_vox = static_cast<float> (single_view_offset_px * pixel_vox_);
+  const auto offset_vox = offset_any || views_ > 1 ? static_cast<float> (single_view_offset_px * pixel_vox_) : 0.0f;
   std::vector<float> bounds (bound_vox_.size ());
   for (std::size_t n = 0; n < bounds.size (); ++n)
   {

@@ -68,8 +68,10 @@ public:
   void add (const FreeSpaceView& view, const Eigen::Isometry3d& T_grid_sensor, int body = FreeSpaceView::unknown_body);
 
   /** \brief Distances in voxels within [-3, 3], positive in free space: near the boundary, lower bounds of a
-   * field that keeps out of it */
-  std::vector<float> lowerBounds () const;
+   * field that keeps out of it.
+   * \param[in] offset_any apply the offset of weakly supported cuts also if there is one view only, so that no bound
+   * decreases when a view is added */
+  std::vector<float> lowerBounds (bool offset_any = false) const;
 
 private:
   static constexpr float nothing = -1e6f;
@@ -101,6 +103,7 @@ private:
   VoxelGrid grid_;
   // Smallest size of a pixel of the views at the grid's middle: no bound decreases when a view is added.
   double pixel_vox_ = std::numeric_limits<double>::infinity ();
+  int views_ = 0;
   bool revise_;
   int threads_;
   std::vector<Supported> bound_vox_; // distance to what a view sees free
