@@ -19,7 +19,7 @@ constexpr int window = 4;         // pixels around a projection in which the bou
 constexpr double inset_px = 1.0;  // the cut lies so far inside the silhouette, as pixels at a depth edge say nothing
 constexpr float far_vox = 3.0f;   // distances are clamped to this
 // A cut by one view of several is made so much farther out than one that four views support.
-constexpr double single_view_offset_px = 0.5;
+constexpr float single_view_offset_vox = 0.6f;
 
 void
 vote (std::uint8_t& votes)
@@ -130,8 +130,6 @@ FreeSpaceCarving::add (const FreeSpaceView& view, const Eigen::Isometry3d& T_gri
   const std::vector<float> lowest = filterDepth (opened, camera, window, false, region);
   const std::vector<float> highest = filterDepth (opened, camera, window, true, region);
   const double focal = 0.5 * (camera.fx + camera.fy);
-  const Eigen::Vector3d middle = grid_.center (grid_.dims.x () / 2, grid_.dims.y () / 2, grid_.dims.z () / 2);
-  pixel_vox_ = std::min (pixel_vox_, (middle - T_grid_sensor.translation ()).norm () / focal / grid_.voxel_size_m);
 
   forEachProjectedVoxel (grid_, camera, T_grid_sensor, threads_, [&] (const ProjectedVoxel& voxel) {
     const auto reach = static_cast<float> (voxel.z);
@@ -174,7 +172,7 @@ FreeSpaceCarving::add (const FreeSpaceView& view, const Eigen::Isometry3d& T_gri
 std::vector<float>
 FreeSpaceCarving::lowerBounds (bool offset_any) const
 {
-  const auto offset_vox = offset_any || views_ > 1 ? static_cast<float> (single_view_offset_px * pixel_vox_) : 0.0f;
+  const float offset_vox = offset_any || views_ > 1 ? single_view_offset_vox : 0.0f;
   std::vector<float> bounds (bound_vox_.size ());
   for (std::size_t n = 0; n < bounds.size (); ++n)
   {

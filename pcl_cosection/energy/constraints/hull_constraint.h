@@ -8,7 +8,6 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <utility>
 #include <vector>
 
@@ -101,8 +100,6 @@ private:
   };
 
   VoxelGrid grid_;
-  // Smallest size of a pixel of the views at the grid's middle: no bound decreases when a view is added.
-  double pixel_vox_ = std::numeric_limits<double>::infinity ();
   int views_ = 0;
   bool revise_;
   int threads_;
