@@ -139,14 +139,6 @@ addVessel (BodyEnergy& energy, const ProfiledShape& shape, const std::vector<Ori
         const double from_outside = outside.distance[n];
         const double from_inner = inner.distance[n];
         const double from_rim = rim.distance[n];
-        // Silhouettes, which are known to half a pixel, must not break through a wall that was seen: its middle stays.
-        const double from_middle = 0.5 * std::abs (from_outside - from_inner);
-        const bool is_seen = std::isfinite (from_outside) && std::isfinite (from_inner) && !outside.expected[n] &&
-                             !inner.expected[n];
-        if (!energy.carved.empty () && is_seen)
-          energy.carved[n] = std::min (energy.carved[n],
-                                       std::max ({static_cast<float> (from_middle - 0.5 * least_wall_vox),
-                                                  static_cast<float> (from_rim), beyond_vox}));
         // Missing thickness; 0 unless both sides are known.
         const double lacking = std::max (0.0, wall_vox + from_outside + from_inner);
         const double from_sides = std::max (from_outside, from_inner) - 0.5 * lacking;

@@ -116,17 +116,5 @@ TEST (ViewsOfATable, KeepAThinThingFromSpreadingOnIt)
   }
 }
 
-TEST (ViewsOfATable, SilhouettesHardlyBreakThroughAThinWall)
-{
-  constexpr double wall_m = 0.004;
-  AnalyticScene scene;
-  scene.add (0, halfSpace ({0.0, 0.0, 1.0, 0.0}));
-  scene.add (1, cup (0.04, 0.08, wall_m));
-  const ObjectResult object = completeFrom (scene, {0, 1, 2}, optionsFor (0.0));
-  ASSERT_EQ (object.error, "");
-  // Two less for each hole. What is only expected, below what was seen, may still have some.
-  EXPECT_GE (computeTopology (object.mesh).euler, -10);
-}
-
 INSTANTIATE_TEST_SUITE_P (Shapes, SeveralViews, testing::Values (Shape::Sphere, Shape::Box, Shape::Torus, Shape::Cup),
                           [] (const auto& info) { return nameOf (info.param); });
