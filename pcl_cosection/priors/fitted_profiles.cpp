@@ -1,6 +1,8 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "fitted_profiles.h"
 
+#include "pcl_cosection/view/visibility/free_space_votes.h"
+#include "pcl_cosection/view/visibility/visibility.h"
 #include "resting_planes.h"
 
 #include <algorithm>
@@ -51,8 +53,13 @@ fitShape (const Observation& object, const ObjectSetting& setting, const std::op
   };
   // Profiles are not exact: what a view saw beside the vessel's foot says nothing of its floor.
   const auto is_seen_inside = [&] (const Eigen::Vector3d& p) {
-    return object.views.empty () || std::any_of (object.views.begin (), object.views.end (), [&] (const auto& view) {
-             return leadsThroughOpening (shape, p, view.second.translation (), up, floor_m, near_m);
+    return object.views.empty () || object.virtual_view ||
+           std::any_of (object.views.begin (), object.views.end (), [&] (const auto& of_object) {
+             const auto& [view, T_object_sensor] = of_object;
+             const Eigen::Vector3d in_sensor = T_object_sensor.inverse () * p;
+             return visibilityOf (in_sensor, *view, pointMargin (*view, in_sensor.z ())) ==
+                        PointVisibility::AtSurface &&
+                    leadsThroughOpening (shape, p, T_object_sensor.translation (), up, floor_m, near_m);
            });
   };
   const auto ground = std::count_if (

@@ -169,12 +169,20 @@ TEST (Vessel, GroundThatWasSeenBesideItOpensNoFloor)
   std::vector<OrientedPoint> seen_ground; // a ring within the wall's inner side
   for (double angle = 0.0; angle < 2.0 * M_PI; angle += 0.1)
     seen_ground.push_back (pointAt ({0.03 * std::cos (angle), 0.03 * std::sin (angle), 0.0}, {0.0, 0.0, 1.0}));
-  const auto hasFloor = [&] (const Eigen::Vector3d& sensor) {
-    DepthView view;
+  AnalyticScene table;
+  table.add (0, halfSpace (ground));
+  const auto viewFrom = [&] (const Eigen::Vector3d& sensor, bool hides_it) {
+    AnalyticScene scene = table;
+    if (hides_it)
+      scene.add (1, placed (box ({0.05, 0.05, 0.02}), Eigen::Vector3d (0.0, 0.0, 0.02)));
+    return scene.render (smallCamera (), lookAt (sensor, {0.0, 0.0, 0.04})).view;
+  };
+  const auto hasFloor = [&] (const std::vector<DepthView>& views) {
     Observation object;
     object.all_points = &points;
     object.voxel_size_m = 0.002;
-    object.views = {{&view, lookAt (sensor, {0.0, 0.0, 0.04})}};
+    for (const DepthView& view : views)
+      object.views.emplace_back (&view, view.T_world_sensor);
     object.fits = std::make_shared<ShapeFits> ();
     const OcclusionMap hidden;
     const ObjectSetting setting{false, seen_ground, Eigen::Isometry3d::Identity (), hidden};
@@ -183,6 +191,8 @@ TEST (Vessel, GroundThatWasSeenBesideItOpensNoFloor)
       return p.normal.z () > 0.95f && p.position.head<2> ().norm () < 0.02f && p.position.z () < 0.01f;
     });
   };
-  EXPECT_TRUE (hasFloor ({0.0, -0.6, 0.4}));
-  EXPECT_FALSE (hasFloor ({0.0, -0.05, 0.8}));
+  const Eigen::Vector3d beside (0.0, -0.6, 0.4), above (0.0, -0.05, 0.8);
+  EXPECT_TRUE (hasFloor ({viewFrom (beside, false)}));
+  EXPECT_FALSE (hasFloor ({viewFrom (above, false)}));
+  EXPECT_TRUE (hasFloor ({viewFrom (beside, false), viewFrom (above, true)})) << "from above it was hidden";
 }
