@@ -14,7 +14,7 @@
 namespace pcl::cosection {
 namespace {
 
-constexpr std::size_t least_samples = 20, most_samples = 600;
+constexpr std::size_t least_samples = 20, most_samples = 1500;
 constexpr double first_cell_vox = 2.0;  // a sample per cell; cells grow until there are few enough samples
 constexpr double surface_vox = 1.5;     // distance of a copy that is on the surface
 constexpr double surely_free_vox = 3.0; // distance from which a copy begins to be in free space ...
