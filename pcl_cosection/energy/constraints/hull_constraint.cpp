@@ -16,11 +16,10 @@ namespace {
 
 constexpr int max_footprint = 12; // pixels
 constexpr int window = 4;         // pixels around a projection in which the boundary is looked for
-// The cut lies so far inside the silhouette: its edge is anywhere between two pixels, and voxels round what is cut.
-constexpr double inset_px = 0.75;
-constexpr float far_vox = 3.0f; // distances are clamped to this
+constexpr double inset_px = 1.0;  // the cut lies so far inside the silhouette, as pixels at a depth edge say nothing
+constexpr float far_vox = 3.0f;   // distances are clamped to this
 // A cut by one view of several is made so much farther out than one that four views support.
-constexpr float single_view_offset_vox = 0.3f;
+constexpr float single_view_offset_vox = 0.6f;
 
 void
 vote (std::uint8_t& votes)
