@@ -252,8 +252,9 @@ lookAround (const Members& members, const SensorCloud& cloud, LabelledView& resu
 {
   if (!scansSteadily (cloud, 1, true) || !scansSteadily (cloud, static_cast<std::size_t> (cloud.width), false))
     return false;
-  Sight sight = lookFrom (Eigen::Vector3d::Zero (), members, cloud, max_hidden_of_label_from_guess, true);
-  if (!sight.isTheirs (cloud.has_viewpoint ? RangeImage::max_hidden_share : max_hidden_from_guess))
+  // The steady steps are the evidence. Ground seen nearly level has many depths in a pixel, which look hidden.
+  Sight sight = lookFrom (Eigen::Vector3d::Zero (), members, cloud, max_hidden_of_label, true);
+  if (!sight.isTheirs (max_hidden_of_label))
     return false;
   useSight (std::move (sight), cloud.T_world_sensor, result);
   return true;
