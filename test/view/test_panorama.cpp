@@ -16,9 +16,10 @@ namespace {
 constexpr int columns = 360, rows = 40;
 
 /** \brief What a spinning lidar sees of a round room with a box in it: rows of one elevation, columns of one azimuth.
- */
+ * \param[in] radius_m of the room
+ * \param[in] height_m of the sensor over the floor */
 pcl::PointCloud<pcl::PointXYZL>
-turnInARoom ()
+turnInARoom (float radius_m = 5.0f, float height_m = 5.0f)
 {
   pcl::PointCloud<pcl::PointXYZL> cloud (columns, rows);
   for (int v = 0; v < rows; ++v)
@@ -27,7 +28,9 @@ turnInARoom ()
       const float azimuth = 2.0f * static_cast<float> (M_PI) * u / columns, elevation = 0.3f - 0.015f * v;
       const Eigen::Vector3f ray (std::cos (azimuth) * std::cos (elevation), std::sin (azimuth) * std::cos (elevation),
                                  std::sin (elevation));
-      float range = 5.0f / std::cos (elevation);
+      float range = radius_m / std::cos (elevation);
+      if (ray.z () < 0.0f)
+        range = std::min (range, -height_m / ray.z ());
       const float to_box = 2.0f / ray.x (); // its face at x = 2
       const Eigen::Vector3f at = to_box * ray;
       const bool on_box = to_box > 0.0f && std::abs (at.y ()) < 0.5f && std::abs (at.z ()) < 0.4f;
@@ -55,6 +58,15 @@ TEST_F (Panorama, AnOrganisedTurnShowsFreeSpaceAllAround)
   for (const float depth : view.view->depth)
     readings += std::isfinite (depth);
   EXPECT_GT (readings, 1000u);
+}
+
+TEST_F (Panorama, GroundSeenNearlyLevelIsNotHidden)
+{
+  pcl::io::savePCDFileBinary (path ("turn.pcd"), turnInARoom (60.0f, 1.0f)); // its rings are up to 30 m apart
+  const LabelledView view = readPcdView (path ("turn.pcd"));
+  EXPECT_EQ (view.warnings, std::vector<std::string> ());
+  ASSERT_TRUE (view.view);
+  EXPECT_EQ (view.other_views.size (), 3u);
 }
 
 TEST_F (Panorama, AViewpointThatIsGivenIsBelieved)

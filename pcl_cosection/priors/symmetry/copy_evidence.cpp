@@ -107,6 +107,18 @@ knownBetween (const MeasuredShape& shape)
   return any;
 }
 
+/** \brief A point moved to the measured surface, which averages the noise of many. A point that noise takes outwards has
+ * copies in free space even where the motion is right. */
+OrientedPoint
+onSurface (const MeasuredShape& shape, const std::vector<std::uint8_t>& known_between, OrientedPoint point)
+{
+  const Interpolated measured = interpolate (shape, known_between, point.position.cast<double> ());
+  if (measured.known > 0.0)
+    point.position -=
+        (measured.distance_vox * shape.field.grid.voxel_size_m * measured.gradient.stableNormalized ()).cast<float> ();
+  return point;
+}
+
 /** \brief Metres; 0 without readings. */
 float
 farthestReading (const DepthView& view)
@@ -140,6 +152,10 @@ CopyJudge::CopyJudge (const MeasuredShape& shape, const std::vector<OrientedPoin
     nearest_m_.emplace_back (static_cast<std::size_t> (view->camera.width) * view->camera.height, 0.0f);
     farthest_m_.push_back (farthestReading (*view));
   }
+  std::vector<OrientedPoint> on_surface;
+  on_surface.reserve (points.size ());
+  for (const OrientedPoint& point : points)
+    on_surface.push_back (onSurface (shape, known_between_, point));
   const VoxelGrid& grid = shape.field.grid;
   const Eigen::Vector3d middle = 0.5 *
                                  (grid.dims.cast<double> () - Eigen::Vector3d::Ones ()); // cells move with the grid
@@ -148,7 +164,7 @@ CopyJudge::CopyJudge (const MeasuredShape& shape, const std::vector<OrientedPoin
   {
     samples_.clear ();
     OccupiedCells cells;
-    for (const OrientedPoint& point : points)
+    for (const OrientedPoint& point : on_surface)
     {
       const Eigen::Vector3d p = point.position.cast<double> ();
       if (!grid.nearest (p))
