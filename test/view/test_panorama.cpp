@@ -62,7 +62,7 @@ TEST_F (Panorama, AnOrganisedTurnShowsFreeSpaceAllAround)
 
 TEST_F (Panorama, GroundSeenNearlyLevelIsNotHidden)
 {
-  pcl::io::savePCDFileBinary (path ("turn.pcd"), turnInARoom (60.0f, 1.0f)); // its rings are up to 30 m apart
+  pcl::io::savePCDFileBinary (path ("turn.pcd"), turnInARoom (45.0f, 1.0f)); // its rings are up to 20 m apart
   const LabelledView view = readPcdView (path ("turn.pcd"));
   EXPECT_EQ (view.warnings, std::vector<std::string> ());
   ASSERT_TRUE (view.view);
