@@ -100,9 +100,10 @@ std::unique_ptr<pcl::cosection::test::TemporaryFolder> FreeSpaceViews::folder_;
 
 } // namespace
 
+// Without priors, as what they guess of hidden parts may grow where a view changes what is known beside them.
 TEST_F (FreeSpaceViews, HullsShrinkWithEachView)
 {
-  std::vector<std::string> arguments{"--constraints", "hull", "--save-hull", "--quiet"};
+  std::vector<std::string> arguments{"--constraints", "hull", "--priors", "none", "--save-hull", "--quiet"};
   std::vector<double> first, before;
   for (int v = 0; v < views; ++v)
   {
@@ -118,7 +119,7 @@ TEST_F (FreeSpaceViews, HullsShrinkWithEachView)
     for (std::size_t n = 0; n < before.size (); n += 2)
     {
       EXPECT_LE (now[n], 1.001 * before[n]) << "hull of object " << n / 2 + 1 << ", " << v + 1 << " views";
-      EXPECT_LE (now[n + 1], 1.02 * before[n + 1])
+      EXPECT_LE (now[n + 1], 1.005 * before[n + 1])
           << "object " << n / 2 + 1 << ", " << v + 1 << " views"; // smoothness may give a little elsewhere
     }
     if (v == 0)
