@@ -125,6 +125,23 @@ TEST (SymmetrySearch, ABoxHasTwoMirrorPlanes)
   }
 }
 
+/** \brief Copies of points that noise takes outwards would be in free space, and draw the planes towards the sensor. */
+TEST (SymmetrySearch, NoisyPointsHaveTheMirrorPlanesOfTheirSurface)
+{
+  for (const Eigen::Vector3d& origin : origins)
+  {
+    Seen seen = see (a_box, origin);
+    const Motions exact = seen.symmetry ().value ().motions;
+    for (std::size_t n = 0; n < seen.points.size (); n += 2)
+      seen.points[n].position += static_cast<float> (2.5 * step_m) * seen.points[n].normal;
+    const std::optional<Symmetry> symmetry = seen.symmetry ();
+    ASSERT_TRUE (symmetry);
+    ASSERT_EQ (symmetry->motions.size (), exact.size ());
+    for (std::size_t m = 0; m < exact.size (); ++m)
+      EXPECT_LE ((symmetry->motions[m] * origin - exact[m] * origin).norm (), 0.1 * step_m);
+  }
+}
+
 TEST (SymmetrySearch, ACanLooksTheSameFromAllSides)
 {
   for (const Eigen::Vector3d& origin : origins)

@@ -107,15 +107,15 @@ knownBetween (const MeasuredShape& shape)
   return any;
 }
 
-/** \brief A point moved to the measured surface, which averages the noise of many. A point that noise takes outwards has
- * copies in free space even where the motion is right. */
+/** \brief A point moved to the measured surface, which averages the noise of many. A point that noise takes outwards
+ * has copies in free space even where the motion is right. */
 OrientedPoint
 onSurface (const MeasuredShape& shape, const std::vector<std::uint8_t>& known_between, OrientedPoint point)
 {
   const Interpolated measured = interpolate (shape, known_between, point.position.cast<double> ());
   if (measured.known > 0.0)
-    point.position -=
-        (measured.distance_vox * shape.field.grid.voxel_size_m * measured.gradient.stableNormalized ()).cast<float> ();
+    point.position -= (measured.distance_vox * shape.field.grid.voxel_size_m * measured.gradient.stableNormalized ())
+                          .cast<float> ();
   return point;
 }
 
