@@ -21,15 +21,16 @@ constexpr double max_default_slope = 1.7321; // of points before a camera whose 
 // A share of all points, from where the header does not say that they were seen ...
 constexpr double max_hidden_from_guess = 0.02;
 constexpr double max_hidden_of_label_from_guess = 0.1; // ... and of those of a label,
-constexpr double max_hidden_of_label = 0.5;            // ... of which more may be from where it does
-constexpr float most_steps = 3.0f;                     // between neighbours of a scan, of the usual one, and as few
-constexpr double least_steady = 0.9;                   // share of such neighbours
-constexpr double same_place = 0.1;                     // of the distance to the points
-constexpr int lonely_neighbours = 6;                   // of which the farthest ...
-constexpr float lonely_factor = 2.0f;                  // ... is so much farther than usual
-constexpr double outermost_share = 0.02;               // of an object's points on each side, which may be wrong
-constexpr float nearness = 1.0f;                       // to an object, of its longest side
-constexpr std::size_t most_to_judge = 500000;          // points: of more, trails are no share worth mentioning
+// ... of which more may be from where it does, and of all points of a scan in steady angles.
+constexpr double max_hidden_of_label = 0.5;
+constexpr float most_steps = 3.0f;            // between neighbours of a scan, of the usual one, and as few
+constexpr double least_steady = 0.9;          // share of such neighbours
+constexpr double same_place = 0.1;            // of the distance to the points
+constexpr int lonely_neighbours = 6;          // of which the farthest ...
+constexpr float lonely_factor = 2.0f;         // ... is so much farther than usual
+constexpr double outermost_share = 0.02;      // of an object's points on each side, which may be wrong
+constexpr float nearness = 1.0f;              // to an object, of its longest side
+constexpr std::size_t most_to_judge = 500000; // points: of more, trails are no share worth mentioning
 
 /** \brief Evidence that a sensor at some place saw the points, or did not. */
 struct Sight

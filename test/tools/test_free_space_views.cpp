@@ -100,34 +100,43 @@ std::unique_ptr<pcl::cosection::test::TemporaryFolder> FreeSpaceViews::folder_;
 
 } // namespace
 
-// Without priors, as what they guess of hidden parts may grow where a view changes what is known beside them.
 TEST_F (FreeSpaceViews, HullsShrinkWithEachView)
 {
-  std::vector<std::string> arguments{"--constraints", "hull", "--priors", "none", "--save-hull", "--quiet"};
-  std::vector<double> first, before;
-  for (int v = 0; v < views; ++v)
+  constexpr std::size_t corner = 1;
+  for (const std::string priors : {"all", "none"})
   {
-    if (v > 0)
-      arguments.insert (arguments.end (), {"--free-space", view (v)});
-    std::vector<std::string> all = arguments;
-    all.insert (all.end (), {view (0), "hull" + std::to_string (v)});
-    ASSERT_EQ (run (all), 0) << errors_;
-    std::vector<double> now;
-    for (int id = 1; id <= objects; ++id)
-      for (const char* what : {"_hull.ply", ".ply"})
-        now.push_back (volume ("hull" + std::to_string (v) + "/object_" + std::to_string (id) + what));
-    for (std::size_t n = 0; n < before.size (); n += 2)
+    SCOPED_TRACE ("priors: " + priors);
+    std::vector<std::string> arguments{"--constraints", "hull", "--save-hull", "--quiet"};
+    if (priors == "none")
+      arguments.insert (arguments.end (), {"--priors", "none"});
+    const double body_growth = priors == "none" ? 1.005 : 1.02; // smoothness may give a little elsewhere
+    std::vector<double> first, before;
+    for (int v = 0; v < views; ++v)
     {
-      EXPECT_LE (now[n], 1.001 * before[n]) << "hull of object " << n / 2 + 1 << ", " << v + 1 << " views";
-      EXPECT_LE (now[n + 1], 1.005 * before[n + 1])
-          << "object " << n / 2 + 1 << ", " << v + 1 << " views"; // smoothness may give a little elsewhere
+      if (v > 0)
+        arguments.insert (arguments.end (), {"--free-space", view (v)});
+      const std::string output = priors + std::to_string (v);
+      std::vector<std::string> all = arguments;
+      all.insert (all.end (), {view (0), output});
+      ASSERT_EQ (run (all), 0) << errors_;
+      std::vector<double> now;
+      for (int id = 1; id <= objects; ++id)
+        for (const char* what : {"_hull.ply", ".ply"})
+          now.push_back (volume (output + "/object_" + std::to_string (id) + what));
+      for (std::size_t n = 0; n < before.size (); n += 2)
+      {
+        EXPECT_LE (now[n], 1.001 * before[n]) << "hull of object " << n / 2 + 1 << ", " << v + 1 << " views";
+        // Without its table, a level mirror plane guesses the corner's foot, which may grow where a view dents it less.
+        if (priors == "none" || n / 2 != corner)
+          EXPECT_LE (now[n + 1], body_growth * before[n + 1]) << "object " << n / 2 + 1 << ", " << v + 1 << " views";
+      }
+      if (v == 0)
+        first = now;
+      before = now;
     }
-    if (v == 0)
-      first = now;
-    before = now;
+    for (std::size_t n = 0; n < first.size (); n += 2)
+      EXPECT_LT (before[n], 0.995 * first[n]) << "hull of object " << n / 2 + 1;
   }
-  for (std::size_t n = 0; n < first.size (); n += 2)
-    EXPECT_LT (before[n], 0.995 * first[n]) << "hull of object " << n / 2 + 1;
 }
 
 // The bowl's inside is known to go on to a floor; without that, free space is all that tells of it.

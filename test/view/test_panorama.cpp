@@ -69,6 +69,17 @@ TEST_F (Panorama, GroundSeenNearlyLevelIsNotHidden)
   EXPECT_EQ (view.other_views.size (), 3u);
 }
 
+TEST_F (Panorama, ATurnInAnotherFrameShowsNoFreeSpaceFromItsOrigin)
+{
+  pcl::PointCloud<pcl::PointXYZL> cloud = turnInARoom (45.0f, 1.0f);
+  for (pcl::PointXYZL& p : cloud)
+    p.z += 1.0f; // as from the floor
+  pcl::io::savePCDFileBinary (path ("turn.pcd"), cloud);
+  const LabelledView view = readPcdView (path ("turn.pcd"));
+  EXPECT_FALSE (view.view);
+  EXPECT_FALSE (view.warnings.empty ());
+}
+
 TEST_F (Panorama, AViewpointThatIsGivenIsBelieved)
 {
   pcl::PointCloud<pcl::PointXYZL> cloud = turnInARoom ();

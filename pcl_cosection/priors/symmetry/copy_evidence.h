@@ -37,7 +37,7 @@ public:
   CopyJudge (const MeasuredShape& shape, const std::vector<OrientedPoint>& points, const Eigen::Vector4d& plane,
              const OcclusionMap::Views& views);
 
-  /** \brief Evenly spread points of the object, at most some fifteen hundred. */
+  /** \brief Evenly spread points of the object, moved to the measured surface; at most some fifteen hundred. */
   const std::vector<OrientedPoint>& samples () const { return samples_; }
 
   bool hasEnoughSamples () const; ///< for any evidence
