@@ -38,15 +38,13 @@ class Results(BatchTest):
         self.view("broken.pcd", error="the header is damaged", half=True)
         self.view("usage.pcd", error="no such option", status=2)
         self.view("partly.pcd", failed=[{"id": 7, "error": "too few points"}])
-        self.view("slow.pcd", sleep=100, child=True)
         self.view("large.pcd", memory=400 * MIB, sleep=100)
         self.view("crashes.pcd", crash=True)
         self.view("crashes_once.pcd", crash_until=str(self.folder / "counter"), times=2)
         self.view("worry.pcd", warnings=["labels may count from 0"])
         self.view("seq/associations.txt", name="seq")
-        printed, _ = self.batch("--time-limit", "1.5", "--memory-limit", "200M", "--retries", "1", self.inputs,
-                                self.output, status=1)
-        self.assertIn("4 of 10 items done", printed)
+        printed, _ = self.batch("--memory-limit", "200M", "--retries", "1", self.inputs, self.output, status=1)
+        self.assertIn("4 of 9 items done", printed)
         rows = self.summary()
         status = {name: row["status"] for name, row in rows.items()}
         self.assertEqual({name for name, value in status.items() if value == "done"},
@@ -54,7 +52,6 @@ class Results(BatchTest):
         self.assertEqual(status["partly"], "partial")
         for name, reason, attempts in (
                 ("broken", "the header is damaged", 1), ("usage", "no such option", 1),
-                ("slow", "longer than 1.5 s", 2),
                 ("large", "of memory, more than 200 MiB", 1), ("crashes", "signal 11", 2),
                 ("partly", "object 7: too few points", 1)):
             self.assertIn(reason, rows[name]["reason"])
@@ -65,16 +62,26 @@ class Results(BatchTest):
                          {".batch", "good", "crashes_once", "worry", "seq", "partly"})
         self.check_whole()
         self.assertEqual(os.listdir(self.output / ".batch" / "staging"), [])
+        self.check_overview()
+
+    def test_time_limit(self):
+        """In a batch of its own: on a busy machine any item may be over a short limit."""
+        self.view("slow.pcd", sleep=100, child=True)
+        self.batch("--time-limit", "1.5", "--retries", "1", self.inputs, self.output, status=1)
+        row = self.summary()["slow"]
+        self.assertEqual((row["status"], row["attempts"]), ("failed", 2))
+        self.assertIn("longer than 1.5 s", row["reason"])
+        self.check_whole()
+        self.assertEqual(os.listdir(self.output / ".batch" / "staging"), [])
         sleeping = subprocess.run(["pgrep", "-fx", "/bin/sleep 300"], capture_output=True, text=True,
                                   check=False).stdout
         self.assertFalse([process for process in sleeping.split() if is_alive(process)])
-        self.check_overview()
 
     def check_overview(self):
         page = Page((self.output / "index.html").read_text())
         names = [text for text in page.texts if text in self.summary()]
-        self.assertEqual(set(names[:5]), {"broken", "usage", "slow", "large", "crashes"})
-        self.assertEqual(names[5:7], ["partly", "worry"])
+        self.assertEqual(set(names[:4]), {"broken", "usage", "large", "crashes"})
+        self.assertEqual(names[4:6], ["partly", "worry"])
         for link in page.links:
             self.assertTrue((self.output / urllib.parse.unquote(link)).exists(), link)
 
