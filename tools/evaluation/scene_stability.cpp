@@ -11,12 +11,15 @@
 
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <cstdint>
 #include <exception>
 #include <filesystem>
 #include <new>
 #include <system_error>
+#include <utility>
 
+namespace fs = std::filesystem;
 using namespace pcl::cosection;
 
 namespace {
@@ -120,14 +123,73 @@ fromMessage (const Message& message)
 }
 
 /** \brief The errors of opening and reading a file are the system's; MuJoCo names fewer. */
-void
-requireSceneFile (const std::string& path)
+std::string
+readSceneFile (const std::string& path)
 {
   std::error_code unknown;
-  const std::uintmax_t size = std::filesystem::file_size (path, unknown);
-  if (!unknown && std::filesystem::is_regular_file (path, unknown) && size > most_file_bytes)
+  const std::uintmax_t size = fs::file_size (path, unknown);
+  if (!unknown && fs::is_regular_file (path, unknown) && size > most_file_bytes)
     throw IoError (path + ": has more than " + byteText (most_file_bytes));
-  readBytes (path);
+  return (readBytes (path));
+}
+
+/** \brief The names and the quoted values of what looks like an attribute in XML. */
+std::vector<std::pair<std::string, std::string>>
+attributesOf (const std::string& xml)
+{
+  const char* const space = " \t\r\n";
+  std::vector<std::pair<std::string, std::string>> attributes;
+  for (std::size_t at = xml.find ('='); at != std::string::npos; at = xml.find ('=', at + 1))
+  {
+    const std::size_t quote = xml.find_first_not_of (space, at + 1);
+    const std::size_t last = at == 0 ? std::string::npos : xml.find_last_not_of (space, at - 1);
+    if (quote == std::string::npos || last == std::string::npos || (xml[quote] != '"' && xml[quote] != '\''))
+      continue;
+    const std::size_t before = xml.find_last_of (" \t\r\n<\"'", last);
+    const std::size_t end = xml.find (xml[quote], quote + 1);
+    if (before != std::string::npos && end != std::string::npos)
+      attributes.emplace_back (xml.substr (before + 1, last - before), xml.substr (quote + 1, end - quote - 1));
+  }
+  return (attributes);
+}
+
+template <typename T>
+bool
+contains (const std::vector<T>& all, const T& one)
+{
+  return (std::find (all.begin (), all.end (), one) != all.end ());
+}
+
+/** \brief MuJoCo waits for what a pipe has, and reads from a device for ever: \a path and what it names are regular
+ * files. What is not found is left to MuJoCo, which names it. */
+void
+requireSceneFiles (const std::string& path)
+{
+  std::vector<fs::path> folders = {fs::path (path).parent_path ()};
+  std::vector<std::string> scenes = {path};
+  for (std::size_t n = 0; n < scenes.size (); ++n)
+  {
+    const auto attributes = attributesOf (readSceneFile (scenes[n]));
+    for (const auto& [key, value] : attributes)
+      if ((key == "meshdir" || key == "texturedir") && !contains (folders, folders.front () / value))
+        folders.push_back (folders.front () / value);
+    for (const auto& [key, name] : attributes)
+    {
+      if (key.rfind ("file", 0) != 0) // file, fileup, fileright ... of includes, meshes, height fields and textures
+        continue;
+      for (const fs::path& folder : folders)
+        for (const fs::path& found : {folder / name, folder / fs::path (name).filename ()}) // with strippath
+        {
+          std::error_code unknown;
+          if (!fs::exists (found, unknown) || fs::is_directory (found, unknown))
+            continue;
+          if (!fs::is_regular_file (found, unknown))
+            throw IoError (path + ": names '" + found.string () + "', which is not a regular file");
+          if (found.extension () == ".xml" && !contains (scenes, found.string ()))
+            scenes.push_back (found.string ());
+        }
+    }
+  }
 }
 
 } // namespace
@@ -141,7 +203,7 @@ canSimulate ()
 SceneStability
 simulateScene (const std::string& path, double duration_s, const ProgressCallback& progress)
 {
-  requireSceneFile (path);
+  requireSceneFiles (path);
   ChildProcess process ([&] (Channel& to_parent) { serveScene (to_parent, path, duration_s); });
   try
   {

@@ -171,8 +171,15 @@ TEST_F (Stability, SaysWhatIsWrongWithAScene)
   writeFile (folder_.file ("fixed.xml"), sceneText ("<body><geom type='sphere' size='1'/></body>"));
   writeFile (folder_.file ("step.xml"), sceneText (boxBody ("box", 0, 0), "<option timestep='1e-300'/>"));
   writeFile (folder_.file ("back.xml"), sceneText (boxBody ("box", 0, 0), "<option timestep='-10'/>"));
+  writeFile (folder_.file ("waits.xml"), "<mujoco><include file=\"pipe\"/></mujoco>");
+  writeFile (folder_.file ("deep.xml"), "<mujoco><include file='waits.xml'/><include file='deep.xml'/></mujoco>");
+  writeFile (folder_.file ("reads.xml"),
+             "<mujoco><compiler meshdir='meshes'/><asset><mesh\nname='m' file = 'other pipe'/></asset></mujoco>");
+  writeFile (folder_.file ("device.xml"), "<mujoco><asset><texture type='cube' fileup='/dev/zero'/></asset></mujoco>");
   std::filesystem::create_directory (folder_.file ("nothing"));
+  std::filesystem::create_directory (folder_.file ("meshes"));
   ASSERT_EQ (::mkfifo (folder_.file ("pipe").c_str (), 0600), 0);
+  ASSERT_EQ (::mkfifo (folder_.file ("meshes/other pipe").c_str (), 0600), 0);
   const std::size_t entries = folder_.entries ();
   for (const auto& [file, part] :
        std::vector<std::pair<std::string, std::string>>{{"text.xml", "text.xml: XML parse error"},
@@ -183,6 +190,10 @@ TEST_F (Stability, SaysWhatIsWrongWithAScene)
                                                         {"fixed.xml", "fixed.xml: has no body with a free joint"},
                                                         {"step.xml", "too many steps"},
                                                         {"back.xml", "not greater than 0"},
+                                                        {"waits.xml", "names 'pipe', which is not a regular file"},
+                                                        {"deep.xml", "names 'pipe', which is not a regular file"},
+                                                        {"reads.xml", "names 'meshes/other pipe', which is not"},
+                                                        {"device.xml", "names '/dev/zero', which is not"},
                                                         {"missing.xml", "cannot read 'missing.xml'"},
                                                         {"nothing", "cannot read 'nothing/scene.xml'"},
                                                         {"pipe", "cannot read 'pipe': not a regular file"}})
