@@ -11,7 +11,9 @@ namespace {
 bool
 run (const ExportProgramSettings& settings, Terminal& terminal)
 {
-  report (exportScene (settings.result, settings.output, settings), settings.output, terminal);
+  catchInterruptions ();
+  report (exportScene (settings.result, settings.output, settings, [] { return (!interrupted ()); }), settings.output,
+          terminal);
   return (true);
 }
 
@@ -20,5 +22,6 @@ run (const ExportProgramSettings& settings, Terminal& terminal)
 int
 main (int argc, char** argv)
 {
-  return (runProgram ({"pcl_cosection_export"}, argc, argv, parseExportCommandLine, run));
+  return (runProgram ({"pcl_cosection_export", "interrupted, nothing was written"}, argc, argv, parseExportCommandLine,
+                      run));
 }

@@ -93,6 +93,39 @@ makeFusion (const FusionSettings& settings, const Inputs& inputs)
   return (SequenceFusion (inputs.known, options));
 }
 
+double
+extentOf (const TriangleMesh& mesh)
+{
+  Eigen::AlignedBox3f box;
+  for (const Eigen::Vector3f& vertex : mesh.vertices)
+    box.extend (vertex);
+  return (mesh.empty () ? 0.0 : box.diagonal ().norm ());
+}
+
+/** \brief A warning of an object that extends farther than the background, or than all others together where there is
+ * none: the masks may have its number, or any but 0, where no object is. */
+std::optional<std::string>
+objectLikeBackground (const SceneResult& scene)
+{
+  const ObjectResult* largest = nullptr;
+  double extent_m = 0.0, all_m = 0.0;
+  for (const ObjectResult& object : scene.objects)
+  {
+    const double object_m = extentOf (object.mesh);
+    all_m += object_m;
+    if (object_m <= extent_m)
+      continue;
+    extent_m = object_m;
+    largest = &object;
+  }
+  const double others_m = scene.background.empty () ? all_m - extent_m : extentOf (scene.background);
+  if (others_m == 0.0 || extent_m <= others_m)
+    return (std::nullopt);
+  return ("object " + std::to_string (largest->id) + " extends farther than " +
+          (scene.background.empty () ? "all others together" : "the background") +
+          ": masks must be 0 where no object is");
+}
+
 /** \brief Tell what became of the objects; errors become warnings of the summary. \return whether all went well */
 bool
 tellOutcome (FusionResult& result, Terminal& terminal)
@@ -164,6 +197,8 @@ fuse (const FusionSettings& settings, FusionOutputs& outputs, Terminal& terminal
   FusionResult result = fusion.run (report, on_keyframe, on_frame);
   for (const auto& [reason, count] : lost_in_keyframes)
     result.warnings.push_back (reason + " (in " + std::to_string (count) + " of the written keyframes)");
+  if (const auto warning = objectLikeBackground (result.scene))
+    result.warnings.push_back (*warning);
   for (const std::string& warning : result.warnings)
     terminal.warning (warning);
   for (const std::string& event : result.events)

@@ -208,13 +208,16 @@ RgbdSequence::fitCameraToDepth (const std::string& folder, const std::string& na
       return scaleFrom (*colour, "colour images");
   camera_.width = depth.width;
   camera_.height = depth.height;
-  if (off_depth <= outside)
+  if (off_depth < far_off_centre)
     return;
+  const bool is_outside = off_depth >= outside;
   const std::string fault = name + ": has a principal point of " + pairText (camera_.cx, camera_.cy) +
-                            ", outside the depth images of " + sizeText (depth.width, depth.height);
-  if (!is_given)
-    throw IoError (fault + "; is it that of another resolution? Then scale it, or add the size of its images: "
-                           "'fx fy cx cy width height'");
+                            (is_outside ? ", outside" : ", far from the middle of") + " the depth images of " +
+                            sizeText (depth.width, depth.height) +
+                            "; is it that of another resolution? Then scale it, " +
+                            "or add the size of its images: 'fx fy cx cy width height'";
+  if (is_outside && !is_given)
+    throw IoError (fault);
   warnings_.push_back (fault);
 }
 

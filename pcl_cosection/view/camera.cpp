@@ -13,6 +13,7 @@
 namespace pcl::cosection {
 namespace {
 
+constexpr double max_behind_share = 0.01; // of points that no camera at the origin sees
 constexpr int min_fit_points = 50;
 constexpr double max_fit_residual_px = 0.5; ///< root mean square
 
@@ -77,18 +78,21 @@ fitPinholeCamera (const std::vector<Eigen::Vector3f>& points, int width, int hei
   if (width <= 0 || height <= 0 || points.size () != static_cast<std::size_t> (width) * height)
     throw InvalidArgument ("fitPinholeCamera: there must be width * height points");
   LineFit columns, rows; // x/z = column / fx - cx / fx
-  int usable = 0;
+  int usable = 0, behind = 0;
   for (int v = 0; v < height; ++v)
     for (int u = 0; u < width; ++u)
     {
       const Eigen::Vector3d p = points[static_cast<std::size_t> (v) * width + u].cast<double> ();
       if (!p.allFinite () || !(p.z () > 0.0))
+      {
+        behind += p.allFinite () && !p.isZero (0.0); // zero is no reading
         continue;
+      }
       columns.add (u, p.x () / p.z ());
       rows.add (v, p.y () / p.z ());
       ++usable;
     }
-  if (usable < min_fit_points)
+  if (usable < min_fit_points || behind > max_behind_share * usable)
     return std::nullopt;
 
   PinholeCamera camera{width, height};

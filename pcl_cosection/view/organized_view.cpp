@@ -125,8 +125,8 @@ findCamera (const std::string& path, const PcdViewOptions& options, SensorCloud&
   }
   else if (!lookAround (membersOf (cloud), cloud, result))
     result.warnings.push_back (
-        path + ": organised, but not the image of a pinhole camera in any frame: no free space is taken from it (give "
-               "--intrinsics, with --world-points if the points are in the world frame)");
+        path + ": organised, but not the image of a pinhole camera in any frame: its points are taken as if without an "
+               "order (give --intrinsics, with --world-points if the points are in the world frame)");
   return given;
 }
 
@@ -349,6 +349,8 @@ void
 completeOrganized (const std::string& path, const PcdViewOptions& options, SensorCloud& cloud, LabelledView& result)
 {
   const auto camera = findCamera (path, options, cloud, result);
+  if (!camera && !result.view) // then neighbours in rows need not be neighbours, nor the sensor at the origin
+    return completeUnorganized (path, options, cloud, result);
   if (camera)
     result.view = depthImage (*camera, cloud.positions, cloud.T_world_sensor);
   setWorkingRange (membersOf (cloud), cloud, result);

@@ -29,6 +29,7 @@ constexpr double surely_inward = 0.3; // outward share of a body whose normals a
 constexpr float one_sided = 0.7f;
 constexpr std::size_t least_background = 100; // points, to decide on a side
 constexpr double decisive = 0.75;             // share of a piece that faces to one side
+constexpr double strange_slant = 1.0 / 3.0;   // slantOfNormals (), half of that of random directions
 
 /** \brief How much of what of all normals has a sign does have a positive one. */
 class Share
@@ -251,6 +252,26 @@ dropUnfilledNormals (SensorCloud& cloud)
     cloud.normals.clear ();
 }
 
+/** \brief Normals that are not those of the surface count as absent, as they are where points were moved without them.
+ */
+void
+dropStrangeNormals (const std::string& path, const Members& members, SensorCloud& cloud, LabelledView& result)
+{
+  if (cloud.normals.empty ())
+    return;
+  for (const auto& [label, indices] : members)
+    if (indices.size () >= RangeImage::min_points &&
+        slantOfNormals (pick (cloud.positions, indices), pick (cloud.normals, indices)) > strange_slant)
+    {
+      cloud.normals.clear ();
+      result.warnings.push_back (path + ": its normals " +
+                                 (cloud.has_labels ? "of label " + std::to_string (label) + " " : std::string ()) +
+                                 "are not those of the surface through its points (were these moved without them, as "
+                                 "by pcl::transformPointCloud?); all were estimated again");
+      return;
+    }
+}
+
 } // namespace
 
 void
@@ -262,6 +283,7 @@ completeUnorganized (const std::string& path, const PcdViewOptions& options, Sen
   viewFromSensor (path, options, members, cloud, result);
   setWorkingRange (members, cloud, result);
   dropUnfilledNormals (cloud);
+  dropStrangeNormals (path, members, cloud, result);
   const bool given = !cloud.normals.empty ();
   if (!given)
     cloud.normals.assign (cloud.positions.size (),

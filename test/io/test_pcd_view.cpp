@@ -114,7 +114,7 @@ TEST_F (PcdView, ScaleTurnsMillimetresIntoMetres)
   EXPECT_NEAR (view.view->T_world_sensor.translation ().x (), 0.5, 1e-6);
 }
 
-TEST_F (PcdView, NoPinholeNoRaysUnlessIntrinsicsAreGiven)
+TEST_F (PcdView, WithoutAPinholePointsHaveNoOrderUnlessIntrinsicsAreGiven)
 {
   auto cloud = organizedPlane ();
   std::mt19937 generator (1);
@@ -123,9 +123,20 @@ TEST_F (PcdView, NoPinholeNoRaysUnlessIntrinsicsAreGiven)
     p.x += jitter (generator);
   pcl::io::savePCDFileBinary (path ("a.pcd"), cloud);
   LabelledView view = readPcdView (path ("a.pcd"));
-  EXPECT_FALSE (view.view);
-  ASSERT_EQ (view.warnings.size (), 1u);
+  ASSERT_FALSE (view.warnings.empty ());
   EXPECT_NE (view.warnings[0].find ("--intrinsics"), std::string::npos);
+  auto list = cloud;
+  list.width *= list.height;
+  list.height = 1;
+  pcl::io::savePCDFileBinary (path ("list.pcd"), list);
+  const LabelledView listed = readPcdView (path ("list.pcd"));
+  EXPECT_EQ (view.warnings.size (), listed.warnings.size () + 1);
+  ASSERT_EQ (view.view.has_value (), listed.view.has_value ());
+  ASSERT_TRUE (listed.view);
+  EXPECT_EQ (view.view->camera.fx, listed.view->camera.fx);
+  ASSERT_EQ (view.objects.at (7).points.size (), listed.objects.at (7).points.size ());
+  for (std::size_t i = 0; i < listed.objects.at (7).points.size (); ++i)
+    EXPECT_EQ (view.objects.at (7).points[i].normal, listed.objects.at (7).points[i].normal);
   PcdViewOptions options;
   options.intrinsics = {60.0, 62.0, 31.0, 24.0};
   view = readPcdView (path ("a.pcd"), options);

@@ -112,8 +112,16 @@ TEST (CameraFile, OfAnotherResolutionIsScaled)
     std::vector<std::string> warnings;
     EXPECT_EQ (sequence.read (0, warnings).depth.width, 80);
   }
-  const SequenceFolder right, impossible;
+  const SequenceFolder right, impossible, half, corner;
   write ("70 70 39.5 29.5", right);
+  write ("35 35 19.5 14.5", half); // of 40 x 30: may have been cut out
+  ASSERT_EQ (RgbdSequence (half.path ()).warnings ().size (), 1u);
+  EXPECT_NE (RgbdSequence (half.path ()).warnings ()[0].find ("far from the middle of the depth images of 80 x 60"),
+             std::string::npos);
+  corner.depth ("depth/Depth0000.png", 0, 1000.0, 80, 60);
+  corner.text ("calibration.txt", "140 140 79.5 59.5"); // of 160 x 120
+  EXPECT_NE (messageOf<IoError> ([&] { RgbdSequence (corner.path ()); }).find ("outside the depth images of 80 x 60"),
+             std::string::npos);
   write ("70 70 100 29.5", impossible); // the middle of neither
   EXPECT_EQ (RgbdSequence (right.path ()).warnings (), std::vector<std::string> ());
   SequenceSource source;

@@ -30,8 +30,8 @@ toScene (const Settings& settings, SceneInput input)
     scene.setBackground (std::move (input.background));
   for (auto& [label, object] : input.objects)
     scene.addObject (std::move (object));
-  for (const Eigen::Vector4d& plane : settings.planes)
-    scene.addSupportPlane (relativeTo (input.origin, plane));
+  for (const Eigen::Vector4d& plane : input.planes)
+    scene.addSupportPlane (plane);
   for (TriangleMesh& obstacle : input.obstacles)
     scene.addObstacle (std::move (obstacle));
   return (scene);

@@ -25,7 +25,8 @@ using namespace pcl::cosection;
 namespace {
 
 constexpr std::size_t min_points = 100;
-constexpr float large_extent = 100.0f; ///< metres; what is larger is probably not in metres
+constexpr std::size_t most_skipped = 20; ///< labels, that are named
+constexpr float large_extent = 100.0f;   ///< metres; what is larger is probably not in metres
 
 std::string
 tooFew (std::uint32_t label, const LabelledView::Points& object)
@@ -202,6 +203,12 @@ findLabels (const std::string& path, const Settings& settings, const PcdViewOpti
   std::map<std::uint32_t, std::size_t> counts;
   for (const std::uint32_t label : found.labels)
     ++counts[label];
+  const auto small = std::count_if (counts.begin (), counts.end (),
+                                    [] (const auto& label) { return label.first > 0 && label.second < min_points; });
+  if (small > 0)
+    warnings.push_back (path + ": " + std::to_string (small) + " of the objects that were found " +
+                        (small == 1 ? "is" : "are") + " left out, with fewer than " + std::to_string (min_points) +
+                        " points");
   for (std::uint32_t& label : found.labels)
     if (counts[label] < min_points) // small components, which come last
     {
@@ -223,11 +230,15 @@ void
 addObjects (const Settings& settings, const SceneReaders& readers, const ObjectPoses& poses, Labels& labels,
             SceneInput& scene)
 {
+  std::size_t skipped = 0;
   for (auto& [label, object] : labels)
   {
     const int id = static_cast<int> (label);
     if (object.points.size () < min_points)
-      scene.warnings.push_back (tooFew (label, object));
+    {
+      if (skipped++ < most_skipped)
+        scene.warnings.push_back (tooFew (label, object));
+    }
     else if (label == 0)
       scene.background = std::move (object.points);
     else
@@ -237,6 +248,10 @@ addObjects (const Settings& settings, const SceneReaders& readers, const ObjectP
       scene.objects[id] = {id, std::move (object.points), posesOf (poses, label), proposalsOf (id, settings, readers)};
     }
   }
+  if (skipped > most_skipped)
+    scene.warnings.push_back (std::to_string (skipped - most_skipped) +
+                              " more labels are skipped, as they have too few "
+                              "points; are these the labels of objects?");
 }
 
 } // namespace
@@ -316,7 +331,12 @@ readScene (const Settings& settings, const ProgressCallback& progress, const Sce
       reason += ": " + scene.warnings.back ();
     throw DegenerateInput (reason);
   }
-  for (const auto& warning : {smallBackground (scene), objectLikeBackground (scene)})
+  for (const Eigen::Vector4d& plane : settings.planes)
+    scene.planes.push_back (relativeTo (scene.origin, plane));
+  const std::optional<std::string> distant = distantPlanes (scene);
+  if (distant)
+    scene.planes.clear (); // objects would reach down to them
+  for (const auto& warning : {smallBackground (scene), objectLikeBackground (scene), distant})
     if (warning)
       scene.warnings.push_back (*warning);
   for (const auto& [label, file] : settings.object_trajectories)

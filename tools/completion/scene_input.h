@@ -24,6 +24,7 @@ struct SceneInput
   std::vector<std::size_t> view_inputs;                ///< of each view, the number of its INPUT, from 0
   std::vector<pcl::cosection::DepthView> free_space;   ///< further views, of which nothing else is used
   std::vector<pcl::cosection::TriangleMesh> obstacles; ///< world frame
+  std::vector<Eigen::Vector4d> planes;                 ///< that are given, and near objects
   Eigen::Vector3d origin = Eigen::Vector3d::Zero ();   ///< of the frame of all this, in the world
   std::vector<std::string> warnings;
 };

@@ -2,8 +2,12 @@
 #include "scene_warnings.h"
 
 #include "pcl_cosection/common/boxes.h"
+#include "pcl_cosection/common/quantile.h"
 
+#include <algorithm>
+#include <cmath>
 #include <cstddef>
+#include <limits>
 #include <sstream>
 
 using namespace pcl::cosection;
@@ -83,4 +87,30 @@ objectLikeBackground (const SceneInput& scene)
     return std::nullopt;
   return "object " + std::to_string (largest) + " extends farther than all others together; if it is the background, " +
          "give --background " + std::to_string (largest);
+}
+
+std::optional<std::string>
+distantPlanes (const SceneInput& scene)
+{
+  double least_gap_m = std::numeric_limits<double>::infinity ();
+  for (const Eigen::Vector4d& plane : scene.planes)
+    for (const auto& [id, object] : scene.objects)
+    {
+      std::vector<double> distances;
+      for (const OrientedPoint& point : object.points)
+        distances.push_back (std::abs (plane.head<3> ().dot (point.position.cast<double> ()) + plane[3]) /
+                             plane.head<3> ().norm ());
+      const double gap_m = quantile (distances, outlier_share);
+      if (!object.T_world_object.empty () || gap_m <= extentOf (object.points).maxCoeff ())
+        return std::nullopt;
+      least_gap_m = std::min (gap_m, least_gap_m);
+    }
+  if (scene.planes.empty () || scene.objects.empty ())
+    return std::nullopt;
+  std::ostringstream text;
+  text.precision (3);
+  text << "--plane is left out: the nearest object is " << least_gap_m
+       << " m away, farther than any is long; A, B, C, D are of "
+       << "A x + B y + C z + D = 0 in metres, in the world frame: is the sign of D right?";
+  return text.str ();
 }

@@ -24,3 +24,7 @@ std::optional<std::string> smallBackground (const SceneInput& scene);
 
 /** \brief A warning of an object that extends about all the others, if there is no background: it may be that. */
 std::optional<std::string> objectLikeBackground (const SceneInput& scene);
+
+/** \brief A warning of given planes that are all farther from every object than that is long, if they are: they are not
+ * to be used. */
+std::optional<std::string> distantPlanes (const SceneInput& scene);

@@ -201,11 +201,13 @@ std::size_t
 countSteps (const mjModel& model, double duration_s)
 {
   constexpr double tolerance = 1e-6; // so that 5 s of 0.002 s are 2500 steps
-  const double steps = std::ceil (duration_s / model.opt.timestep - tolerance);
+  std::ostringstream time_step;
+  time_step << model.opt.timestep << " s";
   if (!(model.opt.timestep > 0.0))
-    throw IoError ("has a time step of " + std::to_string (model.opt.timestep) + " s, which is not greater than 0");
+    throw IoError ("has a time step of " + time_step.str () + ", which is not greater than 0");
+  const double steps = std::max (1.0, std::ceil (duration_s / model.opt.timestep - tolerance));
   if (!(steps <= most_steps))
-    throw IoError ("has a time step of " + std::to_string (model.opt.timestep) + " s: too many steps");
+    throw IoError ("has a time step of " + time_step.str () + ": too many steps");
   return (static_cast<std::size_t> (steps));
 }
 

@@ -4,15 +4,19 @@
 #include "arguments.h"
 #include "completed_result.h"
 #include "output_files.h"
+#include "staged_files.h"
 
 #include "pcl_cosection/physics/formats/body_samples.h"
+#include "pcl_cosection/physics/formats/mesh_files.h"
 #include "pcl_cosection/physics/formats/scene_writers.h"
 #include <pcl/cosection/common/error.h>
 
 #include <algorithm>
 #include <filesystem>
+#include <system_error>
 #include <utility>
 
+namespace fs = std::filesystem;
 using namespace pcl::cosection;
 
 namespace {
@@ -53,6 +57,37 @@ requireVoxelSizes (const CompletedScene& completed, const std::string& result)
                      " has no voxel_size_m; --save-sdf needs it");
 }
 
+/** \brief Write all files, which take their places together. \param[in] stopIfAsked throws \return the files */
+std::vector<std::string>
+writeFiles (const PhysicalScene& scene, const CompletedScene& completed, const std::string& output,
+            const ExportSettings& settings, const std::function<void ()>& stopIfAsked)
+{
+  const StagedFiles staged (output);
+  try
+  {
+    std::vector<std::string> files;
+    const std::vector<std::string> samples = writeSamples (scene, completed, staged.folder (), settings);
+    for (const auto& [name, writer] : writers)
+      if (std::find (settings.formats.begin (), settings.formats.end (), name) != settings.formats.end ())
+      {
+        stopIfAsked ();
+        for (const std::string& file : writer (scene, staged.folder ()))
+          if (std::find (files.begin (), files.end (), file) == files.end ())
+            files.push_back (file);
+      }
+    stopIfAsked ();
+    files.insert (files.end (), samples.begin (), samples.end ());
+    return (staged.publish (files));
+  }
+  catch (const IoError& error)
+  {
+    std::string text = error.what ();
+    if (const std::size_t at = text.find (staged.folder ()); at != std::string::npos)
+      text.replace (at, staged.folder ().size (), output); // where the file would have been in the end
+    throw IoError (text);
+  }
+}
+
 } // namespace
 
 const std::vector<std::string>&
@@ -68,8 +103,13 @@ exportFormats ()
 }
 
 ExportReport
-exportScene (const std::string& result, const std::string& output, const ExportSettings& settings)
+exportScene (const std::string& result, const std::string& output, const ExportSettings& settings,
+             const std::function<bool ()>& go_on)
 {
+  const auto stopIfAsked = [&go_on] {
+    if (go_on && !go_on ())
+      throw Cancelled ("interrupted");
+  };
   CompletedResult completed = readCompletedResult (result);
   for (const auto& [id, mass] : settings.physics.masses_kg)
     if (std::none_of (completed.scene.objects.begin (), completed.scene.objects.end (),
@@ -83,14 +123,24 @@ exportScene (const std::string& result, const std::string& output, const ExportS
   report.scene = buildPhysicalScene (completed.scene, settings.physics);
   report.scene.T_result_scene.pretranslate (completed.origin);
   report.scene.warnings.insert (report.scene.warnings.begin (), completed.warnings.begin (), completed.warnings.end ());
+  stopIfAsked ();
+  const bool is_new = !fs::exists (output);
   makeFolder (output);
   requireWritableFolder (output, output);
-  const std::vector<std::string> samples = writeSamples (report.scene, completed.scene, output, settings);
-  for (const auto& [name, writer] : writers)
-    if (std::find (settings.formats.begin (), settings.formats.end (), name) != settings.formats.end ())
-      for (const std::string& file : writer (report.scene, output))
-        if (std::find (report.files.begin (), report.files.end (), file) == report.files.end ())
-          report.files.push_back (file);
-  report.files.insert (report.files.end (), samples.begin (), samples.end ());
+  try
+  {
+    report.files = writeFiles (report.scene, completed.scene, output, settings, stopIfAsked);
+  }
+  catch (...)
+  {
+    std::error_code ignored;
+    if (is_new)
+      fs::remove (output, ignored); // unless it is in use
+    throw;
+  }
+  if (std::any_of (report.files.begin (), report.files.end (), [] (const std::string& file) {
+        return (fs::path (file).parent_path ().filename () == mesh_folder);
+      }))
+    removeFormerParts (report.scene, output);
   return (report);
 }

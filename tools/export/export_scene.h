@@ -4,6 +4,7 @@
 #include "pcl_cosection/physics/scene_builder.h"
 
 #include <cstddef>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -30,5 +31,7 @@ const std::vector<std::string>& exportFormats ();
 
 /** \brief Make rigid bodies of a result and write them in some formats into a folder, which is made.
  * \param[in] result folder that pcl_cosection or pcl_cosection_fusion wrote
- * \throws pcl::cosection::Error */
-ExportReport exportScene (const std::string& result, const std::string& output, const ExportSettings& settings);
+ * \param[in] go_on false stops: what an earlier export wrote stays as it is, as after an error
+ * \throws pcl::cosection::Error, Cancelled */
+ExportReport exportScene (const std::string& result, const std::string& output, const ExportSettings& settings,
+                          const std::function<bool ()>& go_on = {});

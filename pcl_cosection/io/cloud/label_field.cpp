@@ -135,6 +135,7 @@ readLabels (const std::string& path, const CloudHeader& header, const PCLPointCl
   const bool zero_is_object = !contains (background, 0);
   bool has_background = false;
   bool has_object_zero = false;
+  bool has_none = false;
   const std::vector<std::int64_t> numbers = numbersOf (path, points, *field, cloud.labels.size ());
   for (std::size_t i = 0; i < cloud.labels.size (); ++i)
   {
@@ -156,8 +157,14 @@ readLabels (const std::string& path, const CloudHeader& header, const PCLPointCl
     {
       cloud.positions[i].setConstant (std::numeric_limits<float>::quiet_NaN ());
       ++cloud.ignored;
+      has_none = has_none || label < 0;
     }
   }
+  if (has_none && options.background_labels.empty () && options.ignored_labels.empty () &&
+      std::count (numbers.begin (), numbers.end (), 0) > 0)
+    cloud.warnings.push_back (path +
+                              ": label 0 is the background, and points of a negative label or NaN are ignored; if "
+                              "labels count the objects from 0 and those are none, as of clusters, add 1 to all");
   if (has_object_zero)
     cloud.warnings.push_back (path + ": label 0 is no background; it is object " + std::to_string (background[0]));
   if (!options.background_labels.empty () && !has_background)

@@ -1,6 +1,9 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "mesh_files.h"
 
+#include <filesystem>
+#include <system_error>
+
 namespace pcl::cosection {
 
 std::string
@@ -24,9 +27,17 @@ writeMeshFiles (const PhysicalScene& scene, SceneFolder& folder)
       folder.write (meshFile (body.name), body.visual);
     for (std::size_t k = 0; k < body.parts.size (); ++k)
       folder.write (meshFile (partName (body, k)), body.parts[k]);
-    for (std::size_t k = body.parts.size (); folder.remove (meshFile (partName (body, k)));)
-      ++k; // what an earlier scene had more of
   }
+}
+
+void
+removeFormerParts (const PhysicalScene& scene, const std::string& folder)
+{
+  std::error_code failure;
+  for (const PhysicalBody& body : scene.bodies)
+    for (std::size_t k = body.parts.size ();
+         std::filesystem::remove (std::filesystem::path (folder) / meshFile (partName (body, k)), failure);)
+      ++k;
 }
 
 } // namespace pcl::cosection

@@ -20,4 +20,7 @@ std::string meshFile (const std::string& mesh_name);
 /** \brief Write the visual meshes, which are named as their bodies, and the parts. */
 void writeMeshFiles (const PhysicalScene& scene, SceneFolder& folder);
 
+/** \brief Remove the parts that an earlier scene in a folder had more of. */
+void removeFormerParts (const PhysicalScene& scene, const std::string& folder);
+
 } // namespace pcl::cosection

@@ -60,13 +60,6 @@ SceneFolder::write (const std::string& name, const SignedDistanceField& field)
   paths_.push_back (path);
 }
 
-bool
-SceneFolder::remove (const std::string& name) const
-{
-  std::error_code failure;
-  return std::filesystem::remove (std::filesystem::path (folder_) / name, failure);
-}
-
 std::vector<std::string>
 SceneFolder::finish ()
 {

@@ -29,9 +29,6 @@ public:
   /** \brief Write a signed distance, as VTK image data. \throws IoError */
   void write (const std::string& name, const SignedDistanceField& field);
 
-  /** \brief Remove a file of an earlier scene. \return whether there was one */
-  bool remove (const std::string& name) const;
-
   /** \brief Keep the files. \return their paths, in the order in which they were written */
   std::vector<std::string> finish ();
 

@@ -15,4 +15,9 @@ namespace pcl::cosection {
 double contradictingShare (const std::vector<Eigen::Vector3f>& points, const std::vector<Eigen::Vector3f>& normals,
                            int neighbours = 6);
 
+/** \brief How far normals are from those of the planes through their neighbours, where these are flat: the mean of the
+ * squared sine of the angle, of any sign; 0 where too few are flat. Of random directions it is 2 / 3.
+ * \param[in] points finite \param[in] normals one per point; those that are not finite are left out */
+double slantOfNormals (const std::vector<Eigen::Vector3f>& points, const std::vector<Eigen::Vector3f>& normals);
+
 } // namespace pcl::cosection

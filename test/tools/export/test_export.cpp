@@ -16,8 +16,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <chrono>
+#include <csignal>
 #include <filesystem>
 #include <fstream>
+#include <map>
+#include <thread>
 
 namespace fs = std::filesystem;
 
@@ -271,8 +275,79 @@ TEST_F (Export, LeavesNothingOnAFullDisk)
   EXPECT_EQ (tool.wait (), 1);
   const std::string errors = tool.errors ();
   EXPECT_EQ (std::count (errors.begin (), errors.end (), '\n'), 1) << errors;
-  EXPECT_FALSE (fs::exists (folder_.file ("out/scene.json")));
-  EXPECT_FALSE (fs::exists (folder_.file ("out/meshes")));
+  EXPECT_FALSE (fs::exists (folder_.file ("out")));
+}
+
+TEST_F (Export, AFailedRunLeavesAnEarlierExportAsItWas)
+{
+  const Words arguments = {"--format", "mjcf", "--format", "urdf", "--density", "900", "result", "out"};
+  ASSERT_EQ (run ({"--format", "mjcf", "--format", "urdf", "result", "out"}), 0) << errors_;
+  const auto contents = [&] {
+    std::map<std::string, std::string> files;
+    for (const auto& entry : fs::recursive_directory_iterator (folder_.file ("out")))
+      files[entry.path ().string ()] = entry.is_regular_file () ? readFile (entry.path ().string ()) : "";
+    return (files);
+  };
+  const auto before = contents ();
+  std::uintmax_t largest = 0; // a scene, which meshes come before
+  for (const auto& [name, text] : before)
+    largest = std::max<std::uintmax_t> (largest, text.size ());
+  const auto limitFiles = [largest] {
+    const rlimit limit{largest / 2, largest / 2};
+    setrlimit (RLIMIT_FSIZE, &limit);
+  };
+  ToolRun tool (arguments, folder_.file (""), limitFiles, PCL_COSECTION_EXPORT_TOOL);
+  EXPECT_EQ (tool.wait (), 1);
+  EXPECT_NE (tool.errors ().find ("'out/scene."), std::string::npos) << tool.errors ();
+  EXPECT_TRUE (contents () == before); // not printed
+
+  const std::string urdf = folder_.file ("out/box_1.urdf"), aside = folder_.file ("urdf");
+  fs::rename (urdf, aside);
+  fs::create_directory (urdf);
+  EXPECT_EQ (run (arguments), 1);
+  EXPECT_NE (errors_.find ("it is a folder"), std::string::npos) << errors_;
+  fs::remove (urdf);
+  fs::rename (aside, urdf);
+  EXPECT_TRUE (contents () == before); // not printed
+
+  fs::create_directories (folder_.file ("out/.cosection-2147483646-files.tmp/meshes")); // of a process that is gone
+  EXPECT_EQ (run (arguments), 0) << errors_;
+  const auto after = contents ();
+  ASSERT_EQ (after.size (), before.size ());
+  EXPECT_FALSE (after == before);
+}
+
+TEST_F (Export, WhatAnEarlierExportHadMoreOfIsRemoved)
+{
+  TriangleMesh cross = boxMesh ({-0.05f, -0.01f, 0.5f}, {0.05f, 0.01f, 0.52f});
+  appendMesh (cross, boxMesh ({-0.01f, 0.02f, 0.5f}, {0.01f, 0.06f, 0.52f}));
+  saveMesh (cross, folder_.file ("result/object_1.ply"));
+  ASSERT_EQ (run ({"--format", "mjcf", "result", "out"}), 0) << errors_;
+  ASSERT_TRUE (fs::exists (folder_.file ("out/meshes/box_1_part_1.obj")));
+  ASSERT_EQ (run ({"--format", "mjcf", "--collision", "hull", "result", "out"}), 0) << errors_;
+  EXPECT_TRUE (fs::exists (folder_.file ("out/meshes/box_1_part_0.obj")));
+  EXPECT_FALSE (fs::exists (folder_.file ("out/meshes/box_1_part_1.obj")));
+}
+
+TEST_F (Export, AnInterruptionLeavesWhatWasThere)
+{
+  ASSERT_EQ (run ({"--format", "mjcf", "result", "out"}), 0) << errors_;
+  const std::string before = readFile (folder_.file ("out/scene.xml"));
+  ToolRun tool ({"--format", "mjcf", "--density", "900", "--save-points", "50000", "result", "out"}, folder_.file (""),
+                {}, PCL_COSECTION_EXPORT_TOOL);
+  const auto isWriting = [&] {
+    const fs::directory_iterator entries (folder_.file ("out"));
+    return (std::any_of (begin (entries), end (entries), [] (const fs::directory_entry& entry) {
+      return (entry.path ().filename ().string ()[0] == '.');
+    }));
+  };
+  for (int n = 0; n < 6000 && !isWriting (); ++n)
+    std::this_thread::sleep_for (std::chrono::milliseconds (5));
+  tool.send (SIGTERM);
+  EXPECT_EQ (tool.wait (), 130);
+  EXPECT_EQ (readFile (folder_.file ("out/scene.xml")), before);
+  EXPECT_FALSE (fs::exists (folder_.file ("out/points")));
+  EXPECT_FALSE (isWriting ());
 }
 
 } // namespace

@@ -241,6 +241,27 @@ TEST_F (FusionTool, MasksOfSixteenBits)
   EXPECT_TRUE (exists ("out/mesh/object_65534_tsdf.ply")); // 65535 is no object
 }
 
+TEST_F (FusionTool, MasksOfWhichTheBackgroundIsAnObjectAreWarnedOf)
+{
+  const std::string warning = "masks must be 0 where no object is";
+  fs::create_directory (file ("shifted"));
+  for (const auto& entry : fs::directory_iterator (file ("sim/mask")))
+  {
+    Image<std::uint16_t> mask = loadMaskImage (entry.path ().string ());
+    for (std::uint16_t& pixel : mask.pixels)
+      ++pixel;
+    saveMaskImage (mask, file ("shifted/" + entry.path ().filename ().string ()), true);
+  }
+  ASSERT_EQ (run ({"--camera-trajectory", "sim/gt-cam-0.txt", "--masks", "shifted", "--object-trajectory",
+                   "2=sim/gt-ball-1.txt", "--resolution", "16", "sim", "out"}),
+             0)
+      << errors_;
+  EXPECT_NE (errors_.find ("object 1 extends farther than all others together: " + warning), std::string::npos)
+      << errors_;
+  ASSERT_EQ (run (known ({"--resolution", "16", "sim", "out"})), 0) << errors_;
+  EXPECT_EQ (errors_.find (warning), std::string::npos) << errors_;
+}
+
 TEST_F (FusionTool, ALayoutWithPosesNeedsNoTrajectory)
 {
   fs::create_directory (file ("seven"));
