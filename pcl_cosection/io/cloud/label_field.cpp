@@ -164,7 +164,7 @@ readLabels (const std::string& path, const CloudHeader& header, const PCLPointCl
       std::count (numbers.begin (), numbers.end (), 0) > 0)
     cloud.warnings.push_back (path +
                               ": label 0 is the background, and points of a negative label or NaN are ignored; if "
-                              "labels count the objects from 0 and those are none, as of clusters, add 1 to all");
+                              "labels count the objects from 0 and those mark no object, as clusters do, add 1 to all");
   if (has_object_zero)
     cloud.warnings.push_back (path + ": label 0 is no background; it is object " + std::to_string (background[0]));
   if (!options.background_labels.empty () && !has_background)
