@@ -124,7 +124,8 @@ exportScene (const std::string& result, const std::string& output, const ExportS
   report.scene.T_result_scene.pretranslate (completed.origin);
   report.scene.warnings.insert (report.scene.warnings.begin (), completed.warnings.begin (), completed.warnings.end ());
   stopIfAsked ();
-  const bool is_new = !fs::exists (output);
+  std::error_code unknown;
+  const bool is_new = !fs::exists (fs::symlink_status (output, unknown));
   makeFolder (output);
   requireWritableFolder (output, output);
   try
