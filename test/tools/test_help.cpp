@@ -215,6 +215,10 @@ TEST_F (Help, ExamplesWork)
   for (const char* name : {"front.pcd", "left.pcd", "cropped.pcd"})
     writeSphere (folder.file (name), points += 50);
   pcl::PointCloud<pcl::PointNormal> cloud;
+  pcl::io::loadPCDFile (folder.file ("cropped.pcd"), cloud);
+  for (auto& p : cloud)
+    p.z -= 0.4f; // it stands on the plane of its example
+  pcl::io::savePCDFileBinary (folder.file ("cropped.pcd"), cloud);
   pcl::io::loadPCDFile (folder.file ("front.pcd"), cloud);
   for (auto& p : cloud)
     p.getVector3fMap () *= 1000.0f;

@@ -25,8 +25,9 @@ using namespace pcl::cosection;
 namespace {
 
 constexpr std::size_t min_points = 100;
-constexpr std::size_t most_skipped = 20; ///< labels, that are named
-constexpr float large_extent = 100.0f;   ///< metres; what is larger is probably not in metres
+constexpr std::size_t specks = min_points / 2; ///< points of what may be no object, as a row of mixed pixels
+constexpr std::size_t most_skipped = 20;       ///< labels, that are named
+constexpr float large_extent = 100.0f;         ///< metres; what is larger is probably not in metres
 
 std::string
 tooFew (std::uint32_t label, const LabelledView::Points& object)
@@ -203,8 +204,9 @@ findLabels (const std::string& path, const Settings& settings, const PcdViewOpti
   std::map<std::uint32_t, std::size_t> counts;
   for (const std::uint32_t label : found.labels)
     ++counts[label];
-  const auto small = std::count_if (counts.begin (), counts.end (),
-                                    [] (const auto& label) { return label.first > 0 && label.second < min_points; });
+  const auto small = std::count_if (counts.begin (), counts.end (), [] (const auto& label) {
+    return label.first > 0 && label.second < min_points && label.second > specks;
+  });
   if (small > 0)
     warnings.push_back (path + ": " + std::to_string (small) + " of the objects that were found " +
                         (small == 1 ? "is" : "are") + " left out, with fewer than " + std::to_string (min_points) +
