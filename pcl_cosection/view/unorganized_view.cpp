@@ -29,7 +29,9 @@ constexpr double surely_inward = 0.3; // outward share of a body whose normals a
 constexpr float one_sided = 0.7f;
 constexpr std::size_t least_background = 100; // points, to decide on a side
 constexpr double decisive = 0.75;             // share of a piece that faces to one side
-constexpr double strange_slant = 1.0 / 3.0;   // slantOfNormals (), half of that of random directions
+// slantOfNormals (): half of that of random directions. Of estimated ones on real clouds (OSD, YCB-Video, RealSense,
+// robots' tables; 68 labels) it is at most 0.07.
+constexpr double strange_slant = 1.0 / 3.0;
 
 /** \brief How much of what of all normals has a sign does have a positive one. */
 class Share
