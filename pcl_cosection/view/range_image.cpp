@@ -24,6 +24,7 @@ constexpr int directions = 400;
 constexpr std::size_t samples = 2000;
 constexpr double unsure_share = 0.1; // of the points, may face away from the sensor, or be hidden from it
 constexpr double distance_diagonals = 5.0;
+constexpr std::size_t least_covered = 50; // pixels of an object, to judge what is seen through it
 constexpr float nothing = std::numeric_limits<float>::infinity ();
 
 /** \brief Looking from \a eye along \a axis; the roll does not matter. */
@@ -149,20 +150,72 @@ draw (const Projection& projection, const Eigen::Isometry3d& T_points_sensor)
   return view;
 }
 
+/** \brief Slopes and depth of a point in a view; nothing if it is not before it, or beside it. */
+std::optional<Eigen::Vector3f>
+projectInto (const DepthView& view, const Eigen::Vector3f& point)
+{
+  const Eigen::Vector3d p = view.T_world_sensor.inverse () * point.cast<double> ();
+  if (!(p.z () > 0.0))
+    return std::nullopt;
+  const Eigen::Vector3f projected (static_cast<float> (p.x () / p.z ()), static_cast<float> (p.y () / p.z ()),
+                                   static_cast<float> (p.z ()));
+  if (!isWithin (view.camera, projected))
+    return std::nullopt;
+  return projected;
+}
+
+/** \brief The pixels in which a point of an object is the nearest, without those of the border. */
+std::vector<std::uint8_t>
+coveredPixels (const DepthView& view, const std::vector<Eigen::Vector3f>& object)
+{
+  std::vector<std::uint8_t> own (view.depth.size (), 0), inner (view.depth.size (), 0);
+  for (const Eigen::Vector3f& point : object)
+    if (const auto p = projectInto (view, point); p && !isHidden (view, *p))
+      own[pixelOf (view.camera, *p)] = 1;
+  const int width = view.camera.width;
+  for (int v = 1; v + 1 < view.camera.height; ++v)
+    for (int u = 1; u + 1 < width; ++u)
+    {
+      bool all = true;
+      for (int dv = -1; dv <= 1; ++dv)
+        for (int du = -1; du <= 1; ++du)
+          all = all && own[static_cast<std::size_t> (v + dv) * width + u + du] != 0;
+      inner[static_cast<std::size_t> (v) * width + u] = all ? 1 : 0;
+    }
+  return inner;
+}
+
 } // namespace
 
 bool
 RangeImage::hides (const Eigen::Vector3f& point) const
 {
   const auto hidesIn = [&] (const DepthView& of) {
-    const Eigen::Vector3d p = of.T_world_sensor.inverse () * point.cast<double> ();
-    if (!(p.z () > 0.0))
-      return false;
-    const Eigen::Vector3f projected (static_cast<float> (p.x () / p.z ()), static_cast<float> (p.y () / p.z ()),
-                                     static_cast<float> (p.z ()));
-    return (others.empty () || isWithin (of.camera, projected)) && isHidden (of, projected);
+    const auto projected = projectInto (of, point);
+    return projected && isHidden (of, *projected);
   };
   return hidesIn (view) || std::any_of (others.begin (), others.end (), hidesIn);
+}
+
+double
+RangeImage::seenThrough (const std::vector<Eigen::Vector3f>& object, const std::vector<Eigen::Vector3f>& behind) const
+{
+  std::size_t covered = 0, pierced = 0;
+  const auto count = [&] (const DepthView& of) {
+    const std::vector<std::uint8_t> inner = coveredPixels (of, object);
+    std::vector<std::uint8_t> through (inner.size (), 0);
+    for (const Eigen::Vector3f& point : behind)
+      if (const auto p = projectInto (of, point); p && isHidden (of, *p))
+        through[pixelOf (of.camera, *p)] = 1;
+    for (std::size_t i = 0; i < inner.size (); ++i)
+    {
+      covered += inner[i];
+      pierced += inner[i] & through[i];
+    }
+  };
+  count (view);
+  std::for_each (others.begin (), others.end (), count);
+  return covered < least_covered ? 0.0 : static_cast<double> (pierced) / static_cast<double> (covered);
 }
 
 std::optional<RangeImage>

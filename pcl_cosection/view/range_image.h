@@ -26,6 +26,13 @@ struct RangeImage
 
   /** \brief Whether a point, in the frame of the view's pose, lies clearly behind what the view shows in its pixel. */
   bool hides (const Eigen::Vector3f& point) const;
+
+  /** \brief How much of what an object covers shows what is clearly behind it, as no sensor sees: the share of its
+   * pixels, without those of its border.
+   * \param[in] object its points, in the frame of the view's pose
+   * \param[in] behind what may be behind it, in the same frame
+   * \return 0 for an object of fewer than 50 such pixels */
+  double seenThrough (const std::vector<Eigen::Vector3f>& object, const std::vector<Eigen::Vector3f>& behind) const;
 };
 
 /** \brief Draw an unorganised cloud as a depth image, so that the space in front of its points counts as seen free.

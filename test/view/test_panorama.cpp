@@ -60,6 +60,19 @@ TEST_F (Panorama, AnOrganisedTurnShowsFreeSpaceAllAround)
   EXPECT_GT (readings, 1000u);
 }
 
+/** \brief A width that is not that of the sensor: steps along rows and columns are as steady, but beside each other. */
+TEST_F (Panorama, RowsOfAnotherWidthAreNotTheSensors)
+{
+  pcl::PointCloud<pcl::PointXYZL> cloud = turnInARoom ();
+  cloud.width = 300;
+  cloud.height = 48;
+  pcl::io::savePCDFileBinary (path ("turn.pcd"), cloud);
+  const LabelledView view = readPcdView (path ("turn.pcd"));
+  EXPECT_TRUE (view.other_views.empty ());
+  ASSERT_FALSE (view.warnings.empty ());
+  EXPECT_NE (view.warnings.front ().find ("not the image of a pinhole camera"), std::string::npos);
+}
+
 TEST_F (Panorama, GroundSeenNearlyLevelIsNotHidden)
 {
   pcl::io::savePCDFileBinary (path ("turn.pcd"), turnInARoom (45.0f, 1.0f)); // its rings are up to 20 m apart
