@@ -1,8 +1,10 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "frame_context.h"
 
+#include "pcl_cosection/common/quantile.h"
 #include "pcl_cosection/fusion/mapping/object_tsdf.h"
 #include "pcl_cosection/sequence/stamp_matching.h"
+#include "pcl_cosection/view/visibility/visibility.h"
 
 #include <pcl/cosection/common/error.h>
 #include <pcl/cosection/fusion/dynamic_fusion.h>
@@ -110,6 +112,8 @@ public:
     known.masked = true;
     ++frames_;
     frames_without_pose_ += !known.T_world_camera;
+    if (known.T_world_camera)
+      noteStep (frame.depth, known.T_world_camera->translation ());
     const ScopedSeconds timer (segmentation_s_);
     if (known.T_world_camera)
       known.instances = sequence_.masks ? masks_.read (frame) : Image<std::uint16_t> ();
@@ -169,6 +173,9 @@ public:
     if (frames_without_pose_ > 0)
       result.warnings.push_back (std::to_string (frames_without_pose_) + " of " + std::to_string (frames_) +
                                  " frames were left out: the camera's trajectory has no pose for them");
+    if (2 * far_steps_ > frames_)
+      result.warnings.push_back ("between most frames the camera moves farther than what it sees is away: its poses "
+                                 "must be in metres, as the depth");
     const bool saw_object = std::any_of (objects_.begin (), objects_.end (),
                                          [] (const auto& object) { return object.second.seen; });
     if (sequence_.masks && result.objects.empty () && !saw_object)
@@ -181,6 +188,16 @@ public:
 
 private:
   KnownObject& objectOf (int id) { return objects_.try_emplace (id, options_.tsdf).first->second; }
+
+  /** \brief Note whether the camera moved farther than the middle of what it sees is away. */
+  void noteStep (const Image<float>& depth, const Eigen::Vector3d& place)
+  {
+    std::vector<float> readings;
+    std::copy_if (depth.pixels.begin (), depth.pixels.end (), std::back_inserter (readings), isReading);
+    if (last_place_ && !readings.empty () && (place - *last_place_).norm () > upperMedian (readings))
+      ++far_steps_;
+    last_place_ = place;
+  }
 
   /** \brief Make room for the points of a keyframe. */
   void placeVolumes (const Keyframe& keyframe, std::size_t frame)
@@ -208,6 +225,8 @@ private:
   std::map<int, KnownObject> objects_;
   std::size_t frames_ = 0;
   std::size_t frames_without_pose_ = 0;
+  std::size_t far_steps_ = 0;
+  std::optional<Eigen::Vector3d> last_place_; // of the camera
   double segmentation_s_ = 0.0;
   double integration_s_ = 0.0;
 };

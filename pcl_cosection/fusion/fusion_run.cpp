@@ -3,7 +3,9 @@
 
 #include "run_log.h"
 
+#include <algorithm>
 #include <chrono>
+#include <iterator>
 #include <utility>
 
 namespace pcl::cosection {
@@ -24,10 +26,10 @@ leaveOutSmallObjects (FusionResult& result)
       ++object;
       continue;
     }
-    if (points > 0)
-      result.warnings.push_back ("object " + std::to_string (object->first) + " was left out: it has only " +
-                                 std::to_string (points) + " points in all keyframes; " +
-                                 std::to_string (min_object_points) + " are needed");
+    if (points > 0 || !object->second.trajectory.empty ())
+      result.warnings.push_back ("object " + std::to_string (object->first) + " was left out: it has " +
+                                 (points > 0 ? "only " + std::to_string (points) : "no") +
+                                 " points in all keyframes; " + std::to_string (min_object_points) + " are needed");
     object = eraseObject (object, false, result);
   }
 }
@@ -106,6 +108,9 @@ FusionRun::add (const RgbdFrame& frame, const SequenceFusion::FrameCallback& on_
   else
     backend_.addFrame (makeDepthView (frame.depth, camera_, *known.T_world_camera, options_.keyframe), T_world_object);
 
+  if (!keyframe && known.masked)
+    keepUnseen (frame, known, T_world_object);
+
   if (on_frame)
     on_frame ({frame, *known.T_world_camera, T_world_object, known.instances ? &*known.instances : nullptr,
                last_is_keyframe_, [this] (int id) { return context_->surfaceMesh (id); }});
@@ -128,6 +133,39 @@ FusionRun::countPoints (const Keyframe& keyframe, const CoSectionBackend::Poses&
 }
 
 void
+FusionRun::keepUnseen (const RgbdFrame& frame, const FrameKnowns& known, const CoSectionBackend::Poses& T_world_object)
+{
+  const auto showsEnough = [&] (const auto& object) {
+    return result_.objects[object.first].points == 0 &&
+           std::count (known.instances->pixels.begin (), known.instances->pixels.end (), object.first) >=
+               static_cast<std::ptrdiff_t> (min_object_points);
+  };
+  if (!known.instances || std::none_of (T_world_object.begin (), T_world_object.end (), showsEnough))
+    return;
+  const ScopedSeconds timer (result_.timings_s["keyframes"]);
+  Keyframe keyframe = makeKeyframe (frame, camera_, *known.instances, *known.T_world_camera, options_.keyframe);
+  for (auto of_label = keyframe.points.begin (); of_label != keyframe.points.end ();)
+    of_label = of_label->first == 0 || T_world_object.count (of_label->first) > 0 ? std::next (of_label)
+                                                                                  : keyframe.points.erase (of_label);
+  unseen_.emplace (std::move (keyframe), T_world_object);
+}
+
+void
+FusionRun::addUnseen (CoSectionBackend& backend)
+{
+  if (!unseen_)
+    return;
+  const auto& [keyframe, T_world_object] = *unseen_;
+  if (std::none_of (keyframe.points.begin (), keyframe.points.end (), [this] (const auto& of_label) {
+        return of_label.first != 0 && result_.objects[of_label.first].points == 0;
+      }))
+    return;
+  ++result_.keyframes;
+  countPoints (keyframe, T_world_object);
+  backend.addKeyframe (keyframe, T_world_object);
+}
+
+void
 FusionRun::followUpdates (const std::function<void ()>& report, const SequenceFusion::KeyframeCallback& on_keyframe,
                           bool wait_for_all)
 {
@@ -140,6 +178,7 @@ FusionResult
 FusionRun::complete (const ProgressCallback& progress)
 {
   CoSectionBackend& backend = backend_.withoutUpdates ();
+  addUnseen (backend);
   for (const int id : context_->wrongObjects ())
     backend.removeObject (id);
   FusionResult result = result_;

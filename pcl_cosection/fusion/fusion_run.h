@@ -96,6 +96,12 @@ private:
 
   void countPoints (const Keyframe& keyframe, const CoSectionBackend::Poses& T_world_object);
 
+  /** \brief Keep what a frame between keyframes shows of objects that are in none so far. */
+  void keepUnseen (const RgbdFrame& frame, const FrameKnowns& known, const CoSectionBackend::Poses& T_world_object);
+
+  /** \brief A further keyframe of objects that are in no other one, as those that began after the last. */
+  void addUnseen (CoSectionBackend& backend);
+
   const PinholeCamera camera_;
   const FusionOptions& options_;
   const std::unique_ptr<FrameContext> context_;
@@ -104,6 +110,7 @@ private:
   KeyframePoints points_;
   std::optional<std::size_t> next_keyframe_; // index of the frame from which on one is due
   bool last_is_keyframe_ = false;
+  std::optional<std::pair<Keyframe, CoSectionBackend::Poses>> unseen_;
 };
 
 } // namespace pcl::cosection

@@ -10,11 +10,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <map>
 #include <set>
 
 namespace pcl::cosection {
 namespace {
 
+constexpr std::size_t speck_px = 100;        // of an instance that hardly is an object ...
+constexpr std::size_t most_specks = 20;      // ... and how many of those a mask may have
 constexpr double largest_instance = 65533.0; // from 0; 65535 has a meaning of its own
 
 /** \brief Whether names of two numbers are those of a frame and an instance: several files have the same second number
@@ -35,6 +39,17 @@ arePerInstance (const std::vector<PairedFile>& files, std::size_t all, const std
     matched += nearestStamp (stamps, file.second, limit).has_value ();
   }
   return second.size () < files.size () || matched < files.size ();
+}
+
+/** \brief How many values of a mask cover few pixels each: many where it was scaled or compressed as a photograph. */
+std::size_t
+countSpecks (const Image<std::uint16_t>& mask)
+{
+  std::map<std::uint16_t, std::size_t> pixels;
+  for (const std::uint16_t value : mask.pixels)
+    ++pixels[value];
+  return static_cast<std::size_t> (std::count_if (
+      pixels.begin (), pixels.end (), [] (const auto& value) { return value.first != 0 && value.second < speck_px; }));
 }
 
 } // namespace
@@ -90,6 +105,24 @@ MaskSequence::MaskSequence (const std::string& folder, const RgbdSequence& seque
                    stampSpan (sequence.stamp (0), sequence.stamp (sequence.size () - 1)));
   if (!unmatched.empty ())
     warnings_.push_back (firstAndMore (unmatched) + (unmatched.size () == 1 ? " matches" : " match") + " no frame");
+  if (!per_instance_)
+    warnOfSpecks ();
+}
+
+void
+MaskSequence::warnOfSpecks ()
+try
+{
+  const std::string& path = files_.front ().front ().path;
+  if (const std::size_t specks = countSpecks (readFile (path)); specks > most_specks)
+    warnings_.push_back (path + ": has " + std::to_string (specks) + " instances of fewer than " +
+                         std::to_string (speck_px) +
+                         " pixels: masks must not be blurred, scaled with interpolation, "
+                         "or compressed as JPEG");
+}
+catch (const Error&)
+{
+  // It is told when its frame is read.
 }
 
 std::optional<std::string>

@@ -2,6 +2,7 @@
 #include <pcl/cosection/io/pcd_view.h>
 
 #include "given_ground.h"
+#include "pcl_cosection/common/boxes.h"
 #include "sensor_view.h"
 
 #include <pcl/cosection/common/error.h>
@@ -9,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <iterator>
 #include <limits>
 #include <map>
 #include <sstream>
@@ -20,6 +22,8 @@ namespace {
 constexpr std::size_t most_objects = 10000;   // of one view, of ...
 constexpr std::size_t points_of_object = 100; // ... so many points each
 constexpr double farthest_viewpoint = 1e15;   // metres; as of the header
+constexpr double damaged_extent = 1e9;        // metres, of nearly all points: single precision has steps of 64 m there
+constexpr double outlier_share = 0.02;        // of the points on each side
 constexpr double millimetre_extent = 100.0;   ///< metres; a scene this large is probably not in metres
 
 /** \brief Refuse labels that hardly number objects, before hours are spent on them. \throws DegenerateInput */
@@ -83,6 +87,19 @@ checkExtent (const std::string& path, const PcdViewOptions& options, const Senso
   const double extent = box.sizes ().maxCoeff ();
   if (extent > millimetre_extent)
   {
+    std::vector<Eigen::Vector3f> points;
+    std::copy_if (cloud.positions.begin (), cloud.positions.end (), std::back_inserter (points),
+                  [] (const Eigen::Vector3f& p) { return p.allFinite (); });
+    const double
+        usual = trimmedBox<float> (points, outlier_share, [] (const auto& p) { return p; }).sizes ().maxCoeff ();
+    if (usual > damaged_extent)
+    {
+      std::ostringstream text;
+      text.precision (3);
+      text << path << ": its points extend over " << usual
+           << " m: it is damaged, or of a big-endian machine (points are little-endian in binary PCD files)";
+      throw DegenerateInput (text.str ());
+    }
     std::ostringstream text;
     text.precision (3);
     text << path << ": extends over " << extent << " m";

@@ -139,6 +139,15 @@ TEST_F (SequenceFusionTest, ObjectsAreCompletedInTheirFrames)
     EXPECT_TRUE (pose.pose.isApprox (Eigen::Isometry3d::Identity ()));
 }
 
+TEST_F (SequenceFusionTest, PosesOfAnotherUnitThanTheDepthAreWarnedOf)
+{
+  const char* const warning = "its poses must be in metres";
+  EXPECT_FALSE (mentions (run (every (4)).warnings, warning));
+  for (StampedPose& pose : camera_poses_)
+    pose.pose.translation () *= 1000.0;
+  EXPECT_TRUE (mentions (run (every (4)).warnings, warning));
+}
+
 TEST_F (SequenceFusionTest, GapsInPosesStayGaps)
 {
   camera_poses_.erase (camera_poses_.begin () + 2, camera_poses_.begin () + 4);
@@ -205,6 +214,21 @@ TEST_F (SequenceFusionTest, AFewPixelsAreNoObject)
   EXPECT_EQ (result.objects.count (500), 0u);
   EXPECT_TRUE (mentions (result.warnings, "object 500 was left out: it has only "));
   EXPECT_TRUE (mentions (result.warnings, "points in all keyframes; 100 are needed"));
+}
+
+TEST_F (SequenceFusionTest, AnObjectThatOnlyFramesBetweenKeyframesShowIsCompleted)
+{
+  for (int n = 0; n < frames; ++n)
+    if (n != 5)
+    {
+      Image<std::uint16_t> mask = loadMaskImage (folder_.path (maskName (n)));
+      std::replace (mask.pixels.begin (), mask.pixels.end (), std::uint16_t (ball), std::uint16_t (0));
+      saveMaskImage (mask, folder_.newPath (maskName (n)), true);
+    }
+  const FusionResult result = run (every (4));
+  EXPECT_EQ (result.keyframes, 3u); // 0, 4 and that one
+  EXPECT_EQ (result.scene.objects.size (), 2u);
+  EXPECT_GT (result.objects.at (ball).points, 100u);
 }
 
 TEST_F (SequenceFusionTest, AnUnseenObjectIsToldAndHasNoTrajectory)

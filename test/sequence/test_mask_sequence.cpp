@@ -57,6 +57,18 @@ TEST (MaskSequence, NearestStampWithinHalfAPeriod)
   EXPECT_TRUE (mentions (masks.warnings (), "10.145.png matches no frame"));
 }
 
+TEST (MaskSequence, BlurredMasksAreWarnedOf)
+{
+  SequenceFolder folder;
+  folder.coFusion ({0});
+  const RgbdSequence sequence (folder.path ());
+  Image<std::uint16_t> mask (sequence.camera ().width, sequence.camera ().height);
+  for (std::size_t n = 0; n < mask.pixels.size (); ++n)
+    mask.pixels[n] = static_cast<std::uint16_t> (n % 2 == 0 ? 0 : 5 * n);
+  saveMaskImage (mask, folder.newPath ("mask/Mask0000.png"), true);
+  EXPECT_TRUE (mentions (MaskSequence (folder.path ("mask"), sequence).warnings (), "masks must not be blurred"));
+}
+
 TEST (MaskSequence, BadMasksAreNamed)
 {
   SequenceFolder folder;

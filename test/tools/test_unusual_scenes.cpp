@@ -229,6 +229,51 @@ TEST_F (MistakenInput, PlanesFarFromAllObjectsAreWarnedOf)
   }
 }
 
+TEST_F (MistakenInput, LargeVoxelsAreWarnedOf)
+{
+  writeSphere (path ("ball.pcd"), 4000);
+  for (const auto& [size, is_large] : std::vector<std::pair<std::string, bool>>{{"0.02", false}, {"0.04", true}})
+  {
+    ASSERT_EQ (run ({"--voxel-size", size, "ball.pcd", "ball.ply"}), 0) << errors_;
+    EXPECT_EQ (isSaid ("is large for object 1"), is_large) << errors_;
+    EXPECT_EQ (std::abs (volume ("ball.ply") - ball_m3) > 0.1 * ball_m3, is_large) << volume ("ball.ply");
+  }
+}
+
+TEST_F (MistakenInput, PointsThatTheHeaderDoesNotAnnounceAreWarnedOf)
+{
+  writeSphere (path ("ball.pcd"), 4000);
+  for (const bool binary : {false, true})
+  {
+    pcl::PointCloud<pcl::PointXYZ> cloud;
+    pcl::io::loadPCDFile (path ("ball.pcd"), cloud);
+    pcl::io::savePCDFile (path ("long.pcd"), cloud, binary);
+    const std::string whole = pcl::cosection::test::readFile (path ("long.pcd"));
+    std::string text = whole;
+    for (const std::string& key : {"WIDTH ", "POINTS "})
+      text.replace (text.find (key) + key.size (), 4, "3000");
+    pcl::cosection::test::writeFile (path ("long.pcd"), text);
+    ASSERT_EQ (run ({"long.pcd", "long.ply"}), 0) << errors_;
+    EXPECT_TRUE (isSaid ("holds more points than the 3000 that its header announces")) << errors_;
+    pcl::cosection::test::writeFile (path ("long.pcd"), whole + "\n");
+    ASSERT_EQ (run ({"long.pcd", "long.ply"}), 0) << errors_;
+    EXPECT_FALSE (isSaid ("holds more points")) << errors_;
+  }
+}
+
+TEST_F (MistakenInput, PointsOfABigEndianMachineAreRefused)
+{
+  writeSphere (path ("ball.pcd"), 4000);
+  pcl::PointCloud<pcl::PointXYZ> cloud;
+  pcl::io::loadPCDFile (path ("ball.pcd"), cloud);
+  for (pcl::PointXYZ& p : cloud)
+    for (float* value : {&p.x, &p.y, &p.z})
+      std::reverse (reinterpret_cast<char*> (value), reinterpret_cast<char*> (value) + sizeof (float));
+  pcl::io::savePCDFileBinary (path ("big.pcd"), cloud);
+  EXPECT_EQ (run ({"big.pcd", "big.ply"}), 1);
+  EXPECT_TRUE (isSaid ("big-endian")) << errors_;
+}
+
 TEST_F (MistakenInput, AnOrganisedCloudThatIsNoImageIsAsWithoutAnOrder)
 {
   // The heights that a scanner above measures of a box of 18 x 20 x 6 cm, which is at no place of the cloud.

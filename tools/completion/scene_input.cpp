@@ -338,7 +338,8 @@ readScene (const Settings& settings, const ProgressCallback& progress, const Sce
   const std::optional<std::string> distant = distantPlanes (scene);
   if (distant)
     scene.planes.clear (); // objects would reach down to them
-  for (const auto& warning : {smallBackground (scene), objectLikeBackground (scene), distant})
+  for (const auto& warning : {smallBackground (scene), objectLikeBackground (scene), distant,
+                              largeVoxels (scene, settings.method.voxel_size_m)})
     if (warning)
       scene.warnings.push_back (*warning);
   for (const auto& [label, file] : settings.object_trajectories)

@@ -25,6 +25,9 @@ std::optional<std::string> smallBackground (const SceneInput& scene);
 /** \brief A warning of an object that extends about all the others, if there is no background: it may be that. */
 std::optional<std::string> objectLikeBackground (const SceneInput& scene);
 
+/** \brief A warning of the object that has the fewest voxels across, if they are too few for its shape. */
+std::optional<std::string> largeVoxels (const SceneInput& scene, double voxel_size_m);
+
 /** \brief A warning of given planes that are all farther from every object than that is long, if they are: they are not
  * to be used. */
 std::optional<std::string> distantPlanes (const SceneInput& scene);

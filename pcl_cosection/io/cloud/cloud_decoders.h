@@ -17,7 +17,7 @@ CloudHeader parsePcdHeader (const std::string& path, const std::string& text, st
 CloudHeader parsePlyCloudHeader (const std::string& path, std::string_view text, std::uint64_t size);
 
 /** \brief See readCloudPoints (). */
-PCLPointCloud2 readPcdPoints (const std::string& path, const CloudHeader& header);
+PCLPointCloud2 readPcdPoints (const std::string& path, CloudHeader& header);
 
 /** \brief See readCloudPoints (). */
 PCLPointCloud2 readPlyPoints (const std::string& path, CloudHeader& header);

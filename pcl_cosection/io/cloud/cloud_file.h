@@ -50,6 +50,7 @@ struct CloudHeader
   CloudEncoding encoding = CloudEncoding::Ascii;
   std::size_t data_offset = 0; ///< bytes before the points, of a PCD file
   bool has_faces = false;      ///< of a PLY file
+  bool has_more = false;       ///< of a PCD file that was read: points follow that the header does not announce
 
   /** \brief The field of this name, or nullptr. */
   const CloudField* find (const std::string& name) const;

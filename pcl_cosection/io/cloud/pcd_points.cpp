@@ -5,6 +5,7 @@
 
 #include <pcl/io/lzf.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdlib>
@@ -77,13 +78,20 @@ public:
       , cloud_ (emptyCloud (header, CloudPadding::Included))
   {}
 
-  PCLPointCloud2 decode (std::istream& file, std::size_t points)
+  PCLPointCloud2 decode (std::istream& file, CloudHeader& header)
   {
-    for (std::string line; row_ < points && std::getline (file, line);)
+    const std::size_t points = header.points;
+    std::string line;
+    while (row_ < points && std::getline (file, line))
       decodeLine (line);
     if (row_ < points)
       throw IoError (path_ + ": is truncated: its header announces " + std::to_string (points) + " points, there are " +
                      std::to_string (row_));
+    while (!header.has_more && std::getline (file, line))
+    {
+      const char* p = line.c_str ();
+      header.has_more = skipWhite (p, p + line.size ());
+    }
     return (std::move (cloud_));
   }
 
@@ -97,7 +105,8 @@ private:
     char* last = nullptr; // strtod reads "nan", "inf" and everything that PCL writes
     const double value = std::strtod (token, &last);
     if (last != p)
-      fail (std::string (token, p), "which is not a number");
+      fail (std::string (token, p), std::string ("which is not a number") +
+                                        (std::find (token, p, ',') == p ? "" : " (a decimal point, not a comma)"));
     return (value);
   }
 
@@ -149,18 +158,20 @@ private:
 } // namespace
 
 PCLPointCloud2
-readPcdPoints (const std::string& path, const CloudHeader& header)
+readPcdPoints (const std::string& path, CloudHeader& header)
 {
   std::ifstream file (path, std::ios::binary);
   file.seekg (static_cast<std::streamoff> (header.data_offset));
   if (!file)
     throw IoError (path + ": cannot be read");
   if (header.encoding == CloudEncoding::Ascii)
-    return (AsciiDecoder (path, header).decode (file, header.points));
+    return (AsciiDecoder (path, header).decode (file, header));
   if (header.encoding == CloudEncoding::BinaryCompressed)
     return (readCompressed (path, header, file));
   PCLPointCloud2 cloud = emptyCloud (header, CloudPadding::Included);
   readBytes (path, file, cloud.data.data (), cloud.data.size ());
+  file.seekg (static_cast<std::streamoff> (cloud.point_step) - 1, std::ios::cur);
+  header.has_more = file.get () != std::ifstream::traits_type::eof ();
   return (cloud);
 }
 

@@ -137,6 +137,9 @@ toSensorCloud (const std::string& path, const CloudHeader& header, const PCLPoin
   result.labels.assign (header.points, 1);
   if (with_labels)
     readLabels (path, header, cloud, options, result);
+  if (header.has_more)
+    result.warnings.push_back (path + ": holds more points than the " + std::to_string (header.points) +
+                               " that its header announces; these alone are read");
   if (header.has_faces)
     result.warnings.push_back (path + ": its vertices are taken as points, its faces are not used");
   const CloudField* colour = header.find ("rgb") ? header.find ("rgb") : header.find ("rgba");

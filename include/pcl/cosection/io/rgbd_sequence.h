@@ -271,7 +271,8 @@ public:
   /** \brief Whether there is a file for each instance. */
   bool isPerInstance () const { return per_instance_; }
 
-  /** \brief Lines about what is odd: files that match no frame, or whose names have no number; two of one number. */
+  /** \brief Lines about what is odd: files that match no frame, or whose names have no number; two of one number; a
+   * first mask of many specks. */
   const std::vector<std::string>& warnings () const { return warnings_; }
 
 private:
@@ -282,6 +283,9 @@ private:
   };
 
   Image<std::uint16_t> readFile (const std::string& path) const;
+
+  /** \brief Warn of a first mask that is blurred. */
+  void warnOfSpecks ();
 
   double half_period_;
   int width_;
