@@ -11,6 +11,8 @@
 
 #include <pcl/cosection/common/error.h>
 
+#include <Eigen/Eigenvalues>
+
 #include <algorithm>
 #include <cctype>
 #include <cmath>
@@ -27,7 +29,9 @@ constexpr double noticeable_shift_m = 0.001; // of a centre of mass
 constexpr double lower_half = 0.5;
 constexpr double highest_gap = 0.5; // below a body that is taken for one that stands, of its height
 constexpr std::size_t longest_label = 100;
-constexpr double flat_share = 0.25; // of a body's height, which is made flat at most
+constexpr double least_inertia = 1e-15; // kg m^2, and kg of a mass: what MuJoCo takes for zero
+constexpr double most_mass_kg = 1e30;   // formats have single precision
+constexpr double flat_share = 0.25;     // of a body's height, which is made flat at most
 
 /** \brief Letters, digits and underscores, and unlike all others. Files have it, whose names are short. */
 std::string
@@ -268,6 +272,14 @@ warnOf (const PhysicalBody& body, const BodyParts& parts, bool has_planes, std::
   if (size_m < smallest_m || size_m > largest_m)
     warnings.push_back (body.name + ": is " + size.str () +
                         " large, which simulators may refuse; lengths must be in metres");
+  const Eigen::Vector3d moments = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> (body.inertia).eigenvalues ();
+  if (body.mass_kg < least_inertia || moments.minCoeff () < least_inertia || body.mass_kg > most_mass_kg)
+  {
+    std::ostringstream mass;
+    mass.precision (2);
+    mass << body.mass_kg << " kg";
+    warnings.push_back (body.name + ": has a mass of " + mass.str () + ", which simulators refuse; is it right?");
+  }
 }
 
 } // namespace

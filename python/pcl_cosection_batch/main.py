@@ -220,6 +220,14 @@ def locked_batch(batch: Batch, lock: OutputLock) -> int:
     return 0 if done == len(tasks) and not terminal.is_broken else 1
 
 
+def require_current_folder() -> None:
+    """Raises UsageError if there is none: paths are relative to it, and items run in it."""
+    try:
+        os.getcwd()
+    except OSError as error:
+        raise UsageError("the current folder was removed; change to another one") from error
+
+
 def main(argv: list[str]) -> int:
     """The program. Returns the exit status."""
     signal.signal(signal.SIGINT, signal.SIG_DFL)  # until there is something to bring to an end
@@ -234,6 +242,7 @@ def main(argv: list[str]) -> int:
             print(f"{PROGRAM} of {version_of(find_program('pcl_cosection', arguments.programs, own_folder()))}",
                   flush=True)
             return 0
+        require_current_folder()
         return run_batch(arguments, terminal)
     except UsageError as error:
         terminal.error(str(error))

@@ -77,6 +77,7 @@ class Terminal:
         """A line on standard output."""
         if not self.quiet:
             self._clear()
+            self.is_broken = self.is_broken or sys.stdout is None
             self._write(sys.stdout, one_line(text) + "\n")
 
     def note(self, text: str) -> None:

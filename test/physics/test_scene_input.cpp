@@ -223,6 +223,13 @@ TEST (SceneInput, WarnsOfWhatASimulationWouldShow)
   EXPECT_EQ (countOf (buildPhysicalScene (below, {}), "a_1: will not stay"), 1u);
   const PhysicalScene twice = buildPhysicalScene (sceneOf ({objectOf (1, "a", box), objectOf (2, "b", box)}), {});
   EXPECT_EQ (countOf (twice, "of its volume"), 2u);
+  for (const double mass : {1e-16, 1e39})
+  {
+    PhysicsOptions options;
+    options.masses_kg[1] = mass;
+    EXPECT_EQ (countOf (buildPhysicalScene (sceneOf ({objectOf (1, "a", box)}), options), "which simulators refuse"),
+               1u);
+  }
   for (const double factor : {0.001, 20000.0})
     EXPECT_EQ (countOf (buildPhysicalScene (scaledScene (sceneOf ({objectOf (1, "a", box)}), factor), {}),
                         "which simulators may refuse"),

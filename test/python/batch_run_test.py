@@ -157,6 +157,20 @@ class Results(BatchTest):
                                    stderr=subprocess.PIPE, env=self.environment(), check=False)
         self.assertEqual(ended.returncode, 1)
         self.assertTrue((self.output / "index.html").exists())
+        shutil.rmtree(self.output)
+        closed = subprocess.run(["sh", "-c", 'exec "$@" >&-', "sh", *COMMAND, "--programs", self.bin, self.inputs,
+                                 self.output], stderr=subprocess.PIPE, env=self.environment(), check=False)
+        self.assertEqual(closed.returncode, 1)
+        self.assertTrue((self.output / "index.html").exists())
+
+    def test_the_current_folder_is_gone(self):
+        self.view("a.pcd")
+        from batch_stand_in import COMMAND
+        ended = subprocess.run(["sh", "-c", 'mkdir gone && cd gone && rmdir ../gone && exec "$@"', "sh", *COMMAND,
+                                "--programs", self.bin, self.inputs, self.output], stderr=subprocess.PIPE,
+                               env=self.environment(), cwd=self.folder, text=True, check=False)
+        self.assertEqual(ended.returncode, 2)
+        self.assertIn("the current folder was removed", ended.stderr)
 
 
 class Resumption(BatchTest):

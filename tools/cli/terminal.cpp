@@ -8,6 +8,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <iostream>
+#include <utility>
 
 namespace {
 
@@ -23,6 +24,15 @@ isDumb ()
   return (term && std::string (term) == "dumb");
 }
 
+/** \brief Nothing of a text makes the terminal do anything. */
+std::string
+withoutControls (std::string text)
+{
+  std::replace_if (
+      text.begin (), text.end (), [] (char c) { return (std::iscntrl (static_cast<unsigned char> (c)) != 0); }, '?');
+  return (text);
+}
+
 /** \brief One line that no name of a file can make the terminal misbehave with. */
 std::string
 oneLine (std::string text)
@@ -33,9 +43,7 @@ oneLine (std::string text)
     text = text.substr (0, longest_line / 2) + " ... " + text.substr (text.size () - longest_line / 2);
   std::replace_if (
       text.begin (), text.end (), [] (char c) { return (c == '\n' || c == '\r' || c == '\t'); }, ' ');
-  std::replace_if (
-      text.begin (), text.end (), [] (char c) { return (std::iscntrl (static_cast<unsigned char> (c)) != 0); }, '?');
-  return (text);
+  return (withoutControls (std::move (text)));
 }
 
 } // namespace
@@ -51,7 +59,7 @@ Terminal::result (const std::string& line)
   if (verbosity_ == Verbosity::Quiet)
     return;
   clearBar ();
-  std::cout << line << std::endl;
+  std::cout << withoutControls (line) << std::endl;
 }
 
 void

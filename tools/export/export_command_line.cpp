@@ -52,7 +52,8 @@ interpret (ExportProgramSettings& settings)
                                                                    : parseNumber (value.substr (equals + 1));
     if (!id || !mass || *id < 0.0 || *id >= 1e9 || *id != static_cast<int> (*id) || !(*mass > 0.0))
       throw UsageError ("--mass must be ID=KG with a mass greater than 0, such as 3=0.25; it is \"" + value + "\"");
-    settings.physics.masses_kg[static_cast<int> (*id)] = *mass;
+    if (!settings.physics.masses_kg.emplace (static_cast<int> (*id), *mass).second)
+      throw UsageError ("--mass is given twice for object " + std::to_string (static_cast<int> (*id)));
   }
   settings.physics.validate ();
 }

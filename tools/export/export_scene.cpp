@@ -88,6 +88,22 @@ writeFiles (const PhysicalScene& scene, const CompletedScene& completed, const s
   }
 }
 
+/** \brief buildPhysicalScene (), whose errors name the folder. */
+PhysicalScene
+build (const CompletedScene& scene, const PhysicsOptions& options, const std::string& result)
+try
+{
+  return (buildPhysicalScene (scene, options));
+}
+catch (const InvalidArgument& error)
+{
+  throw InvalidArgument (result + ": " + error.what ());
+}
+catch (const DegenerateInput& error)
+{
+  throw DegenerateInput (result + ": " + error.what ());
+}
+
 } // namespace
 
 const std::vector<std::string>&
@@ -120,7 +136,7 @@ exportScene (const std::string& result, const std::string& output, const ExportS
   if (isSameFile (result, output))
     throw UsageError (output + ": is RESULT; give another folder");
   ExportReport report;
-  report.scene = buildPhysicalScene (completed.scene, settings.physics);
+  report.scene = build (completed.scene, settings.physics, result);
   report.scene.T_result_scene.pretranslate (completed.origin);
   report.scene.warnings.insert (report.scene.warnings.begin (), completed.warnings.begin (), completed.warnings.end ());
   stopIfAsked ();

@@ -140,6 +140,7 @@ TEST_F (Export, SaysWhatIsWrongWithTheCommandLine)
       {{"--format", "urdf", "result", "out", "--mass", "1=0"}, "--mass"},
       {{"--format", "urdf", "result", "out", "--mass", "1=-2"}, "--mass"},
       {{"--format", "urdf", "result", "out", "--mass", "1.5=2"}, "--mass"},
+      {{"--format", "urdf", "result", "out", "--mass", "1=2", "--mass", "1=3"}, "--mass is given twice for object 1"},
       {{"--format", "urdf", "result", "out", "--mass", "99999999999=2"}, "--mass"},
       {{"--format", "urdf", "result", "out", "--mass", "1=inf"}, "mass"},
       {{"--format", "urdf", "result", "out", "--mass", "7=1"}, "--mass 7: there is no such object in result"},
