@@ -36,7 +36,11 @@ constexpr double least_filled = 0.5; // of the box around a plane's points: less
 constexpr int ransac_iterations = 1000;
 constexpr double outlier_share = 0.02;
 constexpr int least_cluster = 50; // points
-constexpr double near_gaps = 3.0; // height of the foot of what stands on a plane, in gaps between clusters
+// Height of the foot of what stands on a plane, in gaps between clusters ...
+constexpr double near_gaps = 3.0;
+// ... or in heights of what is seen of it: a ball that is seen from 60 degrees above level hides a third of that, and
+// its lowest points are the sparsest.
+constexpr float hidden_foot = 0.5f;
 
 using Points = PointCloud<PointXYZ>;
 
@@ -156,8 +160,9 @@ standsOn (const std::vector<Support>& supports, const Points& cloud, const Indic
     std::vector<float> heights;
     for (const Eigen::Vector3f& p : points)
       heights.push_back (support.height (p));
-    const float foot = trimmedMin (heights, outlier_share);
-    return support.covers (box.center ()) && foot > 0.0f && foot < near_gaps * lengths.gap;
+    const float foot = trimmedMin (heights, outlier_share), top = trimmedMax (heights, outlier_share);
+    const double highest = std::max (near_gaps * lengths.gap, static_cast<double> (hidden_foot * (top - foot)));
+    return support.covers (box.center ()) && foot > 0.0f && foot < highest;
   });
 }
 
