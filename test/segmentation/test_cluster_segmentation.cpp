@@ -11,6 +11,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstdint>
+#include <map>
 #include <random>
 #include <set>
 
@@ -144,6 +146,45 @@ TEST (CloudSegmentation, ThingsThatTouchAreTwoIfTheirSensorIsKnown)
   ASSERT_EQ (found.support_planes.size (), 1u);
   const Eigen::Vector3f up = T_sensor_scene.linear ().col (2);
   EXPECT_GT (found.support_planes[0].head<3> ().dot (up), 0.99f);
+}
+
+/** \brief Shiny patches of a table, as far ground, read above and below it: what is above is no object. */
+TEST (ClusterSegmentation, NoiseOfAPlaneIsNoObject)
+{
+  LabelledPoints scene = tableWithThreeThings ();
+  std::mt19937 random (5);
+  std::uniform_real_distribution<float> across (-0.04f, 0.04f);
+  std::normal_distribution<float> noise (0.0f, 0.012f);
+  for (const float x : {-0.45f, -0.05f, 0.4f})
+    for (int n = 0; n < 1000; ++n)
+      scene.points.emplace_back (x + across (random), -0.25f + across (random), noise (random));
+  scene.of.resize (scene.points.size (), 0);
+  scene.scatter (somewhere ());
+  const ObjectSegmentation found = segmentClusters (scene.points);
+  std::map<std::uint32_t, int> counts;
+  for (const std::uint32_t label : found.labels)
+    ++counts[label];
+  counts.erase (0);
+  EXPECT_EQ (std::count_if (counts.begin (), counts.end (), [] (const auto& label) { return label.second >= 100; }), 3);
+}
+
+/** \brief Of a ball that was seen from above, the lower part is hidden from all sides. */
+TEST (ClusterSegmentation, WhatHidesItsFootStandsOnItsPlane)
+{
+  LabelledPoints scene = tableWithThreeThings ();
+  const Eigen::Vector3f center (-0.3f, 0.25f, 0.06f);
+  std::mt19937 random (6);
+  std::normal_distribution<float> gauss;
+  for (int n = 0; n < 4000;)
+    if (const Eigen::Vector3f d = Eigen::Vector3f (gauss (random), gauss (random), gauss (random)).normalized ();
+        d.z () > -0.5f)
+    {
+      scene.points.push_back (center + 0.06f * d);
+      scene.of.push_back (4);
+      ++n;
+    }
+  scene.scatter (somewhere ());
+  EXPECT_EQ (segmentClusters (scene.points).objects, 4u);
 }
 
 TEST (ClusterSegmentation, LongThingsAndCrumbsAreNoObjects)

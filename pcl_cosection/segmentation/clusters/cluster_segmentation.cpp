@@ -18,6 +18,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <set>
 #include <utility>
@@ -40,6 +41,8 @@ constexpr int least_cluster = 50; // points
 constexpr double near_gaps = 3.0;
 // ... or in heights of what is seen of it: a ball that is seen from 60 degrees above level hides a third of that, and
 // its lowest points are the sparsest.
+constexpr double noise_sheets = 1.5; // how far below a plane its noise is looked for: there table tops do not end yet
+constexpr double most_below = 0.1;   // of the points of a cluster, in its place below the plane
 constexpr float hidden_foot = 0.5f;
 
 using Points = PointCloud<PointXYZ>;
@@ -58,15 +61,15 @@ public:
       : plane_ (coefficients / coefficients.head<3> ().norm ())
       , u_ (plane_.head<3> ().unitOrthogonal ())
       , v_ (plane_.head<3> ().cross (u_))
+      , cell_m_ (cell_m)
   {
-    std::set<std::pair<std::int64_t, std::int64_t>> cells;
+    std::set<Cell> cells;
     std::vector<Eigen::Vector3f> along;
     for (const auto i : inliers)
     {
       const Eigen::Vector2f at = project (cloud[i].getVector3fMap ());
       along.emplace_back (at.x (), at.y (), 0.0f);
-      cells.emplace (static_cast<std::int64_t> (std::floor (at.x () / cell_m)),
-                     static_cast<std::int64_t> (std::floor (at.y () / cell_m)));
+      cells.insert (cellOf (cloud[i].getVector3fMap ()));
     }
     area_m2_ = static_cast<double> (cells.size ()) * cell_m * cell_m;
     box_ = trimmedBox<float> (along, outlier_share, [] (const Eigen::Vector3f& p) { return p; });
@@ -77,7 +80,35 @@ public:
   double longest () const { return box_.sizes ().maxCoeff (); }
   float height (const Eigen::Vector3f& p) const { return plane_.head<3> ().dot (p) + plane_[3]; }
   const Eigen::Vector4f& plane () const { return plane_; }
-  void turn () { plane_ = -plane_; }
+
+  /** \brief Let the normal point to the side on which more of \a left is near the plane, and note what is on the other
+   * one. */
+  void turnToObjects (const Points& cloud, const Indices& left, double reach_m, double sheet_m, double depth_m)
+  {
+    std::ptrdiff_t balance = 0;
+    for (const auto i : left)
+      if (const Eigen::Vector3f p = cloud[i].getVector3fMap (); covers (p))
+        if (const float distance = height (p); std::abs (distance) < reach_m)
+          balance += distance > 0.0f ? 1 : -1;
+    if (balance < 0)
+      plane_ = -plane_;
+    for (const PointXYZ& point : cloud)
+      if (const float distance = height (point.getVector3fMap ()); distance < -sheet_m && distance > -depth_m)
+        ++below_[cellOf (point.getVector3fMap ())];
+  }
+
+  /** \brief Whether a cluster is noise of the plane, which is on both of its sides; nothing is below what stands. */
+  bool isNoise (const std::vector<Eigen::Vector3f>& cluster) const
+  {
+    std::set<Cell> cells;
+    for (const Eigen::Vector3f& p : cluster)
+      cells.insert (cellOf (p));
+    std::size_t below = 0;
+    for (const Cell& cell : cells)
+      if (const auto found = below_.find (cell); found != below_.end ())
+        below += found->second;
+    return static_cast<double> (below) > most_below * static_cast<double> (cluster.size ());
+  }
 
   /** \brief Whether a place is above or below the part that has points. */
   bool covers (const Eigen::Vector3f& p) const
@@ -89,9 +120,20 @@ public:
 private:
   Eigen::Vector2f project (const Eigen::Vector3f& p) const { return {u_.dot (p), v_.dot (p)}; }
 
+  using Cell = std::pair<std::int64_t, std::int64_t>;
+
+  Cell cellOf (const Eigen::Vector3f& p) const
+  {
+    const Eigen::Vector2f at = project (p);
+    return {static_cast<std::int64_t> (std::floor (at.x () / cell_m_)),
+            static_cast<std::int64_t> (std::floor (at.y () / cell_m_))};
+  }
+
   Eigen::Vector4f plane_;
   Eigen::Vector3f u_, v_;
-  Eigen::AlignedBox3f box_; // along u and v
+  double cell_m_;
+  std::map<Cell, std::size_t> below_; // points
+  Eigen::AlignedBox3f box_;           // along u and v
   double area_m2_ = 0.0;
 };
 
@@ -127,19 +169,6 @@ takePlane (const Points::Ptr& cloud, const ObjectSegmentationOptions& options, c
   return support;
 }
 
-/** \brief Let the normal point to the side on which more is near the plane. */
-void
-turnToObjects (const Points& cloud, const Indices& left, double reach_m, Support& support)
-{
-  std::ptrdiff_t balance = 0;
-  for (const auto i : left)
-    if (const Eigen::Vector3f p = cloud[i].getVector3fMap (); support.covers (p))
-      if (const float height = support.height (p); std::abs (height) < reach_m)
-        balance += height > 0.0f ? 1 : -1;
-  if (balance < 0)
-    support.turn ();
-}
-
 /** \brief Whether a cluster is as large as an object, and stands on a plane, if there is any. */
 bool
 standsOn (const std::vector<Support>& supports, const Points& cloud, const Indices& cluster,
@@ -156,14 +185,21 @@ standsOn (const std::vector<Support>& supports, const Points& cloud, const Indic
   is_too_long = longest > options.max_object_size_m;
   if (is_too_long || supports.empty ())
     return !is_too_long;
-  return std::any_of (supports.begin (), supports.end (), [&] (const Support& support) {
+  bool stands = false;
+  for (const Support& support : supports)
+  {
     std::vector<float> heights;
     for (const Eigen::Vector3f& p : points)
       heights.push_back (support.height (p));
     const float foot = trimmedMin (heights, outlier_share), top = trimmedMax (heights, outlier_share);
     const double highest = std::max (near_gaps * lengths.gap, static_cast<double> (hidden_foot * (top - foot)));
-    return support.covers (box.center ()) && foot > 0.0f && foot < highest;
-  });
+    if (!support.covers (box.center ()) || !(foot > 0.0f && foot < highest))
+      continue;
+    if (support.isNoise (points))
+      return false;
+    stands = true;
+  }
+  return stands;
 }
 
 } // namespace
@@ -200,7 +236,7 @@ segmentClusters (const std::vector<Eigen::Vector3f>& points, const ObjectSegment
     else
       break;
   for (Support& support : supports)
-    turnToObjects (*cloud, left, options.max_object_size_m, support);
+    support.turnToObjects (*cloud, left, options.max_object_size_m, lengths.sheet, noise_sheets * lengths.sheet);
 
   std::vector<PointIndices> clusters;
   if (!left.empty ())
