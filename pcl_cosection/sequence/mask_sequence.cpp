@@ -122,7 +122,7 @@ try
 }
 catch (const Error&)
 {
-  // It is told when its frame is read.
+  // It is an error of its frame, if that is read.
 }
 
 std::optional<std::string>
