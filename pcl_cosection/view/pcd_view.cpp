@@ -22,7 +22,8 @@ namespace {
 constexpr std::size_t most_objects = 10000;   // of one view, of ...
 constexpr std::size_t points_of_object = 100; // ... so many points each
 constexpr double farthest_viewpoint = 1e15;   // metres; as of the header
-constexpr double damaged_extent = 1e9;        // metres, of half of the points: single precision has steps of 64 m there
+constexpr double damaged_extent = 1e9;        // metres, of most points: single precision has steps of 64 m there
+constexpr double strange_share = 0.1;         // of the points on each side, which may be anywhere
 constexpr double millimetre_extent = 100.0;   ///< metres; a scene this large is probably not in metres
 
 /** \brief Refuse labels that hardly number objects, before hours are spent on them. \throws DegenerateInput */
@@ -89,7 +90,8 @@ checkExtent (const std::string& path, const PcdViewOptions& options, const Senso
     std::vector<Eigen::Vector3f> points;
     std::copy_if (cloud.positions.begin (), cloud.positions.end (), std::back_inserter (points),
                   [] (const Eigen::Vector3f& p) { return p.allFinite (); });
-    const double usual = trimmedBox<float> (points, 0.25, [] (const auto& p) { return p; }).sizes ().maxCoeff ();
+    const double
+        usual = trimmedBox<float> (points, strange_share, [] (const auto& p) { return p; }).sizes ().maxCoeff ();
     if (usual > damaged_extent)
     {
       std::ostringstream text;
