@@ -2,7 +2,6 @@
 #include <pcl/cosection/io/pcd_view.h>
 
 #include "given_ground.h"
-#include "pcl_cosection/common/boxes.h"
 #include "sensor_view.h"
 
 #include <pcl/cosection/common/error.h>
@@ -10,7 +9,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <iterator>
 #include <limits>
 #include <map>
 #include <sstream>
@@ -22,8 +20,8 @@ namespace {
 constexpr std::size_t most_objects = 10000;   // of one view, of ...
 constexpr std::size_t points_of_object = 100; // ... so many points each
 constexpr double farthest_viewpoint = 1e15;   // metres; as of the header
-constexpr double damaged_extent = 1e9;        // metres, of most points: single precision has steps of 64 m there
-constexpr double strange_share = 0.1;         // of the points on each side, which may be anywhere
+constexpr float absurdly_far = 1e9f;          // metres, along an axis: single precision has steps of 64 m there
+constexpr double most_absurd = 0.25;          // share of the points, of which a file may have some that are wrong
 constexpr double millimetre_extent = 100.0;   ///< metres; a scene this large is probably not in metres
 
 /** \brief Refuse labels that hardly number objects, before hours are spent on them. \throws DegenerateInput */
@@ -84,22 +82,18 @@ checkExtent (const std::string& path, const PcdViewOptions& options, const Senso
   if (box.isEmpty ())
     throw DegenerateInput (path + ": none of its " + std::to_string (cloud.positions.size ()) + " points is finite" +
                            (cloud.has_labels ? " and has a label that counts" : ""));
+  const auto finite = std::count_if (cloud.positions.begin (), cloud.positions.end (),
+                                     [] (const Eigen::Vector3f& p) { return p.allFinite (); });
+  const auto absurd = std::count_if (cloud.positions.begin (), cloud.positions.end (), [] (const Eigen::Vector3f& p) {
+    return p.allFinite () && p.cwiseAbs ().maxCoeff () > absurdly_far;
+  });
+  if (static_cast<double> (absurd) > most_absurd * static_cast<double> (finite))
+    throw DegenerateInput (path + ": " + std::to_string (absurd) + " of its " + std::to_string (finite) +
+                           " points are over 1e9 m away: it is damaged, or of a big-endian machine (points are "
+                           "little-endian in binary PCD files)");
   const double extent = box.sizes ().maxCoeff ();
   if (extent > millimetre_extent)
   {
-    std::vector<Eigen::Vector3f> points;
-    std::copy_if (cloud.positions.begin (), cloud.positions.end (), std::back_inserter (points),
-                  [] (const Eigen::Vector3f& p) { return p.allFinite (); });
-    const double
-        usual = trimmedBox<float> (points, strange_share, [] (const auto& p) { return p; }).sizes ().maxCoeff ();
-    if (usual > damaged_extent)
-    {
-      std::ostringstream text;
-      text.precision (3);
-      text << path << ": its points extend over " << usual
-           << " m: it is damaged, or of a big-endian machine (points are little-endian in binary PCD files)";
-      throw DegenerateInput (text.str ());
-    }
     std::ostringstream text;
     text.precision (3);
     text << path << ": extends over " << extent << " m";
