@@ -2,6 +2,7 @@
 #include <pcl/cosection/io/pcd_view.h>
 
 #include "given_ground.h"
+#include "pcl_cosection/common/quantile.h"
 #include "sensor_view.h"
 
 #include <pcl/cosection/common/error.h>
@@ -9,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <iterator>
 #include <limits>
 #include <map>
 #include <sstream>
@@ -72,6 +74,26 @@ collectObjects (const SensorCloud& cloud, LabelledView& result)
   }
 }
 
+/** \brief How many points are absurdly far from the middle of all, and how many there are. */
+std::pair<std::size_t, std::size_t>
+countAbsurd (const SensorCloud& cloud)
+{
+  std::vector<Eigen::Vector3f> points;
+  std::copy_if (cloud.positions.begin (), cloud.positions.end (), std::back_inserter (points),
+                [] (const Eigen::Vector3f& p) { return p.allFinite (); });
+  Eigen::Vector3f middle;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    std::vector<float> along (points.size ());
+    std::transform (points.begin (), points.end (), along.begin (), [axis] (const auto& p) { return p[axis]; });
+    middle[axis] = upperMedian (along);
+  }
+  const auto absurd = std::count_if (points.begin (), points.end (), [&middle] (const Eigen::Vector3f& p) {
+    return (p - middle).cwiseAbs ().maxCoeff () > absurdly_far;
+  });
+  return {static_cast<std::size_t> (absurd), points.size ()};
+}
+
 void
 checkExtent (const std::string& path, const PcdViewOptions& options, const SensorCloud& cloud, LabelledView& result)
 {
@@ -82,16 +104,13 @@ checkExtent (const std::string& path, const PcdViewOptions& options, const Senso
   if (box.isEmpty ())
     throw DegenerateInput (path + ": none of its " + std::to_string (cloud.positions.size ()) + " points is finite" +
                            (cloud.has_labels ? " and has a label that counts" : ""));
-  const auto finite = std::count_if (cloud.positions.begin (), cloud.positions.end (),
-                                     [] (const Eigen::Vector3f& p) { return p.allFinite (); });
-  const auto absurd = std::count_if (cloud.positions.begin (), cloud.positions.end (), [] (const Eigen::Vector3f& p) {
-    return p.allFinite () && p.cwiseAbs ().maxCoeff () > absurdly_far;
-  });
-  if (static_cast<double> (absurd) > most_absurd * static_cast<double> (finite))
-    throw DegenerateInput (path + ": " + std::to_string (absurd) + " of its " + std::to_string (finite) +
-                           " points are over 1e9 m away: it is damaged, or of a big-endian machine (points are "
-                           "little-endian in binary PCD files)");
   const double extent = box.sizes ().maxCoeff ();
+  if (extent > absurdly_far)
+    if (const auto [absurd, all] = countAbsurd (cloud);
+        static_cast<double> (absurd) > most_absurd * static_cast<double> (all))
+      throw DegenerateInput (path + ": " + std::to_string (absurd) + " of its " + std::to_string (all) +
+                             " points are over 1e9 m from the middle of all: it is damaged, or of a big-endian machine "
+                             "(points are little-endian in binary PCD files)");
   if (extent > millimetre_extent)
   {
     std::ostringstream text;
