@@ -103,7 +103,7 @@ TEST_F (Report, CompletedViewsAreShown)
   if (!hasBrowser ())
     GTEST_SKIP () << "there is no browser";
   writeTableScene (file ("table.pcd"));
-  ToolRun completion ({"--voxel-size", "0.01", "table.pcd", "table"}, file (""));
+  ToolRun completion ({"--voxel-size", "0.006", "table.pcd", "table"}, file (""));
   ASSERT_EQ (completion.wait (), 0) << completion.errors ();
   const std::string html = shown ({"table"});
   for (const nlohmann::json& object : json ("table/summary.json")["objects"])
