@@ -329,6 +329,8 @@ public:
         object = eraseObject (object, true, result);
         continue;
       }
+      if (object->second.points == 0)
+        result.warnings.push_back ("object " + std::to_string (id) + " was left out: no keyframe shows it");
       object->second.tsdf = fusion_.surfaceMesh (id);
       object->second.best_class = fusion_.objectClass (id);
       ++object;

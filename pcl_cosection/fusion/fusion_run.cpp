@@ -26,10 +26,10 @@ leaveOutSmallObjects (FusionResult& result)
       ++object;
       continue;
     }
-    if (points > 0 || !object->second.trajectory.empty ())
-      result.warnings.push_back ("object " + std::to_string (object->first) + " was left out: it has " +
-                                 (points > 0 ? "only " + std::to_string (points) : "no") +
-                                 " points in all keyframes; " + std::to_string (min_object_points) + " are needed");
+    if (points > 0)
+      result.warnings.push_back ("object " + std::to_string (object->first) + " was left out: it has only " +
+                                 std::to_string (points) + " points in all keyframes; " +
+                                 std::to_string (min_object_points) + " are needed");
     object = eraseObject (object, false, result);
   }
 }

@@ -23,8 +23,8 @@ constexpr std::size_t most_objects = 10000;   // of one view, of ...
 constexpr std::size_t points_of_object = 100; // ... so many points each
 constexpr double farthest_viewpoint = 1e15;   // metres; as of the header
 constexpr float absurdly_far = 1e9f;          // metres, along an axis: single precision has steps of 64 m there
-constexpr double most_absurd = 0.25;          // share of the points, of which a file may have some that are wrong
-constexpr double millimetre_extent = 100.0;   ///< metres; a scene this large is probably not in metres
+constexpr double most_absurd = 0.25;        // share of the points; with their bytes in the other order, 0.45 are so far
+constexpr double millimetre_extent = 100.0; ///< metres; a scene this large is probably not in metres
 
 /** \brief Refuse labels that hardly number objects, before hours are spent on them. \throws DegenerateInput */
 void

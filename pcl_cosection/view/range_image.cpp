@@ -9,6 +9,8 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <map>
+#include <utility>
 
 namespace pcl::cosection {
 namespace {
@@ -24,7 +26,6 @@ constexpr int directions = 400;
 constexpr std::size_t samples = 2000;
 constexpr double unsure_share = 0.1; // of the points, may face away from the sensor, or be hidden from it
 constexpr double distance_diagonals = 5.0;
-constexpr std::size_t least_covered = 50; // pixels of an object, to judge what is seen through it
 constexpr float nothing = std::numeric_limits<float>::infinity ();
 
 /** \brief Looking from \a eye along \a axis; the roll does not matter. */
@@ -164,25 +165,54 @@ projectInto (const DepthView& view, const Eigen::Vector3f& point)
   return projected;
 }
 
-/** \brief The pixels in which a point of an object is the nearest, without those of the border. */
-std::vector<std::uint8_t>
-coveredPixels (const DepthView& view, const std::vector<Eigen::Vector3f>& object)
+/** \brief How many pixels an object covers, and in how many of them there is something behind it. */
+struct Cover
 {
-  std::vector<std::uint8_t> own (view.depth.size (), 0), inner (view.depth.size (), 0);
-  for (const Eigen::Vector3f& point : object)
-    if (const auto p = projectInto (view, point); p && !isHidden (view, *p))
-      own[pixelOf (view.camera, *p)] = 1;
-  const int width = view.camera.width;
-  for (int v = 1; v + 1 < view.camera.height; ++v)
-    for (int u = 1; u + 1 < width; ++u)
+  std::size_t pixels = 0, pierced = 0;
+};
+
+/** \brief Whether a pixel and those around it have the same value. */
+bool
+isInner (const PinholeCamera& camera, const std::vector<std::uint32_t>& image, int u, int v)
+{
+  for (int dv = -1; dv <= 1; ++dv)
+    for (int du = -1; du <= 1; ++du)
+      if (image[static_cast<std::size_t> (v + dv) * camera.width + u + du] !=
+          image[static_cast<std::size_t> (v) * camera.width + u])
+        return false;
+  return true;
+}
+
+void
+addCovers (const DepthView& view, const std::vector<Eigen::Vector3f>& points, const std::vector<std::uint32_t>& labels,
+           std::map<std::uint32_t, Cover>& covers)
+{
+  std::vector<std::uint32_t> nearest (view.depth.size (), 0); // label of a pixel
+  std::vector<float> depth (view.depth.size (), nothing);
+  std::vector<std::pair<std::size_t, std::uint32_t>> hidden; // pixel and label of a point
+  for (std::size_t i = 0; i < points.size (); ++i)
+    if (const auto p = projectInto (view, points[i]))
     {
-      bool all = true;
-      for (int dv = -1; dv <= 1; ++dv)
-        for (int du = -1; du <= 1; ++du)
-          all = all && own[static_cast<std::size_t> (v + dv) * width + u + du] != 0;
-      inner[static_cast<std::size_t> (v) * width + u] = all ? 1 : 0;
+      const std::size_t pixel = pixelOf (view.camera, *p);
+      if (isHidden (view, *p))
+        hidden.emplace_back (pixel, labels[i]);
+      else if (p->z () < depth[pixel])
+      {
+        depth[pixel] = p->z ();
+        nearest[pixel] = labels[i];
+      }
     }
-  return inner;
+  std::vector<std::uint8_t> pierced (view.depth.size (), 0);
+  for (const auto& [pixel, label] : hidden)
+    pierced[pixel] |= label != nearest[pixel];
+  for (int v = 1; v + 1 < view.camera.height; ++v)
+    for (int u = 1; u + 1 < view.camera.width; ++u)
+      if (const std::size_t pixel = static_cast<std::size_t> (v) * view.camera.width + u;
+          nearest[pixel] != 0 && isInner (view.camera, nearest, u, v))
+      {
+        ++covers[nearest[pixel]].pixels;
+        covers[nearest[pixel]].pierced += pierced[pixel];
+      }
 }
 
 } // namespace
@@ -198,24 +228,17 @@ RangeImage::hides (const Eigen::Vector3f& point) const
 }
 
 double
-RangeImage::seenThrough (const std::vector<Eigen::Vector3f>& object, const std::vector<Eigen::Vector3f>& behind) const
+RangeImage::seenThrough (const std::vector<Eigen::Vector3f>& points, const std::vector<std::uint32_t>& labels) const
 {
-  std::size_t covered = 0, pierced = 0;
-  const auto count = [&] (const DepthView& of) {
-    const std::vector<std::uint8_t> inner = coveredPixels (of, object);
-    std::vector<std::uint8_t> through (inner.size (), 0);
-    for (const Eigen::Vector3f& point : behind)
-      if (const auto p = projectInto (of, point); p && isHidden (of, *p))
-        through[pixelOf (of.camera, *p)] = 1;
-    for (std::size_t i = 0; i < inner.size (); ++i)
-    {
-      covered += inner[i];
-      pierced += inner[i] & through[i];
-    }
-  };
-  count (view);
-  std::for_each (others.begin (), others.end (), count);
-  return covered < least_covered ? 0.0 : static_cast<double> (pierced) / static_cast<double> (covered);
+  std::map<std::uint32_t, Cover> covers;
+  addCovers (view, points, labels, covers);
+  for (const DepthView& other : others)
+    addCovers (other, points, labels, covers);
+  double most = 0.0;
+  for (const auto& [label, cover] : covers)
+    if (cover.pixels >= min_points)
+      most = std::max (most, static_cast<double> (cover.pierced) / static_cast<double> (cover.pixels));
+  return most;
 }
 
 std::optional<RangeImage>

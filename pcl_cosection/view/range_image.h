@@ -7,6 +7,7 @@
 #include <Eigen/Core>
 
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <vector>
 
@@ -27,12 +28,12 @@ struct RangeImage
   /** \brief Whether a point, in the frame of the view's pose, lies clearly behind what the view shows in its pixel. */
   bool hides (const Eigen::Vector3f& point) const;
 
-  /** \brief How much of what an object covers shows what is clearly behind it, as no sensor sees: the share of its
-   * pixels, without those of its border.
-   * \param[in] object its points, in the frame of the view's pose
-   * \param[in] behind what may be behind it, in the same frame
-   * \return 0 for an object of fewer than 50 such pixels */
-  double seenThrough (const std::vector<Eigen::Vector3f>& object, const std::vector<Eigen::Vector3f>& behind) const;
+  /** \brief Of the objects, the largest share of what one covers that shows something clearly behind it, as no sensor
+   * sees: pixels in which a point of it is the nearest, without those of its border. O (points + pixels).
+   * \param[in] points in the frame of the view's pose; not finite: left out
+   * \param[in] labels of the points; 0: of no object
+   * \return 0 if no object covers 50 pixels */
+  double seenThrough (const std::vector<Eigen::Vector3f>& points, const std::vector<std::uint32_t>& labels) const;
 };
 
 /** \brief Draw an unorganised cloud as a depth image, so that the space in front of its points counts as seen free.

@@ -6,6 +6,8 @@
 
 #include "pcl_cosection/view/normals/normal_agreement.h"
 
+#include <algorithm>
+#include <cmath>
 #include <random>
 
 using namespace pcl::cosection;
@@ -83,6 +85,33 @@ contradicting (const Surface& surface)
 }
 
 } // namespace
+
+TEST (SlantOfNormals, IsThatToThePlanesOfNeighbours)
+{
+  const Surface right = cylinder ({0.0f, 0.0f, 0.8f}, 0.05f);
+  const auto slantOf = [&] (auto&& changed) {
+    std::vector<Eigen::Vector3f> normals (right.normals.size ());
+    std::transform (right.normals.begin (), right.normals.end (), normals.begin (), changed);
+    return slantOfNormals (right.points, normals);
+  };
+  EXPECT_LT (slantOf ([] (const Eigen::Vector3f& n) { return n; }), 0.05);
+  EXPECT_LT (slantOf ([] (const Eigen::Vector3f& n) -> Eigen::Vector3f { return -n; }), 0.05) << "of any sign";
+  std::mt19937 random (7);
+  std::normal_distribution<float> gauss;
+  EXPECT_NEAR (slantOf ([&] (const Eigen::Vector3f&) {
+                 return Eigen::Vector3f (gauss (random), gauss (random), gauss (random)).normalized ();
+               }),
+               2.0 / 3.0, 0.05);
+  // Turned about the axis of the cylinder, all by the same angle.
+  for (const float degrees : {17.0f, 46.0f})
+  {
+    const float angle = degrees * static_cast<float> (M_PI) / 180.0f;
+    const Eigen::AngleAxisf turn (angle, Eigen::Vector3f::UnitZ ());
+    EXPECT_NEAR (slantOf ([&] (const Eigen::Vector3f& n) -> Eigen::Vector3f { return turn * n; }),
+                 std::pow (std::sin (angle), 2.0f), 0.05)
+        << degrees;
+  }
+}
 
 TEST (NormalAgreement, OfBodiesAndSheetsHasNoContradiction)
 {

@@ -133,42 +133,6 @@ TEST_F (UnorganizedView, WrongViewpointIsSaid)
   EXPECT_GT (view.objects.at (1).points.size (), 3900u);
 }
 
-/** \brief From the other side of a table few of its points are hidden, but it is seen through what stands on it. */
-TEST_F (UnorganizedView, AViewpointOnTheOtherSideIsSaid)
-{
-  const Eigen::Vector3f sensor (0.0f, -0.6f, 0.4f), center (0.0f, 0.0f, 0.08f);
-  std::mt19937 random (4);
-  std::uniform_real_distribution<float> uniform (-0.5f, 0.5f);
-  std::normal_distribution<float> gauss;
-  pcl::PointCloud<pcl::PointXYZL> cloud;
-  const auto add = [&] (const Eigen::Vector3f& p, std::uint32_t label) {
-    pcl::PointXYZL point;
-    point.getVector3fMap () = p;
-    point.label = label;
-    cloud.push_back (point);
-  };
-  while (cloud.size () < 4000)
-  {
-    const Eigen::Vector3f n = Eigen::Vector3f (gauss (random), gauss (random), gauss (random)).normalized ();
-    if (n.dot (sensor - center - 0.08f * n) > 0.0f)
-      add (center + 0.08f * n, 1);
-  }
-  while (cloud.size () < 40000)
-  {
-    const Eigen::Vector3f p (uniform (random), uniform (random), 0.0f), ray = (p - sensor).normalized ();
-    if ((center - sensor).cross (ray).norm () > 0.08f) // not in the shadow of the ball
-      add (p, 0);
-  }
-  for (const float side : {1.0f, -1.0f})
-  {
-    PcdViewOptions options;
-    options.viewpoint = {0.0, side * sensor.y (), sensor.z ()};
-    const LabelledView view = read (cloud, options);
-    EXPECT_EQ (view.view.has_value (), side > 0.0f);
-    EXPECT_EQ (mentions (view, "not seen from --viewpoint"), side < 0.0f);
-  }
-}
-
 /** \brief PCL's convention: the viewpoint is in the frame of the points. */
 TEST_F (UnorganizedView, PointsInTheWorldFrameAreFound)
 {

@@ -42,7 +42,9 @@ constexpr double near_gaps = 3.0;
 // ... or in heights of what is seen of it: a ball that is seen from 60 degrees above level hides a third of that, and
 // its lowest points are the sparsest.
 constexpr double noise_sheets = 1.5; // how far below a plane its noise is looked for: there table tops do not end yet
-constexpr double most_below = 0.1;   // of the points of a cluster, in its place below the plane
+// Points in the place of a cluster below its plane, of those of the cluster. Clusters of objects have at most 0.05 (132
+// of 133 on OSD, YCB-Video, RealSense and scanned meshes), three quarters of those of ground more than this.
+constexpr double most_below = 0.1;
 constexpr float hidden_foot = 0.5f;
 
 using Points = PointCloud<PointXYZ>;
