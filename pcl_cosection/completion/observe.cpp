@@ -32,7 +32,8 @@ constexpr double worth_saying = 0.02;         // share of repeated points
 constexpr double points_per_voxel = 3.0;
 // So few points per voxel are enough if more would need voxels so large that they lose the shape:
 constexpr double least_points_per_voxel = 1.5;
-constexpr int least_resolution = 16; // voxels along the longest side
+constexpr int least_resolution = 16; // voxels along the longest side, ...
+constexpr int least_across = 13;     // ... and along the middle one
 constexpr int least_voxels = 8;      // along the longest side, however few points there are
 constexpr double voxel_growth = 1.1;
 // Voxels smaller than the points' spacing supports, by this factor, are more accurate than coarse ones with less
@@ -100,15 +101,17 @@ occupiedVoxels (const std::vector<OrientedPoint>& points, const Eigen::AlignedBo
 }
 
 /** \brief The smallest voxel size that the points' spacing supports, of those that give at most 64 voxels along the
- * longest side: at least three points in each occupied voxel on average, or 1.5 if voxels were larger than a 16th of
- * the longest side. */
+ * longest side: at least three points in each occupied voxel on average, or 1.5 if there were less than 16 voxels along
+ * the longest side or 13 along the middle one. */
 double
 supportedVoxelSize (const std::vector<OrientedPoint>& points, const Eigen::AlignedBox3d& box)
 {
-  const double longest = box.sizes ().maxCoeff ();
+  Eigen::Vector3d sides = box.sizes ();
+  std::sort (sides.data (), sides.data () + 3);
+  const double longest = sides[2], coarsest = std::min (longest / least_resolution, sides[1] / least_across);
   double h = longest / default_resolution;
   const auto supported = [&] {
-    const double wanted = h < longest / least_resolution ? points_per_voxel : least_points_per_voxel;
+    const double wanted = h < coarsest ? points_per_voxel : least_points_per_voxel;
     return static_cast<double> (points.size ()) >= wanted * static_cast<double> (occupiedVoxels (points, box, h));
   };
   while (h < longest / least_voxels && !supported ())

@@ -216,7 +216,7 @@ expectedOf (const Observation& object, const Priors& priors, const std::vector<E
       explain (symmetry.motions, continued.points, energy))
   {
     const Motions motions = symmetry.all ();
-    if (!motions.empty ())
+    if (!motions.empty () || object.views.empty ())
       addCopies (energy, shape, motions, object, plane, proposal);
     if (extrudes && symmetry.is_fitted)
       addFoot (object, plane, motions, energy, proposal);

@@ -130,8 +130,17 @@ findCamera (const std::string& path, const PcdViewOptions& options, SensorCloud&
   return given;
 }
 
-/** \brief Give labels of which hardly anything has a reliable normal those of points without an order, towards the
- * sensor.
+/** \brief Give points normals as if they had no order, towards the sensor. */
+void
+addNormalsTowardsSensor (const PcdViewOptions& options, const std::vector<std::size_t>& readings, SensorCloud& cloud)
+{
+  addNormals (options, readings, cloud);
+  for (const std::size_t i : readings)
+    if (cloud.normals[i].dot (cloud.positions[i]) > 0.0f)
+      cloud.normals[i] = -cloud.normals[i];
+}
+
+/** \brief Give labels of which hardly anything has a reliable normal those of points without an order.
  * \return whether there is any */
 bool
 addMissingNormals (const PcdViewOptions& options, const Members& members, SensorCloud& cloud)
@@ -146,10 +155,7 @@ addMissingNormals (const PcdViewOptions& options, const Members& members, Sensor
          static_cast<double> (reliable) >= least_reliable * static_cast<double> (readings.size ())))
       continue;
     any = true;
-    addNormals (options, readings, cloud);
-    for (const std::size_t i : readings)
-      if (cloud.normals[i].dot (cloud.positions[i]) > 0.0f)
-        cloud.normals[i] = -cloud.normals[i];
+    addNormalsTowardsSensor (options, readings, cloud);
   }
   return any;
 }
@@ -364,7 +370,12 @@ completeOrganized (const std::string& path, const PcdViewOptions& options, Senso
   const Members members = membersOf (cloud);
   if (addMissingNormals (options, members, cloud) && result.view)
     leaveOutMixedPixels (*result.view, cloud);
-  addGrazingNormals (options.threads, members, cloud);
+  if (camera)
+    addGrazingNormals (options.threads, members, cloud);
+  else // rows of a scan are so far apart that most sides of its objects look like edges
+    for (const auto& [label, readings] : members)
+      if (label != 0)
+        addNormalsTowardsSensor (options, readings, cloud);
 }
 
 } // namespace pcl::cosection

@@ -24,7 +24,8 @@ constexpr std::size_t points_of_object = 100; // ... so many points each
 constexpr double farthest_viewpoint = 1e15;   // metres; as of the header
 constexpr float absurdly_far = 1e9f;          // metres, along an axis: single precision has steps of 64 m there
 constexpr double most_absurd = 0.25;        // share of the points; with their bytes in the other order, 0.45 are so far
-constexpr double millimetre_extent = 100.0; ///< metres; a scene this large is probably not in metres
+constexpr double millimetre_extent = 100.0; // metres; a scene this large is probably not in metres, ...
+constexpr double millimetre_object = 20.0;  // ... but if its objects are smaller, a lidar sees it
 
 /** \brief Refuse labels that hardly number objects, before hours are spent on them. \throws DegenerateInput */
 void
@@ -98,20 +99,28 @@ void
 checkExtent (const std::string& path, const PcdViewOptions& options, const SensorCloud& cloud, LabelledView& result)
 {
   Eigen::AlignedBox3f box;
-  for (const Eigen::Vector3f& p : cloud.positions)
-    if (p.allFinite ())
+  std::map<std::uint32_t, Eigen::AlignedBox3f> objects;
+  for (std::size_t i = 0; i < cloud.positions.size (); ++i)
+    if (const Eigen::Vector3f& p = cloud.positions[i]; p.allFinite ())
+    {
       box.extend (p);
+      if (cloud.labels[i] != 0)
+        objects[cloud.labels[i]].extend (p);
+    }
   if (box.isEmpty ())
     throw DegenerateInput (path + ": none of its " + std::to_string (cloud.positions.size ()) + " points is finite" +
                            (cloud.has_labels ? " and has a label that counts" : ""));
-  const double extent = box.sizes ().maxCoeff ();
+  const float extent = box.sizes ().maxCoeff ();
   if (extent > absurdly_far)
     if (const auto [absurd, all] = countAbsurd (cloud);
         static_cast<double> (absurd) > most_absurd * static_cast<double> (all))
       throw DegenerateInput (path + ": " + std::to_string (absurd) + " of its " + std::to_string (all) +
                              " points are over 1e9 m from the middle of all: it is damaged, or of a big-endian machine "
                              "(points are little-endian in binary PCD files)");
-  if (extent > millimetre_extent)
+  const bool has_large = objects.empty () || std::any_of (objects.begin (), objects.end (), [] (const auto& object) {
+                           return object.second.sizes ().maxCoeff () > millimetre_object;
+                         });
+  if (extent > millimetre_extent && has_large)
   {
     std::ostringstream text;
     text.precision (3);

@@ -23,19 +23,23 @@ constexpr float longest_step = 5.0f;   // in spacings, of one that is no jump
 constexpr double loose = 2.0;
 constexpr double strict = 0.25; // ... and to adjust where: a missing reading between both ends is noticed then
 constexpr std::size_t most_jumps = 2000;
+constexpr float even = 0.25f;                // of the angle between neighbours: as large as usual, ...
+constexpr std::size_t steps_to_learn = 5000; // ... which so many tell
 constexpr int samples = 1000;
 constexpr int adjustments = 15;
 constexpr double worth_adjusting = 0.7; // of the most lines so far that pass by a sample's place
 constexpr int most_adjusted = 50;
-constexpr std::size_t most_places = 3;
-constexpr double at_sensor = 0.01;          // of its length, from an end of a jump
-constexpr std::size_t least_meeting = 30;   // lines ...
-constexpr double least_meeting_share = 0.1; // ... of all
-constexpr double least_spread = 1e-3;       // mean squared sine of the angle between the lines and their mean direction
+constexpr std::size_t most_places = 3, most_views = 16;
+constexpr double at_sensor = 0.01;             // of its length, from an end of a jump
+constexpr std::size_t least_meeting = 30;      // lines ...
+constexpr double least_meeting_share = 0.1;    // ... of all, ...
+constexpr double least_meeting_of_view = 0.02; // ... or of all of several views
+constexpr double least_spread = 1e-3; // mean squared sine of the angle between the lines and their mean direction
 
 /** \brief Two points, the second of which was measured after the first and lies far behind or before it. */
 struct Jump
 {
+  std::size_t index; // of the first one
   Eigen::Vector3d from, to;
   Eigen::Vector3d step_before, step_after; // between neighbours on either side, mean; zero if not known
 };
@@ -59,9 +63,13 @@ std::vector<Jump>
 findJumps (const std::vector<Eigen::Vector3f>& points)
 {
   std::vector<Eigen::Vector3f> finite;
-  finite.reserve (points.size ());
-  std::copy_if (points.begin (), points.end (), std::back_inserter (finite),
-                [] (const auto& p) { return p.allFinite (); });
+  std::vector<std::size_t> indices;
+  for (std::size_t i = 0; i < points.size (); ++i)
+    if (points[i].allFinite ())
+    {
+      finite.push_back (points[i]);
+      indices.push_back (i);
+    }
   std::vector<float> steps;
   for (std::size_t i = 0; i + 1 < finite.size (); ++i)
     steps.push_back ((finite[i + 1] - finite[i]).norm ());
@@ -75,7 +83,7 @@ findJumps (const std::vector<Eigen::Vector3f>& points)
       continue;
     about.assign (here - window, here + window + 1);
     const float longest = longest_step * upperMedian (about);
-    jumps.push_back ({finite[i].cast<double> (), finite[i + 1].cast<double> (),
+    jumps.push_back ({indices[i], finite[i].cast<double> (), finite[i + 1].cast<double> (),
                       meanStep (finite, i - window, i, longest), meanStep (finite, i + 1, i + 1 + window, longest)});
   }
   const std::size_t stride = (jumps.size () + most_jumps - 1) / most_jumps;
@@ -203,16 +211,12 @@ findMeeting (const std::vector<Jump>& jumps)
   return best;
 }
 
-} // namespace
-
+/** \brief Places that many lines pass by, the one with the most first. \param[in] least lines of each */
 std::vector<Eigen::Vector3d>
-locateSensor (const std::vector<Eigen::Vector3f>& points)
+findPlaces (std::vector<Jump> jumps, std::size_t most, std::size_t least)
 {
-  std::vector<Jump> jumps = findJumps (points);
-  const std::size_t enough = std::max (
-      least_meeting, static_cast<std::size_t> (least_meeting_share * static_cast<double> (jumps.size ())));
   std::vector<Eigen::Vector3d> places;
-  while (places.size () < most_places && jumps.size () >= enough)
+  while (places.size () < most && jumps.size () >= least)
   {
     const auto place = findMeeting (jumps);
     if (!place)
@@ -221,11 +225,127 @@ locateSensor (const std::vector<Eigen::Vector3f>& points)
     jumps.erase (
         std::remove_if (jumps.begin (), jumps.end (), [&] (const Jump& jump) { return passes (jump, *place, loose); }),
         jumps.end ());
-    if (before - jumps.size () < enough)
+    if (before - jumps.size () < least)
       break;
     places.push_back (*place);
   }
   return places;
+}
+
+std::size_t
+enough (const std::vector<Jump>& jumps, double share)
+{
+  return std::max (least_meeting, static_cast<std::size_t> (share * static_cast<double> (jumps.size ())));
+}
+
+/** \brief For each jump the place of its view: the fewest jumps miss theirs, and views change seldom. */
+std::vector<std::size_t>
+dividedAmong (const std::vector<Eigen::Vector3d>& places, const std::vector<Jump>& jumps)
+{
+  std::vector<double> cost (places.size (), 0.0);
+  std::vector<std::vector<std::size_t>> before (jumps.size (), std::vector<std::size_t> (places.size ()));
+  for (std::size_t j = 0; j < jumps.size (); ++j)
+  {
+    const auto least = static_cast<std::size_t> (std::min_element (cost.begin (), cost.end ()) - cost.begin ());
+    const double changed = cost[least] + static_cast<double> (least_meeting);
+    for (std::size_t k = 0; k < places.size (); ++k)
+    {
+      before[j][k] = cost[k] <= changed ? k : least;
+      cost[k] = std::min (cost[k], changed) + (passes (jumps[j], places[k], loose) ? 0.0 : 1.0);
+    }
+  }
+  std::vector<std::size_t> place (jumps.size ());
+  auto at = static_cast<std::size_t> (std::min_element (cost.begin (), cost.end ()) - cost.begin ());
+  for (std::size_t j = jumps.size (); j-- > 0;)
+  {
+    place[j] = at;
+    at = before[j][at];
+  }
+  return place;
+}
+
+/** \brief Angles from each point to the next one as seen from \a sensor; chords of the unit sphere. */
+std::vector<float>
+turnsBetween (const std::vector<Eigen::Vector3f>& points, std::size_t begin, std::size_t end,
+              const Eigen::Vector3d& sensor)
+{
+  std::vector<float> turns;
+  for (std::size_t i = begin; i + 1 < end; ++i)
+    turns.push_back (
+        ((points[i + 1].cast<double> () - sensor).normalized () - (points[i].cast<double> () - sensor).normalized ())
+            .cast<float> ()
+            .norm ());
+  return turns;
+}
+
+float
+usualTurn (const std::vector<Eigen::Vector3f>& points, std::size_t begin, std::size_t end,
+           const Eigen::Vector3d& sensor)
+{
+  std::vector<float> turns = turnsBetween (points, begin, end, sensor);
+  turns.erase (std::remove_if (turns.begin (), turns.end (), [] (float turn) { return !std::isfinite (turn); }),
+               turns.end ());
+  return turns.empty () ? 0.0f : upperMedian (turns);
+}
+
+/** \brief Where a view from \a first ends and one from \a second begins: a sensor turns by the same angle from pixel to
+ * pixel. \param[in] last, next indices of points of the two */
+std::size_t
+changeBetween (const std::vector<Eigen::Vector3f>& points, std::size_t last, std::size_t next,
+               const Eigen::Vector3d& first, const Eigen::Vector3d& second)
+{
+  const auto missesOf = [&] (const Eigen::Vector3d& sensor, float usual) {
+    std::vector<int> misses;
+    for (const float turn : turnsBetween (points, last, next, sensor))
+      misses.push_back (std::abs (turn - usual) <= even * usual ? 0 : 1);
+    return misses;
+  };
+  const std::vector<int> of_first = missesOf (first,
+                                              usualTurn (points, last - std::min (last, steps_to_learn), last, first));
+  const std::vector<int> of_second = missesOf (
+      second, usualTurn (points, next, std::min (points.size (), next + steps_to_learn), second));
+  std::size_t best = last + 1;
+  int cost = 0, least = 0;
+  for (std::size_t i = 0; i < of_first.size (); ++i)
+    if (cost += of_first[i] - of_second[i]; cost < least)
+    {
+      least = cost;
+      best = last + i + 2;
+    }
+  return std::min (best, next);
+}
+
+} // namespace
+
+std::vector<Eigen::Vector3d>
+locateSensor (const std::vector<Eigen::Vector3f>& points)
+{
+  const std::vector<Jump> jumps = findJumps (points);
+  return findPlaces (jumps, most_places, enough (jumps, least_meeting_share));
+}
+
+std::vector<std::size_t>
+beginningsOfViews (const std::vector<Eigen::Vector3f>& points)
+{
+  const std::vector<Jump> jumps = findJumps (points);
+  const std::vector<Eigen::Vector3d> places = findPlaces (jumps, most_views, enough (jumps, least_meeting_of_view));
+  if (places.size () < 2)
+    return {};
+  const std::vector<std::size_t> place = dividedAmong (places, jumps);
+  std::vector<std::size_t> beginnings = {0};
+  for (std::size_t j = 1; j < jumps.size (); ++j)
+  {
+    if (place[j] == place[j - 1])
+      continue;
+    const Eigen::Vector3d &before = places[place[j - 1]], &after = places[place[j]];
+    std::size_t last = j - 1, next = j; // jumps that pass by
+    while (last > 0 && !passes (jumps[last], before, loose))
+      --last;
+    while (next + 1 < jumps.size () && !passes (jumps[next], after, loose))
+      ++next;
+    beginnings.push_back (changeBetween (points, jumps[last].index, jumps[next].index + 1, before, after));
+  }
+  return beginnings.size () > 1 ? beginnings : std::vector<std::size_t> ();
 }
 
 } // namespace pcl::cosection

@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 
+#include <cstddef>
 #include <vector>
 
 namespace pcl::cosection {
@@ -22,5 +23,13 @@ namespace pcl::cosection {
  *
  * O (points); deterministic. */
 std::vector<Eigen::Vector3d> locateSensor (const std::vector<Eigen::Vector3f>& points);
+
+/** \brief Where the views begin that were put one after the other into one cloud, each in its order, as
+ * pcl::PointCloud::operator+= does: places are located as by locateSensor (), and the cloud is divided so that the
+ * fewest lines miss the place of their part (A. Viterbi, 1967).
+ * \return index of the first point of each view, the first is 0; nothing if there is no more than one
+ *
+ * O (points); deterministic. */
+std::vector<std::size_t> beginningsOfViews (const std::vector<Eigen::Vector3f>& points);
 
 } // namespace pcl::cosection

@@ -5,12 +5,14 @@
 #include "pcl_cosection/common/quantile.h"
 #include "pcl_cosection/io/place_text.h"
 #include "pcl_cosection/view/normals/estimated_normals.h"
+#include "pcl_cosection/view/scan/steady_scan.h"
 #include "range_image.h"
 #include "sensor_location.h"
 #include "sensor_noise.h"
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <utility>
 
@@ -26,9 +28,6 @@ constexpr double max_hidden_of_label = 0.5;
 // RangeImage::seenThrough (). From where they were seen at most 0.04 (OSD, RealSense, YCB-Video, scanned meshes; 17
 // clouds, 80 objects), from places turned about the vertical by 90 and 180 degrees 0.47 to 1: halfway.
 constexpr double max_seen_through = 0.25;
-constexpr float most_steps = 3.0f;            // between neighbours of a scan, of the usual one, and as few
-constexpr double least_steady = 0.9;          // share of such neighbours
-constexpr double most_aslant = 0.5;           // mean cosine of the angle between rows and columns
 constexpr double same_place = 0.1;            // of the distance to the points
 constexpr int lonely_neighbours = 6;          // of which the farthest ...
 constexpr float lonely_factor = 2.0f;         // ... is so much farther than usual
@@ -154,50 +153,6 @@ moveToSensor (const Eigen::Isometry3d& T_world_points, const Eigen::Isometry3d& 
   cloud.T_world_sensor = T_world_points * T_points_sensor;
 }
 
-/** \brief Whether neighbours along an axis of an organised cloud are in directions from the origin that differ by about
- * the same angle, as those of a sensor that scans are. */
-bool
-scansSteadily (const SensorCloud& cloud, std::size_t step, bool along_rows)
-{
-  std::vector<float> angles;
-  for (std::size_t i = 0; i + step < cloud.positions.size (); ++i)
-  {
-    const Eigen::Vector3f &a = cloud.positions[i], &b = cloud.positions[i + step];
-    const bool is_last = along_rows && (i + 1) % static_cast<std::size_t> (cloud.width) == 0;
-    if (!is_last && a.allFinite () && b.allFinite ())
-      angles.push_back ((a.normalized () - b.normalized ()).norm ());
-  }
-  if (angles.size () < RangeImage::min_points)
-    return false;
-  const float usual = upperMedian (angles);
-  const auto steady = std::count_if (angles.begin (), angles.end (), [usual] (float angle) {
-    return angle < most_steps * usual && most_steps * angle > usual;
-  });
-  return static_cast<double> (steady) > least_steady * static_cast<double> (angles.size ());
-}
-
-/** \brief Whether columns of an organised cloud cross its rows, as seen from the origin. With another width than that
- * of the sensor, the next row is beside a pixel instead of under it. */
-bool
-columnsCrossRows (const SensorCloud& cloud)
-{
-  const auto width = static_cast<std::size_t> (cloud.width);
-  double cosines = 0.0, count = 0.0;
-  for (std::size_t i = 0; i + width < cloud.positions.size (); ++i)
-  {
-    const Eigen::Vector3f &p = cloud.positions[i], &right = cloud.positions[i + 1], &under = cloud.positions[i + width];
-    if ((i + 1) % width == 0 || !p.allFinite () || !right.allFinite () || !under.allFinite ())
-      continue;
-    const Eigen::Vector3f along = right.normalized () - p.normalized (), down = under.normalized () - p.normalized ();
-    if (const float lengths = along.norm () * down.norm (); lengths > 0.0f)
-    {
-      cosines += std::abs (along.dot (down)) / lengths;
-      ++count;
-    }
-  }
-  return cosines < most_aslant * count;
-}
-
 /** \brief Take what is seen for the rays of the cloud. */
 void
 useSight (Sight sight, const Eigen::Isometry3d& T_world_points, LabelledView& result)
@@ -283,13 +238,18 @@ percentText (double share)
 bool
 lookAround (const Members& members, const SensorCloud& cloud, LabelledView& result)
 {
-  if (!scansSteadily (cloud, 1, true) || !scansSteadily (cloud, static_cast<std::size_t> (cloud.width), false) ||
-      !columnsCrossRows (cloud))
+  const std::optional<ScanSteps> steps = stepsOfScan (cloud);
+  if (!steps)
     return false;
   // The steady steps are the evidence. Ground seen nearly level has many depths in a pixel, which look hidden.
   Sight sight = lookFrom (Eigen::Vector3d::Zero (), members, cloud, max_hidden_of_label, true);
   if (!sight.isTheirs (max_hidden_of_label))
     return false;
+  std::vector<DepthView> images = imagesOfScan (cloud, *steps);
+  if (images.empty ())
+    return false;
+  sight.image->view = std::move (images.front ());
+  sight.image->others.assign (std::make_move_iterator (images.begin () + 1), std::make_move_iterator (images.end ()));
   useSight (std::move (sight), cloud.T_world_sensor, result);
   return true;
 }

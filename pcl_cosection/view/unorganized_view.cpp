@@ -5,6 +5,7 @@
 #include "pcl_cosection/view/normals/normal_agreement.h"
 #include "pcl_cosection/view/outliers/mixed_pixels.h"
 #include "pcl_cosection/view/outliers/repeated_points.h"
+#include "pcl_cosection/view/scan/merged_views.h"
 #include "range_image.h"
 
 #include <pcl/cosection/surface/normals.h>
@@ -13,6 +14,7 @@
 #include <cmath>
 #include <limits>
 #include <set>
+#include <utility>
 
 namespace pcl::cosection {
 namespace {
@@ -282,7 +284,15 @@ completeUnorganized (const std::string& path, const PcdViewOptions& options, Sen
   if (const double repeated = leaveOutRepeated (options.threads, cloud); repeated > worth_saying)
     result.warnings.push_back (path + ": " + percentText (repeated) + " of its points repeat others, and are left out");
   const Members members = membersOf (cloud);
+  const std::vector<std::string> warnings = result.warnings;
   viewFromSensor (path, options, members, cloud, result);
+  if (!result.view)
+  {
+    std::vector<std::string> of_one_view = std::exchange (result.warnings, warnings);
+    if (completeMerged (path, options, cloud, result))
+      return;
+    result.warnings = std::move (of_one_view);
+  }
   setWorkingRange (members, cloud, result);
   dropUnfilledNormals (cloud);
   dropStrangeNormals (path, members, cloud, result);

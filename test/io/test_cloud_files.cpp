@@ -153,6 +153,19 @@ TEST_F (CloudFile, ColoursMayBeInThreeFields)
   EXPECT_EQ (view.objects.at (1).points[0].colour, (std::array<std::uint8_t, 3>{255, 127, 0}));
 }
 
+TEST_F (CloudFile, ColoursMayBeWholeNumbers)
+{
+  const auto firstColour = [&] (const std::string& colour) {
+    const std::string rows = "0 0 1 " + colour + "\n1 0 1 " + colour + "\n0 1 1 " + colour + "\n";
+    return readPcdView (write (header (3, 1, "ascii", "x y z rgb", "4 4 4 4", "F F F F") + rows))
+        .objects.at (1)
+        .points[0]
+        .colour;
+  };
+  EXPECT_EQ (firstColour ("660510"), (std::array<std::uint8_t, 3>{10, 20, 30}));         // 0x0a141e
+  EXPECT_EQ (firstColour ("9.25571652e-40"), (std::array<std::uint8_t, 3>{10, 20, 30})); // the same bits
+}
+
 TEST_F (CloudFile, NamesOfFieldsMayDiffer)
 {
   const std::string rows = "0 0 1 0 0 -1 4\n1 0 1 0 0 -1 4\n0 1 1 0 0 -1 4\n";

@@ -54,6 +54,11 @@ protected:
     return (computeMassProperties (mesh).volume_m3);
   }
 
+  Eigen::Vector3d centroid (const std::string& name) const
+  {
+    return (computeMassProperties (pcl::cosection::loadMesh (path (name))).centroid_m);
+  }
+
   /** \brief Every second point of the ball, moved by \a T. */
   void writeHalf (const std::string& name, std::size_t first, const Eigen::Isometry3f& T) const
   {

@@ -129,6 +129,26 @@ TEST_F (AnyCloud, ObstaclesOfAnyFormatKeepObjectsOut)
   EXPECT_FALSE (fs::exists (path ("no.ply")));
 }
 
+TEST_F (AnyCloud, PointsThatTheMeshLosesAreToldOf)
+{
+  writeSphere (path ("ball.pcd"), 4000); // 0.1 about z = 0.5
+  const auto runOnBlock = [&] (const std::string& top) {
+    std::string corners;
+    for (const std::string z : {std::string ("0.3"), top})
+      for (const std::string xy : {"-1 -1 ", "1 -1 ", "-1 1 ", "1 1 "})
+        corners += xy + z + "\n";
+    write ("block.off",
+           "OFF\n8 6 0\n" + corners + "4 0 2 3 1\n4 4 5 7 6\n4 0 1 5 4\n4 2 6 7 3\n4 0 4 6 2\n4 1 3 7 5\n");
+    return run ({"--obstacle", "block.off", "ball.pcd", "out.ply"});
+  };
+  EXPECT_EQ (runOnBlock ("0.42"), 0);
+  EXPECT_EQ (errors_.find ("its mesh shows only"), std::string::npos) << errors_;
+  EXPECT_EQ (runOnBlock ("0.48"), 0);
+  EXPECT_NE (errors_.find ("object 1: its mesh shows only 6"), std::string::npos) << errors_;
+  EXPECT_EQ (runOnBlock ("0.56"), 1);
+  EXPECT_NE (errors_.find ("error: object 1: its mesh shows only 2"), std::string::npos) << errors_;
+}
+
 TEST_F (AnyCloud, FewFacesStayClosedInEveryFormat)
 {
   writeTableScene (path ("scene.pcd"));

@@ -126,6 +126,93 @@ TEST_F (AnyCloud, AViewThatIsGivenTwiceCountsOnce)
     EXPECT_EQ (test::readFile (path ("once" + body)), test::readFile (path ("twice" + body))) << body;
 }
 
+namespace {
+
+/** \brief What a spinning lidar 1.7 m over the ground sees of boxes that stand around it, each turned by another angle;
+ * label k + 1 for box k. */
+pcl::PointCloud<pcl::PointXYZL>
+turnAmongBoxes (const Eigen::Array3f& size_m, const std::vector<float>& angles)
+{
+  constexpr int columns = 1024, rows = 64;
+  constexpr float height_m = 1.7f, distance_m = 5.0f, wall_m = 60.0f;
+  std::mt19937 random (3);
+  std::normal_distribution<float> noise_m (0.0f, 0.01f);
+  pcl::PointCloud<pcl::PointXYZL> cloud (columns, rows);
+  for (int v = 0; v < rows; ++v)
+    for (int u = 0; u < columns; ++u)
+    {
+      const float azimuth = 2.0f * static_cast<float> (M_PI) * u / columns, elevation = 0.25f - 0.011f * v;
+      const Eigen::Vector3f ray (std::cos (azimuth) * std::cos (elevation), std::sin (azimuth) * std::cos (elevation),
+                                 std::sin (elevation));
+      float range = std::min (wall_m, ray.z () < 0.0f ? -height_m / ray.z () : wall_m);
+      std::uint32_t label = 0;
+      for (std::size_t b = 0; b < angles.size (); ++b)
+      {
+        const float at = 2.0f * static_cast<float> (M_PI) * static_cast<float> (b) / angles.size ();
+        const Eigen::Vector3f middle (distance_m * std::cos (at), distance_m * std::sin (at),
+                                      0.5f * size_m.z () - height_m);
+        const Eigen::Matrix3f to_box (Eigen::AngleAxisf (-at - angles[b], Eigen::Vector3f::UnitZ ()));
+        const Eigen::Array3f from = to_box * -middle, along = to_box * ray;
+        const Eigen::Array3f one = (-0.5f * size_m - from) / along, other = (0.5f * size_m - from) / along;
+        const float enter = one.min (other).maxCoeff (), leave = one.max (other).minCoeff ();
+        if (enter < leave && enter > 0.0f && enter < range)
+        {
+          range = enter;
+          label = static_cast<std::uint32_t> (b) + 1;
+        }
+      }
+      cloud (u, v).getVector3fMap () = (range + noise_m (random)) * ray;
+      cloud (u, v).label = label;
+    }
+  return cloud;
+}
+
+} // namespace
+
+/** \brief Readings on the sides of a thing that are seen aslant are far apart. */
+TEST_F (AnyCloud, ATurnOfALidarGivesBoxesTheirVolumes)
+{
+  const Eigen::Array3f size_m (1.0f, 0.8f, 1.2f);
+  pcl::io::savePCDFileBinary (path ("turn.pcd"), turnAmongBoxes (size_m, {0.2f, 0.4f, 0.8f, 1.2f}));
+  ASSERT_EQ (run ({"turn.pcd", "out"}), 0) << errors_;
+  EXPECT_EQ (errors_, "");
+  for (const std::string id : {"1", "2", "3", "4"})
+    EXPECT_NEAR (volume ("out/object_" + id + ".ply"), size_m.prod (), 0.2 * size_m.prod ()) << id;
+}
+
+/** \brief Views that were put one after the other into one cloud: their order tells where each was seen from. */
+TEST_F (AnyCloud, MergedViewsAreFoundByTheirOrder)
+{
+  ToolRun simulate ({"--preset", "table", "sim"}, folder_.file (""), {}, PCL_COSECTION_SIMULATE);
+  ASSERT_EQ (simulate.wait (), 0) << simulate.errors ();
+  std::vector<std::string> views;
+  pcl::PointCloud<pcl::PointXYZL> merged, view, in_world;
+  for (int v = 0; v < 4; ++v)
+  {
+    views.push_back ("sim/views/View000" + std::to_string (v) + ".pcd");
+    pcl::io::loadPCDFile (path (views.back ()), view);
+    const Eigen::Affine3f T (Eigen::Translation3f (view.sensor_origin_.head<3> ()) * view.sensor_orientation_);
+    pcl::transformPointCloud (view, in_world, T);
+    for (const pcl::PointXYZL& point : in_world)
+      if (std::isfinite (point.z))
+        merged.push_back (point);
+  }
+  std::vector<std::string> one_by_one = views;
+  one_by_one.insert (one_by_one.end (), {"--quiet", "separate"});
+  ASSERT_EQ (run (one_by_one), 0) << errors_;
+  merged.sensor_origin_ = view.sensor_origin_; // as of one of them, though the points are in the world
+  merged.sensor_orientation_ = view.sensor_orientation_;
+  pcl::io::savePCDFileBinary (path ("merged.pcd"), merged);
+  ASSERT_EQ (run ({"merged.pcd", "out"}), 0) << errors_;
+  EXPECT_NE (errors_.find ("it holds 4 views, which were seen from "), std::string::npos) << errors_;
+  for (const std::string id : {"1", "2", "3", "4", "5"})
+  {
+    const std::string mesh = "/object_" + id + ".ply";
+    EXPECT_NEAR (volume ("out" + mesh), volume ("separate" + mesh), 0.1 * volume ("separate" + mesh)) << id;
+    EXPECT_LT ((centroid ("out" + mesh) - centroid ("separate" + mesh)).norm (), 0.002) << id;
+  }
+}
+
 TEST_F (AnyCloud, ObjectsAreFoundFirst)
 {
   writeTableScene (path ("table.pcd"));

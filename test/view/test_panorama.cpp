@@ -60,6 +60,27 @@ TEST_F (Panorama, AnOrganisedTurnShowsFreeSpaceAllAround)
   EXPECT_GT (readings, 1000u);
 }
 
+TEST_F (Panorama, OutlinesAreHalfWayBetweenReadings)
+{
+  pcl::io::savePCDFileBinary (path ("turn.pcd"), turnInARoom ());
+  const LabelledView view = readPcdView (path ("turn.pcd"));
+  ASSERT_TRUE (view.view);
+  const double step_m = 2.0 * 2.0 * M_PI / columns; // between readings on the box
+  Eigen::AlignedBox3d box;
+  std::vector<DepthView> images = view.other_views;
+  images.push_back (*view.view);
+  for (const DepthView& image : images)
+    for (int v = 0; v < image.camera.height; ++v)
+      for (int u = 0; u < image.camera.width; ++u)
+        if (const Eigen::Vector3d p = image.T_world_sensor * image.camera.unproject (u, v, image.at (u, v));
+            std::abs (p.x () - 2.0) < 0.1 && p.norm () < 3.0) // the wall is at 5
+          box.extend (p);
+  EXPECT_NEAR (box.min ().y (), -0.5, step_m);
+  EXPECT_NEAR (box.max ().y (), 0.5, step_m);
+  EXPECT_NEAR (box.min ().z (), -0.4, step_m);
+  EXPECT_GT (box.max ().z (), 0.4 - step_m);
+}
+
 /** \brief A width that is not that of the sensor: steps along rows and columns are as steady, but beside each other. */
 TEST_F (Panorama, RowsOfAnotherWidthAreNotTheSensors)
 {

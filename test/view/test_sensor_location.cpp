@@ -87,3 +87,22 @@ TEST (LocateSensor, NeedsSomethingBeforeSomethingElse)
     p *= 1e37f;
   EXPECT_TRUE (locateSensor (table).empty ());
 }
+
+TEST (BeginningsOfViews, AreFoundBySensors)
+{
+  const std::vector<Eigen::Vector3f> first = imageOf (Shape::Box, 0.1), second = imageOf (Shape::Cup, 0.1);
+  EXPECT_TRUE (beginningsOfViews (first).empty ());
+  std::vector<Eigen::Vector3f> merged = first;
+  const Eigen::Affine3f turned (Eigen::AngleAxisf (1.0f, Eigen::Vector3f::UnitX ()));
+  for (const Eigen::Vector3f& p : second)
+    merged.push_back (turned * p);
+  merged.insert (merged.end (), first.begin (), first.end ());
+  const std::vector<std::size_t> beginnings = beginningsOfViews (merged);
+  ASSERT_EQ (beginnings.size (), 3u);
+  EXPECT_EQ (beginnings[0], 0u);
+  EXPECT_EQ (beginnings[1], first.size ());
+  EXPECT_EQ (beginnings[2], first.size () + second.size ());
+  std::shuffle (merged.begin (), merged.end (), std::mt19937 (1));
+  EXPECT_TRUE (beginningsOfViews (merged).empty ());
+  EXPECT_TRUE (beginningsOfViews ({}).empty ());
+}

@@ -88,6 +88,22 @@ setPose (const CloudHeader& header, const PcdViewOptions& options, SensorCloud& 
   cloud.T_world_sensor = cloud.T_world_sensor * cloud.T_points_sensor;
 }
 
+/** \brief Whether colours of type F are the numbers 0xRRGGBB, as some programs write them, instead of floats with these
+ * bits: those are below 1 or, with an alpha of 255, beyond them all. */
+bool
+areWholeColours (const CloudColumn& column, std::size_t points)
+{
+  bool any = false;
+  for (std::size_t i = 0; i < points; ++i)
+  {
+    const double value = column.number (i);
+    if (!(value >= 0.0 && value <= 0xffffff && value == std::floor (value)))
+      return (false);
+    any |= value > 0.0;
+  }
+  return (any);
+}
+
 } // namespace
 
 void
@@ -146,10 +162,12 @@ toSensorCloud (const std::string& path, const CloudHeader& header, const PCLPoin
   if (colour && colour->size == 4 && colour->count == 1)
   {
     const CloudColumn column (path, cloud, *colour);
+    const bool are_numbers = colour->type == 'F' && areWholeColours (column, header.points);
     result.colours.resize (header.points);
     for (std::size_t i = 0; i < result.colours.size (); ++i)
     {
-      const std::uint32_t bits = column.bits (i); // 0xAARRGGBB, whether the field is declared F or U
+      // 0xAARRGGBB, whether the field is declared F or U
+      const std::uint32_t bits = are_numbers ? static_cast<std::uint32_t> (column.number (i)) : column.bits (i);
       result.colours[i] = {static_cast<std::uint8_t> (bits >> 16), static_cast<std::uint8_t> (bits >> 8),
                            static_cast<std::uint8_t> (bits)};
     }

@@ -112,7 +112,7 @@ hullOfCopies (const Observation& object, const Motions& motions, const Eigen::Ve
   for (const Eigen::Vector3d& n : evenDirections (directions, axes))
   {
     const bool is_round = up.isZero () && motions.size () > many; // its profile was seen, ends and all
-    const bool seen = is_round ||
+    const bool seen = is_round || (towards.empty () && n.dot (up) >= downwards) ||
                       (n.dot (up) >= downwards &&
                        std::any_of (all.begin (), all.end (), [&] (const Eigen::Affine3d& motion) {
                          const Eigen::Vector3d turned = motion.linear ().transpose () * n;
@@ -148,7 +148,8 @@ addCopies (const BodyEnergy& energy, const MeasuredShape& shape, const Motions& 
   const VoxelGrid& grid = energy.grid;
   const Eigen::Vector3d& extents_m = object.extents_m;
   const HalfSpaces hull = hullOfCopies (object, motions, plane.head<3> ());
-  const double margin_m = std::max (hull_margin * extents_m[1], least_depth * extents_m[1] - extents_m[2]);
+  const double margin_m = std::max (hull_margin * extents_m[1],
+                                    object.views.empty () ? 0.0 : least_depth * extents_m[1] - extents_m[2]);
   const float weight = copy_weight * static_cast<float> (energy.options.beta_extent);
   Eigen::Affine3d T_object_voxel = Eigen::Affine3d::Identity ();
   T_object_voxel.linear () *= grid.voxel_size_m;
