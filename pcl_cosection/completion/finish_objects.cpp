@@ -26,7 +26,7 @@ constexpr std::size_t most_judged = 1000; // points of an object
 constexpr double missed_voxels = 2.0;     // distance of a point from a surface that does not show it
 // Share of such points. Of 265 completed views (scanned meshes, YCB-Video, RealSense; also of every third pixel) at
 // most 0.12; of a sheet that was thinner than its voxels 0.99.
-constexpr double much_missed = 0.25, most_missed = 0.5;
+constexpr double much_missed = 0.25;
 constexpr double inferred_reach_voxels = 2.0; // vertices so near to an inferred plane are bounded by it
 
 /** \brief Mark vertices that an inferred plane bounds as inferred, as such a plane is no body. */
@@ -106,8 +106,6 @@ finishObjects (const Scene& scene, const std::vector<SceneObject>& objects, cons
     if (result.mesh.empty ())
       throw DegenerateInput ("its measurements determine no closed surface, or lie inside another body");
     missed[o] = missedShare (object.points (), result.mesh, object.grid ().voxel_size_m);
-    if (missed[o] > most_missed)
-      throw DegenerateInput (lossText (missed[o], object.grid ().voxel_size_m));
     markInferred (object, result.mesh);
     transferAttributes (object.points (), energies[o].grid, result.mesh);
     attachExpectedErrors (errorSourcesOf (object, energies[o], result.mesh), result.mesh);
@@ -115,7 +113,7 @@ finishObjects (const Scene& scene, const std::vector<SceneObject>& objects, cons
       result.inner_bound = innerMesh (energies[o], solution, object.points ());
   });
   for (std::size_t o = 0; o < objects.size (); ++o)
-    if (missed[o] > much_missed && missed[o] <= most_missed)
+    if (missed[o] > much_missed)
       log.warn ("object " + std::to_string (objects[o].input->id) + ": " +
                 lossText (missed[o], objects[o].grid ().voxel_size_m));
   if (output == UpdateOutput::Meshes)

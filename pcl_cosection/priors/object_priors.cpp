@@ -28,6 +28,8 @@ constexpr double along_axis = 0.9;             // cosine: a round object stands 
 constexpr double hidden_foot_vox = 6.0;        // height of the lowest points from which a foot is hidden
 constexpr double wall_end_vox = 3.0;           // above the lowest points: their normals tell how a wall goes on ...
 constexpr double steep = 0.7;                  // ... if the component of the normal across is larger
+constexpr double first_before_vox = 2.0;       // distance from which space before a surface is empty; ...
+constexpr double beside_vox = 4.0;             // ... up to this one, data is of the same surface
 constexpr float expected_bound_weight = 10.0f; // of expected free space, in multiples of beta_extent
 
 /** \brief Mark voxels on rays without return as empty, for an object that was cut out of its scene. */
@@ -39,6 +41,28 @@ addRaysWithoutReturn (const Observation& object, BodyEnergy& energy)
   energy.empty = energy.free_space;
   for (std::size_t n = 0; n < open.size (); ++n)
     energy.empty[n] |= open[n] && !energy.data[n];
+}
+
+/** \brief Mark voxels before observed surface as empty, for an object of which no view is known: whatever saw it looked
+ * through what is before it. */
+void
+addSpaceBeforeSurface (const Observation& object, BodyEnergy& energy)
+{
+  const VoxelGrid& grid = energy.grid;
+  energy.empty = energy.free_space;
+  for (const OrientedPoint& point : object.points ())
+    for (double away_vox = first_before_vox;; ++away_vox)
+    {
+      const auto at = grid.nearest (
+          (point.position + static_cast<float> (away_vox * grid.voxel_size_m) * point.normal).cast<double> ());
+      if (!at)
+        break;
+      const std::size_t n = grid.index (at->x (), at->y (), at->z ());
+      if (!energy.data[n])
+        energy.empty[n] = 1;
+      else if (away_vox > beside_vox)
+        break;
+    }
 }
 
 /** \brief Add the extent bound.
@@ -313,6 +337,8 @@ addPriors (const Observation& object, const ObjectSetting& setting, const std::v
   const bool is_cut_out = setting.background.empty ();
   if (priors.rays && is_cut_out && vessels.empty ()) // they have no thin walls
     addRaysWithoutReturn (object, energy);
+  if (priors.rays && object.views.empty ())
+    addSpaceBeforeSurface (object, energy);
   const auto addExpected = [&] (const Proposal& proposal) {
     if (priors.extent)
       addExtentPrior (is_cut_out ? ExtentPrior::cutOut () : ExtentPrior (), object, hidden,

@@ -343,7 +343,9 @@ beginningsOfViews (const std::vector<Eigen::Vector3f>& points)
       --last;
     while (next + 1 < jumps.size () && !passes (jumps[next], after, loose))
       ++next;
-    beginnings.push_back (changeBetween (points, jumps[last].index, jumps[next].index + 1, before, after));
+    if (const std::size_t beginning = changeBetween (points, jumps[last].index, jumps[next].index + 1, before, after);
+        beginning > beginnings.back ())
+      beginnings.push_back (beginning);
   }
   return beginnings.size () > 1 ? beginnings : std::vector<std::size_t> ();
 }

@@ -65,7 +65,7 @@ TEST_F (ViewFrames, ViewsInTheWorldFrameAreAsGood)
 }
 
 /** \brief One file of two views was not seen from one place, near as these may be. */
-TEST_F (ViewFrames, MergedViewsHaveNoViewpoint)
+TEST_F (ViewFrames, MergedViewsWithoutTheirOrderHaveNoViewpoint)
 {
   writeTableScene (path ("view.pcd"));
   pcl::PointCloud<pcl::PointXYZRGBL> view, merged;
@@ -81,6 +81,7 @@ TEST_F (ViewFrames, MergedViewsHaveNoViewpoint)
         merged.back ().getVector3fMap () = Eigen::AngleAxisf (turn, Eigen::Vector3f::UnitZ ()) *
                                            (T * Eigen::Vector3f (p.getVector3fMap ()));
       }
+  std::shuffle (merged.begin (), merged.end (), std::mt19937 (1));
   pcl::io::savePCDFileBinary (path ("merged.pcd"), merged);
   EXPECT_EQ (run ({"merged.pcd", "out"}), 0);
   EXPECT_EQ (errors_.find ("the order of its points tells"), std::string::npos) << errors_;

@@ -68,7 +68,7 @@ struct PCL_COSECTION_EXPORT LabelledView
   Eigen::Vector3d origin = Eigen::Vector3d::Zero ();
 
   std::optional<DepthView> view; ///< of an organised cloud from a pinhole camera, or of points seen from the viewpoint
-  std::vector<DepthView> other_views;      ///< further ones from the same place, of a sensor that sees all around
+  std::vector<DepthView> other_views;      ///< further ones, of a sensor that sees all around or of a merged cloud
   std::map<std::uint32_t, Points> objects; ///< by label; 0: background
   bool organized = false;                  ///< HEIGHT > 1
   bool has_labels = false;                 ///< without, everything is object 1
