@@ -67,6 +67,7 @@ TEST_F (Panorama, OutlinesAreHalfWayBetweenReadings)
   ASSERT_TRUE (view.view);
   const double step_m = 2.0 * 2.0 * M_PI / columns; // between readings on the box
   Eigen::AlignedBox3d box;
+  int pixels = 0;
   std::vector<DepthView> images = view.other_views;
   images.push_back (*view.view);
   for (const DepthView& image : images)
@@ -74,7 +75,11 @@ TEST_F (Panorama, OutlinesAreHalfWayBetweenReadings)
       for (int u = 0; u < image.camera.width; ++u)
         if (const Eigen::Vector3d p = image.T_world_sensor * image.camera.unproject (u, v, image.at (u, v));
             std::abs (p.x () - 2.0) < 0.1 && p.norm () < 3.0) // the wall is at 5
+        {
           box.extend (p);
+          ++pixels;
+        }
+  EXPECT_GT (pixels, 700); // of 760 readings
   EXPECT_NEAR (box.min ().y (), -0.5, step_m);
   EXPECT_NEAR (box.max ().y (), 0.5, step_m);
   EXPECT_NEAR (box.min ().z (), -0.4, step_m);
