@@ -23,13 +23,13 @@
 namespace pcl::cosection {
 namespace {
 
-constexpr std::size_t most_points = 10000;     // even subset of the points for inferring a plane
-constexpr double along_axis = 0.9;             // cosine: a round object stands on a plane across its axis
-constexpr double hidden_foot_vox = 6.0;        // height of the lowest points from which a foot is hidden
-constexpr double wall_end_vox = 3.0;           // above the lowest points: their normals tell how a wall goes on ...
-constexpr double steep = 0.7;                  // ... if the component of the normal across is larger
-constexpr double first_before_vox = 2.0;       // distance from which space before a surface is empty; ...
-constexpr double beside_vox = 4.0;             // ... up to this one, data is of the same surface
+constexpr std::size_t most_points = 10000; // even subset of the points for inferring a plane
+constexpr double along_axis = 0.9;         // cosine: a round object stands on a plane across its axis
+constexpr double hidden_foot_vox = 6.0;    // height of the lowest points from which a foot is hidden
+constexpr double wall_end_vox = 3.0;       // above the lowest points: their normals tell how a wall goes on ...
+constexpr double steep = 0.7;              // ... if the component of the normal across is larger
+constexpr double first_before_vox = 2.0;   // distance from which space before a surface is empty, as copies are; ...
+constexpr double beside_vox = 4.0;         // ... up to this one, data is of the same surface
 constexpr float expected_bound_weight = 10.0f; // of expected free space, in multiples of beta_extent
 
 /** \brief Mark voxels on rays without return as empty, for an object that was cut out of its scene. */
@@ -50,11 +50,12 @@ addSpaceBeforeSurface (const Observation& object, BodyEnergy& energy)
 {
   const VoxelGrid& grid = energy.grid;
   energy.empty = energy.free_space;
+  const double farthest_vox = grid.dims.cast<double> ().norm ();
   for (const OrientedPoint& point : object.points ())
-    for (double away_vox = first_before_vox;; ++away_vox)
+    for (double away_vox = first_before_vox; away_vox < farthest_vox; ++away_vox)
     {
-      const auto at = grid.nearest (
-          (point.position + static_cast<float> (away_vox * grid.voxel_size_m) * point.normal).cast<double> ());
+      const auto at = grid.nearest (point.position.cast<double> () +
+                                    away_vox * grid.voxel_size_m * point.normal.cast<double> ().normalized ());
       if (!at)
         break;
       const std::size_t n = grid.index (at->x (), at->y (), at->z ());
@@ -240,7 +241,7 @@ expectedOf (const Observation& object, const Priors& priors, const std::vector<E
       explain (symmetry.motions, continued.points, energy))
   {
     const Motions motions = symmetry.all ();
-    if (!motions.empty () || object.views.empty ())
+    if (!motions.empty () || (priors.symmetry && object.views.empty ()))
       addCopies (energy, shape, motions, object, plane, proposal);
     if (extrudes && symmetry.is_fitted)
       addFoot (object, plane, motions, energy, proposal);

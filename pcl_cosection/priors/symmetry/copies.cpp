@@ -92,8 +92,8 @@ towardsSensors (const Observation& object)
 }
 
 /** \brief Half-spaces n.x <= s that hold the points and their copies but for a few outliers, for those directions along
- * which a sensor saw how far the object reaches, or how far a copy does. \param[in] up of what stands on a plane, or
- * zeros */
+ * which a sensor saw how far the object reaches, or how far a copy does; all, if no sensor is known. \param[in] up of
+ * what stands on a plane, or zeros */
 HalfSpaces
 hullOfCopies (const Observation& object, const Motions& motions, const Eigen::Vector3d& up)
 {
@@ -112,14 +112,14 @@ hullOfCopies (const Observation& object, const Motions& motions, const Eigen::Ve
   for (const Eigen::Vector3d& n : evenDirections (directions, axes))
   {
     const bool is_round = up.isZero () && motions.size () > many; // its profile was seen, ends and all
-    const bool seen = is_round || (towards.empty () && n.dot (up) >= downwards) ||
+    const bool seen = is_round ||
                       (n.dot (up) >= downwards &&
-                       std::any_of (all.begin (), all.end (), [&] (const Eigen::Affine3d& motion) {
-                         const Eigen::Vector3d turned = motion.linear ().transpose () * n;
-                         return std::any_of (towards.begin (), towards.end (), [&] (const Eigen::Vector3d& sensor) {
-                           return turned.dot (sensor) > facing;
-                         });
-                       }));
+                       (towards.empty () || std::any_of (all.begin (), all.end (), [&] (const Eigen::Affine3d& motion) {
+                          const Eigen::Vector3d turned = motion.linear ().transpose () * n;
+                          return std::any_of (towards.begin (), towards.end (), [&] (const Eigen::Vector3d& sensor) {
+                            return turned.dot (sensor) > facing;
+                          });
+                        })));
     if (!seen)
       continue;
     double farthest = -std::numeric_limits<double>::infinity ();
