@@ -34,7 +34,8 @@ public:
     constexpr double rounding = 1e-12;
     for (int axis = 0; axis < 2; ++axis)
       if (!chosen.empty () && box.sizes ()[axis] > rounding * (box.min ().norm () + box.max ().norm ()))
-        cells_per_length_[axis] = side_ / box.sizes ()[axis];
+        if (const double cells = side_ / box.sizes ()[axis]; std::isfinite (cells)) // else lengths are denormal
+          cells_per_length_[axis] = cells;
     begin_.assign (static_cast<std::size_t> (side_) * side_ + 1, 0);
     for (const std::uint32_t n : chosen)
       ++begin_[cellOf (points[n]) + 1];

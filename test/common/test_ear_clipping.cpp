@@ -162,6 +162,25 @@ TEST (EarClipping, AHoleWithABridge)
   EXPECT_NEAR (area, 12.0, 1e-12);
 }
 
+TEST (EarClipping, CoordinatesOfAnySizeAreIndexed)
+{
+  for (const double scale : {1e-323, 1e-310, 1e-160, 1e-3, 1e150, 1e300, 1e308})
+    for (const double across : {1.0, 1e-5})
+    {
+      Polygon star = around (12, [] (int n) { return n % 2 ? 0.3 : 1.0; });
+      for (Eigen::Vector2d& p : star)
+        p = Eigen::Vector2d (p.x () * scale, p.y () * across * scale);
+      const std::size_t triangles = clipEars (star).size ();
+      if (scale > 1e-100 && scale < 1e100)
+      {
+        EXPECT_EQ (triangles, star.size () - 2) << scale;
+      }
+      for (const auto& triangle : clipEars (star))
+        for (const std::uint32_t corner : triangle)
+          EXPECT_LT (corner, star.size ());
+    }
+}
+
 TEST (EarClipping, CrossingsAreToldAndSmallPolygonsHaveNoTriangles)
 {
   EXPECT_TRUE (clipEars ({}).empty ());
