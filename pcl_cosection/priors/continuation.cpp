@@ -1,24 +1,20 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "continuation.h"
 
+#include "object_image.h"
 #include "pcl_cosection/common/lattice_cells.h"
 #include "pcl_cosection/common/quantile.h"
 #include "pcl_cosection/priors/shape/axes.h"
 #include "pcl_cosection/priors/symmetry/copy_evidence.h"
-#include "pcl_cosection/view/visibility/free_space_view.h"
-#include "pcl_cosection/view/visibility/visibility.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdint>
-#include <limits>
 #include <optional>
 
 namespace pcl::cosection {
 namespace {
 
-constexpr int edge_px = 4;                // width of the readings at edges that are left out
 constexpr float end_vox = 4.0f;           // length of the object's end beside what hides it
 constexpr std::size_t least_points = 10;  // of the end that are about to be hidden; fewer are noise at edges
 constexpr std::size_t most_points = 2000; // of the object, to find the direction
@@ -28,114 +24,15 @@ constexpr double least_ratio = 1.0;       // log-likelihood per copy: the cross-
 constexpr double least_hidden = 0.7;      // of the end, elsewhere than the object: it may go on so far
 constexpr double seen_again = 0.5;        // of the end: the object is seen on the other side of what hides it
 constexpr double turned_weight = 0.5;     // of a copy on surface of another orientation, as a contradiction
-constexpr float alike_cosine = 0.7f;      // of two normals of one surface
 constexpr float across_cosine = 0.5f;     // of a normal and the direction: surface that does not go on along it
 constexpr double outlier_share = 0.01;    // of the points, at either end
 
-/** \brief What one view shows of a place near an object. */
-enum class Shown : std::uint8_t
-{
-  Nothing,     ///< no reading, or out of view
-  Free,        ///< the view looks through the place
-  Object,      ///< the object's surface is there
-  Turned,      ///< the object's surface is there, with another normal
-  BehindOwn,   ///< the object is nearer
-  BehindOther, ///< something else is nearer
-};
-
-/** \brief One view, with the object's points by pixel. */
-class ObjectView
-{
-public:
-  ObjectView (const DepthView& view, const Eigen::Isometry3d& T_object_sensor, const std::vector<OrientedPoint>& points,
-              double voxel_size_m)
-      : view_ (view)
-      , T_sensor_object_ (T_object_sensor.inverse ())
-      , points_ (points)
-      , voxel_size_m_ (voxel_size_m)
-      , point_of_ (static_cast<std::size_t> (view.camera.width) * view.camera.height, none)
-  {
-    for (std::size_t p = 0; p < points.size (); ++p)
-    {
-      const Eigen::Vector3d q = T_sensor_object_ * points[p].position.cast<double> ();
-      const auto pixel = pixelOf (view.camera, q);
-      if (pixel && marginOf (q.z ()) > std::abs (view.at (pixel->x (), pixel->y ()) - q.z ()))
-        point_of_[indexOf (*pixel)] = static_cast<std::uint32_t> (p);
-    }
-    growIntoEdges ();
-  }
-
-  Shown at (const OrientedPoint& point) const
-  {
-    const Eigen::Vector3d q = T_sensor_object_ * point.position.cast<double> ();
-    const auto pixel = pixelOf (view_.camera, q);
-    if (!pixel)
-      return Shown::Nothing;
-    const std::uint32_t own = point_of_[indexOf (*pixel)];
-    switch (compareWithReading (q.z (), view_.at (pixel->x (), pixel->y ()), marginOf (q.z ())))
-    {
-    case PointVisibility::Free:
-      return Shown::Free;
-    case PointVisibility::Occluded:
-      return own == none ? Shown::BehindOther : Shown::BehindOwn;
-    case PointVisibility::AtSurface:
-      return own == none                                             ? Shown::Nothing
-             : points_[own].normal.dot (point.normal) > alike_cosine ? Shown::Object
-                                                                     : Shown::Turned;
-    default:
-      return Shown::Nothing;
-    }
-  }
-
-  /** \brief Whether a place is behind something that is nearer than a point of the object, too. */
-  bool isBehindNearer (const OrientedPoint& place, const OrientedPoint& point) const
-  {
-    const double depth_m = (T_sensor_object_ * point.position.cast<double> ()).z ();
-    const Eigen::Vector3d q = T_sensor_object_ * place.position.cast<double> ();
-    const auto pixel = pixelOf (view_.camera, q);
-    return pixel && point_of_[indexOf (*pixel)] == none &&
-           compareWithReading (std::min (depth_m, q.z ()), view_.at (pixel->x (), pixel->y ()), marginOf (depth_m)) ==
-               PointVisibility::Occluded;
-  }
-
-private:
-  static constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max ();
-
-  std::size_t indexOf (const Eigen::Array2i& pixel) const
-  {
-    return static_cast<std::size_t> (pixel.y ()) * view_.camera.width + pixel.x ();
-  }
-
-  double marginOf (double depth_m) const { return freeSpaceMargin (view_, depth_m, voxel_size_m_); }
-
-  /** \brief Readings at the edges of surfaces were left out, but are as near: they are the object's, too. */
-  void growIntoEdges ()
-  {
-    const std::vector<std::uint32_t> before = point_of_;
-    const PinholeCamera& camera = view_.camera;
-    for (int v = 0; v < camera.height; ++v)
-      for (int u = 0; u < camera.width; ++u)
-        if (const std::uint32_t own = before[indexOf ({u, v})]; own != none)
-          for (int row = std::max (0, v - edge_px); row <= std::min (camera.height - 1, v + edge_px); ++row)
-            for (int column = std::max (0, u - edge_px); column <= std::min (camera.width - 1, u + edge_px); ++column)
-              if (std::uint32_t& other = point_of_[indexOf ({column, row})];
-                  other == none && std::abs (view_.at (column, row) - view_.at (u, v)) < marginOf (view_.at (u, v)))
-                other = own;
-  }
-
-  const DepthView& view_;
-  Eigen::Isometry3d T_sensor_object_;
-  const std::vector<OrientedPoint>& points_;
-  double voxel_size_m_;
-  std::vector<std::uint32_t> point_of_; // by pixel
-};
-
 /** \brief What all views together show of a place: free space in one of them decides. */
 Shown
-shownBy (const std::vector<ObjectView>& views, const OrientedPoint& point)
+shownBy (const std::vector<ObjectImage>& views, const OrientedPoint& point)
 {
   Shown shown = Shown::Nothing;
-  for (const ObjectView& view : views)
+  for (const ObjectImage& view : views)
   {
     const Shown here = view.at (point);
     if (here == Shown::Free)
@@ -166,7 +63,7 @@ struct Shares
 };
 
 Shares
-sharesOf (const std::vector<ObjectView>& views, const std::vector<OrientedPoint>& points, const Eigen::Vector3f& by)
+sharesOf (const std::vector<ObjectImage>& views, const std::vector<OrientedPoint>& points, const Eigen::Vector3f& by)
 {
   std::array<std::size_t, 6> counts{};
   for (const OrientedPoint& point : points)
@@ -198,7 +95,7 @@ extentAlong (const std::vector<OrientedPoint>& points, const Eigen::Vector3f& di
 class Ends
 {
 public:
-  Ends (const std::vector<ObjectView>& views, const std::vector<OrientedPoint>& points, const Eigen::Matrix3d& axes,
+  Ends (const std::vector<ObjectImage>& views, const std::vector<OrientedPoint>& points, const Eigen::Matrix3d& axes,
         double cell_m)
       : views_ (views)
       , points_ (points)
@@ -219,7 +116,7 @@ public:
       const OrientedPoint copy = shifted (points_[p], by);
       if (shownBy (views_, copy) == Shown::BehindOther &&
           std::any_of (views_.begin (), views_.end (),
-                       [&] (const ObjectView& view) { return view.isBehindNearer (copy, points_[p]); }))
+                       [&] (const ObjectImage& view) { return view.isBehindNearer (copy, points_[p]); }))
         in_end[cell_of_[p]] = true;
     }
     std::vector<OrientedPoint> end;
@@ -230,7 +127,7 @@ public:
   }
 
 private:
-  const std::vector<ObjectView>& views_;
+  const std::vector<ObjectImage>& views_;
   const std::vector<OrientedPoint>& points_;
   OccupiedCells cells_;              // of the plane
   std::vector<std::size_t> cell_of_; // by point
@@ -238,7 +135,7 @@ private:
 
 /** \brief The direction in which an object goes on with a constant cross-section; zero if in none. */
 Eigen::Vector3f
-directionOf (const std::vector<ObjectView>& views, const Ends& ends, const Eigen::Matrix3d& axes, float step_m)
+directionOf (const std::vector<ObjectImage>& views, const Ends& ends, const Eigen::Matrix3d& axes, float step_m)
 {
   struct Candidate
   {
@@ -281,7 +178,7 @@ directionOf (const std::vector<ObjectView>& views, const Ends& ends, const Eigen
 /** \brief How many steps the end goes on: until the object is seen again or, as all lengths are as likely, half as many
  * as it can. */
 int
-stepsOf (const std::vector<ObjectView>& views, const std::vector<OrientedPoint>& end, const Eigen::Vector3f& step,
+stepsOf (const std::vector<ObjectImage>& views, const std::vector<OrientedPoint>& end, const Eigen::Vector3f& step,
          double seen_m)
 {
   int n = 1;
@@ -302,7 +199,7 @@ Continuation
 continuedBehindOthers (const Observation& object, const Eigen::Vector4d& plane)
 {
   const std::vector<OrientedPoint>& points = object.points ();
-  std::vector<ObjectView> views;
+  std::vector<ObjectImage> views;
   for (const auto& [view, T_object_sensor] : object.views)
     views.emplace_back (*view, T_object_sensor, *object.all_points, object.voxel_size_m);
   std::vector<OrientedPoint> some;

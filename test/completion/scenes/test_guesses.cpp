@@ -1,0 +1,155 @@
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
+
+// Warnings of what no view shows of an object: the rest of its outline, or how far it reaches behind one flat side.
+
+#include "completion_scene.h"
+
+#include "volume/analytic_fields.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <limits>
+#include <string>
+#include <utility>
+#include <vector>
+
+using namespace pcl::cosection;
+using namespace pcl::cosection::test;
+
+namespace {
+
+const std::string of_outline = "of its outline", of_depth = "only one side of it was seen";
+const Eigen::Vector3d middle (0.0, 0.0, 0.05), straight_above (0.0, -0.001, 0.6), level (0.0, -0.5, 0.05);
+
+/** \brief A box on the table, and maybe a wall before its left part. */
+AnalyticScene
+boxOnTable (bool is_hidden = false)
+{
+  AnalyticScene scene;
+  scene.add (0, halfSpace (table_plane));
+  scene.add (1, placed (box ({0.06, 0.04, 0.05}), middle));
+  if (is_hidden)
+    scene.add (2, placed (box ({0.04, 0.01, 0.08}), Eigen::Vector3d (-0.05, -0.12, 0.08)));
+  return scene;
+}
+
+RenderedView
+seenFrom (const AnalyticScene& scene, const Eigen::Vector3d& eye, const Eigen::Vector3d& target = middle)
+{
+  return scene.render (tableCamera (), lookAt (eye, target));
+}
+
+/** \brief Remove the readings that are that near, to the right, to one of object 2. */
+RenderedView
+withShadow (RenderedView seen, int width_px)
+{
+  const std::vector<int> labels = seen.labels;
+  const int columns = seen.view.camera.width;
+  for (std::size_t n = 0; n < labels.size (); ++n)
+    if (labels[n] == 2)
+      for (int u = static_cast<int> (n) % columns, k = 1; k <= width_px && u + k < columns; ++k)
+        if (labels[n + k] != 2)
+        {
+          seen.view.depth[n + k] = std::numeric_limits<float>::quiet_NaN ();
+          seen.labels[n + k] = -1;
+        }
+  seen.points.clear ();
+  return seen;
+}
+
+/** \brief The points of the readings again, with the normals of the shapes. */
+RenderedView
+withPoints (RenderedView seen, const AnalyticScene& scene)
+{
+  const DepthView& view = seen.view;
+  for (int v = 0; v < view.camera.height; ++v)
+    for (int u = 0; u < view.camera.width; ++u)
+      if (const int label = seen.labels[static_cast<std::size_t> (v) * view.camera.width + u]; label >= 0)
+      {
+        const Eigen::Vector3d p = view.T_world_sensor * view.camera.unproject (u, v, view.at (u, v));
+        seen.points[label].push_back (
+            {p.cast<float> (), gradient (scene.shape (label), p).normalized ().cast<float> ()});
+      }
+  return seen;
+}
+
+/** \brief Whether there is a warning of an object. */
+bool
+warns (const SceneResult& result, const std::string& object, const std::string& text)
+{
+  return std::any_of (result.warnings.begin (), result.warnings.end (), [&] (const std::string& warning) {
+    return warning.find (object + ": ") == 0 && warning.find (text) != std::string::npos;
+  });
+}
+
+SceneResult
+completed (const RenderedView& seen)
+{
+  return complete (seen, optionsFor (voxel_m));
+}
+
+TEST (Guesses, TheDepthBehindTheOnlySideIsOne)
+{
+  const SceneResult result = completed (seenFrom (boxOnTable (), level));
+  EXPECT_TRUE (warns (result, "object 1", of_depth));
+  EXPECT_FALSE (warns (result, "object 1", of_outline));
+}
+
+TEST (Guesses, WhatASecondSideOrThePlaneShowsIsNone)
+{
+  for (const Eigen::Vector3d& eye :
+       {Eigen::Vector3d (0.0, -0.45, 0.3), Eigen::Vector3d (0.35, -0.35, 0.05), straight_above})
+    EXPECT_TRUE (completed (seenFrom (boxOnTable (), eye)).warnings.empty ()) << eye.transpose ();
+  for (const Shape shape : {Shape::Sphere, Shape::Torus, Shape::Cup})
+    EXPECT_TRUE (completed (seenFrom (tableScene (shape), level)).warnings.empty ()) << nameOf (shape);
+}
+
+TEST (Guesses, WhatIsNearerHidesIsOne)
+{
+  const Eigen::Vector3d eye (0.0, -0.45, 0.25);
+  const AnalyticScene scene = boxOnTable (true);
+  const RenderedView seen = seenFrom (scene, eye);
+  for (const int width_px : {0, 8, 16}) // of a shadow, as projectors make it
+  {
+    const SceneResult result = completed (withPoints (withShadow (seen, width_px), scene));
+    EXPECT_TRUE (warns (result, "object 1", of_outline)) << width_px;
+    EXPECT_FALSE (warns (result, "object 2", of_outline)) << width_px;
+  }
+}
+
+TEST (Guesses, WhatAnotherViewShowsIsNone)
+{
+  const AnalyticScene scene = boxOnTable (true);
+  CoSection task (optionsFor (voxel_m));
+  std::vector<OrientedPoint> points, background;
+  for (const Eigen::Vector3d& eye : {Eigen::Vector3d (0.0, -0.45, 0.25), Eigen::Vector3d (0.3, 0.4, 0.25)})
+  {
+    const RenderedView seen = seenFrom (scene, eye);
+    task.addView (seen.view);
+    points.insert (points.end (), seen.points.at (1).begin (), seen.points.at (1).end ());
+    background.insert (background.end (), seen.points.at (0).begin (), seen.points.at (0).end ());
+  }
+  task.setBackground (background);
+  task.addObject ({1, points, {}});
+  EXPECT_FALSE (warns (task.reconstruct (), "object 1", of_outline));
+}
+
+TEST (Guesses, WhatIsBeyondTheImageIsOne)
+{
+  const Eigen::Vector3d eye (0.0, -0.45, 0.25);
+  int beyond = 0;
+  for (const double aside_m : {0.0, 0.1, 0.15, 0.2, 0.25})
+  {
+    const RenderedView seen = seenFrom (boxOnTable (), eye, middle + Eigen::Vector3d (aside_m, 0.0, 0.0));
+    bool is_cut = false;
+    for (std::size_t n = 0; n < seen.labels.size (); n += seen.view.camera.width)
+      is_cut = is_cut || seen.labels[n] == 1;
+    EXPECT_EQ (warns (completed (seen), "object 1", of_outline), is_cut) << aside_m;
+    beyond += is_cut ? 1 : 0;
+  }
+  EXPECT_GT (beyond, 0);
+  EXPECT_LT (beyond, 5);
+}
+
+} // namespace
