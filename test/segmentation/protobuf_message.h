@@ -49,7 +49,8 @@ std::string
 rawBytes (const Container& values)
 {
   std::string bytes (sizeof (*values.data ()) * values.size (), '\0');
-  std::memcpy (bytes.data (), values.data (), bytes.size ());
+  if (!bytes.empty ()) // no values may have no address
+    std::memcpy (bytes.data (), values.data (), bytes.size ());
   return (bytes);
 }
 
