@@ -82,3 +82,24 @@ TEST_F (StrayPatches, WithoutALabelAroundItNothingIsMoved)
   label (0, width, 0, height, 1);
   EXPECT_EQ (read ().objects.at (1).readings, static_cast<std::size_t> (width) * height);
 }
+
+TEST_F (StrayPatches, MissingReadingsAtEdgesHideNoEdge)
+{
+  set (0, width, 80, height, object_m + 0.008f, 0); // a bar lies on something, and has a shadow behind it
+  set (40, 80, 76, 80, object_m, 1);
+  set (38, 82, 75, 76, std::numeric_limits<float>::quiet_NaN (), 0);
+  EXPECT_EQ (read ().objects.at (1).readings, 40u * 50u + 40u * 4u);
+}
+
+TEST_F (StrayPatches, SmearedEdgesAreEdges)
+{
+  set (90, 110, 30, 50, object_m, 1);
+  for (int n = 1; n < 10; ++n) // no step is larger than a slope may be
+  {
+    const float depth_m = object_m + 0.024f * static_cast<float> (n);
+    set (109 + n, 110 + n, 30, 50, depth_m, 0);
+    set (90, 110, 49 + n, 50 + n, depth_m, 0);
+    set (90, 110, 30 - n, 31 - n, depth_m, 0);
+  }
+  EXPECT_EQ (read ().objects.at (1).readings, 40u * 50u + 20u * 20u);
+}

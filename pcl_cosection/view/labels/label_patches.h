@@ -28,13 +28,14 @@ visitBeside (const SensorCloud& cloud, std::size_t i, Visit&& visit)
     visit (i + width);
 }
 
-/** \brief Whether two readings that are side by side in the image may be on one surface. */
+/** \brief Whether two readings that are side by side in the image, or so many \a pixels apart, may be on one surface.
+ */
 inline bool
-onOneSurface (const PinholeCamera& camera, const SensorCloud& cloud, std::size_t i, std::size_t j)
+onOneSurface (const PinholeCamera& camera, const SensorCloud& cloud, std::size_t i, std::size_t j, int pixels = 1)
 {
   const double a_m = cloud.positions[i].z (), b_m = cloud.positions[j].z ();
   const double nearer_m = std::min (a_m, b_m);
-  return std::abs (a_m - b_m) <= largestSurfaceStep (nearer_m, nearer_m / camera.fx, cloud.working_range_m);
+  return std::abs (a_m - b_m) <= largestSurfaceStep (nearer_m, pixels * nearer_m / camera.fx, cloud.working_range_m);
 }
 
 /** \brief Whether a surface goes on beyond an outline in the image, as beyond no object's.
