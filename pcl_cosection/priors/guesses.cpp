@@ -19,9 +19,9 @@ constexpr std::size_t most_points = 1000; // of an object
 constexpr double near_voxels = 2.0;       // from a surface, or its far end: of it
 constexpr double outlier_share = 0.05;    // of the points, at either end
 constexpr double bump_share = 0.02;       // of the vertices, at either end
-// Of a mesh's extent across the plane of the points. Where more than one side was seen, points fill at least 0.26 of it
-// (96 things around a simulated lidar, of which ten show one side and fill at most 0.13); of 190 scanned and real things
-// on tables a book on its edge alone fills less.
+// Of a mesh's extent across the plane of the points. Where more than one side was seen, points fill at least 0.26 of
+// it (96 things around a simulated lidar, of which ten show one side and fill at most 0.13); of 190 scanned and real
+// things on tables a book on its edge alone fills less.
 constexpr double flat_share = 0.15;
 constexpr double bounded = 0.5; // of the vertices at the far end
 

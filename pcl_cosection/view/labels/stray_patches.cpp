@@ -16,7 +16,7 @@ namespace {
 constexpr int edge_px = 2; // width of an edge: of readings that are smeared, or missing
 // As goesOnBeyond () has it. Of 80 parts that edges cut off, in simulated views of scanned objects with exact labels,
 // one has more; of 219 with labels that are too large or shifted, or real, 209.
-constexpr double least_of_stray = 0.75;
+constexpr double least_continued = 0.75;
 
 /** \brief The outline of a patch towards readings of other labels, counted in pairs of pixels. */
 struct Outline
@@ -29,7 +29,7 @@ struct Outline
   {
     const auto most = std::max_element (continued.begin (), continued.end (),
                                         [] (const auto& a, const auto& b) { return a.second < b.second; });
-    return most != continued.end () && goesOnBeyond (most->second, all, pixels, least_of_stray)
+    return most != continued.end () && goesOnBeyond (most->second, all, pixels, least_continued)
                ? std::optional<std::uint32_t> (most->first)
                : std::nullopt;
   }
