@@ -105,7 +105,8 @@ remarksOn (const SceneObject& object, const ObjectResult& result)
   if (const double missed = missedShare (object.points (), result.mesh, voxel_size_m); missed > much_missed)
     remarks.push_back (lossText (missed, voxel_size_m));
   const std::vector<Eigen::Vector4d> planes = object.planes ();
-  if (const double hidden = hiddenOutline (*object.observation, planes, *result.signed_distance); hidden > much_hidden)
+  if (const double hidden = hiddenOutline (*object.observation, planes, *result.signed_distance, much_hidden);
+      hidden > much_hidden)
     remarks.push_back (hiddenText (hidden));
   const bool knows_planes = !object.support->inferred;
   if (const double depth_m = depthBehindOnlySide (

@@ -10,6 +10,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <utility>
 
 namespace pcl::cosection {
@@ -45,20 +46,25 @@ isAtPlane (const Eigen::Vector3d& p, const std::vector<Eigen::Vector4d>& planes,
 
 double
 hiddenOutline (const Observation& object, const std::vector<Eigen::Vector4d>& planes,
-               const SignedDistanceField& completed)
+               const SignedDistanceField& completed, double enough)
 {
   const double near_m = near_voxels * completed.grid.voxel_size_m;
   const auto hidesNothing = [&] (const Eigen::Vector3d& p) {
     const auto distance_m = completed.sample (p);
     return (distance_m && *distance_m < near_m) || isAtPlane (p, planes, near_m);
   };
-  double least = 1.0;
+  if (object.virtual_view)
+    return 0.0;
+  std::optional<double> least;
   for (const auto& [view, T_object_sensor] : object.views)
-    if (least > 0.0)
-      least = std::min (
-          least,
-          ObjectImage (*view, T_object_sensor, *object.all_points, object.voxel_size_m).hiddenOutline (hidesNothing));
-  return object.views.empty () || object.virtual_view ? 0.0 : least;
+  {
+    const ObjectImage image (*view, T_object_sensor, *object.all_points, object.voxel_size_m);
+    if (const std::optional<double> hidden = image.hiddenOutline (hidesNothing))
+      least = std::min (*hidden, least.value_or (*hidden));
+    if (least && *least <= enough)
+      break;
+  }
+  return least.value_or (0.0);
 }
 
 double

@@ -13,11 +13,11 @@ namespace pcl::cosection {
 // What no prior can know of an object: a user is warned of it.
 
 /** \brief Share of an object's outline beside which something else is nearer, or the image ends, in the view where it
- * is least; 0 without views.
+ * is least, or the first one where it is at most \a enough; 0 without views.
  * \param[in] planes that bound the object, n.x + d = 0, unit n towards it: what is at one, before the object, hides
  * nothing of it \param[in] completed surface, near which what is nearer is the object's own */
 double hiddenOutline (const Observation& object, const std::vector<Eigen::Vector4d>& planes,
-                      const SignedDistanceField& completed);
+                      const SignedDistanceField& completed, double enough);
 
 /** \brief How far a mesh reaches behind the only side of it that was seen, which is flat, metres.
  * \param[in] planes at which it may end, n.x + d = 0

@@ -104,7 +104,19 @@ ObjectImage::firstBeyond (const Eigen::Array2i& pixel, const Eigen::Array2i& ste
   return std::nullopt;
 }
 
-double
+bool
+ObjectImage::showsOthersAtEdge () const
+{
+  const PinholeCamera& camera = view_.camera;
+  for (int v = 0; v < camera.height; ++v)
+    for (int u = 0; u < camera.width; ++u)
+      if (const bool is_at_edge = std::min ({u, v, camera.width - 1 - u, camera.height - 1 - v}) < edge_px;
+          is_at_edge && point_of_[indexOf ({u, v})] == none && isReading (view_.at (u, v)))
+        return true;
+  return false;
+}
+
+std::optional<double>
 ObjectImage::hiddenOutline (const std::function<bool (const Eigen::Vector3d&)>& hides_nothing) const
 {
   const Eigen::Isometry3d T_object_sensor = T_sensor_object_.inverse ();
@@ -114,12 +126,13 @@ ObjectImage::hiddenOutline (const std::function<bool (const Eigen::Vector3d&)>& 
       if (point_of_[indexOf ({u, v})] != none)
         box.extend (Eigen::Vector2i (u, v));
   if (box.isEmpty ())
-    return 0.0;
+    return std::nullopt;
   const int reach = std::max (edge_px, box.sizes ().maxCoeff ());
+  const bool goes_on = showsOthersAtEdge ();
   const auto isHidden = [&] (const Eigen::Array2i& pixel, const Eigen::Array2i& step) {
     const std::optional<Eigen::Array2i> beyond = firstBeyond (pixel, step, reach);
     if (!beyond || !isIn (view_.camera, *beyond))
-      return beyond.has_value ();
+      return beyond && goes_on;
     const double depth_m = view_.at (pixel.x (), pixel.y ()), reading_m = view_.at (beyond->x (), beyond->y ());
     return compareWithReading (depth_m, reading_m, marginOf (depth_m)) == PointVisibility::Occluded &&
            !hides_nothing (T_object_sensor * view_.camera.unproject (beyond->x (), beyond->y (), reading_m));

@@ -40,11 +40,11 @@ public:
   /** \brief Whether a place is behind something that is nearer than a point of the object, too. */
   bool isBehindNearer (const OrientedPoint& place, const OrientedPoint& point) const;
 
-  /** \brief Share of the object's outline beside which something else is nearer, or the image ends; 0 without any.
-   * There may be no readings between, no farther than half the object is large in the image: beside what is near, some
-   * sensors have a shadow.
+  /** \brief Share of the object's outline beside which something else is nearer, or the image ends; nothing without
+   * any. There may be no readings between, no farther than half the object is large in the image: beside what is near,
+   * some sensors have a shadow.
    * \param[in] hides_nothing whether a reading, a place in the points' frame, does not count */
-  double hiddenOutline (const std::function<bool (const Eigen::Vector3d&)>& hides_nothing) const;
+  std::optional<double> hiddenOutline (const std::function<bool (const Eigen::Vector3d&)>& hides_nothing) const;
 
 private:
   static constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max ();
@@ -57,6 +57,9 @@ private:
   double marginOf (double depth_m) const;
 
   void growIntoEdges ();
+
+  /** \brief Whether something else is seen at the edge of the image. If not, it may be an image of the object alone. */
+  bool showsOthersAtEdge () const;
 
   /** \brief The first pixel with a reading, or beyond the image, from one of the object on, in so many steps. */
   std::optional<Eigen::Array2i> firstBeyond (const Eigen::Array2i& pixel, const Eigen::Array2i& step, int steps) const;

@@ -121,18 +121,25 @@ TEST (Guesses, WhatIsNearerHidesIsOne)
 TEST (Guesses, WhatAnotherViewShowsIsNone)
 {
   const AnalyticScene scene = boxOnTable (true);
-  CoSection task (optionsFor (voxel_m));
-  std::vector<OrientedPoint> points, background;
-  for (const Eigen::Vector3d& eye : {Eigen::Vector3d (0.0, -0.45, 0.25), Eigen::Vector3d (0.3, 0.4, 0.25)})
+  const RenderedView before = seenFrom (scene, {0.0, -0.45, 0.25}), behind = seenFrom (scene, {0.3, 0.4, 0.25}),
+                     aside = seenFrom (scene, {0.0, -0.45, 0.25}, {0.6, 0.0, 0.0}); // the object is not in view
+  ASSERT_EQ (aside.points.count (1), 0u);
+  for (const auto& [views, is_guess] :
+       {std::pair (std::vector{before, behind}, false), std::pair (std::vector{before, aside}, true)})
   {
-    const RenderedView seen = seenFrom (scene, eye);
-    task.addView (seen.view);
-    points.insert (points.end (), seen.points.at (1).begin (), seen.points.at (1).end ());
-    background.insert (background.end (), seen.points.at (0).begin (), seen.points.at (0).end ());
+    CoSection task (optionsFor (voxel_m));
+    std::vector<OrientedPoint> points, background;
+    for (const RenderedView& seen : views)
+    {
+      task.addView (seen.view);
+      if (seen.points.count (1) > 0)
+        points.insert (points.end (), seen.points.at (1).begin (), seen.points.at (1).end ());
+      background.insert (background.end (), seen.points.at (0).begin (), seen.points.at (0).end ());
+    }
+    task.setBackground (background);
+    task.addObject ({1, points, {}});
+    EXPECT_EQ (warns (task.reconstruct (), "object 1", of_outline), is_guess);
   }
-  task.setBackground (background);
-  task.addObject ({1, points, {}});
-  EXPECT_FALSE (warns (task.reconstruct (), "object 1", of_outline));
 }
 
 TEST (Guesses, WhatIsBeyondTheImageIsOne)
@@ -150,6 +157,30 @@ TEST (Guesses, WhatIsBeyondTheImageIsOne)
   }
   EXPECT_GT (beyond, 0);
   EXPECT_LT (beyond, 5);
+}
+
+TEST (Guesses, AnImageOfTheObjectAloneEndsWithIt)
+{
+  const RenderedView seen = seenFrom (boxOnTable (), {0.2, -0.45, 0.25});
+  const int columns = seen.view.camera.width;
+  Eigen::AlignedBox2i box;
+  for (std::size_t n = 0; n < seen.labels.size (); ++n)
+    if (seen.labels[n] == 1)
+      box.extend (Eigen::Vector2i (static_cast<int> (n) % columns, static_cast<int> (n) / columns));
+  RenderedView cropped = seen;
+  PinholeCamera& camera = cropped.view.camera;
+  camera.width = box.sizes ().x () + 1;
+  camera.height = box.sizes ().y () + 1;
+  camera.cx -= box.min ().x ();
+  camera.cy -= box.min ().y ();
+  cropped.view.depth.clear ();
+  for (int v = box.min ().y (); v <= box.max ().y (); ++v)
+    for (int u = box.min ().x (); u <= box.max ().x (); ++u)
+      cropped.view.depth.push_back (seen.labels[static_cast<std::size_t> (v) * columns + u] == 1
+                                        ? seen.view.at (u, v)
+                                        : std::numeric_limits<float>::quiet_NaN ());
+  cropped.points.erase (0);
+  EXPECT_FALSE (warns (completed (cropped), "object 1", of_outline));
 }
 
 } // namespace
