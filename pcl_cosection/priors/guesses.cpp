@@ -11,20 +11,17 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
-#include <utility>
 
 namespace pcl::cosection {
 namespace {
 
 constexpr std::size_t most_points = 1000; // of an object
-constexpr double near_voxels = 2.0;       // from a surface, or its far end: of it
-constexpr double outlier_share = 0.05;    // of the points, at either end
-constexpr double bump_share = 0.02;       // of the vertices, at either end
-// Of a mesh's extent across the plane of the points. Where more than one side was seen, points fill at least 0.26 of
-// it (96 things around a simulated lidar, of which ten show one side and fill at most 0.13); of 190 scanned and real
-// things on tables a book on its edge alone fills less.
+constexpr double near_voxels = 2.0;       // from a surface, or its far end: part of it
+constexpr double outlier_share = 0.05;    // of points and vertices, at either end
+// The points of a flat side fill less than this share of their mesh's extent along the side's normal. Where a simulated
+// lidar saw more than one side of a thing, they fill at least 0.26 (86 things), else at most 0.13 (ten); of 190 scanned
+// and real things on tables a book on its edge alone fills less than 0.15.
 constexpr double flat_share = 0.15;
-constexpr double bounded = 0.5; // of the vertices at the far end
 
 std::vector<Eigen::Vector3d>
 positionsOf (const NormalLines& lines)
@@ -87,7 +84,7 @@ depthBehindOnlySide (const std::vector<OrientedPoint>& points, const std::vector
   for (const Eigen::Vector3f& vertex : mesh.vertices)
     heights.push_back (normal.dot (vertex.cast<double> ()));
   std::vector<double> sorted = heights;
-  const double low = trimmedMin (sorted, bump_share), extent = trimmedMax (sorted, bump_share) - low;
+  const double low = trimmedMin (sorted, outlier_share), extent = trimmedMax (sorted, outlier_share) - low;
   const double bottom = trimmedMin (seen, outlier_share);
   if (trimmedMax (seen, outlier_share) - bottom >= flat_share * extent)
     return 0.0;
@@ -103,7 +100,7 @@ depthBehindOnlySide (const std::vector<OrientedPoint>& points, const std::vector
                        ? 1
                        : 0;
     }
-  return static_cast<double> (at_others) > bounded * static_cast<double> (at_end) ? 0.0 : std::max (0.0, bottom - low);
+  return 2 * at_others > at_end ? 0.0 : std::max (0.0, bottom - low);
 }
 
 } // namespace pcl::cosection

@@ -12,8 +12,8 @@ namespace pcl::cosection {
 
 // What no prior can know of an object: a user is warned of it.
 
-/** \brief Share of an object's outline beside which something else is nearer, or the image ends, in the view where it
- * is least, or the first one where it is at most \a enough; 0 without views.
+/** \brief Share of an object's outline beside which something else is nearer, in the view where it is least, or the
+ * first one where it is at most \a enough; 0 without views.
  * \param[in] planes that bound the object, n.x + d = 0, unit n towards it: what is at one, before the object, hides
  * nothing of it \param[in] completed surface, near which what is nearer is the object's own */
 double hiddenOutline (const Observation& object, const std::vector<Eigen::Vector4d>& planes,

@@ -95,25 +95,17 @@ ObjectImage::isBehindNearer (const OrientedPoint& place, const OrientedPoint& po
 }
 
 std::optional<Eigen::Array2i>
-ObjectImage::firstBeyond (const Eigen::Array2i& pixel, const Eigen::Array2i& step, int steps) const
+ObjectImage::firstReading (const Eigen::Array2i& pixel, const Eigen::Array2i& step, int steps) const
 {
   for (int n = 1; n <= steps; ++n)
-    if (const Eigen::Array2i beyond = pixel + n * step;
-        !isIn (view_.camera, beyond) ? n <= edge_px : isReading (view_.at (beyond.x (), beyond.y ())))
+  {
+    const Eigen::Array2i beyond = pixel + n * step;
+    if (!isIn (view_.camera, beyond))
+      break;
+    if (isReading (view_.at (beyond.x (), beyond.y ())))
       return beyond;
+  }
   return std::nullopt;
-}
-
-bool
-ObjectImage::showsOthersAtEdge () const
-{
-  const PinholeCamera& camera = view_.camera;
-  for (int v = 0; v < camera.height; ++v)
-    for (int u = 0; u < camera.width; ++u)
-      if (const bool is_at_edge = std::min ({u, v, camera.width - 1 - u, camera.height - 1 - v}) < edge_px;
-          is_at_edge && point_of_[indexOf ({u, v})] == none && isReading (view_.at (u, v)))
-        return true;
-  return false;
 }
 
 std::optional<double>
@@ -128,11 +120,10 @@ ObjectImage::hiddenOutline (const std::function<bool (const Eigen::Vector3d&)>& 
   if (box.isEmpty ())
     return std::nullopt;
   const int reach = std::max (edge_px, box.sizes ().maxCoeff ());
-  const bool goes_on = showsOthersAtEdge ();
   const auto isHidden = [&] (const Eigen::Array2i& pixel, const Eigen::Array2i& step) {
-    const std::optional<Eigen::Array2i> beyond = firstBeyond (pixel, step, reach);
-    if (!beyond || !isIn (view_.camera, *beyond))
-      return beyond && goes_on;
+    const std::optional<Eigen::Array2i> beyond = firstReading (pixel, step, reach);
+    if (!beyond)
+      return false;
     const double depth_m = view_.at (pixel.x (), pixel.y ()), reading_m = view_.at (beyond->x (), beyond->y ());
     return compareWithReading (depth_m, reading_m, marginOf (depth_m)) == PointVisibility::Occluded &&
            !hides_nothing (T_object_sensor * view_.camera.unproject (beyond->x (), beyond->y (), reading_m));

@@ -40,9 +40,9 @@ public:
   /** \brief Whether a place is behind something that is nearer than a point of the object, too. */
   bool isBehindNearer (const OrientedPoint& place, const OrientedPoint& point) const;
 
-  /** \brief Share of the object's outline beside which something else is nearer, or the image ends; nothing without
-   * any. There may be no readings between, no farther than half the object is large in the image: beside what is near,
-   * some sensors have a shadow.
+  /** \brief Share of the object's outline beside which something else is nearer; nothing without an outline. There may
+   * be no readings between, no farther than the object is large in the image: beside what is near, some sensors have a
+   * shadow.
    * \param[in] hides_nothing whether a reading, a place in the points' frame, does not count */
   std::optional<double> hiddenOutline (const std::function<bool (const Eigen::Vector3d&)>& hides_nothing) const;
 
@@ -58,11 +58,8 @@ private:
 
   void growIntoEdges ();
 
-  /** \brief Whether something else is seen at the edge of the image. If not, it may be an image of the object alone. */
-  bool showsOthersAtEdge () const;
-
-  /** \brief The first pixel with a reading, or beyond the image, from one of the object on, in so many steps. */
-  std::optional<Eigen::Array2i> firstBeyond (const Eigen::Array2i& pixel, const Eigen::Array2i& step, int steps) const;
+  /** \brief The first pixel with a reading from one of the object on, in so many steps. */
+  std::optional<Eigen::Array2i> firstReading (const Eigen::Array2i& pixel, const Eigen::Array2i& step, int steps) const;
 
   const DepthView& view_;
   Eigen::Isometry3d T_sensor_object_;

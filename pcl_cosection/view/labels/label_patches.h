@@ -40,10 +40,9 @@ onOneSurface (const PinholeCamera& camera, const SensorCloud& cloud, std::size_t
 
 /** \brief Whether a surface goes on beyond an outline in the image, as beyond no object's.
  *
- * In simulated views of scanned objects, it goes on beyond at least 0.64 of the outline of a connected part with a
- * wrong label, beyond 0.9 of that of a label that is three pixels too small, and beyond at most 0.58 of that of an
- * exact label. A sensor that smears edges has 0.6 to 0.95 for exact labels, too: what it smears is taken for the
- * object's.
+ * In simulated views of scanned objects, it goes on beyond 0.9 of the outline of a label that is three pixels too
+ * small, and beyond at most 0.58 of that of an exact label. A sensor that smears edges has 0.6 to 0.95 for exact
+ * labels, too: what it smears is taken for the object's.
  *
  * \param[in] continued pairs of readings on the two sides of the outline that are on one surface
  * \param[in] all pairs: with few, as among missing readings, nothing is known of what is beside it

@@ -14,8 +14,8 @@ namespace pcl::cosection {
 namespace {
 
 constexpr int edge_px = 2; // width of an edge: of readings that are smeared, or missing
-// As goesOnBeyond () has it. Of 80 parts that edges cut off, in simulated views of scanned objects with exact labels,
-// one has more; of 219 with labels that are too large or shifted, or real, 209.
+// As goesOnBeyond () has it. One among 80 parts that edges cut off has more, in simulated views of scanned objects with
+// exact labels, and 209 among 219 with labels that are too large or shifted, or real.
 constexpr double least_continued = 0.75;
 
 /** \brief The outline of a patch towards readings of other labels, counted in pairs of pixels. */

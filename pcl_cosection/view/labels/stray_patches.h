@@ -12,8 +12,8 @@ namespace pcl::cosection {
  * that: where a label reaches beyond its object, it is on what is behind or before it.
  *
  * The largest connected part of an object's readings is the object. Another part is no part of it if most of its
- * outline, as far as it borders on readings of other labels, has no depth edge: it is their surface that goes on. What
- * an occluder cuts off from an object ends in depth edges.
+ * outline, as far as it borders on readings of other labels or has them two pixels away, has no depth edge: it is their
+ * surface that goes on. What an occluder cuts off from an object ends in depth edges.
  *
  * \param[in] camera of the cloud \param[in] members the readings of each label
  * \param[in,out] cloud organised, in the frame of its sensor

@@ -142,45 +142,4 @@ TEST (Guesses, WhatAnotherViewShowsIsNone)
   }
 }
 
-TEST (Guesses, WhatIsBeyondTheImageIsOne)
-{
-  const Eigen::Vector3d eye (0.0, -0.45, 0.25);
-  int beyond = 0;
-  for (const double aside_m : {0.0, 0.1, 0.15, 0.2, 0.25})
-  {
-    const RenderedView seen = seenFrom (boxOnTable (), eye, middle + Eigen::Vector3d (aside_m, 0.0, 0.0));
-    bool is_cut = false;
-    for (std::size_t n = 0; n < seen.labels.size (); n += seen.view.camera.width)
-      is_cut = is_cut || seen.labels[n] == 1;
-    EXPECT_EQ (warns (completed (seen), "object 1", of_outline), is_cut) << aside_m;
-    beyond += is_cut ? 1 : 0;
-  }
-  EXPECT_GT (beyond, 0);
-  EXPECT_LT (beyond, 5);
-}
-
-TEST (Guesses, AnImageOfTheObjectAloneEndsWithIt)
-{
-  const RenderedView seen = seenFrom (boxOnTable (), {0.2, -0.45, 0.25});
-  const int columns = seen.view.camera.width;
-  Eigen::AlignedBox2i box;
-  for (std::size_t n = 0; n < seen.labels.size (); ++n)
-    if (seen.labels[n] == 1)
-      box.extend (Eigen::Vector2i (static_cast<int> (n) % columns, static_cast<int> (n) / columns));
-  RenderedView cropped = seen;
-  PinholeCamera& camera = cropped.view.camera;
-  camera.width = box.sizes ().x () + 1;
-  camera.height = box.sizes ().y () + 1;
-  camera.cx -= box.min ().x ();
-  camera.cy -= box.min ().y ();
-  cropped.view.depth.clear ();
-  for (int v = box.min ().y (); v <= box.max ().y (); ++v)
-    for (int u = box.min ().x (); u <= box.max ().x (); ++u)
-      cropped.view.depth.push_back (seen.labels[static_cast<std::size_t> (v) * columns + u] == 1
-                                        ? seen.view.at (u, v)
-                                        : std::numeric_limits<float>::quiet_NaN ());
-  cropped.points.erase (0);
-  EXPECT_FALSE (warns (completed (cropped), "object 1", of_outline));
-}
-
 } // namespace
