@@ -7,13 +7,16 @@
 
 namespace pcl::cosection {
 
-/** \brief A mesh whose vertices are moved, turned, scaled or mirrored; it must have no normals. */
+/** \brief A mesh that is moved, turned, scaled by one number or mirrored, with its normals. */
 template <typename Transform>
 TriangleMesh
 movedMesh (TriangleMesh mesh, const Transform& T)
 {
+  const Eigen::Matrix3d linear = Eigen::Affine3d (T).linear ();
   for (Eigen::Vector3f& vertex : mesh.vertices)
     vertex = (T * vertex.cast<double> ()).template cast<float> ();
+  for (Eigen::Vector3f& normal : mesh.normals)
+    normal = (linear * normal.cast<double> ()).normalized ().cast<float> ();
   return mesh;
 }
 

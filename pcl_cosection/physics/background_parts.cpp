@@ -2,6 +2,7 @@
 #include "pcl_cosection/physics/background_parts.h"
 
 #include "pcl_cosection/common/lattice_cells.h"
+#include "pcl_cosection/mesh/moved_mesh.h"
 #include "pcl_cosection/physics/object_solid.h"
 #include "pcl_cosection/physics/part_contacts.h"
 #include "pcl_cosection/physics/visual_mesh.h"
@@ -98,7 +99,7 @@ addBackground (const CompletedScene& scene, const std::vector<Eigen::Vector4d>& 
   const double voxel = largestVoxelSizeOf (scene);
   PhysicalBody body;
   body.name = background_name;
-  body.visual = moved (scene.background, result.T_result_scene.inverse ());
+  body.visual = movedMesh (scene.background, result.T_result_scene.inverse ());
   body.colour = meanColour (scene.background, body.colour);
   const std::vector<TriangleMesh::Triangle> rest = remainder (body.visual, planes, plane_voxels * voxel);
   std::optional<Patches> patches;

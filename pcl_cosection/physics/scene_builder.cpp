@@ -2,6 +2,7 @@
 #include "pcl_cosection/physics/scene_builder.h"
 
 #include "pcl_cosection/common/convex_hull.h"
+#include "pcl_cosection/mesh/moved_mesh.h"
 #include "pcl_cosection/physics/background_parts.h"
 #include "pcl_cosection/physics/body_parts.h"
 #include "pcl_cosection/physics/object_solid.h"
@@ -156,7 +157,7 @@ bodyOf (const CompletedObject& object, const PhysicsOptions& options, const Eige
   const MassProperties mass = solidOf (object, object.mesh);
   const Eigen::Isometry3d T_scene_object = T_scene_world * object.T_world_object;
   body.T_scene_body.translation () = T_scene_object * mass.centroid_m;
-  body.visual = moved (object.mesh, body.T_scene_body.inverse () * T_scene_object);
+  body.visual = movedMesh (object.mesh, body.T_scene_body.inverse () * T_scene_object);
   body.colour = meanColour (object.mesh, body.colour);
   const auto given = options.masses_kg.find (object.id);
   body.volume_m3 = mass.volume_m3;
@@ -180,7 +181,7 @@ sourceOf (const CompletedObject& object, const PhysicsOptions& options, const Ei
   source.mesh.vertices = outer ? object.outer.vertices : object.mesh.vertices;
   source.mesh.triangles = outer ? object.outer.triangles : object.mesh.triangles;
   source.mesh = movedMesh (std::move (source.mesh), T_scene_world * object.T_world_object);
-  source.estimate = outer ? moved (object.mesh, T_scene_world * object.T_world_object) : source.mesh;
+  source.estimate = outer ? movedMesh (object.mesh, T_scene_world * object.T_world_object) : source.mesh;
   source.name = "object " + std::to_string (object.id);
   source.voxel_size_m = voxelSizeOf (object);
   return source;

@@ -1,17 +1,13 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "pcl_cosection/mesh/moved_mesh.h"
-
 #include <pcl/cosection/common/triangle_mesh.h>
 
 #include <Eigen/Core>
-#include <Eigen/Geometry>
 
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <utility>
 
 namespace pcl::cosection {
 
@@ -29,15 +25,6 @@ meanColour (const TriangleMesh& mesh, const TriangleMesh::Colour& otherwise)
   for (int c = 0; c < 3; ++c)
     mean[c] = static_cast<std::uint8_t> (std::lround (sum[c] / static_cast<double> (mesh.colours.size ())));
   return mean;
-}
-
-/** \brief A mesh, with its normals, in another frame. */
-inline TriangleMesh
-moved (TriangleMesh mesh, const Eigen::Isometry3d& T)
-{
-  for (Eigen::Vector3f& normal : mesh.normals)
-    normal = (T.linear () * normal.cast<double> ()).cast<float> ();
-  return movedMesh (std::move (mesh), T);
 }
 
 } // namespace pcl::cosection

@@ -29,7 +29,7 @@ constexpr double cup_height_m = 0.09;  ///< of cupMesh ()
 constexpr double cup_wall_m = 0.006;   ///< of cupMesh ()
 const Eigen::Vector4d floor_plane (0.0, 0.0, 1.0, 0.0);
 
-/** \brief As movedMesh () takes it. */
+/** \brief As shapes come from files without normals. */
 inline TriangleMesh
 withoutNormals (TriangleMesh mesh)
 {

@@ -116,7 +116,8 @@ TEST_F (HiddenWalls, OfWhatLooksFromBelowAsFromAboveEndAboveTheTable)
   seen_ = scene_.render (tableCamera (), lookAt ({0.1, -0.5, 0.4}, {0.0, 0.0, 0.03}));
   const auto errorBelow = [&] (const CoSectionOptions& options) {
     double sum = 0.0, count = 0.0;
-    for (const Eigen::Vector3f& vertex : complete (seen_, options).objects.at (0).mesh.vertices)
+    const TriangleMesh mesh = complete (seen_, options).objects.at (0).mesh;
+    for (const Eigen::Vector3f& vertex : mesh.vertices)
       if (vertex.z () < radius)
       {
         sum += std::abs (tin (vertex.cast<double> () - Eigen::Vector3d (0.0, 0.0, radius)));

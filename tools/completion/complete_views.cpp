@@ -1,6 +1,7 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "complete_views.h"
 
+#include "completion_frame.h"
 #include "method_json.h"
 
 #include "pcl_cosection/io/place_text.h"
@@ -113,12 +114,18 @@ completeViews (Settings& settings, const SceneReaders& readers, const ProgressCa
   loadNetwork (settings, completed.warnings);
   tell (completed.warnings);
 
+  const Eigen::Quaterniond R_world_frame = completionFrame (input);
+  const bool is_turned = !R_world_frame.isApprox (Eigen::Quaterniond::Identity (), 0.0);
+  if (is_turned)
+    turnInput (R_world_frame.conjugate (), input);
   SceneResult& scene = completed.scene;
   scene = toScene (settings, std::move (input)).reconstruct ([&] (const std::string& stage, double fraction) {
     return (go (stage, read_share + (1.0 - read_share) * fraction));
   });
   if (!go ("done", 1.0))
     throw Cancelled ("interrupted");
+  if (is_turned)
+    turnResult (R_world_frame, settings, scene);
   tell (scene.warnings);
   completed.warnings.insert (completed.warnings.end (), scene.warnings.begin (), scene.warnings.end ());
   for (const std::string& failure : failureTexts (scene.objects))

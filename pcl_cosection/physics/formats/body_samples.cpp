@@ -4,7 +4,7 @@
 #include "pcl_cosection/io/cloud/pcd_writer.h"
 #include "pcl_cosection/io/npy.h"
 #include "pcl_cosection/mesh/even_samples.h"
-#include "pcl_cosection/physics/visual_mesh.h"
+#include "pcl_cosection/mesh/moved_mesh.h"
 #include "pcl_cosection/volume/mesh_distance/mesh_surface.h"
 #include "scene_json.h"
 
@@ -38,7 +38,7 @@ lastIndexFastest (const SignedDistanceField& field)
 void
 writeBodyPoints (const PhysicalBody& body, std::size_t count, int threads, SceneFolder& folder)
 {
-  const TriangleMesh points = moved (sampleEvenly (body.visual, count, threads), body.T_scene_body);
+  const TriangleMesh points = movedMesh (sampleEvenly (body.visual, count, threads), body.T_scene_body);
   folder.write ("points/" + body.name + ".pcd", encodePcd (points));
 }
 

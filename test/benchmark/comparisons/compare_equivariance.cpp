@@ -4,12 +4,11 @@
 // views, when the world is shifted, scaled or turned. A table of the distance between the reference and the mesh that
 // was moved back, as a share of the length of the thing.
 
+#include "complete_views.h"
 #include "completion/mesh_distance.h"
 
 #include "pcl_cosection/simulation/sequence_writer.h"
-#include <pcl/cosection/io/pcd_view.h>
 #include <pcl/cosection/simulation/simulated_scene.h>
-#include <pcl/cosection/surface/co_section.h>
 
 #include <pcl/io/pcd_io.h>
 #include <pcl/point_types.h>
@@ -155,20 +154,15 @@ saveChanged (const fs::path& from, const Change& change, const fs::path& to)
 std::map<int, TriangleMesh>
 complete (const fs::path& path, const Change& change)
 {
-  LabelledView view = readPcdView (path.string ());
-  CoSection scene;
-  if (view.view)
-    scene.addView (std::move (*view.view));
-  scene.setBackground (std::move (view.objects[0].points));
-  for (auto& [label, object] : view.objects)
-    if (label != 0)
-      scene.addObject ({static_cast<int> (label), std::move (object.points), {}});
+  Settings settings;
+  settings.inputs = {path.string ()};
+  CompletedViews completed = completeViews (settings, SceneReaders::ofFiles (), {}, {});
   std::map<int, TriangleMesh> meshes;
-  for (ObjectResult& object : scene.reconstruct ().objects)
+  for (ObjectResult& object : completed.scene.objects)
   {
     for (Eigen::Vector3f& vertex : object.mesh.vertices)
     {
-      const Eigen::Vector3d moved = vertex.cast<double> () + (view.origin - change.shift);
+      const Eigen::Vector3d moved = vertex.cast<double> () + (completed.origin - change.shift);
       vertex = (change.rotation.inverse () * moved / change.scale).cast<float> ();
     }
     meshes[object.id] = std::move (object.mesh);
