@@ -4,7 +4,10 @@
 
 #include "any_cloud_fixture.h"
 
+#include "completion_frame.h"
+
 #include <algorithm>
+#include <memory>
 #include <random>
 #include <utility>
 
@@ -100,4 +103,89 @@ TEST_F (ViewFrames, ViewpointsThatAreNoneAreNamed)
   fails ({"--viewpoint", "1,2,3,4"}, "--viewpoint must be three numbers x,y,z");
   fails ({"--viewpoint", "1,2,nan"}, "--viewpoint must be three numbers x,y,z");
   fails ({"--viewpoint", "1,2,3", "--viewpoint", "1,2,4"}, "--viewpoint is given 2 times for 3 views");
+}
+
+namespace {
+
+const Eigen::Quaterniond some_turn = Eigen::Quaterniond (0.5, -0.3, 0.7, 0.4).normalized ();
+
+} // namespace
+
+TEST_F (ViewFrames, ResultsTurnWithTheViewpoint)
+{
+  writeTableScene (path ("view.pcd"));
+  pcl::PointCloud<pcl::PointXYZRGBL> cloud;
+  pcl::io::loadPCDFile (path ("view.pcd"), cloud);
+  const Eigen::Quaternionf turn = some_turn.cast<float> ();
+  cloud.sensor_origin_.head<3> () = turn * cloud.sensor_origin_.head<3> ();
+  cloud.sensor_orientation_ = turn * cloud.sensor_orientation_;
+  pcl::io::savePCDFileBinary (path ("turned.pcd"), cloud);
+  const auto complete = [&] (const std::string& name) {
+    EXPECT_EQ (run ({"--save-hull", "--json", "s.json", name + ".pcd", name}), 0) << errors_;
+    return summary ();
+  };
+  const nlohmann::json before = complete ("view"), after = complete ("turned");
+
+  for (const char* file : {"/object_1.ply", "/object_2.ply", "/object_1_hull.ply"})
+  {
+    SCOPED_TRACE (file);
+    const pcl::cosection::TriangleMesh before = pcl::cosection::loadPlyMesh (path ("view") + file);
+    const pcl::cosection::TriangleMesh after = pcl::cosection::loadPlyMesh (path ("turned") + file);
+    ASSERT_EQ (before.normals.size (), before.vertices.size ());
+    ASSERT_EQ (after.normals.size (), after.vertices.size ());
+    std::size_t same = 0; // rounding moves a few vertices of hidden edges
+    for (std::size_t v = 0; v < before.vertices.size (); ++v)
+      for (std::size_t w = 0; w < after.vertices.size (); ++w)
+        if ((turn * before.vertices[v] - after.vertices[w]).squaredNorm () < 1e-8f &&
+            (turn * before.normals[v]).dot (after.normals[w]) > 0.999f)
+        {
+          ++same;
+          break;
+        }
+    EXPECT_GT (static_cast<double> (same), 0.97 * static_cast<double> (before.vertices.size ()));
+  }
+  const auto vectorOf = [] (const nlohmann::json& numbers) {
+    return Eigen::Vector3d (numbers.at (0), numbers.at (1), numbers.at (2));
+  };
+  const nlohmann::json plane = before.at ("support_planes").at (0), turned_plane = after.at ("support_planes").at (0);
+  EXPECT_LT ((some_turn * vectorOf (plane) - vectorOf (turned_plane)).norm (), 1e-4);
+  EXPECT_NEAR (plane.at (3), turned_plane.at (3), 1e-4);
+  for (const Eigen::Vector3f& v : pcl::cosection::loadMesh (path ("turned/background.ply")).vertices)
+    ASSERT_NEAR (vectorOf (turned_plane).dot (v.cast<double> ()) + turned_plane.at (3).get<double> (), 0.0, 0.005);
+  const nlohmann::json sensor = after.at ("views").at (0).at ("T_world_sensor");
+  for (int row = 0; row < 3; ++row)
+    EXPECT_NEAR (sensor.at (row).at (3), cloud.sensor_origin_[row], 1e-5);
+}
+
+/** \brief Of a ball; the corners of the turned volume are outside of the one that was solved. */
+TEST_F (ViewFrames, SignedDistancesAreSampledAlongTheWorldsAxes)
+{
+  constexpr double radius_m = 0.05;
+  const Eigen::Vector3d middle (0.3, -0.2, 1.0);
+  auto field = std::make_shared<pcl::cosection::SignedDistanceField> ();
+  field->grid = {{40, 30, 30}, 0.005, middle - Eigen::Vector3d (0.1, 0.07, 0.08)};
+  for (int k = 0; k < 30; ++k)
+    for (int j = 0; j < 30; ++j)
+      for (int i = 0; i < 40; ++i)
+        field->values.push_back (static_cast<float> ((field->grid.center (i, j, k) - middle).norm () - radius_m));
+  field->supported.assign (field->values.size (), 1);
+  pcl::cosection::SceneResult result;
+  result.objects.resize (1);
+  result.objects[0].id = 1;
+  result.objects[0].signed_distance = field;
+  turnResult (some_turn, Settings (), result);
+
+  const pcl::cosection::SignedDistanceField& turned = *result.objects[0].signed_distance;
+  EXPECT_GT (turned.values.size (), field->values.size ());
+  const double cells = 39 * 29 * 29;
+  EXPECT_NEAR (std::count (turned.supported.begin (), turned.supported.end (), 1), cells, 0.01 * cells);
+  for (int k = 0; k < turned.grid.dims.z (); ++k)
+    for (int j = 0; j < turned.grid.dims.y (); ++j)
+      for (int i = 0; i < turned.grid.dims.x (); ++i)
+      {
+        const double expected = (turned.grid.center (i, j, k) - some_turn * middle).norm () - radius_m;
+        const std::size_t n = turned.grid.index (i, j, k);
+        ASSERT_NEAR (turned.values[n], expected, turned.supported[n] != 0 ? 0.002 : 0.05);
+        ASSERT_GE (turned.supported[n] + turned.values[n], 0.0f); // the ball is where it was solved
+      }
 }
