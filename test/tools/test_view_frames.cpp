@@ -124,7 +124,7 @@ TEST_F (ViewFrames, ResultsTurnWithTheViewpoint)
     EXPECT_EQ (run ({"--save-hull", "--json", "s.json", name + ".pcd", name}), 0) << errors_;
     return summary ();
   };
-  const nlohmann::json before = complete ("view"), after = complete ("turned");
+  const nlohmann::json given = complete ("view"), moved = complete ("turned");
 
   for (const char* file : {"/object_1.ply", "/object_2.ply", "/object_1_hull.ply"})
   {
@@ -147,12 +147,12 @@ TEST_F (ViewFrames, ResultsTurnWithTheViewpoint)
   const auto vectorOf = [] (const nlohmann::json& numbers) {
     return Eigen::Vector3d (numbers.at (0), numbers.at (1), numbers.at (2));
   };
-  const nlohmann::json plane = before.at ("support_planes").at (0), turned_plane = after.at ("support_planes").at (0);
+  const nlohmann::json plane = given.at ("support_planes").at (0), turned_plane = moved.at ("support_planes").at (0);
   EXPECT_LT ((some_turn * vectorOf (plane) - vectorOf (turned_plane)).norm (), 1e-4);
   EXPECT_NEAR (plane.at (3), turned_plane.at (3), 1e-4);
   for (const Eigen::Vector3f& v : pcl::cosection::loadMesh (path ("turned/background.ply")).vertices)
     ASSERT_NEAR (vectorOf (turned_plane).dot (v.cast<double> ()) + turned_plane.at (3).get<double> (), 0.0, 0.005);
-  const nlohmann::json sensor = after.at ("views").at (0).at ("T_world_sensor");
+  const nlohmann::json sensor = moved.at ("views").at (0).at ("T_world_sensor");
   for (int row = 0; row < 3; ++row)
     EXPECT_NEAR (sensor.at (row).at (3), cloud.sensor_origin_[row], 1e-5);
 }
