@@ -78,7 +78,7 @@ allChanges ()
   return changes;
 }
 
-/** \brief A cup, a box and a bottle on a table, seen from all around by a camera with its noise. */
+/** \brief A cup, a box and a bottle on a table, seen from all around without noise. */
 std::string
 sceneOf (int views)
 {
