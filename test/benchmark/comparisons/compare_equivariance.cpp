@@ -78,7 +78,7 @@ allChanges ()
   return changes;
 }
 
-/** \brief A cup, a box and a bottle on a table, seen from all around without noise. */
+/** \brief A cup, a box and a bottle on a table, seen from all around by a camera with its noise. */
 std::string
 sceneOf (int views)
 {
