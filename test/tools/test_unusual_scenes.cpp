@@ -250,7 +250,7 @@ TEST_F (MistakenInput, PointsThatTheHeaderDoesNotAnnounceAreWarnedOf)
     pcl::io::savePCDFile (path ("long.pcd"), cloud, binary);
     const std::string whole = pcl::cosection::test::readFile (path ("long.pcd"));
     std::string text = whole;
-    for (const std::string& key : {"WIDTH ", "POINTS "})
+    for (const std::string key : {"WIDTH ", "POINTS "})
       text.replace (text.find (key) + key.size (), 4, "3000");
     pcl::cosection::test::writeFile (path ("long.pcd"), text);
     ASSERT_EQ (run ({"long.pcd", "long.ply"}), 0) << errors_;
