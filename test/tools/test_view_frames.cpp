@@ -189,3 +189,33 @@ TEST_F (ViewFrames, SignedDistancesAreSampledAlongTheWorldsAxes)
         ASSERT_GE (turned.supported[n] + turned.values[n], 0.0f); // the ball is where it was solved
       }
 }
+
+/** \brief What is in the world turns; what is in the frame of an object that moves does not. */
+TEST_F (ViewFrames, ObjectsThatMoveStayInTheirFrames)
+{
+  const Eigen::Vector3f corner (1.0f, 2.0f, 3.0f);
+  pcl::cosection::SceneResult result;
+  for (const int id : {1, 2})
+  {
+    pcl::cosection::ObjectResult& object = result.objects.emplace_back ();
+    object.id = id;
+    object.mesh.vertices = {corner};
+    object.guessed_plane = Eigen::Vector4d (0.0, 0.0, 1.0, -0.3);
+    object.proposal.emplace ();
+    object.proposal->T_object_proposal.translation () = corner.cast<double> ();
+  }
+  Settings settings;
+  settings.object_trajectories[2] = "trajectory.txt";
+  turnResult (some_turn, settings, result);
+
+  const Eigen::Vector3d turned = some_turn * corner.cast<double> ();
+  EXPECT_LT ((result.objects[0].mesh.vertices[0].cast<double> () - turned).norm (), 1e-6);
+  EXPECT_LT ((result.objects[0].proposal->T_object_proposal.translation () - turned).norm (), 1e-12);
+  EXPECT_EQ (result.objects[1].mesh.vertices[0], corner);
+  EXPECT_EQ (result.objects[1].proposal->T_object_proposal.translation (), corner.cast<double> ());
+  for (const pcl::cosection::ObjectResult& object : result.objects)
+  {
+    EXPECT_LT ((object.guessed_plane->head<3> () - some_turn * Eigen::Vector3d::UnitZ ()).norm (), 1e-12);
+    EXPECT_EQ ((*object.guessed_plane)[3], -0.3);
+  }
+}
