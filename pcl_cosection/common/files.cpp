@@ -23,7 +23,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* temporary_prefix = ".cosection-";
 constexpr int max_links = 40; ///< one after the other; as many as Linux follows
 
 fs::path

@@ -15,6 +15,9 @@ std::string followLinks (const std::string& path);
 /** \brief Whether a name is \a prefix and the number of a process that is gone, as of what it left behind. */
 PCL_COSECTION_EXPORT bool isOfGoneProcess (const std::string& name, const std::string& prefix);
 
+/** \brief How names of temporary files and folders begin; the number of their process and "-" follow. */
+constexpr const char* temporary_prefix = ".cosection-";
+
 /** \brief Let \a write fill a file of a temporary name beside \a path, then rename it to \a path.
  * If \a write throws, or anything fails, the temporary file is removed and \a path is untouched.
  * A symbolic link stays one: the file that it points to is replaced, or made. Temporary files of processes that are

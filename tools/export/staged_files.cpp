@@ -16,8 +16,6 @@ using namespace pcl::cosection;
 
 namespace {
 
-constexpr const char* prefix = ".cosection-";
-
 /** \brief Put a file in the place of another one, or of what a link points to. */
 void
 move (const fs::path& from, const fs::path& to)
@@ -41,11 +39,11 @@ StagedFiles::StagedFiles (const std::string& output) : output_ (output)
   std::error_code failure;
   std::vector<fs::path> left;
   for (fs::directory_iterator entry (output_, failure), end; !failure && entry != end; entry.increment (failure))
-    if (isOfGoneProcess (entry->path ().filename ().string (), prefix) && entry->is_directory (failure))
+    if (isOfGoneProcess (entry->path ().filename ().string (), temporary_prefix) && entry->is_directory (failure))
       left.push_back (entry->path ());
   for (const fs::path& folder : left)
     fs::remove_all (folder, failure);
-  const fs::path staging = output_ / (prefix + std::to_string (getpid ()) + "-files.tmp");
+  const fs::path staging = output_ / (std::string (temporary_prefix) + std::to_string (getpid ()) + "-files.tmp");
   if (!fs::create_directory (staging, failure))
     throw IoError ("cannot make the folder '" + staging.string () +
                    "': " + (failure ? failure.message () : "it is there"));

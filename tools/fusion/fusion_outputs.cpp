@@ -4,6 +4,8 @@
 #include "method_json.h"
 #include "output_files.h"
 
+#include "pcl_cosection/common/files.h"
+
 #include <pcl/cosection/common/error.h>
 #include <pcl/cosection/io/mesh_io.h>
 #include <pcl/cosection/io/trajectory.h>
@@ -36,7 +38,7 @@ folderName (double stamp)
 bool
 isTemporary (const std::string& name)
 {
-  return (name.rfind (".cosection-", 0) == 0 && name.find (".tmp") != std::string::npos);
+  return (name.rfind (temporary_prefix, 0) == 0 && name.find (".tmp") != std::string::npos);
 }
 
 bool
