@@ -12,6 +12,7 @@
 
 #include <cmath>
 #include <csignal>
+#include <cstdlib>
 #include <filesystem>
 #include <sstream>
 
@@ -58,6 +59,7 @@ protected:
     const rlimit limit{1 + beside_the_first, 1 + beside_the_first};
     if (setrlimit (RLIMIT_NPROC, &limit) != 0 || setuid (nobody) != 0)
       _exit (cannot_prepare);
+    setenv ("ASAN_OPTIONS", "detect_leaks=0", 1); // where there is a LeakSanitizer, it wants a thread of its own
   }
 
   static constexpr uid_t nobody = 64999; // no process is its
