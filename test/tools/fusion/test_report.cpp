@@ -106,7 +106,8 @@ TEST_F (Report, CompletedViewsAreShown)
   ToolRun completion ({"--voxel-size", "0.006", "table.pcd", "table"}, file (""));
   ASSERT_EQ (completion.wait (), 0) << completion.errors ();
   const std::string html = shown ({"table"});
-  for (const nlohmann::json& object : json ("table/summary.json")["objects"])
+  const nlohmann::json summary = json ("table/summary.json");
+  for (const nlohmann::json& object : summary["objects"])
     EXPECT_EQ (cell (html, "objects", "object " + object["id"].dump (), "Volume (ml)"),
                inMillilitres (object["volume_m3"]));
   EXPECT_NE (html.find ("Completed, from behind, by provenance"), std::string::npos);
