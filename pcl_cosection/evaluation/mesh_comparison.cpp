@@ -1,6 +1,7 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include <pcl/cosection/evaluation/mesh_comparison.h>
 
+#include "pcl_cosection/mesh/moved_mesh.h"
 #include "pcl_cosection/volume/mesh_distance/mesh_surface.h"
 #include "point_set.h"
 #include <pcl/cosection/common/error.h>
@@ -9,6 +10,7 @@
 #include <cmath>
 #include <limits>
 #include <sstream>
+#include <utility>
 
 namespace pcl::cosection {
 
@@ -131,11 +133,7 @@ frameWarnings (const MeshSummary& truth, const MeshSummary& reconstruction)
 TriangleMesh
 transformMesh (TriangleMesh mesh, const Eigen::Isometry3d& T_target_mesh)
 {
-  for (Eigen::Vector3f& v : mesh.vertices)
-    v = (T_target_mesh * v.cast<double> ()).cast<float> ();
-  for (Eigen::Vector3f& n : mesh.normals)
-    n = (T_target_mesh.linear () * n.cast<double> ()).cast<float> ();
-  return mesh;
+  return movedMesh (std::move (mesh), T_target_mesh);
 }
 
 } // namespace pcl::cosection

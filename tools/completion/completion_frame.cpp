@@ -19,17 +19,6 @@ turned (const Eigen::Quaterniond& R, const Eigen::Vector4d& plane)
   return {normal.x (), normal.y (), normal.z (), plane[3]};
 }
 
-void
-turnPoints (const Eigen::Quaterniond& R, std::vector<OrientedPoint>& points)
-{
-  const Eigen::Matrix3d matrix = R.toRotationMatrix ();
-  for (OrientedPoint& point : points)
-  {
-    point.position = (matrix * point.position.cast<double> ()).cast<float> ();
-    point.normal = (matrix * point.normal.cast<double> ()).cast<float> ();
-  }
-}
-
 /** \brief On voxels of the same size along the turned axes. Where these reach beyond the field, its nearest value and
  * the distance from there. */
 SignedDistanceField
@@ -92,11 +81,11 @@ turnInput (const Eigen::Quaterniond& R_frame_world, SceneInput& scene)
   for (auto& [label, object] : scene.objects)
   {
     if (object.T_world_object.empty ())
-      turnPoints (R_frame_world, object.points);
+      transform (T_frame_world, object.points);
     for (Eigen::Isometry3d& pose : object.T_world_object)
       pose = T_frame_world * pose;
   }
-  turnPoints (R_frame_world, scene.background);
+  transform (T_frame_world, scene.background);
   for (std::vector<DepthView>* views : {&scene.views, &scene.free_space})
     for (DepthView& view : *views)
       view.T_world_sensor = T_frame_world * view.T_world_sensor;

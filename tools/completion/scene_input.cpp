@@ -51,17 +51,6 @@ silentView ()
   return (view);
 }
 
-/** \brief Take points to the frame of their object. */
-void
-transform (const Eigen::Isometry3d& T_object_world, std::vector<OrientedPoint>& points)
-{
-  for (OrientedPoint& point : points)
-  {
-    point.position = (T_object_world * point.position.cast<double> ()).cast<float> ();
-    point.normal = (T_object_world.linear () * point.normal.cast<double> ()).cast<float> ();
-  }
-}
-
 /** \brief Whether a view is one that was given before: it says nothing new of free space and background. */
 bool
 isRepeated (const DepthView& view, const std::vector<DepthView>& earlier)
@@ -262,6 +251,16 @@ Eigen::Vector4d
 relativeTo (const Eigen::Vector3d& origin, const Eigen::Vector4d& plane)
 {
   return {plane[0], plane[1], plane[2], plane[3] + plane.head<3> ().dot (origin)};
+}
+
+void
+transform (const Eigen::Isometry3d& T_target_points, std::vector<OrientedPoint>& points)
+{
+  for (OrientedPoint& point : points)
+  {
+    point.position = (T_target_points * point.position.cast<double> ()).cast<float> ();
+    point.normal = (T_target_points.linear () * point.normal.cast<double> ()).cast<float> ();
+  }
 }
 
 SceneReaders

@@ -32,6 +32,9 @@ struct SceneInput
 /** \brief A plane of the world in a frame with another origin. */
 Eigen::Vector4d relativeTo (const Eigen::Vector3d& origin, const Eigen::Vector4d& plane);
 
+/** \brief Take points to another frame, with their normals. */
+void transform (const Eigen::Isometry3d& T_target_points, std::vector<pcl::cosection::OrientedPoint>& points);
+
 /** \brief Where what the settings name comes from. */
 struct SceneReaders
 {

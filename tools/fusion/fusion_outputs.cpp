@@ -5,7 +5,6 @@
 #include "output_files.h"
 
 #include "pcl_cosection/common/files.h"
-
 #include <pcl/cosection/common/error.h>
 #include <pcl/cosection/io/mesh_io.h>
 #include <pcl/cosection/io/trajectory.h>
