@@ -165,6 +165,22 @@ TEST_F (Limits, FewerThreadsThanAreWanted)
   }
 }
 
+TEST_F (Limits, LittleMemoryIsSaid)
+{
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+  GTEST_SKIP () << "a sanitizer takes terabytes of addresses";
+#endif
+  // Less, and Debian 12 could not load the libraries.
+  const auto allowLittleMemory = [] {
+    const rlimit limit{110000 * 1024, 110000 * 1024};
+    setrlimit (RLIMIT_AS, &limit);
+  };
+  EXPECT_EQ (runIn (allowLittleMemory, {"--threads", "4", "ball.pcd", "out.ply"}), 1);
+  EXPECT_NE (errors_.find ("fewer threads (--threads)"), std::string::npos) << errors_;
+  EXPECT_FALSE (fs::exists (path ("out.ply")));
+  EXPECT_TRUE (hidden ().empty ());
+}
+
 TEST_F (Limits, ADamagedInstalledNetwork)
 {
   fs::create_directories (path ("bin"));

@@ -16,6 +16,7 @@ namespace {
 
 constexpr float near_weight = 0.3f;      // sum of weights: a point within 1.1 sigma
 constexpr float far_weight = 0.01f;      // sum of weights: a point within 2.1 sigma
+constexpr float least_handle = 3.0f;     // points nearby: fewer off the wall are noise, and would leave a hole in it
 constexpr float gap_vox = 2.0f;          // the term applies at least so far from data
 constexpr double step_vox = 0.7;         // between points of the unseen parts
 constexpr double vessel_weight = 100.0;  // of a wall, in multiples of beta_extent; it vanishes with less
@@ -133,7 +134,8 @@ addVessel (BodyEnergy& energy, const ProfiledShape& shape, const std::vector<Ori
         const std::size_t n = grid.index (i, j, k);
         const auto beyond_vox = static_cast<float> (beyond_m[static_cast<std::size_t> (i)] / grid.voxel_size_m);
         proposal.least[n] = std::max (proposal.least[n], beyond_vox - empty_margin_vox);
-        if (energy.empty[n] || handles.weight[n] >= near_weight)
+        const bool is_handle = handles.weight[n] >= near_weight && handles.count[n] >= least_handle;
+        if (energy.empty[n] || is_handle)
           continue;
         const PartOfWall& outside = outer.distance[n] > bottom.distance[n] ? outer : bottom;
         const double from_outside = outside.distance[n];

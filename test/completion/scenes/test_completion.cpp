@@ -119,6 +119,30 @@ TEST (CompletionTopology, KeepsWhatIsSeenHollow)
   EXPECT_GT (*inside, 0.005f);
 }
 
+/** \brief A reading that is wrong is no handle, beside which the wall would be left out. */
+TEST (CompletionTopology, OnePointOffTheWallOfACupLeavesNoHole)
+{
+  AnalyticScene scene;
+  scene.add (0, halfSpace (table_plane));
+  scene.add (1, cup (0.045, 0.09, 0.005));
+  RenderedView seen = scene.render (tableCamera (), fromAbove ());
+  const CoSectionOptions options = optionsFor (0.003);
+  const TriangleMesh without = complete (seen, options).objects.at (0).mesh;
+  const MeshDistance distance (without, 0.02);
+  for (const float angle : {0.0f, 1.6f, 3.1f, 4.7f})
+  {
+    const Eigen::Vector3f out (std::cos (angle), std::sin (angle), 0.0f);
+    std::vector<OrientedPoint>& points = seen.points.at (1);
+    points.push_back ({0.034f * out + Eigen::Vector3f (0.0f, 0.0f, 0.015f), -out, points.front ().weight, {}});
+    const TriangleMesh mesh = complete (seen, options).objects.at (0).mesh;
+    points.pop_back ();
+    double largest_m = 0.0;
+    for (const Eigen::Vector3f& vertex : mesh.vertices)
+      largest_m = std::max (largest_m, distance (vertex.cast<double> ()));
+    EXPECT_LT (largest_m, 0.0005) << angle; // a sixth of a voxel
+  }
+}
+
 TEST (CompletionErrors, LoseOnlyTheObjectConcerned)
 {
   RenderedView seen = tableScene (Shape::Box).render (tableCamera (), fromAbove ());
