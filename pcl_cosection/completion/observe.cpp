@@ -9,6 +9,7 @@
 #include "pcl_cosection/view/outliers/point_clusters.h"
 #include "pcl_cosection/view/outliers/repeated_points.h"
 #include "pcl_cosection/view/range_image.h"
+#include "pcl_cosection/view/visibility/mean_width.h"
 #include "pcl_cosection/view/visibility/visibility.h"
 #include "place_bodies.h"
 
@@ -43,6 +44,10 @@ constexpr double voxel_growth = 1.1;
 constexpr double finer = 0.65;
 // But voxels must not be finer than this multiple of the points' noise, which voxels of three points average.
 constexpr double voxels_per_noise = 1.6;
+// What is thin gets so many voxels across its mean width. Mean error of scanned things alone on a table: 1.71 mm
+// without these and with them 1.59 mm; seen from above 2.04 and 1.73 mm.
+constexpr double voxels_across_width = 8.0;
+constexpr double finer_if_thin = 0.4;              // instead of finer: points fill most voxels of a band in part
 constexpr std::size_t points_to_measure_noise = 5; // in a cell
 constexpr double noise_cells = 3.0;  // their edge, in supported voxels: smaller cells would clip the noise
 constexpr double facing_alike = 0.4; // least length of the mean normal: a cell with less holds two sides of a wall
@@ -166,7 +171,8 @@ noiseOf (const Observation& object)
 
 /** \brief The voxel size of the options. If neither it nor a resolution is given, 64 voxels along the longest side,
  * but voxels no smaller than .65 times those that the points' spacing supports, nor, up to the size of those, than 1.6
- * times the points' noise.
+ * times the points' noise. Of what is thin, there are up to 96 along the longest side, no smaller than .4 times those
+ * that the spacing supports.
  * \throws InvalidArgument */
 double
 objectVoxelSize (const Observation& object, const CoSectionOptions& options)
@@ -183,7 +189,12 @@ objectVoxelSize (const Observation& object, const CoSectionOptions& options)
     return h > 0.0 ? h : longest / options.resolution;
   const double finest = longest / default_resolution;
   const double noise_m = object.spacing_m > finest ? voxels_per_noise * noiseOf (object) : 0.0;
-  return std::max ({finer * object.spacing_m, std::min (object.spacing_m, noise_m), finest});
+  const double usual = std::max ({finer * object.spacing_m, std::min (object.spacing_m, noise_m), finest});
+  const double width_m = meanWidth (object.views, object.points ());
+  if (!(width_m > 0.0))
+    return usual;
+  return std::min (
+      usual, std::max ({width_m / voxels_across_width, longest / thin_resolution, finer_if_thin * object.spacing_m}));
 }
 
 void
@@ -313,6 +324,7 @@ observeObjects (const Scene& scene, CompletionMode mode, SceneState& state, Comp
     object.proposals = &input.proposals;
     object.proposed = std::make_shared<ProposedShapes> ();
     object.network = options.completion_network;
+    object.views = viewsOf (scene, input);
     std::vector<bool> outliers = leaveOutPoints (input, options, object, log);
     if (!std::equal (body.outliers.begin (), body.outliers.end (), outliers.begin ()))
       body.readPointsAgain ();
@@ -322,7 +334,6 @@ observeObjects (const Scene& scene, CompletionMode mode, SceneState& state, Comp
     if (mode == CompletionMode::Once && !scene.fixedVoxelSize ())
       warnIfCoarse (input, object, log);
 
-    object.views = viewsOf (scene, input);
     if (!options.use_extent_prior)
       return object;
     if (object.views.empty ())

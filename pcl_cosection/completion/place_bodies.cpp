@@ -143,12 +143,12 @@ volumeBox (const Scene& scene, const ObjectInput& input, const Observation& obje
 }
 
 /** \brief Voxel size of a vessel (ProfiledShape::wallThickness ()): half of its wall thickness, if that is smaller
- * than \a supported_m, but no less than half of \a supported_m and a 64th of the longest side. Voxels finer than the
+ * than \a supported_m, but no less than half of \a supported_m and a 96th of the longest side. Voxels finer than the
  * points' spacing supports are possible, as points have copies on all sides. */
 double
 vesselVoxelSize (double supported_m, double wall_m, const Eigen::AlignedBox3d& box)
 {
-  const double least_m = std::max (finest_vessel * supported_m, box.sizes ().maxCoeff () / default_resolution);
+  const double least_m = std::max (finest_vessel * supported_m, box.sizes ().maxCoeff () / thin_resolution);
   return std::min (supported_m, std::max (least_m, wall_m / voxels_per_wall));
 }
 

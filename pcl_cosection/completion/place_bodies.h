@@ -9,6 +9,7 @@
 namespace pcl::cosection {
 
 constexpr int default_resolution = 64; ///< voxels along the longest side of an object
+constexpr int thin_resolution = 96;    ///< of one that is thin
 
 /** \brief Box of the space in \a within that no view saw free and that is connected with an object's points, with a
  * margin.

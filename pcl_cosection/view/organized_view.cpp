@@ -7,6 +7,7 @@
 #include "pcl_cosection/view/labels/label_growth.h"
 #include "pcl_cosection/view/labels/stray_patches.h"
 #include "pcl_cosection/view/normals/estimated_normals.h"
+#include "pcl_cosection/view/normals/thin_normals.h"
 #include "pcl_cosection/view/outliers/mixed_pixels.h"
 
 #include <pcl/cosection/surface/normals.h>
@@ -371,7 +372,10 @@ completeOrganized (const std::string& path, const PcdViewOptions& options, Senso
   if (addMissingNormals (options, members, cloud) && result.view)
     leaveOutMixedPixels (*result.view, cloud);
   if (camera)
+  {
     addGrazingNormals (options.threads, members, cloud);
+    addThinNormals (options.threads, *camera, members, cloud);
+  }
   else // rows of a scan are so far apart that most sides of its objects look like edges
     for (const auto& [label, readings] : members)
       if (label != 0)

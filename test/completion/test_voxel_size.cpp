@@ -109,3 +109,22 @@ TEST_F (RingFromFarAway, HasLargerVoxelsWherePointsScatter)
     p.position += noise (random) * p.normal;
   EXPECT_GT (completed (CoSectionOptions ()).signed_distance->grid.voxel_size_m, 1.3 * exact_m);
 }
+
+/** \brief 64 along it would be fewer than three across. */
+TEST (VoxelSize, OfWhatIsThinIsFiner)
+{
+  constexpr double half_length = 0.1, half_width = 0.004;
+  AnalyticScene scene;
+  scene.add (0, halfSpace ({0.0, 0.0, 1.0, 0.0}));
+  scene.add (1, placed (box ({half_length, half_width, half_width}), Eigen::Vector3d (0.0, 0.0, half_width)));
+  const PinholeCamera camera{320, 240, 300.0, 300.0, 159.5, 119.5};
+  const RenderedView seen = scene.render (camera, lookAt ({0.1, -0.3, 0.2}, {0.0, 0.0, 0.0}));
+  CoSection task;
+  task.addView (seen.view);
+  task.setBackground (seen.points.at (0));
+  task.addObject ({1, seen.points.at (1), {}});
+  const ObjectResult bar = task.reconstruct ().objects.at (0);
+  EXPECT_LT (bar.signed_distance->grid.voxel_size_m, 0.8 * 2.0 * half_length / 64.0);
+  EXPECT_NEAR (computeMassProperties (bar.mesh).volume_m3 / (8.0 * half_length * half_width * half_width), 1.0,
+               0.2); // 1.33 with 64
+}

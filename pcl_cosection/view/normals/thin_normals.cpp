@@ -1,0 +1,83 @@
+// Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
+#include "thin_normals.h"
+
+#include "pcl_cosection/common/parallel.h"
+#include "pcl_cosection/view/visibility/depth_edges.h"
+
+#include <Eigen/Eigenvalues>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <limits>
+#include <vector>
+
+namespace pcl::cosection {
+namespace {
+
+// As in computeOrganizedNormals ():
+constexpr int radius_px = 7;
+constexpr std::size_t least_points = 6;
+constexpr double widest = 1.0 /
+                          3.0; // share of the window that a label has at a band; where it has more, there are planes
+
+constexpr double together = 0.5; // share of the label's readings there that are near in space
+constexpr double longish = 2.0;  // standard deviation along a band, in those across it
+
+/** \brief The normal of a band at the reading \a i; NaN if it is on none. */
+Eigen::Vector3f
+thinNormal (const SensorCloud& cloud, double pixel_pitch, std::size_t i)
+{
+  const Eigen::Vector3f none = Eigen::Vector3f::Constant (std::numeric_limits<float>::quiet_NaN ());
+  const auto row = static_cast<int> (i / cloud.width);
+  const auto column = static_cast<int> (i % cloud.width);
+  const Eigen::Vector3f& here = cloud.positions[i];
+  const double range = here.norm ();
+  std::size_t labelled = 0;
+  std::vector<Eigen::Vector3d> near;
+  for (int v = std::max (0, row - radius_px); v <= std::min (cloud.height - 1, row + radius_px); ++v)
+    for (int u = std::max (0, column - radius_px); u <= std::min (cloud.width - 1, column + radius_px); ++u)
+    {
+      const std::size_t j = static_cast<std::size_t> (v) * cloud.width + u;
+      if (cloud.labels[j] != cloud.labels[i] || !cloud.positions[j].allFinite ())
+        continue;
+      ++labelled;
+      const double across_m = pixel_pitch * range * std::hypot (u - column, v - row);
+      if (std::abs (cloud.positions[j].norm () - range) <= largestSurfaceStep (range, across_m, cloud.working_range_m))
+        near.push_back ((cloud.positions[j] - here).cast<double> ());
+    }
+  constexpr int window = (2 * radius_px + 1) * (2 * radius_px + 1);
+  if (static_cast<double> (labelled) > widest * window || near.size () < least_points ||
+      static_cast<double> (near.size ()) < together * static_cast<double> (labelled))
+    return none;
+  const auto count = static_cast<double> (near.size ());
+  Eigen::Vector3d mean = Eigen::Vector3d::Zero ();
+  for (const Eigen::Vector3d& offset : near)
+    mean += offset / count;
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero ();
+  for (const Eigen::Vector3d& offset : near)
+    covariance += (offset - mean) * (offset - mean).transpose () / count;
+  Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen;
+  eigen.computeDirect (covariance);
+  if (!(eigen.eigenvalues ()[2] >= longish * longish * eigen.eigenvalues ()[1]))
+    return none;
+  const Eigen::Vector3d along = eigen.eigenvectors ().col (2);
+  const Eigen::Vector3d ray = here.cast<double> ().normalized ();
+  return (ray.dot (along) * along - ray).normalized ().cast<float> ();
+}
+
+} // namespace
+
+void
+addThinNormals (int threads, const PinholeCamera& camera, const Members& members, SensorCloud& cloud)
+{
+  std::vector<std::size_t> candidates;
+  for (const auto& [label, readings] : members)
+    if (label != 0)
+      std::copy_if (readings.begin (), readings.end (), std::back_inserter (candidates),
+                    [&] (std::size_t i) { return !cloud.normals[i].allFinite (); });
+  parallelFor (0, static_cast<int> (candidates.size ()), threads,
+               [&] (int k) { cloud.normals[candidates[k]] = thinNormal (cloud, 1.0 / camera.fx, candidates[k]); });
+}
+
+} // namespace pcl::cosection
