@@ -10,6 +10,7 @@
 #include <cmath>
 #include <iterator>
 #include <limits>
+#include <optional>
 #include <vector>
 
 namespace pcl::cosection {
@@ -22,7 +23,36 @@ constexpr double widest = 1.0 /
                           3.0; // share of the window that a label has at a band; where it has more, there are planes
 
 constexpr double together = 0.5; // share of the label's readings there that are near in space
-constexpr double longish = 2.0;  // standard deviation along a band, in those across it
+constexpr double longish = 2.0;  // standard deviation along a band, in those across it, in the image and in space
+
+/** \brief Count, mean and covariance of places. */
+template <int dimensions> struct Spread
+{
+  using Place = Eigen::Matrix<double, dimensions, 1>;
+  using Square = Eigen::Matrix<double, dimensions, dimensions>;
+
+  std::size_t count = 0;
+  Place sum = Place::Zero ();
+  Square squares = Square::Zero ();
+
+  void add (const Place& place)
+  {
+    ++count;
+    sum += place;
+    squares += place * place.transpose ();
+  }
+
+  /** \brief The direction in which the places lie along a line, if they do. */
+  std::optional<Place> line () const
+  {
+    const Place mean = sum / static_cast<double> (count);
+    Eigen::SelfAdjointEigenSolver<Square> eigen;
+    eigen.computeDirect (squares / static_cast<double> (count) - mean * mean.transpose ());
+    if (!(eigen.eigenvalues ()[dimensions - 1] >= longish * longish * eigen.eigenvalues ()[dimensions - 2]))
+      return std::nullopt;
+    return eigen.eigenvectors ().col (dimensions - 1);
+  }
+};
 
 /** \brief The normal of a band at the reading \a i; NaN if it is on none. */
 Eigen::Vector3f
@@ -33,37 +63,29 @@ thinNormal (const SensorCloud& cloud, double pixel_pitch, std::size_t i)
   const auto column = static_cast<int> (i % cloud.width);
   const Eigen::Vector3f& here = cloud.positions[i];
   const double range = here.norm ();
-  std::size_t labelled = 0;
-  std::vector<Eigen::Vector3d> near;
+  Spread<2> labelled; // pixels
+  Spread<3> near;     // metres
   for (int v = std::max (0, row - radius_px); v <= std::min (cloud.height - 1, row + radius_px); ++v)
     for (int u = std::max (0, column - radius_px); u <= std::min (cloud.width - 1, column + radius_px); ++u)
     {
       const std::size_t j = static_cast<std::size_t> (v) * cloud.width + u;
       if (cloud.labels[j] != cloud.labels[i] || !cloud.positions[j].allFinite ())
         continue;
-      ++labelled;
-      const double across_m = pixel_pitch * range * std::hypot (u - column, v - row);
-      if (std::abs (cloud.positions[j].norm () - range) <= largestSurfaceStep (range, across_m, cloud.working_range_m))
-        near.push_back ((cloud.positions[j] - here).cast<double> ());
+      const Eigen::Vector2d offset_px (u - column, v - row);
+      labelled.add (offset_px);
+      if (std::abs (cloud.positions[j].norm () - range) <=
+          largestSurfaceStep (range, pixel_pitch * range * offset_px.norm (), cloud.working_range_m))
+        near.add ((cloud.positions[j] - here).cast<double> ());
     }
   constexpr int window = (2 * radius_px + 1) * (2 * radius_px + 1);
-  if (static_cast<double> (labelled) > widest * window || near.size () < least_points ||
-      static_cast<double> (near.size ()) < together * static_cast<double> (labelled))
+  if (static_cast<double> (labelled.count) > widest * window || near.count < least_points ||
+      static_cast<double> (near.count) < together * static_cast<double> (labelled.count))
     return none;
-  const auto count = static_cast<double> (near.size ());
-  Eigen::Vector3d mean = Eigen::Vector3d::Zero ();
-  for (const Eigen::Vector3d& offset : near)
-    mean += offset / count;
-  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero ();
-  for (const Eigen::Vector3d& offset : near)
-    covariance += (offset - mean) * (offset - mean).transpose () / count;
-  Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen;
-  eigen.computeDirect (covariance);
-  if (!(eigen.eigenvalues ()[2] >= longish * longish * eigen.eigenvalues ()[1]))
+  const std::optional<Eigen::Vector3d> along = near.line ();
+  if (!along || !labelled.line ()) // as at the corners of what is wide
     return none;
-  const Eigen::Vector3d along = eigen.eigenvectors ().col (2);
   const Eigen::Vector3d ray = here.cast<double> ().normalized ();
-  return (ray.dot (along) * along - ray).normalized ().cast<float> ();
+  return (ray.dot (*along) * *along - ray).normalized ().cast<float> ();
 }
 
 } // namespace
