@@ -172,7 +172,7 @@ noiseOf (const Observation& object)
 /** \brief The voxel size of the options. If neither it nor a resolution is given, 64 voxels along the longest side,
  * but voxels no smaller than .65 times those that the points' spacing supports, nor, up to the size of those, than 1.6
  * times the points' noise. Of what is thin, there are up to 96 along the longest side, no smaller than .4 times those
- * that the spacing supports.
+ * that the spacing supports, nor, up to these, than the noise.
  * \throws InvalidArgument */
 double
 objectVoxelSize (const Observation& object, const CoSectionOptions& options)
@@ -187,14 +187,14 @@ objectVoxelSize (const Observation& object, const CoSectionOptions& options)
   }
   if (h > 0.0 || options.resolution > 0)
     return h > 0.0 ? h : longest / options.resolution;
-  const double finest = longest / default_resolution;
-  const double noise_m = object.spacing_m > finest ? voxels_per_noise * noiseOf (object) : 0.0;
-  const double usual = std::max ({finer * object.spacing_m, std::min (object.spacing_m, noise_m), finest});
+  const double finest = longest / default_resolution, noise_m = noiseOf (object);
+  const double averaging = object.spacing_m > finest ? std::min (object.spacing_m, voxels_per_noise * noise_m) : 0.0;
+  const double usual = std::max ({finer * object.spacing_m, averaging, finest});
   const double width_m = meanWidth (object.views, object.points ());
   if (!(width_m > 0.0))
     return usual;
-  return std::min (
-      usual, std::max ({width_m / voxels_across_width, longest / thin_resolution, finer_if_thin * object.spacing_m}));
+  return std::min (usual, std::max ({width_m / voxels_across_width, longest / thin_resolution,
+                                     finer_if_thin * object.spacing_m, std::min (object.spacing_m, noise_m)}));
 }
 
 void
