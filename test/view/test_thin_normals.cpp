@@ -86,6 +86,21 @@ TEST_F (ThinThings, OnASlantFaceTheSensorAcross)
   }
 }
 
+/** \brief Where noise is larger than pixels are apart, it would pass for a line along the rays. */
+TEST_F (ThinThings, OfNoiseHaveNoNormals)
+{
+  constexpr float far_m = 6.0f;
+  set (0, 160, 0, 120, far_m + 2.0f);
+  set (40, 100, 80, 115, far_m);
+  label (40, 100, 80, 115, 1);
+  for (int v = 20; v < 80; ++v)
+    for (int u = 70; u < 72; ++u)
+      set (u, u + 1, v, v + 1, far_m + 0.001f * static_cast<float> ((v * 67 + u * 31) % 240));
+  label (70, 72, 20, 80, 1);
+  for (const OrientedPoint& point : pointsOfBand ())
+    EXPECT_LT (point.normal.dot (point.position.normalized ()), -0.25f);
+}
+
 /** \brief At the edges of what is wide, and alone, they are at no surface. */
 TEST_F (ThinThings, MixedPixelsHaveNoNormals)
 {

@@ -19,11 +19,11 @@ namespace {
 // As in computeOrganizedNormals ():
 constexpr int radius_px = 7;
 constexpr std::size_t least_points = 6;
-constexpr double widest = 1.0 /
-                          3.0; // share of the window that a label has at a band; where it has more, there are planes
+constexpr double widest = 1.0 / 3.0; // share of the window that a label has at a band; with more there are planes
 
-constexpr double together = 0.5; // share of the label's readings there that are near in space
-constexpr double longish = 2.0;  // standard deviation along a band, in those across it, in the image and in space
+constexpr double together = 0.5;   // share of the label's readings there that are near in space
+constexpr double longish = 2.0;    // standard deviation along a band, in those across it, in the image and in space
+constexpr double steepest = 0.966; // sine of 75 degrees, as largestSurfaceStep () has it: beyond, a line is noise
 
 /** \brief Count, mean and covariance of places. */
 template <int dimensions> struct Spread
@@ -81,10 +81,10 @@ thinNormal (const SensorCloud& cloud, double pixel_pitch, std::size_t i)
   if (static_cast<double> (labelled.count) > widest * window || near.count < least_points ||
       static_cast<double> (near.count) < together * static_cast<double> (labelled.count))
     return none;
-  const std::optional<Eigen::Vector3d> along = near.line ();
-  if (!along || !labelled.line ()) // as at the corners of what is wide
-    return none;
   const Eigen::Vector3d ray = here.cast<double> ().normalized ();
+  const std::optional<Eigen::Vector3d> along = near.line ();
+  if (!along || std::abs (ray.dot (*along)) > steepest || !labelled.line ()) // as at the corners of what is wide
+    return none;
   return (ray.dot (*along) * *along - ray).normalized ().cast<float> ();
 }
 
