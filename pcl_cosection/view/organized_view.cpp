@@ -7,6 +7,7 @@
 #include "pcl_cosection/view/labels/label_growth.h"
 #include "pcl_cosection/view/labels/stray_patches.h"
 #include "pcl_cosection/view/normals/estimated_normals.h"
+#include "pcl_cosection/view/normals/label_window.h"
 #include "pcl_cosection/view/normals/thin_normals.h"
 #include "pcl_cosection/view/outliers/mixed_pixels.h"
 
@@ -31,9 +32,8 @@ constexpr std::size_t least_points = 100; // ... and their number: with fewer, p
 
 // Cosine of 89 degrees between normal and ray; beyond, noise decides the side.
 constexpr float steepest_cosine = 0.02f;
-constexpr float steep_cosine = 0.3f; // 73 degrees: flatter surfaces have normals from their pixels
-constexpr int radius_px = 7;         // half of the window on which a plane is fitted and in which others must be alike
-constexpr std::size_t least_support = 12; // pixels on that plane
+constexpr float steep_cosine = 0.3f;      // 73 degrees: flatter surfaces have normals from their pixels
+constexpr std::size_t least_support = 12; // pixels of the window on the plane that is fitted there
 constexpr double trim_sigmas = 3.0;       // those farther from it are not of it
 constexpr double thickest = 0.4;     // standard deviations from the plane, and in the image across it: a steep plane is
                                      // thin, mixed pixels are not
@@ -161,22 +161,6 @@ addMissingNormals (const PcdViewOptions& options, const Members& members, Sensor
   return any;
 }
 
-/** \brief Call \a visit (pixel, du, dv) at the pixels of the window around \a i with its label. */
-template <typename Visit>
-void
-visitWindow (const SensorCloud& cloud, std::size_t i, Visit&& visit)
-{
-  const auto row = static_cast<int> (i / cloud.width);
-  const auto column = static_cast<int> (i % cloud.width);
-  for (int v = std::max (0, row - radius_px); v <= std::min (cloud.height - 1, row + radius_px); ++v)
-    for (int u = std::max (0, column - radius_px); u <= std::min (cloud.width - 1, column + radius_px); ++u)
-    {
-      const std::size_t j = static_cast<std::size_t> (v) * cloud.width + u;
-      if (cloud.labels[j] == cloud.labels[i] && cloud.positions[j].allFinite ())
-        visit (j, u - column, v - row);
-    }
-}
-
 /** \brief Cosine of the angle between a normal and the ray from a point to the sensor at the origin; NaN if there is no
  * normal. */
 float
@@ -235,7 +219,7 @@ grazingNormal (const SensorCloud& cloud, std::size_t i)
 {
   const Eigen::Vector3f none = Eigen::Vector3f::Constant (nan_value);
   std::vector<Eigen::Vector3d> offsets;
-  visitWindow (cloud, i, [&] (std::size_t j, int, int) {
+  visitLabelWindow (cloud, i, [&] (std::size_t j, int, int) {
     if (!(std::abs (cosineToSensor (cloud.normals[j], cloud.positions[j])) > steep_cosine))
       offsets.push_back ((cloud.positions[j] - cloud.positions[i]).cast<double> ());
   });
@@ -284,7 +268,7 @@ isWide (const SensorCloud& cloud, const std::vector<Eigen::Vector3f>& steep, std
   double count = 0.0;
   Eigen::Vector2d mean = Eigen::Vector2d::Zero ();
   Eigen::Matrix2d products = Eigen::Matrix2d::Zero ();
-  visitWindow (cloud, i, [&] (std::size_t j, int du, int dv) {
+  visitLabelWindow (cloud, i, [&] (std::size_t j, int du, int dv) {
     const Eigen::Vector3f& other = cloud.normals[j].allFinite () ? cloud.normals[j] : steep[j];
     if (!(other.dot (steep[i]) > alike_cosine))
       return;
@@ -313,11 +297,7 @@ isWide (const SensorCloud& cloud, const std::vector<Eigen::Vector3f>& steep, std
 void
 addGrazingNormals (int threads, const Members& members, SensorCloud& cloud)
 {
-  std::vector<std::size_t> candidates;
-  for (const auto& [label, readings] : members)
-    if (label != 0)
-      std::copy_if (readings.begin (), readings.end (), std::back_inserter (candidates),
-                    [&] (std::size_t i) { return !cloud.normals[i].allFinite (); });
+  const std::vector<std::size_t> candidates = objectReadingsWithoutNormals (members, cloud);
   const auto count = static_cast<int> (candidates.size ());
   std::vector<Eigen::Vector3f> steep (cloud.positions.size (), Eigen::Vector3f::Constant (nan_value));
   parallelFor (0, count, threads, [&] (int k) { steep[candidates[k]] = grazingNormal (cloud, candidates[k]); });

@@ -1,14 +1,13 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "thin_normals.h"
 
+#include "label_window.h"
 #include "pcl_cosection/common/parallel.h"
 #include "pcl_cosection/view/visibility/depth_edges.h"
 
 #include <Eigen/Eigenvalues>
 
-#include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <limits>
 #include <optional>
 #include <vector>
@@ -17,7 +16,6 @@ namespace pcl::cosection {
 namespace {
 
 // As in computeOrganizedNormals ():
-constexpr int radius_px = 7;
 constexpr std::size_t least_points = 6;
 constexpr double widest = 1.0 / 3.0; // share of the window that a label has at a band; with more there are planes
 
@@ -59,25 +57,18 @@ Eigen::Vector3f
 thinNormal (const SensorCloud& cloud, double pixel_pitch, std::size_t i)
 {
   const Eigen::Vector3f none = Eigen::Vector3f::Constant (std::numeric_limits<float>::quiet_NaN ());
-  const auto row = static_cast<int> (i / cloud.width);
-  const auto column = static_cast<int> (i % cloud.width);
   const Eigen::Vector3f& here = cloud.positions[i];
   const double range = here.norm ();
   Spread<2> labelled; // pixels
   Spread<3> near;     // metres
-  for (int v = std::max (0, row - radius_px); v <= std::min (cloud.height - 1, row + radius_px); ++v)
-    for (int u = std::max (0, column - radius_px); u <= std::min (cloud.width - 1, column + radius_px); ++u)
-    {
-      const std::size_t j = static_cast<std::size_t> (v) * cloud.width + u;
-      if (cloud.labels[j] != cloud.labels[i] || !cloud.positions[j].allFinite ())
-        continue;
-      const Eigen::Vector2d offset_px (u - column, v - row);
-      labelled.add (offset_px);
-      if (std::abs (cloud.positions[j].norm () - range) <=
-          largestSurfaceStep (range, pixel_pitch * range * offset_px.norm (), cloud.working_range_m))
-        near.add ((cloud.positions[j] - here).cast<double> ());
-    }
-  constexpr int window = (2 * radius_px + 1) * (2 * radius_px + 1);
+  visitLabelWindow (cloud, i, [&] (std::size_t j, int du, int dv) {
+    const Eigen::Vector2d offset_px (du, dv);
+    labelled.add (offset_px);
+    if (std::abs (cloud.positions[j].norm () - range) <=
+        largestSurfaceStep (range, pixel_pitch * range * offset_px.norm (), cloud.working_range_m))
+      near.add ((cloud.positions[j] - here).cast<double> ());
+  });
+  constexpr int window = (2 * label_window_px + 1) * (2 * label_window_px + 1);
   if (static_cast<double> (labelled.count) > widest * window || near.count < least_points ||
       static_cast<double> (near.count) < together * static_cast<double> (labelled.count))
     return none;
@@ -93,11 +84,7 @@ thinNormal (const SensorCloud& cloud, double pixel_pitch, std::size_t i)
 void
 addThinNormals (int threads, const PinholeCamera& camera, const Members& members, SensorCloud& cloud)
 {
-  std::vector<std::size_t> candidates;
-  for (const auto& [label, readings] : members)
-    if (label != 0)
-      std::copy_if (readings.begin (), readings.end (), std::back_inserter (candidates),
-                    [&] (std::size_t i) { return !cloud.normals[i].allFinite (); });
+  const std::vector<std::size_t> candidates = objectReadingsWithoutNormals (members, cloud);
   parallelFor (0, static_cast<int> (candidates.size ()), threads,
                [&] (int k) { cloud.normals[candidates[k]] = thinNormal (cloud, 1.0 / camera.fx, candidates[k]); });
 }
