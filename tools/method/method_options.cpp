@@ -17,7 +17,8 @@ declareVolumeOptions (CLI::App& app, GivenMethod& given, const std::string& back
   OptionGroup volume (app, "Volume");
   volume.add ("--voxel-size METRES", given.voxel_size, positiveNumber (), "Edge of an object's voxels");
   volume.add ("--resolution N", given.resolution, wholeRange (4, 2048),
-              "Voxels along an object's longest observed side (default: 64, fewer where points are sparse)");
+              "Voxels along an object's longest observed side (default: 64, fewer where points are sparse, "
+              "up to 96 where it is thin)");
   volume.add ("--padding FRACTION", given.padding, numberRange (0, 10),
               "Volume beyond the observed box on each side, as a fraction of its longest side (default: 0, as far as "
               "the shape may extend)");

@@ -102,7 +102,7 @@ struct PCL_COSECTION_EXPORT CoSectionOptions
 {
   double voxel_size_m = 0.0; ///< h; 0: from \a resolution
   int resolution = 0; ///< voxels along the longest observed side; 0: 64, but fewer where the points' spacing does not
-                      ///< support them; more where a vessel's wall needs it
+                      ///< support them; up to 96 where a vessel's wall, or what is thin, needs more
   /** \brief Volume beyond the observed box on each side, as a fraction of its longest side; 0: as far as the
    * extent prior lets the shape extend, or 0.3 without views, hull constraint or that prior. */
   double padding = 0.0;
