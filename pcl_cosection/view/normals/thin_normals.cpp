@@ -19,8 +19,8 @@ namespace {
 constexpr std::size_t least_points = 6;
 constexpr double widest = 1.0 / 3.0; // share of the window that a label has at a band; with more there are planes
 
-// Completeness of scanned things seen from above: 2.1 mm with 0.3 and 0.5, 2.6 mm with 0.7; with the next one of 1.5 and
-// 2, 2.1 mm, of 3, 2.6 mm. Accuracy of real views: 2.85 mm, but 2.87 mm with 1.5.
+// Completeness of scanned things seen from above: 2.1 mm with 0.3 and 0.5, and 2.6 mm with 0.7; with 1.5 and 2 for the
+// next one 2.1 mm, with 3 2.6 mm. Accuracy of real views: 2.85 mm, but 2.87 mm with 1.5.
 constexpr double together = 0.5;   // share of the label's readings there that are near in space
 constexpr double longish = 2.0;    // standard deviation along a band, in those across it, in the image and in space
 constexpr double steepest = 0.966; // sine of 75 degrees, as largestSurfaceStep () has it: beyond, a line is noise
