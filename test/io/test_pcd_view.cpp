@@ -225,58 +225,20 @@ TEST_F (PcdView, NormalsMayHaveAnyLength)
   }
 }
 
-TEST_F (PcdView, LabelsMayHaveOtherNames)
+TEST_F (PcdView, HeadersAsOtherProgramsWriteThem)
 {
-  const auto file = [this] (const std::string& name, const std::string& values = "3 4") {
-    return write (header (2, 1, "ascii", "x y z " + name, "4 4 4 4", "F F F F") + "1 2 3 " + values.substr (0, 1) +
-                  "\n4 5 6 " + values.substr (2) + "\n");
-  };
-  for (const char* name : {"Classification", "scalar_label", "CLASS", "scalar_Classification", "Label"})
-  {
-    SCOPED_TRACE (name);
-    const LabelledView view = readPcdView (file (name));
-    EXPECT_TRUE (view.has_labels);
-    EXPECT_EQ (view.objects.count (3) + view.objects.count (4), 2u);
-    ASSERT_FALSE (view.warnings.empty ());
-    EXPECT_NE (view.warnings[0].find (name + std::string (" is taken")), std::string::npos);
-  }
-  PcdViewOptions options;
-  options.label_field = "part";
-  EXPECT_EQ (readPcdView (file ("part"), options).objects.count (4), 1u);
-  EXPECT_NE (failure<IoError> (file ("piece"), options).find ("has no field part; its fields are x y z piece"),
-             std::string::npos);
-  const LabelledView unread = readPcdView (file ("piece"));
-  EXPECT_FALSE (unread.has_labels);
-  ASSERT_FALSE (unread.warnings.empty ());
-  EXPECT_NE (unread.warnings[0].find ("piece, give --label-field NAME"), std::string::npos);
-  EXPECT_FALSE (readPcdView (file ("class", "3 4.5")).has_labels);
-  for (const std::string& warning : readPcdView (file ("height", "3 4.5")).warnings)
-    EXPECT_EQ (warning.find ("--label-field"), std::string::npos) << warning;
-}
-
-TEST_F (PcdView, LabelsOfAnyTypeAndDoubles)
-{
-  const auto read = [this] (const std::string& label, const std::string& size, const std::string& type) {
-    return (readPcdView (write (header (2, 1, "ascii", "label x y z", size + " 8 8 8", type + " F F F") + label +
-                                " 1 2 3\n-0 4 5 6\n")));
-  };
-  EXPECT_EQ (read ("200", "1", "U").objects.count (200), 1u);
-  EXPECT_EQ (read ("100", "1", "I").objects.count (100), 1u);
-  EXPECT_EQ (read ("40000", "2", "U").objects.count (40000), 1u);
-  EXPECT_EQ (read ("3000000", "4", "I").objects.count (3000000), 1u);
-  EXPECT_EQ (read ("3000000", "8", "U").objects.count (3000000), 1u);
-  EXPECT_EQ (read ("12", "4", "F").objects.count (12), 1u);
-  EXPECT_EQ (read ("1.2e1", "8", "F").objects.count (12), 1u);
-  EXPECT_EQ (read ("nan", "4", "F").objects.size (), 1u);
-  EXPECT_EQ (read ("-inf", "8", "F").objects.size (), 1u);
-  const LabelledView negative = read ("-1", "4", "I");
-  EXPECT_EQ (negative.objects.size (), 1u);
-  ASSERT_FALSE (negative.warnings.empty ());
-  EXPECT_NE (negative.warnings[0].find ("negative label"), std::string::npos);
-  const LabelledView ignored = read ("65535", "2", "U");
-  EXPECT_EQ (ignored.objects.size (), 1u);
-  EXPECT_EQ (ignored.objects.count (65535), 0u);
-  EXPECT_FALSE (ignored.warnings.empty ());
+  const std::string usual = header (2, 1, "ascii", "x y z label", "4 4 4 4", "F F F U") + "1 2 3 7\n4 5 6 7\n";
+  std::string other_lines;
+  for (const char c : usual)
+    other_lines += c == '\n' ? "\r\n" : std::string (1, c);
+  const std::size_t points = usual.find ("POINTS"), data = usual.find ("DATA");
+  for (const std::string& text :
+       {usual, "\xef\xbb\xbf" + usual, other_lines, usual.substr (0, points) + usual.substr (data)})
+    EXPECT_EQ (readPcdView (write (text)).objects.count (7), 1u) << text;
+  std::string many = header (7, 1, "binary");
+  many.replace (many.find ("WIDTH 7\nHEIGHT 1"), 16, "WIDTH 2147483647\nHEIGHT 2147483647");
+  many.erase (many.find ("POINTS"), many.find ("DATA") - many.find ("POINTS"));
+  EXPECT_NE (failure<IoError> (write (many)).find ("WIDTH times HEIGHT"), std::string::npos);
 }
 
 TEST_F (PcdView, BadFilesAreRefusedInOneLine)

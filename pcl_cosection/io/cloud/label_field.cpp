@@ -130,6 +130,11 @@ readLabels (const std::string& path, const CloudHeader& header, const PCLPointCl
   cloud.has_labels = true;
   if (options.label_field.empty () && field->name != "label")
     cloud.warnings.push_back (path + ": has no field label; " + printable (field->name) + " is taken for it");
+  const auto namesakes = std::count_if (header.fields.begin (), header.fields.end (),
+                                        [&] (const CloudField& other) { return other.name == field->name; });
+  if (namesakes > 1)
+    cloud.warnings.push_back (path + ": has " + std::to_string (namesakes) + " fields " + printable (field->name) +
+                              "; the first is used");
   const std::vector<std::uint32_t> background = options.background_labels.empty () ? std::vector<std::uint32_t>{0}
                                                                                    : options.background_labels;
   const bool zero_is_object = !contains (background, 0);

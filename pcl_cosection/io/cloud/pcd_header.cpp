@@ -55,7 +55,9 @@ public:
 
   CloudHeader parse (const std::string& text)
   {
-    for (std::size_t begin = 0, end = text.find ('\n'); end != text.npos; end = text.find ('\n', begin))
+    const std::string mark = "\xef\xbb\xbf"; // of UTF-8, as some editors write it
+    std::size_t begin = text.compare (0, mark.size (), mark) == 0 ? mark.size () : 0;
+    for (std::size_t end = text.find ('\n'); end != text.npos; end = text.find ('\n', begin))
     {
       const Tokens tokens = split (text.substr (begin, end - begin));
       begin = end + 1;
@@ -156,6 +158,12 @@ private:
                         ((integer || field.type == 'F') && (field.size == 4 || field.size == 8));
       if (!good || field.count == 0)
         fail (path_, "field " + printable (field.name) + " has an invalid SIZE, TYPE or COUNT");
+    }
+    if (seen_.count ("POINTS") == 0)
+    {
+      header_.points = header_.width * header_.height;
+      if (header_.points > max_points)
+        fail (path_, "WIDTH times HEIGHT must be at most " + std::to_string (max_points));
     }
     if (header_.points == 0)
       throw DegenerateInput (path_ + ": holds no points");
