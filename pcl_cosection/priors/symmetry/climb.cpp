@@ -11,7 +11,6 @@ namespace {
 constexpr std::size_t samples_of_many = 100; // by which many candidates are judged, ...
 constexpr std::size_t samples_of_some = 300; // ... and those that are left
 constexpr std::size_t copies_at_once = 8;    // are judged, before it is asked which candidate is the best
-constexpr double least_gain = 1e-6;          // of a step
 constexpr double about_as_good = 0.02;       // difference of log-likelihood ratios
 constexpr double center_step = 0.25;         // of a climb's first step
 constexpr int most_steps = 8;

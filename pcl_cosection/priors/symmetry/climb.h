@@ -28,6 +28,8 @@ struct RatedParameters
   double ratio = -std::numeric_limits<double>::infinity (); // log-likelihood
 };
 
+constexpr double least_gain = 1e-6; // of the evidence: less is rounding, and what was found first stays
+
 /** \brief The evidence for motions; minus infinity without any. \param[in] stride as CopyJudge::judge () has it */
 double ratioOf (const CopyJudge& judge, const Motions& motions, std::size_t stride = 1);
 

@@ -192,11 +192,11 @@ addMirrors (const CopyJudge& judge, const Footprint& footprint, const std::vecto
       pairs.push_back ({coarse.at[0], coarse.at[1], j * footprint.step ()});
     RatedParameters pair = bestOf (judge, two, pairs);
     climb (judge, two, steps_of_two, pair, JudgedBy::SomeSamples);
-    if (pair.ratio > best_two.ratio)
+    if (pair.ratio > best_two.ratio + least_gain)
       best_two = std::move (pair);
     RatedParameters single = coarse;
     climb (judge, one, steps_of_one, single, JudgedBy::SomeSamples);
-    if (single.ratio > best_one.ratio)
+    if (single.ratio > best_one.ratio + least_gain)
       best_one = std::move (single);
   }
   climb (judge, one, steps_of_one, best_one);
