@@ -296,9 +296,8 @@ readScene (const Settings& settings, const ProgressCallback& progress, const Sce
   for (const std::string& path : settings.inputs)
   {
     LabelledView view = read (path);
-    if (isWholeImage (view))
-      scene.warnings.push_back (path + ": has no field label, so all that it shows is taken as one object; " +
-                                "if it shows several, give them labels or cut one out");
+    if (const auto warning = wholeScene (view))
+      scene.warnings.push_back (path + ": " + *warning);
     if (poses.empty () && view.view && isRepeated (*view.view, scene.views))
     {
       view.view.reset ();

@@ -3,6 +3,9 @@
 
 #include "pcl_cosection/common/boxes.h"
 #include "pcl_cosection/common/quantile.h"
+#include "pcl_cosection/segmentation/clusters/cluster_segmentation.h"
+
+#include <pcl/cosection/common/error.h>
 
 #include <algorithm>
 #include <cmath>
@@ -16,6 +19,7 @@ namespace {
 
 constexpr double whole_image_share = 0.5;   ///< of the pixels; an object that was cut out has fewer ...
 constexpr std::size_t image_pixels = 70000; ///< ... or is smaller than a camera's image
+constexpr std::size_t most_points = 20000;  ///< in which planes are looked for
 constexpr double long_object = 5.0;         ///< metres; what is longer is hardly one thing in metres
 // Voxels along the second of an object's three extents; with fewer, the volumes of boxes, cans and balls are more than
 // a tenth too large.
@@ -29,17 +33,43 @@ extentOf (const std::vector<OrientedPoint>& points)
   return trimmedBox<double> (points, outlier_share, [] (const OrientedPoint& p) { return p.position; }).sizes ();
 }
 
+/** \brief How many things stand on the planes that points without an order show. */
+std::size_t
+thingsOnPlanes (const std::vector<OrientedPoint>& points)
+{
+  std::vector<Eigen::Vector3f> some;
+  for (std::size_t p = 0; p < points.size (); p += points.size () / most_points + 1)
+    some.push_back (points[p].position);
+  try
+  {
+    const ObjectSegmentation found = segmentClusters (some);
+    return found.support_planes.empty () ? 0 : found.objects;
+  }
+  catch (const DegenerateInput&) // too few points
+  {
+    return 0;
+  }
+}
+
 } // namespace
 
-bool
-isWholeImage (const LabelledView& view)
+std::optional<std::string>
+wholeScene (const LabelledView& view)
 {
-  if (view.has_labels || !view.view || view.objects.empty ())
-    return (false);
-  const std::size_t pixels = view.view->depth.size ();
-  const std::size_t readings = view.objects.begin ()->second.readings;
-  return (view.organized && pixels >= image_pixels &&
-          static_cast<double> (readings) > whole_image_share * static_cast<double> (pixels));
+  if (view.has_labels || view.objects.empty ())
+    return std::nullopt;
+  const LabelledView::Points& all = view.objects.begin ()->second;
+  const std::size_t pixels = view.view ? view.view->depth.size () : 0;
+  const bool is_image = view.organized && pixels >= image_pixels &&
+                        static_cast<double> (all.readings) > whole_image_share * static_cast<double> (pixels);
+  const std::size_t things = view.organized ? 0 : thingsOnPlanes (all.points);
+  if (!is_image && things == 0)
+    return std::nullopt;
+  return "has no field label, so all that it shows is taken as one object; " +
+         (things > 1    ? std::to_string (things) + " things in it stand on a plane: "
+          : things == 1 ? "a thing in it stands on a plane: "
+                        : std::string ("if it shows several: ")) +
+         "give --segment to complete each, or labels, or cut one out";
 }
 
 std::optional<std::string>

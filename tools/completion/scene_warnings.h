@@ -11,8 +11,9 @@
 #include <string>
 #include <vector>
 
-/** \brief Whether an image without labels shows more than an object that was cut out. */
-bool isWholeImage (const pcl::cosection::LabelledView& view);
+/** \brief A warning of a view without labels that shows more than an object that was cut out, if it does: a whole
+ * image, or things on a plane. */
+std::optional<std::string> wholeScene (const pcl::cosection::LabelledView& view);
 
 /** \brief A warning of an object that is too long to be one, if it is: without labels it may be a whole scene, or its
  * unit is not the metre. */
