@@ -126,6 +126,44 @@ TEST_F (AnyCloud, AViewThatIsGivenTwiceCountsOnce)
     EXPECT_EQ (test::readFile (path ("once" + body)), test::readFile (path ("twice" + body))) << body;
 }
 
+/** \brief Normals in another unit differ by rounding alone, and so do the meshes, though two orders of the same mirror
+ * planes of a box are equally good. */
+TEST_F (AnyCloud, NormalsOfAnyLengthGiveTheSameMesh)
+{
+  std::mt19937 random (7);
+  std::uniform_real_distribution<float> place (-0.5f, 0.5f);
+  std::normal_distribution<float> noise (0.0f, 1.0f);
+  for (int box = 0; box < 3; ++box)
+  {
+    const Eigen::Array3f size_m (0.1f + 0.02f * box, 0.14f, 0.08f);
+    const Eigen::Matrix3f
+        R = Eigen::Quaternionf (1.0f, noise (random), noise (random), noise (random)).normalized ().matrix ();
+    pcl::PointCloud<pcl::PointNormal> points;
+    for (int side = 0; side < 3; ++side)
+      for (int i = 0; i < 900; ++i)
+      {
+        Eigen::Array3f p = size_m * Eigen::Array3f::NullaryExpr ([&] { return place (random); });
+        p[side] = 0.5f * size_m[side];
+        const auto jitter = [&] { return Eigen::Vector3f::NullaryExpr ([&] { return noise (random); }); };
+        points.emplace_back ();
+        points.back ().getVector3fMap () = R * (p.matrix () + 0.001f * jitter ()) + Eigen::Vector3f::UnitZ ();
+        points.back ().getNormalVector3fMap () = R * (Eigen::Vector3f::Unit (side) + 0.05f * jitter ()).normalized ();
+      }
+    std::vector<double> volumes;
+    for (const float length : {1.0f, 1e-3f, 1e-6f})
+    {
+      pcl::PointCloud<pcl::PointNormal> scaled = points;
+      for (pcl::PointNormal& point : scaled)
+        point.getNormalVector3fMap () *= length;
+      pcl::io::savePCDFileBinary (path ("box.pcd"), scaled);
+      ASSERT_EQ (run ({"box.pcd", "box.ply"}), 0) << errors_;
+      volumes.push_back (volume ("box.ply"));
+    }
+    for (const double other : volumes)
+      EXPECT_NEAR (other, volumes[0], 1e-5 * volumes[0]) << box;
+  }
+}
+
 namespace {
 
 /** \brief What a spinning lidar 1.7 m over the ground sees of boxes that stand around it, each turned by another angle;
@@ -178,6 +216,19 @@ TEST_F (AnyCloud, ATurnOfALidarGivesBoxesTheirVolumes)
   EXPECT_EQ (errors_, "");
   for (const std::string id : {"1", "2", "3", "4"})
     EXPECT_NEAR (volume ("out/object_" + id + ".ply"), size_m.prod (), 0.2 * size_m.prod ()) << id;
+}
+
+/** \brief Of these, only the front and hardly any of the top are seen. */
+TEST_F (AnyCloud, ATurnOfALidarGivesBoxesSeenHeadOnTheirVolumes)
+{
+  const Eigen::Array3f size_m (0.8f, 1.2f, 1.2f);
+  pcl::io::savePCDFileBinary (path ("turn.pcd"), turnAmongBoxes (size_m, {0.0f, 0.02f, -0.03f}));
+  ASSERT_EQ (run ({"turn.pcd", "out"}), 0) << errors_;
+  for (const std::string id : {"1", "2", "3"})
+  {
+    EXPECT_NE (errors_.find ("object " + id + ": only one side of it was seen"), std::string::npos) << errors_;
+    EXPECT_NEAR (volume ("out/object_" + id + ".ply"), size_m.prod (), 0.2 * size_m.prod ()) << id;
+  }
 }
 
 /** \brief Views that were put one after the other into one cloud: their order tells where each was seen from. */
@@ -244,6 +295,15 @@ TEST_F (AnyCloud, ObjectsAreFoundFirst)
     ASSERT_EQ (run ({"found.pcd", "again"}), 0) << errors_;
     EXPECT_NEAR (volume ("again/object_1.ply"), volume (name + "/object_1.ply"), 1e-9);
   }
+  pcl::PointCloud<pcl::PointXYZ> one;
+  for (const pcl::PointXYZRGBL& point : table)
+    if (point.label == 1 && point.getVector3fMap ().allFinite ())
+      one.emplace_back (point.x, point.y, point.z);
+  pcl::io::savePCDFileBinary (path ("one.pcd"), one);
+  ASSERT_EQ (run ({"points.pcd", "all"}), 0) << errors_;
+  EXPECT_NE (errors_.find ("2 things in it stand on a plane: give --segment"), std::string::npos) << errors_;
+  ASSERT_EQ (run ({"one.pcd", "one"}), 0) << errors_;
+  EXPECT_EQ (errors_.find ("--segment"), std::string::npos) << errors_;
   EXPECT_EQ (run ({"--segment", "image.pcd", "points.pcd", "out"}), 2);
   EXPECT_EQ (run ({"--save-labels", "l.pcd", "image.pcd", "out"}), 2);
   EXPECT_EQ (run ({"--segment", "--save-labels", "image.pcd", "image.pcd", "out"}), 2);

@@ -13,6 +13,18 @@ namespace {
 constexpr std::size_t many_motions = 4; // of a full turn; mirror planes have at most three on a plane
 constexpr double unmoved = 0.9;         // cosine of a direction with itself, moved
 
+/** \brief Whether motions turn a side over, or turn it about its normal by many angles: their copies of the side are on
+ * the side, whatever is behind it. */
+bool
+copiesOntoItself (const Symmetry& symmetry, const Eigen::Vector3d& normal)
+{
+  const Motions& motions = symmetry.motions;
+  const auto along = [&] (const Eigen::Affine3d& motion) { return normal.dot (motion.linear () * normal); };
+  return std::any_of (motions.begin (), motions.end (), [&] (const auto& m) { return along (m) < -unmoved; }) ||
+         (motions.size () >= many_motions &&
+          std::all_of (motions.begin (), motions.end (), [&] (const auto& m) { return along (m) > unmoved; }));
+}
+
 } // namespace
 
 Motions
@@ -47,7 +59,8 @@ fittedTurn (const ProfiledShape& surface, const MeasuredShape& shape, const std:
 
 ObjectSymmetry
 symmetryOf (const Observation& object, const Priors& priors, const Eigen::Vector4d& plane, bool rests,
-            const std::vector<ProfiledShape>& round, const MeasuredShape& shape, const BodyEnergy& energy)
+            const std::optional<Eigen::Vector4d>& only_side, const std::vector<ProfiledShape>& round,
+            const MeasuredShape& shape, const BodyEnergy& energy)
 {
   const CopyJudge judge (shape, object.points (), plane, object.views);
   std::vector<Symmetry> symmetries;
@@ -57,6 +70,10 @@ symmetryOf (const Observation& object, const Priors& priors, const Eigen::Vector
   for (const ProfiledShape& surface : round)
     turns.push_back (fittedTurn (surface, shape, object.points (), plane, rests, object.views));
   symmetries.insert (symmetries.end (), turns.begin (), turns.end ());
+  if (only_side)
+    symmetries.erase (std::remove_if (symmetries.begin (), symmetries.end (),
+                                      [&] (const Symmetry& s) { return copiesOntoItself (s, only_side->head<3> ()); }),
+                      symmetries.end ());
   std::optional<Symmetry> symmetry = likeliest (symmetries);
   // The axis by all normals is more exact than one by a search.
   const auto turn = std::find_if (turns.begin (), turns.end (),

@@ -36,9 +36,11 @@ Symmetry fittedTurn (const ProfiledShape& surface, const MeasuredShape& shape, c
                      const Eigen::Vector4d& plane, bool rests, const OcclusionMap::Views& views);
 
 /** \param[in] plane unit normal and offset, or zeros \param[in] rests whether the object rests on it
+ * \param[in] only_side plane along the only side that was seen of it, which is flat, if that is known: copies of the
+ * side onto itself tell nothing of what is behind it
  * \param[in] round surfaces of revolution that were fitted to its points */
 ObjectSymmetry symmetryOf (const Observation& object, const Priors& priors, const Eigen::Vector4d& plane, bool rests,
-                           const std::vector<ProfiledShape>& round, const MeasuredShape& shape,
-                           const BodyEnergy& energy);
+                           const std::optional<Eigen::Vector4d>& only_side, const std::vector<ProfiledShape>& round,
+                           const MeasuredShape& shape, const BodyEnergy& energy);
 
 } // namespace pcl::cosection
