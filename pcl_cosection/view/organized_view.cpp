@@ -341,7 +341,7 @@ completeOrganized (const std::string& path, const PcdViewOptions& options, Senso
   if (camera)
     result.view = depthImage (*camera, cloud.positions, cloud.T_world_sensor);
   setWorkingRange (membersOf (cloud), cloud, result);
-  if (camera)
+  if (camera && options.labels.empty ()) // those that are given were found in these readings, and end where they do
     mendLabels (path, *camera, cloud, result);
   OrganizedNormalsOptions normal_options;
   normal_options.radius_m *= cloud.working_range_m;

@@ -43,11 +43,16 @@ protected:
         cloud_.at (u, v).label = label;
   }
 
-  LabelledView read () const
+  /** \param[in] given whether the labels are given beside the file */
+  LabelledView read (bool given = false) const
   {
+    PcdViewOptions options;
+    for (const pcl::PointXYZL& point : cloud_)
+      if (given)
+        options.labels.push_back (point.label);
     const std::string path = folder_.file ("cloud.pcd");
     pcl::io::savePCDFileBinary (path, cloud_);
-    return readPcdView (path, {});
+    return readPcdView (path, options);
   }
 
 private:

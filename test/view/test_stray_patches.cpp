@@ -53,6 +53,15 @@ TEST_F (StrayPatches, AShiftedLabelIsSaid)
       << view.warnings[0];
 }
 
+/** \brief The near wall of a bowl meets the table, and no other surface: it is no part of that. */
+TEST_F (StrayPatches, LabelsThatWereFoundInTheReadingsAreKept)
+{
+  label (80, 90, 20, 70, 1);
+  const LabelledView view = read (true);
+  EXPECT_EQ (view.objects.at (1).readings, 50u * 50u);
+  EXPECT_TRUE (view.warnings.empty ());
+}
+
 TEST_F (StrayPatches, WhatIsOnAnOccluderIsOfTheOccluder)
 {
   set (30, 60, 40, 60, occluder_m, 2);

@@ -40,7 +40,8 @@ struct PCL_COSECTION_EXPORT PcdViewOptions
   std::optional<std::array<double, 4>> intrinsics; ///< fx, fy, cx, cy in pixels, where no pinhole fits the points
   std::string label_field; ///< name of the field with the labels; empty: label, or else, in upper or lower case and
                            ///< with scalar_ before it or not, labels, class or classification
-  std::vector<std::uint32_t> labels;            ///< one per point, instead of those of the file; empty: none are given
+  std::vector<std::uint32_t> labels; ///< one per point, instead of those of the file, found in these readings: they
+                                     ///< are taken as exact, and not mended; empty: none are given
   std::vector<std::uint32_t> background_labels; ///< empty: 0; else, label 0 is an object unless it is one of them
   std::vector<std::uint32_t> ignored_labels;    ///< of points that are left out, beside negative ones and 65535
   std::vector<std::array<double, 4>> planes; ///< a x + b y + c z + d = 0 (world, metres) on which things stand: where
