@@ -22,8 +22,8 @@ constexpr int angles = 36;                // of these directions
 // lidar saw more than one side of a thing, they fill at least 0.26 (86 things), else at most 0.13 (ten); of 190 scanned
 // and real things on tables a book on its edge alone fills less than 0.15.
 constexpr double flat_share = 0.15;
-// Share of the side's points that are in seen free space at its other end. Of boxes that simulated lidars saw (25) and
-// scanned boxes and books (6) at most 0.072 if they are that deep or hardly less, at least 0.15 if they are not.
+// Share of the side's points that are in seen free space at its other end. Of boxes that simulated lidars saw (27) and
+// scanned things (11 views) at most 0.072 if they are that deep or hardly less, at least 0.15 if they are not.
 constexpr double most_contradiction = 0.07;
 // Of what the extent prior allows: of what is thinner enough is seen of another side to tell more, as of books.
 constexpr double least_depth = 0.5;
