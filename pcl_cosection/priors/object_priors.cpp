@@ -219,8 +219,8 @@ usedCompletion (const Observation& object, const ObjectSetting& setting, const s
 struct Expected
 {
   Proposal proposal;
-  bool is_round = false;    ///< a surface of revolution
-  bool is_extended = false; ///< the only side that was seen, which is flat
+  bool is_round = false;       ///< a surface of revolution
+  bool shows_one_side = false; ///< a flat one, behind which its outline goes on
 };
 
 /** \brief What symmetry, revolution and extrusion expect.
@@ -366,9 +366,9 @@ addPriors (const Observation& object, const ObjectSetting& setting, const std::v
       addVessel (energy, vessel, object.points (), proposal);
   }
   const ProposedShape* proposed = usedProposal (object, setting, planes);
-  // The first is more exact than the network. Of the second the network sees nothing that would tell more: of seven
-  // scanned things that were seen head on, six come out better without it.
-  if (expected.is_round || expected.is_extended)
+  // A surface of revolution is more exact than the network. A single side shows the network no more than it shows the
+  // other priors: six of seven scanned things that were seen head on are more accurate without it.
+  if (expected.is_round || expected.shows_one_side)
     leaveOutLearned (object);
   const LearnedShape* learned = proposed || !vessels.empty () ? nullptr : usedCompletion (object, setting, planes);
   if (!proposed && !learned)

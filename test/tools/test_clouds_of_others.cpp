@@ -218,7 +218,7 @@ TEST_F (AnyCloud, ATurnOfALidarGivesBoxesTheirVolumes)
     EXPECT_NEAR (volume ("out/object_" + id + ".ply"), size_m.prod (), 0.2 * size_m.prod ()) << id;
 }
 
-/** \brief Of these, only the front and hardly any of the top are seen. */
+/** \brief The front of these is seen, and hardly any of the top. */
 TEST_F (AnyCloud, ATurnOfALidarGivesBoxesSeenHeadOnTheirVolumes)
 {
   const Eigen::Array3f size_m (0.8f, 1.2f, 1.2f);
