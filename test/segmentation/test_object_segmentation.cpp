@@ -71,6 +71,21 @@ TEST (ObjectSegmentation, InsideOfACup)
   expectFound (viewOfTable (cup, {-0.1, -0.5, 0.5}), 0.9);
 }
 
+TEST (ObjectSegmentation, TheFloorOfAPlateIsNoTable)
+{
+  // It is 4 mm above the table: three standard deviations of a reading.
+  const std::string plate = R"({"name": "plate", "id": 1, "shape": {"type": "revolution", "profile":
+    [[0, 0], [0.06, 0], [0.1, 0.03], [0.1, 0.034], [0.06, 0.004], [0, 0.004]]}, "keys": [{"position": [0, 0, 0]}]})";
+  expectFound (viewOfTable (plate, {-0.1, -0.5, 0.5}), 0.9);
+}
+
+TEST (ObjectSegmentation, TheTableInARingIsNoObject)
+{
+  const std::string ring = R"({"name": "ring", "id": 1, "shape": {"type": "revolution", "profile":
+    [[0.06, 0], [0.1, 0], [0.1, 0.03], [0.06, 0.03]]}, "keys": [{"position": [0, 0, 0]}]})";
+  expectFound (viewOfTable (ring, {-0.1, -0.5, 0.5}), 0.85);
+}
+
 TEST (ObjectSegmentation, ADifferentVertical)
 {
   // No direction of gravity is assumed: the same view, turned by half a revolution.

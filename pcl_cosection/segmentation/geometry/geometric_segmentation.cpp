@@ -6,6 +6,7 @@
 #include "pcl_cosection/common/parallel.h"
 #include "pcl_cosection/common/quantile.h"
 #include "pcl_cosection/common/require.h"
+#include "vessel_floors.h"
 
 #include <pcl/cosection/surface/normals.h>
 
@@ -109,6 +110,7 @@ segmentObjects (const std::vector<Eigen::Vector3f>& points, int width, int heigh
       result.labels[i] = object >= 0 ? static_cast<std::uint32_t> (object + 1) : 0;
       result.too_long[i] = object == too_long_object;
     }
+  labelVesselFloors (grid, room, result.labels);
   for (const SupportSurface& surface : room.surfaces)
     result.support_planes.emplace_back (surface.normal.x (), surface.normal.y (), surface.normal.z (), surface.offset);
   return (result);
