@@ -23,8 +23,6 @@ using namespace pcl::cosection;
 
 namespace {
 
-constexpr float large_depth_m = 100.0f; ///< what is farther is probably not in metres
-
 /** \brief The objects in a view. */
 struct FoundObjects
 {
@@ -103,13 +101,8 @@ warningsOf (const SegmentSettings& settings, const OrganizedCloud& cloud)
   if (cloud.moved)
     warnings.push_back (settings.input +
                         ": its points are not in the frame of their sensor, which was found by their order");
-  float depth = 0.0f;
-  for (const Eigen::Vector3f& p : cloud.points)
-    if (p.allFinite ())
-      depth = std::max (depth, p.z ());
-  if (depth > large_depth_m)
-    warnings.push_back (settings.input + ": is up to " + std::to_string (static_cast<long> (depth)) +
-                        " m deep; if it is in millimetres, give --scale 0.001");
+  if (const std::string hint = hintOfUnit (cloud.points); !hint.empty ())
+    warnings.push_back (settings.input + ": " + hint);
   return warnings;
 }
 

@@ -257,6 +257,7 @@ public:
       const ScopedSeconds timer (masks_s_);
       mask = masks_.read (frame);
     }
+    frames_masked_ += mask.has_value ();
     tracked_ = &fusion_.process (frame, mask ? &*mask : nullptr);
     ++frames_;
     frames_lost_ += !tracked_->T_world_camera;
@@ -335,6 +336,10 @@ public:
       object->second.best_class = fusion_.objectClass (id);
       ++object;
     }
+    if (frames_masked_ > 0 && tracked_ids_.empty ())
+      result.warnings.push_back (
+          "the masks show no object that could be tracked: none at all, or what they show is too "
+          "small or too far away (is the scale of the depth right?)");
   }
 
 private:
@@ -346,6 +351,7 @@ private:
   std::size_t frames_ = 0;
   std::size_t frames_lost_ = 0;
   std::size_t frames_of_objects_ = 0;
+  std::size_t frames_masked_ = 0;
   double masks_s_ = 0.0;
 };
 

@@ -184,6 +184,8 @@ SequenceFusion::SequenceFusion (KnownSequence sequence, const FusionOptions& opt
     : sequence_ (std::move (sequence))
     , options_ (options)
 {
+  if (sequence.masks) // what a mask misses would be background
+    options_.backend.method.leave_out_moved = true;
   options.validate ();
   if (!sequence_.images)
     throw InvalidArgument ("there are no images");
@@ -197,7 +199,7 @@ SequenceFusion::SequenceFusion (const TrackedSequence& sequence, const FusionOpt
     : tracked_ (sequence)
     , options_ (options)
 {
-  if (sequence.segmenter && sequence.segmenter->isExact ()) // what it finds was background until then
+  if (sequence.masks || (sequence.segmenter && sequence.segmenter->isExact ())) // what they find later was background
     options_.backend.method.leave_out_moved = true;
   options.validate ();
   requireFrames (*sequence.images, options_);
@@ -254,7 +256,7 @@ OnlineFusion::OnlineFusion (const PinholeCamera& camera, const FusionOptions& op
                             std::shared_ptr<FrameSegmenter> segmenter)
 {
   FusionOptions own = options;
-  if (segmenter && segmenter->isExact ())
+  if (!segmenter || segmenter->isExact ())
     own.backend.method.leave_out_moved = true;
   own.updates = KeyframeUpdates::None;
   own.validate ();

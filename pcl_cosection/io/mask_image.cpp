@@ -145,6 +145,7 @@ loadMaskImage (const std::string& path)
   if (!reader.readRows (rows))
     throw IoError (path + ": is damaged: its pixels cannot be read");
   Image<std::uint16_t> mask (reader.width, reader.height);
+  std::vector<std::size_t> transparent; // pixels
   for (int v = 0; v < mask.height; ++v)
     for (int u = 0; u < mask.width; ++u)
     {
@@ -156,7 +157,13 @@ loadMaskImage (const std::string& path)
         throw IoError (path + ": is not a mask: its channels differ; it must have one channel of 8 or 16 bits, or a "
                               "palette, whose numbers are those of instances");
       mask.at (u, v) = number (0);
+      const bool has_alpha = reader.channels == 2 || reader.channels == 4;
+      if (has_alpha && number (reader.channels - 1) == 0)
+        transparent.push_back (static_cast<std::size_t> (v) * mask.width + u);
     }
+  if (transparent.size () < mask.pixels.size ()) // else its alpha channel tells nothing
+    for (const std::size_t n : transparent)
+      mask.pixels[n] = 0;
   return mask;
 }
 

@@ -19,7 +19,8 @@ namespace {
 using Json = nlohmann::json;
 
 constexpr double largest_size_px = 32768.0;
-constexpr double bop_units = 1000.0; // depth_scale of the BOP benchmark takes units of the image to millimetres
+constexpr double bop_units = 1000.0;     // depth_scale of the BOP benchmark takes units of the image to millimetres
+constexpr double least_bop_scale = 0.01; // its smallest one is 0.05; smaller ones are in metres, as of librealsense
 constexpr double largest_skew_px = 1.0;
 
 int
@@ -144,7 +145,11 @@ parseJson (const std::string& bytes)
                    json.at ("cy").get<double> ()};
   setSize (json, file.camera);
   if (json.contains ("depth_scale"))
-    file.depth_scale = bop_units / json.at ("depth_scale").get<double> ();
+  {
+    const double scale = json.at ("depth_scale").get<double> ();
+    const bool is_per_metre = json.contains ("intrinsic_matrix") && scale >= 1.0; // as Open3D records it
+    file.depth_scale = is_per_metre ? scale : (scale < least_bop_scale ? 1.0 : bop_units) / scale;
+  }
   return file;
 }
 

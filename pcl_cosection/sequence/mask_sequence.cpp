@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <iterator>
 #include <map>
 #include <set>
 
@@ -23,24 +24,44 @@ constexpr std::size_t speck_px = 100; // an instance of fewer is hardly an objec
 constexpr std::size_t most_specks = 8;
 constexpr double largest_instance = 65533.0; // from 0; 65535 has a meaning of its own
 
-/** \brief Whether names of two numbers are those of a frame and an instance: several files have the same second number
- * or do not match a frame by it, and all match one by the first. */
+/** \brief Whether most names are those of a frame and an instance, \a files of \a all: more frames match their first
+ * number than their second; if as many do, several files have the same second number or do not match a frame by it. */
 bool
 arePerInstance (const std::vector<PairedFile>& files, std::size_t all, const std::vector<double>& stamps, double limit)
 {
-  if (files.empty () || files.size () < all)
-    return false;
   std::set<double> second;
+  std::set<std::size_t> by_first, by_second; // frames
   std::size_t matched = 0;
   for (const PairedFile& file : files)
   {
-    if (!nearestStamp (stamps, file.first, limit) || file.second > largest_instance ||
-        file.second != std::floor (file.second))
+    if (file.second > largest_instance || file.second != std::floor (file.second))
       return false;
+    if (const auto frame = nearestStamp (stamps, file.first, limit))
+      by_first.insert (*frame);
     second.insert (file.second);
-    matched += nearestStamp (stamps, file.second, limit).has_value ();
+    if (const auto frame = nearestStamp (stamps, file.second, limit))
+    {
+      by_second.insert (*frame);
+      ++matched;
+    }
   }
-  return second.size () < files.size () || matched < files.size ();
+  if (by_first.empty () || by_first.size () < by_second.size () || 2 * files.size () <= all)
+    return false;
+  return by_first.size () > by_second.size () || second.size () < files.size () || matched < files.size ();
+}
+
+/** \brief PNGs whose names are not those of a frame and an instance. */
+std::vector<std::string>
+otherImages (const std::string& folder, const std::vector<std::string>& pngs, const std::vector<PairedFile>& paired)
+{
+  std::set<std::string> known;
+  for (const PairedFile& file : paired)
+    known.insert (file.path.substr (file.path.find_last_of ('/') + 1));
+  std::vector<std::string> others;
+  for (const std::string& name : pngs)
+    if (known.count (name) == 0)
+      others.push_back (folder + '/' + name);
+  return others;
 }
 
 /** \brief How many values of a mask cover few pixels each: many where it was scaled or compressed as a photograph. */
@@ -67,11 +88,11 @@ MaskSequence::MaskSequence (const std::string& folder, const RgbdSequence& seque
   std::vector<std::string> odd;
   const std::vector<NumberedFile> numbered = numberedFiles (folder, names, {{}, endings}, odd);
   const std::vector<PairedFile> paired = pairedFiles (folder, names, endings);
-  const auto pngs = static_cast<std::size_t> (
-      std::count_if (names.begin (), names.end (), [] (const std::string& name) {
-        return name.size () > 4 && name.compare (name.size () - 4, 4, ".png") == 0;
-      }));
-  per_instance_ = arePerInstance (paired, pngs, stamps, half_period_);
+  std::vector<std::string> pngs;
+  std::copy_if (names.begin (), names.end (), std::back_inserter (pngs), [] (const std::string& name) {
+    return name.size () > 4 && name.compare (name.size () - 4, 4, ".png") == 0;
+  });
+  per_instance_ = arePerInstance (paired, pngs.size (), stamps, half_period_);
   const auto add = [&] (double stamp, const InstanceFile& file) {
     if (stamps_.empty () || stamps_.back () != stamp)
     {
@@ -81,8 +102,12 @@ MaskSequence::MaskSequence (const std::string& folder, const RgbdSequence& seque
     files_.back ().push_back (file);
   };
   if (per_instance_)
+  {
     for (const PairedFile& file : paired)
       add (file.first, {file.path, static_cast<std::uint16_t> (file.second + 1.0)});
+    if (const std::vector<std::string> others = otherImages (folder, pngs, paired); !others.empty ())
+      warnings_.push_back (firstAndMore (others) + ": left out; the other names are FRAME_INSTANCE.png");
+  }
   else
   {
     warnings_ = odd;

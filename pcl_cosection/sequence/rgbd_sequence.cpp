@@ -29,6 +29,8 @@ constexpr double millimetres = 1000.0;
 constexpr double nearest_median_m = 0.05;
 constexpr double farthest_median_m = 100.0;
 constexpr double far_off_centre = 0.25;        // a principal point, of the image's size
+constexpr double off_centre = 0.1;             // of images 1.25 times as large it is .125 off
+constexpr double nearer_centre = 0.5;          // of colour images it must be so much nearer the middle
 constexpr double outside = 0.5;                // of the image, likewise
 constexpr std::size_t most_to_judge_size = 10; // depth images
 const float none = std::numeric_limits<float>::quiet_NaN ();
@@ -201,10 +203,11 @@ RgbdSequence::fitCameraToDepth (const std::string& folder, const std::string& na
     return;
   }
   const double off_depth = offCentre (camera_, depth);
-  if (off_depth > far_off_centre)
+  if (off_depth > off_centre)
     if (const auto colour = colourSize ();
         colour && haveSameShape (colour->width, colour->height, depth.width, depth.height) &&
-        colour->width != depth.width && offCentre (camera_, *colour) < std::min (far_off_centre, off_depth))
+        colour->width != depth.width &&
+        offCentre (camera_, *colour) < std::min (far_off_centre, nearer_centre * off_depth))
       return scaleFrom (*colour, "colour images");
   camera_.width = depth.width;
   camera_.height = depth.height;

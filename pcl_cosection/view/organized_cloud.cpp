@@ -159,6 +159,19 @@ readOrganizedCloud (const std::string& path, const PcdViewOptions& options, bool
   return (result);
 }
 
+std::string
+hintOfUnit (const std::vector<Eigen::Vector3f>& points)
+{
+  constexpr float large_depth_m = 100.0f;
+  float depth_m = 0.0f;
+  for (const Eigen::Vector3f& p : points)
+    if (p.allFinite ())
+      depth_m = std::max (depth_m, p.z ());
+  return depth_m > large_depth_m ? "is up to " + std::to_string (static_cast<long> (depth_m)) +
+                                       " m deep; if it is in millimetres, give --scale 0.001"
+                                 : "";
+}
+
 void
 copyWithLabels (const std::string& input, const std::vector<std::uint32_t>& labels, const std::string& output)
 {

@@ -30,6 +30,10 @@ struct OrganizedCloud
  * \throws MemoryLimitExceeded, InvalidArgument as readPcdView () */
 OrganizedCloud readOrganizedCloud (const std::string& path, const PcdViewOptions& options = {}, bool any = false);
 
+/** \brief "is up to 870 m deep; if it is in millimetres, give --scale 0.001", where points are so far away that they
+ * are probably not in metres; else empty. */
+std::string hintOfUnit (const std::vector<Eigen::Vector3f>& points);
+
 /** \brief Write a copy of a PCD file with other labels: width, height, order, viewpoint and the other fields stay; the
  * field label is replaced, or added as the last one. The copy is binary_compressed.
  * \param[in] labels one per point

@@ -139,6 +139,21 @@ TEST_F (SequenceFusionTest, ObjectsAreCompletedInTheirFrames)
     EXPECT_TRUE (pose.pose.isApprox (Eigen::Isometry3d::Identity ()));
 }
 
+TEST_F (SequenceFusionTest, AMaskThatMissesAnObjectMakesItNoBackground)
+{
+  const auto volumeOfBlock = [&] {
+    const FusionResult result = run (every (3));
+    const auto found = std::find_if (result.scene.objects.begin (), result.scene.objects.end (),
+                                     [] (const ObjectResult& object) { return object.id == block; });
+    return found == result.scene.objects.end () ? 0.0 : computeMassProperties (found->mesh).volume_m3;
+  };
+  const double with_all = volumeOfBlock ();
+  Image<std::uint16_t> mask = loadMaskImage (folder_.path (maskName (3))); // of a keyframe
+  std::replace (mask.pixels.begin (), mask.pixels.end (), static_cast<std::uint16_t> (block), std::uint16_t{0});
+  saveMaskImage (mask, folder_.path (maskName (3)));
+  EXPECT_NEAR (volumeOfBlock (), with_all, 0.2 * with_all);
+}
+
 TEST_F (SequenceFusionTest, PosesOfAnotherUnitThanTheDepthAreWarnedOf)
 {
   const char* const warning = "its poses must be in metres";

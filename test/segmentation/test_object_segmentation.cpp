@@ -9,6 +9,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 using namespace pcl::cosection;
@@ -26,6 +27,10 @@ expectFound (const SceneView& view, double least_iou)
   EXPECT_EQ (comparison.background_pixels, 0u);
   for (const auto& [object, iou] : comparison.best_iou)
     EXPECT_GE (iou, least_iou) << "object " << object;
+  std::vector<std::ptrdiff_t> pixels;
+  for (std::uint32_t n = 1; n <= found.objects; ++n)
+    pixels.push_back (std::count (found.labels.begin (), found.labels.end (), n));
+  EXPECT_TRUE (std::is_sorted (pixels.rbegin (), pixels.rend ())) << "the largest in the image is first";
   for (std::size_t i = 0; i < view.valid.size (); ++i)
     ASSERT_TRUE (view.valid[i] || found.labels[i] == 0u) << "a pixel without reading has a label";
 }
@@ -76,7 +81,8 @@ TEST (ObjectSegmentation, TheFloorOfAPlateIsNoTable)
   // It is 4 mm above the table: three standard deviations of a reading.
   const std::string plate = R"({"name": "plate", "id": 1, "shape": {"type": "revolution", "profile":
     [[0, 0], [0.06, 0], [0.1, 0.03], [0.1, 0.034], [0.06, 0.004], [0, 0.004]]}, "keys": [{"position": [0, 0, 0]}]})";
-  expectFound (viewOfTable (plate, {-0.1, -0.5, 0.5}), 0.9);
+  // The box has more pixels than the plate's rim, and fewer than the plate.
+  expectFound (viewOfTable (plate + boxOnTable (2, {0.09, 0.12, 0.1}, {0.22, 0.0, 0.0}, 10), {-0.1, -0.5, 0.5}), 0.9);
 }
 
 TEST (ObjectSegmentation, TheTableInARingIsNoObject)

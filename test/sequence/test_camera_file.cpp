@@ -60,6 +60,21 @@ TEST (CameraFile, IsReadInTheFormsOfOthers)
   }
 }
 
+TEST (CameraFile, ScalesOfTheDepthInTheUnitsOfOthers)
+{
+  const std::string fields = R"("fx": 10, "fy": 11, "cx": 3.5, "cy": 2.5, "depth_scale": )";
+  for (const auto& [content, units_per_metre] : std::vector<std::pair<std::string, double>>{
+           {"{" + fields + "0.1}", 10000.0},  // BOP: a unit in millimetres
+           {"{" + fields + "0.001}", 1000.0}, // librealsense: in metres
+           {"{" + fields + "0.0001}", 10000.0},
+           {R"({"intrinsic_matrix": [10, 0, 0, 0, 11, 0, 3.5, 2.5, 1], "depth_scale": 1000.0})", 1000.0}}) // Open3D
+  {
+    const SequenceFolder folder;
+    writeFrames ("camera.json", content, folder);
+    EXPECT_NEAR (RgbdSequence (folder.path ()).depthScale (), units_per_metre, 1e-6) << content;
+  }
+}
+
 TEST (CameraFile, BadOnesAreNamed)
 {
   for (const auto& [name, content, reason] : std::vector<std::array<std::string, 3>>{
@@ -112,6 +127,11 @@ TEST (CameraFile, OfAnotherResolutionIsScaled)
     std::vector<std::string> warnings;
     EXPECT_EQ (sequence.read (0, warnings).depth.width, 80);
   }
+  SequenceFolder hardly_larger; // its camera is 0.24 of the width off the middle of the depth images
+  hardly_larger.depth ("depth/Depth0000.png", 0, 1000.0, 80, 60);
+  hardly_larger.colour ("colour/Color0000.png", 0, 120, 90);
+  hardly_larger.text ("calibration.txt", "105 105 59 44.5");
+  expectCamera (RgbdSequence (hardly_larger.path ()).camera (), {70, 70, 59.5 / 1.5 - 0.5, 29.5});
   const SequenceFolder right, impossible, half, corner;
   write ("70 70 39.5 29.5", right);
   write ("35 35 19.5 14.5", half); // of 40 x 30: may have been cut out

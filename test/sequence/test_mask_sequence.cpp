@@ -5,6 +5,8 @@
 #include <pcl/cosection/io/rgbd_sequence.h>
 
 #include <gtest/gtest.h>
+#include <opencv2/core.hpp>
+#include <opencv2/imgcodecs.hpp>
 
 namespace fs = std::filesystem;
 using namespace pcl::cosection;
@@ -136,6 +138,45 @@ TEST (MaskSequence, NamesOfTwoNumbersMayBeOfOneFrameEach)
   const MaskSequence masks (folder.path ("mask"), RgbdSequence (folder.path ()));
   EXPECT_FALSE (masks.isPerInstance ());
   EXPECT_EQ (masks.read (4)->at (0, 0), 6);
+}
+
+TEST (MaskSequence, AFileForEachInstanceBesideOtherImagesAndFramesThatAreMissing)
+{
+  SequenceFolder folder;
+  folder.coFusion ({0, 1, 2});
+  for (const std::string frame : {"0", "1", "2", "3"}) // without a depth image of 3
+    for (const std::string instance : {"0", "1"})
+      writeMask (folder, "mask/00" + frame + "_00" + instance + ".png", 255);
+  writeMask (folder, "mask/overview.png", 255);
+  const MaskSequence masks (folder.path ("mask"), RgbdSequence (folder.path ()));
+  EXPECT_TRUE (masks.isPerInstance ());
+  EXPECT_EQ (masks.warnings (), (std::vector<std::string>{folder.path ("mask/overview.png") +
+                                                              ": left out; the other names are FRAME_INSTANCE.png",
+                                                          folder.path ("mask/003_000.png") + " matches no frame"}));
+}
+
+TEST (MaskSequence, ANumberBeforeThatOfTheFrameIsNoFrame)
+{
+  SequenceFolder folder;
+  folder.coFusion ({0, 1, 2});
+  for (const std::string frame : {"0", "1", "2", "3"})
+    writeMask (folder, "mask/cam_1_000" + frame + ".png", 5); // frame 1 is a frame, too, and 3 has no depth image
+  const MaskSequence masks (folder.path ("mask"), RgbdSequence (folder.path ()));
+  EXPECT_FALSE (masks.isPerInstance ());
+  ASSERT_TRUE (masks.read (2));
+  EXPECT_EQ (masks.read (2)->at (0, 0), 5);
+}
+
+TEST (MaskSequence, TransparentPixelsAreNoInstance)
+{
+  SequenceFolder folder;
+  folder.coFusion ({0});
+  cv::Mat white (6, 8, CV_8UC4, cv::Scalar (255, 255, 255, 0));
+  white (cv::Rect (0, 0, 4, 6)).setTo (cv::Scalar (255, 255, 255, 255));
+  ASSERT_TRUE (cv::imwrite (folder.newPath ("mask/Mask0000.png"), white));
+  const Image<std::uint16_t> mask = *MaskSequence (folder.path ("mask"), RgbdSequence (folder.path ())).read (0);
+  EXPECT_EQ (mask.at (3, 2), 255);
+  EXPECT_EQ (mask.at (4, 2), 0);
 }
 
 TEST (MaskSequence, OfAnotherResolutionAreBroughtToTheDepths)

@@ -302,8 +302,15 @@ TEST_F (AnyCloud, ObjectsAreFoundFirst)
   pcl::io::savePCDFileBinary (path ("one.pcd"), one);
   ASSERT_EQ (run ({"points.pcd", "all"}), 0) << errors_;
   EXPECT_NE (errors_.find ("2 things in it stand on a plane: give --segment"), std::string::npos) << errors_;
+  EXPECT_EQ (errors_.find ("pixels of an image"), std::string::npos) << errors_;
   ASSERT_EQ (run ({"one.pcd", "one"}), 0) << errors_;
+  EXPECT_NE (errors_.find ("its points are pixels of an image, without their order"), std::string::npos) << errors_;
   EXPECT_EQ (errors_.find ("--segment"), std::string::npos) << errors_;
+  for (pcl::PointXYZRGB& point : image)
+    point.getVector3fMap () *= 1000.0f;
+  pcl::io::savePCDFileBinary (path ("millimetres.pcd"), image);
+  EXPECT_EQ (run ({"--segment", "millimetres.pcd", "out"}), 1);
+  EXPECT_NE (errors_.find ("give --scale 0.001"), std::string::npos) << errors_;
   EXPECT_EQ (run ({"--segment", "image.pcd", "points.pcd", "out"}), 2);
   EXPECT_EQ (run ({"--save-labels", "l.pcd", "image.pcd", "out"}), 2);
   EXPECT_EQ (run ({"--segment", "--save-labels", "image.pcd", "image.pcd", "out"}), 2);

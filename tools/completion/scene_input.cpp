@@ -181,13 +181,17 @@ findLabels (const std::string& path, const Settings& settings, const PcdViewOpti
   ObjectSegmentationOptions options;
   options.threads = settings.method.threads;
   ObjectSegmentation found;
+  std::string hint;
   try
   {
-    found = segmentCloud (readOrganizedCloud (path, reading, true), options);
+    const OrganizedCloud cloud = readOrganizedCloud (path, reading, true);
+    if (hint = hintOfUnit (cloud.points); !hint.empty ())
+      hint = "; it " + hint;
+    found = segmentCloud (cloud, options);
   }
   catch (const DegenerateInput& error)
   {
-    const std::string reason = error.what ();
+    const std::string reason = error.what () + hint;
     throw DegenerateInput (reason.rfind (path, 0) == 0 ? reason : path + ": " + reason);
   }
   std::map<std::uint32_t, std::size_t> counts;
@@ -209,8 +213,10 @@ findLabels (const std::string& path, const Settings& settings, const PcdViewOpti
   if (found.support_planes.empty ())
     warnings.push_back (path + ": shows no plane on which objects stand; each group of points is taken as one");
   if (found.objects == 0)
-    throw DegenerateInput (path + ": no object was found on its planes; give labels, or try pcl_cosection_segment with "
-                                  "other sizes");
+    throw DegenerateInput (path +
+                           ": no object was found on its planes; give labels, or try pcl_cosection_segment with "
+                           "other sizes" +
+                           hint);
   if (!settings.save_labels.empty ())
     copyWithLabels (path, found.labels, settings.save_labels);
   return std::move (found.labels);

@@ -13,7 +13,9 @@
 #include <pcl/impl/pcl_base.hpp>
 #include <pcl/point_types.h>
 
+#include <algorithm>
 #include <limits>
+#include <numeric>
 #include <string>
 
 namespace pcl::cosection {
@@ -57,6 +59,23 @@ pixelsAbove (const DepthGrid& grid, const Room& room, const ObjectSegmentationOp
     }
   });
   return (above);
+}
+
+/** \brief Number the objects anew, the largest in the image first. */
+void
+numberBySize (ObjectSegmentation& found)
+{
+  std::vector<std::size_t> pixels (found.objects + 1, 0);
+  for (const std::uint32_t label : found.labels)
+    ++pixels[label];
+  std::vector<std::uint32_t> order (found.objects), number (found.objects + 1, 0);
+  std::iota (order.begin (), order.end (), 1u);
+  std::stable_sort (order.begin (), order.end (),
+                    [&] (std::uint32_t a, std::uint32_t b) { return pixels[a] > pixels[b]; });
+  for (std::uint32_t n = 0; n < found.objects; ++n)
+    number[order[n]] = n + 1;
+  for (std::uint32_t& label : found.labels)
+    label = number[label];
 }
 
 } // namespace
@@ -111,6 +130,7 @@ segmentObjects (const std::vector<Eigen::Vector3f>& points, int width, int heigh
       result.too_long[i] = object == too_long_object;
     }
   labelVesselFloors (grid, room, result.labels);
+  numberBySize (result);
   for (const SupportSurface& surface : room.surfaces)
     result.support_planes.emplace_back (surface.normal.x (), surface.normal.y (), surface.normal.z (), surface.offset);
   return (result);

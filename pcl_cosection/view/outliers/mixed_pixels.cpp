@@ -43,6 +43,17 @@ isBefore (const Eigen::Vector3f& point, float working_range_m)
          point.head<2> ().norm () < steepest * point.z ();
 }
 
+/** \brief Points in the frame of the view's camera. */
+std::vector<Eigen::Vector3f>
+inView (const DepthView& view, const std::vector<std::size_t>& indices, const SensorCloud& cloud)
+{
+  std::vector<Eigen::Vector3f> points = pick (cloud.positions, indices);
+  const Eigen::Isometry3f T_view_points = (view.T_world_sensor.inverse () * cloud.T_world_sensor).cast<float> ();
+  for (Eigen::Vector3f& point : points)
+    point = T_view_points * point;
+  return points;
+}
+
 /** \brief Are the points one per pixel of an image, so that the nearest one in the image is nowhere much nearer than is
  * usual? */
 bool
@@ -160,6 +171,17 @@ leaveOutMixedPixels (const DepthView& view, SensorCloud& cloud)
   }
 }
 
+bool
+arePixels (const PcdViewOptions& options, const DepthView& view, const std::vector<std::size_t>& indices,
+           const SensorCloud& cloud)
+{
+  const auto range_m = static_cast<float> (view.working_range_m);
+  const std::vector<Eigen::Vector3f> points = inView (view, indices, cloud);
+  return points.size () > least_points &&
+         std::all_of (points.begin (), points.end (), [&] (const auto& p) { return isBefore (p, range_m); }) &&
+         isImage (points, options.threads);
+}
+
 void
 leaveOutTrails (const PcdViewOptions& options, const DepthView& view, const std::vector<std::size_t>& indices,
                 SensorCloud& cloud)
@@ -170,10 +192,7 @@ leaveOutTrails (const PcdViewOptions& options, const DepthView& view, const std:
       usable.push_back (i);
   if (usable.size () <= least_points || usable.size () > most_points)
     return;
-  std::vector<Eigen::Vector3f> points = pick (cloud.positions, usable);
-  const Eigen::Isometry3f T_view_points = (view.T_world_sensor.inverse () * cloud.T_world_sensor).cast<float> ();
-  for (Eigen::Vector3f& point : points)
-    point = T_view_points * point;
+  const std::vector<Eigen::Vector3f> points = inView (view, usable, cloud);
   const std::vector<bool> behind = findBehindEdges (points, view.working_range_m, options.threads);
   const auto left_out = static_cast<std::size_t> (std::count (behind.begin (), behind.end (), true));
   if (usable.size () < least_points + left_out ||

@@ -19,6 +19,11 @@ void leaveOutMixedPixels (const DepthView& view, SensorCloud& cloud);
 void leaveOutTrails (const PcdViewOptions& options, const DepthView& view, const std::vector<std::size_t>& indices,
                      SensorCloud& cloud);
 
+/** \brief Whether points of an unorganised object are one per pixel of an image: their trails cannot be found.
+ * \param[in] indices of the points of the object */
+bool arePixels (const PcdViewOptions& options, const DepthView& view, const std::vector<std::size_t>& indices,
+                const SensorCloud& cloud);
+
 /** \brief Points of the background near objects that are so much farther from each other than others there that they
  * show no surface. \param[in] background indices of the points near objects */
 void leaveOutScattered (const PcdViewOptions& options, const Surroundings& objects,
