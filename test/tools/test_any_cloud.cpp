@@ -134,7 +134,7 @@ TEST_F (AnyCloud, PointsThatTheMeshLosesAreToldOf)
   writeSphere (path ("ball.pcd"), 4000); // 0.1 about z = 0.5
   const auto runOnBlock = [&] (const std::string& top) {
     std::string corners;
-    for (const std::string z : {std::string ("0.3"), top})
+    for (const std::string& z : {std::string ("0.3"), top})
       for (const std::string xy : {"-1 -1 ", "1 -1 ", "-1 1 ", "1 1 "})
         corners += xy + z + "\n";
     write ("block.off",

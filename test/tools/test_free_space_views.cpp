@@ -128,7 +128,9 @@ TEST_F (FreeSpaceViews, HullsShrinkWithEachView)
         EXPECT_LE (now[n], 1.001 * before[n]) << "hull of object " << n / 2 + 1 << ", " << v + 1 << " views";
         // Without its table, a level mirror plane guesses the corner's foot, which may grow where a view dents it less.
         if (priors == "none" || n / 2 != corner)
+        {
           EXPECT_LE (now[n + 1], body_growth * before[n + 1]) << "object " << n / 2 + 1 << ", " << v + 1 << " views";
+        }
       }
       if (v == 0)
         first = now;
