@@ -351,10 +351,11 @@ completeUnorganized (const std::string& path, const PcdViewOptions& options, Sen
   }
   leaveOutScattered (options, objects, background.near, cloud);
   if (background.near.empty () && background.far.empty () && !given && result.other_views.empty () &&
-      std::any_of (members.begin (), members.end (),
-                   [&] (const auto& member) { return arePixels (options, *result.view, member.second, cloud); }))
+      std::any_of (members.begin (), members.end (), [&] (const auto& member) {
+        return arePixelsWithTrails (options, *result.view, member.second, cloud);
+      }))
     result.warnings.push_back (path + ": its points are pixels of an image, without their order and what is around: "
-                                      "wrong readings at the edges of objects are taken for them (give the image "
+                                      "wrong readings at the edges of objects may be taken for them (give the image "
                                       "with labels, or organised, without readings elsewhere)");
 }
 
