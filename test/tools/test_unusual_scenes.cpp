@@ -7,6 +7,7 @@
 #include "any_cloud_fixture.h"
 #include "common/temporary_folder.h"
 #include "mesh_measures.h"
+#include "pcl_cosection/view/look_at.h"
 #include "tool_run.h"
 
 #include <pcl/cosection/common/triangle_mesh.h>
@@ -301,4 +302,41 @@ TEST_F (MistakenInput, AnOrganisedCloudThatIsNoImageIsAsWithoutAnOrder)
     box.extend (vertex);
   EXPECT_NEAR (box.min ().z (), 0.0f, 0.002f); // below the top, not above it
   EXPECT_NEAR (box.max ().z (), 0.06f, 0.002f);
+}
+
+TEST_F (AnyCloud, ASheetThatIsLostIsWarnedOf)
+{
+  // A sheet of 3 mm, 15 cm high, on a base, seen on its edge: one pixel wide, so that voxels on it are seen free.
+  const pcl::cosection::PinholeCamera camera{320, 240, 285.0, 285.0, 159.5, 119.5};
+  const Eigen::Isometry3d T = lookAt ({0.001, -0.6, 0.45}, {0.0, 0.0, 0.0});
+  const auto hit = [] (const Eigen::Array3d& eye, const Eigen::Array3d& ray, const Eigen::Array3d& low,
+                       const Eigen::Array3d& high) {
+    const Eigen::Array3d a = (low - eye) / ray, b = (high - eye) / ray;
+    const double near = a.min (b).maxCoeff (), far = a.max (b).minCoeff ();
+    return near <= far ? near : 1e9;
+  };
+  for (const double high : {0.15, 0.012})
+  {
+    pcl::PointCloud<pcl::PointXYZL> cloud (camera.width, camera.height);
+    for (int v = 0; v < camera.height; ++v)
+      for (int u = 0; u < camera.width; ++u)
+      {
+        const Eigen::Vector3d ray = camera.unproject (u, v, 1.0), eye = T.translation (), along = T.linear () * ray;
+        const double table = along.z () < 0.0 ? -eye.z () / along.z () : 1e9;
+        const double thing = std::min (hit (eye, along, {-0.06, -0.05, 0.0}, {0.06, 0.05, 0.012}),
+                                       hit (eye, along, {-0.0015, -0.05, 0.0}, {0.0015, 0.05, high}));
+        const double z = std::min (table, thing);
+        cloud.at (u, v).getVector3fMap () = (ray * (z < 100.0 ? z : std::nan (""))).cast<float> ();
+        cloud.at (u, v).label = thing < table ? 1 : 0;
+      }
+    cloud.is_dense = false;
+    cloud.sensor_origin_.head<3> () = T.translation ().cast<float> ();
+    cloud.sensor_orientation_ = Eigen::Quaternionf (T.linear ().cast<float> ());
+    pcl::io::savePCDFileBinary (path ("sheet.pcd"), cloud);
+    ASSERT_EQ (run ({"sheet.pcd", "sheet"}), 0) << errors_;
+    double top_m = 0.0;
+    for (const Eigen::Vector3f& vertex : loadMesh (path ("sheet/object_1.ply")).vertices)
+      top_m = std::max<double> (top_m, vertex.z ());
+    EXPECT_EQ (errors_.find ("object 1: its mesh shows only") != std::string::npos, top_m < 0.9 * high) << errors_;
+  }
 }
