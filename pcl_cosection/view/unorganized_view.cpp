@@ -342,18 +342,16 @@ completeUnorganized (const std::string& path, const PcdViewOptions& options, Sen
   std::vector<const DepthView*> views = {&*result.view};
   for (const DepthView& view : result.other_views)
     views.push_back (&view);
+  bool are_pixels = false; // with wrong readings
   for (const DepthView* view : views)
   {
     for (const auto& [label, indices] : members)
       if (label != 0)
-        leaveOutTrails (options, *view, indices, cloud);
+        are_pixels |= leaveOutTrails (options, *view, indices, cloud);
     leaveOutMixedPixels (*view, cloud);
   }
   leaveOutScattered (options, objects, background.near, cloud);
-  if (background.near.empty () && background.far.empty () && !given && result.other_views.empty () &&
-      std::any_of (members.begin (), members.end (), [&] (const auto& member) {
-        return arePixelsWithTrails (options, *result.view, member.second, cloud);
-      }))
+  if (are_pixels && background.near.empty () && background.far.empty ())
     result.warnings.push_back (path + ": its points are pixels of an image, without their order and what is around: "
                                       "wrong readings at the edges of objects may be taken for them (give the image "
                                       "with labels, or organised, without readings elsewhere)");

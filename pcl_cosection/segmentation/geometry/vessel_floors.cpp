@@ -1,6 +1,8 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "vessel_floors.h"
 
+#include "pcl_cosection/common/robust_weights.h"
+
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 
@@ -10,8 +12,8 @@
 namespace pcl::cosection {
 namespace {
 
-constexpr int min_floor_px = 40; ///< a mean of fewer readings is no better than their noise allows
-constexpr int contact_px = 4;    ///< from a part to what is beside it
+constexpr int min_floor_px = 40; ///< the mean of so many is six times as exact as a reading
+constexpr int contact_px = 4;    ///< from a part to what touches it, as findRoomEdges () has it
 // In 109 views of scanned things the parts of a table that objects enclose lie within 0.4 standard deviations of a
 // reading of the table around, and floors 1.1 or more above it.
 constexpr float raised_sigmas = 0.75f;
@@ -114,7 +116,7 @@ private:
       {
         const Eigen::Vector3d t = terms (i);
         const double height_m = surface.height (grid_.points[i]);
-        const double weight = 1.0 / std::max<double> (grid_.sigma (i), std::abs (height_m - plane.dot (t)));
+        const double weight = huberWeight<double> (std::abs (height_m - plane.dot (t)), grid_.sigma (i));
         lhs += weight * t * t.transpose ();
         rhs += weight * height_m * t;
       }

@@ -46,17 +46,6 @@ isBefore (const Eigen::Vector3f& point, float working_range_m)
          point.head<2> ().norm () < steepest * point.z ();
 }
 
-/** \brief Points in the frame of the view's camera. */
-std::vector<Eigen::Vector3f>
-inView (const DepthView& view, const std::vector<std::size_t>& indices, const SensorCloud& cloud)
-{
-  std::vector<Eigen::Vector3f> points = pick (cloud.positions, indices);
-  const Eigen::Isometry3f T_view_points = (view.T_world_sensor.inverse () * cloud.T_world_sensor).cast<float> ();
-  for (Eigen::Vector3f& point : points)
-    point = T_view_points * point;
-  return points;
-}
-
 /** \brief Are the points one per pixel of an image, so that the nearest one in the image is nowhere much nearer than is
  * usual? */
 bool
@@ -132,13 +121,6 @@ private:
   std::vector<float> limit_;
 };
 
-bool
-areBefore (const std::vector<Eigen::Vector3f>& points, double working_range_m)
-{
-  const auto range_m = static_cast<float> (working_range_m);
-  return std::all_of (points.begin (), points.end (), [&] (const auto& p) { return isBefore (p, range_m); });
-}
-
 /** \brief Which points are in a trail. \param[in] points in the frame of the camera, before it */
 std::vector<bool>
 findBehindEdges (const std::vector<Eigen::Vector3f>& points, double working_range_m, int threads)
@@ -176,19 +158,6 @@ leaveOutMixedPixels (const DepthView& view, SensorCloud& cloud)
 }
 
 bool
-arePixelsWithTrails (const PcdViewOptions& options, const DepthView& view, const std::vector<std::size_t>& indices,
-                     const SensorCloud& cloud)
-{
-  const std::vector<Eigen::Vector3f> points = inView (view, indices, cloud);
-  if (points.size () <= least_points || points.size () > most_points || !areBefore (points, view.working_range_m) ||
-      !isImage (points, options.threads))
-    return false;
-  const std::vector<bool> behind = findBehindEdges (points, view.working_range_m, options.threads);
-  return static_cast<double> (std::count (behind.begin (), behind.end (), true)) >
-         few_trails * static_cast<double> (points.size ());
-}
-
-void
 leaveOutTrails (const PcdViewOptions& options, const DepthView& view, const std::vector<std::size_t>& indices,
                 SensorCloud& cloud)
 {
@@ -197,20 +166,24 @@ leaveOutTrails (const PcdViewOptions& options, const DepthView& view, const std:
     if (cloud.normals[i].allFinite ())
       usable.push_back (i);
   if (usable.size () <= least_points || usable.size () > most_points)
-    return;
-  const std::vector<Eigen::Vector3f> points = inView (view, usable, cloud);
-  if (!areBefore (points, view.working_range_m)) // wide off, numbers say nothing
-    return;
+    return false;
+  std::vector<Eigen::Vector3f> points = pick (cloud.positions, usable);
+  const Eigen::Isometry3f T_view_points = (view.T_world_sensor.inverse () * cloud.T_world_sensor).cast<float> ();
+  for (Eigen::Vector3f& point : points)
+    point = T_view_points * point;
+  const auto range_m = static_cast<float> (view.working_range_m);
+  if (!std::all_of (points.begin (), points.end (), [&] (const auto& p) { return isBefore (p, range_m); }))
+    return false; // wide off, numbers say nothing
+  const bool are_pixels = isImage (points, options.threads);
   const std::vector<bool> behind = findBehindEdges (points, view.working_range_m, options.threads);
   const auto left_out = static_cast<std::size_t> (std::count (behind.begin (), behind.end (), true));
-  if (usable.size () < least_points + left_out ||
-      (static_cast<double> (left_out) <= few_trails * static_cast<double> (usable.size ()) &&
-       isImage (points, options.threads)) ||
-      static_cast<double> (left_out) > most_left_out * static_cast<double> (usable.size ()))
-    return;
+  const double share = static_cast<double> (left_out) / static_cast<double> (usable.size ());
+  if (usable.size () < least_points + left_out || (are_pixels && share <= few_trails) || share > most_left_out)
+    return false;
   for (std::size_t k = 0; k < usable.size (); ++k)
     if (behind[k])
       cloud.normals[usable[k]].setConstant (nan_value);
+  return are_pixels;
 }
 
 void

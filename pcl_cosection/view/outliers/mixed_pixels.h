@@ -15,14 +15,10 @@ void leaveOutMixedPixels (const DepthView& view, SensorCloud& cloud);
 /** \brief Points of an unorganised object that lie beside an edge of it, as seen from the sensor, far behind that, and
  * far from others, if enough others remain: trails along the sensor's rays. In an image these are few pixels, of a
  * cloud that was thinned to one point per cell they are a large share.
- * \param[in] indices of the points of the object */
-void leaveOutTrails (const PcdViewOptions& options, const DepthView& view, const std::vector<std::size_t>& indices,
+ * \param[in] indices of the points of the object
+ * \return whether some were left out of points that are one per pixel of an image */
+bool leaveOutTrails (const PcdViewOptions& options, const DepthView& view, const std::vector<std::size_t>& indices,
                      SensorCloud& cloud);
-
-/** \brief Whether points of an unorganised object are one per pixel of an image, and more than a few of them lie so.
- * \param[in] indices of the points of the object */
-bool arePixelsWithTrails (const PcdViewOptions& options, const DepthView& view, const std::vector<std::size_t>& indices,
-                          const SensorCloud& cloud);
 
 /** \brief Points of the background near objects that are so much farther from each other than others there that they
  * show no surface. \param[in] background indices of the points near objects */
