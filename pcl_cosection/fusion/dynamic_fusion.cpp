@@ -115,6 +115,15 @@ DynamicFusion::foundObjects () const
   return impl_->state.objects.found ();
 }
 
+std::map<std::uint16_t, std::string>
+DynamicFusion::refusedInstances () const
+{
+  std::map<std::uint16_t, std::string> refused = impl_->state.objects.refused;
+  for (const std::uint16_t instance : impl_->state.objects.shown)
+    refused.erase (instance);
+  return refused;
+}
+
 TriangleMesh
 DynamicFusion::surfaceMesh (int id) const
 {

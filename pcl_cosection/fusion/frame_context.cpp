@@ -340,6 +340,9 @@ public:
       result.warnings.push_back (
           "the masks show no object that could be tracked: none at all, or what they show is too "
           "small or too far away (is the scale of the depth right?)");
+    else
+      for (const auto& [instance, why] : fusion_.refusedInstances ())
+        result.warnings.push_back ("instance " + std::to_string (instance) + " of the masks is no object: " + why);
   }
 
 private:

@@ -146,7 +146,7 @@ saveDepthImage (const Image<float>& depth, const std::string& path, double scale
   cv::Mat image (depth.height, depth.width, CV_16U);
   std::transform (depth.pixels.begin (), depth.pixels.end (), image.begin<std::uint16_t> (), [scale] (float z) {
     const double units = std::round (scale * z);
-    return static_cast<std::uint16_t> (units > 0.0 && units <= largest_16_bit ? units : 0.0);
+    return static_cast<std::uint16_t> (units > 0.0 && units < largest_16_bit ? units : 0.0);
   });
   encode (image, path);
 }
@@ -163,7 +163,8 @@ loadDepthImage (const std::string& path, double scale)
     for (int u = 0; u < image.cols; ++u)
     {
       const double z = whole ? image.at<std::uint16_t> (v, u) / scale : image.at<float> (v, u);
-      if (std::isfinite (z) && z > 0.0)
+      const bool is_cut = whole && image.at<std::uint16_t> (v, u) == largest_16_bit; // farther, or no reading
+      if (std::isfinite (z) && z > 0.0 && !is_cut)
         depth.at (u, v) = static_cast<float> (z);
     }
   return depth;

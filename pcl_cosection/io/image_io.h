@@ -18,7 +18,7 @@ void saveColourImage (const Picture& picture, const std::string& path);
 void saveDepthImage (const Image<float>& depth, const std::string& path, double scale = 1000.0);
 
 /** \brief Read what saveDepthImage () writes, or floating-point depth in three equal channels. \return metres; NaN: no
- * reading
+ * reading, of whole numbers 0 and 65535, which is what did not fit
  * \throws IoError naming the file, if it cannot be read, is damaged, or is no depth image */
 Image<float> loadDepthImage (const std::string& path, double scale = 1000.0);
 

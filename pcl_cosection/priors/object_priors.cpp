@@ -271,7 +271,7 @@ SignedDistanceField
 solvedAlone (const BodyEnergy& energy)
 {
   BodySolution solution;
-  solve (energy, Resolution::Full, solution, nullptr);
+  solve (energy, Resolution::Half, solution, nullptr);
   SignedDistanceField field = solvedField (energy, solution);
   field.supported.clear ();
   return field;

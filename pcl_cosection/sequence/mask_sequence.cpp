@@ -9,6 +9,7 @@
 #include <pcl/cosection/common/error.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <iterator>
@@ -75,6 +76,29 @@ countSpecks (const Image<std::uint16_t>& mask)
       pixels.begin (), pixels.end (), [] (const auto& value) { return value.first != 0 && value.second < speck_px; }));
 }
 
+/** \brief The instance that covers most of a mask and touches all four of its borders, as the surroundings of things
+ * do; 0 if there is none. */
+std::uint16_t
+surroundingInstance (const Image<std::uint16_t>& mask)
+{
+  std::map<std::uint16_t, std::size_t> pixels;
+  std::map<std::uint16_t, std::set<int>> borders;
+  for (int v = 0; v < mask.height; ++v)
+    for (int u = 0; u < mask.width; ++u)
+    {
+      const std::uint16_t value = mask.at (u, v);
+      ++pixels[value];
+      const std::array<bool, 4> at = {u == 0, v == 0, u + 1 == mask.width, v + 1 == mask.height};
+      for (int border = 0; border < 4; ++border)
+        if (at[border])
+          borders[value].insert (border);
+    }
+  const auto most = std::find_if (pixels.begin (), pixels.end (), [&] (const auto& value) {
+    return 2 * value.second > mask.pixels.size () && borders[value.first].size () == 4;
+  });
+  return most == pixels.end () ? std::uint16_t (0) : most->first;
+}
+
 } // namespace
 
 MaskSequence::MaskSequence (const std::string& folder, const RgbdSequence& sequence)
@@ -132,16 +156,22 @@ MaskSequence::MaskSequence (const std::string& folder, const RgbdSequence& seque
                    stampSpan (sequence.stamp (0), sequence.stamp (sequence.size () - 1)));
   if (!unmatched.empty ())
     warnings_.push_back (firstAndMore (unmatched) + (unmatched.size () == 1 ? " matches" : " match") + " no frame");
-  if (!per_instance_)
-    warnOfSpecks ();
+  judgeFirst ();
 }
 
 void
-MaskSequence::warnOfSpecks ()
+MaskSequence::judgeFirst ()
 try
 {
   const std::string& path = files_.front ().front ().path;
-  if (const std::size_t specks = countSpecks (readFile (path)); specks > most_specks)
+  const Image<std::uint16_t> mask = *read (stamps_.front ());
+  if (const std::uint16_t instance = surroundingInstance (mask); instance != 0 && instance != ignored_label)
+    warnings_.push_back (path + ": instance " + std::to_string (instance) +
+                         " covers most of the image and reaches all of its borders, and counts as an object: if it is "
+                         "the background, it must be 0");
+  if (per_instance_)
+    return;
+  if (const std::size_t specks = countSpecks (mask); specks > most_specks)
     warnings_.push_back (path + ": has " + std::to_string (specks) + " instances of fewer than " +
                          std::to_string (speck_px) +
                          " pixels: masks must not be blurred, scaled with interpolation, "

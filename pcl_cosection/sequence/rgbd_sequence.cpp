@@ -33,7 +33,6 @@ constexpr double off_centre = 0.1;             // of images 1.25 times as large 
 constexpr double nearer_centre = 0.5;          // of colour images it must be so much nearer the middle
 constexpr double outside = 0.5;                // of the image, likewise
 constexpr std::size_t most_to_judge_size = 10; // depth images
-const float none = std::numeric_limits<float>::quiet_NaN ();
 
 /** \brief Pipes wait for who writes them, so nothing but files is read. */
 void
@@ -82,13 +81,10 @@ readColour (const std::string& path, int width, int height)
 }
 
 Image<float>
-readDepth (const std::string& path, double scale, SequenceFormat format)
+readDepth (const std::string& path, double scale)
 {
   requireFile (path);
-  Image<float> depth = loadDepthImage (path, scale);
-  if (format == SequenceFormat::SevenScenes && lowerCaseExtension (path) == ".png")
-    std::replace (depth.pixels.begin (), depth.pixels.end (), static_cast<float> (65535 / scale), none);
-  return depth;
+  return loadDepthImage (path, scale);
 }
 
 /** \brief The file that tells the camera, of a folder, or of the one around it for a sequence of 7-Scenes; empty if
@@ -232,7 +228,7 @@ RgbdSequence::depthSizes (const std::string& folder, bool may_fail)
   for (const FrameFiles& files : files_)
     try
     {
-      const Image<float> depth = readDepth (files.depth, depth_scale_, format_);
+      const Image<float> depth = readDepth (files.depth, depth_scale_);
       sizes.push_back ({depth.width, depth.height});
       if (!may_fail) // the first one counts
         size_source_ = files.depth;
@@ -288,7 +284,7 @@ RgbdSequence::read (std::size_t index, std::vector<std::string>& warnings) const
   RgbdFrame frame;
   frame.index = index;
   frame.stamp = files.stamp;
-  frame.depth = readDepth (files.depth, depth_scale_, format_);
+  frame.depth = readDepth (files.depth, depth_scale_);
   if (frame.depth.width != camera_.width || frame.depth.height != camera_.height)
     throw IoError (files.depth + ": has " + sizeText (frame.depth.width, frame.depth.height) + ", but " + size_source_ +
                    " has " + sizeText (camera_.width, camera_.height));

@@ -2,10 +2,9 @@
 #include "sequence_layouts.h"
 
 #include "numbered_files.h"
-#include "pcl_cosection/common/files.h"
 #include "pcl_cosection/io/lower_case.h"
-#include "pcl_cosection/io/text_scanner.h"
 #include "stamp_matching.h"
+#include "stamped_list.h"
 
 #include <pcl/cosection/common/error.h>
 
@@ -28,8 +27,7 @@ const NumberedNames seven_scenes_depth = {{"frame-"}, {".depth.png", ".depth.exr
 const NumberedNames seven_scenes_colour = {{"frame-"}, {".color.png", ".color.jpg", ".color.jpeg"}};
 const NumberedNames seven_scenes_pose = {{"frame-"}, {".pose.txt"}};
 
-constexpr double max_difference_s = 0.02; // of depth and colour, as the tool of the TUM benchmark has it
-constexpr double largest_stamp_s = 1e15;
+constexpr double max_difference_s = 0.02;  // of depth and colour, as the tool of the TUM benchmark has it
 constexpr std::size_t most_neighbours = 8; // whose stamps are looked at on either side
 
 constexpr double gap_periods = 1.5;
@@ -107,62 +105,6 @@ listSevenScenes (SequenceListing& listing)
                                 numberedFiles (folder, names, seven_scenes_pose, listing.warnings));
 }
 
-struct StampedFile
-{
-  double stamp = 0.0;
-  std::string name;
-};
-
-double
-parseStamp (std::string_view word)
-{
-  const double stamp = toReal (word);
-  if (!(std::abs (stamp) < largest_stamp_s))
-    throw IoError (quoted (word) + " is not a time in seconds");
-  return stamp;
-}
-
-/** \brief Read a list whose lines are \a columns stamped files; several columns have names without spaces. */
-std::vector<std::vector<StampedFile>>
-readList (const std::string& path, std::size_t columns)
-{
-  const std::string form = columns == 1 ? "'stamp file'" : "'stamp file stamp file'";
-  const std::string bytes = readBytes (path);
-  std::vector<std::vector<StampedFile>> rows;
-  TextScanner scanner (bytes);
-  for (std::size_t number = 1; !scanner.left ().empty (); ++number)
-  {
-    TextScanner line (scanner.line ());
-    const std::string_view first = TextScanner (line).word ();
-    if (first.empty () || first[0] == '#')
-      continue;
-    try
-    {
-      std::vector<StampedFile> row (columns);
-      for (StampedFile& file : row)
-      {
-        file.stamp = parseStamp (line.word ());
-        file.name = line.word ();
-        if (file.name.empty ())
-          throw IoError ("it ends where the name of a file should be");
-        if (std::any_of (file.name.begin (), file.name.end (), [] (unsigned char c) { return c < ' ' || c == 127; }))
-          throw IoError (quoted (std::string_view (file.name)) + " is not the name of a file");
-      }
-      const std::string_view more = line.word ();
-      if (!more.empty ())
-        throw IoError ("there is " + quoted (more) + " behind it");
-      rows.push_back (std::move (row));
-    }
-    catch (const IoError& error)
-    {
-      throw IoError (path + ": line " + std::to_string (number) + " must be " + form + ", but " + error.what ());
-    }
-  }
-  if (rows.empty ())
-    throw IoError (path + ": is empty; its lines should be " + form);
-  return rows;
-}
-
 /** \brief Positive if the name is that of depth, negative if it is that of colour. */
 int
 depthLikeness (const std::string& name)
@@ -173,10 +115,24 @@ depthLikeness (const std::string& name)
   return 2 * contains ("depth") - 2 * is_colour + (extension == ".exr") - (extension == ".jpg" || extension == ".jpeg");
 }
 
-std::vector<FrameFiles>
-readAssociations (const std::string& folder)
+/** \brief The list that associates depth and colour, which benchmarks and tools call associations.txt, associate.txt
+ * and the like; empty if there is none. */
+std::string
+associationFile (const std::string& folder)
 {
-  const std::vector<std::vector<StampedFile>> rows = readList (inFolder (folder, "associations.txt"), 2);
+  const std::vector<std::string> names = fileNames (folder);
+  auto found = std::find (names.begin (), names.end (), "associations.txt");
+  if (found == names.end ())
+    found = std::find_if (names.begin (), names.end (), [] (const std::string& name) {
+      return lowerCase (name).rfind ("assoc", 0) == 0 && lowerCaseExtension (name) == ".txt";
+    });
+  return found == names.end () ? std::string () : inFolder (folder, *found);
+}
+
+std::vector<FrameFiles>
+readAssociations (const std::string& path, const std::string& folder)
+{
+  const std::vector<std::vector<StampedFile>> rows = readStampedList (path, 2);
   const bool depth_first = depthLikeness (rows[0][0].name) > depthLikeness (rows[0][1].name);
   std::vector<FrameFiles> frames;
   for (const std::vector<StampedFile>& row : rows)
@@ -192,7 +148,7 @@ std::vector<StampedFile>
 readStampedFiles (const std::string& folder, const char* name)
 {
   std::vector<StampedFile> files;
-  for (std::vector<StampedFile>& row : readList (inFolder (folder, name), 1))
+  for (std::vector<StampedFile>& row : readStampedList (inFolder (folder, name), 1))
     files.push_back ({row[0].stamp, inFolder (folder, row[0].name)});
   return files;
 }
@@ -259,8 +215,8 @@ listCoFusion (const SequenceSource& source, SequenceListing& listing)
 std::vector<FrameFiles>
 readTumLists (const std::string& folder, std::vector<std::string>& warnings)
 {
-  if (isThere (inFolder (folder, "associations.txt")))
-    return readAssociations (folder);
+  if (const std::string list = associationFile (folder); !list.empty ())
+    return readAssociations (list, folder);
   std::vector<FrameFiles> frames;
   for (StampedFile& depth : readStampedFiles (folder, "depth.txt"))
     frames.push_back ({depth.stamp, std::move (depth.name), {}, {}});
@@ -302,9 +258,9 @@ detectFormat (const std::string& folder, const SequenceSource& source)
 {
   if (hasSevenScenesFrames (folder))
     return SequenceFormat::SevenScenes;
-  for (const char* list : {"associations.txt", "depth.txt", "rgb.txt"})
-    if (isThere (inFolder (folder, list)))
-      return SequenceFormat::Tum;
+  if (!associationFile (folder).empty () || isThere (inFolder (folder, "depth.txt")) ||
+      isThere (inFolder (folder, "rgb.txt")))
+    return SequenceFormat::Tum;
   if (!source.depth_folder.empty () || isFolder (inFolder (folder, "depth_noise")) ||
       isFolder (inFolder (folder, "depth")))
     return SequenceFormat::CoFusion;

@@ -5,6 +5,7 @@
 #include "pcl_cosection/view/normals/normal_agreement.h"
 #include "pcl_cosection/view/outliers/mixed_pixels.h"
 #include "pcl_cosection/view/outliers/repeated_points.h"
+#include "pcl_cosection/view/outliers/separate_parts.h"
 #include "pcl_cosection/view/scan/merged_views.h"
 #include "range_image.h"
 
@@ -276,6 +277,37 @@ dropStrangeNormals (const std::string& path, const Members& members, SensorCloud
     }
 }
 
+/** \brief Leave out wrong readings at the edges of things, and what is behind things that were cut out too large. */
+void
+leaveOutWrongReadings (const std::string& path, const PcdViewOptions& options, const Members& members,
+                       const Surroundings& objects, const BackgroundParts& background, SensorCloud& cloud,
+                       LabelledView& result)
+{
+  std::vector<const DepthView*> views = {&*result.view};
+  for (const DepthView& view : result.other_views)
+    views.push_back (&view);
+  const bool is_cut_out = background.near.empty () && background.far.empty ();
+  bool are_pixels = false; // with wrong readings
+  for (const DepthView* view : views)
+  {
+    for (const auto& [label, indices] : members)
+      if (label != 0)
+        are_pixels |= leaveOutTrails (options, *view, indices, cloud);
+    leaveOutMixedPixels (*view, cloud);
+  }
+  if (is_cut_out) // else its surroundings tell
+    for (const auto& [label, indices] : members)
+      if (const double apart = leaveOutSeparateParts (options, indices, cloud); apart > worth_saying)
+        result.warnings.push_back (path + ": " + percentText (apart) + " of the points" +
+                                   (result.has_labels ? " of label " + std::to_string (label) : std::string ()) +
+                                   " are apart from the others, and are left out");
+  leaveOutScattered (options, objects, background.near, cloud);
+  if (are_pixels && is_cut_out)
+    result.warnings.push_back (path + ": its points are pixels of an image, without their order and what is around: "
+                                      "wrong readings at the edges of objects may be taken for them (give the image "
+                                      "with labels, or organised, without readings elsewhere)");
+}
+
 } // namespace
 
 void
@@ -339,22 +371,7 @@ completeUnorganized (const std::string& path, const PcdViewOptions& options, Sen
       given && turned > worth_saying)
     result.warnings.push_back (path + ": " + percentText (turned) +
                                " of the normals point away from the VIEWPOINT; they were turned");
-  std::vector<const DepthView*> views = {&*result.view};
-  for (const DepthView& view : result.other_views)
-    views.push_back (&view);
-  bool are_pixels = false; // with wrong readings
-  for (const DepthView* view : views)
-  {
-    for (const auto& [label, indices] : members)
-      if (label != 0)
-        are_pixels |= leaveOutTrails (options, *view, indices, cloud);
-    leaveOutMixedPixels (*view, cloud);
-  }
-  leaveOutScattered (options, objects, background.near, cloud);
-  if (are_pixels && background.near.empty () && background.far.empty ())
-    result.warnings.push_back (path + ": its points are pixels of an image, without their order and what is around: "
-                                      "wrong readings at the edges of objects may be taken for them (give the image "
-                                      "with labels, or organised, without readings elsewhere)");
+  leaveOutWrongReadings (path, options, members, objects, background, cloud, result);
 }
 
 } // namespace pcl::cosection

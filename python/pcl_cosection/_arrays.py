@@ -47,6 +47,8 @@ def depth_image(name: str, value: Any, scale: Optional[float] = None) -> Array:
     array = check_shape(name, as_array(name, value), ("height", "width"))
     if array.dtype.kind == "b":
         raise InvalidArgument(f"{name}: expected depths, got an array of truth values")
+    if array.dtype == np.uint16:  # the largest value is no measurement
+        array = np.where(array == 65535, np.uint16(0), array)
     if scale is None:
         scale = 1.0 if array.dtype.kind == "f" else MILLIMETRE
     if not (np.isfinite(scale) and scale > 0.0):

@@ -129,6 +129,26 @@ TEST (DynamicFusion, SmallInstancesBeginNoObject)
   EXPECT_TRUE (run.found.empty ());
   ASSERT_EQ (run.events.size (), 1u);
   EXPECT_NE (run.events[0].find ("began no object: it has "), std::string::npos) << run.events[0];
+  ASSERT_EQ (run.refused.size (), 1u);
+  EXPECT_NE (run.refused.begin ()->second.find (" are needed"), std::string::npos);
+}
+
+TEST (DynamicFusion, InstancesThatShowAnObjectInALaterMaskAreNotRefused)
+{
+  TrackedScene scene (12);
+  scene.addThing (1, movingThing ({0.0, 0.0, 0.0}, {0.0, 0.0, 0.0}, 0.0));
+  const auto cut = [] (int frame, const Image<std::uint16_t>& truth) { // a strip of it in the first mask
+    Image<std::uint16_t> mask = truth;
+    int left = 40;
+    for (std::uint16_t& pixel : mask.pixels)
+      if (frame == 0 && pixel == 1 && left-- <= 0)
+        pixel = 0;
+    return frame % 10 == 0 ? std::optional (mask) : std::nullopt;
+  };
+  const TrackedRun run = scene.run (cut);
+  EXPECT_FALSE (run.found.empty ());
+  EXPECT_TRUE (run.refused.empty ());
+  EXPECT_TRUE (run.said ("began no object: it has "));
 }
 
 TEST (DynamicFusion, ResultsDoNotDependOnThreads)

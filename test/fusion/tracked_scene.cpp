@@ -296,6 +296,7 @@ TrackedScene::run (const MaskPolicy& masks, DynamicFusionOptions options,
     run.masks.push_back (seen.mask);
   }
   run.found = fusion.foundObjects ();
+  run.refused = fusion.refusedInstances ();
   for (int id = 0; id <= 100; ++id)
     if (const std::optional<ClassScore> best = fusion.objectClass (id))
       run.classes[id] = *best;

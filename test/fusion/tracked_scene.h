@@ -48,7 +48,8 @@ struct TrackedRun
   std::vector<double> times;                     ///< s
   std::vector<Image<std::uint16_t>> masks;       ///< true
   std::set<int> found;
-  std::map<int, ClassScore> classes; ///< by object up to number 100, where they are known
+  std::map<std::uint16_t, std::string> refused; ///< instances of masks that are no object, and why
+  std::map<int, ClassScore> classes;            ///< by object up to number 100, where they are known
   std::vector<std::string> events;
   TriangleMesh background;
 

@@ -14,10 +14,14 @@ using namespace pcl::cosection::test;
 
 namespace {
 
+/** \brief A mask with one instance, which is all but the last column. */
 void
 writeMask (const SequenceFolder& folder, const std::string& name, std::uint16_t id, bool wide = false, int width = 8)
 {
-  saveMaskImage (Image<std::uint16_t> (width, 6, id), folder.newPath (name), wide);
+  Image<std::uint16_t> mask (width, 6, id);
+  for (int v = 0; v < mask.height; ++v)
+    mask.at (width - 1, v) = 0;
+  saveMaskImage (mask, folder.newPath (name), wide);
 }
 
 } // namespace
@@ -69,6 +73,23 @@ TEST (MaskSequence, BlurredMasksAreWarnedOf)
     mask.pixels[n] = static_cast<std::uint16_t> (n % 2 == 0 ? 0 : 5 * n);
   saveMaskImage (mask, folder.newPath ("mask/Mask0000.png"), true);
   EXPECT_TRUE (mentions (MaskSequence (folder.path ("mask"), sequence).warnings (), "masks must not be blurred"));
+}
+
+TEST (MaskSequence, ABackgroundThatIsAnInstanceIsWarnedOf)
+{
+  SequenceFolder folder;
+  folder.coFusion ({0});
+  const RgbdSequence sequence (folder.path ());
+  const auto isWarnedOf = [&] (std::uint16_t surroundings) {
+    Image<std::uint16_t> mask (sequence.camera ().width, sequence.camera ().height, surroundings);
+    mask.at (3, 2) = 7;
+    saveMaskImage (mask, folder.newPath ("mask/Mask0000.png"), true);
+    return mentions (MaskSequence (folder.path ("mask"), sequence).warnings (),
+                     "if it is the background, it must be 0");
+  };
+  EXPECT_TRUE (isWarnedOf (255));
+  EXPECT_FALSE (isWarnedOf (0));
+  EXPECT_FALSE (isWarnedOf (65535)); // neither object nor background
 }
 
 TEST (MaskSequence, BadMasksAreNamed)

@@ -5,6 +5,8 @@
 #include <pcl/cosection/io/rgbd_sequence.h>
 
 #include <gtest/gtest.h>
+#include <opencv2/core.hpp>
+#include <opencv2/imgcodecs.hpp>
 
 using namespace pcl::cosection;
 using namespace pcl::cosection::test;
@@ -82,6 +84,33 @@ TEST (RgbdSequence, NoisyDepthComesBeforeExactUnlessAskedFor)
   EXPECT_EQ (RgbdSequence (folder.path (), source).depthScale (), 200.0);
   std::filesystem::remove (folder.path ("depth_noise/Depth0000.png")); // an empty folder does not count
   EXPECT_NEAR (RgbdSequence (folder.path ()).read (0, warnings).depth.pixels[0], 1.0, 1e-3);
+}
+
+TEST (RgbdSequence, WhatDoesNotFitIntoSixteenBitsIsNoReading)
+{
+  SequenceFolder folder;
+  folder.coFusion ({0});
+  cv::Mat depth (6, 8, CV_16U, cv::Scalar (1500));
+  depth.at<std::uint16_t> (2, 3) = 65535;
+  cv::imwrite (folder.path ("depth/Depth0000.png"), depth);
+  std::vector<std::string> warnings;
+  const RgbdFrame frame = RgbdSequence (folder.path ()).read (0, warnings);
+  EXPECT_TRUE (std::isnan (frame.depth.at (3, 2)));
+  EXPECT_EQ (frame.depth.at (4, 2), 1.5f);
+}
+
+TEST (RgbdSequence, AssociationsHaveSeveralNames)
+{
+  for (const char* name : {"associate.txt", "Association.txt", "assoc.txt"})
+  {
+    SequenceFolder folder;
+    folder.text ("calibration.txt", "10 10 3.5 2.5 8 6");
+    folder.text (name, "0.1 rgb/0.png 0.1 depth/0.png\n");
+    folder.depth ("depth/0.png", 0, 5000.0);
+    folder.colour ("rgb/0.png", 0);
+    EXPECT_EQ (RgbdSequence (folder.path ()).format (), SequenceFormat::Tum) << name;
+    EXPECT_EQ (RgbdSequence (folder.path ()).stamp (0), 0.1) << name;
+  }
 }
 
 class Associations : public testing::TestWithParam<const char*>

@@ -8,6 +8,7 @@
 
 #include <filesystem>
 #include <random>
+#include <set>
 #include <sstream>
 
 namespace fs = std::filesystem;
@@ -344,4 +345,39 @@ TEST_F (AnyCloud, WrongReadingsAtTheEdgesOfPixelsWithoutTheirOrderAreLeftOut)
   ASSERT_EQ (run ({"mixed.pcd", "mixed.ply"}), 0) << errors_;
   EXPECT_NE (errors_.find ("its points are pixels of an image, without their order"), std::string::npos) << errors_;
   EXPECT_NEAR (volume ("mixed.ply"), volume ("clean.ply"), 0.1 * volume ("clean.ply"));
+}
+
+/** \brief An object that was cut out by a mask that is a little too large. */
+TEST_F (AnyCloud, WhatIsBehindAnObjectThatWasCutOutIsLeftOut)
+{
+  writeTableScene (path ("table.pcd"));
+  pcl::PointCloud<pcl::PointXYZRGBL> table;
+  pcl::io::loadPCDFile (path ("table.pcd"), table);
+  pcl::PointCloud<pcl::PointXYZ> exact;
+  std::set<std::size_t> behind; // pixels
+  for (std::size_t i = 0; i < table.size (); ++i)
+    if (const pcl::PointXYZRGBL& point = table[i]; point.label == 1 && point.getVector3fMap ().allFinite ())
+    {
+      exact.emplace_back (point.x, point.y, point.z);
+      for (const std::size_t step : {std::size_t (1), std::size_t (table.width)})
+        for (std::size_t k = 1; k <= 3 && i >= k * step; ++k)
+          if (const pcl::PointXYZRGBL& next = table[i - k * step]; next.label == 0 && next.z > 1.05f * point.z)
+            behind.insert (i - k * step);
+    }
+  pcl::PointCloud<pcl::PointXYZ> large = exact;
+  for (const std::size_t i : behind)
+    large.emplace_back (table[i].x, table[i].y, table[i].z);
+  for (pcl::PointCloud<pcl::PointXYZ>* cloud : {&exact, &large})
+  {
+    cloud->sensor_origin_ = table.sensor_origin_;
+    cloud->sensor_orientation_ = table.sensor_orientation_;
+  }
+  pcl::io::savePCDFileBinary (path ("exact.pcd"), exact);
+  pcl::io::savePCDFileBinary (path ("large.pcd"), large);
+  ASSERT_EQ (run ({"exact.pcd", "exact.ply"}), 0) << errors_;
+  EXPECT_EQ (errors_.find ("apart from the others"), std::string::npos) << errors_;
+  ASSERT_EQ (run ({"large.pcd", "large.ply"}), 0) << errors_;
+  EXPECT_NE (errors_.find ("of the points are apart from the others, and are left out"), std::string::npos) << errors_;
+  EXPECT_NEAR (volume ("large.ply"), volume ("exact.ply"), 0.1 * volume ("exact.ply"));
+  EXPECT_LT ((centroid ("large.ply") - centroid ("exact.ply")).norm (), 0.003);
 }

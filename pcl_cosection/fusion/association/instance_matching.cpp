@@ -142,7 +142,10 @@ beginObject (const PosedFrame& frame, const std::vector<Eigen::Vector3f>& points
 {
   const DynamicFusionOptions& options = setup.options;
   const auto refuse = [&] (const auto&... reason) {
-    log.add (frame.stamp, "instance ", instance, " began no object: ", reason...);
+    const std::string why = toText (reason...);
+    log.add (frame.stamp, "instance ", instance, " began no object: ", why);
+    if (exact)
+      objects.refused.try_emplace (instance, why);
     return nullptr;
   };
   if (points.size () < setup.min_object_pixels)
@@ -247,6 +250,8 @@ matchInstances (const PosedFrame& frame, const FrameMask& mask, const LabelImage
       matches.object_of[instance] = static_cast<std::uint16_t> (object->id);
   }
   countClasses (mask, matches.object_of, objects);
+  for (const auto& [instance, object] : matches.object_of)
+    objects.shown.insert (instance);
   MatchedInstances result{std::move (matches.object_of), {}};
   for (const auto& [instance, id] : result.object_of)
     if (mask.exact && found_before.count (id) == 0)

@@ -6,24 +6,29 @@
 namespace pcl::cosection {
 
 LabelPatches
-patchesOf (const PinholeCamera& camera, const SensorCloud& cloud, const std::vector<std::size_t>& readings)
+patchesOf (const std::vector<Eigen::Vector3f>& points, double reach_m)
 {
-  const std::vector<Eigen::Vector3f> points = pick (cloud.positions, readings);
-  std::vector<float> depths (points.size ());
-  std::transform (points.begin (), points.end (), depths.begin (), [] (const auto& p) { return p.z (); });
-  const double depth_m = upperMedian (depths);
-  // Neighbours in cells may be twice the width of a cell apart.
-  const double reach_m = 0.5 * largestSurfaceStep (depth_m, depth_m / camera.fx, cloud.working_range_m);
   LabelPatches patches;
   patches.patch_of = connectedPatches (
-      points.size (), [&] (std::size_t p) { return points[p]; }, points.front ().cast<double> (), reach_m);
-  patches.sizes.resize (readings.size (), 0);
+      points.size (), [&] (std::size_t p) { return points[p]; }, points.front ().cast<double> (),
+      0.5 * reach_m); // neighbours in cells may be twice the width of a cell apart
+  patches.sizes.resize (points.size (), 0);
   for (const std::size_t patch : patches.patch_of)
     if (patch != no_patch)
       ++patches.sizes[patch];
   patches.largest = static_cast<std::size_t> (std::max_element (patches.sizes.begin (), patches.sizes.end ()) -
                                               patches.sizes.begin ());
   return patches;
+}
+
+LabelPatches
+patchesOf (const PinholeCamera& camera, const SensorCloud& cloud, const std::vector<std::size_t>& readings)
+{
+  const std::vector<Eigen::Vector3f> points = pick (cloud.positions, readings);
+  std::vector<float> depths (points.size ());
+  std::transform (points.begin (), points.end (), depths.begin (), [] (const auto& p) { return p.z (); });
+  const double depth_m = upperMedian (depths);
+  return patchesOf (points, largestSurfaceStep (depth_m, depth_m / camera.fx, cloud.working_range_m));
 }
 
 } // namespace pcl::cosection

@@ -63,6 +63,9 @@ struct LabelPatches
   std::size_t largest = 0;           ///< patch
 };
 
+/** \param[in] points of the label, at least one \param[in] reach_m from one to the next of a patch */
+LabelPatches patchesOf (const std::vector<Eigen::Vector3f>& points, double reach_m);
+
 /** \param[in] readings of the label, at least one */
 LabelPatches patchesOf (const PinholeCamera& camera, const SensorCloud& cloud,
                         const std::vector<std::size_t>& readings);

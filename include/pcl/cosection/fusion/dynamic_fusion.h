@@ -137,6 +137,10 @@ public:
   /** \brief Numbers of all objects that were found so far and not given up as wrong. */
   std::set<int> foundObjects () const;
 
+  /** \brief Instances of the masks that were given which have shown no object in any of them: why the first one began
+   * none. */
+  std::map<std::uint16_t, std::string> refusedInstances () const;
+
   /** \brief Surface of an object as it was seen, object frame; empty without an object of that number. */
   TriangleMesh surfaceMesh (int id) const;
 

@@ -284,8 +284,8 @@ private:
 
   Image<std::uint16_t> readFile (const std::string& path) const;
 
-  /** \brief Warn of a first mask that is blurred. */
-  void warnOfSpecks ();
+  /** \brief Warn of a first mask that is blurred, or whose background is an instance. */
+  void judgeFirst ();
 
   double half_period_;
   int width_;
