@@ -14,6 +14,7 @@
 #include "pcl_cosection/priors/symmetry/object_symmetry.h"
 #include "pcl_cosection/priors/vessels/vessel_term.h"
 #include "pcl_cosection/volume/distance_transform.h"
+#include "rays_without_return.h"
 #include "resting_planes.h"
 
 #include <algorithm>
@@ -271,7 +272,7 @@ SignedDistanceField
 solvedAlone (const BodyEnergy& energy)
 {
   BodySolution solution;
-  solve (energy, Resolution::Half, solution, nullptr);
+  solve (energy, Resolution::Full, solution, nullptr);
   SignedDistanceField field = solvedField (energy, solution);
   field.supported.clear ();
   return field;

@@ -13,86 +13,9 @@ namespace pcl::cosection {
 namespace {
 
 constexpr int cell_px = 4;        // closes the gaps between points
-constexpr int margin_cells = 1;   // around the object, as silhouettes are inaccurate
 constexpr double rounding = 1e-9; // relative bound of the rounding errors of a box's depths
 constexpr double slack_px = 1.0;  // bound of the errors of its pixels
 constexpr std::uint8_t stale = 4;
-
-/** \brief The cells of an image beside an object, outside its outline. */
-class Beside
-{
-public:
-  Beside (const DepthView& view, const Eigen::Isometry3d& T_object_sensor, const std::vector<OrientedPoint>& points)
-      : view_ (view)
-      , T_sensor_object_ (T_object_sensor.inverse ())
-      , size_ ((view.camera.width + cell_px - 1) / cell_px, (view.camera.height + cell_px - 1) / cell_px)
-      , cells_ (static_cast<std::size_t> (size_.x ()) * size_.y (), 0)
-  {
-    for (int v = 0; v < view.camera.height; ++v) // readings without a normal show a surface, too
-      for (int u = 0; u < view.camera.width; ++u)
-        if (isReading (view.at (u, v)))
-          mark (Eigen::Array2i (u, v) / cell_px);
-    for (const OrientedPoint& point : points)
-      if (const auto pixel = pixelOf (view.camera, T_sensor_object_ * point.position.cast<double> ()))
-        mark (*pixel / cell_px);
-    fill ();
-  }
-
-  bool isOpen (const Eigen::Vector3d& place) const
-  {
-    const Eigen::Vector3d q = T_sensor_object_ * place;
-    const auto pixel = pixelOf (view_.camera, q);
-    return pixel && cells_[indexOf (*pixel / cell_px)] == outside &&
-           compareWithReading (q.z (), view_.at (pixel->x (), pixel->y ()), 0.0) != PointVisibility::Occluded;
-  }
-
-private:
-  static constexpr std::uint8_t object = 1;
-  static constexpr std::uint8_t outside = 2;
-
-  std::size_t indexOf (const Eigen::Array2i& cell) const
-  {
-    return static_cast<std::size_t> (cell.y ()) * size_.x () + cell.x ();
-  }
-
-  void mark (const Eigen::Array2i& cell)
-  {
-    const Eigen::Array2i low = (cell - margin_cells).max (0), high = (cell + margin_cells).min (size_ - 1);
-    for (int v = low.y (); v <= high.y (); ++v)
-      for (int u = low.x (); u <= high.x (); ++u)
-        cells_[indexOf ({u, v})] = object;
-  }
-
-  /** \brief Flood fill from the border of the image through cells that are not the object's. */
-  void fill ()
-  {
-    std::vector<Eigen::Array2i> front;
-    const auto reach = [&] (const Eigen::Array2i& cell) {
-      if ((cell < 0).any () || (cell >= size_).any () || cells_[indexOf (cell)] != 0)
-        return;
-      cells_[indexOf (cell)] = outside;
-      front.push_back (cell);
-    };
-    for (int v = 0; v < size_.y (); ++v)
-      for (int u = 0; u < size_.x (); ++u)
-        if (u == 0 || v == 0 || u == size_.x () - 1 || v == size_.y () - 1)
-          reach ({u, v});
-    while (!front.empty ())
-    {
-      const Eigen::Array2i cell = front.back ();
-      front.pop_back ();
-      reach (cell + Eigen::Array2i (1, 0));
-      reach (cell - Eigen::Array2i (1, 0));
-      reach (cell + Eigen::Array2i (0, 1));
-      reach (cell - Eigen::Array2i (0, 1));
-    }
-  }
-
-  const DepthView& view_;
-  Eigen::Isometry3d T_sensor_object_;
-  Eigen::Array2i size_; // cells
-  std::vector<std::uint8_t> cells_;
-};
 
 } // namespace
 
@@ -368,24 +291,6 @@ OcclusionMap::bytes () const
   for (const ObjectDepthBuffer& silhouette : depth_buffers_)
     bytes += sizeof (ObjectDepthBuffer) + silhouette.bytes ();
   return bytes;
-}
-
-std::vector<std::uint8_t>
-findRaysWithoutReturn (const VoxelGrid& grid, const OcclusionMap::Views& views,
-                       const std::vector<OrientedPoint>& points, int threads)
-{
-  std::vector<std::uint8_t> open (grid.size (), 0);
-  for (const auto& [view, T_object_sensor] : views)
-  {
-    const Beside beside (*view, T_object_sensor, points);
-    parallelFor (0, grid.dims.z (), threads, [&] (int k) {
-      for (int j = 0; j < grid.dims.y (); ++j)
-        for (int i = 0; i < grid.dims.x (); ++i)
-          if (std::uint8_t& is_open = open[grid.index (i, j, k)]; !is_open)
-            is_open = beside.isOpen (grid.center (i, j, k));
-    });
-  }
-  return open;
 }
 
 } // namespace pcl::cosection

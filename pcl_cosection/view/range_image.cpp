@@ -275,6 +275,23 @@ drawRangeImage (const std::vector<Eigen::Vector3f>& points, const Eigen::Vector3
   return image;
 }
 
+DepthView
+withSurroundings (const DepthView& view)
+{
+  const int margin_px = std::max (view.camera.width, view.camera.height) / 2;
+  DepthView wide = view;
+  wide.camera.width += 2 * margin_px;
+  wide.camera.height += 2 * margin_px;
+  wide.camera.cx += margin_px;
+  wide.camera.cy += margin_px;
+  wide.depth.assign (static_cast<std::size_t> (wide.camera.width) * wide.camera.height,
+                     std::numeric_limits<float>::quiet_NaN ());
+  for (int v = 0; v < view.camera.height; ++v)
+    std::copy_n (view.depth.begin () + static_cast<std::ptrdiff_t> (v) * view.camera.width, view.camera.width,
+                 wide.depth.begin () + static_cast<std::ptrdiff_t> (v + margin_px) * wide.camera.width + margin_px);
+  return wide;
+}
+
 std::optional<RangeImage>
 drawPanorama (const std::vector<Eigen::Vector3f>& points, const Eigen::Vector3d& sensor)
 {

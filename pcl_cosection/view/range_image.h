@@ -46,6 +46,10 @@ struct RangeImage
  * their mean direction as seen from the sensor */
 std::optional<RangeImage> drawRangeImage (const std::vector<Eigen::Vector3f>& points, const Eigen::Vector3d& sensor);
 
+/** \brief The view with pixels without a reading around it, half of its longer side wide: rays that passed its points.
+ */
+DepthView withSurroundings (const DepthView& view);
+
 /** \brief Draw points that a sensor saw all around, as a spinning lidar, as drawRangeImage () does: a depth image for
  * each face of a cube about it that has points, the one with the most first. */
 std::optional<RangeImage> drawPanorama (const std::vector<Eigen::Vector3f>& points, const Eigen::Vector3d& sensor);

@@ -325,6 +325,8 @@ completeUnorganized (const std::string& path, const PcdViewOptions& options, Sen
       return;
     result.warnings = std::move (of_one_view);
   }
+  if (result.view && result.other_views.empty () && members.count (0) == 0) // only things, which were cut out
+    result.view = withSurroundings (*result.view);
   setWorkingRange (members, cloud, result);
   dropUnfilledNormals (cloud);
   dropStrangeNormals (path, members, cloud, result);

@@ -5,6 +5,7 @@
 #include "pcl_cosection/common/parallel.h"
 #include "pcl_cosection/mesh/mesh_parts.h"
 #include "pcl_cosection/mesh/moved_mesh.h"
+#include "pcl_cosection/priors/rays_without_return.h"
 #include <pcl/cosection/common/error.h>
 #include <pcl/cosection/volume/iso_surface.h>
 
@@ -64,28 +65,50 @@ withoutSmallParts (const TriangleMesh& mesh)
   return selectTriangles (mesh, kept);
 }
 
+/** \brief Count rays without a reading beside an object that was cut out as free. \param[in] grid in the cube's frame
+ */
+void
+addRaysWithoutReturn (const VoxelGrid& grid, const Eigen::Isometry3d& T_cube_object, std::vector<OrientedPoint> points,
+                      SensorViews views, CompletionInputs& inputs)
+{
+  for (OrientedPoint& point : points)
+    point.position = T_cube_object.cast<float> () * point.position;
+  for (auto& [view, T_sensor] : views)
+    T_sensor = T_cube_object * T_sensor;
+  const std::vector<std::uint8_t> open = findRaysWithoutReturn (grid, views, points, 1);
+  for (std::size_t n = CompletionCube::index (0, 0, CompletionCube::below_vox); n < open.size (); ++n)
+    if (open[n] && inputs.is_unknown[n])
+    {
+      inputs.is_free[n] = 1;
+      inputs.is_unknown[n] = 0;
+    }
+}
+
 } // namespace
 
 CompletionNetwork::~CompletionNetwork () = default;
 
 LearnedCompletion
 completedByNetwork (const CompletionNetwork& network, const std::vector<OrientedPoint>& points,
-                    const SensorViews& views, const Eigen::Vector4d& plane)
+                    const SensorViews& views, const Eigen::Vector4d& plane, bool is_cut_out)
 {
   LearnedCompletion result;
   const std::optional<CompletionCube> cube = completionCube (points, views, plane);
   if (!cube)
     return result;
-  const CompletionInputs inputs = completionInputs (*cube, points, views);
+  CompletionInputs inputs = completionInputs (*cube, points, views);
+  SignedDistanceField& field = result.field;
+  field.grid.dims.setConstant (N);
+  field.grid.voxel_size_m = cube->voxel_size_m;
+  field.grid.origin_m = Eigen::Vector3d::Constant (0.5 * cube->voxel_size_m);
+  result.T_cube_object = cube->T_object_cube.inverse ();
+  if (is_cut_out)
+    addRaysWithoutReturn (field.grid, result.T_cube_object, points, views, inputs);
   const std::vector<float> logits = network.complete (observedValues (inputs, false));
   const std::vector<float> of_mirror = network.complete (observedValues (inputs, true));
   if (logits.size () != CompletionCube::voxels || of_mirror.size () != CompletionCube::voxels)
     throw InvalidArgument ("the completion network answers with " + std::to_string (logits.size ()) + " values; " +
                            std::to_string (CompletionCube::voxels) + " are needed");
-  SignedDistanceField& field = result.field;
-  field.grid.dims.setConstant (N);
-  field.grid.voxel_size_m = cube->voxel_size_m;
-  field.grid.origin_m = Eigen::Vector3d::Constant (0.5 * cube->voxel_size_m);
   field.values.resize (CompletionCube::voxels);
   const double below_m = CompletionCube::below_vox * cube->voxel_size_m;
   for (std::size_t n = 0; n < CompletionCube::voxels; ++n)
@@ -101,7 +124,6 @@ completedByNetwork (const CompletionNetwork& network, const std::vector<Oriented
   TriangleMesh mesh = withoutSmallParts (extractIsoSurface (field, {true, 1}));
   mesh.normals.clear ();
   result.mesh = movedMesh (std::move (mesh), cube->T_object_cube);
-  result.T_cube_object = cube->T_object_cube.inverse ();
   return result;
 }
 

@@ -24,9 +24,10 @@ struct LearnedCompletion
 /** \brief Complete an object by a network.
  * \param[in] points of the object
  * \param[in] views of it, and their sensors' poses in its frame
- * \param[in] plane n.x + d = 0 on which it stands, unit n towards it */
+ * \param[in] plane n.x + d = 0 on which it stands, unit n towards it
+ * \param[in] is_cut_out what is around it was removed: rays without a reading beside it are free */
 LearnedCompletion completedByNetwork (const CompletionNetwork& network, const std::vector<OrientedPoint>& points,
-                                      const SensorViews& views, const Eigen::Vector4d& plane);
+                                      const SensorViews& views, const Eigen::Vector4d& plane, bool is_cut_out);
 
 /** \brief What other priors expect, corrected where the network is sure: both are observers of each place, whose log
  * odds that there is matter are added.

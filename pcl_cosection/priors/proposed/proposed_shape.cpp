@@ -127,7 +127,8 @@ learnedShape (const Observation& object, const ObjectSetting& setting, const Eig
   if (!shapes.completed)
   {
     shapes.completed = true;
-    LearnedCompletion completion = completedByNetwork (*object.network, object.points (), object.views, plane);
+    LearnedCompletion completion = completedByNetwork (*object.network, object.points (), object.views, plane,
+                                                       setting.background.empty ());
     if (completion.mesh.empty ())
       return nullptr;
     const std::vector<Eigen::Vector4d> resting = {plane};

@@ -14,6 +14,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
 
 using namespace pcl::cosection;
@@ -195,6 +196,47 @@ TEST (LearnedPrior, AnswersOfWrongSizeAreErrors)
   };
   const ObjectResult result = completeWithNetwork (guessedFigure (), std::make_shared<Short> ());
   EXPECT_NE (result.error.find ("32768"), std::string::npos) << result.error;
+}
+
+/** \brief Of a thing that was cut out, the rays beside it have no reading. */
+TEST (LearnedPrior, RaysBesideWhatWasCutOutAreFree)
+{
+  class Listener : public CompletionNetwork
+  {
+  public:
+    std::vector<float> complete (const std::vector<float>& observed) const override
+    {
+      const auto free = observed.begin () + CompletionCube::voxels;
+      free_ = static_cast<std::size_t> (std::count (free, free + CompletionCube::voxels, 1.0f));
+      return std::vector<float> (CompletionCube::voxels, -1.0f);
+    }
+    mutable std::size_t free_ = 0;
+  };
+  const RenderedView whole = seenFromTheFront (guessedFigure ());
+  DepthView own = whole.view;
+  std::fill (own.depth.begin (), own.depth.end (), std::numeric_limits<float>::quiet_NaN ());
+  for (const OrientedPoint& point : whole.points.at (1))
+  {
+    const Eigen::Vector3d p = own.T_world_sensor.inverse () * point.position.cast<double> ();
+    const Eigen::Array2i pixel = own.camera.project (p).array ().round ().cast<int> ();
+    own.depth[static_cast<std::size_t> (pixel.y ()) * own.camera.width + pixel.x ()] = static_cast<float> (p.z ());
+  }
+  const auto freeVoxels = [&] (const DepthView& view, const std::vector<OrientedPoint>& background) {
+    const auto network = std::make_shared<Listener> ();
+    CoSectionOptions options = optionsFor (0.004);
+    options.completion_network = network;
+    CoSection task (options);
+    task.addView (view);
+    task.setBackground (background);
+    task.addSupportPlane (table_plane);
+    task.addObject ({1, whole.points.at (1), {}});
+    task.reconstruct ();
+    return network->free_;
+  };
+  const std::size_t in_scene = freeVoxels (whole.view, whole.points.at (0));
+  EXPECT_GT (in_scene, 2000u);
+  EXPECT_GT (freeVoxels (own, {}), in_scene / 2);
+  EXPECT_LT (freeVoxels (own, whole.points.at (0)), in_scene / 2); // missing readings tell nothing where others are
 }
 
 TEST (LearnedPrior, NoAnswerChangesNothing)
