@@ -340,9 +340,11 @@ public:
       result.warnings.push_back (
           "the masks show no object that could be tracked: none at all, or what they show is too "
           "small or too far away (is the scale of the depth right?)");
-    else
-      for (const auto& [instance, why] : fusion_.refusedInstances ())
-        result.warnings.push_back ("instance " + std::to_string (instance) + " of the masks is no object: " + why);
+    else if (const auto refused = fusion_.refusedInstances (); !refused.empty ())
+      result.warnings.push_back (
+          "instance " + std::to_string (refused.begin ()->first) +
+          " of the masks is no object: " + refused.begin ()->second +
+          (refused.size () > 1 ? "; likewise " + std::to_string (refused.size () - 1) + " more" : ""));
   }
 
 private:

@@ -45,8 +45,8 @@ struct ObjectMap
   std::map<std::pair<int, int>, ObjectPair> pairs; ///< by ids, the smaller one first
   int next_id = 1;
   int next_dormant = 1;                         ///< TrackedObject::dormant_since
-  std::map<std::uint16_t, std::string> refused; ///< instances of given masks that have shown no object yet, and why
-  std::set<std::uint16_t> shown;                ///< those that have shown one
+  std::map<std::uint16_t, std::string> refused; ///< why instances of given masks began no object
+  std::set<std::uint16_t> shown;                ///< instances of given masks that have shown one
 
   /** \brief Ids of the objects for which \a condition (object) holds. */
   template <typename Condition> std::set<int> idsOf (Condition&& condition) const
