@@ -91,7 +91,6 @@ complete (SceneData scene, const py::object& progress)
   return run.run ([&] (const ProgressCallback& go_on) {
     auto result = std::make_shared<CompletionData> ();
     result->settings = settingsOf (scene, ".", "");
-    result->settings.save_sdf = true; // the result has it
     result->completed = completeViews (result->settings, readersOf (scene), go_on, {});
     scene.named_views.clear ();
     scene.named_meshes.clear ();

@@ -20,9 +20,9 @@ turned (const Eigen::Quaterniond& R, const Eigen::Vector4d& plane)
 }
 
 /** \brief On voxels of the same size along the turned axes. Where these reach beyond the field, its nearest value and
- * the distance from there. \param[in] with_values else only the grid is needed */
+ * the distance from there. */
 SignedDistanceField
-turned (const Eigen::Quaterniond& R, const SignedDistanceField& field, bool with_values)
+turned (const Eigen::Quaterniond& R, const SignedDistanceField& field)
 {
   const VoxelGrid& from = field.grid;
   const Eigen::Vector3d last = from.dims.cast<double> () - Eigen::Vector3d::Ones ();
@@ -35,8 +35,6 @@ turned (const Eigen::Quaterniond& R, const SignedDistanceField& field, bool with
   to.grid.voxel_size_m = from.voxel_size_m;
   to.grid.origin_m = box.min ();
   to.grid.dims = (box.sizes () / from.voxel_size_m).array ().ceil ().cast<int> () + 1;
-  if (!with_values)
-    return to;
   to.values.resize (to.grid.size ());
   to.supported.resize (field.supported.empty () ? 0 : to.grid.size ());
   for (int k = 0; k < to.grid.dims.z (); ++k)
@@ -56,7 +54,7 @@ turned (const Eigen::Quaterniond& R, const SignedDistanceField& field, bool with
 }
 
 void
-turnObject (const Eigen::Quaterniond& R, bool with_distances, ObjectResult& object)
+turnObject (const Eigen::Quaterniond& R, ObjectResult& object)
 {
   for (TriangleMesh* mesh : {&object.mesh, &object.hull, &object.inner_bound, &object.outer_bound})
     *mesh = movedMesh (std::move (*mesh), Eigen::Isometry3d (R));
@@ -64,8 +62,7 @@ turnObject (const Eigen::Quaterniond& R, bool with_distances, ObjectResult& obje
     if (*fit)
       (*fit)->T_object_proposal = R * (*fit)->T_object_proposal;
   if (object.signed_distance)
-    object.signed_distance = std::make_shared<SignedDistanceField> (
-        turned (R, *object.signed_distance, with_distances));
+    object.signed_distance = std::make_shared<SignedDistanceField> (turned (R, *object.signed_distance));
 }
 
 } // namespace
@@ -104,7 +101,7 @@ turnResult (const Eigen::Quaterniond& R_world_frame, const Settings& settings, S
   for (ObjectResult& object : result.objects)
   {
     if (settings.object_trajectories.count (object.id) == 0)
-      turnObject (R_world_frame, settings.save_sdf, object);
+      turnObject (R_world_frame, object);
     if (object.guessed_plane)
       object.guessed_plane = turned (R_world_frame, *object.guessed_plane);
   }

@@ -16,7 +16,7 @@ Eigen::Quaterniond completionFrame (const SceneInput& scene);
 void turnInput (const Eigen::Quaterniond& R_frame_world, SceneInput& scene);
 
 /** \brief Take what is in a turned frame to the world's. Signed distances, whose voxels lie along the axes of their
- * frame, are sampled anew if they are to be saved; else only their grid is right. Objects with trajectories, which are
- * in frames of their own, stay; pieces of the background, which no program shows, are left out. */
+ * frame, are sampled anew. Objects with trajectories, which are in frames of their own, stay; pieces of the background,
+ * which no program shows, are left out. */
 void turnResult (const Eigen::Quaterniond& R_world_frame, const Settings& settings,
                  pcl::cosection::SceneResult& result);

@@ -127,8 +127,9 @@ learnedShape (const Observation& object, const ObjectSetting& setting, const Eig
   if (!shapes.completed)
   {
     shapes.completed = true;
+    const bool is_cut_out = setting.priors.rays && setting.background.empty ();
     LearnedCompletion completion = completedByNetwork (*object.network, object.points (), object.views, plane,
-                                                       setting.background.empty ());
+                                                       is_cut_out);
     if (completion.mesh.empty ())
       return nullptr;
     const std::vector<Eigen::Vector4d> resting = {plane};
