@@ -12,7 +12,6 @@
 namespace pcl::cosection {
 namespace {
 
-constexpr int cell_px = 4;        // closes the gaps between points
 constexpr double rounding = 1e-9; // relative bound of the rounding errors of a box's depths
 constexpr double slack_px = 1.0;  // bound of the errors of its pixels
 constexpr std::uint8_t stale = 4;
@@ -62,7 +61,7 @@ ObjectDepthBuffer::add (const std::vector<OrientedPoint>& points, std::size_t fi
     const std::optional<Eigen::Array2i> pixel = pixelOf (camera_, p);
     if (!pixel)
       continue;
-    seen.push_back ({*pixel / cell_px, static_cast<float> (p.z ())});
+    seen.push_back ({*pixel / outline_cell_px, static_cast<float> (p.z ())});
     low = low.min (seen.back ().cell);
     high = high.max (seen.back ().cell);
   }
@@ -96,7 +95,7 @@ ObjectDepthBuffer::at (const Eigen::Vector3d& p, const DepthView& view) const
   const std::optional<Eigen::Array2i> pixel = pixelOf (camera_, q);
   if (!pixel)
     return Hidden::Nothing;
-  const Eigen::Array2i cell = *pixel / cell_px - first_;
+  const Eigen::Array2i cell = *pixel / outline_cell_px - first_;
   if ((cell >= 0).all () && (cell < size_).all () && q.z () > depth_[indexOf (cell.x (), cell.y ())])
     return Hidden::ByObject;
   return compareWithReading (q.z (), view.at (pixel->x (), pixel->y ()), 0.0) == PointVisibility::Occluded
@@ -137,8 +136,8 @@ ObjectDepthBuffer::outlook (const Eigen::Vector3d& center, const Eigen::Vector3d
     return outlook;
   outlook.in_view = true;
   bool covered = (low >= 0.0).all () && (high < end).all (); // all cells are nearer than the box
-  const Eigen::Array2i first = low.max (0.0).cast<int> () / cell_px - first_;
-  const Eigen::Array2i last = high.min (end - 1.0).cast<int> () / cell_px - first_;
+  const Eigen::Array2i first = low.max (0.0).cast<int> () / outline_cell_px - first_;
+  const Eigen::Array2i last = high.min (end - 1.0).cast<int> () / outline_cell_px - first_;
   covered = covered && (first >= 0).all () && (last < size_).all ();
   for (int v = std::max (0, first.y ()); v <= std::min (size_.y () - 1, last.y ()); ++v)
     for (int u = std::max (0, first.x ()); u <= std::min (size_.x () - 1, last.x ()); ++u)

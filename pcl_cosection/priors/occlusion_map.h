@@ -14,6 +14,8 @@
 
 namespace pcl::cosection {
 
+constexpr int outline_cell_px = 4; ///< of an object's outline in a sensor's image: closes the gaps between readings
+
 /** \brief What hides a place from a view that does not see it free. */
 enum class Hidden : std::uint8_t
 {

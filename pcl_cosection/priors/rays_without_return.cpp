@@ -1,6 +1,7 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "rays_without_return.h"
 
+#include "occlusion_map.h"
 #include "pcl_cosection/common/parallel.h"
 #include "pcl_cosection/view/visibility/visibility.h"
 
@@ -9,9 +10,8 @@
 namespace pcl::cosection {
 namespace {
 
-constexpr int cell_px = 4;       // closes the gaps between readings
-constexpr int drawn_cell_px = 2; // there are none in an image that was drawn of points, but a bottle loses 8 % with 1
-constexpr int margin_cells = 1;  // around the object, as silhouettes are inaccurate
+constexpr int drawn_cell_px = 2;        // of an image that was drawn of points without gaps: a bottle loses 8 % with 1
+constexpr int margin_cells = 1;         // around the object, as silhouettes are inaccurate
 constexpr double points_of_drawn = 1.6; // in a pixel, from which on it was drawn: a sensor has 1, drawn ones 2.5
 
 /** \brief The cells of an image beside an object, outside its outline. */
@@ -32,7 +32,7 @@ public:
         pixels += is_own == 0;
         is_own = 1;
       }
-    cell_ = points_in_view > points_of_drawn * pixels ? drawn_cell_px : cell_px;
+    cell_ = points_in_view > points_of_drawn * pixels ? drawn_cell_px : outline_cell_px;
     size_ = {(view.camera.width + cell_ - 1) / cell_, (view.camera.height + cell_ - 1) / cell_};
     cells_.assign (static_cast<std::size_t> (size_.x ()) * size_.y (), 0);
     for (std::size_t n = 0; n < own.size (); ++n)

@@ -277,6 +277,13 @@ dropStrangeNormals (const std::string& path, const Members& members, SensorCloud
     }
 }
 
+/** \brief Whether there are only things: what was around them was cut away. */
+bool
+areCutOut (const Members& members)
+{
+  return members.count (0) == 0;
+}
+
 /** \brief Leave out wrong readings at the edges of things, and what is behind things that were cut out too large. */
 void
 leaveOutWrongReadings (const std::string& path, const PcdViewOptions& options, const Members& members,
@@ -286,7 +293,6 @@ leaveOutWrongReadings (const std::string& path, const PcdViewOptions& options, c
   std::vector<const DepthView*> views = {&*result.view};
   for (const DepthView& view : result.other_views)
     views.push_back (&view);
-  const bool is_cut_out = background.near.empty () && background.far.empty ();
   bool are_pixels = false; // with wrong readings
   for (const DepthView* view : views)
   {
@@ -295,14 +301,14 @@ leaveOutWrongReadings (const std::string& path, const PcdViewOptions& options, c
         are_pixels |= leaveOutTrails (options, *view, indices, cloud);
     leaveOutMixedPixels (*view, cloud);
   }
-  if (is_cut_out) // else its surroundings tell
+  if (areCutOut (members)) // else its surroundings tell
     for (const auto& [label, indices] : members)
       if (const double apart = leaveOutSeparateParts (options, indices, cloud); apart > worth_saying)
         result.warnings.push_back (path + ": " + percentText (apart) + " of the points" +
                                    (result.has_labels ? " of label " + std::to_string (label) : std::string ()) +
                                    " are apart from the others, and are left out");
   leaveOutScattered (options, objects, background.near, cloud);
-  if (are_pixels && is_cut_out)
+  if (are_pixels && areCutOut (members))
     result.warnings.push_back (path + ": its points are pixels of an image, without their order and what is around: "
                                       "wrong readings at the edges of objects may be taken for them (give the image "
                                       "with labels, or organised, without readings elsewhere)");
@@ -325,7 +331,7 @@ completeUnorganized (const std::string& path, const PcdViewOptions& options, Sen
       return;
     result.warnings = std::move (of_one_view);
   }
-  if (result.view && result.other_views.empty () && members.count (0) == 0) // only things, which were cut out
+  if (result.view && result.other_views.empty () && areCutOut (members))
     result.view = withSurroundings (*result.view);
   setWorkingRange (members, cloud, result);
   dropUnfilledNormals (cloud);

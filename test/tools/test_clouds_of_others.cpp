@@ -315,6 +315,16 @@ TEST_F (AnyCloud, ObjectsAreFoundFirst)
   EXPECT_EQ (run ({"--segment", "--save-labels", "image.pcd", "image.pcd", "out"}), 2);
 }
 
+/** \brief Save some points of a view with its pose. */
+static void
+saveSeenFromThere (const pcl::PointCloud<pcl::PointXYZRGBL>& view, pcl::PointCloud<pcl::PointXYZ> points,
+                   const std::string& path)
+{
+  points.sensor_origin_ = view.sensor_origin_;
+  points.sensor_orientation_ = view.sensor_orientation_;
+  pcl::io::savePCDFileBinary (path, points);
+}
+
 TEST_F (AnyCloud, WrongReadingsAtTheEdgesOfPixelsWithoutTheirOrderAreLeftOut)
 {
   writeTableScene (path ("table.pcd"));
@@ -332,14 +342,9 @@ TEST_F (AnyCloud, WrongReadingsAtTheEdgesOfPixelsWithoutTheirOrderAreLeftOut)
       const float part = 0.5f * (end.z + next.z) / next.z;
       mixed.emplace_back (part * next.x, part * next.y, part * next.z);
     }
-  for (pcl::PointCloud<pcl::PointXYZ>* cloud : {&clean, &mixed})
-  {
-    cloud->sensor_origin_ = table.sensor_origin_;
-    cloud->sensor_orientation_ = table.sensor_orientation_;
-  }
   ASSERT_GT (mixed.size (), 1.005 * clean.size ());
-  pcl::io::savePCDFileBinary (path ("clean.pcd"), clean);
-  pcl::io::savePCDFileBinary (path ("mixed.pcd"), mixed);
+  saveSeenFromThere (table, clean, path ("clean.pcd"));
+  saveSeenFromThere (table, mixed, path ("mixed.pcd"));
   ASSERT_EQ (run ({"clean.pcd", "clean.ply"}), 0) << errors_;
   EXPECT_EQ (errors_.find ("pixels of an image"), std::string::npos) << errors_;
   ASSERT_EQ (run ({"mixed.pcd", "mixed.ply"}), 0) << errors_;
@@ -367,13 +372,8 @@ TEST_F (AnyCloud, WhatIsBehindAnObjectThatWasCutOutIsLeftOut)
   pcl::PointCloud<pcl::PointXYZ> large = exact;
   for (const std::size_t i : behind)
     large.emplace_back (table[i].x, table[i].y, table[i].z);
-  for (pcl::PointCloud<pcl::PointXYZ>* cloud : {&exact, &large})
-  {
-    cloud->sensor_origin_ = table.sensor_origin_;
-    cloud->sensor_orientation_ = table.sensor_orientation_;
-  }
-  pcl::io::savePCDFileBinary (path ("exact.pcd"), exact);
-  pcl::io::savePCDFileBinary (path ("large.pcd"), large);
+  saveSeenFromThere (table, exact, path ("exact.pcd"));
+  saveSeenFromThere (table, large, path ("large.pcd"));
   ASSERT_EQ (run ({"exact.pcd", "exact.ply"}), 0) << errors_;
   EXPECT_EQ (errors_.find ("apart from the others"), std::string::npos) << errors_;
   ASSERT_EQ (run ({"large.pcd", "large.ply"}), 0) << errors_;

@@ -250,8 +250,9 @@ matchInstances (const PosedFrame& frame, const FrameMask& mask, const LabelImage
       matches.object_of[instance] = static_cast<std::uint16_t> (object->id);
   }
   countClasses (mask, matches.object_of, objects);
-  for (const auto& [instance, object] : matches.object_of)
-    objects.shown.insert (instance);
+  if (mask.exact)
+    for (const auto& [instance, object] : matches.object_of)
+      objects.shown.insert (instance);
   MatchedInstances result{std::move (matches.object_of), {}};
   for (const auto& [instance, id] : result.object_of)
     if (mask.exact && found_before.count (id) == 0)

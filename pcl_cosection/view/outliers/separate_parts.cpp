@@ -31,6 +31,7 @@ struct Limit
 constexpr std::array<Limit, 2> limits = {{{1.0, 0.1}, {2.0, 0.3}}};
 
 constexpr std::size_t least_points = 100; // as many remain
+constexpr double least_step_rad = 1e-6;   // of directions: less is the rounding of single precision
 
 /** \brief The outline of points as the sensor sees them: from where to where they reach in rows and columns. */
 class Outline
@@ -105,6 +106,8 @@ leaveOutSeparateParts (const PcdViewOptions& options, const std::vector<std::siz
   std::vector<float> ranges_m (points.size ());
   std::transform (points.begin (), points.end (), ranges_m.begin (), [] (const auto& point) { return point.norm (); });
   const double range_m = upperMedian (ranges_m), spacing_m = upperMedian (spacings_m);
+  if (!(spacing_m > least_step_rad * range_m))
+    return 0.0;
   const double step_m = largestSurfaceStep (range_m, spacing_m, cloud.working_range_m);
   for (const Limit& limit : limits)
   {

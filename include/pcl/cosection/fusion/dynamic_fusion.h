@@ -137,8 +137,8 @@ public:
   /** \brief Numbers of all objects that were found so far and not given up as wrong. */
   std::set<int> foundObjects () const;
 
-  /** \brief Instances of the masks that were given which have shown no object in any of them: why the first one began
-   * none. */
+  /** \brief Instances of given masks that have shown no object in any of them, and why they began none when they were
+   * first seen. */
   std::map<std::uint16_t, std::string> refusedInstances () const;
 
   /** \brief Surface of an object as it was seen, object frame; empty without an object of that number. */
