@@ -125,3 +125,30 @@ TEST (FreeSpaceCarving, CutsDownToTheSurfaceOfAnotherBody)
   EXPECT_LT (boundAt (middle + 1, 7), 0.0f);
   EXPECT_LT (boundAt (middle - 2, 3), 0.0f);
 }
+
+TEST (FreeSpaceCarving, BandsOfAFewPixelsKeepTheWidthOfAWall)
+{
+  const VoxelGrid grid = gridAboutBall ();
+  const int middle = grid.dims.x () / 2;
+  for (const int width_px : {2, 4})
+  {
+    SCOPED_TRACE (width_px);
+    const double pixel_m = distance_m / camera.fx;
+    AnalyticScene scene;
+    scene.add (0, halfSpace ({1.0, 0.0, 0.0, 1.0})); // a wall behind
+    scene.add (1, box ({0.01, 0.5 * width_px * pixel_m, 0.5}));
+    const Eigen::Isometry3d pose = lookAt ({distance_m, 0.0, 0.0}, Eigen::Vector3d::Zero ());
+    const DepthView seen = scene.render (camera, pose, 8.0).view;
+    FreeSpaceCarving carving (grid, true);
+    carving.add (FreeSpaceView (seen), seen.T_world_sensor);
+    const std::vector<float> bounds = carving.lowerBounds ();
+    for (int k = 10; k < grid.dims.z () - 10; ++k)
+    {
+      int kept = 0;
+      for (int j = 0; j < grid.dims.y (); ++j)
+        kept += bounds[grid.index (middle, j, k)] < 0.0f;
+      EXPECT_GE (kept, 1);
+      EXPECT_LE (kept, width_px * pixel_m / voxel_size_m + 1.0);
+    }
+  }
+}

@@ -86,6 +86,19 @@ TEST_F (ThinThings, OnASlantFaceTheSensorAcross)
   }
 }
 
+/** \brief As a sheet that is seen along it shows its near edge beside its far one. */
+TEST_F (ThinThings, BesideAnEdgeThatIsFartherFaceTheSensor)
+{
+  showBody ();
+  show (70, 72, 20, 80);
+  set (72, 75, 20, 80, thing_m + 0.1f);
+  label (72, 75, 20, 80, 1);
+  std::size_t near = 0;
+  for (const OrientedPoint& point : pointsOfBand ())
+    near += point.position.z () < thing_m + 0.05f;
+  EXPECT_GE (near, 100u); // of 120
+}
+
 /** \brief Where noise is larger than pixels are apart, it would pass for a line along the rays. */
 TEST_F (ThinThings, OfNoiseHaveNoNormals)
 {

@@ -3,11 +3,13 @@
 
 #include "pcl_cosection/common/boxes.h"
 #include "pcl_cosection/common/parallel.h"
+#include "pcl_cosection/energy/least_wall.h"
 #include "pcl_cosection/view/visibility/projected_voxels.h"
 #include "pcl_cosection/view/visibility/visibility.h"
 #include "pcl_cosection/volume/distance_transform.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -26,6 +28,59 @@ vote (std::uint8_t& votes)
 {
   if (votes < 255)
     ++votes;
+}
+
+/** \brief Bands in an image: what is nearer than a depth, but no block of pixels is. */
+class Bands
+{
+public:
+  Bands (const std::vector<float>& depth, const PinholeCamera& camera, const PixelRegion& region)
+  {
+    for (int radius = 1; radius <= static_cast<int> (closed_.size ()); ++radius)
+      closed_[radius - 1] = filterDepth (filterDepth (depth, camera, radius, true, region), camera, radius, false,
+                                         region);
+  }
+
+  /** \brief Half the width of the band at a pixel, pixels; infinity where there is none. */
+  double halfWidth (std::size_t pixel, float depth) const
+  {
+    for (std::size_t n = 0; n < closed_.size (); ++n)
+      if (closed_[n][pixel] > depth)
+        return static_cast<double> (n) + 0.75; // the mean of bands of 1 and 2 pixels, and of 3 and 4
+    return std::numeric_limits<double>::infinity ();
+  }
+
+private:
+  std::array<std::vector<float>, 2> closed_; // without bands of less than 3 and 5 pixels
+};
+
+struct OtherPixel
+{
+  std::size_t pixel;
+  double squared_px; // from the projection of a voxel, to the pixel's border
+};
+
+/** \brief Around the projection of a voxel, the nearest pixel that is free at the voxel's depth; or, if the voxel's own
+ * is, the nearest that is not. If there is none: its own, and the window's size. */
+OtherPixel
+nearestOther (const std::vector<float>& depth, const PinholeCamera& camera, const ProjectedVoxel& voxel, bool free_here)
+{
+  OtherPixel nearest{voxel.pixel, window * window};
+  for (int v = std::max (0, voxel.row - window); v <= std::min (camera.height - 1, voxel.row + window); ++v)
+  {
+    const double down = std::max (0.0, std::abs (voxel.v - v) - 0.5);
+    if (down * down >= nearest.squared_px)
+      continue;
+    const std::size_t row = static_cast<std::size_t> (v) * camera.width;
+    for (int u = std::max (0, voxel.column - window); u <= std::min (camera.width - 1, voxel.column + window); ++u)
+      if ((depth[row + u] > static_cast<float> (voxel.z)) != free_here)
+      {
+        const double across = std::max (0.0, std::abs (voxel.u - u) - 0.5);
+        if (across * across + down * down < nearest.squared_px)
+          nearest = {row + u, across * across + down * down};
+      }
+  }
+  return nearest;
 }
 
 } // namespace
@@ -115,6 +170,7 @@ FreeSpaceCarving::FreeSpaceCarving (const VoxelGrid& grid, bool revise, int thre
     , threads_ (threads)
     , bound_vox_ (grid.size ())
     , inside_vox_ (grid.size (), nothing)
+    , at_band_ (grid.size (), 0)
     , votes_for_ (grid.size (), 0)
     , votes_against_ (grid.size (), 0)
 {}
@@ -130,6 +186,7 @@ FreeSpaceCarving::add (const FreeSpaceView& view, const Eigen::Isometry3d& T_gri
   const std::vector<float> lowest = filterDepth (opened, camera, window, false, region);
   const std::vector<float> highest = filterDepth (opened, camera, window, true, region);
   const double focal = 0.5 * (camera.fx + camera.fy);
+  const Bands bands (opened, camera, grown (region, window, camera));
 
   forEachProjectedVoxel (grid_, camera, T_grid_sensor, threads_, [&] (const ProjectedVoxel& voxel) {
     const auto reach = static_cast<float> (voxel.z);
@@ -137,25 +194,20 @@ FreeSpaceCarving::add (const FreeSpaceView& view, const Eigen::Isometry3d& T_gri
       return; // nothing free near
     const double voxels_per_pixel = voxel.z / focal / grid_.voxel_size_m;
     const bool free_here = opened[voxel.pixel] > reach;
-    double squared_px = window * window; // to the nearest pixel of the other kind
+    OtherPixel other{voxel.pixel, window * window};
     if (!free_here || lowest[voxel.pixel] <= reach)
-      for (int v = std::max (0, voxel.row - window); v <= std::min (camera.height - 1, voxel.row + window); ++v)
-      {
-        const double down = std::max (0.0, std::abs (voxel.v - v) - 0.5);
-        if (down * down >= squared_px)
-          continue;
-        const float* row = opened.data () + static_cast<std::size_t> (v) * camera.width;
-        for (int u = std::max (0, voxel.column - window); u <= std::min (camera.width - 1, voxel.column + window); ++u)
-          if ((row[u] > reach) != free_here)
-          {
-            const double across = std::max (0.0, std::abs (voxel.u - u) - 0.5);
-            squared_px = std::min (squared_px, across * across + down * down);
-          }
-      }
-    const double distance_px = std::sqrt (squared_px);
-    const auto signed_vox = static_cast<float> (((free_here ? distance_px : -distance_px) + inset_px) *
-                                                voxels_per_pixel);
+      other = nearestOther (opened, camera, voxel, free_here);
     const std::size_t n = voxel.index;
+    double inset_vox = inset_px * voxels_per_pixel;
+    const std::size_t not_free = free_here ? other.pixel : voxel.pixel;
+    if (const double most_vox = bands.halfWidth (not_free, reach) * voxels_per_pixel - 0.5 * least_wall_vox;
+        opened[not_free] <= reach && most_vox < inset_vox)
+    {
+      inset_vox = most_vox;
+      at_band_[n] = 1;
+    }
+    const double distance_vox = std::sqrt (other.squared_px) * voxels_per_pixel;
+    const auto signed_vox = static_cast<float> ((free_here ? distance_vox : -distance_vox) + inset_vox);
     if (signed_vox > -far_vox)
       bound_vox_[n].add (signed_vox);
     if (signed_vox > 0.0f)
@@ -183,7 +235,7 @@ FreeSpaceCarving::lowerBounds (bool offset_any) const
     bounds[n] = std::clamp (bound, -far_vox, far_vox);
   }
 
-  // A binomial filter removes the staircase of the pixels.
+  // A binomial filter removes the staircase of the pixels. It would remove bands, too.
   std::vector<float> smooth (bounds.size ());
   parallelFor (0, grid_.dims.z (), threads_, [&] (int k) {
     for (int j = 0; j < grid_.dims.y (); ++j)
@@ -191,7 +243,7 @@ FreeSpaceCarving::lowerBounds (bool offset_any) const
       {
         const std::size_t n = grid_.index (i, j, k);
         smooth[n] = bounds[n];
-        if (std::abs (bounds[n]) >= far_vox || !grid_.contains (i - 1, j - 1, k - 1) ||
+        if (std::abs (bounds[n]) >= far_vox || at_band_[n] || !grid_.contains (i - 1, j - 1, k - 1) ||
             !grid_.contains (i + 1, j + 1, k + 1))
           continue;
         float sum = 0.0f;

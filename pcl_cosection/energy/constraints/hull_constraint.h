@@ -56,7 +56,8 @@ std::vector<float> hullDistance (const Eigen::Vector3i& dims, const std::vector<
  * free at the voxel's depth (or, from within free space, to the nearest that is not), up to a few pixels.
  * Readings count as for HullConstraint, but free patches of less than 3 x 3 pixels are ignored. A voxel is
  * cut only where more views see it free than see a surface there. As poses and silhouettes are not exact, a cut that
- * only one of several views supports is made farther out than one that several support. */
+ * only one of several views supports is made farther out than one that several support. What an image shows as a band
+ * of less than five pixels keeps the least width of a wall. */
 class FreeSpaceCarving
 {
 public:
@@ -103,8 +104,9 @@ private:
   int views_ = 0;
   bool revise_;
   int threads_;
-  std::vector<Supported> bound_vox_; // distance to what a view sees free
-  std::vector<float> inside_vox_;    // largest (nearest to 0) distance of a view that sees the voxel not free
+  std::vector<Supported> bound_vox_;  // distance to what a view sees free
+  std::vector<float> inside_vox_;     // largest (nearest to 0) distance of a view that sees the voxel not free
+  std::vector<std::uint8_t> at_band_; // 1 where the bound is that of a band
   std::vector<std::uint8_t> votes_for_;
   std::vector<std::uint8_t> votes_against_;
 };

@@ -2,6 +2,7 @@
 #include "proposed_shape.h"
 
 #include "pcl_cosection/common/parallel.h"
+#include "pcl_cosection/energy/least_wall.h"
 #include "pcl_cosection/mesh/mesh_cleaning.h"
 #include "pcl_cosection/mesh/moved_mesh.h"
 #include "pcl_cosection/priors/resting_planes.h"
@@ -29,7 +30,6 @@ constexpr float near_vox = 3.0f;       // of the surface: what is a wall's is as
 constexpr float far_vox = 6.0f;        // largest expected distance
 constexpr double thick_wall_vox = 4.0; // of which voxels need not be smaller
 constexpr float wall_weight = 100.0f;  // of a wall, which vanishes with less
-constexpr double least_wall_vox = 1.25;
 constexpr double most_open = 0.01;       // edges per triangle at which a mesh ends: holes that change its volume little
 constexpr float proposal_weight = 10.0f; // in multiples of beta_extent
 

@@ -3,6 +3,7 @@
 
 #include "pcl_cosection/common/parallel.h"
 #include "pcl_cosection/energy/data/imls_data_term.h"
+#include "pcl_cosection/energy/least_wall.h"
 #include "pcl_cosection/volume/distance_transform.h"
 
 #include <algorithm>
@@ -22,7 +23,6 @@ constexpr double step_vox = 0.7;         // between points of the unseen parts
 constexpr double vessel_weight = 100.0;  // of a wall, in multiples of beta_extent; it vanishes with less
 constexpr double empty_weight = 10.0;    // of its cavity
 constexpr double least_wall = 0.6;       // least thickness of a wall, of its mean thickness: noise would make holes
-constexpr double least_wall_vox = 1.25;  // least thickness of a wall
 constexpr float empty_margin_vox = 1.0f; // distance of expected empty space from the surface
 constexpr double empty_far_vox = 6.0;    // largest expected signed distance
 

@@ -61,13 +61,16 @@ thinNormal (const SensorCloud& cloud, double pixel_pitch, std::size_t i)
   const Eigen::Vector3f none = Eigen::Vector3f::Constant (std::numeric_limits<float>::quiet_NaN ());
   const Eigen::Vector3f& here = cloud.positions[i];
   const double range = here.norm ();
-  Spread<2> labelled; // pixels
+  Spread<2> labelled; // pixels; what is behind, such as the other edge of a sheet, is no part of the band
   Spread<3> near;     // metres
   visitLabelWindow (cloud, i, [&] (std::size_t j, int du, int dv) {
     const Eigen::Vector2d offset_px (du, dv);
+    const double behind = cloud.positions[j].norm () - range;
+    const double step = largestSurfaceStep (range, pixel_pitch * range * offset_px.norm (), cloud.working_range_m);
+    if (behind > step)
+      return;
     labelled.add (offset_px);
-    if (std::abs (cloud.positions[j].norm () - range) <=
-        largestSurfaceStep (range, pixel_pitch * range * offset_px.norm (), cloud.working_range_m))
+    if (behind >= -step)
       near.add ((cloud.positions[j] - here).cast<double> ());
   });
   constexpr int window = (2 * label_window_px + 1) * (2 * label_window_px + 1);
