@@ -102,6 +102,14 @@ depthText (double depth_m)
          std::to_string (std::lround (1e3 * depth_m)) + " mm behind that is a guess (add a view from elsewhere)";
 }
 
+std::string
+downText (double depth_m)
+{
+  return "that it reaches " + std::to_string (std::lround (1e3 * depth_m)) +
+         " mm down to a plane is a guess (add a view from elsewhere; if it does not rest on the plane, give "
+         "--no-planes)";
+}
+
 /** \brief What is lost of an object, and what of it is a guess. */
 std::vector<std::string>
 remarksOn (const SceneObject& object, const ObjectResult& result)
@@ -120,6 +128,9 @@ remarksOn (const SceneObject& object, const ObjectResult& result)
           object.points (), knows_planes ? planes : std::vector<Eigen::Vector4d> (), voxel_size_m, result.mesh);
       depth_m > 0.0)
     remarks.push_back (depthText (depth_m));
+  if (const double depth_m = knows_planes ? depthDownToPlane (*object.observation, planes, result.mesh) : 0.0;
+      depth_m > 0.0)
+    remarks.push_back (downText (depth_m));
   return remarks;
 }
 

@@ -5,6 +5,7 @@
 #include "only_side.h"
 #include "pcl_cosection/common/plane_height.h"
 #include "pcl_cosection/common/quantile.h"
+#include "resting_planes.h"
 
 #include <algorithm>
 #include <cmath>
@@ -77,6 +78,25 @@ depthBehindOnlySide (const std::vector<OrientedPoint>& points, const std::vector
                        : 0;
     }
   return 2 * at_others > at_end ? 0.0 : std::max (0.0, side.low_m - low);
+}
+
+double
+depthDownToPlane (const Observation& object, const std::vector<Eigen::Vector4d>& planes, const TriangleMesh& mesh)
+{
+  double deepest_m = 0.0;
+  for (const Eigen::Vector4d& plane : planes)
+  {
+    std::vector<double> heights;
+    for (const OrientedPoint& point : object.points ())
+      heights.push_back (heightOver (plane, point.position.cast<double> ()));
+    const double lowest_m = trimmedMin (heights, lowest_share);
+    const bool reaches_it = std::any_of (mesh.vertices.begin (), mesh.vertices.end (), [&] (const Eigen::Vector3f& v) {
+      return heightOver (plane, v.cast<double> ()) < near_voxels * object.voxel_size_m;
+    });
+    if (reaches_it && lowest_m > object.extents_m[0])
+      deepest_m = std::max (deepest_m, lowest_m);
+  }
+  return deepest_m;
 }
 
 } // namespace pcl::cosection

@@ -25,4 +25,10 @@ double hiddenOutline (const Observation& object, const std::vector<Eigen::Vector
 double depthBehindOnlySide (const std::vector<OrientedPoint>& points, const std::vector<Eigen::Vector4d>& planes,
                             double voxel_size_m, const TriangleMesh& mesh);
 
+/** \brief How far a mesh reaches below all points of its object, down to a plane, metres; 0 if that is less than all
+ * that was seen of it is long, as where the foot of a thing is hidden.
+ * \param[in] planes at which it may end, n.x + d = 0, unit n towards it */
+double depthDownToPlane (const Observation& object, const std::vector<Eigen::Vector4d>& planes,
+                         const TriangleMesh& mesh);
+
 } // namespace pcl::cosection

@@ -20,9 +20,12 @@ namespace pcl::cosection {
 namespace {
 
 constexpr double max_default_slope = 1.7321; // of points before a camera whose pose was left at the default: 60 degrees
+constexpr double most_px_per_radian = 4000.0; // of such a camera; of depth cameras 200 to 3000
 // A share of all points, from where the header does not say that they were seen ...
 constexpr double max_hidden_from_guess = 0.02;
-constexpr double max_hidden_of_label_from_guess = 0.1; // ... and of those of a label,
+// ... and of those of a label (from a camera whose pose was left at the default 0 to 0.07; clouds in other frames,
+// which lie before their origin by chance, 0.35 to 0.8),
+constexpr double max_hidden_of_label_from_guess = 0.1;
 // ... of which more may be from where it does, and of all points of a scan in steady angles.
 constexpr double max_hidden_of_label = 0.5;
 // RangeImage::seenThrough (). From where they were seen at most 0.04 (OSD, RealSense, YCB-Video, scanned meshes; 17
@@ -259,15 +262,20 @@ viewFromSensor (const std::string& path, const PcdViewOptions& options, const Me
                 LabelledView& result)
 {
   const bool header_tells = cloud.has_viewpoint || (!cloud.in_world && asBeforeACamera (cloud));
+  const double most_of_label = cloud.has_viewpoint ? max_hidden_of_label : max_hidden_of_label_from_guess;
+  const auto saw = [&] (const Sight& from_origin) {
+    return from_origin.isTheirs () && (cloud.has_viewpoint || from_origin.image->view.camera.fx <= most_px_per_radian);
+  };
   Sight sight;
   if (header_tells)
   {
-    sight = lookFrom (Eigen::Vector3d::Zero (), members, cloud, max_hidden_of_label, options.viewpoint.has_value ());
-    if (sight.isTheirs ())
+    sight = lookFrom (Eigen::Vector3d::Zero (), members, cloud, most_of_label, options.viewpoint.has_value ());
+    if (saw (sight))
       return useSight (std::move (sight), cloud.T_world_sensor, result);
     if (cloud.positions.size () <= most_to_judge)
-      if (Sight of_core = lookFrom (Eigen::Vector3d::Zero (), members, withoutLonely (options, members, cloud));
-          of_core.isTheirs ())
+      if (Sight of_core = lookFrom (Eigen::Vector3d::Zero (), members, withoutLonely (options, members, cloud),
+                                    most_of_label);
+          saw (of_core))
         return useSight (std::move (of_core), cloud.T_world_sensor, result);
   }
   if (cloud.has_viewpoint && !cloud.in_world && options.axes == SensorAxes::Optical)

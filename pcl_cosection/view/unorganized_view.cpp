@@ -196,33 +196,39 @@ mendContradictions (const PcdViewOptions& options, const std::set<std::uint32_t>
   return all == 0 ? 0.0 : static_cast<double> (turned) / static_cast<double> (all);
 }
 
-/** \brief Turn normals that clearly point away from the viewpoint, which is the origin. \return their share */
+/** \brief Turn normals that clearly point away from the viewpoint, which is the origin: all, if most do, also those at
+ * grazing angles. If some still do, their signs tell nothing, as where they were estimated for another viewpoint: each
+ * is turned towards this one.
+ * \return the share of those that pointed away */
 double
 turnTowardsViewpoint (float away, SensorCloud& cloud)
 {
-  std::size_t turned = 0, all = 0, opposed = 0;
-  for (std::size_t i = 0; i < cloud.positions.size (); ++i)
-    if (cloud.positions[i].allFinite () && cloud.normals[i].allFinite ())
-    {
-      ++all;
-      opposed += cloud.positions[i].dot (cloud.normals[i]) > 0.0f;
-    }
-  if (2 * opposed > all) // all are flipped, also those at grazing angles
-  {
-    for (Eigen::Vector3f& normal : cloud.normals)
-      normal = -normal;
-    return static_cast<double> (opposed) / static_cast<double> (all);
-  }
-  for (std::size_t i = 0; i < cloud.positions.size (); ++i)
-  {
-    Eigen::Vector3f& normal = cloud.normals[i];
-    if (!cloud.positions[i].allFinite () || !normal.allFinite () ||
-        -cloud.positions[i].normalized ().dot (normal) >= away * normal.norm ())
-      continue;
-    normal = -normal;
-    ++turned;
-  }
-  return all == 0 ? 0.0 : static_cast<double> (turned) / static_cast<double> (all);
+  const auto shareBelow = [&] (float cosine) {
+    std::size_t below = 0, all = 0;
+    for (std::size_t i = 0; i < cloud.positions.size (); ++i)
+      if (cloud.positions[i].allFinite () && cloud.normals[i].allFinite ())
+      {
+        ++all;
+        below += -cloud.positions[i].normalized ().dot (cloud.normals[i]) < cosine * cloud.normals[i].norm ();
+      }
+    return all == 0 ? 0.0 : static_cast<double> (below) / static_cast<double> (all);
+  };
+  const auto turnIf = [&] (const auto& isToTurn) {
+    for (std::size_t i = 0; i < cloud.positions.size (); ++i)
+      if (isToTurn (i))
+        cloud.normals[i] = -cloud.normals[i];
+  };
+  const double opposed = shareBelow (0.0f);
+  if (opposed > 0.5)
+    turnIf ([] (std::size_t) { return true; });
+  const double turned = shareBelow (away);
+  if (turned > worth_saying)
+    away = 0.0f;
+  turnIf ([&] (std::size_t i) {
+    return cloud.positions[i].allFinite () &&
+           -cloud.positions[i].normalized ().dot (cloud.normals[i]) < away * cloud.normals[i].norm ();
+  });
+  return opposed > 0.5 ? opposed : turned;
 }
 
 /** \brief Check normals of the file against the shape, where no viewpoint gives their sign. */
@@ -340,10 +346,14 @@ completeUnorganized (const std::string& path, const PcdViewOptions& options, Sen
   if (!given)
     cloud.normals.assign (cloud.positions.size (),
                           Eigen::Vector3f::Constant (std::numeric_limits<float>::quiet_NaN ()));
+  const Surroundings objects = surroundingsOf (members, cloud);
+  const BackgroundParts background = partsOfBackground (objects, members, cloud);
   const std::set<std::uint32_t> contradicting = given ? contradictingLabels (members, cloud)
                                                       : std::set<std::uint32_t> ();
   if (!result.view && given)
   {
+    if (contradicting.empty ()) // else with mending
+      leaveOutScattered (options, objects, background.near, cloud);
     if (const double turned = contradicting.empty () ? 0.0
                                                      : mendContradictions (options, contradicting, members, cloud);
         turned > 0.0)
@@ -365,8 +375,6 @@ completeUnorganized (const std::string& path, const PcdViewOptions& options, Sen
   if (!result.view)
     return;
 
-  const Surroundings objects = surroundingsOf (members, cloud);
-  const BackgroundParts background = partsOfBackground (objects, members, cloud);
   if (!given)
   {
     addNormals (options, background.near, cloud);

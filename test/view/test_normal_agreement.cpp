@@ -165,3 +165,54 @@ TEST_F (NormalsOfFiles, StayWhereTheyAgree)
   for (std::size_t n = 0; n < thin.points.size (); ++n)
     EXPECT_EQ (view.objects.at (1).points[n].normal, thin.normals[n]);
 }
+
+/** \brief As of pcl::NormalEstimation, whose viewpoint is the origin if it is not set. */
+TEST_F (NormalsOfFiles, OfAnotherViewpointAreTurnedOneByOne)
+{
+  const Eigen::Vector3f centre (0.0f, 0.0f, 0.8f);
+  for (const float other : {1.0f, -1.0f}) // most then point away, or most do not
+  {
+    SCOPED_TRACE (other);
+    const Surface whole = cylinder (centre, 0.05f);
+    const Eigen::Vector3f seen_from (0.0f, -1.0f, 0.9f), estimated_for (1.0f, 0.3f * other, 0.9f);
+    Surface seen;
+    for (std::size_t n = 0; n < whole.points.size (); ++n)
+      if (whole.normals[n].dot (seen_from - whole.points[n]) > 0.02f)
+        seen.add (whole.points[n],
+                  whole.normals[n] * (whole.normals[n].dot (estimated_for - whole.points[n]) > 0.0f ? 1.0f : -1.0f));
+    PcdViewOptions options;
+    options.viewpoint = {seen_from.x (), seen_from.y (), seen_from.z ()};
+    const LabelledView view = readPcdView (write (seen.file ()), options);
+    ASSERT_TRUE (view.view);
+    ASSERT_EQ (view.warnings.size (), 1u);
+    EXPECT_NE (view.warnings[0].find ("point away from the VIEWPOINT"), std::string::npos) << view.warnings[0];
+    for (const OrientedPoint& point : view.objects.at (1).points)
+      ASSERT_GT (point.normal.dot (seen_from - point.position), 0.0f);
+  }
+}
+
+/** \brief Mixed pixels around an object would be a body of the background beside it. */
+TEST_F (NormalsOfFiles, OfScatteredPointsAroundObjectsAreNotUsed)
+{
+  std::ostringstream rows;
+  std::size_t count = 0;
+  const auto add = [&] (const Eigen::Vector3f& point, const Eigen::Vector3f& normal, int label) {
+    rows << point.transpose () << ' ' << normal.transpose () << ' ' << label << '\n';
+    ++count;
+  };
+  const Surface body = cylinder ({0.0f, 0.0f, 0.0f}, 0.05f);
+  for (std::size_t n = 0; n < body.points.size (); ++n)
+    add (body.points[n], body.normals[n], 1);
+  for (int i = -40; i <= 40; ++i)
+    for (int j = -40; j <= 40; ++j)
+      add ({0.006f * i, 0.006f * j, 0.0f}, {0.0f, 0.0f, 1.0f}, 0);
+  std::mt19937 random (8);
+  std::uniform_real_distribution<float> uniform (-1.0f, 1.0f);
+  for (int n = 0; n < 40; ++n)
+    add ({0.15f * uniform (random), 0.15f * uniform (random), 0.1f + 0.05f * uniform (random)}, {1.0f, 0.0f, 0.0f}, 0);
+  const std::string file = header (static_cast<int> (count), 1, "ascii", "x y z normal_x normal_y normal_z label",
+                                   "4 4 4 4 4 4 4", "F F F F F F U") +
+                           rows.str ();
+  for (const OrientedPoint& point : readPcdView (write (file)).objects.at (0).points)
+    EXPECT_LT (point.position.z (), 0.01f);
+}

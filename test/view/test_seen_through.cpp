@@ -89,3 +89,23 @@ TEST_F (SeenThrough, AViewpointOnTheOtherSideIsNotUsed)
                is_right ? 0 : 1);
   }
 }
+
+/** \brief In another frame, points may lie before its origin as before a camera, and behind the table by chance. */
+TEST_F (SeenThrough, AnOriginBelowTheTableIsNoCamera)
+{
+  for (const Eigen::Vector3f& offset : {Eigen::Vector3f (0.3f, 2.0f, 5.0f), Eigen::Vector3f (2.0f, 3.0f, 60.0f)})
+  {
+    SCOPED_TRACE (offset.transpose ());
+    pcl::PointCloud<pcl::PointXYZL> cloud = ballOnATable ();
+    for (pcl::PointXYZL& point : cloud)
+      point.getVector3fMap () += offset;
+    pcl::io::savePCDFileBinary (path ("ball.pcd"), cloud);
+    const LabelledView view = readPcdView (path ("ball.pcd"));
+    EXPECT_FALSE (view.view);
+    ASSERT_EQ (view.warnings.size (), 1u);
+    EXPECT_NE (view.warnings[0].find ("where its points were seen from is not known"), std::string::npos);
+    const Eigen::Vector3f center = offset + Eigen::Vector3f (0.0f, 0.0f, 0.08f);
+    for (const OrientedPoint& point : view.objects.at (1).points)
+      ASSERT_GT (point.normal.dot ((point.position - center).normalized ()), 0.0f);
+  }
+}

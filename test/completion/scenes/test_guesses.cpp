@@ -105,6 +105,21 @@ TEST (Guesses, WhatASecondSideOrThePlaneShowsIsNone)
     EXPECT_TRUE (completed (seenFrom (tableScene (shape), level)).warnings.empty ()) << nameOf (shape);
 }
 
+/** \brief As a thing in a hand before a wall, which looks as if it stood on that. */
+TEST (Guesses, TheLengthDownToAPlaneFarBelowIsOne)
+{
+  for (const auto& [height_m, is_guess] : {std::pair (0.05, false), std::pair (0.35, true)})
+  {
+    AnalyticScene scene;
+    scene.add (0, halfSpace (table_plane));
+    const Eigen::Isometry3d turned (Eigen::AngleAxisd (0.6, Eigen::Vector3d::UnitX ()));
+    scene.add (1, placed (box ({0.06, 0.04, 0.05}), is_guess ? Eigen::Translation3d (0.0, 0.0, height_m) * turned
+                                                             : Eigen::Isometry3d (Eigen::Translation3d (middle))));
+    const SceneResult result = completed (seenFrom (scene, {0.0, -0.001, 0.9}));
+    EXPECT_EQ (warns (result, "object 1", "down to a plane"), is_guess) << height_m;
+  }
+}
+
 TEST (Guesses, WhatIsNearerHidesIsOne)
 {
   const Eigen::Vector3d eye (0.0, -0.45, 0.25);
