@@ -44,55 +44,51 @@ readPoints (const SceneObject& object)
 class MeasuredSurface
 {
 public:
-  static constexpr double voxels_deep = 5.0; ///< largest depth_vox of has ()
-  static constexpr double voxels_beside = 2.0;
-
   /** \param[in] points must outlive this */
   MeasuredSurface (const std::vector<OrientedPoint>& points, double voxel_size_m)
       : points_ (points)
       , voxel_size_m_ (voxel_size_m)
   {
     for (std::size_t n = 0; n < points.size (); ++n)
-      if (const auto cell = cellOf (points[n].position.cast<double> () / (voxels_deep * voxel_size_m)))
+      if (const auto cell = cellOf (points[n].position.cast<double> () / (near_voxels * voxel_size_m)))
         cells_[keyOf (*cell)].push_back (static_cast<std::uint32_t> (n));
   }
 
-  /** \brief Whether \a point lies near a point of the body whose normal differs by at most 60 degrees: up to
-   * voxels_beside from the line of that normal, and from voxels_beside above to \a depth_vox below it.
-   * \param[in] point the body's frame
-   * \param[in] depth_vox at most voxels_deep */
-  bool has (const OrientedPoint& point, double depth_vox) const
+  /** \brief Whether \a point, the body's frame, lies near a point of the body whose normal differs by at most 60
+   * degrees: along that normal, and beside it. */
+  bool has (const OrientedPoint& point) const
   {
     constexpr float same_side = 0.5f; // cosine between normals
-    const auto place = cellOf (point.position.cast<double> () / (voxels_deep * voxel_size_m_));
+    const auto place = cellOf (point.position.cast<double> () / (near_voxels * voxel_size_m_));
     if (!place)
       return false;
-    const auto deepest = static_cast<float> (-depth_vox * voxel_size_m_);
-    const auto beside = static_cast<float> (voxels_beside * voxel_size_m_);
-    const auto isBeside = [&] (std::uint32_t n) {
+    const auto near_m = static_cast<float> (near_voxels * voxel_size_m_);
+    const auto isNear = [&] (std::uint32_t n) {
       const OrientedPoint& own = points_[n];
       const Eigen::Vector3f way = point.position - own.position;
       const float height = own.normal.dot (way);
-      return height > deepest && height < beside && way.squaredNorm () - height * height < beside * beside &&
+      return std::abs (height) < near_m && way.squaredNorm () - height * height < near_m * near_m &&
              own.normal.dot (point.normal) > same_side;
     };
     for (int k = 0; k < 27; ++k)
     {
       const auto cell = cells_.find (keyOf (neighbourOf (*place, k)));
-      if (cell != cells_.end () && std::any_of (cell->second.begin (), cell->second.end (), isBeside))
+      if (cell != cells_.end () && std::any_of (cell->second.begin (), cell->second.end (), isNear))
         return true;
     }
     return false;
   }
 
 private:
+  static constexpr double near_voxels = 2.0;
+
   const std::vector<OrientedPoint>& points_;
   double voxel_size_m_;
-  std::unordered_map<std::uint64_t, std::vector<std::uint32_t>> cells_; // points by cell of voxels_deep
+  std::unordered_map<std::uint64_t, std::vector<std::uint32_t>> cells_; // points by cell of near_voxels
 };
 
 /** \brief Find background points on the object's surface at its pose in their view; for points before its first view,
- * at its pose there. */
+ * in its volume at its pose there: nothing told then what of this is the object's. */
 void
 findPointsOf (const Scene& scene, const SceneObject& object, std::vector<bool>& found)
 {
@@ -108,15 +104,15 @@ findPointsOf (const Scene& scene, const SceneObject& object, std::vector<bool>& 
     const bool was_known = batch.view >= static_cast<int> (first_view);
     const Eigen::Isometry3d T_world_object = poseAt (*object.input,
                                                      was_known ? static_cast<std::size_t> (batch.view) : first_view);
-    // Before its first view the object may have moved a little.
-    const double depth_vox = was_known ? MeasuredSurface::voxels_beside : MeasuredSurface::voxels_deep;
     if (T_world_object.matrix ().allFinite ())
     {
       const Eigen::Isometry3f T = T_world_object.inverse ().cast<float> ();
       for (std::size_t n = begin; n < end; ++n)
       {
         const OrientedPoint& point = scene.background[n];
-        found[n] = found[n] || surface.has ({T * point.position, T.linear () * point.normal}, depth_vox);
+        const Eigen::Vector3f place = T * point.position;
+        found[n] = found[n] || (was_known ? surface.has ({place, T.linear () * point.normal})
+                                          : object.grid ().nearest (place.cast<double> ()).has_value ());
       }
     }
     begin = end;

@@ -121,6 +121,29 @@ TEST_F (BackendTest, WhatTurnsOutToBeAnObjectIsNoBackground)
     }
 }
 
+/** \brief Sides that only an earlier view saw. */
+TEST_F (BackendTest, WhatIsBehindAnObjectThatWasNotYetKnownIsNoBackground)
+{
+  BackendOptions options = BackendTest::options ();
+  options.method.leave_out_moved = true;
+  CoSectionBackend backend (options);
+  Keyframe before = keyframe (0.0);
+  std::vector<OrientedPoint>& background = before.points[0];
+  const Eigen::Isometry3f T_sensor_world = before.view.T_world_sensor.inverse ().cast<float> ();
+  for (const OrientedPoint& point : before.points[ball])
+    background.push_back (
+        {2.0f * (T_sensor_world * middle.cast<float> ()) - point.position, -point.normal}); // through the middle
+  before.points.erase (ball);
+  backend.addKeyframe (before, {});
+  for (const double x : {-0.1, 0.1})
+    backend.addKeyframe (keyframe (x), atRest ());
+  const SceneResult result = backend.solve ();
+  for (const Eigen::Vector3f& vertex : result.background.vertices)
+    ASSERT_LT (vertex.z (), 0.01f);
+  const double ball_m3 = 4.0 / 3.0 * M_PI * std::pow (0.05, 3);
+  EXPECT_NEAR (computeMassProperties (result.objects.at (0).mesh).volume_m3, ball_m3, 0.15 * ball_m3);
+}
+
 TEST_F (BackendTest, PointsWithoutPoseAreLeftOut)
 {
   CoSectionBackend backend (options ());

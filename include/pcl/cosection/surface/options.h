@@ -138,8 +138,8 @@ struct PCL_COSECTION_EXPORT CoSectionOptions
    * 256. Smaller blocks need less memory and more time. */
   int background_block_vox = 0;
   /** \brief reconstruct () leaves out points of the background that are of objects, before these were known as such:
-   * those that views look through, more than a few by mistake would, and those on the surface of an object where it
-   * was, or began. */
+   * those that views look through, more than a few by mistake would, those on the surface of an object where it was,
+   * and those of views before its first one in its volume where it began. */
   bool leave_out_moved = false;
   bool compute_hull = false;   ///< also give the hull of each object as a mesh
   bool compute_bounds = false; ///< also give an inner and an outer bound of each object as meshes
