@@ -107,6 +107,22 @@ fitPinholeCamera (const std::vector<Eigen::Vector3f>& points, int width, int hei
   return camera;
 }
 
+bool
+haveParallelRays (const std::vector<Eigen::Vector3f>& points, int width)
+{
+  LineFit columns, rows; // x = column * pitch + offset
+  int usable = 0;
+  for (std::size_t n = 0; n < points.size (); ++n)
+    if (points[n].allFinite ())
+    {
+      columns.add (static_cast<double> (n % static_cast<std::size_t> (width)), points[n].x ());
+      rows.add (static_cast<double> (n / static_cast<std::size_t> (width)), points[n].y ());
+      ++usable;
+    }
+  return usable >= min_fit_points &&
+         columns.residualX () + rows.residualX () <= max_fit_residual_px * max_fit_residual_px;
+}
+
 std::optional<DepthView>
 toDepthView (const std::vector<Eigen::Vector3f>& points, int width, int height, const Eigen::Isometry3d& T_world_points)
 {

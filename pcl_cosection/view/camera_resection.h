@@ -37,6 +37,10 @@ std::vector<Eigen::Vector3f> takeToSensor (const Eigen::Isometry3d& T_sensor_poi
  * O (width * height); does not depend on the number of threads. */
 std::optional<LocatedCamera> locateCamera (const std::vector<Eigen::Vector3f>& points, int width, int height);
 
+/** \brief Whether all rays of an organised cloud are along its z axis, as those of a profile scanner or of an
+ * orthographic rendering: x is proportional to the column, and y to the row. */
+bool haveParallelRays (const std::vector<Eigen::Vector3f>& points, int width);
+
 /** \brief The depth image that an organised cloud is. \param[in] points in the frame of the camera */
 DepthView depthImage (const PinholeCamera& camera, const std::vector<Eigen::Vector3f>& points,
                       const Eigen::Isometry3d& T_world_sensor);

@@ -124,6 +124,9 @@ findCamera (const std::string& path, const PcdViewOptions& options, SensorCloud&
     text << path << ": the points are " << error << " pixels off the given intrinsics; its free space may be wrong";
     result.warnings.push_back (text.str ());
   }
+  else if (haveParallelRays (cloud.positions, cloud.width))
+    result.warnings.push_back (path + ": its rays are parallel, not those of a camera: its points are taken as if "
+                                      "without an order");
   else if (!lookAround (membersOf (cloud), cloud, result))
     result.warnings.push_back (
         path + ": organised, but not the image of a pinhole camera in any frame: its points are taken as if without an "

@@ -7,6 +7,8 @@
 
 #include <pcl/io/pcd_io.h>
 
+#include <algorithm>
+#include <cmath>
 #include <utility>
 
 using namespace pcl::cosection;
@@ -110,4 +112,28 @@ TEST_F (ViewFrames, ZerosOfTheFileAreNoReadings)
   EXPECT_TRUE (view.view);
   EXPECT_TRUE (view.warnings.empty ());
   EXPECT_EQ (view.objects.at (0).readings + view.objects.at (7).readings, 64u * 48u * 2u / 3u);
+}
+
+/** \brief As of a profile scanner: no point is seen from the origin as by a camera, or by a lidar that turns. */
+TEST_F (ViewFrames, ParallelRaysAreNoCameras)
+{
+  pcl::PointCloud<pcl::PointXYZL> cloud (100, 80);
+  for (int v = 0; v < 80; ++v)
+    for (int u = 0; u < 100; ++u)
+    {
+      const Eigen::Vector2f at = 0.004f *
+                                 Eigen::Vector2f (static_cast<float> (u) - 50.0f, static_cast<float> (v) - 40.0f);
+      const float height = std::sqrt (std::max (0.0f, 0.01f - at.squaredNorm ())); // half a ball on a table
+      cloud.at (u, v).getVector3fMap () = Eigen::Vector3f (at.x (), at.y (), 0.7f - height);
+      cloud.at (u, v).label = height > 0.0f ? 1 : 0;
+    }
+  pcl::io::savePCDFileBinary (path ("scan.pcd"), cloud);
+  const LabelledView view = readPcdView (path ("scan.pcd"));
+  EXPECT_EQ (std::count_if (view.warnings.begin (), view.warnings.end (),
+                            [] (const std::string& warning) {
+                              return warning.find ("its rays are parallel") != std::string::npos;
+                            }),
+             1);
+  for (const OrientedPoint& point : view.objects.at (1).points)
+    ASSERT_GT (point.normal.dot (point.position - Eigen::Vector3f (0.0f, 0.0f, 0.7f)), 0.0f);
 }
