@@ -115,8 +115,8 @@ checkExtent (const std::string& path, const PcdViewOptions& options, const Senso
     if (const auto [absurd, all] = countAbsurd (cloud);
         static_cast<double> (absurd) > most_absurd * static_cast<double> (all))
       throw DegenerateInput (path + ": " + std::to_string (absurd) + " of its " + std::to_string (all) +
-                             " points are over 1e9 m from the middle of all: it is damaged, or of a big-endian machine "
-                             "(points are little-endian in binary PCD files)");
+                             " points are over 1e9 m from the middle of all: it is damaged, has the sky of a rendering "
+                             "(NaN is no reading), or is of a big-endian machine (binary PCD files are little-endian)");
   const bool has_large = objects.empty () || std::any_of (objects.begin (), objects.end (), [] (const auto& object) {
                            return object.second.sizes ().maxCoeff () > millimetre_object;
                          });

@@ -136,7 +136,7 @@ std::string
 printable (const std::string& text)
 {
   std::string result;
-  for (const char c : text.substr (0, 24))
+  for (const char c : text.substr (0, 60))
     result += (c >= ' ' && c <= '~') ? c : '?';
   return (result);
 }
