@@ -151,6 +151,11 @@ tellOutcome (FusionResult& result, Terminal& terminal)
     terminal.error ("nothing could be completed" +
                     (result.warnings.empty () ? std::string () : "; " + result.warnings.back ()));
   }
+  if (!result.why_no_object.empty ())
+  {
+    all_good = false;
+    terminal.error (result.why_no_object);
+  }
   if (result.tracked && result.frames_left_out > result.frames) // else the trajectory that was given tells which
   {
     all_good = false;
@@ -200,7 +205,8 @@ fuse (const FusionSettings& settings, FusionOutputs& outputs, Terminal& terminal
   if (const auto warning = objectLikeBackground (result.scene))
     result.warnings.push_back (*warning);
   for (const std::string& warning : result.warnings)
-    terminal.warning (warning);
+    if (warning != result.why_no_object) // which is an error
+      terminal.warning (warning);
   for (const std::string& event : result.events)
     terminal.detail (event);
   result.warnings.insert (result.warnings.begin (), inputs.warnings.begin (), inputs.warnings.end ());
