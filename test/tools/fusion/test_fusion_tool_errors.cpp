@@ -135,9 +135,17 @@ TEST_F (FusionToolErrors, Trajectories)
   for (StampedPose& pose : poses)
     pose.stamp -= 992.0; // begins at the eighth frame
   saveTrajectory (poses, file ("late.txt"));
-  EXPECT_EQ (run (camera ("late.txt", {"sim", "out"})), 0) << errors_;
+  expectFailure (camera ("late.txt", {"sim", "out"}), 1,
+                 "most frames were left out: 8 of 12; what was written is of the others alone; the poses of late.txt "
+                 "have the stamps 8 to 19, the frames 0 to 11; they must be within half a frame of each other");
   EXPECT_NE (errors_.find ("warning: 8 of 12 frames were left out"), std::string::npos) << errors_;
   EXPECT_EQ (loadTrajectory (file ("out/trajectory/camera.txt")).size (), 4u);
+
+  for (StampedPose& pose : poses)
+    pose.stamp -= 3.0; // begins at the fifth frame
+  saveTrajectory (poses, file ("half.txt"));
+  EXPECT_EQ (run (camera ("half.txt", {"sim", "out"})), 0) << errors_;
+  EXPECT_NE (errors_.find ("warning: 5 of 12 frames were left out"), std::string::npos) << errors_;
 }
 
 TEST_F (FusionToolErrors, InputsAreNotOverwritten)
