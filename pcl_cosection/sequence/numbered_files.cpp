@@ -139,6 +139,23 @@ numberedFiles (const std::string& folder, const std::vector<std::string>& names,
   return unique;
 }
 
+std::set<std::string>
+beginningsOf (const std::vector<std::string>& names, const std::vector<std::string>& endings)
+{
+  std::set<std::string> beginnings;
+  for (const std::string& name : names)
+    if (const auto stem = withoutEnding (lowerCase (name), endings); stem && numberBegin (*stem) < stem->size ())
+      beginnings.insert (stem->substr (0, numberBegin (*stem)));
+  return beginnings;
+}
+
+std::optional<double>
+numberAtEnd (const std::string& text)
+{
+  const std::size_t begin = numberBegin (text);
+  return begin == text.size () ? std::nullopt : numberOf (std::string_view (text).substr (begin));
+}
+
 std::vector<NumberedFile>
 numberedImages (const std::string& folder, const NumberedNames& usual, std::vector<std::string>& warnings)
 {
