@@ -9,6 +9,7 @@
 #include "method_json.h"
 #include "run_program.h"
 
+#include "pcl_cosection/sequence/pose_unit.h"
 #include "pcl_cosection/sequence/stamp_matching.h"
 #include <pcl/cosection/common/error.h>
 #include <pcl/cosection/common/triangle_mesh.h>
@@ -71,6 +72,13 @@ struct Inputs
   std::vector<std::string> warnings;
 };
 
+/** \brief Where the poses of the camera are from. */
+const std::string&
+poseSource (const FusionSettings& settings)
+{
+  return (settings.camera_trajectory.empty () ? settings.dataset : settings.camera_trajectory);
+}
+
 SequenceFusion
 makeFusion (const FusionSettings& settings, const Inputs& inputs)
 {
@@ -91,7 +99,10 @@ makeFusion (const FusionSettings& settings, const Inputs& inputs)
   if (settings.mask_ids == "per-frame")
     throw InvalidArgument (
         "with given poses, objects must have the same number in all masks, not --mask-ids per-frame");
-  return (SequenceFusion (inputs.known, options));
+  SequenceFusion fusion (inputs.known, options);
+  if (const std::string fault = unitFault (inputs.known.camera, inputs.images, options.frames); !fault.empty ())
+    throw InvalidArgument (poseSource (settings) + ": " + fault);
+  return (fusion);
 }
 
 double
@@ -140,8 +151,8 @@ stampsOfPoses (const FusionSettings& settings, const Inputs& inputs)
   if (poses.empty () ||
       std::all_of (of_frames.begin (), of_frames.end (), [] (const auto& pose) { return pose.has_value (); }))
     return {};
-  return ("; the poses of " + (settings.camera_trajectory.empty () ? settings.dataset : settings.camera_trajectory) +
-          " have the stamps " + stampSpan (poses.front ().stamp, poses.back ().stamp) + ", the frames " +
+  return ("; the poses of " + poseSource (settings) + " have the stamps " +
+          stampSpan (poses.front ().stamp, poses.back ().stamp) + ", the frames " +
           stampSpan (stamps.front (), stamps.back ()) + "; they must be within half a frame of each other");
 }
 

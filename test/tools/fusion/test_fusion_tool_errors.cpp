@@ -148,6 +148,17 @@ TEST_F (FusionToolErrors, Trajectories)
   EXPECT_NE (errors_.find ("warning: 5 of 12 frames were left out"), std::string::npos) << errors_;
 }
 
+TEST_F (FusionToolErrors, PosesInMillimetresAreRefusedBeforeAnythingIsSolved)
+{
+  std::vector<StampedPose> poses = loadTrajectory (file ("sim/gt-cam-0.txt"));
+  for (StampedPose& pose : poses)
+    pose.pose.translation () *= 1000.0;
+  saveTrajectory (poses, file ("mm.txt"));
+  expectFailure (camera ("mm.txt", {"sim", "out"}), 1, "mm.txt: from frame to frame the camera would move ");
+  EXPECT_NE (errors_.find ("divide their positions by 1000 if they are in millimetres"), std::string::npos) << errors_;
+  EXPECT_FALSE (exists ("out"));
+}
+
 TEST_F (FusionToolErrors, InputsAreNotOverwritten)
 {
   for (const char* output : {"sim", ".", "..", "sim/mask", "sim/../sim"})
