@@ -196,6 +196,7 @@ TEST_F (FusionToolErrors, AFailureIsInTheSummary)
   changeDepths ([] (const std::string& path) { writeFile (path, "damaged"); });
   expectFailure (known ({"--json", "s.json", "sim", "out"}), 1,
                  "no frame can be read: sim/depth_noise/Depth0000.png: is not an image");
+  EXPECT_EQ (errors_.find ("the frame is skipped"), std::string::npos) << errors_;
   for (const char* name : {"s.json", "out/summary.json"})
     EXPECT_NE (nlohmann::json::parse (readFile (file (name)))["error"].get<std::string> ().find ("Depth0000"),
                std::string::npos);
@@ -234,6 +235,16 @@ TEST_F (FusionToolErrors, DepthsOfAnotherUnitAreNoResult)
   expectFailure (known ({"sim", "out"}), 1, "Depth0000.png: has no depth in any pixel");
 }
 
+TEST_F (FusionToolErrors, WithoutPosesNoFrameLacksOne)
+{
+  expectFailure ({"--max-depth", "0.1", "sim", "out"}, 1,
+                 "no reading is nearer than --max-depth 0.1 m: the nearest is 0.");
+  changeDepths ([] (const std::string& path) { saveDepthImage (Image<float> (120, 90, 0.0f), path); });
+  expectFailure ({"sim", "out"}, 1,
+                 "the camera could not be tracked in any frame: sim/depth_noise/Depth0000.png: has no depth in any "
+                 "pixel");
+}
+
 TEST_F (FusionToolErrors, MasksOfAnotherSizeOrWithoutFrames)
 {
   fs::copy (file ("sim/mask"), file ("far"));
@@ -245,6 +256,7 @@ TEST_F (FusionToolErrors, MasksOfAnotherSizeOrWithoutFrames)
   changeMasks ([] (Image<std::uint16_t>& mask, const std::string&) { mask = Image<std::uint16_t> (60, 50, 1); });
   expectFailure (known ({"sim", "out"}), 1,
                  "no frame has a mask that can be used: sim/mask/Mask0000.png: has 60 x 50 pixels");
+  EXPECT_EQ (errors_.find ("the frame is used"), std::string::npos) << errors_;
 }
 
 TEST_F (FusionToolErrors, OddObjects)
