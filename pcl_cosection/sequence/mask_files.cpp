@@ -199,8 +199,9 @@ listMaskFiles (const std::string& folder, const std::vector<double>& stamps, dou
   else
     addNumbered (folder, names, masks);
   if (masks.by_stamp.empty ())
-    throw IoError (folder + ": has no masks; their names should be MaskNNNN.png, FRAME_INSTANCE.png, or end in a " +
-                   "frame's stamp");
+    throw IoError (folder + ": has no masks: it " + contentsOf (folder) +
+                   "; masks must be PNGs in this folder, named " +
+                   "MaskNNNN.png, FRAME_INSTANCE.png, or another name that ends in a frame's number or stamp");
   return masks;
 }
 

@@ -39,6 +39,10 @@ std::vector<PairedFile> pairedFiles (const std::string& folder, const std::vecto
  * listed */
 std::vector<std::string> fileNames (const std::string& folder);
 
+/** \brief What a folder holds, for messages: "holds 21 .jpg files (0000.jpg ...) and 1 folder (brick)"; hidden ones do
+ * not count. \throws IoError if it cannot be listed */
+std::string contentsOf (const std::string& folder);
+
 /** \brief The files of a series, by ascending numbers, which may have a fraction (0.033333.png). Those without a
  * number, with one of more than 15 digits before the point (but for
  * 16 and 19, which are micro- and nanoseconds, and become seconds), or one that another file has too, are left out,

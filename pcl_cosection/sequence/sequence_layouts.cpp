@@ -104,7 +104,8 @@ coFusionDepth (const std::string& folder, const std::string& asked, std::vector<
     if (!depth.empty ())
       return depth;
     if (!asked.empty () || choice == "depth" || !isThere (inFolder (folder, "depth")))
-      throw IoError (path + ": has no depth images; their names should end in a number, as DepthNNNN.exr or .png");
+      throw IoError (path + ": has no depth images: it " + contentsOf (path) +
+                     "; they must be PNGs, or .exr in metres, whose names end in a number, as DepthNNNN.png");
   }
   throw IoError (folder + ": has no folder depth_noise or depth; another one can be given with --depth-dir");
 }

@@ -191,6 +191,33 @@ TEST (MaskSequence, AFileForEachObjectWhoseNameBeginsWithTheObject)
   EXPECT_NE (failure ("names").find ("Can-0000.png and "), std::string::npos);
 }
 
+TEST (MaskSequence, AFolderWithoutMasksIsSaidToHoldWhatItHolds)
+{
+  SequenceFolder folder;
+  folder.coFusion ({0, 1});
+  const auto failure = [&] (const std::string& name) {
+    return messageOf<IoError> ([&] { MaskSequence (folder.path (name), RgbdSequence (folder.path ())); });
+  };
+  for (const std::string frame : {"0", "1"})
+  {
+    folder.text ("photographs/" + frame + ".JPG", "");
+    folder.text ("folders/object_" + frame + "/0.png", "");
+    writeMask (folder, "names/" + frame + "_can.png", 1);
+  }
+  folder.text ("photographs/readme", "");
+  folder.text ("photographs/.hidden", "");
+  EXPECT_NE (failure ("photographs")
+                 .find ("photographs: has no masks: it holds 1 other file (readme) and 2 .jpg files (0.JPG ...); masks "
+                        "must be PNGs"),
+             std::string::npos)
+      << failure ("photographs");
+  EXPECT_NE (failure ("folders").find ("it holds 2 folders (object_0 ...); masks must be PNGs in this folder"),
+             std::string::npos);
+  EXPECT_NE (failure ("names").find ("it holds 2 .png files (0_can.png ...); masks must be PNGs in this folder, named "
+                                     "MaskNNNN.png"),
+             std::string::npos);
+}
+
 TEST (MaskSequence, MasksBesideOtherImagesOfTheSameNumbersAreThoseOfThatName)
 {
   SequenceFolder folder;
