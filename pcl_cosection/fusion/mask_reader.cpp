@@ -44,7 +44,8 @@ MaskReader::warnings () const
 {
   std::vector<std::string> result = warnings_;
   if (more_ > 0)
-    result.push_back ("and " + std::to_string (more_) + " more warnings about masks");
+    result.push_back ("and " + std::to_string (more_) + (more_ == 1 ? " more warning" : " more warnings") +
+                      " about masks");
   return result;
 }
 
