@@ -136,14 +136,18 @@ addObjects (const Series& series, MaskFiles& masks)
 {
   masks.per_instance = true;
   std::string meanings;
+  bool are_numbers = true;
   for (const auto& [beginning, instance] : instancesOf (series))
   {
-    meanings += (meanings.empty () ? "" : ", ") + std::to_string (instance) + " is " + withoutJoint (beginning);
+    const std::string name = withoutJoint (beginning), number = std::to_string (instance);
+    meanings += (meanings.empty () ? "" : ", ") + number + " is " + name;
+    are_numbers = are_numbers && name == number;
     for (const NumberedFile& file : series.at (beginning))
       masks.by_stamp[file.number].push_back ({file.path, instance});
   }
-  masks.warnings.push_back (series.begin ()->second.front ().path + " and others: are masks of one object each, " +
-                            "OBJECT_FRAME.png; instance " + meanings);
+  if (!are_numbers)
+    masks.warnings.push_back (series.begin ()->second.front ().path + " and others: are masks of one object each, " +
+                              "OBJECT_FRAME.png; instance " + meanings);
 }
 
 /** \brief The files that end in a number. \throws IoError if several are of one frame, and what they are is not known

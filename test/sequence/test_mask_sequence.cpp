@@ -172,6 +172,7 @@ TEST (MaskSequence, AFileForEachObjectWhoseNameBeginsWithTheObject)
   EXPECT_EQ (numbers.size (), 4u);
   EXPECT_EQ (numbers.read (2)->at (0, 2), 3);
   EXPECT_EQ (numbers.read (2)->at (1, 2), 12);
+  EXPECT_EQ (numbers.warnings (), std::vector<std::string> ());
   const MaskSequence names (folder.path ("names"), sequence);
   EXPECT_EQ (names.read (3)->at (0, 2), 2);
   EXPECT_EQ (names.read (3)->at (1, 2), 1);
