@@ -38,10 +38,11 @@ unitFault (const std::vector<StampedPose>& trajectory, const RgbdSequence& image
 {
   const auto poses = posesAtStamps (trajectory, images.stamps (), images.period ());
   std::vector<std::size_t> indices; // of frames with a pose
-  for (std::size_t index = range.first; index < std::min (range.last, poses.size ()); ++index)
+  const std::size_t last = std::min (range.last, poses.size ());
+  for (std::size_t index = range.first; index < last; ++index)
     if (poses[index])
       indices.push_back (index);
-  if (indices.size () < 2)
+  if (indices.size () < 2 || 2 * indices.size () < last - range.first) // the few may be far apart: stamps are wrong
     return {};
   std::vector<double> steps_m;
   for (std::size_t n = 1; n < indices.size (); ++n)

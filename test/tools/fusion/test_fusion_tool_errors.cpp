@@ -146,6 +146,19 @@ TEST_F (FusionToolErrors, Trajectories)
   saveTrajectory (poses, file ("half.txt"));
   EXPECT_EQ (run (camera ("half.txt", {"sim", "out"})), 0) << errors_;
   EXPECT_NE (errors_.find ("warning: 5 of 12 frames were left out"), std::string::npos) << errors_;
+
+  // Seconds, where the frames have numbers: it does not seem to be another unit, though the camera moves far between
+  // the few frames that have a pose.
+  for (std::size_t n = 0; n < poses.size (); ++n)
+  {
+    poses[n].stamp = static_cast<double> (n) / 10.0;
+    poses[n].pose.translation () *= 5.0;
+  }
+  saveTrajectory (poses, file ("seconds.txt"));
+  expectFailure (
+      camera ("seconds.txt", {"sim", "seconds"}), 1,
+      "most frames were left out: 10 of 12; what was written is of the others alone; the poses of seconds.txt "
+      "have the stamps 0 to 1.1, the frames 0 to 11");
 }
 
 TEST_F (FusionToolErrors, PosesInMillimetresAreRefusedBeforeAnythingIsSolved)
