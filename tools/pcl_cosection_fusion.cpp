@@ -9,6 +9,8 @@
 #include "method_json.h"
 #include "run_program.h"
 
+#include "pcl_cosection/sequence/pose_unit.h"
+#include "pcl_cosection/sequence/stamp_matching.h"
 #include <pcl/cosection/common/error.h>
 #include <pcl/cosection/common/triangle_mesh.h>
 #include <pcl/cosection/io/trajectory.h>
@@ -70,6 +72,13 @@ struct Inputs
   std::vector<std::string> warnings;
 };
 
+/** \brief Where the poses of the camera are from. */
+const std::string&
+poseSource (const FusionSettings& settings)
+{
+  return (settings.camera_trajectory.empty () ? settings.dataset : settings.camera_trajectory);
+}
+
 SequenceFusion
 makeFusion (const FusionSettings& settings, const Inputs& inputs)
 {
@@ -90,7 +99,10 @@ makeFusion (const FusionSettings& settings, const Inputs& inputs)
   if (settings.mask_ids == "per-frame")
     throw InvalidArgument (
         "with given poses, objects must have the same number in all masks, not --mask-ids per-frame");
-  return (SequenceFusion (inputs.known, options));
+  SequenceFusion fusion (inputs.known, options);
+  if (const std::string fault = unitFault (inputs.known.camera, inputs.images, options.frames); !fault.empty ())
+    throw InvalidArgument (poseSource (settings) + ": " + fault);
+  return (fusion);
 }
 
 double
@@ -126,9 +138,27 @@ objectLikeBackground (const SceneResult& scene)
           ": masks must be 0 where no object is");
 }
 
+/** \brief The stamps of given poses and of the frames, if frames are without a pose; else empty. */
+std::string
+stampsOfPoses (const FusionSettings& settings, const Inputs& inputs)
+{
+  const std::vector<StampedPose>& poses = inputs.known.camera;
+  const FrameRange& range = settings.fusion.frames;
+  std::vector<double> stamps = inputs.images.stamps ();
+  stamps.resize (std::min (range.last, stamps.size ()));
+  stamps.erase (stamps.begin (), stamps.begin () + static_cast<std::ptrdiff_t> (range.first));
+  const auto of_frames = posesAtStamps (poses, stamps, inputs.images.period ());
+  if (poses.empty () ||
+      std::all_of (of_frames.begin (), of_frames.end (), [] (const auto& pose) { return pose.has_value (); }))
+    return {};
+  return ("; the poses of " + poseSource (settings) + " have the stamps " +
+          stampSpan (poses.front ().stamp, poses.back ().stamp) + ", the frames " +
+          stampSpan (stamps.front (), stamps.back ()) + "; they must be within half a frame of each other");
+}
+
 /** \brief Tell what became of the objects; errors become warnings of the summary. \return whether all went well */
 bool
-tellOutcome (FusionResult& result, Terminal& terminal)
+tellOutcome (const FusionSettings& settings, const Inputs& inputs, FusionResult& result, Terminal& terminal)
 {
   bool all_good = true;
   for (const ObjectResult& object : result.scene.objects)
@@ -151,12 +181,17 @@ tellOutcome (FusionResult& result, Terminal& terminal)
     terminal.error ("nothing could be completed" +
                     (result.warnings.empty () ? std::string () : "; " + result.warnings.back ()));
   }
-  if (result.tracked && result.frames_left_out > result.frames) // else the trajectory that was given tells which
+  if (!result.why_no_object.empty ())
+  {
+    all_good = false;
+    terminal.error (result.why_no_object);
+  }
+  if (result.frames_left_out > result.frames)
   {
     all_good = false;
     result.warnings.push_back ("most frames were left out: " + std::to_string (result.frames_left_out) + " of " +
                                std::to_string (result.frames_left_out + result.frames) +
-                               "; what was written is of the others alone");
+                               "; what was written is of the others alone" + stampsOfPoses (settings, inputs));
     terminal.error (result.warnings.back ());
   }
   return (all_good);
@@ -200,11 +235,12 @@ fuse (const FusionSettings& settings, FusionOutputs& outputs, Terminal& terminal
   if (const auto warning = objectLikeBackground (result.scene))
     result.warnings.push_back (*warning);
   for (const std::string& warning : result.warnings)
-    terminal.warning (warning);
+    if (warning != result.why_no_object) // which is an error
+      terminal.warning (warning);
   for (const std::string& event : result.events)
     terminal.detail (event);
   result.warnings.insert (result.warnings.begin (), inputs.warnings.begin (), inputs.warnings.end ());
-  const bool all_good = tellOutcome (result, terminal);
+  const bool all_good = tellOutcome (settings, inputs, result, terminal);
 
   const pcl::StopWatch writing;
   const std::vector<std::string> files = outputs.write (result);

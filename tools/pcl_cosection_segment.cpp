@@ -18,6 +18,7 @@
 #include <array>
 #include <limits>
 #include <optional>
+#include <sstream>
 
 using namespace pcl::cosection;
 
@@ -145,6 +146,20 @@ parameters (const SegmentSettings& settings)
   return (summary);
 }
 
+/** \brief What may help where no object was found. */
+std::string
+remedy (const SegmentSettings& settings, const FoundObjects& found)
+{
+  std::ostringstream sizes;
+  sizes << "objects are " << settings.segmentation.min_object_size_m << " to "
+        << settings.segmentation.max_object_size_m << " m long (--min-object-size, --max-object-size), and ";
+  return (sizes.str () +
+          (found.support_planes.empty ()
+               ? "stand apart from each other"
+               : "stand on the " + counted (found.support_planes.size (), "plane") + " that it shows") +
+          "; is the unit the metre (else --scale 0.001)?");
+}
+
 bool
 run (const SegmentSettings& given, Terminal& terminal)
 {
@@ -182,8 +197,12 @@ run (const SegmentSettings& given, Terminal& terminal)
                      counted (found.objects[n].points, "point"));
   terminal.result ("wrote " + settings.output + ": " + counted (found.objects.size (), "object") +
                    (detector ? "" : " on " + counted (found.support_planes.size (), "plane")));
+  // A network may find nothing, and what is ignored may be all objects.
+  const bool is_answer = !found.objects.empty () || settings.network || !settings.ignored.empty ();
+  if (!is_answer)
+    terminal.error (settings.input + ": no object was found; " + remedy (settings, found));
   if (settings.json.empty ())
-    return (true);
+    return (is_answer);
   nlohmann::ordered_json summary;
   summary["timings_s"] = {{"read", read_s}, {"segmentation", segmentation_s}, {"total", total.getTimeSeconds ()}};
   summary["parameters"] = parameters (settings);
@@ -196,7 +215,7 @@ run (const SegmentSettings& given, Terminal& terminal)
     summary["support_planes"].push_back ({plane[0], plane[1], plane[2], plane[3]});
   summary["warnings"] = warnings;
   saveJson (summary, settings.json);
-  return (true);
+  return (is_answer);
 }
 
 } // namespace

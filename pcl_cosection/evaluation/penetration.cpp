@@ -84,12 +84,14 @@ public:
     return std::any_of (bodies_.begin (), bodies_.end (), [] (const auto& body) { return body->is_room; });
   }
 
-  /** \brief The mesh without its open parts. */
-  TriangleMesh closedParts () const
+  /** \brief The parts that bound matter. \param[in] open those that are open, too */
+  TriangleMesh parts (bool open) const
   {
     TriangleMesh mesh;
     for (const auto& body : bodies_)
       appendMesh (mesh, body->mesh);
+    if (open && sheets_)
+      appendMesh (mesh, sheets_->mesh);
     return mesh;
   }
 
@@ -117,9 +119,7 @@ PenetrationOptions::validate () const
     throw InvalidArgument ("threads must not be negative");
 }
 
-PenetrationBody::PenetrationBody (const TriangleMesh& mesh, const PenetrationOptions& options)
-    : mesh_ (mesh)
-    , options_ (options)
+PenetrationBody::PenetrationBody (const TriangleMesh& mesh, const PenetrationOptions& options) : options_ (options)
 {
   options.validate ();
   box_ = summarizeMesh (mesh).box;
@@ -190,8 +190,8 @@ PenetrationBody::sharedVolume (const PenetrationBody& other, const Eigen::Isomet
 
   const auto distanceOf = [&] (const PenetrationBody& body, const Eigen::Isometry3d& pose) {
     const SolidDepth& solid = *body.solid_;
-    return sampleSignedDistance (transformMesh (body.options_.open_parts ? body.mesh_ : solid.closedParts (), pose),
-                                 grid, solid.hasSheets () ? body.options_.band_m : voxel_m, options_.threads);
+    return sampleSignedDistance (transformMesh (solid.parts (body.options_.open_parts), pose), grid,
+                                 solid.hasSheets () ? body.options_.band_m : voxel_m, options_.threads);
   };
   const SignedDistanceField a = distanceOf (*this, Eigen::Isometry3d::Identity ());
   const SignedDistanceField b = distanceOf (other, T_this_other);

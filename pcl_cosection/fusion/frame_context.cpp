@@ -1,10 +1,10 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "frame_context.h"
 
-#include "pcl_cosection/common/quantile.h"
+#include "mask_reader.h"
 #include "pcl_cosection/fusion/mapping/object_tsdf.h"
+#include "pcl_cosection/sequence/median_depth.h"
 #include "pcl_cosection/sequence/stamp_matching.h"
-#include "pcl_cosection/view/visibility/visibility.h"
 
 #include <pcl/cosection/common/error.h>
 #include <pcl/cosection/fusion/dynamic_fusion.h>
@@ -13,6 +13,7 @@
 #include <cmath>
 #include <iterator>
 #include <map>
+#include <sstream>
 #include <utility>
 
 namespace pcl::cosection {
@@ -26,48 +27,6 @@ sourceOf (const MaskSequence* masks)
     return {};
   return [masks] (const RgbdFrame& frame) { return masks->read (frame.stamp); };
 }
-
-/** \brief Reads masks, and collects warnings about them. */
-class MaskReader
-{
-public:
-  explicit MaskReader (MaskSource masks) : masks_ (std::move (masks)) {}
-
-  /** \brief The mask of a frame; nothing if it has none or the mask is damaged. */
-  std::optional<Image<std::uint16_t>> read (const RgbdFrame& frame)
-  try
-  {
-    std::optional<Image<std::uint16_t>> mask = masks_ ? masks_ (frame) : std::nullopt;
-    used_ += mask.has_value ();
-    return mask;
-  }
-  catch (const Error& error)
-  {
-    constexpr std::size_t most_warnings = 20;
-    if (warnings_.size () < most_warnings)
-      warnings_.push_back (std::string (error.what ()) + "; the frame is used without it");
-    else
-      ++more_;
-    return std::nullopt;
-  }
-
-  /** \brief Whether there are masks, and none could be used. */
-  bool lacksMasks () const { return masks_ && used_ == 0; }
-
-  std::vector<std::string> warnings () const
-  {
-    std::vector<std::string> result = warnings_;
-    if (more_ > 0)
-      result.push_back ("and " + std::to_string (more_) + " more warnings about masks");
-    return result;
-  }
-
-private:
-  MaskSource masks_; // empty: no frame has one
-  std::vector<std::string> warnings_;
-  std::size_t more_ = 0;
-  std::size_t used_ = 0;
-};
 
 using PosesByFrame = std::vector<std::optional<Eigen::Isometry3d>>;
 
@@ -158,6 +117,15 @@ public:
 
   std::vector<std::string> maskWarnings () const override { return masks_.warnings (); }
 
+  std::string whyNoObject () const override
+  {
+    if (!masks_.hasMasks ())
+      return {};
+    const std::string empty = masks_.emptiness ();
+    return "the masks show no object: " +
+           (empty.empty () ? "no keyframe has enough readings where they have one" : empty);
+  }
+
   void finish (FusionResult& result) override
   {
     result.timings_s["segmentation"] += segmentation_s_;
@@ -176,10 +144,6 @@ public:
     if (2 * far_steps_ > frames_)
       result.warnings.push_back ("between most frames the camera moves farther than what it sees is away: its poses "
                                  "must be in metres, as the depth");
-    const bool saw_object = std::any_of (objects_.begin (), objects_.end (),
-                                         [] (const auto& object) { return object.second.seen; });
-    if (sequence_.masks && result.objects.empty () && !saw_object)
-      result.warnings.push_back ("the masks show no object in any keyframe");
     for (const auto& [id, trajectory] : sequence_.objects)
       if (result.objects[id].points == 0)
         result.warnings.push_back ("object " + std::to_string (id) +
@@ -192,9 +156,8 @@ private:
   /** \brief Note whether the camera moved farther than the middle of what it sees is away. */
   void noteStep (const Image<float>& depth, const Eigen::Vector3d& place)
   {
-    std::vector<float> readings;
-    std::copy_if (depth.pixels.begin (), depth.pixels.end (), std::back_inserter (readings), isReading);
-    if (last_place_ && !readings.empty () && (place - *last_place_).norm () > upperMedian (readings))
+    const std::optional<float> middle = medianDepth (depth);
+    if (last_place_ && middle && (place - *last_place_).norm () > *middle)
       ++far_steps_;
     last_place_ = place;
   }
@@ -245,6 +208,7 @@ public:
   TrackedPoses (const TrackedFrames& frames, const FusionOptions& options)
       : masks_ (frames.masks)
       , has_objects_ (frames.has_objects)
+      , max_object_depth_m_ (options.front_end.max_object_depth_m)
       , fusion_ (frames.camera, frontEndOptions (options.front_end, has_objects_))
   {
     fusion_.setSegmenter (frames.segmenter);
@@ -257,7 +221,8 @@ public:
       const ScopedSeconds timer (masks_s_);
       mask = masks_.read (frame);
     }
-    frames_masked_ += mask.has_value ();
+    if (frames_ == 0)
+      first_depth_m_ = medianDepth (frame.depth);
     tracked_ = &fusion_.process (frame, mask ? &*mask : nullptr);
     ++frames_;
     frames_lost_ += !tracked_->T_world_camera;
@@ -308,6 +273,19 @@ public:
 
   std::vector<std::string> maskWarnings () const override { return masks_.warnings (); }
 
+  std::string whyNoObject () const override
+  {
+    if (!masks_.hasMasks ())
+      return {};
+    const std::string shown = "the masks show no object that could be tracked: ";
+    if (const std::string empty = masks_.emptiness (); !empty.empty ())
+      return shown + empty;
+    if (!tracked_ids_.empty ())
+      return shown + "all were given up";
+    const std::string refused = refusedInstances ();
+    return shown + (refused.empty () ? "where they have one, no frame has depth" : refused) + oddDepth ();
+  }
+
   void finish (FusionResult& result) override
   {
     for (const auto& [stage, seconds] : fusion_.timings ())
@@ -336,27 +314,45 @@ public:
       object->second.best_class = fusion_.objectClass (id);
       ++object;
     }
-    if (frames_masked_ > 0 && tracked_ids_.empty ())
-      result.warnings.push_back (
-          "the masks show no object that could be tracked: none at all, or what they show is too "
-          "small or too far away (is the scale of the depth right?)");
-    else if (const auto refused = fusion_.refusedInstances (); !refused.empty ())
-      result.warnings.push_back (
-          "instance " + std::to_string (refused.begin ()->first) +
-          " of the masks is no object: " + refused.begin ()->second +
-          (refused.size () > 1 ? "; likewise " + std::to_string (refused.size () - 1) + " more" : ""));
+    if (!tracked_ids_.empty () || !masks_.hasMasks ())
+      if (const std::string refused = refusedInstances (); !refused.empty ())
+        result.warnings.push_back (refused);
   }
 
 private:
+  /** \brief A line about instances of masks that are no object; empty if all are, or there are none. */
+  std::string refusedInstances () const
+  {
+    const auto refused = fusion_.refusedInstances ();
+    if (refused.empty ())
+      return {};
+    return "instance " + std::to_string (refused.begin ()->first) +
+           " of the masks is no object: " + refused.begin ()->second +
+           (refused.size () > 1 ? "; likewise " + std::to_string (refused.size () - 1) + " more" : "");
+  }
+
+  /** \brief What the first frame's depths say of their scale; empty if objects may be that far away. */
+  std::string oddDepth () const
+  {
+    if (!first_depth_m_ || *first_depth_m_ <= max_object_depth_m_)
+      return {};
+    std::ostringstream text;
+    text.precision (3);
+    text << "; half of the depths of the first frame are more than " << *first_depth_m_
+         << " m: give --depth-scale if their unit is another";
+    return text.str ();
+  }
+
   MaskReader masks_;
   const bool has_objects_;
+  const double max_object_depth_m_;
   DynamicFusion fusion_;
   const TrackedFrame* tracked_ = nullptr; // of the last frame
   std::set<int> tracked_ids_;             // of objects in any frame
   std::size_t frames_ = 0;
   std::size_t frames_lost_ = 0;
   std::size_t frames_of_objects_ = 0;
-  std::size_t frames_masked_ = 0;
+  std::optional<float> first_depth_m_; // the median of the first frame
   double masks_s_ = 0.0;
 };
 

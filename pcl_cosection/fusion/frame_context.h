@@ -53,6 +53,9 @@ public:
   /** \brief Lines about masks that could not be read. */
   virtual std::vector<std::string> maskWarnings () const = 0;
 
+  /** \brief Why no object came of the masks, if none did; empty without masks. */
+  virtual std::string whyNoObject () const = 0;
+
   /** \brief Add surfaces, times and messages. */
   virtual void finish (FusionResult& result) = 0;
 };

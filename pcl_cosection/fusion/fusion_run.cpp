@@ -194,6 +194,10 @@ FusionRun::complete (const ProgressCallback& progress)
     result.warnings.push_back (std::to_string (points_.without_pose) +
                                " points of objects were left out: their trajectories have no pose for those frames");
   leaveOutSmallObjects (result);
+  if (result.objects.empty ())
+    result.why_no_object = context_->whyNoObject ();
+  if (!result.why_no_object.empty ())
+    result.warnings.push_back (result.why_no_object);
   result.warnings.insert (result.warnings.end (), result.scene.warnings.begin (), result.scene.warnings.end ());
   return result;
 }

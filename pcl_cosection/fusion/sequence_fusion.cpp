@@ -3,6 +3,7 @@
 
 #include "fusion_run.h"
 #include "pcl_cosection/sequence/stamp_matching.h"
+#include "pcl_cosection/view/visibility/visibility.h"
 
 #include <pcl/cosection/fusion/frame_segmenter.h>
 
@@ -94,8 +95,6 @@ public:
   /** \brief The back end has completed a keyframe, or is doing so. \throws Cancelled */
   void reportKeyframe () const { report ("keyframe", done_); }
 
-  std::size_t framesRead () const { return frames_read_; }
-
 private:
   const ProgressCallback& callback_;
   std::size_t first_;
@@ -124,6 +123,21 @@ leaveOut (const Image<std::uint8_t>& ignored, RgbdFrame& frame)
       frame.depth.pixels[n] = std::numeric_limits<float>::quiet_NaN ();
 }
 
+/** \brief What was read. */
+struct FrameReadings
+{
+  std::size_t frames = 0;
+  float nearest_m = std::numeric_limits<float>::infinity (); ///< reading
+
+  void add (const Image<float>& depth)
+  {
+    ++frames;
+    for (const float z : depth.pixels)
+      if (isReading (z))
+        nearest_m = std::min (nearest_m, z);
+  }
+};
+
 /** \brief The next frame, without readings where pixels are ignored; nothing at the end. */
 std::optional<RgbdFrame>
 readFrame (FrameReader& reader, const Image<std::uint8_t>& ignored, double& seconds)
@@ -135,27 +149,51 @@ readFrame (FrameReader& reader, const Image<std::uint8_t>& ignored, double& seco
   return frame;
 }
 
+/** \brief The reason in the first of some warnings, after a colon: without what was done with the frame, as nothing
+ * comes of the run. */
+std::string
+firstReason (const std::vector<std::string>& warnings)
+{
+  if (warnings.empty ())
+    return {};
+  return ": " + warnings.front ().substr (0, warnings.front ().rfind ("; the frame is "));
+}
+
+/** \brief Why no frame of a run is used. */
+std::string
+whyNoFrame (const FrameReadings& readings, bool tracked, const FusionOptions& options)
+{
+  if (readings.frames == 0)
+    return "no frame can be read";
+  if (!tracked)
+    return "no frame that has a pose can be read";
+  std::ostringstream text;
+  text.precision (3);
+  if (readings.nearest_m > options.front_end.max_depth_m && std::isfinite (readings.nearest_m))
+    text << "no reading is nearer than --max-depth " << options.front_end.max_depth_m << " m: the nearest is "
+         << readings.nearest_m << " m away";
+  else
+    text << "the camera could not be tracked in any frame";
+  return text.str ();
+}
+
 /** \brief Add the warnings of readers. \throws IoError if no frame could be used */
 void
-requireKeyframes (std::size_t frames_read, std::size_t points, const std::vector<std::string>& frame_warnings,
-                  const FrameContext& context, const FusionOptions& options, FusionResult& result)
+requireKeyframes (const FrameReadings& readings, std::size_t points, const std::vector<std::string>& frame_warnings,
+                  const FrameContext& context, const FusionOptions& options, bool tracked, FusionResult& result)
 {
   const std::vector<std::string> mask_warnings = context.maskWarnings ();
-  const auto firstOf = [] (const std::vector<std::string>& lines) {
-    return lines.empty () ? std::string () : ": " + lines.front ();
-  };
   result.warnings.insert (result.warnings.end (), frame_warnings.begin (), frame_warnings.end ());
   result.warnings.insert (result.warnings.end (), mask_warnings.begin (), mask_warnings.end ());
   if (result.frames == 0)
-    throw IoError ((frames_read == 0 ? "no frame can be read" : "no frame that has a pose can be read") +
-                   firstOf (frame_warnings));
+    throw IoError (whyNoFrame (readings, tracked, options) + firstReason (frame_warnings));
   if (result.keyframes == 0 || context.lacksMasks ())
-    throw IoError ("no frame has a mask that can be used" + firstOf (mask_warnings));
+    throw IoError ("no frame has a mask that can be used" + firstReason (mask_warnings));
   if (points == 0)
   {
     std::ostringstream text;
     text << "no keyframe has a surface nearer than " << options.keyframe.max_depth_m << " m"
-         << firstOf (frame_warnings);
+         << firstReason (frame_warnings);
     throw IoError (text.str ());
   }
 }
@@ -217,13 +255,16 @@ SequenceFusion::run (const ProgressCallback& progress, const KeyframeCallback& o
   RunProgress run_progress (progress, options_.frames, images.size ());
   const auto report = [&] { run_progress.reportKeyframe (); };
   FrameReader reader (images, options_.frames);
+  FrameReadings readings;
   while (const auto frame = readFrame (reader, options_.ignored, result.timings_s["read"]))
   {
     run_progress.reportFrame (frame->index, run.context ());
+    readings.add (frame->depth);
     if (run.add (*frame, on_frame))
       run.followUpdates (report, on_keyframe, false);
   }
-  requireKeyframes (run_progress.framesRead (), run.points (), reader.warnings (), run.context (), options_, result);
+  requireKeyframes (readings, run.points (), reader.warnings (), run.context (), options_, tracked_.has_value (),
+                    result);
   result.frames_left_out = std::min (options_.frames.last, images.size ()) - options_.frames.first - result.frames;
   run.followUpdates (report, on_keyframe, true);
   return run.complete ([&] (const std::string& stage, double fraction) {

@@ -66,6 +66,10 @@ parseText (const std::string& bytes)
     throw IoError (form + error.what ());
   }
   CameraFile file;
+  // A matrix has zeros there.
+  if (numbers.size () == 9 && numbers[3] != 0.0 && std::abs (numbers[1]) > largest_skew_px)
+    throw IoError ("has nine numbers that are no matrix of a camera, fx 0 cx, 0 fy cy, 0 0 1; if they are 'fx fy cx "
+                   "cy' and distortion, undistort the images and give the four numbers alone");
   if (numbers.size () == 9 || numbers.size () == 16)
     file.camera = cameraOf (numbers, numbers.size () == 9 ? 3 : 4);
   else if (numbers.size () == 4 || numbers.size () == 6)

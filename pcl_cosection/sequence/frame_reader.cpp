@@ -123,7 +123,8 @@ FrameReader::warnings () const
   const std::lock_guard<std::mutex> lock (mutex_);
   std::vector<std::string> lines = kept_warnings_;
   if (more_warnings_ > 0)
-    lines.push_back ("and " + std::to_string (more_warnings_) + " more warnings about frames");
+    lines.push_back ("and " + std::to_string (more_warnings_) +
+                     (more_warnings_ == 1 ? " more warning" : " more warnings") + " about frames");
   return lines;
 }
 

@@ -1,6 +1,7 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include <pcl/cosection/io/rgbd_sequence.h>
 
+#include "mask_files.h"
 #include "numbered_files.h"
 #include "pcl_cosection/io/mask_image.h"
 #include "resized_image.h"
@@ -10,11 +11,10 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstdint>
-#include <iterator>
 #include <map>
 #include <set>
+#include <utility>
 
 namespace pcl::cosection {
 namespace {
@@ -23,47 +23,6 @@ constexpr std::size_t speck_px = 100; // an instance of fewer is hardly an objec
 // Such instances of a mask: none in nine sequences of masks (toycars, reports of others); 17 to 90 after a blur, a
 // change of size or JPEG of the same. Halfway.
 constexpr std::size_t most_specks = 8;
-constexpr double largest_instance = 65533.0; // from 0; 65535 has a meaning of its own
-
-/** \brief Whether most names are those of a frame and an instance, \a files of \a all: more frames match their first
- * number than their second; if as many do, several files have the same second number or do not match a frame by it. */
-bool
-arePerInstance (const std::vector<PairedFile>& files, std::size_t all, const std::vector<double>& stamps, double limit)
-{
-  std::set<double> second;
-  std::set<std::size_t> by_first, by_second; // frames
-  std::size_t matched = 0;
-  for (const PairedFile& file : files)
-  {
-    if (file.second > largest_instance || file.second != std::floor (file.second))
-      return false;
-    if (const auto frame = nearestStamp (stamps, file.first, limit))
-      by_first.insert (*frame);
-    second.insert (file.second);
-    if (const auto frame = nearestStamp (stamps, file.second, limit))
-    {
-      by_second.insert (*frame);
-      ++matched;
-    }
-  }
-  if (by_first.empty () || by_first.size () < by_second.size () || 2 * files.size () <= all)
-    return false;
-  return by_first.size () > by_second.size () || second.size () < files.size () || matched < files.size ();
-}
-
-/** \brief PNGs whose names are not those of a frame and an instance. */
-std::vector<std::string>
-otherImages (const std::string& folder, const std::vector<std::string>& pngs, const std::vector<PairedFile>& paired)
-{
-  std::set<std::string> known;
-  for (const PairedFile& file : paired)
-    known.insert (file.path.substr (file.path.find_last_of ('/') + 1));
-  std::vector<std::string> others;
-  for (const std::string& name : pngs)
-    if (known.count (name) == 0)
-      others.push_back (folder + '/' + name);
-  return others;
-}
 
 /** \brief How many values of a mask cover few pixels each: many where it was scaled or compressed as a photograph. */
 std::size_t
@@ -106,42 +65,17 @@ MaskSequence::MaskSequence (const std::string& folder, const RgbdSequence& seque
     , width_ (sequence.camera ().width)
     , height_ (sequence.camera ().height)
 {
-  const std::vector<std::string> endings = {".png"};
-  const std::vector<std::string> names = fileNames (folder);
   const std::vector<double> stamps = sequence.stamps ();
-  std::vector<std::string> odd;
-  const std::vector<NumberedFile> numbered = numberedFiles (folder, names, {{}, endings}, odd);
-  const std::vector<PairedFile> paired = pairedFiles (folder, names, endings);
-  std::vector<std::string> pngs;
-  std::copy_if (names.begin (), names.end (), std::back_inserter (pngs), [] (const std::string& name) {
-    return name.size () > 4 && name.compare (name.size () - 4, 4, ".png") == 0;
-  });
-  per_instance_ = arePerInstance (paired, pngs.size (), stamps, half_period_);
-  const auto add = [&] (double stamp, const InstanceFile& file) {
-    if (stamps_.empty () || stamps_.back () != stamp)
-    {
-      stamps_.push_back (stamp);
-      files_.emplace_back ();
-    }
-    files_.back ().push_back (file);
-  };
-  if (per_instance_)
+  MaskFiles masks = listMaskFiles (folder, stamps, half_period_);
+  per_instance_ = masks.per_instance;
+  warnings_ = std::move (masks.warnings);
+  for (const auto& [stamp, files] : masks.by_stamp)
   {
-    for (const PairedFile& file : paired)
-      add (file.first, {file.path, static_cast<std::uint16_t> (file.second + 1.0)});
-    if (const std::vector<std::string> others = otherImages (folder, pngs, paired); !others.empty ())
-      warnings_.push_back (firstAndMore (others) + ": left out; the other names are FRAME_INSTANCE.png");
+    stamps_.push_back (stamp);
+    files_.emplace_back ();
+    for (const MaskFile& file : files)
+      files_.back ().push_back ({file.path, file.instance});
   }
-  else
-  {
-    warnings_ = odd;
-    for (const NumberedFile& file : numbered)
-      add (file.number, {file.path, 0});
-  }
-  if (files_.empty ())
-    throw IoError (folder +
-                   ": has no masks; their names should be MaskNNNN.png, FRAME_INSTANCE.png, or end in a frame's "
-                   "stamp");
   std::vector<bool> matches (files_.size ());
   for (const double stamp : stamps)
     if (const auto nearest = nearestStamp (stamps_, stamp, half_period_))

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <system_error>
 #include <tuple>
@@ -69,10 +70,10 @@ numberOf (std::string_view digits)
   return std::nullopt;
 }
 
-} // namespace
-
+/** \brief The names of what is in a folder and wanted, sorted, without hidden ones. \throws IoError */
+template <typename IsWanted>
 std::vector<std::string>
-fileNames (const std::string& folder)
+namesIn (const std::string& folder, IsWanted&& isWanted)
 {
   std::error_code failure;
   const fs::file_status status = fs::status (folder, failure);
@@ -86,13 +87,43 @@ fileNames (const std::string& folder)
   {
     std::error_code ignored;
     const std::string name = entry->path ().filename ().string ();
-    if (name[0] != '.' && entry->is_regular_file (ignored))
+    if (name[0] != '.' && isWanted (*entry, ignored))
       names.push_back (name);
   }
   if (failure)
     throw IoError (folder + ": cannot be listed: " + failure.message ());
   std::sort (names.begin (), names.end ());
   return names;
+}
+
+} // namespace
+
+std::vector<std::string>
+fileNames (const std::string& folder)
+{
+  return namesIn (folder, [] (const fs::directory_entry& entry, std::error_code& ignored) {
+    return entry.is_regular_file (ignored);
+  });
+}
+
+std::string
+contentsOf (const std::string& folder)
+{
+  std::string text;
+  const auto add = [&text] (const std::string& before, const std::string& kind, const std::vector<std::string>& names) {
+    text += (text.empty () ? "holds " : " and ") + std::to_string (names.size ()) + " " + before + kind +
+            (names.size () == 1 ? " (" + names.front () + ")" : "s (" + names.front () + " ...)");
+  };
+  std::map<std::string, std::vector<std::string>> by_extension;
+  for (const std::string& name : fileNames (folder))
+    by_extension[lowerCaseExtension (name)].push_back (name);
+  for (const auto& [extension, names] : by_extension)
+    add (extension.empty () ? "other " : extension + " ", "file", names);
+  const std::vector<std::string> folders = namesIn (
+      folder, [] (const fs::directory_entry& entry, std::error_code& ignored) { return entry.is_directory (ignored); });
+  if (!folders.empty ())
+    add ("", "folder", folders);
+  return text.empty () ? "is empty" : text;
 }
 
 std::vector<NumberedFile>
@@ -137,6 +168,23 @@ numberedFiles (const std::string& folder, const std::vector<std::string>& names,
   if (!again.empty ())
     warnings.push_back (firstAndMore (again) + ": left out; another file has the same number");
   return unique;
+}
+
+std::set<std::string>
+beginningsOf (const std::vector<std::string>& names, const std::vector<std::string>& endings)
+{
+  std::set<std::string> beginnings;
+  for (const std::string& name : names)
+    if (const auto stem = withoutEnding (lowerCase (name), endings); stem && numberBegin (*stem) < stem->size ())
+      beginnings.insert (stem->substr (0, numberBegin (*stem)));
+  return beginnings;
+}
+
+std::optional<double>
+numberAtEnd (const std::string& text)
+{
+  const std::size_t begin = numberBegin (text);
+  return begin == text.size () ? std::nullopt : numberOf (std::string_view (text).substr (begin));
 }
 
 std::vector<NumberedFile>

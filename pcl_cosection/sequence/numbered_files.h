@@ -1,6 +1,8 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -37,6 +39,10 @@ std::vector<PairedFile> pairedFiles (const std::string& folder, const std::vecto
  * listed */
 std::vector<std::string> fileNames (const std::string& folder);
 
+/** \brief What a folder holds, for messages: "holds 21 .jpg files (0000.jpg ...) and 1 folder (brick)"; hidden ones do
+ * not count. \throws IoError if it cannot be listed */
+std::string contentsOf (const std::string& folder);
+
 /** \brief The files of a series, by ascending numbers, which may have a fraction (0.033333.png). Those without a
  * number, with one of more than 15 digits before the point (but for
  * 16 and 19, which are micro- and nanoseconds, and become seconds), or one that another file has too, are left out,
@@ -44,6 +50,12 @@ std::vector<std::string> fileNames (const std::string& folder);
  * \param[in] names of the files in \a folder, sorted */
 std::vector<NumberedFile> numberedFiles (const std::string& folder, const std::vector<std::string>& names,
                                          const NumberedNames& series, std::vector<std::string>& warnings);
+
+/** \brief What names of these endings have before their numbers, small letters; names without a number are left out. */
+std::set<std::string> beginningsOf (const std::vector<std::string>& names, const std::vector<std::string>& endings);
+
+/** \brief The number at the end of a text, as those of names; nothing if it does not end in one. */
+std::optional<double> numberAtEnd (const std::string& text);
 
 /** \brief The files of a folder whose names begin as is usual, or else of any that end in a number. */
 std::vector<NumberedFile> numberedImages (const std::string& folder, const NumberedNames& usual,

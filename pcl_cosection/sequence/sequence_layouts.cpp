@@ -73,6 +73,22 @@ joinByNumber (const std::vector<NumberedFile>& depth, const std::vector<Numbered
   return files;
 }
 
+/** \brief Warn of colour images whose number no depth image has: they are no frames. */
+void
+warnOfMissingDepth (const std::vector<NumberedFile>& depth, const std::vector<NumberedFile>& colour,
+                    std::vector<std::string>& warnings)
+{
+  const auto depth_paths = byNumber (depth);
+  std::vector<std::string> without;
+  for (const NumberedFile& file : colour)
+    if (depth_paths.count (file.number) == 0)
+      without.push_back (file.path);
+  if (!without.empty ())
+    warnings.push_back (firstAndMore (without) + ": no depth image has the same number; there are " +
+                        std::to_string (colour.size ()) + " colour images and " + std::to_string (depth.size ()) +
+                        " depth images");
+}
+
 /** \brief The depth images of the folder asked for, else of depth_noise, else of depth. */
 std::vector<NumberedFile>
 coFusionDepth (const std::string& folder, const std::string& asked, std::vector<std::string>& warnings)
@@ -88,7 +104,8 @@ coFusionDepth (const std::string& folder, const std::string& asked, std::vector<
     if (!depth.empty ())
       return depth;
     if (!asked.empty () || choice == "depth" || !isThere (inFolder (folder, "depth")))
-      throw IoError (path + ": has no depth images; their names should end in a number, as DepthNNNN.exr or .png");
+      throw IoError (path + ": has no depth images: it " + contentsOf (path) +
+                     "; they must be PNGs, or .exr in metres, whose names end in a number, as DepthNNNN.png");
   }
   throw IoError (folder + ": has no folder depth_noise or depth; another one can be given with --depth-dir");
 }
@@ -101,8 +118,9 @@ listSevenScenes (SequenceListing& listing)
   const std::vector<NumberedFile> depth = numberedFiles (folder, names, seven_scenes_depth, listing.warnings);
   if (depth.empty ())
     throw IoError (folder + ": has no depth images; their names should be frame-NNNNNN.depth.png");
-  listing.files = joinByNumber (depth, numberedFiles (folder, names, seven_scenes_colour, listing.warnings),
-                                numberedFiles (folder, names, seven_scenes_pose, listing.warnings));
+  const std::vector<NumberedFile> colour = numberedFiles (folder, names, seven_scenes_colour, listing.warnings);
+  listing.files = joinByNumber (depth, colour, numberedFiles (folder, names, seven_scenes_pose, listing.warnings));
+  warnOfMissingDepth (depth, colour, listing.warnings);
 }
 
 /** \brief Positive if the name is that of depth, negative if it is that of colour. */
@@ -202,13 +220,13 @@ listCoFusion (const SequenceSource& source, SequenceListing& listing)
   listing.files = joinByNumber (depth, colour, {});
   const auto without = std::count_if (listing.files.begin (), listing.files.end (),
                                       [] (const FrameFiles& files) { return files.colour.empty (); });
-  if (2 * static_cast<std::size_t> (without) <= listing.files.size () || colour.empty ())
-    return;
+  const bool differ = 2 * static_cast<std::size_t> (without) > listing.files.size ();
+  if (!differ || !isTime (depth) || !isTime (colour))
+    return warnOfMissingDepth (depth, colour, listing.warnings);
   std::vector<StampedFile> stamped; // of two cameras, that are not triggered together
   for (const NumberedFile& file : colour)
     stamped.push_back ({file.number, file.path});
-  if (isTime (depth) && isTime (colour))
-    associate (listing.files, stamped);
+  associate (listing.files, stamped);
 }
 
 /** \brief The frames of TUM's layout, in the order of the lists; depth may be without colour. \throws IoError */

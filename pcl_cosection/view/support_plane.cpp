@@ -1,6 +1,8 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #include "support_plane.h"
 
+#include "pcl_cosection/io/quiet_console.h"
+
 #include <pcl/point_cloud.h>
 #include <pcl/point_types.h>
 #include <pcl/sample_consensus/ransac.h>
@@ -142,6 +144,7 @@ findSupportPlanes (const std::vector<OrientedPoint>& background, const std::vect
     const pcl::SampleConsensusModelPlane<pcl::PointXYZ>::Ptr model (new PlaneModel (cloud, remaining, least_area));
     pcl::RandomSampleConsensus<pcl::PointXYZ> ransac (model, inlier_distance);
     ransac.setMaxIterations (max_ransac_iterations);
+    const QuietConsole quiet; // points that span no plane are no error
     if (!ransac.computeModel ())
       break;
     Eigen::VectorXf coefficients, refined;

@@ -132,7 +132,12 @@ TEST (Penetration, ASmallCavityIsNoRoom)
   const PenetrationBody background (floor);
   EXPECT_TRUE (background.isOpen ());
   EXPECT_EQ (box ({0.3f, 0.3f, 0.2f}, {0.5f, 0.5f, 0.4f}).depthOf (background), 0.0);
-  EXPECT_NEAR (box ({0.3f, 0.3f, -0.03f}, {0.5f, 0.5f, 0.4f}).depthOf (background), 0.03, 1e-6);
+  const PenetrationBody low = box ({0.3f, 0.3f, -0.03f}, {0.5f, 0.5f, 0.4f});
+  EXPECT_NEAR (low.depthOf (background), 0.03, 1e-6);
+  EXPECT_FALSE (low.sharedVolume (background)) << "a floor has no volume";
+  appendMesh (floor, boxMesh ({0.35f, 0.35f, 0.2f}, {0.45f, 0.45f, 0.3f}));
+  const double within_m3 = 0.1 * 0.1 * 0.1, below_m3 = 0.03 * 0.2 * 0.2;
+  EXPECT_NEAR (low.sharedVolume (PenetrationBody (floor)).value (), within_m3 + below_m3, 0.2 * (within_m3 + below_m3));
 }
 
 TEST (Penetration, RefusesBadOptions)

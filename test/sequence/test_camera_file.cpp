@@ -80,6 +80,8 @@ TEST (CameraFile, BadOnesAreNamed)
   for (const auto& [name, content, reason] : std::vector<std::array<std::string, 3>>{
            {"cam_K.txt", "10 2 3.5 0 11 2.5 0 0 1", "not that of a camera"},
            {"cam_K.txt", "10 0 3.5 0 11", "has 5 numbers"},
+           {"calibration.txt", "10 11 3.5 2.5 0.1 -0.2 0.001 0.002 0",
+            "if they are 'fx fy cx cy' and distortion, undistort the images and give the four numbers alone"},
            {"scene_camera.json", "{}", "holds no camera"},
            {"scene_camera.json", "[1]", "holds no camera"},
            {"scene_camera.json", "{\"0\": {\"cam_K\": [1, 2]}}", "there must be 9"},

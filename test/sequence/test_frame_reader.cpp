@@ -108,6 +108,9 @@ TEST (FrameReader, CountsWarningsBeyondTheFirstTwenty)
   const std::vector<std::string> warnings = reader.warnings ();
   ASSERT_EQ (warnings.size (), 21u);
   EXPECT_EQ (warnings.back (), "and 30 more warnings about frames");
+  FrameReader of_some (sequence, {0, 21});
+  EXPECT_FALSE (of_some.next ());
+  EXPECT_EQ (of_some.warnings ().back (), "and 1 more warning about frames");
 }
 
 TEST (FrameReader, StopsAtAnyTime)

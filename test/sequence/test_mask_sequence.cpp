@@ -150,6 +150,91 @@ TEST (MaskSequence, AFileForEachInstance)
   }
 }
 
+TEST (MaskSequence, AFileForEachObjectWhoseNameBeginsWithTheObject)
+{
+  SequenceFolder folder;
+  folder.coFusion ({0, 1, 2, 3});
+  const auto write = [&folder] (const std::string& name, int object) {
+    Image<std::uint16_t> mask (8, 6);
+    mask.at (object, 2) = 255;
+    saveMaskImage (mask, folder.newPath (name));
+  };
+  for (const std::string frame : {"0000", "0001", "0002", "0003"})
+  {
+    write ("numbers/3_" + frame + ".png", 0);
+    write ("numbers/12_" + frame + ".png", 1);
+    write ("names/carton_" + frame + ".png", 0);
+    write ("names/Can-" + frame + ".png", 1);
+  }
+  const RgbdSequence sequence (folder.path ());
+  const MaskSequence numbers (folder.path ("numbers"), sequence);
+  EXPECT_TRUE (numbers.isPerInstance ());
+  EXPECT_EQ (numbers.size (), 4u);
+  EXPECT_EQ (numbers.read (2)->at (0, 2), 3);
+  EXPECT_EQ (numbers.read (2)->at (1, 2), 12);
+  EXPECT_EQ (numbers.warnings (), std::vector<std::string> ());
+  const MaskSequence names (folder.path ("names"), sequence);
+  EXPECT_EQ (names.read (3)->at (0, 2), 2);
+  EXPECT_EQ (names.read (3)->at (1, 2), 1);
+  EXPECT_TRUE (mentions (names.warnings (), "are masks of one object each, OBJECT_FRAME.png; instance 1 is can, 2 is "
+                                            "carton"));
+
+  // Which are the masks is not known: an object is missing in a frame, or files have several instances.
+  const auto failure = [&] (const std::string& name) {
+    return messageOf<IoError> ([&] { MaskSequence (folder.path (name), sequence); });
+  };
+  fs::remove (folder.path ("numbers/3_0002.png"));
+  EXPECT_NE (failure ("numbers").find ("has several masks for one frame, such as "), std::string::npos);
+  Image<std::uint16_t> several (8, 6);
+  several.at (0, 0) = 1;
+  several.at (1, 0) = 2;
+  saveMaskImage (several, folder.newPath ("names/Can-0000.png"));
+  EXPECT_NE (failure ("names").find ("Can-0000.png and "), std::string::npos);
+}
+
+TEST (MaskSequence, AFolderWithoutMasksIsSaidToHoldWhatItHolds)
+{
+  SequenceFolder folder;
+  folder.coFusion ({0, 1});
+  const auto failure = [&] (const std::string& name) {
+    return messageOf<IoError> ([&] { MaskSequence (folder.path (name), RgbdSequence (folder.path ())); });
+  };
+  for (const std::string frame : {"0", "1"})
+  {
+    folder.text ("photographs/" + frame + ".JPG", "");
+    folder.text ("folders/object_" + frame + "/0.png", "");
+    writeMask (folder, "names/" + frame + "_can.png", 1);
+  }
+  folder.text ("photographs/readme", "");
+  folder.text ("photographs/.hidden", "");
+  EXPECT_NE (failure ("photographs")
+                 .find ("photographs: has no masks: it holds 1 other file (readme) and 2 .jpg files (0.JPG ...); masks "
+                        "must be PNGs"),
+             std::string::npos)
+      << failure ("photographs");
+  EXPECT_NE (failure ("folders").find ("it holds 2 folders (object_0 ...); masks must be PNGs in this folder"),
+             std::string::npos);
+  EXPECT_NE (failure ("names").find ("it holds 2 .png files (0_can.png ...); masks must be PNGs in this folder, named "
+                                     "MaskNNNN.png"),
+             std::string::npos);
+}
+
+TEST (MaskSequence, MasksBesideOtherImagesOfTheSameNumbersAreThoseOfThatName)
+{
+  SequenceFolder folder;
+  folder.coFusion ({0, 1});
+  for (const std::string frame : {"0000", "0001"})
+  {
+    writeMask (folder, "mask/Mask" + frame + ".png", 5);
+    writeMask (folder, "mask/Blend" + frame + ".png", 77);
+  }
+  const MaskSequence masks (folder.path ("mask"), RgbdSequence (folder.path ()));
+  EXPECT_FALSE (masks.isPerInstance ());
+  EXPECT_EQ (masks.read (1)->at (0, 0), 5);
+  EXPECT_TRUE (mentions (masks.warnings (), "Blend0000.png and 1 more: left out; masks of the same frames are named "
+                                            "MaskNNNN.png"));
+}
+
 TEST (MaskSequence, NamesOfTwoNumbersMayBeOfOneFrameEach)
 {
   SequenceFolder folder;

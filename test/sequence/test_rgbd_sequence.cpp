@@ -177,6 +177,20 @@ TEST (RgbdSequence, TumListsAreAssociatedByTime)
   expectSameDepth (SequenceFolder::depthOf (2), without.read (2, warnings).depth, 2e-4);
 }
 
+TEST (RgbdSequence, ColourImagesWithoutDepthAreWarnedOf)
+{
+  SequenceFolder folder;
+  folder.coFusion ({0, 1, 2});
+  folder.colour ("colour/Color0003.png", 3);
+  folder.colour ("colour/Color0004.png", 4);
+  const RgbdSequence sequence (folder.path ());
+  EXPECT_EQ (sequence.size (), 3u);
+  EXPECT_EQ (sequence.warnings (),
+             std::vector<std::string>{folder.path ("colour/Color0003.png") +
+                                      " and 1 more: no depth image has the same number; there are 5 colour images and "
+                                      "3 depth images"});
+}
+
 TEST (RgbdSequence, StampsAreSortedAndUnique)
 {
   SequenceFolder folder;

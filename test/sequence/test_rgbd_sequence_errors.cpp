@@ -60,6 +60,16 @@ TEST (RgbdSequenceErrors, WhatIsNoSequence)
   }
 }
 
+TEST (RgbdSequenceErrors, DepthImagesOfAnotherFormatAreNamed)
+{
+  SequenceFolder folder;
+  folder.text ("calibration.txt", "10 10 3.5 2.5 8 6");
+  folder.text ("depth/0000.tiff", "");
+  folder.text ("depth/0001.tiff", "");
+  expectFailure (folder.path (), folder.path ("depth"),
+                 "has no depth images: it holds 2 .tiff files (0000.tiff ...); they must be PNGs, or .exr in metres");
+}
+
 TEST (RgbdSequenceErrors, CoFusionFolders)
 {
   SequenceFolder folder;

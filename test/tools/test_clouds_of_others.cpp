@@ -83,6 +83,12 @@ TEST_F (AnyCloud, BackgroundOfAnotherLabel)
   pcl::io::savePCDFileBinary (path ("third.pcd"), table);
   ASSERT_EQ (run ({"third.pcd", "third"}), 0) << errors_;
   EXPECT_NE (errors_.find ("give --background 3"), std::string::npos) << errors_;
+  ASSERT_EQ (run ({"--background", "7", "table.pcd", "fourth"}), 0) << errors_;
+  EXPECT_NE (errors_.find ("object 7, which has label 0, extends farther than all others together; if it is the "
+                           "background, leave out --background 7"),
+             std::string::npos)
+      << errors_;
+  EXPECT_EQ (errors_.find ("give --background"), std::string::npos) << errors_;
 }
 
 TEST_F (AnyCloud, TheInsideOfABinIsClosedAtItsMouth)

@@ -96,6 +96,12 @@ TEST (OptionValues, Tuples)
   EXPECT_FALSE (parseTuples<3> ({"1,2,3,4"}));
 }
 
+TEST (OptionValues, ARangeWithoutAnEndNamesNone)
+{
+  EXPECT_EQ (numberRange (-unlimited, unlimited) ("abc"), "\"abc\" is not valid, it must be a number");
+  EXPECT_EQ (numberRange (0.0, unlimited) ("-1"), "\"-1\" is not valid, it must be a number, 0 or more");
+}
+
 TEST (CommandLine, PlainUse)
 {
   const Settings settings = parse ("a.pcd b.pcd out");
@@ -201,7 +207,7 @@ TEST (CommandLine, WrongConfigurationFiles)
   EXPECT_NE (error ("[volume]\nvoxel-size = 1\n").find ("no sections"), std::string::npos);
   EXPECT_NE (error ("voxel-size = big\n").find ("--voxel-size"), std::string::npos);
   EXPECT_NE (error ("config = other.ini\n").find ("config"), std::string::npos);
-  EXPECT_NE (usageError ("--config missing.ini a.pcd out").find ("--config"), std::string::npos);
+  EXPECT_EQ (usageError ("--config missing.ini a.pcd out"), "--config: missing.ini cannot be read");
 }
 
 TEST (CommandLine, WrongUsageIsNamed)
@@ -236,6 +242,8 @@ TEST (CommandLine, WrongUsageIsNamed)
   expect ("--intrinsics 0,1,2,3 a.pcd out", "--intrinsics");
   expect ("--max-memory many a.pcd out", "--max-memory");
   expect ("--scale -1 a.pcd out", "--scale");
+  expect ("--preset fast a.pcd out", "--preset: \"fast\" is not valid, it must be paper");
+  expect ("--format glb a.pcd out", "--format: \"glb\" is not valid, it must be ply, stl or obj");
 }
 
 TEST (CommandLine, ConfigurationFileIsOverriddenAlsoByTheOtherWayToSayTheSizeOfVoxels)

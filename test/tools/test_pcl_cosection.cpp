@@ -234,7 +234,12 @@ TEST_F (PclCosection, OnlyBackgroundIsNoObject)
   for (int i = 0; i < 200; ++i)
     lines += std::to_string (0.01 * (i % 20)) + " " + std::to_string (0.01 * (i / 20)) + " 1 0\n";
   write ("table.pcd", asciiCloud (200, lines, true));
-  expectFailure ({"table.pcd", "out"}, 1, "label 0");
+  expectFailure ({"table.pcd", "out"}, 1, "all points have label 0");
+  for (int i = 0; i < 120; ++i)
+    lines += std::to_string (0.001 * i) + " 0 0.9 5\n";
+  write ("more.pcd", asciiCloud (320, lines, true));
+  expectFailure ({"--ignore", "5", "more.pcd", "out"}, 1,
+                 "all points but those that --ignore leaves out have label 0, the background");
 }
 
 TEST_F (PclCosection, LabelWithoutEnoughPointsIsSkipped)

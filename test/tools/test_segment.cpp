@@ -110,6 +110,19 @@ TEST_F (Segment, LeavesOutARegion)
   EXPECT_EQ (out (3, 3).label, 0u);
 }
 
+TEST_F (Segment, NoObjectIsAFailureThatSaysWhatMayHelp)
+{
+  ToolRun run ({"in.pcd", "out.pcd", "--json", "s.json", "--min-object-size", "0.3"}, folder_.file (""), {},
+               PCL_COSECTION_SEGMENT);
+  EXPECT_EQ (run.wait (), 1);
+  EXPECT_EQ (run.output (), "wrote out.pcd: 0 objects on 1 plane\n");
+  EXPECT_EQ (run.errors (), "pcl_cosection_segment: error: in.pcd: no object was found; objects are 0.3 to 0.5 m long "
+                            "(--min-object-size, --max-object-size), and stand on the 1 plane that it shows; is "
+                            "the unit the metre (else --scale 0.001)?\n");
+  std::ifstream file (folder_.file ("s.json"));
+  EXPECT_TRUE (nlohmann::json::parse (file)["objects"].empty ());
+}
+
 TEST_F (Segment, AddsTheFieldInMillimetres)
 {
   pcl::PointCloud<pcl::PointXYZ> cloud;

@@ -164,3 +164,15 @@ TEST (SupportPlane, NoPlaneInALine)
   EXPECT_EQ (testing::internal::GetCapturedStdout (), "");
   EXPECT_EQ (testing::internal::GetCapturedStderr (), "");
 }
+
+TEST (SupportPlane, NoPlaneInAFewPointsNearEachOther)
+{
+  std::vector<OrientedPoint> patch = rectangle ({0.0, 0.0, 0.0}, {0.001, 0.0, 0.0}, {0.0, 0.001, 0.0}, 2000);
+  for (OrientedPoint& p : patch)
+    p.position.z () = 0.0f;
+  testing::internal::CaptureStderr ();
+  testing::internal::CaptureStdout ();
+  EXPECT_TRUE (findSupportPlanes (patch, boxOn ({0.0, 0.0, 0.0})).empty ());
+  EXPECT_EQ (testing::internal::GetCapturedStdout (), "");
+  EXPECT_EQ (testing::internal::GetCapturedStderr (), "");
+}

@@ -233,7 +233,7 @@ parseArguments (CLI::App& app, const ProgramText& program, int argc, const char*
   }
   catch (const CLI::FileError&)
   {
-    throw UsageError ("--config: the file cannot be read");
+    throw UsageError ("--config: " + configurationFile (arguments) + " cannot be read");
   }
   catch (const CLI::ArgumentMismatch& error)
   {

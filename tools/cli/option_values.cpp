@@ -24,16 +24,32 @@ format (double value)
 } // namespace
 
 CLI::Validator
+oneOf (const std::vector<std::string>& words)
+{
+  const auto check = [=] (const std::string& text) -> std::string {
+    if (std::find (words.begin (), words.end (), text) != words.end ())
+      return ("");
+    std::string all;
+    for (const std::string& word : words)
+      all += (all.empty () ? "" : &word == &words.back () ? " or " : ", ") + word;
+    return ("\"" + text + "\" is not valid, it must be " + all);
+  };
+  return (CLI::Validator (check, ""));
+}
+
+CLI::Validator
 numberRange (double least, double most, bool open)
 {
   const auto check = [=] (const std::string& text) -> std::string {
     const std::optional<double> value = parseNumber (text);
     if (value && *value <= most && (open ? *value > least : *value >= least))
       return ("");
-    std::string domain = open ? "greater than " + format (least) : format (least) + " or more";
+    std::string domain;
+    if (least > -unlimited)
+      domain = open ? ", greater than " + format (least) : ", " + format (least) + " or more";
     if (most < unlimited)
       domain += ", at most " + format (most);
-    return ("\"" + text + "\" is not valid, it must be a number, " + domain);
+    return ("\"" + text + "\" is not valid, it must be a number" + domain);
   };
   return (CLI::Validator (check, ""));
 }

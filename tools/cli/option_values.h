@@ -34,11 +34,7 @@ override (Target& target, const std::optional<Value>& value)
 }
 
 /** \brief Accepts one of some words. */
-inline CLI::Validator
-oneOf (const std::vector<std::string>& words)
-{
-  return (CLI::IsMember (words));
-}
+CLI::Validator oneOf (const std::vector<std::string>& words);
 
 /** \brief Accepts a finite number in [\a least, \a most]; in (\a least, \a most] if \a open. */
 CLI::Validator numberRange (double least, double most, bool open = false);

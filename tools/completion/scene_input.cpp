@@ -332,7 +332,9 @@ readScene (const Settings& settings, const ProgressCallback& progress, const Sce
   {
     std::string reason = "no object to complete";
     if (labels.size () == 1 && labels.count (0) == 1)
-      reason += ": all points have label 0, the background";
+      reason += settings.reading.ignored_labels.empty ()
+                    ? ": all points have label 0, the background"
+                    : ": all points but those that --ignore leaves out have label 0, the background";
     else if (!scene.warnings.empty ())
       reason += ": " + scene.warnings.back ();
     throw DegenerateInput (reason);
@@ -342,8 +344,8 @@ readScene (const Settings& settings, const ProgressCallback& progress, const Sce
   const std::optional<std::string> distant = distantPlanes (scene);
   if (distant)
     scene.planes.clear (); // objects would reach down to them
-  for (const auto& warning : {smallBackground (scene), objectLikeBackground (scene), distant,
-                              largeVoxels (scene, settings.method.voxel_size_m)})
+  for (const auto& warning : {smallBackground (scene), objectLikeBackground (scene, settings.reading.background_labels),
+                              distant, largeVoxels (scene, settings.method.voxel_size_m)})
     if (warning)
       scene.warnings.push_back (*warning);
   for (const auto& [label, file] : settings.object_trajectories)

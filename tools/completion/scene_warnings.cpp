@@ -100,7 +100,7 @@ smallBackground (const SceneInput& scene)
 }
 
 std::optional<std::string>
-objectLikeBackground (const SceneInput& scene)
+objectLikeBackground (const SceneInput& scene, const std::vector<std::uint32_t>& background_labels)
 {
   if (!scene.background.empty () || scene.objects.size () < 2)
     return std::nullopt;
@@ -118,8 +118,12 @@ objectLikeBackground (const SceneInput& scene)
       others.insert (others.end (), object.points.begin (), object.points.end ());
   if (extent_m <= extentOf (others).norm ())
     return std::nullopt;
-  return "object " + std::to_string (largest) + " extends farther than all others together; if it is the background, " +
-         "give --background " + std::to_string (largest);
+  const std::string number = std::to_string (largest);
+  if (!background_labels.empty () && background_labels.front () == static_cast<std::uint32_t> (largest))
+    return "object " + number + ", which has label 0, extends farther than all others together; if it is the " +
+           "background, leave out --background " + number;
+  return "object " + number + " extends farther than all others together; if it is the background, give --background " +
+         number;
 }
 
 std::optional<std::string>

@@ -23,8 +23,10 @@ std::optional<std::string> tooLong (std::uint32_t label, const std::vector<pcl::
  */
 std::optional<std::string> smallBackground (const SceneInput& scene);
 
-/** \brief A warning of an object that extends about all the others, if there is no background: it may be that. */
-std::optional<std::string> objectLikeBackground (const SceneInput& scene);
+/** \brief A warning of an object that extends about all the others, if there is no background: it may be that.
+ * \param[in] background_labels that were given; empty: label 0 */
+std::optional<std::string> objectLikeBackground (const SceneInput& scene,
+                                                 const std::vector<std::uint32_t>& background_labels);
 
 /** \brief A warning of the object that has the fewest voxels across, if they are too few for its shape. */
 std::optional<std::string> largeVoxels (const SceneInput& scene, double voxel_size_m);

@@ -133,7 +133,7 @@ print (const RunEvaluation& run, const SceneRecord& truth, const RunSettings& se
   for (const PairPenetration& pair : run.penetrations)
     if (pair.depth_m > 0.0)
       terminal.result (bodyName (pair.first) + " and " + bodyName (pair.second) + ": " + inMillimetres (pair.depth_m) +
-                       " mm inside each other at " + toShortText (pair.stamp) +
+                       " mm inside each other in the frame of stamp " + toShortText (pair.stamp) +
                        (pair.volume_m3 ? ", " + inMillilitres (*pair.volume_m3) + " ml" : ""));
   for (const int id : run.unmatched)
     terminal.result ("object " + std::to_string (id) + " matches no true object");

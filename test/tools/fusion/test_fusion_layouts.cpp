@@ -75,6 +75,32 @@ TEST_F (FusionLayouts, ARunWhoseMasksCannotBeUsedFails)
   expectFailure ({"--masks", "sim/mask", "sim", "out"}, 1, "no frame has a mask that can be used");
 }
 
+TEST_F (FusionLayouts, ARunOfWhoseMasksNoObjectComesFailsAndSaysWhy)
+{
+  ASSERT_EQ (run ({"--masks", "sim/mask", "--depth-scale", "100", "--frames", ":2", "sim", "far"}), 1) << errors_;
+  EXPECT_NE (
+      errors_.find ("error: the masks show no object that could be tracked: instance 1 of the masks is no object"),
+      std::string::npos)
+      << errors_;
+  EXPECT_NE (
+      errors_.find ("m away; at most 5 m are allowed; likewise 1 more; half of the depths of the first frame are "
+                    "more than "),
+      std::string::npos)
+      << errors_;
+  EXPECT_NE (errors_.find ("give --depth-scale"), std::string::npos) << errors_;
+  EXPECT_EQ (errors_.find ("warning: the masks show no object"), std::string::npos) << "it is said once";
+
+  for (const auto& entry : fs::directory_iterator (file ("sim/mask")))
+    saveMaskImage (Image<std::uint16_t> (120, 90), entry.path ().string (), true);
+  const std::string all_zero = "all 4 masks are 0 in every pixel; where an object is, they must be its number";
+  expectFailure ({"--masks", "sim/mask", "--frames", ":4", "sim", "tracked"}, 1,
+                 "the masks show no object that could be tracked: " + all_zero);
+  EXPECT_TRUE (fs::exists (file ("tracked/mesh/background.ply")));
+  EXPECT_EQ (json ("tracked/summary.json")["warnings"].back (),
+             "the masks show no object that could be tracked: " + all_zero);
+  expectFailure (known ({"--frames", ":4", "sim", "known"}), 1, "the masks show no object: " + all_zero);
+}
+
 TEST_F (FusionLayouts, TheBenchmarkBopHasAMaskForEachInstance)
 {
   // The simulated frames in that layout: rgb/, depth/, mask_visib/FRAME_INSTANCE.png and scene_camera.json.

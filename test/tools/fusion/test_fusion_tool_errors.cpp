@@ -135,9 +135,41 @@ TEST_F (FusionToolErrors, Trajectories)
   for (StampedPose& pose : poses)
     pose.stamp -= 992.0; // begins at the eighth frame
   saveTrajectory (poses, file ("late.txt"));
-  EXPECT_EQ (run (camera ("late.txt", {"sim", "out"})), 0) << errors_;
+  expectFailure (camera ("late.txt", {"sim", "out"}), 1,
+                 "most frames were left out: 8 of 12; what was written is of the others alone; the poses of late.txt "
+                 "have the stamps 8 to 19, the frames 0 to 11; they must be within half a frame of each other");
   EXPECT_NE (errors_.find ("warning: 8 of 12 frames were left out"), std::string::npos) << errors_;
   EXPECT_EQ (loadTrajectory (file ("out/trajectory/camera.txt")).size (), 4u);
+
+  for (StampedPose& pose : poses)
+    pose.stamp -= 3.0; // begins at the fifth frame
+  saveTrajectory (poses, file ("half.txt"));
+  EXPECT_EQ (run (camera ("half.txt", {"sim", "out"})), 0) << errors_;
+  EXPECT_NE (errors_.find ("warning: 5 of 12 frames were left out"), std::string::npos) << errors_;
+
+  // Seconds, where the frames have numbers: it does not seem to be another unit, though the camera moves far between
+  // the few frames that have a pose.
+  for (std::size_t n = 0; n < poses.size (); ++n)
+  {
+    poses[n].stamp = static_cast<double> (n) / 10.0;
+    poses[n].pose.translation () *= 5.0;
+  }
+  saveTrajectory (poses, file ("seconds.txt"));
+  expectFailure (
+      camera ("seconds.txt", {"sim", "seconds"}), 1,
+      "most frames were left out: 10 of 12; what was written is of the others alone; the poses of seconds.txt "
+      "have the stamps 0 to 1.1, the frames 0 to 11");
+}
+
+TEST_F (FusionToolErrors, PosesInMillimetresAreRefusedBeforeAnythingIsSolved)
+{
+  std::vector<StampedPose> poses = loadTrajectory (file ("sim/gt-cam-0.txt"));
+  for (StampedPose& pose : poses)
+    pose.pose.translation () *= 1000.0;
+  saveTrajectory (poses, file ("mm.txt"));
+  expectFailure (camera ("mm.txt", {"sim", "out"}), 1, "mm.txt: from frame to frame the camera would move ");
+  EXPECT_NE (errors_.find ("divide their positions by 1000 if they are in millimetres"), std::string::npos) << errors_;
+  EXPECT_FALSE (exists ("out"));
 }
 
 TEST_F (FusionToolErrors, InputsAreNotOverwritten)
@@ -177,6 +209,7 @@ TEST_F (FusionToolErrors, AFailureIsInTheSummary)
   changeDepths ([] (const std::string& path) { writeFile (path, "damaged"); });
   expectFailure (known ({"--json", "s.json", "sim", "out"}), 1,
                  "no frame can be read: sim/depth_noise/Depth0000.png: is not an image");
+  EXPECT_EQ (errors_.find ("the frame is skipped"), std::string::npos) << errors_;
   for (const char* name : {"s.json", "out/summary.json"})
     EXPECT_NE (nlohmann::json::parse (readFile (file (name)))["error"].get<std::string> ().find ("Depth0000"),
                std::string::npos);
@@ -215,6 +248,16 @@ TEST_F (FusionToolErrors, DepthsOfAnotherUnitAreNoResult)
   expectFailure (known ({"sim", "out"}), 1, "Depth0000.png: has no depth in any pixel");
 }
 
+TEST_F (FusionToolErrors, WithoutPosesNoFrameLacksOne)
+{
+  expectFailure ({"--max-depth", "0.1", "sim", "out"}, 1,
+                 "no reading is nearer than --max-depth 0.1 m: the nearest is 0.");
+  changeDepths ([] (const std::string& path) { saveDepthImage (Image<float> (120, 90, 0.0f), path); });
+  expectFailure ({"sim", "out"}, 1,
+                 "the camera could not be tracked in any frame: sim/depth_noise/Depth0000.png: has no depth in any "
+                 "pixel");
+}
+
 TEST_F (FusionToolErrors, MasksOfAnotherSizeOrWithoutFrames)
 {
   fs::copy (file ("sim/mask"), file ("far"));
@@ -226,6 +269,7 @@ TEST_F (FusionToolErrors, MasksOfAnotherSizeOrWithoutFrames)
   changeMasks ([] (Image<std::uint16_t>& mask, const std::string&) { mask = Image<std::uint16_t> (60, 50, 1); });
   expectFailure (known ({"sim", "out"}), 1,
                  "no frame has a mask that can be used: sim/mask/Mask0000.png: has 60 x 50 pixels");
+  EXPECT_EQ (errors_.find ("the frame is used"), std::string::npos) << errors_;
 }
 
 TEST_F (FusionToolErrors, OddObjects)

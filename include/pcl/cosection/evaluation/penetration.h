@@ -71,7 +71,6 @@ public:
                                       const Eigen::Isometry3d& T_this_other = Eigen::Isometry3d::Identity ()) const;
 
 private:
-  TriangleMesh mesh_;
   PenetrationOptions options_;
   Eigen::AlignedBox3d box_;
   std::vector<Eigen::Vector3d> points_; ///< vertices and samples

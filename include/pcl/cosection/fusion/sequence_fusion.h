@@ -113,6 +113,7 @@ struct PCL_COSECTION_EXPORT FusionResult
   bool tracked = false;              ///< poses were not given
   std::vector<std::string> events;   ///< what tracking decided, and why
   std::vector<std::string> warnings; ///< one line each
+  std::string why_no_object;         ///< if masks were given and no object came of them; else empty
 };
 
 /** \brief What is known after a keyframe. */

@@ -242,8 +242,9 @@ private:
  * equal ones, or a palette), a file per frame that has one, or one per instance of it. A pixel is the number of an
  * instance, 0 none. A name ends in the frame's number or stamp: Mask0003.png, 0.033333.png; or in that and the
  * instance's, from 0, as the BOP benchmark has it: 000003_000001.png, whose pixels that are not 0 are instance 2.
- * Pixels of several instances have none. Masks of another resolution and the same shape are brought to the depth's.
- * Several threads may read.
+ * Pixels of several instances have none. Masks of one object each may also be named OBJECT_FRAME: 2_0003.png is object
+ * 2, can_0003.png has a number by the order of the alphabet. Masks of another resolution and the same shape are brought
+ * to the depth's. Several threads may read.
  *
  * \code
  * const MaskSequence masks ("toycars/mask", sequence);
