@@ -30,7 +30,7 @@ constexpr float near_vox = 3.0f;       // of the surface: what is a wall's is as
 constexpr float far_vox = 6.0f;        // largest expected distance
 constexpr double thick_wall_vox = 4.0; // of which voxels need not be smaller
 constexpr float wall_weight = 100.0f;  // of a wall, which vanishes with less
-constexpr double most_open = 0.01;       // edges per triangle at which a mesh ends: holes that change its volume little
+constexpr double most_open = 0.01;     // edges per triangle at which a mesh ends: holes that change its volume little
 constexpr float proposal_weight = 10.0f; // in multiples of beta_extent
 
 /** \brief The larger, the better it fits. */
