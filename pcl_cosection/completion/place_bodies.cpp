@@ -137,7 +137,7 @@ volumeBox (const Scene& scene, const ObjectInput& input, const Observation& obje
   for (std::size_t v = 0; v < std::max<std::size_t> (1, input.T_world_object.size ()); ++v)
     if (poseAt (input, v).matrix ().allFinite ())
       poses.push_back (poseAt (input, v));
-  const std::vector<Eigen::Vector4d> planes = planesAtPoses (input, object.box.center (), support.planes, poses);
+  const std::vector<Eigen::Vector4d> planes = planesAtPoses (input, object.box.center (), support.all (), poses);
   const Eigen::AlignedBox3d known = boxDownToPlanes (object, settingOf (scene, input, body), planes);
   return possibleBox (object, known, body.hidden, planes, options.threads);
 }
@@ -162,7 +162,7 @@ finestVoxelSize (const Scene& scene, const ObjectInput& input, const Observation
   if (scene.fixedVoxelSize () || !options.use_extent_prior || !options.use_symmetric_extent)
     return object.voxel_size_m;
   const double earlier_m = body.grid ? body.wall_m : 0.0;
-  const std::vector<Eigen::Vector4d> planes = planesAtPoses (input, object.box.center (), support.planes,
+  const std::vector<Eigen::Vector4d> planes = planesAtPoses (input, object.box.center (), support.all (),
                                                              {firstPose (input)});
   body.wall_m = wallThickness (object, settingOf (scene, input, body), planes);
   body.updates_without_wall = body.wall_m > 0.0 ? 0 : body.updates_without_wall + 1;

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace pcl::cosection {
@@ -19,6 +20,11 @@ struct SupportPlanes
 {
   std::vector<Eigen::Vector4d> planes;
   bool inferred = false; // the only plane is that of inferSupportPlane (): it bounds the mesh, but not the hull
+  std::optional<Eigen::Vector4d> top; // that of the top of another object, on which the object stands
+  std::vector<OrientedPoint> feet;    // of objects that stand on this one's top, world frame
+
+  /** \brief With that of the other object's top, which bounds this object alone. */
+  std::vector<Eigen::Vector4d> all () const;
 };
 
 /** \brief One object of the scene with a grid. */

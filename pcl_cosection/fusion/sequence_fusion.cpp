@@ -222,7 +222,7 @@ SequenceFusion::SequenceFusion (KnownSequence sequence, const FusionOptions& opt
     : sequence_ (std::move (sequence))
     , options_ (options)
 {
-  if (sequence.masks) // what a mask misses would be background
+  if (sequence_.masks) // what a mask misses would be background
     options_.backend.method.leave_out_moved = true;
   options.validate ();
   if (!sequence_.images)

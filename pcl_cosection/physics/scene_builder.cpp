@@ -257,7 +257,7 @@ standOnPlanes (const std::vector<Eigen::Vector4d>& planes, const Eigen::Vector3d
 void
 warnOf (const PhysicalBody& body, const BodyParts& parts, bool has_planes, std::vector<std::string>& warnings)
 {
-  constexpr double least_share = 0.75, smallest_m = 0.001, largest_m = 1000.0;
+  constexpr double least_share = 0.75, smallest_m = 0.001, largest_m = 50.0;
   if (has_planes && body.stands_on < 0 && !parts.touches_others)
     warnings.push_back (body.name + ": will not stay: it stands on no support plane, and beside no other object");
   if (const double share = body.parts_volume_m3 / body.volume_m3; share < least_share)

@@ -228,24 +228,26 @@ struct Expected
  * \param[in] resting planes on which the object rests, of all \a planes
  * \param[in] round surfaces of revolution */
 Expected
-expectedOf (const Observation& object, const Priors& priors, const std::vector<Eigen::Vector4d>& resting,
+expectedOf (const Observation& object, const ObjectSetting& setting, const std::vector<Eigen::Vector4d>& resting,
             const std::vector<Eigen::Vector4d>& planes, const std::vector<ProfiledShape>& round,
             const BodyEnergy& energy)
 {
   const Eigen::Vector4d plane = !resting.empty ()  ? resting.front ()
                                 : !planes.empty () ? planes.front ()
                                                    : Eigen::Vector4d (Eigen::Vector4d::Zero ());
-  const bool extrudes = priors.extrusion && !resting.empty ();
+  const bool extrudes = setting.priors.extrusion && !resting.empty ();
   const MeasuredShape shape = measuredShape (energy);
   const std::optional<Eigen::Vector4d> behind = extrudes ? planeBehindOnlySide (object, plane, shape) : std::nullopt;
-  const ObjectSymmetry symmetry = symmetryOf (object, priors, plane, !resting.empty (), behind, round, shape, energy);
+  const ObjectSymmetry symmetry = symmetryOf (object, setting.priors, plane, !resting.empty (), behind, round, shape,
+                                              energy);
   Proposal proposal (energy.grid.size ());
-  const Continuation continued = extrudes ? continuedBehindOthers (object, plane) : Continuation ();
+  Continuation continued = extrudes ? continuedBehindOthers (object, plane) : Continuation ();
+  continued.points.insert (continued.points.end (), setting.under_others.begin (), setting.under_others.end ());
   if (continued.points.empty () || symmetry.tellsExtentAlong (continued.direction) ||
       explain (symmetry.motions, continued.points, energy))
   {
     const Motions motions = symmetry.all ();
-    if (!motions.empty () || (priors.symmetry && object.views.empty ()))
+    if (!motions.empty () || (setting.priors.symmetry && object.views.empty ()))
       addCopies (energy, shape, motions, object, plane, proposal);
     if (extrudes && symmetry.is_fitted)
       addFoot (object, plane, motions, energy, proposal);
@@ -260,7 +262,7 @@ expectedOf (const Observation& object, const Priors& priors, const std::vector<E
   whole.inliers.insert (whole.inliers.end (), continued.points.begin (), continued.points.end ());
   const BodyEnergy of_whole = withExpectedPoints (energy, continued.points);
   const MeasuredShape shape_of_whole = measuredShape (of_whole);
-  Motions motions = symmetryOf (whole, priors, plane, true, {}, {}, shape_of_whole, energy).all ();
+  Motions motions = symmetryOf (whole, setting.priors, plane, true, {}, {}, shape_of_whole, energy).all ();
   motions.push_back (Eigen::Affine3d::Identity ());
   addCopies (of_whole, shape_of_whole, motions, whole, plane, proposal);
   addColumns (energy, whole.points (), plane, motions.size (), proposal);
@@ -333,7 +335,6 @@ addPriors (const Observation& object, const ObjectSetting& setting, const std::v
            OcclusionMap& hidden, BodyEnergy& energy)
 {
   const Priors& priors = setting.priors;
-  const bool has_weight = energy.options.beta_extent > 0.0;
   const std::vector<Eigen::Vector4d> resting = restingPlanes (object, setting, planes, energy);
   std::vector<ProfiledShape> profiled;
   if (priors.revolution || priors.vessels)
@@ -355,9 +356,9 @@ addPriors (const Observation& object, const ObjectSetting& setting, const std::v
   };
   Expected expected;
   if (vessels.empty () && (priors.symmetry || priors.extrusion || !profiled.empty ()))
-    expected = expectedOf (object, priors, resting, planes, profiled, energy);
+    expected = expectedOf (object, setting, resting, planes, profiled, energy);
   Proposal& proposal = expected.proposal;
-  if (!has_weight)
+  if (!(energy.options.beta_extent > 0.0))
     return;
   if (!vessels.empty ())
   {
@@ -367,8 +368,7 @@ addPriors (const Observation& object, const ObjectSetting& setting, const std::v
       addVessel (energy, vessel, object.points (), proposal);
   }
   const ProposedShape* proposed = usedProposal (object, setting, planes);
-  // A surface of revolution is more exact than the network. A single side shows the network no more than it shows the
-  // other priors: six of seven scanned things that were seen head on are more accurate without it.
+  // The others are more exact on surfaces of revolution, and on six of seven scanned things seen head on.
   if (expected.is_round || expected.shows_one_side)
     leaveOutLearned (object);
   const LearnedShape* learned = proposed || !vessels.empty () ? nullptr : usedCompletion (object, setting, planes);

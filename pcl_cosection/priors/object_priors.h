@@ -57,6 +57,7 @@ struct ObjectSetting
   Priors priors = {};                                                 // which ones are on
   int threads = 0;                                                    // 0: all
   std::function<bool (const Eigen::Vector3d&)> is_of_other = nullptr; // may another object be there? object frame
+  std::vector<OrientedPoint> under_others = {}; // surface on which other objects stand that hide it; object frame
 };
 
 // The priors of an object: what is expected where nothing was measured and no constraint decides. All effects of priors

@@ -163,8 +163,8 @@ const std::vector<std::string>&
 cameraFileNames ()
 {
   static const std::vector<std::string> names = {
-      "calibration.txt",       "cam_K.txt",      "intrinsics.txt",  "intrinsic_depth.txt", "K.txt", "scene_camera.json",
-      "camera_intrinsic.json", "intrinsic.json", "intrinsics.json", "camera.json"};
+      "calibration.txt",   "camera-intrinsics.txt", "cam_K.txt",      "intrinsics.txt",  "intrinsic_depth.txt", "K.txt",
+      "scene_camera.json", "camera_intrinsic.json", "intrinsic.json", "intrinsics.json", "camera.json"};
   return names;
 }
 

@@ -22,7 +22,8 @@ constexpr double largest_instance = 65533.0; // from 0; 65535 has a meaning of i
 const std::vector<std::string> endings = {".png"};
 
 /** \brief Whether most names are those of a frame and an instance, \a files of \a all: more frames match their first
- * number than their second; if as many do, several files have the same second number or do not match a frame by it. */
+ * number than their second; if as many do, several files have the same second number or do not match a frame by it.
+ * Frames have leading zeros rather than instances. */
 bool
 arePerInstance (const std::vector<PairedFile>& files, std::size_t all, const std::vector<double>& stamps, double limit)
 {
@@ -42,7 +43,9 @@ arePerInstance (const std::vector<PairedFile>& files, std::size_t all, const std
       ++matched;
     }
   }
-  if (by_first.empty () || by_first.size () < by_second.size () || 2 * files.size () <= all)
+  const bool are_frames_second = std::all_of (files.begin (), files.end (),
+                                              [] (const PairedFile& file) { return file.is_second_padded; });
+  if (are_frames_second || by_first.empty () || by_first.size () < by_second.size () || 2 * files.size () <= all)
     return false;
   return by_first.size () > by_second.size () || second.size () < files.size () || matched < files.size ();
 }

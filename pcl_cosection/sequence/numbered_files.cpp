@@ -212,7 +212,8 @@ pairedFiles (const std::string& folder, const std::vector<std::string>& names, c
     const auto a = numberOf (std::string_view (before).substr (first));
     const auto b = numberOf (std::string_view (*stem).substr (second));
     if (a && b)
-      files.push_back ({*a, *b, (fs::path (folder) / name).string ()});
+      files.push_back ({*a, *b, (fs::path (folder) / name).string (),
+                        (*stem)[second] == '0' && stem->size () - second > before.size () - first});
   }
   std::stable_sort (files.begin (), files.end (), [] (const PairedFile& x, const PairedFile& y) {
     return std::tie (x.first, x.second) < std::tie (y.first, y.second);

@@ -28,6 +28,7 @@ struct PairedFile
   double first = 0.0;
   double second = 0.0;
   std::string path;
+  bool is_second_padded = false; ///< it has leading zeros and more digits than the first one
 };
 
 /** \brief The files of these endings whose names end in two numbers with _ or - between them, by ascending numbers;

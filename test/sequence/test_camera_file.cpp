@@ -43,6 +43,7 @@ TEST (CameraFile, IsReadInTheFormsOfOthers)
   const std::array<double, 4> expected = {10, 11, 3.5, 2.5};
   for (const auto& [name, content] : std::vector<std::pair<std::string, std::string>>{
            {"cam_K.txt", "10 0 3.5\n0 11 2.5\n0 0 1\n"},
+           {"camera-intrinsics.txt", "10 0 3.5\n0 11 2.5\n0 0 1\n"},
            {"intrinsic_depth.txt", "10 0 3.5 0\n0 11 2.5 0\n0 0 1 0\n0 0 0 1\n"},
            {"camera_intrinsic.json",
             R"({"width": 8, "height": 6, "intrinsic_matrix": [10, 0, 0, 0, 11, 0, 3.5, 2.5, 1]})"},

@@ -179,6 +179,13 @@ TEST (MaskSequence, AFileForEachObjectWhoseNameBeginsWithTheObject)
   EXPECT_TRUE (mentions (names.warnings (), "are masks of one object each, OBJECT_FRAME.png; instance 1 is can, 2 is "
                                             "carton"));
 
+  // Masks of the first frame alone are those of a tracker that goes on by itself.
+  for (const std::string object : {"1", "2", "3"})
+    write ("first/" + object + "_0000.png", object[0] - '1');
+  const MaskSequence first (folder.path ("first"), sequence);
+  EXPECT_EQ (first.size (), 1u);
+  EXPECT_EQ (first.read (0)->at (2, 2), 3);
+
   // Which are the masks is not known: an object is missing in a frame, or files have several instances.
   const auto failure = [&] (const std::string& name) {
     return messageOf<IoError> ([&] { MaskSequence (folder.path (name), sequence); });

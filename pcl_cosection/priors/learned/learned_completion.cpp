@@ -69,13 +69,14 @@ withoutSmallParts (const TriangleMesh& mesh)
  */
 void
 addRaysWithoutReturn (const VoxelGrid& grid, const Eigen::Isometry3d& T_cube_object, std::vector<OrientedPoint> points,
-                      SensorViews views, CompletionInputs& inputs)
+                      const SensorViews& views, CompletionInputs& inputs)
 {
+  SensorViews in_cube = views;
   for (OrientedPoint& point : points)
     point.position = T_cube_object.cast<float> () * point.position;
-  for (auto& [view, T_sensor] : views)
+  for (auto& [view, T_sensor] : in_cube)
     T_sensor = T_cube_object * T_sensor;
-  const std::vector<std::uint8_t> open = findRaysWithoutReturn (grid, views, points, 1);
+  const std::vector<std::uint8_t> open = findRaysWithoutReturn (grid, in_cube, points, 1);
   for (std::size_t n = CompletionCube::index (0, 0, CompletionCube::below_vox); n < open.size (); ++n)
     if (open[n] && inputs.is_unknown[n])
     {
