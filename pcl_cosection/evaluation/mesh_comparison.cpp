@@ -116,13 +116,15 @@ frameWarnings (const MeshSummary& truth, const MeshSummary& reconstruction)
 {
   std::vector<std::string> warnings;
   const double ratio = reconstruction.box.diagonal ().norm () / truth.box.diagonal ().norm ();
+  constexpr double largest = 5.0;                // of what is seen of one thing, and the thing
   constexpr double least = 200.0, most = 5000.0; // around the factor of metres and millimetres
-  if (std::max (ratio, 1.0 / ratio) > least && std::max (ratio, 1.0 / ratio) < most)
+  if (const double factor = std::max (ratio, 1.0 / ratio); factor > largest && std::isfinite (factor))
   {
+    const bool is_thousand = factor > least && factor < most;
     std::ostringstream text;
     text.precision (3);
-    text << "the reconstruction is " << (ratio > 1.0 ? ratio : 1.0 / ratio) << " times as "
-         << (ratio > 1.0 ? "large" : "small") << " as the truth: one is in millimetres, the other in metres?";
+    text << "the reconstruction is " << factor << " times as " << (ratio > 1.0 ? "large" : "small") << " as the truth: "
+         << (is_thousand ? "one is in millimetres, the other in metres?" : "in another unit, or of another thing?");
     warnings.push_back (text.str ());
   }
   if (!truth.box.intersects (reconstruction.box))

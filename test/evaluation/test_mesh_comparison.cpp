@@ -217,6 +217,9 @@ TEST (FrameWarnings, NameUnitsAndFrames)
   const auto millimetres = frameWarnings (of (box), of (boxMesh ({0.0f, 0.0f, 0.0f}, {100.0f, 100.0f, 100.0f})));
   ASSERT_EQ (millimetres.size (), 1u);
   EXPECT_NE (millimetres[0].find ("1e+03 times as large"), std::string::npos) << millimetres[0];
+  const auto centimetres = frameWarnings (of (box), of (boxMesh ({0.0f, 0.0f, 0.0f}, {10.0f, 10.0f, 10.0f})));
+  ASSERT_EQ (centimetres.size (), 1u);
+  EXPECT_NE (centimetres[0].find ("100 times as large as the truth: in another unit"), std::string::npos);
   const auto away = frameWarnings (of (box), of (boxMesh ({5.0f, 0.0f, 0.0f}, {5.1f, 0.1f, 0.1f})));
   ASSERT_EQ (away.size (), 1u);
   EXPECT_NE (away[0].find ("do not overlap"), std::string::npos);
