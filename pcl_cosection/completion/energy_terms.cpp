@@ -187,28 +187,32 @@ markTargets (const std::vector<float>& measured, BodyEnergy& energy)
                   [] (float before, float after) { return after != before; });
 }
 
-/** \brief A query whether a place (object frame) may belong to another object: it is in the box of that one's points.
- */
-std::function<bool (const Eigen::Vector3d&)>
+/** \brief Whether points lie on all sides of a place, along \a up and along two directions across it. */
+bool
+isBetween (const std::vector<OrientedPoint>& points, const Eigen::Vector3d& place, const Eigen::Vector3d& up)
+{
+  Eigen::Matrix3f axes;
+  axes << up.cast<float> (), up.unitOrthogonal ().cast<float> (), up.cross (up.unitOrthogonal ()).cast<float> ();
+  Eigen::AlignedBox3f box;
+  for (const OrientedPoint& p : points)
+    box.extend (axes.transpose () * p.position);
+  return box.contains (axes.transpose () * place.cast<float> ());
+}
+
+/** \brief ObjectSetting::is_of_other. */
+std::function<bool (const Eigen::Vector3d&, const Eigen::Vector3d&)>
 placesOfOthers (const std::vector<SceneObject>& objects, std::size_t own, const std::vector<std::uint8_t>& alive)
 {
-  // Poses are compared when a place is asked for: most objects ask for none.
-  using Other = std::pair<Eigen::AlignedBox3d, std::vector<Eigen::Isometry3d>>; // box, T_other_object
-  const auto others = std::make_shared<std::optional<std::vector<Other>>> ();
-  return [&objects, own, &alive, others] (const Eigen::Vector3d& p) {
-    if (!*others)
-    {
-      others->emplace ();
-      for (std::size_t o = 0; o < objects.size (); ++o)
-        if (o != own && alive[o])
-          (*others)->emplace_back (objects[o].observation->box,
-                                   relativePoses (*objects[own].input, objects[own].grid (), objects[o].input));
-    }
-    return std::any_of ((*others)->begin (), (*others)->end (), [&p] (const Other& other) {
-      return std::any_of (other.second.begin (), other.second.end (), [&] (const Eigen::Isometry3d& T_other_object) {
-        return other.first.contains (T_other_object * p);
-      });
-    });
+  return [&objects, own, &alive] (const Eigen::Vector3d& place, const Eigen::Vector3d& up) {
+    for (std::size_t o = 0; o < objects.size (); ++o)
+      if (o != own && alive[o])
+        for (const Eigen::Isometry3d& T_other_object :
+             relativePoses (*objects[own].input, objects[own].grid (), objects[o].input))
+          if (const Eigen::Vector3d at = T_other_object * place;
+              objects[o].observation->box.contains (at) &&
+              isBetween (objects[o].points (), at, T_other_object.linear () * up))
+            return true;
+    return false;
   };
 }
 

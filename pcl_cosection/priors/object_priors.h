@@ -50,13 +50,14 @@ struct Observation
 /** \brief The surroundings of an object, as priors need them. */
 struct ObjectSetting
 {
-  bool is_alone = false;                                              // no plane, background or obstacle is known
-  const std::vector<OrientedPoint>& background;                       // world frame; empty: the object was cut out
-  Eigen::Isometry3d T_object_world = Eigen::Isometry3d::Identity ();  // in its first view
-  const OcclusionMap& hidden;                                         // occlusion of the object's volume by its views
-  Priors priors = {};                                                 // which ones are on
-  int threads = 0;                                                    // 0: all
-  std::function<bool (const Eigen::Vector3d&)> is_of_other = nullptr; // may another object be there? object frame
+  bool is_alone = false;                                             // no plane, background or obstacle is known
+  const std::vector<OrientedPoint>& background;                      // world frame; empty: the object was cut out
+  Eigen::Isometry3d T_object_world = Eigen::Isometry3d::Identity (); // in its first view
+  const OcclusionMap& hidden;                                        // occlusion of the object's volume by its views
+  Priors priors = {};                                                // which ones are on
+  int threads = 0;                                                   // 0: all
+  // Whether a place may belong to another object: it is in a box of that one's points. \param[in] up of the box
+  std::function<bool (const Eigen::Vector3d& place, const Eigen::Vector3d& up)> is_of_other = nullptr; // object frame
   std::vector<OrientedPoint> under_others = {}; // surface on which other objects stand that hide it; object frame
 };
 

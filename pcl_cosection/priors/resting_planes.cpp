@@ -44,7 +44,7 @@ footIsHidden (const Observation& object, const ObjectSetting& setting, const Bod
     const Eigen::Vector3d place = foot + height_m * up;
     const auto at = energy.grid.nearest (place);
     if ((at && energy.free_space[energy.grid.index (at->x (), at->y (), at->z ())]) ||
-        (setting.is_of_other && setting.is_of_other (place)))
+        (setting.is_of_other && setting.is_of_other (place, up)))
       return false;
   }
   return true;

@@ -1,13 +1,17 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 
-// Objects that stand on the top of another one.
+// Objects that stand on the top of another one, or behind one that hides their lower end.
 
 #include "completion/lowest_vertex.h"
 #include "completion_scene.h"
+#include "pcl_cosection/mesh/moved_mesh.h"
 
 #include <pcl/cosection/common/triangle_mesh.h>
 
 #include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
 
 using namespace pcl::cosection;
 using namespace pcl::cosection::test;
@@ -57,4 +61,25 @@ TEST (StackedObjects, WhatStandsBehindALowOneStandsOnTheTable)
   const SceneResult result = completed (half, behind, {0.05, -0.45, 0.25});
   ASSERT_EQ (result.objects.size (), 2u);
   EXPECT_LT (lowest (result.objects[1].mesh), 0.008);
+}
+
+/** \brief In a frame whose axes are not vertical, the box of what is seen of a neighbour must not reach behind it. */
+TEST (StackedObjects, AFootThatATouchingNeighbourHidesIsOnTheTable)
+{
+  const double radius_m = 0.033, height_m = 0.12, apart_m = 0.068, turn = M_PI / 9.0;
+  AnalyticScene scene;
+  scene.add (0, halfSpace (table_plane));
+  for (int n = 0; n < 6; ++n)
+    scene.add (n + 1, [=] (const Eigen::Vector3d& p) {
+      const Eigen::Vector3d q = p - Eigen::Vector3d (apart_m * (n / 2), apart_m * (n % 2), 0.5 * height_m);
+      return std::max (q.head<2> ().norm () - radius_m, std::abs (q.z ()) - 0.5 * height_m);
+    });
+  const Eigen::Vector3d target (0.0, 0.0, 0.05);
+  const Eigen::Vector3d eye = target + Eigen::Vector3d (0.5 * std::sin (turn), -0.5 * std::cos (turn), 0.5);
+  const Eigen::Isometry3d T = lookAt (eye, target).inverse (); // the frame of the sensor
+  const SceneResult result = complete (scene.moved (T).render (tableCamera (), Eigen::Isometry3d::Identity ()),
+                                       optionsFor (0.004));
+  ASSERT_EQ (result.objects.size (), 6u);
+  for (const ObjectResult& object : result.objects)
+    EXPECT_LT (lowest (movedMesh (object.mesh, T.inverse ())), 0.01) << object.id;
 }
