@@ -203,16 +203,25 @@ isBetween (const std::vector<OrientedPoint>& points, const Eigen::Vector3d& plac
 std::function<bool (const Eigen::Vector3d&, const Eigen::Vector3d&)>
 placesOfOthers (const std::vector<SceneObject>& objects, std::size_t own, const std::vector<std::uint8_t>& alive)
 {
-  return [&objects, own, &alive] (const Eigen::Vector3d& place, const Eigen::Vector3d& up) {
-    for (std::size_t o = 0; o < objects.size (); ++o)
-      if (o != own && alive[o])
-        for (const Eigen::Isometry3d& T_other_object :
-             relativePoses (*objects[own].input, objects[own].grid (), objects[o].input))
-          if (const Eigen::Vector3d at = T_other_object * place;
-              objects[o].observation->box.contains (at) &&
-              isBetween (objects[o].points (), at, T_other_object.linear () * up))
-            return true;
-    return false;
+  // Poses are compared when a place is asked for: most objects ask for none.
+  using Other = std::pair<const SceneObject*, std::vector<Eigen::Isometry3d>>; // T_other_object
+  const auto others = std::make_shared<std::optional<std::vector<Other>>> ();
+  return [&objects, own, &alive, others] (const Eigen::Vector3d& place, const Eigen::Vector3d& up) {
+    if (!*others)
+    {
+      others->emplace ();
+      for (std::size_t o = 0; o < objects.size (); ++o)
+        if (o != own && alive[o])
+          (*others)->emplace_back (&objects[o],
+                                   relativePoses (*objects[own].input, objects[own].grid (), objects[o].input));
+    }
+    return std::any_of ((*others)->begin (), (*others)->end (), [&] (const Other& other) {
+      return std::any_of (other.second.begin (), other.second.end (), [&] (const Eigen::Isometry3d& T_other_object) {
+        const Eigen::Vector3d at = T_other_object * place;
+        return other.first->observation->box.contains (at) &&
+               isBetween (other.first->points (), at, T_other_object.linear () * up);
+      });
+    });
   };
 }
 

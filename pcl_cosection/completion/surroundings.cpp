@@ -2,15 +2,13 @@
 #include "surroundings.h"
 
 #include "pcl_cosection/common/boxes.h"
-#include "pcl_cosection/common/plane_height.h"
-#include "pcl_cosection/common/quantile.h"
+#include "pcl_cosection/priors/resting_planes.h"
 #include "pcl_cosection/view/sensor_noise.h"
 #include "pcl_cosection/view/support_plane.h"
 #include "place_bodies.h"
 #include <pcl/cosection/volume/mesh_distance.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <iterator>
 #include <limits>
@@ -29,11 +27,6 @@ constexpr double same_plane_voxels = 2.0;
 constexpr std::size_t most_samples = 2000; // of an object's points
 constexpr double cut_voxels = 2.0;         // noise alone puts no point so deep
 constexpr double max_share_behind = 0.05;  // of an object's points, behind a given plane or in an obstacle
-constexpr double level = 0.95;             // cosine of the normals of a level top and of the plane below
-constexpr double lowest_share = 0.01;      // of an object's points: outliers among the lowest ones
-constexpr double max_share_below = 0.02;   // of an object's points, below the top on which it stands
-constexpr int top_directions = 36;         // in which points of a top are looked for
-constexpr double least_share = 0.002;      // of the top's points, in a direction in which it goes on
 
 /** \brief The plane with its normal towards the side of most of the object's points. */
 Eigen::Vector4d
@@ -62,69 +55,6 @@ worldPoints (const ObjectInput& object, const Observation& observation)
   for (OrientedPoint& p : points)
     p = {T * p.position, T.linear () * p.normal};
   return points;
-}
-
-/** \brief Whether points lie around a place: no half of the directions across \a up is without some. */
-bool
-surround (const std::vector<Eigen::Vector3d>& points, const Eigen::Vector3d& place, const Eigen::Vector3d& up)
-{
-  const Eigen::Vector3d across = up.unitOrthogonal (), along = up.cross (across);
-  std::array<std::size_t, top_directions> count{};
-  for (const Eigen::Vector3d& p : points)
-  {
-    const double turn = std::atan2 (along.dot (p - place), across.dot (p - place)) / (2.0 * M_PI) + 0.5;
-    ++count[std::min<std::size_t> (top_directions - 1, static_cast<std::size_t> (top_directions * turn))];
-  }
-  int gap = 0;
-  for (int n = 0; n < 2 * top_directions; ++n)
-  {
-    const bool is_empty = static_cast<double> (count[n % top_directions]) <
-                          least_share * static_cast<double> (points.size ());
-    gap = is_empty ? gap + 1 : 0;
-    if (2 * gap >= top_directions)
-      return false;
-  }
-  return true;
-}
-
-/** \brief The level top of another object that an object stands on: it is at the height of the object's lowest points,
- * all around the object's middle.
- * \param[in] below a plane that supports both
- * \param[in] tolerance_m of heights */
-std::optional<Eigen::Vector4d>
-topBelow (const std::vector<OrientedPoint>& object, const std::vector<OrientedPoint>& other,
-          const Eigen::Vector4d& below, double tolerance_m)
-{
-  const Eigen::Vector3d up = below.head<3> ();
-  std::vector<double> heights_m;
-  Eigen::AlignedBox3d box;
-  for (const OrientedPoint& p : object)
-  {
-    heights_m.push_back (heightOver (below, p.position.cast<double> ()));
-    box.extend (p.position.cast<double> ());
-  }
-  const double lowest_m = quantile (heights_m, lowest_share);
-  if (lowest_m < 2.0 * tolerance_m)
-    return std::nullopt;
-  std::vector<Eigen::Vector3d> top;
-  std::vector<double> top_m;
-  for (const OrientedPoint& p : other)
-    if (const double height_m = heightOver (below, p.position.cast<double> ());
-        std::abs (height_m - lowest_m) < tolerance_m && up.dot (p.normal.cast<double> ()) > level)
-    {
-      top.push_back (p.position.cast<double> ());
-      top_m.push_back (height_m);
-    }
-  if (top.empty () || !surround (top, box.center (), up))
-    return std::nullopt;
-  Eigen::Vector4d plane = below;
-  const double height_m = quantile (top_m, 0.5);
-  plane[3] -= height_m;
-  const auto lower = std::count_if (heights_m.begin (), heights_m.end (),
-                                    [&] (double h) { return h < height_m - tolerance_m; });
-  if (static_cast<double> (lower) > max_share_below * static_cast<double> (heights_m.size ()))
-    return std::nullopt;
-  return plane;
 }
 
 /** \brief Warn if a given plane or obstacle contains too many of the object's points.
@@ -204,24 +134,27 @@ sampleMesh (const MeshObstacle& obstacle, const std::vector<SceneObject>& object
   return sampled;
 }
 
-/** \brief Let an object stand on the top of another one, if it does and both are at rest. */
+/** \brief Let an object stand on the level top of another one, if it does and both are at rest. */
 void
 standOnOther (const Scene& scene, const std::vector<Observation>& observations, std::size_t o, const CompletionLog& log,
               std::vector<SupportPlanes>& support)
 {
-  if (support[o].planes.empty () || !scene.options.use_planes || !isAtRest (scene.objects[o]))
+  if (support[o].planes.empty () || !scene.options.activePriors ().extrusion || !isAtRest (scene.objects[o]))
     return;
+  const auto boxOf = [&] (std::size_t n) { return observations[n].box.transformed (firstPose (scene.objects[n])); };
   const std::vector<OrientedPoint> points = worldPoints (scene.objects[o], observations[o]);
   for (std::size_t other = 0; other < observations.size () && !support[o].top; ++other)
   {
     if (other == o || log.failed (other) || !isAtRest (scene.objects[other]))
       continue;
-    const std::vector<OrientedPoint> of_other = worldPoints (scene.objects[other], observations[other]);
     const double tolerance_m = plane_inlier_voxels *
                                std::max (observations[o].voxel_size_m, observations[other].voxel_size_m);
+    if (boxOf (o).exteriorDistance (boxOf (other)) > tolerance_m)
+      continue;
+    const std::vector<OrientedPoint> of_other = worldPoints (scene.objects[other], observations[other]);
     for (const Eigen::Vector4d& below : support[o].planes)
       if (!support[o].top)
-        support[o].top = topBelow (points, of_other, below, tolerance_m);
+        support[o].top = levelTopBelow (points, of_other, below, tolerance_m);
     if (support[o].top)
       for (const OrientedPoint& p : points)
       {

@@ -62,7 +62,8 @@ struct ObjectSetting
 };
 
 // The priors of an object: what is expected where nothing was measured and no constraint decides. All effects of priors
-// on a completion go through these four functions. Planes are n.x + d = 0, unit n towards the object, in its frame.
+// on a completion go through these four functions and levelTopBelow (). Planes are n.x + d = 0, unit n towards the
+// object, in its frame.
 
 /** \brief The wall thickness of an object that is hollow and open, metres; 0 for other shapes.
  * \param[in] planes on which it may stand */

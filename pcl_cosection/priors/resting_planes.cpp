@@ -2,8 +2,11 @@
 #include "resting_planes.h"
 
 #include "extrusion.h"
+#include "pcl_cosection/common/quantile.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <cstddef>
 #include <limits>
 
@@ -15,6 +18,10 @@ constexpr std::size_t most_feet = 10000; // even subset of the points
 constexpr double resting_reach = 0.15;    // ... in any case
 constexpr double hidden_foot_reach = 0.5; // ... unless free space or another body was observed between them
 constexpr double parallel = 0.995;        // cosine of planes on which the object rests in the same way
+constexpr float level = 0.95f;            // component upwards of the normals of a level top
+constexpr double max_share_below = 0.02;  // of an object's points, below the top on which it stands: noise
+constexpr int sectors = 36;               // around the object's middle, in which the top is looked for
+constexpr double least_share = 0.002;     // of the top's points, in a sector that has some
 
 /** \brief Whether the lowest points are nearer to a plane than \a reach of the middle extent. */
 bool
@@ -68,7 +75,60 @@ isParallelToAny (const Eigen::Vector4d& plane, const std::vector<Eigen::Vector4d
   });
 }
 
+/** \brief Whether points lie on all sides of a place: no half of the sectors across \a up is without some. */
+bool
+surround (const std::vector<Eigen::Vector3d>& points, const Eigen::Vector3d& place, const Eigen::Vector3d& up)
+{
+  const Eigen::Vector3d across = up.unitOrthogonal (), along = up.cross (across);
+  std::array<std::size_t, sectors> count{};
+  for (const Eigen::Vector3d& p : points)
+  {
+    const double turn = std::atan2 (along.dot (p - place), across.dot (p - place)) / (2.0 * M_PI) + 0.5;
+    ++count[std::min<std::size_t> (sectors - 1, static_cast<std::size_t> (sectors * turn))];
+  }
+  const double least = least_share * static_cast<double> (points.size ());
+  int gap = 0;
+  for (int n = 0; n < 2 * sectors && 2 * gap < sectors; ++n)
+    gap = static_cast<double> (count[n % sectors]) < least ? gap + 1 : 0;
+  return 2 * gap < sectors;
+}
+
 } // namespace
+
+std::optional<Eigen::Vector4d>
+levelTopBelow (const std::vector<OrientedPoint>& object, const std::vector<OrientedPoint>& other,
+               const Eigen::Vector4d& below, double tolerance_m)
+{
+  const Eigen::Vector3d up = below.head<3> ();
+  std::vector<double> heights_m, top_m;
+  Eigen::AlignedBox3d box;
+  for (const OrientedPoint& p : object)
+  {
+    heights_m.push_back (heightOver (below, p.position.cast<double> ()));
+    box.extend (p.position.cast<double> ());
+  }
+  if (heights_m.empty ())
+    return std::nullopt;
+  const double lowest_m = quantile (heights_m, lowest_share);
+  if (lowest_m < 2.0 * tolerance_m) // it stands on the plane below
+    return std::nullopt;
+  std::vector<Eigen::Vector3d> top;
+  for (const OrientedPoint& p : other)
+    if (const double height_m = heightOver (below, p.position.cast<double> ());
+        std::abs (height_m - lowest_m) < tolerance_m && up.cast<float> ().dot (p.normal) > level)
+    {
+      top.push_back (p.position.cast<double> ());
+      top_m.push_back (height_m);
+    }
+  if (top.empty () || !surround (top, box.center (), up))
+    return std::nullopt;
+  const double height_m = upperMedian (top_m);
+  const auto lower = std::count_if (heights_m.begin (), heights_m.end (),
+                                    [&] (double h) { return h < height_m - tolerance_m; });
+  if (static_cast<double> (lower) > max_share_below * static_cast<double> (heights_m.size ()))
+    return std::nullopt;
+  return below - height_m * Eigen::Vector4d::UnitW ();
+}
 
 std::optional<Eigen::Vector4d>
 nearestPlaneBelow (const Observation& object, const std::vector<Eigen::Vector4d>& planes)

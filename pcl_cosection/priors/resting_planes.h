@@ -25,6 +25,14 @@ std::optional<Eigen::Vector4d> nearestPlaneBelow (const Observation& object,
 std::vector<Eigen::Vector4d> restingPlanes (const Observation& object, const ObjectSetting& setting,
                                             const std::vector<Eigen::Vector4d>& planes, const BodyEnergy& energy);
 
+/** \brief The plane of a level top of another object, if an object stands on it: the top is at the height of the
+ * object's lowest points, on all sides of its middle. All in one frame, e.g. the world's.
+ * \param[in] object, other their points \param[in] below a plane that supports both
+ * \param[in] tolerance_m of heights */
+std::optional<Eigen::Vector4d> levelTopBelow (const std::vector<OrientedPoint>& object,
+                                              const std::vector<OrientedPoint>& other, const Eigen::Vector4d& below,
+                                              double tolerance_m);
+
 /** \brief Box of the points and of their feet on the planes where these are hidden. Of parallel planes, the nearest
  * counts. */
 Eigen::AlignedBox3d boxWithFeet (const Observation& object, const ObjectSetting& setting,
