@@ -121,7 +121,8 @@ class Arguments(unittest.TestCase):
 
     def test_every_option_of_the_program_is_there(self):
         elsewhere = {"help", "version", "config", "verbose", "quiet", "json", "export", "format", "segment",
-                     "save-labels", "intrinsics", "object-trajectory", "free-space", "plane", "obstacle", "proposal"}
+                     "save-labels", "max-object-size", "intrinsics", "object-trajectory", "free-space", "plane",
+                     "obstacle", "proposal"}
         names = {field.name.replace("_", "-") for field in dataclasses.fields(pcl_cosection.Options)}
         self.assertEqual(set(pcl_cosection._core.option_names()) - elsewhere, names)
 

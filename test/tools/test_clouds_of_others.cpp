@@ -317,6 +317,10 @@ TEST_F (AnyCloud, ObjectsAreFoundFirst)
   EXPECT_EQ (run ({"--segment", "millimetres.pcd", "out"}), 1);
   EXPECT_NE (errors_.find ("give --scale 0.001"), std::string::npos) << errors_;
   EXPECT_EQ (run ({"--segment", "image.pcd", "points.pcd", "out"}), 2);
+  EXPECT_EQ (run ({"--segment", "--max-object-size", "0.04", "image.pcd", "out"}), 1); // both are longer
+  EXPECT_NE (errors_.find ("no object was found on its planes"), std::string::npos) << errors_;
+  EXPECT_EQ (run ({"--segment", "--max-object-size", "0.02", "image.pcd", "out"}), 2);
+  EXPECT_EQ (run ({"--max-object-size", "1", "image.pcd", "out"}), 2);
   EXPECT_EQ (run ({"--save-labels", "l.pcd", "image.pcd", "out"}), 2);
   EXPECT_EQ (run ({"--segment", "--save-labels", "image.pcd", "image.pcd", "out"}), 2);
 }

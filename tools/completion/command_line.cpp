@@ -7,6 +7,7 @@
 #include "output_files.h"
 
 #include "pcl_cosection/io/lower_case.h"
+#include <pcl/cosection/segmentation/geometric_segmentation.h>
 
 #include <algorithm>
 #include <array>
@@ -46,6 +47,9 @@ declareLabels (CLI::App& app, Given& given)
               "Field that says to which object a point belongs (default: label, else class or classification)");
   labels.addFlag ("--segment", given.segment,
                   "Find the objects first, in one INPUT without labels: what stands on its planes");
+  labels.add ("--max-object-size METRES", given.max_object_size_m, positiveNumber (),
+              "What is longer is furniture or room for --segment" +
+                  byDefault (ObjectSegmentationOptions ().max_object_size_m));
   labels.add ("--save-labels FILE.pcd", given.save_labels, "Write INPUT with the labels that --segment found");
   labels.add ("--background LABEL", given.reading.background_labels, wholeRange (0, 4294967295),
               "Label of the background" + byDefault (0) + "; repeatable");
@@ -166,8 +170,13 @@ interpret (Settings& settings)
   if (settings.segment && (!settings.reading.label_field.empty () || !settings.reading.background_labels.empty () ||
                            !settings.reading.ignored_labels.empty ()))
     throw UsageError ("--segment makes labels of its own, and goes with none of --label-field, --background, --ignore");
-  if (!settings.save_labels.empty () && !settings.segment)
-    throw UsageError ("--save-labels needs --segment");
+  for (const auto& [is_given, option] : {std::pair (!settings.save_labels.empty (), "--save-labels"),
+                                         std::pair (settings.max_object_size_m > 0.0, "--max-object-size")})
+    if (is_given && !settings.segment)
+      throw UsageError (std::string (option) + " needs --segment");
+  if (settings.max_object_size_m > 0.0 && settings.max_object_size_m <= ObjectSegmentationOptions ().min_object_size_m)
+    throw UsageError ("--max-object-size must be more than the shortest object has; pcl_cosection_segment has "
+                      "--min-object-size, too");
   if (!settings.save_labels.empty () && !endsWith (settings.save_labels, ".pcd"))
     throw UsageError ("--save-labels is \"" + settings.save_labels + "\"; it must be the name of a .pcd file");
   std::vector<std::string> inputs = settings.inputs;

@@ -25,6 +25,7 @@ struct Given : GivenMethod
   std::vector<std::string> free_space; ///< views of which nothing else is used
   std::vector<std::string> obstacles;  ///< mesh files
   bool segment = false;                ///< find the objects first
+  double max_object_size_m = 0.0;      ///< of objects to be found; 0: the default
   std::string save_labels;             ///< empty: labels that were found are not written
   std::string axes = "optical";        ///< of the sensor
   std::string format;                  ///< extension of the meshes

@@ -180,6 +180,8 @@ findLabels (const std::string& path, const Settings& settings, const PcdViewOpti
 {
   ObjectSegmentationOptions options;
   options.threads = settings.method.threads;
+  if (settings.max_object_size_m > 0.0)
+    options.max_object_size_m = settings.max_object_size_m;
   ObjectSegmentation found;
   std::string hint;
   try
@@ -214,8 +216,8 @@ findLabels (const std::string& path, const Settings& settings, const PcdViewOpti
     warnings.push_back (path + ": shows no plane on which objects stand; each group of points is taken as one");
   if (found.objects == 0)
     throw DegenerateInput (path +
-                           ": no object was found on its planes; give labels, or try pcl_cosection_segment with "
-                           "other sizes" +
+                           ": no object was found on its planes; give labels, --max-object-size, or try "
+                           "pcl_cosection_segment with other sizes" +
                            hint);
   if (!settings.save_labels.empty ())
     copyWithLabels (path, found.labels, settings.save_labels);
