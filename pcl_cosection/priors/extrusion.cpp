@@ -17,7 +17,6 @@ constexpr int least_around = 4;        // of nine cells with points: a cell is i
 constexpr double near_plane_vox = 3.0; // free space so near to the plane or to the surface is not observable ...
 // ... and level tops whose heights differ by less are one
 constexpr double most_cut = 0.2;          // of the columns: vertical walls
-constexpr float level = 0.95f;            // component upwards of the normals of a level top
 constexpr int beside_cells = 2;           // walls are in columns so near to a level top
 constexpr double least_level = 0.8;       // of the columns: all but the walls below the top
 constexpr float gap_vox = 2.0f;           // nothing is expected nearer to data
@@ -168,7 +167,7 @@ Extrusion::levelShare () const
       bool near = false;
       for (int r = std::max (0, row - beside_cells); r <= std::min (rows_ - 1, row + beside_cells); ++r)
         for (int c = std::max (0, column - beside_cells); c <= std::min (columns_ - 1, column + beside_cells); ++c)
-          near |= at (c, r).height_m > top_m_ - one_level && at (c, r).upwards > level;
+          near |= at (c, r).height_m > top_m_ - one_level && at (c, r).upwards > level_top_cosine;
       level_ones += near;
     }
   return all > 0 ? static_cast<double> (level_ones) / static_cast<double> (all) : 0.0;

@@ -12,6 +12,8 @@
 
 namespace pcl::cosection {
 
+constexpr float level_top_cosine = 0.95f; // component upwards of the normals of a level top
+
 /** \brief What is hidden below an object's own observed surface reaches the support plane, where nothing was seen free.
  *
  * The observed points are a height map over the plane. Space below it, down to the plane, that nothing shows to be free
