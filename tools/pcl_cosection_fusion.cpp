@@ -9,6 +9,7 @@
 #include "method_json.h"
 #include "run_program.h"
 
+#include "pcl_cosection/io/lower_case.h"
 #include "pcl_cosection/sequence/pose_unit.h"
 #include "pcl_cosection/sequence/stamp_matching.h"
 #include <pcl/cosection/common/error.h>
@@ -18,11 +19,14 @@
 #include <pcl/common/time.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <map>
+#include <set>
 #include <sstream>
 #include <tuple>
 
 using namespace pcl::cosection;
+namespace fs = std::filesystem;
 
 namespace {
 
@@ -44,6 +48,25 @@ summaryLine (const ObjectResult& object, const std::optional<ClassScore>& best_c
   return (text.str ());
 }
 
+/** \brief A folder of masks, by its name, in that of a sequence; empty if there is none. */
+std::string
+unusedMasks (const std::string& dataset)
+{
+  std::set<std::string> found;
+  std::error_code failure;
+  for (fs::directory_iterator entry (dataset, failure); !failure && entry != fs::directory_iterator ();
+       entry.increment (failure))
+  {
+    const std::string name = lowerCase (entry->path ().filename ().string ());
+    const auto contains = [&name] (const char* word) { return (name.find (word) != name.npos); };
+    std::error_code ignored;
+    if ((contains ("mask") || contains ("instance") || contains ("label") || contains ("segm")) &&
+        entry->is_directory (ignored))
+      found.insert (entry->path ().string ());
+  }
+  return (found.empty () ? std::string () : *found.begin ());
+}
+
 /** \brief What goes in; it refers to itself. */
 struct Inputs
 {
@@ -52,12 +75,18 @@ struct Inputs
     warnings = images.warnings ();
     known.images = &images;
     if (settings.segmentation.empty ()) // which is done while tracking
-      known.camera = settings.camera_trajectory.empty () ? images.givenTrajectory (warnings)
-                                                         : loadTrajectory (settings.camera_trajectory);
+      known.camera = settings.camera_trajectory.empty ()
+                         ? images.givenTrajectory (warnings)
+                         : loadTrajectory (settings.camera_trajectory, images.stamps ());
     for (const auto& [id, file] : settings.object_trajectories)
-      known.objects[id] = loadTrajectory (file);
+      known.objects[id] = loadTrajectory (file, images.stamps ());
     if (settings.masks.empty ())
+    {
+      const std::string folder = settings.segmentation.empty () ? unusedMasks (settings.dataset) : std::string ();
+      if (!folder.empty ())
+        warnings.push_back (folder + " is not used: give --masks " + folder + " if it has the objects' masks");
       return;
+    }
     masks.emplace (settings.masks, images);
     known.masks = &*masks;
     warnings.insert (warnings.end (), masks->warnings ().begin (), masks->warnings ().end ());
@@ -253,6 +282,8 @@ fuse (const FusionSettings& settings, FusionOutputs& outputs, Terminal& terminal
   text.precision (3);
   text << "wrote " << settings.output << ": " << result.frames << " frames, " << result.keyframes << " keyframes, "
        << result.timings_s["total"] << " s";
+  if (settings.masks.empty () && settings.segmentation.empty ())
+    text << "; no objects, as neither --masks nor --segmentation is given";
   terminal.result (text.str ());
   for (const auto& [stage, seconds] : result.timings_s)
     terminal.detail (stage + ": " + std::to_string (seconds) + " s");

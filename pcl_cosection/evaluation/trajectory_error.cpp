@@ -121,6 +121,32 @@ align (const Matches& matches, const TrajectoryOptions& options, TrajectoryError
             : "the positions are on one line, or in one place: the alignment's rotation is not determined");
 }
 
+/** \brief Extent of the positions, metres. */
+double
+extentOf (const std::vector<StampedPose>& poses)
+{
+  Eigen::AlignedBox3d box;
+  for (const StampedPose& pose : poses)
+    box.extend (pose.pose.translation ());
+  return box.diagonal ().norm ();
+}
+
+/** \brief Ask whether the units differ. */
+void
+compareExtents (const Matches& matches, TrajectoryError& error)
+{
+  constexpr double least = 50.0; // centimetres are 100 to a metre; what was tracked badly is off by less
+  const double ratio = extentOf (matches.estimate) / extentOf (matches.truth);
+  const double factor = std::max (ratio, 1.0 / ratio);
+  if (!(factor > least) || !std::isfinite (factor))
+    return;
+  std::ostringstream text;
+  text.precision (3);
+  text << "the estimate extends " << factor << " times as " << (ratio > 1.0 ? "far" : "little")
+       << " as the truth: is one of them not in metres?";
+  error.notes.push_back (text.str ());
+}
+
 void
 computeRpe (const Matches& matches, const TrajectoryOptions& options, TrajectoryError& error)
 {
@@ -225,6 +251,7 @@ compareTrajectories (const std::vector<StampedPose>& truth, const std::vector<St
     error.largest_gap_s = std::max (error.largest_gap_s, matches.truth[n].stamp - matches.truth[n - 1].stamp);
     error.path_m += (matches.truth[n].pose.translation () - matches.truth[n - 1].pose.translation ()).norm ();
   }
+  compareExtents (matches, error);
   align (matches, options, error);
   std::vector<double> distances;
   for (std::size_t n = 0; n < matches.size (); ++n)

@@ -93,13 +93,34 @@ matrixOf (const Json& json, const std::string& key)
   return numbers;
 }
 
-void
-setSize (const Json& json, PinholeCamera& camera)
+PinholeCamera
+cameraOfFields (const Json& json)
 {
-  if (!json.contains ("width") || !json.contains ("height"))
+  const auto number = [&json] (const char* key) { return json.at (key).get<double> (); };
+  if (json.contains ("ppx")) // as librealsense has it
+    return {0, 0, number ("fx"), number ("fy"), number ("ppx"), number ("ppy")};
+  return {0, 0, number ("fx"), number ("fy"), number ("cx"), number ("cy")};
+}
+
+void
+setSize (const Json& json, const char* width, const char* height, PinholeCamera& camera)
+{
+  if (!json.contains (width) || !json.contains (height))
     return;
-  camera.width = sizeOf (json.at ("width").get<double> ());
-  camera.height = sizeOf (json.at ("height").get<double> ());
+  camera.width = sizeOf (json.at (width).get<double> ());
+  camera.height = sizeOf (json.at (height).get<double> ());
+}
+
+/** \brief The camera of cam_params.json, as comes with renderings of Replica's scenes. */
+CameraFile
+parseReplica (const Json& json)
+{
+  CameraFile file;
+  file.camera = cameraOfFields (json);
+  setSize (json, "w", "h", file.camera);
+  if (json.contains ("scale"))
+    file.depth_scale = json.at ("scale").get<double> ();
+  return file;
 }
 
 /** \brief scene_camera.json: an entry for each image. */
@@ -130,6 +151,8 @@ parseJson (const std::string& bytes)
     throw IoError ("holds no camera");
   if (json.begin ()->is_object () && json.begin ()->contains ("cam_K"))
     return parseSceneCamera (json);
+  if (json.contains ("camera") && json.at ("camera").is_object ())
+    return parseReplica (json.at ("camera"));
   CameraFile file;
   if (json.contains ("intrinsic_matrix"))
   {
@@ -141,13 +164,8 @@ parseJson (const std::string& bytes)
   else if (json.contains ("cam_K") || json.contains ("K"))
     file.camera = cameraOf (matrixOf (json, json.contains ("K") ? "K" : "cam_K"), 3);
   else
-    file.camera = {0,
-                   0,
-                   json.at ("fx").get<double> (),
-                   json.at ("fy").get<double> (),
-                   json.at ("cx").get<double> (),
-                   json.at ("cy").get<double> ()};
-  setSize (json, file.camera);
+    file.camera = cameraOfFields (json);
+  setSize (json, "width", "height", file.camera);
   if (json.contains ("depth_scale"))
   {
     const double scale = json.at ("depth_scale").get<double> ();
@@ -162,9 +180,10 @@ parseJson (const std::string& bytes)
 const std::vector<std::string>&
 cameraFileNames ()
 {
-  static const std::vector<std::string> names = {
-      "calibration.txt",   "camera-intrinsics.txt", "cam_K.txt",      "intrinsics.txt",  "intrinsic_depth.txt", "K.txt",
-      "scene_camera.json", "camera_intrinsic.json", "intrinsic.json", "intrinsics.json", "camera.json"};
+  static const std::vector<std::string> names = {"calibration.txt",   "camera-intrinsics.txt", "cam_K.txt",
+                                                 "intrinsics.txt",    "intrinsic_depth.txt",   "K.txt",
+                                                 "scene_camera.json", "camera_intrinsic.json", "intrinsic.json",
+                                                 "intrinsics.json",   "camera.json",           "cam_params.json"};
   return names;
 }
 

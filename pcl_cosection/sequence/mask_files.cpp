@@ -179,7 +179,7 @@ addNumbered (const std::string& folder, const std::vector<std::string>& names, M
                      "; keep one of each frame, or name those of single objects FRAME_INSTANCE.png");
     masks.warnings.push_back (firstAndMore (others) + ": left out; masks of the same frames are named MaskNNNN.png");
   }
-  for (const NumberedFile& file : numberedFiles (folder, names, usual, masks.warnings))
+  for (const NumberedFile& file : numberedImages (folder, usual, masks.warnings))
     masks.by_stamp[file.number].push_back ({file.path, 0});
 }
 

@@ -1,19 +1,13 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <cstdint>
+#include <pcl/cosection/io/rgbd_sequence.h>
+
 #include <map>
 #include <string>
 #include <vector>
 
 namespace pcl::cosection {
-
-/** \brief A file of masks. */
-struct MaskFile
-{
-  std::string path;
-  std::uint16_t instance = 0; ///< 0: the pixels tell
-};
 
 /** \brief The masks that a folder holds. */
 struct MaskFiles

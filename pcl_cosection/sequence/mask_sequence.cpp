@@ -23,6 +23,8 @@ constexpr std::size_t speck_px = 100; // an instance of fewer is hardly an objec
 // Such instances of a mask: none in nine sequences of masks (toycars, reports of others); 17 to 90 after a blur, a
 // change of size or JPEG of the same. Halfway.
 constexpr std::size_t most_specks = 8;
+constexpr std::uint16_t eight_bit_void = 255; // of PASCAL VOC and others
+constexpr double band_share = 0.02;           // half a band's width, of the image's: VOC's has 5 of 500 pixels in all
 
 /** \brief How many values of a mask cover few pixels each: many where it was scaled or compressed as a photograph. */
 std::size_t
@@ -58,6 +60,36 @@ surroundingInstance (const Image<std::uint16_t>& mask)
   return most == pixels.end () ? std::uint16_t (0) : most->first;
 }
 
+/** \brief Whether a value is that of what is not known: it is nowhere wider than a band, and beside all instances. */
+bool
+isVoid (const Image<std::uint16_t>& mask, std::uint16_t value)
+{
+  const int band_px = std::max (1, static_cast<int> (band_share * mask.width));
+  std::set<std::uint16_t> instances (mask.pixels.begin (), mask.pixels.end ()), beside;
+  if (instances.erase (value) == 0)
+    return false;
+  instances.erase (0);
+  const auto at = [&] (int u, int v) {
+    return mask.at (std::clamp (u, 0, mask.width - 1), std::clamp (v, 0, mask.height - 1));
+  };
+  for (int v = 0; v < mask.height; ++v)
+    for (int u = 0; u < mask.width; ++u)
+    {
+      if (mask.at (u, v) != value)
+        continue;
+      int far = 0;
+      for (const int y : {-1, 0, 1})
+        for (const int x : {-1, 0, 1})
+        {
+          beside.insert (at (u + x, v + y));
+          far += at (u + band_px * x, v + band_px * y) == value;
+        }
+      if (far == 9)
+        return false;
+    }
+  return !instances.empty () && std::includes (beside.begin (), beside.end (), instances.begin (), instances.end ());
+}
+
 } // namespace
 
 MaskSequence::MaskSequence (const std::string& folder, const RgbdSequence& sequence)
@@ -69,12 +101,10 @@ MaskSequence::MaskSequence (const std::string& folder, const RgbdSequence& seque
   MaskFiles masks = listMaskFiles (folder, stamps, half_period_);
   per_instance_ = masks.per_instance;
   warnings_ = std::move (masks.warnings);
-  for (const auto& [stamp, files] : masks.by_stamp)
+  for (auto& [stamp, files] : masks.by_stamp)
   {
     stamps_.push_back (stamp);
-    files_.emplace_back ();
-    for (const MaskFile& file : files)
-      files_.back ().push_back ({file.path, file.instance});
+    files_.push_back (std::move (files));
   }
   std::vector<bool> matches (files_.size ());
   for (const double stamp : stamps)
@@ -99,6 +129,10 @@ try
 {
   const std::string& path = files_.front ().front ().path;
   const Image<std::uint16_t> mask = *read (stamps_.front ());
+  has_void_ = !per_instance_ && isVoid (mask, eight_bit_void);
+  if (has_void_)
+    warnings_.push_back (path + ": 255 is in a narrow band beside all instances, as where masks say 'not known' by it: "
+                                "it is left out");
   if (const std::uint16_t instance = surroundingInstance (mask); instance != 0 && instance != ignored_label)
     warnings_.push_back (path + ": instance " + std::to_string (instance) +
                          " covers most of the image and reaches all of its borders, and counts as an object: if it is "
@@ -129,6 +163,8 @@ Image<std::uint16_t>
 MaskSequence::readFile (const std::string& path) const
 {
   Image<std::uint16_t> mask = loadMaskImage (path);
+  if (has_void_)
+    std::replace (mask.pixels.begin (), mask.pixels.end (), eight_bit_void, ignored_label);
   if (mask.width == width_ && mask.height == height_)
     return mask;
   if (haveSameShape (mask.width, mask.height, width_, height_))
@@ -143,12 +179,12 @@ MaskSequence::read (double stamp) const
   const auto nearest = nearestStamp (stamps_, stamp, half_period_);
   if (!nearest)
     return std::nullopt;
-  const std::vector<InstanceFile>& files = files_[*nearest];
+  const std::vector<MaskFile>& files = files_[*nearest];
   if (files.front ().instance == 0)
     return readFile (files.front ().path);
   Image<std::uint16_t> all (width_, height_);
   std::vector<bool> taken (all.pixels.size ());
-  for (const InstanceFile& file : files)
+  for (const MaskFile& file : files)
   {
     const Image<std::uint16_t> mask = readFile (file.path);
     for (std::size_t n = 0; n < taken.size (); ++n)

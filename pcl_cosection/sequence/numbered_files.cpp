@@ -3,6 +3,7 @@
 
 #include "pcl_cosection/io/lower_case.h"
 #include "pcl_cosection/io/text_scanner.h"
+#include "stamp_matching.h"
 
 #include <pcl/cosection/common/error.h>
 
@@ -18,7 +19,7 @@ namespace fs = std::filesystem;
 namespace pcl::cosection {
 namespace {
 
-constexpr double largest_number = 1e15; // whole numbers below are exact
+const char* const letters = "abcdefghijklmnopqrstuvwxyz";
 
 bool
 isDigit (char c)
@@ -54,20 +55,14 @@ numberBegin (const std::string& text)
   return digitsBegin (begin - 1);
 }
 
-/** \brief The number of digits, maybe with a fraction; of as many digits as times since 1970 in micro- or nanoseconds
- * have, seconds. Nothing if there are more than 15 digits otherwise. */
-std::optional<double>
-numberOf (std::string_view digits)
+/** \brief Take a word, and what joins it with a number, off the end. \return both */
+std::string
+takeWord (std::string& stem)
 {
-  constexpr std::size_t of_microseconds = 16, of_nanoseconds = 19;
-  const double number = toReal (digits);
-  if (number < largest_number)
-    return number;
-  if (digits.size () == of_microseconds)
-    return 1e-6 * number;
-  if (digits.size () == of_nanoseconds)
-    return 1e-9 * number;
-  return std::nullopt;
+  const std::string all = stem;
+  stem.erase (stem.find_last_not_of (letters) + 1);
+  stem.erase (stem.find_last_not_of ("_-.") + 1);
+  return all.substr (stem.size ());
 }
 
 /** \brief The names of what is in a folder and wanted, sorted, without hidden ones. \throws IoError */
@@ -132,11 +127,14 @@ numberedFiles (const std::string& folder, const std::vector<std::string>& names,
 {
   std::vector<NumberedFile> files;
   std::vector<std::string> too_large, without_number;
+  std::set<std::string> words;
   for (const std::string& name : names)
   {
-    const std::optional<std::string> stem = withoutEnding (lowerCase (name), series.endings);
+    std::optional<std::string> stem = withoutEnding (lowerCase (name), series.endings);
     if (!stem)
       continue;
+    if (series.word_behind)
+      words.insert (takeWord (*stem));
     const std::size_t begin = numberBegin (*stem);
     const bool is_any = series.beginnings.empty ();
     if (!is_any && std::find (series.beginnings.begin (), series.beginnings.end (), stem->substr (0, begin)) ==
@@ -145,11 +143,13 @@ numberedFiles (const std::string& folder, const std::vector<std::string>& names,
     const std::string path = (fs::path (folder) / name).string ();
     if (begin == stem->size ())
       without_number.push_back (path);
-    else if (const auto number = numberOf (std::string_view (*stem).substr (begin)))
+    else if (const auto number = stampOf (toReal (std::string_view (*stem).substr (begin))))
       files.push_back ({*number, path});
     else
       too_large.push_back (path);
   }
+  if (words.size () > 1)
+    return {};
   std::stable_sort (files.begin (), files.end (),
                     [] (const NumberedFile& a, const NumberedFile& b) { return a.number < b.number; });
   std::vector<std::string> again;
@@ -184,15 +184,23 @@ std::optional<double>
 numberAtEnd (const std::string& text)
 {
   const std::size_t begin = numberBegin (text);
-  return begin == text.size () ? std::nullopt : numberOf (std::string_view (text).substr (begin));
+  return begin == text.size () ? std::nullopt : stampOf (toReal (std::string_view (text).substr (begin)));
 }
 
 std::vector<NumberedFile>
 numberedImages (const std::string& folder, const NumberedNames& usual, std::vector<std::string>& warnings)
 {
   const std::vector<std::string> names = fileNames (folder);
-  std::vector<NumberedFile> files = numberedFiles (folder, names, usual, warnings);
-  return files.empty () ? numberedFiles (folder, names, {{}, usual.endings}, warnings) : files;
+  std::vector<NumberedFile> files;
+  std::vector<std::string> of_series;
+  for (const NumberedNames& series : {usual, NumberedNames{{}, usual.endings}, NumberedNames{{}, usual.endings, true}})
+    if (files.empty ())
+    {
+      of_series.clear ();
+      files = numberedFiles (folder, names, series, of_series);
+    }
+  warnings.insert (warnings.end (), of_series.begin (), of_series.end ());
+  return files;
 }
 
 std::vector<PairedFile>
@@ -203,14 +211,17 @@ pairedFiles (const std::string& folder, const std::vector<std::string>& names, c
   {
     const std::optional<std::string> stem = withoutEnding (lowerCase (name), endings);
     const std::size_t second = stem ? numberBegin (*stem) : 0;
-    if (second < 2 || second == stem->size () || ((*stem)[second - 1] != '_' && (*stem)[second - 1] != '-'))
+    if (second == 0 || second == stem->size ())
       continue;
-    const std::string before = stem->substr (0, second - 1);
+    const std::size_t joint = stem->find_last_not_of (letters, second - 1);
+    if (joint == stem->npos || joint == 0 || ((*stem)[joint] != '_' && (*stem)[joint] != '-'))
+      continue;
+    const std::string before = stem->substr (0, joint);
     const std::size_t first = numberBegin (before);
     if (first == before.size ())
       continue;
-    const auto a = numberOf (std::string_view (before).substr (first));
-    const auto b = numberOf (std::string_view (*stem).substr (second));
+    const auto a = stampOf (toReal (std::string_view (before).substr (first)));
+    const auto b = stampOf (toReal (std::string_view (*stem).substr (second)));
     if (a && b)
       files.push_back ({*a, *b, (fs::path (folder) / name).string (),
                         (*stem)[second] == '0' && stem->size () - second > before.size () - first});

@@ -13,6 +13,7 @@ struct NumberedNames
 {
   std::vector<std::string> beginnings; ///< what may be before the number; empty: anything
   std::vector<std::string> endings;    ///< what may be behind it, such as ".png"
+  bool word_behind = false;            ///< a word is between, the same in all: 0003_depth.png
 };
 
 /** \brief A file with a number in its name. */
@@ -31,8 +32,8 @@ struct PairedFile
   bool is_second_padded = false; ///< it has leading zeros and more digits than the first one
 };
 
-/** \brief The files of these endings whose names end in two numbers with _ or - between them, by ascending numbers;
- * others are left out. */
+/** \brief The files of these endings whose names end in two numbers with _ or - between them, and maybe a word
+ * behind that (0003_obj2), by ascending numbers; others are left out. */
 std::vector<PairedFile> pairedFiles (const std::string& folder, const std::vector<std::string>& names,
                                      const std::vector<std::string>& endings);
 
@@ -58,7 +59,8 @@ std::set<std::string> beginningsOf (const std::vector<std::string>& names, const
 /** \brief The number at the end of a text, as those of names; nothing if it does not end in one. */
 std::optional<double> numberAtEnd (const std::string& text);
 
-/** \brief The files of a folder whose names begin as is usual, or else of any that end in a number. */
+/** \brief The files of a folder whose names begin as is usual, or else of any that end in a number, or else in a number
+ * and a word (0003_depth.png). */
 std::vector<NumberedFile> numberedImages (const std::string& folder, const NumberedNames& usual,
                                           std::vector<std::string>& warnings);
 

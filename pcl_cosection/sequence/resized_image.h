@@ -3,13 +3,19 @@
 
 #include <pcl/cosection/common/image.h>
 
+#include <algorithm>
+#include <cmath>
+
 namespace pcl::cosection {
 
-/** \brief Whether images have the same ratio of width to height. */
+/** \brief Whether images have the same ratio of width to height, but for half a percent, by which that of ScanNet's
+ * colour and depth differs. */
 inline bool
 haveSameShape (int width, int height, int other_width, int other_height)
 {
-  return static_cast<long long> (width) * other_height == static_cast<long long> (height) * other_width;
+  constexpr double tolerance = 0.005;
+  const double one = static_cast<double> (width) * other_height, other = static_cast<double> (height) * other_width;
+  return std::abs (one - other) <= tolerance * std::max (one, other);
 }
 
 /** \brief The nearest pixels of an image of the same view in another resolution. */

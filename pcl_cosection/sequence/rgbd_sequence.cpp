@@ -24,6 +24,7 @@ namespace fs = std::filesystem;
 namespace pcl::cosection {
 namespace {
 
+const char* const replica_camera = "cam_params.json";
 constexpr double tum_depth_scale = 5000.0;
 constexpr double millimetres = 1000.0;
 constexpr double nearest_median_m = 0.05;
@@ -87,20 +88,24 @@ readDepth (const std::string& path, double scale)
   return loadDepthImage (path, scale);
 }
 
-/** \brief The file that tells the camera, of a folder, or of the one around it for a sequence of 7-Scenes; empty if
- * there is none. */
+/** \brief The file that tells the camera, of a folder, of the one of ScanNet in it, or of the one around it for
+ * 7-Scenes; Replica's is around its scenes. Empty if there is none. */
 std::string
 cameraFile (const std::string& folder, SequenceFormat format)
 {
-  std::vector<fs::path> places = {fs::path (folder)};
+  const fs::path own (folder);
+  std::vector<fs::path> places = {own, own / "intrinsic"};
   if (format == SequenceFormat::SevenScenes)
-    places.push_back (fs::path (folder) / "..");
-  std::error_code ignored;
+    places.push_back (own / "..");
+  std::vector<fs::path> candidates;
   for (const fs::path& place : places)
     for (const std::string& name : cameraFileNames ())
-      if (fs::exists (place / name, ignored))
-        return (place / name).string ();
-  return {};
+      candidates.push_back (place / name);
+  candidates.push_back (own / ".." / replica_camera);
+  std::error_code ignored;
+  const auto found = std::find_if (candidates.begin (), candidates.end (),
+                                   [&] (const fs::path& path) { return fs::exists (path, ignored); });
+  return found == candidates.end () ? std::string () : found->string ();
 }
 
 } // namespace
@@ -125,6 +130,7 @@ RgbdSequence::RgbdSequence (const std::string& folder, const SequenceSource& sou
   SequenceListing listing = listSequence (folder, source);
   format_ = listing.format;
   files_ = std::move (listing.files);
+  trajectory_ = std::move (listing.trajectory);
   warnings_ = std::move (listing.warnings);
   period_ = stampPeriod (stamps ());
   depth_scale_ = source.depth_scale > 0.0         ? source.depth_scale
@@ -157,6 +163,7 @@ RgbdSequence::setCamera (const std::string& folder, const SequenceSource& source
   {
     camera_ = {640, 480, 585.0, 585.0, 320.0, 240.0};
     name = size_source_ = "the camera of 7-Scenes";
+    warnings_.push_back (folder + ": has no file of a camera; that of 7-Scenes is taken, --intrinsics 585,585,320,240");
   }
   else
     throw IoError (folder +
@@ -327,6 +334,15 @@ std::vector<StampedPose>
 RgbdSequence::givenTrajectory (std::vector<std::string>& warnings) const
 {
   std::vector<StampedPose> poses;
+  try
+  {
+    if (!trajectory_.empty ())
+      return loadTrajectory (trajectory_, stamps ());
+  }
+  catch (const IoError& error)
+  {
+    warnings.push_back (std::string (error.what ()) + "; the frames are without pose");
+  }
   for (std::size_t index = 0; index < files_.size (); ++index)
     if (const auto pose = givenPose (index, warnings))
       poses.push_back ({files_[index].stamp, *pose});

@@ -23,9 +23,13 @@ namespace {
 const NumberedNames co_fusion_depth = {{"depth", ""}, {".exr", ".png"}};
 const NumberedNames co_fusion_colour = {{"color", "colour", "rgb", ""},
                                         {".png", ".jpg", ".jpeg", ".bmp", ".ppm", ".tif", ".tiff"}};
+const NumberedNames replica_colour = {{"frame"}, co_fusion_colour.endings};
+const NumberedNames co_fusion_pose = {{""}, {".txt"}};
 const NumberedNames seven_scenes_depth = {{"frame-"}, {".depth.png", ".depth.exr"}};
 const NumberedNames seven_scenes_colour = {{"frame-"}, {".color.png", ".color.jpg", ".color.jpeg"}};
 const NumberedNames seven_scenes_pose = {{"frame-"}, {".pose.txt"}};
+
+const std::vector<std::string> depth_folders = {"depth_noise", "depth", "results"}; // the last one of Replica's scenes
 
 constexpr double max_difference_s = 0.02;  // of depth and colour, as the tool of the TUM benchmark has it
 constexpr std::size_t most_neighbours = 8; // whose stamps are looked at on either side
@@ -89,12 +93,21 @@ warnOfMissingDepth (const std::vector<NumberedFile>& depth, const std::vector<Nu
                         " depth images");
 }
 
-/** \brief The depth images of the folder asked for, else of depth_noise, else of depth. */
+/** \brief The first of these folders in a folder; empty if there is none. */
+std::string
+firstFolder (const std::string& folder, const std::vector<std::string>& names)
+{
+  for (const std::string& name : names)
+    if (const std::string path = inFolder (folder, name); isFolder (path))
+      return path;
+  return {};
+}
+
+/** \brief The depth images of the folder asked for, else of depth_noise, else of depth, else of results. */
 std::vector<NumberedFile>
 coFusionDepth (const std::string& folder, const std::string& asked, std::vector<std::string>& warnings)
 {
-  const std::vector<std::string> choices = asked.empty () ? std::vector<std::string>{"depth_noise", "depth"}
-                                                          : std::vector{asked};
+  const std::vector<std::string> choices = asked.empty () ? depth_folders : std::vector{asked};
   for (const std::string& choice : choices)
   {
     const std::string path = inFolder (folder, choice);
@@ -103,7 +116,7 @@ coFusionDepth (const std::string& folder, const std::string& asked, std::vector<
     std::vector<NumberedFile> depth = numberedImages (path, co_fusion_depth, warnings);
     if (!depth.empty ())
       return depth;
-    if (!asked.empty () || choice == "depth" || !isThere (inFolder (folder, "depth")))
+    if (choice != "depth_noise" || !asked.empty () || !isThere (inFolder (folder, "depth")))
       throw IoError (path + ": has no depth images: it " + contentsOf (path) +
                      "; they must be PNGs, or .exr in metres, whose names end in a number, as DepthNNNN.png");
   }
@@ -213,11 +226,18 @@ void
 listCoFusion (const SequenceSource& source, SequenceListing& listing)
 {
   const std::vector<NumberedFile> depth = coFusionDepth (listing.folder, source.depth_folder, listing.warnings);
-  std::vector<NumberedFile> colour;
+  std::vector<NumberedFile> colour, poses;
   for (const char* name : {"colour", "color", "rgb"})
     if (const std::string path = inFolder (listing.folder, name); colour.empty () && isFolder (path))
       colour = numberedImages (path, co_fusion_colour, listing.warnings);
-  listing.files = joinByNumber (depth, colour, {});
+  if (const fs::path path = fs::path (depth.front ().path).parent_path ();
+      colour.empty () && path.filename () == depth_folders.back ())
+    colour = numberedFiles (path.string (), fileNames (path.string ()), replica_colour, listing.warnings);
+  if (const std::string path = firstFolder (listing.folder, {"pose", "poses"}); !path.empty ())
+    poses = numberedFiles (path, fileNames (path), co_fusion_pose, listing.warnings);
+  if (const std::string path = inFolder (listing.folder, "traj.txt"); poses.empty () && isThere (path))
+    listing.trajectory = path;
+  listing.files = joinByNumber (depth, colour, poses);
   const auto without = std::count_if (listing.files.begin (), listing.files.end (),
                                       [] (const FrameFiles& files) { return files.colour.empty (); });
   const bool differ = 2 * static_cast<std::size_t> (without) > listing.files.size ();
@@ -279,8 +299,7 @@ detectFormat (const std::string& folder, const SequenceSource& source)
   if (!associationFile (folder).empty () || isThere (inFolder (folder, "depth.txt")) ||
       isThere (inFolder (folder, "rgb.txt")))
     return SequenceFormat::Tum;
-  if (!source.depth_folder.empty () || isFolder (inFolder (folder, "depth_noise")) ||
-      isFolder (inFolder (folder, "depth")))
+  if (!source.depth_folder.empty () || !firstFolder (folder, depth_folders).empty ())
     return SequenceFormat::CoFusion;
   if (sevenScenesFolder (folder) != folder)
     return SequenceFormat::SevenScenes;

@@ -14,6 +14,7 @@ struct SequenceListing
   SequenceFormat format = SequenceFormat::Detect;
   std::string folder;            ///< where they are: a folder in that which was given, if that has nothing else
   std::vector<FrameFiles> files; ///< one or more, by ascending stamps
+  std::string trajectory;        ///< path of the poses of the frames, in their order; empty: none
   std::vector<std::string> warnings;
 };
 

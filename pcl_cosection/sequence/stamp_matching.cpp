@@ -52,6 +52,18 @@ posesAtStamps (const std::vector<StampedPose>& trajectory, const std::vector<dou
   return poses;
 }
 
+std::optional<double>
+stampOf (double number)
+{
+  if (std::abs (number) < 1e15) // whole numbers are exact
+    return number;
+  if (number < 1e16)
+    return 1e-6 * number;
+  if (number >= 1e18 && number < 1e19)
+    return 1e-9 * number;
+  return std::nullopt;
+}
+
 std::string
 stampSpan (double first, double last)
 {

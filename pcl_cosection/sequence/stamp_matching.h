@@ -31,6 +31,10 @@ PCL_COSECTION_EXPORT std::optional<std::size_t> nearestStamp (const std::vector<
 PCL_COSECTION_EXPORT std::vector<std::optional<Eigen::Isometry3d>>
 posesAtStamps (const std::vector<StampedPose>& trajectory, const std::vector<double>& stamps, double period);
 
+/** \brief A stamp in seconds, or the number of a frame: of 16 and 19 digits before the point, as times since 1970 in
+ * micro- and nanoseconds have, seconds; nothing if it has more than 15 otherwise, or is not finite. */
+PCL_COSECTION_EXPORT std::optional<double> stampOf (double number);
+
 /** \brief The range of stamps for messages: "0 to 59". */
 PCL_COSECTION_EXPORT std::string stampSpan (double first, double last);
 

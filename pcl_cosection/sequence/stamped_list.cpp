@@ -3,26 +3,24 @@
 
 #include "pcl_cosection/common/files.h"
 #include "pcl_cosection/io/text_scanner.h"
+#include "stamp_matching.h"
 
 #include <pcl/cosection/common/error.h>
 
 #include <algorithm>
-#include <cmath>
 #include <string_view>
 #include <utility>
 
 namespace pcl::cosection {
 namespace {
 
-constexpr double largest_stamp_s = 1e15;
-
 double
 parseStamp (std::string_view word)
 {
-  const double stamp = toReal (word);
-  if (!(std::abs (stamp) < largest_stamp_s))
-    throw IoError (quoted (word) + " is not a time in seconds");
-  return stamp;
+  const std::optional<double> stamp = stampOf (toReal (word));
+  if (!stamp)
+    throw IoError (quoted (word) + " is not a time in seconds, micro- or nanoseconds");
+  return *stamp;
 }
 
 } // namespace

@@ -48,7 +48,8 @@ TEST (CameraFile, IsReadInTheFormsOfOthers)
            {"camera_intrinsic.json",
             R"({"width": 8, "height": 6, "intrinsic_matrix": [10, 0, 0, 0, 11, 0, 3.5, 2.5, 1]})"},
            {"scene_camera.json", "{\"0\": " + bop + ", \"1\": " + bop + "}"},
-           {"camera.json", R"({"fx": 10, "fy": 11, "cx": 3.5, "cy": 2.5, "width": 8, "height": 6})"}})
+           {"camera.json", R"({"fx": 10, "fy": 11, "cx": 3.5, "cy": 2.5, "width": 8, "height": 6})"},
+           {"intrinsics.json", R"({"fx": 10, "fy": 11, "ppx": 3.5, "ppy": 2.5, "width": 8, "height": 6})"}})
   {
     const SequenceFolder folder;
     writeFrames (name, content, folder);

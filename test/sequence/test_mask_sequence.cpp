@@ -210,8 +210,9 @@ TEST (MaskSequence, AFolderWithoutMasksIsSaidToHoldWhatItHolds)
   {
     folder.text ("photographs/" + frame + ".JPG", "");
     folder.text ("folders/object_" + frame + "/0.png", "");
-    writeMask (folder, "names/" + frame + "_can.png", 1);
   }
+  writeMask (folder, "names/0_can.png", 1);
+  writeMask (folder, "names/1_car.png", 1); // of another object
   folder.text ("photographs/readme", "");
   folder.text ("photographs/.hidden", "");
   EXPECT_NE (failure ("photographs")
@@ -305,4 +306,51 @@ TEST (MaskSequence, OfAnotherResolutionAreBroughtToTheDepths)
   ASSERT_EQ (read.width, 8);
   EXPECT_EQ (read.at (3, 5), 0);
   EXPECT_EQ (read.at (4, 0), 9);
+}
+
+TEST (MaskSequence, ABandOf255BesideAllInstancesIsLeftOut)
+{
+  SequenceFolder folder;
+  folder.text ("calibration.txt", "100 100 49.5 29.5");
+  for (const int frame : {1, 2})
+    folder.depth ("depth/" + std::to_string (frame) + ".png", frame, 1000.0, 100, 60);
+  const auto write = [&] (const char* name, std::uint16_t other, int band_px) {
+    Image<std::uint16_t> mask (100, 60, 0);
+    for (int v = 10; v < 50; ++v)
+      for (int u = 10; u < 50; ++u)
+        mask.at (u, v) = u < 10 + band_px || v < 10 + band_px || u >= 30 ? 255 : 1;
+    for (int v = 0; v < 60; ++v)
+      for (int u = 30 + band_px; u < 100; ++u)
+        mask.at (u, v) = u < 60 ? other : 0;
+    saveMaskImage (mask, folder.newPath (name));
+  };
+  const RgbdSequence sequence (folder.path ());
+  write ("void/0001.png", 2, 3);
+  write ("void/0002.png", 2, 3);
+  const MaskSequence masks (folder.path ("void"), sequence);
+  ASSERT_EQ (masks.warnings ().size (), 1u);
+  EXPECT_NE (masks.warnings ()[0].find ("255 is in a narrow band"), std::string::npos);
+  EXPECT_EQ (masks.read (2)->at (11, 30), ignored_label);
+  EXPECT_EQ (masks.read (2)->at (20, 30), 1);
+  EXPECT_EQ (masks.read (2)->at (50, 30), 2);
+
+  write ("thick/0001.png", 2, 9); // an object
+  const MaskSequence thick (folder.path ("thick"), sequence);
+  EXPECT_TRUE (thick.warnings ().empty ());
+  EXPECT_EQ (thick.read (1)->at (11, 30), 255);
+}
+
+TEST (MaskSequence, AWordMayBeBeforeTheInstanceOrBehindTheFrame)
+{
+  SequenceFolder folder;
+  folder.coFusion ({1, 2});
+  const RgbdSequence sequence (folder.path ());
+  for (const char* name : {"0001_obj1", "0001_obj4", "0002_obj1", "0002_obj4"})
+    saveMaskImage (Image<std::uint16_t> (8, 6, 0), folder.newPath (std::string ("each/") + name + ".png"));
+  EXPECT_TRUE (MaskSequence (folder.path ("each"), sequence).isPerInstance ());
+  for (const char* name : {"frame_0001_mask", "frame_0002_mask"})
+    writeMask (folder, std::string ("behind/") + name + ".png", 7);
+  const MaskSequence behind (folder.path ("behind"), sequence);
+  EXPECT_EQ (behind.size (), 2u);
+  EXPECT_EQ (behind.read (2)->at (3, 2), 7);
 }

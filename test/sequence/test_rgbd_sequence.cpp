@@ -293,3 +293,78 @@ TEST (RgbdSequence, OptionsReplaceTheCalibration)
   EXPECT_EQ (camera.fy, 21.0);
   EXPECT_EQ (camera.width, 8);
 }
+
+TEST (RgbdSequence, ReadsScanNetsFolders)
+{
+  SequenceFolder folder;
+  folder.text ("intrinsic/intrinsic_depth.txt", "10 0 3.5 0\n0 11 2.5 0\n0 0 1 0\n0 0 0 1\n");
+  for (const int number : {0, 1, 2})
+  {
+    folder.depth ("depth/" + std::to_string (number) + ".png", number);
+    folder.colour ("color/" + std::to_string (number) + ".png", number);
+  }
+  folder.text ("pose/0.txt", "0 -1 0 1\n1 0 0 2\n0 0 1 3\n0 0 0 1\n");
+  folder.text ("pose/1.txt", "-inf -inf -inf -inf\n-inf -inf -inf -inf\n-inf -inf -inf -inf\n-inf -inf -inf -inf\n");
+  const RgbdSequence sequence (folder.path ());
+  EXPECT_EQ (sequence.camera ().fy, 11.0);
+  EXPECT_TRUE (sequence.warnings ().empty ());
+  std::vector<std::string> warnings;
+  const std::vector<StampedPose> poses = sequence.givenTrajectory (warnings);
+  ASSERT_EQ (poses.size (), 1u);
+  EXPECT_LT ((poses[0].pose.translation () - Eigen::Vector3d (1, 2, 3)).norm (), 1e-12);
+  ASSERT_EQ (warnings.size (), 1u); // the lost one
+  EXPECT_NE (warnings[0].find ("1.txt: has a pose that is not finite"), std::string::npos);
+  expectFrame (sequence, 2, 2, 1e-3);
+}
+
+TEST (RgbdSequence, ReadsReplicasFolders)
+{
+  SequenceFolder folder;
+  folder.text ("cam_params.json", R"({"camera": {"w": 8, "h": 6, "fx": 10, "fy": 11, "cx": 3.5, "cy": 2.5,)"
+                                  R"( "scale": 1000.0}})");
+  std::string poses;
+  for (const int number : {0, 1})
+  {
+    folder.depth ("room/results/depth00000" + std::to_string (number) + ".png", number);
+    folder.colour ("room/results/frame00000" + std::to_string (number) + ".png", number);
+    poses += "0 -1 0 " + std::to_string (number) + " 1 0 0 2 0 0 1 3 0 0 0 1\n";
+  }
+  folder.text ("room/traj.txt", poses);
+  const RgbdSequence sequence (folder.path ("room"));
+  EXPECT_EQ (sequence.camera ().fy, 11.0);
+  EXPECT_EQ (sequence.depthScale (), 1000.0);
+  std::vector<std::string> warnings = sequence.warnings ();
+  EXPECT_EQ (sequence.givenTrajectory (warnings).at (1).pose.translation ().x (), 1.0);
+  EXPECT_TRUE (warnings.empty ()) << warnings[0];
+  expectFrame (sequence, 1, 1, 1e-3);
+
+  folder.text ("room/traj.txt", poses + poses); // whose is which?
+  EXPECT_TRUE (sequence.givenTrajectory (warnings).empty ());
+  ASSERT_EQ (warnings.size (), 1u);
+  EXPECT_NE (warnings[0].find ("has 4 poses without a stamp, but there are 2 frames"), std::string::npos);
+}
+
+TEST (RgbdSequence, AWordMayBeBehindTheNumber)
+{
+  SequenceFolder folder;
+  folder.text ("calibration.txt", "10 11 3.5 2.5");
+  for (const int number : {3, 4})
+  {
+    folder.depth ("depth/frame_000" + std::to_string (number) + "_depth.png", number);
+    folder.colour ("rgb/frame_000" + std::to_string (number) + "_color.png", number);
+  }
+  const RgbdSequence sequence (folder.path ());
+  EXPECT_EQ (sequence.stamps (), (std::vector<double>{3, 4}));
+  EXPECT_TRUE (sequence.warnings ().empty ());
+  expectFrame (sequence, 1, 4, 1e-3);
+}
+
+TEST (RgbdSequence, ListsMayHaveNanoseconds)
+{
+  SequenceFolder folder;
+  folder.text ("calibration.txt", "10 11 3.5 2.5");
+  folder.depth ("depth/d.png", 1);
+  folder.colour ("rgb/c.png", 1);
+  folder.text ("associations.txt", "1305031102175304000 depth/d.png 1305031102175304000 rgb/c.png\n");
+  EXPECT_NEAR (RgbdSequence (folder.path ()).stamp (0), 1305031102.175304, 1e-6);
+}

@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 using namespace pcl::cosection;
 
@@ -21,13 +22,15 @@ readPoses (const std::map<int, std::string>& files, std::size_t views)
   Eigen::Isometry3d unknown;
   unknown.matrix ().setConstant (std::numeric_limits<double>::quiet_NaN ());
   ObjectPoses T_world_object;
+  std::vector<double> numbers (views);
+  std::iota (numbers.begin (), numbers.end (), 0.0);
   for (const auto& [label, file] : files)
   {
     std::vector<Eigen::Isometry3d>& poses = T_world_object[label];
     poses.assign (views, unknown);
     std::vector<double> nearest (views, same_view);
     bool any = false;
-    for (const StampedPose& stamped : loadTrajectory (file))
+    for (const StampedPose& stamped : loadTrajectory (file, numbers))
     {
       const double view = std::round (stamped.stamp);
       if (!(view >= 0.0 && view < static_cast<double> (views)))

@@ -35,8 +35,8 @@ declareKnown (CLI::App& app, GivenFusion& given)
 {
   OptionGroup known (app, "Known");
   known.add ("--camera-trajectory FILE", given.camera_trajectory,
-             "Poses of the camera in the world: lines \"stamp tx ty tz qx qy qz qw\" (default: those of the layout "
-             "7scenes; without, camera and objects are tracked)");
+             "Poses of the camera in the world: lines \"stamp tx ty tz qx qy qz qw\" (default: those that come with "
+             "the images; without, camera and objects are tracked)");
   known.add (
       "--object-trajectory ID=FILE", given.trajectory_values,
       "Poses of object ID in the world, beside those of the camera; repeatable. Objects without one are at rest");

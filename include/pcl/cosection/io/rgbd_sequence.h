@@ -79,10 +79,12 @@ struct PCL_COSECTION_EXPORT RgbdFrame
  * * Numbers of 16 or 19 digits are times in micro- or nanoseconds. Where the depth images' numbers are not those of the
  * colour images but times, they are associated as in TUM's layout.
  * * The camera is in calibration.txt, "fx fy cx cy [width height]" in pixels, or in cam_K.txt (3 x 3),
- * camera_intrinsic.json (Open3D) or scene_camera.json (BOP), which also tells the scale. Without a size, that of the
- * first depth image that can be read is taken. One of another resolution is scaled, if sizes tell it: its own, or that
- * of the colour images where its principal point is in the middle of these. 7-Scenes' layout does without: 585 585 320
- * 240 640 480.
+ * camera_intrinsic.json (Open3D), scene_camera.json (BOP) or cam_params.json (Replica), which also tell the scale, or
+ * in a folder intrinsic (ScanNet). Without a size, that of the first depth image that can be read is taken. One of
+ * another resolution is scaled, if sizes tell it: its own, or that of the colour images where its principal point is in
+ * the middle of these. 7-Scenes' layout does without: 585 585 320 240 640 480.
+ * * Poses are in frame-NNNNNN.pose.txt (7-Scenes), or, in the Co-Fusion layout, in pose/N.txt (ScanNet) or traj.txt
+ * (Replica; loadTrajectory ()).
  * * In 7-Scenes' layout a depth of 65535 is no reading.
  *
  * \code
@@ -161,6 +163,7 @@ private:
   PinholeCamera camera_;
   std::string size_source_; // for messages
   std::vector<FrameFiles> files_;
+  std::string trajectory_; // path of the frames' poses; empty: none
   std::vector<std::string> warnings_;
 };
 
@@ -238,13 +241,21 @@ private:
   std::thread thread_; // last: it uses the rest
 };
 
+/** \brief A file of masks. */
+struct MaskFile
+{
+  std::string path;
+  std::uint16_t instance = 0; ///< 0: the pixels tell
+};
+
 /** \brief Masks of instances for the frames of a sequence: a folder of PNGs of one channel of 8 or 16 bits (or several
  * equal ones, or a palette), a file per frame that has one, or one per instance of it. A pixel is the number of an
  * instance, 0 none. A name ends in the frame's number or stamp: Mask0003.png, 0.033333.png; or in that and the
  * instance's, from 0, as the BOP benchmark has it: 000003_000001.png, whose pixels that are not 0 are instance 2.
  * Pixels of several instances have none. Masks of one object each may also be named OBJECT_FRAME: 2_0003.png is object
  * 2, can_0003.png has a number by the order of the alphabet. Masks of another resolution and the same shape are brought
- * to the depth's. Several threads may read.
+ * to the depth's. Where the first mask has 255 only in a narrow band beside all instances, as PASCAL VOC has it, 255 is
+ * left out, as 65535 is. Several threads may read.
  *
  * \code
  * const MaskSequence masks ("toycars/mask", sequence);
@@ -277,23 +288,18 @@ public:
   const std::vector<std::string>& warnings () const { return warnings_; }
 
 private:
-  struct InstanceFile
-  {
-    std::string path;
-    std::uint16_t instance = 0; // 0: the pixels tell
-  };
-
   Image<std::uint16_t> readFile (const std::string& path) const;
 
-  /** \brief Warn of a first mask that is blurred, or whose background is an instance. */
+  /** \brief Warn of a first mask that is blurred, or whose background is an instance; find out whether 255 is one. */
   void judgeFirst ();
 
   double half_period_;
   int width_;
   int height_;
   bool per_instance_ = false;
-  std::vector<double> stamps_;                   // ascending
-  std::vector<std::vector<InstanceFile>> files_; // of each stamp: one, or one per instance
+  bool has_void_ = false;                    // 255 is no instance
+  std::vector<double> stamps_;               // ascending
+  std::vector<std::vector<MaskFile>> files_; // of each stamp: one, or one per instance
   std::vector<std::string> warnings_;
 };
 

@@ -17,12 +17,18 @@ struct StampedPose
   Eigen::Isometry3d pose = Eigen::Isometry3d::Identity (); ///< metres
 };
 
-/** \brief Read a trajectory in the format of the TUM RGB-D benchmark: a line "stamp tx ty tz qx qy qz qw" per pose;
- * empty lines and lines that begin with # are skipped. Quaternions are normalised.
+/** \brief Read a trajectory, a pose per line:
+ * * as the TUM RGB-D benchmark has it, "stamp tx ty tz qx qy qz qw"; stamps of 16 or 19 digits are micro- or
+ *   nanoseconds; quaternions are normalised
+ * * as KITTI has it, the 12 or 16 numbers of a 3 x 4 or 4 x 4 matrix, row by row, a line for each frame
+ *
+ * Empty lines and lines that begin with # are skipped, and poses that are not finite, as where tracking was lost.
+ * \param[in] frames stamps of the frames, ascending, for poses without one; empty: the n-th pose has stamp n, from 0
  * \return by ascending stamps
- * \throws IoError if the file cannot be read, has no pose, a line that cannot be read, or a stamp twice; the message
- * names the line */
-PCL_COSECTION_EXPORT std::vector<StampedPose> loadTrajectory (const std::string& path);
+ * \throws IoError if the file cannot be read, has no pose, a line that cannot be read, a stamp twice, or poses without
+ * a stamp, of another number than \a frames; the message names the line */
+PCL_COSECTION_EXPORT std::vector<StampedPose> loadTrajectory (const std::string& path,
+                                                              const std::vector<double>& frames = {});
 
 /** \brief Write a trajectory in the format that loadTrajectory () reads; stamps that are whole numbers without a
  * decimal point. \throws IoError */
