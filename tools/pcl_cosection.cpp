@@ -11,6 +11,7 @@
 #include "run_program.h"
 
 #include <pcl/cosection/common/error.h>
+#include <pcl/cosection/io/mesh_io.h>
 #include <pcl/cosection/surface/co_section.h>
 
 #include <pcl/common/time.h>
@@ -44,6 +45,19 @@ summaryLine (const ObjectResult& object)
   return (text.str ());
 }
 
+/** \brief Poses of proposals are of the meshes as they are in their files, whose origin may be far away. */
+void
+setProposalOrigins (const Settings& settings, SceneResult& result)
+{
+  for (ObjectResult& object : result.objects)
+  {
+    std::size_t number = 0; // of this object's proposals
+    for (const auto& [label, file] : settings.proposals)
+      if (object.proposal && label == object.id && number++ == object.proposal->proposal)
+        object.proposal->T_object_proposal.translate (-localOrigin (file));
+  }
+}
+
 /** \brief Read, complete, write. \return whether every object succeeded, and whether any did */
 std::pair<bool, bool>
 complete (Settings settings, const OutputTarget& target, std::vector<std::string>& warnings, Terminal& terminal)
@@ -60,6 +74,7 @@ complete (Settings settings, const OutputTarget& target, std::vector<std::string
         terminal.warning (line);
       });
   SceneResult& scene = completed.scene;
+  setProposalOrigins (settings, scene);
   for (const ObjectResult& object : scene.objects)
     if (object.error.empty ())
       terminal.result (summaryLine (object));

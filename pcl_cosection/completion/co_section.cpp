@@ -213,7 +213,21 @@ SceneResult
 CoSection::reconstruct (const ProgressCallback& progress) const
 {
   SceneState state;
-  return completeScene (impl_->scene, CompletionMode::Once, UpdateOutput::Meshes, progress, state);
+  SceneResult result = completeScene (impl_->scene, CompletionMode::Once, UpdateOutput::Meshes, progress, state);
+  SceneState without;
+  for (const ObjectResult& object : result.objects)
+    if (object.proposal && object.proposal->withdrawn)
+      without.without_proposals.insert (object.id);
+  if (without.without_proposals.empty ())
+    return result;
+  // Proposals that turned out worse had their part in grids and priors: without them, all is as if there were none.
+  SceneResult again = completeScene (impl_->scene, CompletionMode::Once, UpdateOutput::Meshes, progress, without);
+  for (std::size_t o = 0; o < again.objects.size (); ++o)
+    if (without.without_proposals.count (again.objects[o].id))
+      again.objects[o].proposal = result.objects[o].proposal;
+  for (const auto& [stage, seconds] : result.timings_s)
+    again.timings_s[stage] += seconds;
+  return again;
 }
 
 SceneResult

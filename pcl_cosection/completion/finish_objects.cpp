@@ -225,7 +225,10 @@ sceneResult (const Scene& scene, const std::vector<Observation>& observations,
     if (const ProposedShapes* shapes = observations[o].proposed.get ())
     {
       if (shapes->best)
+      {
         object.proposal = fitOf (shapes->best->alignment, shapes->best->is_used, shapes->best->number);
+        object.proposal->withdrawn = shapes->best->is_withdrawn;
+      }
       if (shapes->learned)
         object.learned = fitOf ({shapes->learned->fit}, shapes->learned->is_used);
     }

@@ -316,6 +316,7 @@ warnIfCoarse (const ObjectInput& input, const Observation& object, CompletionLog
 std::vector<Observation>
 observeObjects (const Scene& scene, CompletionMode mode, SceneState& state, CompletionLog& log)
 {
+  static const std::vector<TriangleMesh> no_proposals;
   const CoSectionOptions& options = scene.options;
   return log.forEachObject ([&] (std::size_t o) {
     const ObjectInput& input = scene.objects[o];
@@ -324,7 +325,7 @@ observeObjects (const Scene& scene, CompletionMode mode, SceneState& state, Comp
     Observation object;
     object.all_points = &input.points;
     object.fits = std::make_shared<ShapeFits> ();
-    object.proposals = &input.proposals;
+    object.proposals = state.without_proposals.count (input.id) ? &no_proposals : &input.proposals;
     object.proposed = std::make_shared<ProposedShapes> ();
     object.network = options.completion_network;
     object.views = viewsOf (scene, input);

@@ -13,6 +13,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <vector>
 
 namespace pcl::cosection {
@@ -144,6 +145,7 @@ struct SceneState
   std::map<int, BodyState> objects; // by id
   BodyState background;             // if all of it is completed; with blocks, on coarser voxels
   BackgroundBlocks blocks;          // of the background, if one volume is too small for its voxels
+  std::set<int> without_proposals;  // objects whose proposals do not count
 };
 
 /** \brief T_world_object at a view; not finite if it is not known. */

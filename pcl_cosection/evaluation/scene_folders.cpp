@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <map>
 #include <regex>
 #include <sstream>
 
@@ -19,6 +20,7 @@ namespace pcl::cosection {
 namespace {
 
 constexpr int largest_image = 8192;
+constexpr double same_pose = 1e-4; // relative: clouds have poses in single precision
 
 void
 requireFolder (const std::string& folder, const std::string& what)
@@ -78,6 +80,41 @@ readCalibration (const std::string& path, ReadingNotes& notes)
     camera->validate ();
     return camera;
   });
+}
+
+void
+requireTruth (const std::string& folder)
+{
+  requireFolder (folder, "a dataset with truth: gt-cam-0.txt, gt-NAME-ID.txt and gt-mesh/NAME.ply");
+  if (!fs::exists (inFolder (folder, "gt-cam-0.txt")))
+    throw IoError (folder + ": has no gt-cam-0.txt, the poses of the camera; scenes with truth_LABEL.ply are for " +
+                   "pcl_cosection_evaluate views");
+}
+
+/** \brief \param[in] poses folder of the trajectories */
+SceneRecord
+readTruth (const std::string& folder, const std::string& poses, ReadingNotes& notes)
+{
+  SceneRecord truth;
+  truth.camera = loadTrajectory (inFolder (poses, "gt-cam-0.txt"));
+  truth.intrinsics = readCalibration (inFolder (folder, "calibration.txt"), notes);
+  for (const auto& file : matchingFiles (poses, std::regex ("gt-(.+)-([0-9]{1,9})\\.txt")))
+  {
+    if (file[1] == "cam" && file[2] == "0")
+      continue;
+    SceneRecord::Object object;
+    object.id = std::stoi (file[2]);
+    object.name = file[1];
+    object.poses = readPosesOrWarn (file[0], notes);
+    const std::string mesh = inFolder (folder, "gt-mesh/" + object.name + ".ply");
+    if (fs::exists (mesh))
+      object.mesh = readTrueMesh (mesh, notes);
+    truth.objects.push_back (std::move (object));
+  }
+  for (const char* name : {"gt-mesh/room.ply", "gt-mesh/background.ply"})
+    if (truth.background.empty () && fs::exists (inFolder (folder, name)))
+      truth.background = readTrueMesh (inFolder (folder, name), notes);
+  return truth;
 }
 
 } // namespace
@@ -156,26 +193,43 @@ readRun (const std::string& folder, ReadingNotes& notes)
 SceneRecord
 readTruth (const std::string& folder, ReadingNotes& notes)
 {
-  requireFolder (folder, "a dataset with truth: gt-cam-0.txt, gt-NAME-ID.txt and gt-mesh/NAME.ply");
-  SceneRecord truth;
-  truth.camera = loadTrajectory (inFolder (folder, "gt-cam-0.txt"));
-  truth.intrinsics = readCalibration (inFolder (folder, "calibration.txt"), notes);
-  for (const auto& file : matchingFiles (folder, std::regex ("gt-(.+)-([0-9]{1,9})\\.txt")))
+  requireTruth (folder);
+  return readTruth (folder, folder, notes);
+}
+
+SceneRecord
+readTruthOfViews (const std::string& folder, const std::vector<StampedPose>& completed, ReadingNotes& notes)
+{
+  requireTruth (folder);
+  const std::string views = inFolder (folder, "views");
+  SceneRecord truth = readTruth (folder, fs::exists (inFolder (views, "gt-cam-0.txt")) ? views : folder, notes);
+  std::map<double, double> stamps; // of the views by those of the truth
+  for (const StampedPose& view : completed)
   {
-    if (file[1] == "cam" && file[2] == "0")
-      continue;
-    SceneRecord::Object object;
-    object.id = std::stoi (file[2]);
-    object.name = file[1];
-    object.poses = readPosesOrWarn (file[0], notes);
-    const std::string mesh = inFolder (folder, "gt-mesh/" + object.name + ".ply");
-    if (fs::exists (mesh))
-      object.mesh = readTrueMesh (mesh, notes);
-    truth.objects.push_back (std::move (object));
+    const auto isSame = [&] (const StampedPose& pose) {
+      return pose.pose.isApprox (view.pose, same_pose) && stamps.count (pose.stamp) == 0;
+    };
+    auto found = std::find_if (truth.camera.begin (), truth.camera.end (), [&] (const StampedPose& pose) {
+      return pose.stamp == view.stamp && isSame (pose); // first, as the camera may rest
+    });
+    if (found == truth.camera.end ())
+      found = std::find_if (truth.camera.begin (), truth.camera.end (), isSame);
+    if (found == truth.camera.end ())
+      throw IoError (folder + ": has no frame that was taken from where view " +
+                     std::to_string (static_cast<int> (view.stamp)) + " was: is it the truth of other views?");
+    stamps[found->stamp] = view.stamp;
   }
-  for (const char* name : {"gt-mesh/room.ply", "gt-mesh/background.ply"})
-    if (truth.background.empty () && fs::exists (inFolder (folder, name)))
-      truth.background = readTrueMesh (inFolder (folder, name), notes);
+  const auto restamp = [&] (std::vector<StampedPose>& poses) {
+    std::vector<StampedPose> kept;
+    for (const StampedPose& pose : poses)
+      if (const auto stamp = stamps.find (pose.stamp); stamp != stamps.end ())
+        kept.push_back ({stamp->second, pose.pose});
+    std::sort (kept.begin (), kept.end (), [] (const auto& a, const auto& b) { return a.stamp < b.stamp; });
+    poses = std::move (kept);
+  };
+  restamp (truth.camera);
+  for (SceneRecord::Object& object : truth.objects)
+    restamp (object.poses);
   return truth;
 }
 

@@ -30,6 +30,8 @@ namespace {
 
 const PinholeCamera camera{640, 480, 570.0, 570.0, 319.5, 239.5}; // of the PrimeSense sensors
 constexpr double gap_m = 0.005;                                   // between the circles around things
+constexpr double table_m = 1.4;                                   // its longer side
+constexpr double tiny_m = 0.005;                                  // less can hardly be seen
 constexpr int tries = 3000;                                       // places for each thing
 
 bool
@@ -58,6 +60,23 @@ cameraAt (double azimuth, const TableSceneOptions& options)
   return lookAt (eye, target, (eye.z () - target.z ()) * away + options.camera_distance_m * Eigen::Vector3d::UnitZ ());
 }
 
+/** \brief Refuse what is larger than the table, and warn of what is tiny. */
+void
+checkThing (const TriangleMesh& mesh, const std::string& path, std::vector<std::string>& warnings)
+{
+  Eigen::AlignedBox3d box;
+  for (const auto& vertex : mesh.vertices)
+    box.extend (vertex.cast<double> ());
+  const double length_m = box.sizes ().maxCoeff ();
+  std::ostringstream text;
+  text.precision (3);
+  text << path << ": is " << length_m << " m long; ";
+  if (length_m > table_m)
+    throw InvalidArgument (text.str () + "the table has 1.4 m: meshes must be in metres");
+  if (length_m < tiny_m)
+    warnings.push_back (text.str () + "is it in metres?");
+}
+
 /** \brief Turned about z, its middle over the origin, its lowest point on the table. */
 TriangleMesh
 standing (const TriangleMesh& mesh, double angle)
@@ -77,6 +96,41 @@ radiusOf (const TriangleMesh& mesh)
   for (const auto& vertex : mesh.vertices)
     radius = std::max (radius, static_cast<double> (vertex.head<2> ().norm ()));
   return radius;
+}
+
+/** \brief Add a post beside a thing, on the side of the first camera, so high that it hides the thing up to some
+ * height; none if other things leave no room there. */
+void
+addPost (RandomNumbers& random, const std::vector<std::pair<Eigen::Vector2d, double>>& circles, TableScene& scene)
+{
+  const Eigen::Vector3d eye = scene.cameras.front ().translation ();
+  for (int n = 0; n < tries; ++n)
+  {
+    const auto which = std::min (static_cast<std::size_t> (random.in (0.0, static_cast<double> (circles.size ()))),
+                                 circles.size () - 1);
+    const auto& [middle, radius] = circles[which];
+    const Eigen::Vector2d to_eye = eye.head<2> () - middle;
+    const double half_width = random.in (0.005, 0.02), aside = random.in (-1.0, 1.0), before_m = random.in (0.0, 0.05);
+    const double hidden = random.in (0.2, 0.8); // of the thing's height
+    if (to_eye.norm () < 2.0 * radius)          // from above nothing stands before it
+      continue;
+    const Eigen::Vector2d direction = to_eye.normalized (), across (-direction.y (), direction.x ());
+    const double away_m = radius + M_SQRT2 * half_width + gap_m + before_m;
+    const Eigen::Vector2d place = middle + away_m * direction + 0.5 * aside * radius * across;
+    const bool is_free = std::all_of (circles.begin (), circles.end (), [&] (const auto& circle) {
+      return (place - circle.first).norm () > circle.second + M_SQRT2 * half_width;
+    });
+    double top_m = 0.0;
+    for (const auto& vertex : scene.things[which].vertices)
+      top_m = std::max (top_m, static_cast<double> (vertex.z ()));
+    const double height = hidden * top_m +
+                          (eye.z () - hidden * top_m) * away_m / to_eye.norm (); // on the line of sight
+    if (!is_free || !(height < eye.z ()))
+      continue;
+    addBox ({place.x () - half_width, place.y () - half_width, 0.0},
+            {place.x () + half_width, place.y () + half_width, height}, scene.room);
+    return;
+  }
 }
 
 /** \return which things have readings */
@@ -163,7 +217,7 @@ makeTableScene (const std::vector<std::string>& names, const std::vector<Triangl
   RandomNumbers random (options.seed * 1000003u + static_cast<std::uint64_t> (scene) + 1u);
 
   TableScene result;
-  addBox ({-0.7, -0.5, -0.03}, {0.7, 0.5, 0.0}, result.room);  // table
+  addBox ({-0.5 * table_m, -0.5, -0.03}, {0.5 * table_m, 0.5, 0.0}, result.room);
   addBox ({-2.0, -2.0, -0.75}, {2.0, 1.5, -0.7}, result.room); // floor
   addBox ({-2.0, 1.4, -0.7}, {2.0, 1.5, 2.0}, result.room);    // wall
   std::vector<std::pair<Eigen::Vector2d, double>> circles;
@@ -195,13 +249,7 @@ makeTableScene (const std::vector<std::string>& names, const std::vector<Triangl
   for (int view = 0; view < options.views; ++view)
     result.cameras.push_back (cameraAt (first + view * 2.0 * M_PI / options.views, options));
   for (int k = 0; k < options.occluders; ++k)
-  {
-    // Between the first camera and the things; a post may hide all of a small thing.
-    const double half_width = random.in (0.005, 0.02), height = random.in (0.05, 0.15);
-    const Eigen::Vector2d place (random.in (-0.2, 0.2), random.in (-0.45, -0.35));
-    addBox ({place.x () - half_width, place.y () - half_width, 0.0},
-            {place.x () + half_width, place.y () + half_width, height}, result.room);
-  }
+    addPost (random, circles, result);
   return result;
 }
 
@@ -226,13 +274,21 @@ writeTableScenes (const std::string& folder, const std::string& output, const Ta
   std::sort (files.begin (), files.end ());
   std::vector<std::string> names;
   std::vector<TriangleMesh> meshes;
+  std::vector<std::string> open;
   for (const fs::path& file : files)
   {
     names.push_back (file.stem ().string ());
     meshes.push_back (loadMesh (file.string ()));
     if (meshes.back ().triangles.empty ())
       throw IoError (file.string () + ": has no triangles");
+    checkThing (meshes.back (), file.string (), warnings);
+    if (!computeTopology (meshes.back ()).closed_manifold)
+      open.push_back (file.string ());
   }
+  if (!open.empty ())
+    warnings.push_back (open.front () +
+                        (open.size () > 1 ? " and " + std::to_string (open.size () - 1) + " more" : "") +
+                        ": not closed; evaluations have no volume of such a truth");
 
   const int per_scene = options.per_scene;
   const int scenes = options.scenes > 0 ? options.scenes

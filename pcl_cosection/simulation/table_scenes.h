@@ -62,7 +62,7 @@ PCL_COSECTION_EXPORT Image<std::uint16_t> withMaskErrors (Image<std::uint16_t> l
  *     SCENE/names.txt         LABEL NAME of each thing
  *
  * Nothing is left if it fails.
- * \param[out] warnings a line for each view that has no reading of a thing
+ * \param[out] warnings a line for each view that has no reading of a thing, and for meshes that are open or tiny
  * \return number of scenes
  * \throws IoError if there are no meshes, the output exists or cannot be written; Cancelled; InvalidArgument */
 int writeTableScenes (const std::string& meshes, const std::string& output, const TableSceneOptions& options,

@@ -4,7 +4,7 @@ import os
 from dataclasses import dataclass
 
 from pcl_cosection_batch.errors import UsageError
-from pcl_cosection_batch.sequence_layout import VIEW_ENDINGS, is_sequence, is_view, natural_order
+from pcl_cosection_batch.sequence_layout import VIEW_ENDINGS, is_sequence, is_truth, is_view, natural_order
 
 VIEWS = "views"
 SEQUENCE = "sequence"
@@ -44,8 +44,8 @@ def visible_entries(folder: str) -> list[str]:
 
 
 def views_in(folder: str) -> list[str]:
-    """The views directly in a folder."""
-    paths = (os.path.join(folder, name) for name in visible_entries(folder))
+    """The views directly in a folder; what pcl_cosection_simulate --meshes writes beside them is their truth."""
+    paths = (os.path.join(folder, name) for name in visible_entries(folder) if not is_truth(name))
     return [path for path in paths if is_view(path)]
 
 

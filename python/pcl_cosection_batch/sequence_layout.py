@@ -12,11 +12,18 @@ def is_view(path: str) -> bool:
     return path.lower().endswith(VIEW_ENDINGS) and os.path.isfile(path)
 
 
+def is_truth(name: str) -> bool:
+    """Whether a file has the name of a true mesh, truth_LABEL.ply or truth_LABEL_NAME.ply."""
+    return re.fullmatch(r"truth_[0-9]+(_.*)?\.ply", name) is not None
+
+
 def is_sequence(folder: str) -> bool:
-    """Whether a folder is laid out as pcl_cosection_fusion recognises sequences: 7-Scenes, TUM, Co-Fusion."""
+    """Whether a folder is laid out as pcl_cosection_fusion recognises sequences: 7-Scenes, TUM, Co-Fusion, Replica."""
     if any(os.path.isfile(os.path.join(folder, name)) for name in ("associations.txt", "depth.txt", "rgb.txt")):
         return True
     if any(os.path.isdir(os.path.join(folder, name)) for name in ("depth_noise", "depth")):
+        return True
+    if os.path.isdir(os.path.join(folder, "results")) and os.path.isfile(os.path.join(folder, "traj.txt")):
         return True
     return any(SEVEN_SCENES_DEPTH.fullmatch(name) for name in os.listdir(folder))
 

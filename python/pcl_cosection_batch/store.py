@@ -18,6 +18,7 @@ from pcl_cosection_batch.errors import BatchError
 from pcl_cosection_batch.items import STATE_FILE, STATE_FOLDER
 
 COMPLETE = ("done", "partial")  # the statuses of items that have a result
+WRONG_USAGE = 2  # exit status of programs
 Record = dict[str, Any]  # what is known of an item that was run; the content of batch.json
 
 
@@ -122,11 +123,12 @@ class Store:
         return self.done(name) or record
 
     def commit_failed(self, made: str, record: Record) -> Record:
-        """Makes the folder MADE the reason of a failure. An older result of other inputs goes."""
+        """Makes the folder MADE the reason of a failure. An older result of other inputs goes, unless the options are
+        wrong, so that nothing was tried."""
         name = record["name"]
         write_json(os.path.join(made, STATE_FILE), record)
         self._publish(made, self.path("failed", name), "")
-        if self.done(name):
+        if self.done(name) and record.get("exit_status") != WRONG_USAGE:
             self._remove(self.result(name))
         return record
 

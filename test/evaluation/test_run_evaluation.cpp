@@ -1,11 +1,14 @@
 // Copyright (c) 2026, the pcl_cosection authors. SPDX-License-Identifier: BSD-3-Clause
 
+#include "common/temporary_folder.h"
 #include "moving_scene.h"
 
 #include <pcl/cosection/common/error.h>
 #include <pcl/cosection/evaluation/run_evaluation.h>
 
 #include <gtest/gtest.h>
+
+#include <filesystem>
 
 using namespace pcl::cosection;
 using namespace pcl::cosection::test;
@@ -217,4 +220,35 @@ TEST (RunEvaluation, ACameraOfOtherTimesIsAnError)
   for (StampedPose& pose : estimate.camera)
     pose.stamp += 1000.0;
   EXPECT_THROW (evaluateRun (truth, estimate), DegenerateInput);
+}
+
+TEST (RunEvaluation, ViewsAreFoundAmongTheFramesOfTheirTruth)
+{
+  const TemporaryFolder folder;
+  const auto posesFrom = [] (std::vector<int> places) {
+    std::vector<StampedPose> poses;
+    for (const int place : places)
+    {
+      poses.emplace_back ();
+      poses.back ().stamp = static_cast<double> (poses.size ()) - 1.0;
+      poses.back ().pose.translation ().x () = 0.1 * place;
+    }
+    return poses;
+  };
+  saveTrajectory (posesFrom ({0, 1, 2, 3, 4}), folder.file ("gt-cam-0.txt"));
+  saveTrajectory (posesFrom ({5, 6, 7, 8, 9}), folder.file ("gt-can-3.txt"));
+  ReadingNotes notes;
+  SceneRecord truth = readTruthOfViews (folder.file (""), posesFrom ({4, 2}), notes);
+  ASSERT_EQ (truth.camera.size (), 2u);
+  EXPECT_NEAR (truth.camera[0].pose.translation ().x (), 0.4, 1e-9);
+  ASSERT_EQ (truth.objects.size (), 1u);
+  EXPECT_NEAR (truth.objects[0].poses.at (0).pose.translation ().x (), 0.9, 1e-9);
+  EXPECT_NEAR (truth.objects[0].poses.at (1).pose.translation ().x (), 0.7, 1e-9);
+  EXPECT_THROW (readTruthOfViews (folder.file (""), posesFrom ({6}), notes), IoError); // of another sequence
+
+  std::filesystem::create_directory (folder.file ("views")); // every second frame
+  saveTrajectory (posesFrom ({0, 2, 4}), folder.file ("views/gt-cam-0.txt"));
+  saveTrajectory (posesFrom ({5, 7, 9}), folder.file ("views/gt-can-3.txt"));
+  truth = readTruthOfViews (folder.file (""), posesFrom ({2}), notes);
+  EXPECT_NEAR (truth.objects.at (0).poses.at (0).pose.translation ().x (), 0.7, 1e-9);
 }

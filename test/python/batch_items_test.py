@@ -29,13 +29,14 @@ class Items(BatchTest):
     def test_a_folder_is_taken_apart(self):
         for name in ("b.pcd", "a.PLY", "scene/view10.pcd", "scene/view2.pcd", "scene/deep/x.pcd", ".hidden.pcd",
                      "notes.txt", "old/object_1.ply", "old/summary.json", "tum/associations.txt", "tum/mesh.ply",
-                     "group/cofusion/depth/Depth0001.png", "seven/frame-000000.depth.png"):
+                     "group/cofusion/depth/Depth0001.png", "seven/frame-000000.depth.png", "scene/truth_1.ply",
+                     "truth_12_blue cup.ply", "room/traj.txt", "room/results/depth000000.png"):
             self.view(name)
         sequence, views = "pcl_cosection_fusion", "pcl_cosection"
         self.assertEqual(self.items(self.inputs), {
             "a": (views, ["a.PLY"]), "b": (views, ["b.pcd"]), "scene": (views, ["view2.pcd", "view10.pcd"]),
             "scene-deep": (views, ["x.pcd"]), "tum": (sequence, ["tum"]),
-            "group-cofusion": (sequence, ["cofusion"]), "seven": (sequence, ["seven"])})
+            "group-cofusion": (sequence, ["cofusion"]), "seven": (sequence, ["seven"]), "room": (sequence, ["room"])})
 
     def test_each_view_of_a_subfolder(self):
         self.view("scene/view1.pcd")

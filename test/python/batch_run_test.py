@@ -194,9 +194,13 @@ class Resumption(BatchTest):
         self.assertTrue((self.output / "bad").exists())
         self.assertFalse((self.output / ".batch" / "failed" / "bad").exists())
         self.assertAlmostEqual(self.summary()["b"]["relative_error"], 0.02, places=9)
+        self.view("c.pcd", error="there is no option --resolutoin", status=2)
+        self.batch(*arguments, status=1)
+        self.assertEqual((self.output / "c" / "batch.json").read_bytes(), before)  # nothing was tried
+        self.view("c.pcd")
         os.unlink(self.inputs / "a.pcd")
         self.batch(*arguments)
-        self.assertEqual(len(self.calls()), 7)
+        self.assertEqual(len(self.calls()), 10)
         self.assertEqual(set(self.summary()), {"b", "bad", "c"})
 
     def test_options_version_and_force(self):

@@ -167,6 +167,46 @@ TEST_F (PclCosection, LabelledSceneGivesAMeshPerObject)
   EXPECT_NEAR (shares, 1.0, 1e-9);
 }
 
+TEST_F (PclCosection, WhatAnEarlierRunLeftIsRemoved)
+{
+  writeTableScene (path ("scene.pcd"));
+  ToolRun first ({"--resolution", "20", "--save-bounds", "scene.pcd", "out"}, folder_.string ());
+  ASSERT_EQ (first.wait (), 0) << first.errors ();
+  EXPECT_EQ (files ("out").count ("object_2_outer.ply"), 1u);
+  for (const char* name : {"out/object_7.ply", "out/object_1_mine.ply", "out/notes.txt"})
+    write (name, "");
+  ToolRun second ({"--resolution", "20", "scene.pcd", "out"}, folder_.string ());
+  ASSERT_EQ (second.wait (), 0) << second.errors ();
+  EXPECT_EQ (files ("out"), (std::set<std::string>{"background.ply", "notes.txt", "object_1.ply", "object_1_mine.ply",
+                                                   "object_2.ply", "summary.json"}));
+}
+
+TEST_F (PclCosection, AProposalMayBeFarFromItsOrigin)
+{
+  writeTableScene (path ("scene.pcd"));
+  ToolRun first ({"--resolution", "20", "scene.pcd", "out"}, folder_.string ());
+  ASSERT_EQ (first.wait (), 0) << first.errors ();
+  const TriangleMesh ball = loadPlyMesh (path ("out/object_1.ply"));
+  const Eigen::Vector3d far (1000.0, -2000.0, 30.0);
+  saveMesh (ball, path ("far.ply"), far);
+  ToolRun second ({"--resolution", "20", "--proposal", "1=far.ply", "scene.pcd", "again"}, folder_.string ());
+  ASSERT_EQ (second.wait (), 0) << second.errors ();
+  const nlohmann::json rows = nlohmann::json::parse (
+      read ("again/summary.json"))["objects"][0]["proposal"]["T_object_proposal"];
+  const Eigen::Vector3d in_file = ball.vertices[0].cast<double> () + far;
+  Eigen::Vector3d moved;
+  for (int row = 0; row < 3; ++row)
+    moved[row] = rows[row][0].get<double> () * in_file.x () + rows[row][1].get<double> () * in_file.y () +
+                 rows[row][2].get<double> () * in_file.z () + rows[row][3].get<double> ();
+  Eigen::AlignedBox3f box;
+  for (const Eigen::Vector3f& vertex : ball.vertices)
+    box.extend (vertex);
+  EXPECT_LT (box.exteriorDistance (moved.cast<float> ().eval ()), 0.01f) << moved;
+  ToolRun without ({"--priors", "none", "--proposal", "1=far.ply", "scene.pcd", "none"}, folder_.string ());
+  EXPECT_EQ (without.wait (), 2);
+  EXPECT_NE (without.errors ().find ("--proposal has no effect"), std::string::npos) << without.errors ();
+}
+
 TEST_F (PclCosection, BallHasItsVolume)
 {
   writeTableScene (path ("scene.pcd"));

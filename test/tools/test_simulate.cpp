@@ -211,4 +211,30 @@ TEST_F (Simulate, PutsMeshesOnATable)
   EXPECT_NE (failure ({"--meshes", "things", "--preset", "table", "x"}, 2).find ("--meshes excludes"),
              std::string::npos);
   EXPECT_NE (failure ({"--meshes", "things"}, 2).find ("OUTPUT is missing"), std::string::npos);
+  EXPECT_NE (failure ({"--preset", "table", "--views", "2", "x"}, 2).find ("--views has an effect with --meshes alone"),
+             std::string::npos);
+}
+
+TEST_F (Simulate, MeshesMustBeInMetres)
+{
+  fs::create_directory (folder_.file ("things"));
+  saveMesh (makeBox ({10.0, 6.0, 20.0})->tessellate (0.1), folder_.file ("things/carton.ply")); // centimetres
+  EXPECT_NE (failure ({"--meshes", "things", "x"}, 1).find ("carton.ply: is 20 m long; the table has 1.4 m"),
+             std::string::npos);
+}
+
+TEST_F (Simulate, OccludersHideThings)
+{
+  fs::create_directory (folder_.file ("things"));
+  saveMesh (makeBox ({0.1, 0.06, 0.2})->tessellate (0.001), folder_.file ("things/carton.ply"));
+  const auto readings = [&] (const char* occluders, const char* output) {
+    ToolRun run ({"--meshes", "things", "--per-scene", "1", "--views", "1", "--occluders", occluders, output},
+                 folder_.file (""), {}, PCL_COSECTION_SIMULATE);
+    EXPECT_EQ (run.wait (), 0) << run.errors ();
+    pcl::PointCloud<pcl::PointXYZRGBL> cloud;
+    EXPECT_EQ (pcl::io::loadPCDFile (folder_.file (output + std::string ("/000/view0.pcd")), cloud), 0);
+    return std::count_if (cloud.begin (), cloud.end (), [] (const auto& p) { return p.label == 1; });
+  };
+  const auto all = readings ("0", "free");
+  EXPECT_LT (readings ("3", "hidden"), 0.9 * static_cast<double> (all));
 }

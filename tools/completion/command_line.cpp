@@ -159,6 +159,8 @@ interpret (Settings& settings)
   settings.method = methodOptions (settings);
   if (!settings.model.empty () && !settings.method.activePriors ().learned)
     throw UsageError ("--model has no effect: --priors or --preset turn the learned prior off");
+  if (!settings.proposals.empty () && !settings.method.activePriors ().proposals)
+    throw UsageError ("--proposal has no effect: --priors or --preset turn the prior proposals off");
   settings.method.compute_hull = settings.save_hull;
   settings.method.compute_bounds = settings.save_bounds;
   settings.constraints = constraintsOf (settings.method);

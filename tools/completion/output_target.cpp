@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <regex>
 
 namespace fs = std::filesystem;
 using namespace pcl::cosection;
@@ -158,7 +159,27 @@ OutputTarget::write (const SceneResult& result, const Eigen::Vector3d& origin) c
       files.push_back (objectPath (object, "vti", only));
       saveSignedDistance (*object.signed_distance, files.back (), originOf (object));
     }
+  if (!files.empty ())
+    removeFormer (files);
   return (files);
+}
+
+void
+OutputTarget::removeFormer (const std::vector<std::string>& written) const
+{
+  if (formerSummary ().empty ())
+    return;
+  static const std::regex name ("(background|object_[0-9]+(_hull|_inner|_outer)?)\\.(ply|stl|obj|vti)");
+  std::error_code failure;
+  std::vector<fs::path> former;
+  for (const auto& entry : fs::directory_iterator (settings_.output, failure))
+    if (const fs::path file = entry.path ().filename ();
+        std::regex_match (file.string (), name) && (isOwnName (file) || file.extension () == ".vti"))
+      former.push_back (entry.path ());
+  for (const fs::path& file : former)
+    if (std::none_of (written.begin (), written.end (),
+                      [&] (const fs::path& path) { return (path.filename () == file.filename ()); }))
+      fs::remove (file, failure);
 }
 
 void

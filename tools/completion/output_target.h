@@ -42,6 +42,9 @@ private:
 
   void refuseToOverwrite () const;
 
+  /** \brief Remove the meshes and grids of an earlier run in the folder, which its summary no longer tells of. */
+  void removeFormer (const std::vector<std::string>& written) const;
+
   std::string objectPath (const pcl::cosection::ObjectResult& object, const std::string& extension, bool only,
                           const std::string& suffix = "") const;
 

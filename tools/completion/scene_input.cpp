@@ -146,10 +146,7 @@ optionsOf (std::size_t view, const Settings& settings, const Labels& labels)
 TriangleMesh
 readProposal (const std::string& path)
 {
-  if (!localOrigin (path).isZero (0.0))
-    throw InvalidArgument (path + ": is so far from the origin of its frame that single precision loses its shape; "
-                                  "move it there");
-  return (loadMesh (path));
+  return (loadMesh (path, localOrigin (path)));
 }
 
 /** \brief The meshes that may be the shape of an object. */

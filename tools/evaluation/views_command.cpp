@@ -45,8 +45,9 @@ struct ViewedObject
   double f_half = 0.0;       ///< F-score at half of the threshold
   bool closed = false;
   std::optional<double> volume_ratio;
-  std::vector<VertexError> errors; ///< beside the expected ones, if the result has those
-  std::optional<double> in_outer;  ///< share of the truth inside the outer bound, if there is one
+  std::vector<VertexError> errors;   ///< beside the expected ones, if the result has those
+  std::vector<std::string> warnings; ///< about frames and units
+  std::optional<double> in_outer;    ///< share of the truth inside the outer bound, if there is one
 
   double worse_m () const { return (std::max (comparison.accuracy.mean, comparison.completeness.mean)); }
 
@@ -94,21 +95,32 @@ sortedEntries (const std::string& folder)
   return (entries);
 }
 
-/** \brief The second word of the line of names.txt that begins with \a label; else nothing. */
+/** \brief What is behind \a label in the line of names.txt that begins with it; else nothing. */
 std::string
 nameIn (const fs::path& scene, const std::string& label)
 {
   const fs::path path = scene / "names.txt";
   std::istringstream file (fs::exists (path) ? readBytes (path.string ()) : "");
-  for (std::string number, name; file >> number >> name;)
+  for (std::string number, name; file >> number && std::getline (file >> std::ws, name);)
     if (number == label)
       return (name);
   return ("");
 }
 
+/** \brief The mesh of an object, of any of the formats of pcl_cosection; the PLY if there is none. */
+std::string
+resultFile (const fs::path& scene, const std::string& label)
+{
+  for (const char* extension : {".ply", ".stl", ".obj"})
+    if (const fs::path file = scene / ("object_" + label + extension); fs::exists (file))
+      return (file.string ());
+  return ((scene / ("object_" + label + ".ply")).string ());
+}
+
 std::vector<ViewedObject>
 findObjects (const std::string& truth, const std::string& result)
 {
+  sortedEntries (result); // throws if it is no folder
   const std::string prefix = "truth_";
   std::vector<ViewedObject> objects;
   for (const fs::path& scene : sortedEntries (truth))
@@ -126,12 +138,16 @@ findObjects (const std::string& truth, const std::string& result)
       object.label = stem.substr (prefix.size (), end == stem.npos ? stem.npos : end - prefix.size ());
       object.name = end == stem.npos ? nameIn (scene, object.label) : stem.substr (end + 1);
       object.truth = file.string ();
-      object.result = (fs::path (result) / object.scene / ("object_" + object.label + ".ply")).string ();
+      object.result = resultFile (fs::path (result) / object.scene, object.label);
       objects.push_back (object);
     }
   }
   if (objects.empty ())
     throw IoError (truth + ": has no SCENE/truth_LABEL.ply");
+  if (std::none_of (objects.begin (), objects.end (),
+                    [] (const ViewedObject& object) { return (fs::exists (object.result)); }))
+    throw IoError (result + ": has none of the " + counted (objects.size (), "object") + " of " + truth +
+                   "; the first would be " + objects.front ().result);
   return (objects);
 }
 
@@ -139,8 +155,9 @@ findObjects (const std::string& truth, const std::string& result)
 void
 checkCertainty (const ViewsSettings& settings, const TriangleMesh& truth, ViewedObject& object)
 {
-  object.errors = vertexErrors (SurfaceDistance (truth), loadPlyMesh (object.result), settings.threads);
   const fs::path result = object.result;
+  if (result.extension () == ".ply")
+    object.errors = vertexErrors (SurfaceDistance (truth), loadPlyMesh (object.result), settings.threads);
   const fs::path outer = result.parent_path () / (result.stem ().string () + "_outer.ply");
   if (fs::exists (outer))
     object.in_outer = shareInside (truth, loadPlyMesh (outer.string ()), bound_tolerance_m, settings.samples,
@@ -159,6 +176,7 @@ compareObject (const ViewsSettings& settings, ViewedObject& object)
   object.f_half = compareMeshes (truth, mesh, options).f_score;
   object.comparison = compareMeshes (truth, mesh, settings.comparison (settings.threads));
   const MeshSummary expected = summarizeMesh (truth), found = summarizeMesh (mesh);
+  object.warnings = frameWarnings (expected, found);
   object.closed = found.topology.closed_manifold;
   if (expected.volume_m3 && found.volume_m3 && *expected.volume_m3 > 0.0)
     object.volume_ratio = *found.volume_m3 / *expected.volume_m3;
@@ -324,6 +342,19 @@ drawWorst (const ViewsSettings& settings, const std::vector<ViewedObject>& objec
   terminal.result ("wrote " + counted (order.size (), "picture") + " into " + settings.pictures);
 }
 
+/** \brief Warn of objects whose unit or frame is not that of their truth, with the first of them. */
+void
+warnOfFrames (const std::vector<ViewedObject>& objects, Terminal& terminal)
+{
+  const auto isOdd = [] (const ViewedObject& object) { return (!object.warnings.empty ()); };
+  const auto first = std::find_if (objects.begin (), objects.end (), isOdd);
+  if (first == objects.end ())
+    return;
+  const auto others = std::count_if (first + 1, objects.end (), isOdd);
+  terminal.warning (first->result + ": " + first->warnings.front () +
+                    (others > 0 ? " (and " + counted (static_cast<std::size_t> (others), "object") + " more)" : ""));
+}
+
 bool
 compare (const ViewsSettings& settings, Terminal& terminal)
 {
@@ -342,6 +373,7 @@ compare (const ViewsSettings& settings, Terminal& terminal)
       all_read = false;
     }
   }
+  warnOfFrames (objects, terminal);
   const Summary summary (objects, settings.gross_m);
   print (settings, objects, summary, terminal);
   if (!settings.json.empty ())

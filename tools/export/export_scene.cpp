@@ -6,6 +6,7 @@
 #include "output_files.h"
 #include "staged_files.h"
 
+#include "pcl_cosection/io/place_text.h"
 #include "pcl_cosection/physics/formats/body_samples.h"
 #include "pcl_cosection/physics/formats/mesh_files.h"
 #include "pcl_cosection/physics/formats/scene_writers.h"
@@ -88,6 +89,23 @@ writeFiles (const PhysicalScene& scene, const CompletedScene& completed, const s
   }
 }
 
+/** \brief Models of an earlier export that name files of meshes. \param[in] written now */
+std::vector<std::string>
+formerModels (const std::string& output, const std::vector<std::string>& written)
+{
+  std::vector<std::string> former;
+  std::error_code failure;
+  for (const auto& entry : fs::directory_iterator (output, failure))
+  {
+    const std::string path = entry.path ().string (), extension = entry.path ().extension ().string ();
+    if ((extension == ".urdf" || extension == ".sdf" || extension == ".xml") &&
+        std::find (written.begin (), written.end (), path) == written.end ())
+      former.push_back (path);
+  }
+  std::sort (former.begin (), former.end ());
+  return (former);
+}
+
 /** \brief buildPhysicalScene (), whose errors name the folder. */
 PhysicalScene
 build (const CompletedScene& scene, const PhysicsOptions& options, const std::string& result)
@@ -138,6 +156,9 @@ exportScene (const std::string& result, const std::string& output, const ExportS
   ExportReport report;
   report.scene = build (completed.scene, settings.physics, result);
   report.scene.T_result_scene.pretranslate (completed.origin);
+  if (!completed.origin.isZero (0.0))
+    completed.warnings.push_back (result + ": is far from its origin; the scene is relative to " +
+                                  placeText (completed.origin) + ", as T_result_scene in scene.json has it");
   report.scene.warnings.insert (report.scene.warnings.begin (), completed.warnings.begin (), completed.warnings.end ());
   stopIfAsked ();
   std::error_code unknown;
@@ -158,6 +179,12 @@ exportScene (const std::string& result, const std::string& output, const ExportS
   if (std::any_of (report.files.begin (), report.files.end (), [] (const std::string& file) {
         return (fs::path (file).parent_path ().filename () == mesh_folder);
       }))
+  {
     removeFormerParts (report.scene, output);
+    if (const std::vector<std::string> former = formerModels (output, report.files); !former.empty ())
+      report.scene.warnings.push_back (
+          former.front () + (former.size () > 1 ? " and " + std::to_string (former.size () - 1) + " more" : "") +
+          ": of an earlier export; the meshes that they name are of this one now. Give all formats in one run");
+  }
   return (report);
 }

@@ -70,7 +70,7 @@ compareWithTruth (const RunScene& run, const std::string& dataset, int threads)
 {
   RunTruth result;
   ReadingNotes notes;
-  result.truth = readTruth (dataset, notes);
+  result.truth = run.of_views ? readTruthOfViews (dataset, run.run.camera, notes) : readTruth (dataset, notes);
   RunOptions options;
   options.threads = threads;
   options.comparison.threads = threads;

@@ -46,7 +46,22 @@ void
 interpretMeshes (SimulateSettings& settings)
 {
   if (settings.meshes.empty ())
+  {
+    const TableSceneOptions usual, &table = settings.table;
+    const std::vector<std::pair<bool, const char*>> without_effect = {
+        {table.scenes != usual.scenes, "--scenes"},
+        {table.per_scene != usual.per_scene, "--per-scene"},
+        {table.views != usual.views, "--views"},
+        {table.camera_height_m != usual.camera_height_m, "--camera-height"},
+        {table.camera_distance_m != usual.camera_distance_m, "--camera-distance"},
+        {table.mask_dilation_px != usual.mask_dilation_px, "--mask-dilation"},
+        {table.mask_shift_px != usual.mask_shift_px, "--mask-shift"},
+        {table.occluders != usual.occluders, "--occluders"}};
+    for (const auto& [is_given, option] : without_effect)
+      if (is_given)
+        throw UsageError (std::string (option) + " has an effect with --meshes alone");
     return;
+  }
   if (!settings.preset.empty () || !settings.frames.empty () || settings.views_every)
     throw UsageError ("--meshes excludes --preset, --frames and --views-every");
   settings.table.noise = !settings.no_noise;

@@ -123,7 +123,8 @@ loadScene (const ViewerSettings& settings, Terminal& terminal)
   RunScene scene = loadRunScene (settings.run, notes, options);
   if (!settings.truth.empty ())
   {
-    const SceneRecord truth = readTruth (settings.truth, notes);
+    const SceneRecord truth = scene.of_views ? readTruthOfViews (settings.truth, scene.run.camera, notes)
+                                             : readTruth (settings.truth, notes);
     const std::vector<std::string> warnings = measureErrors (scene, truth, settings.threads);
     notes.warnings.insert (notes.warnings.end (), warnings.begin (), warnings.end ());
   }

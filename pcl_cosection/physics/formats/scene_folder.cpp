@@ -60,6 +60,13 @@ SceneFolder::write (const std::string& name, const SignedDistanceField& field)
   paths_.push_back (path);
 }
 
+bool
+SceneFolder::has (const std::string& name) const
+{
+  std::error_code ignored;
+  return std::filesystem::exists (std::filesystem::path (folder_) / name, ignored);
+}
+
 std::vector<std::string>
 SceneFolder::finish ()
 {

@@ -29,6 +29,9 @@ public:
   /** \brief Write a signed distance, as VTK image data. \throws IoError */
   void write (const std::string& name, const SignedDistanceField& field);
 
+  /** \brief Whether a file is there, from now or before. */
+  bool has (const std::string& name) const;
+
   /** \brief Keep the files. \return their paths, in the order in which they were written */
   std::vector<std::string> finish ();
 

@@ -15,12 +15,19 @@ poseJson (const Eigen::Isometry3d& pose)
   return {{"position", toJson (pose.translation ())}, {"quaternion_xyzw", toJson (rotationOf (pose).coeffs ())}};
 }
 
+/** \brief The URDF file of a body or plane; null if that format was not asked for. */
 Json
-bodyJson (const PhysicalBody& body, const PhysicalScene& scene)
+urdfOf (const std::string& name, const SceneFolder& folder)
+{
+  return folder.has (name + ".urdf") ? Json (name + ".urdf") : Json ();
+}
+
+Json
+bodyJson (const PhysicalBody& body, const PhysicalScene& scene, const SceneFolder& folder)
 {
   Json json = {{"name", body.name},
                {"id", body.id},
-               {"urdf", body.name + ".urdf"},
+               {"urdf", urdfOf (body.name, folder)},
                {"T_scene_body", poseJson (body.T_scene_body)},
                {"static", body.isStatic ()},
                {"mass_kg", body.mass_kg},
@@ -70,10 +77,10 @@ addSceneJson (const PhysicalScene& scene, SceneFolder& folder)
                {"contact_tolerance_m", scene.contact_tolerance_m},
                {"warnings", scene.warnings}};
   for (const PhysicalBody& body : scene.bodies)
-    json["bodies"].push_back (bodyJson (body, scene));
+    json["bodies"].push_back (bodyJson (body, scene, folder));
   for (const PhysicalPlane& plane : scene.planes)
     json["planes"].push_back ({{"name", plane.name},
-                               {"urdf", plane.name + ".urdf"},
+                               {"urdf", urdfOf (plane.name, folder)},
                                {"T_scene_plane", poseJson (plane.T_scene_plane)},
                                {"size_m", toJson (boxSize (plane))},
                                {"endless", plane.endless}});

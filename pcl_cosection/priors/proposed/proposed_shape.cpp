@@ -115,6 +115,7 @@ keepIfAsGood (const SignedDistanceField& without, const Observation& object, con
   const std::vector<Eigen::Vector4d> resting = restingOn (object, planes);
   const MeshFit of_other = fitInPlace (other, measuredObject (object, setting, resting));
   shape.is_used = shape.alignment.explained >= as_well * of_other.explained;
+  shape.is_withdrawn = !shape.is_used;
   return shape.is_used;
 }
 

@@ -17,8 +17,9 @@ struct ProposedShape
 {
   std::size_t number = 0; ///< in the order of the proposals
   MeshAlignment alignment;
-  bool is_used = false; ///< it explains the points, and what was seen confirms it
-  TriangleMesh mesh;    ///< aligned, object frame
+  bool is_used = false;      ///< it explains the points, and what was seen confirms it
+  TriangleMesh mesh;         ///< aligned, object frame
+  bool is_withdrawn = false; ///< the shape without it explains them better
 };
 
 /** \brief What the network of the learned prior completes, and how well that fits. */

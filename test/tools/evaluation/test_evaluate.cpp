@@ -299,13 +299,28 @@ TEST_F (Evaluate, EvaluatesARun)
   expectOneLine ("is a dataset, not what a run wrote");
 }
 
+TEST_F (Evaluate, ManyScenesMustHaveResultsInMetres)
+{
+  for (const char* folder : {"truth/a", "result/a", "none"})
+    std::filesystem::create_directories (folder_.file (folder));
+  save ("truth/a/truth_1.ply", sphereMesh (0.1, 24));
+  EXPECT_EQ (run ({"views", "truth", "nowhere"}), 1);
+  expectOneLine ("nowhere: cannot be read");
+  EXPECT_EQ (run ({"views", "truth", "none"}), 1);
+  expectOneLine ("none: has none of the 1 object of truth; the first would be none/a/object_1.ply");
+  save ("result/a/object_1.stl", sphereMesh (100.0, 24)); // millimetres
+  EXPECT_EQ (run ({"views", "truth", "result"}), 0);
+  EXPECT_NE (errors_.find ("result/a/object_1.stl: the reconstruction is 1e+03 times as large"), std::string::npos)
+      << errors_;
+}
+
 TEST_F (Evaluate, ComparesTheObjectsOfManyScenes)
 {
   for (const char* folder : {"truth/a", "truth/b", "result/a", "result/b"})
     std::filesystem::create_directories (folder_.file (folder));
   save ("truth/a/truth_1.ply", sphereMesh (0.1, 24));
   save ("truth/a/truth_2.ply", sphereMesh (0.05, 24));
-  writeFile (folder_.file ("truth/a/names.txt"), "1 ball\n2 marble\n");
+  writeFile (folder_.file ("truth/a/names.txt"), "1 blue ball\n2 marble\n");
   save ("truth/b/truth_7_melon.ply", sphereMesh (0.12, 24));
   save ("result/a/object_1.ply", sphereMesh (0.102, 24)); // 2 mm too large
   save ("result/b/object_7.ply", sphereMesh (0.14, 24));  // 20 mm too large; the marble is missing
@@ -315,7 +330,8 @@ TEST_F (Evaluate, ComparesTheObjectsOfManyScenes)
       << errors_;
   const nlohmann::json all = json ("v.json");
   ASSERT_EQ (all["objects"].size (), 3u);
-  EXPECT_EQ (all["objects"][0]["name"], "ball");
+  EXPECT_EQ (all["objects"][0]["name"], "blue ball");
+  EXPECT_EQ (all["objects"][1]["name"], "marble");
   EXPECT_NEAR (all["objects"][0]["accuracy_m"], 0.002, 2e-4);
   EXPECT_EQ (all["objects"][0]["f_score_half"], 1.0);
   EXPECT_NEAR (all["objects"][0]["volume_ratio"], std::pow (1.02, 3.0), 1e-3);

@@ -330,6 +330,15 @@ TEST_F (Export, WhatAnEarlierExportHadMoreOfIsRemoved)
   EXPECT_FALSE (fs::exists (folder_.file ("out/meshes/box_1_part_1.obj")));
 }
 
+TEST_F (Export, ModelsOfAnEarlierExportAreWarnedOf)
+{
+  ASSERT_EQ (run ({"--format", "urdf", "result", "out"}), 0) << errors_;
+  EXPECT_EQ (scene ()["bodies"][0]["urdf"], "box_1.urdf");
+  ASSERT_EQ (run ({"--format", "mjcf", "--collision", "hull", "result", "out"}), 0) << errors_;
+  EXPECT_NE (errors_.find ("out/box_1.urdf and 1 more: of an earlier export"), std::string::npos) << errors_;
+  EXPECT_EQ (scene ()["bodies"][0]["urdf"], nullptr);
+}
+
 TEST_F (Export, AnInterruptionLeavesWhatWasThere)
 {
   ASSERT_EQ (run ({"--format", "mjcf", "result", "out"}), 0) << errors_;

@@ -165,4 +165,11 @@ PCL_COSECTION_EXPORT SceneRecord readRun (const std::string& folder, ReadingNote
  * \throws IoError if there is no such folder, or the camera cannot be read */
 PCL_COSECTION_EXPORT SceneRecord readTruth (const std::string& folder, ReadingNotes& notes);
 
+/** \brief Read the truth of a dataset for what was completed from views of it: stamps are those of the views, which are
+ * found among the frames, or among those of the dataset's folder views, by the poses of the camera.
+ * \param[in] completed camera poses of the views, as they were given with them
+ * \throws IoError as readTruth (), and if a view is not there */
+PCL_COSECTION_EXPORT SceneRecord readTruthOfViews (const std::string& folder, const std::vector<StampedPose>& completed,
+                                                   ReadingNotes& notes);
+
 } // namespace pcl::cosection

@@ -38,6 +38,7 @@ struct PCL_COSECTION_EXPORT ProposalFit
 {
   std::size_t proposal = 0; ///< its place in ObjectInput::proposals
   bool used = false;        ///< whether it explains the measurements well enough to be expected
+  bool withdrawn = false;   ///< it does, but the shape without it explains them better
   Eigen::Affine3d T_object_proposal = Eigen::Affine3d::Identity (); ///< a rotation, one scale, a translation
   double scale = 1.0;                                               ///< of T_object_proposal
   double distance_m = 0.0;                                          ///< median distance of the points from it
