@@ -57,7 +57,7 @@ stampOf (double number)
 {
   if (std::abs (number) < 1e15) // whole numbers are exact
     return number;
-  if (number < 1e16)
+  if (number > 0.0 && number < 1e16)
     return 1e-6 * number;
   if (number >= 1e18 && number < 1e19)
     return 1e-9 * number;

@@ -63,6 +63,7 @@ TEST_F (Trajectory, NamesTheLineThatIsWrong)
   EXPECT_NE (failure ("0 0 x 0 0 0 0 1\n").find ("line 1"), std::string::npos);
   EXPECT_NE (failure ("0 0 0 0 0 0 0 1\n1 0 0 0\n").find ("line 2: has 4 numbers; a pose is 'stamp tx"),
              std::string::npos);
+  EXPECT_NE (failure ("-1e18 0 0 0 0 0 0 1\n").find ("line 1: has a stamp that is no time"), std::string::npos);
   EXPECT_NE (failure ("inf 0 0 0 0 0 0 1\n").find ("line 1: has a stamp that is no time"), std::string::npos);
   EXPECT_NE (failure ("0 nan 0 0 0 0 0 1\n").find ("no poses that are finite"), std::string::npos);
   EXPECT_NE (failure ("# nothing\n").find ("no poses"), std::string::npos);
