@@ -167,7 +167,9 @@ PCL_COSECTION_EXPORT SceneRecord readTruth (const std::string& folder, ReadingNo
 
 /** \brief Read the truth of a dataset for what was completed from views of it: stamps are those of the views, which are
  * found among the frames, or among those of the dataset's folder views, by the poses of the camera.
+ * \param[in] folder path
  * \param[in] completed camera poses of the views, as they were given with them
+ * \param[out] notes what is missing or cannot be read, beside the camera
  * \throws IoError as readTruth (), and if a view is not there */
 PCL_COSECTION_EXPORT SceneRecord readTruthOfViews (const std::string& folder, const std::vector<StampedPose>& completed,
                                                    ReadingNotes& notes);

@@ -244,7 +244,7 @@ private:
 /** \brief A file of masks. */
 struct MaskFile
 {
-  std::string path;
+  std::string path;           ///< of a PNG
   std::uint16_t instance = 0; ///< 0: the pixels tell
 };
 

@@ -23,6 +23,7 @@ struct StampedPose
  * * as KITTI has it, the 12 or 16 numbers of a 3 x 4 or 4 x 4 matrix, row by row, a line for each frame
  *
  * Empty lines and lines that begin with # are skipped, and poses that are not finite, as where tracking was lost.
+ * \param[in] path of the file
  * \param[in] frames stamps of the frames, ascending, for poses without one; empty: the n-th pose has stamp n, from 0
  * \return by ascending stamps
  * \throws IoError if the file cannot be read, has no pose, a line that cannot be read, a stamp twice, or poses without
