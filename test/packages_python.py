@@ -32,6 +32,7 @@ def main():
     volume = result.objects[1].volume
     truth = 4 / 3 * math.pi * RADIUS_M**3
     print(f"{pcl_cosection.__file__}: a ball of {1000 * volume:.2f} litres instead of {1000 * truth:.2f}")
+    print(f"network: {result.summary['parameters']['model'] or 'none'}")
     return 0 if 0.7 < volume / truth < 1.3 else 1
 
 

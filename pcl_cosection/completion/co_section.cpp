@@ -3,11 +3,13 @@
 
 #include "complete_scene.h"
 #include "pcl_cosection/volume/mesh_distance/mesh_surface.h"
+#include "pcl_cosection/volume/rigid_motion.h"
 
 #include <pcl/cosection/common/error.h>
 #include <pcl/cosection/volume/mesh_distance.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <string>
 
@@ -24,8 +26,18 @@ namespace {
 void
 checkPoses (const std::vector<Eigen::Isometry3d>& poses)
 {
-  if (!std::all_of (poses.begin (), poses.end (), [] (const Eigen::Isometry3d& T) { return T.matrix ().allFinite (); }))
-    throw InvalidArgument ("the pose of a body is not finite");
+  if (!std::all_of (poses.begin (), poses.end (), isRigidMotion))
+    throw InvalidArgument ("the pose of a body is not a finite rigid motion");
+}
+
+/** \brief Normals are directions: of whatever length. */
+void
+normalise (std::vector<OrientedPoint>& points, std::size_t first)
+{
+  constexpr float rounding = 1e-3f; // what is a unit vector but for it stays as it is
+  for (std::size_t n = first; n < points.size (); ++n)
+    if (const float length = points[n].normal.stableNorm (); length > 0.0f && std::abs (length - 1.0f) > rounding)
+      points[n].normal /= length;
 }
 
 Eigen::Isometry3d
@@ -58,6 +70,9 @@ int
 CoSection::addView (DepthView view, const std::map<int, Eigen::Isometry3d>& T_world_object, ViewUse use)
 {
   view.validate ();
+  for (const auto& [id, T] : T_world_object)
+    if (T.matrix ().allFinite () && !isRigidMotion (T)) // one that is not finite is not known
+      throw InvalidArgument ("the pose of object " + std::to_string (id) + " is not a rigid motion");
   const std::size_t before = impl_->scene.views.size ();
   for (const auto& [id, T] : T_world_object)
   {
@@ -136,6 +151,7 @@ void
 CoSection::setBackground (std::vector<OrientedPoint> points)
 {
   impl_->scene.background = std::move (points);
+  normalise (impl_->scene.background, 0);
   impl_->scene.batches[0] = {{-1, impl_->scene.background.size ()}};
   impl_->state.background = {};
   impl_->state.blocks = {};
@@ -144,7 +160,9 @@ CoSection::setBackground (std::vector<OrientedPoint> points)
 void
 CoSection::addBackground (const std::vector<OrientedPoint>& points)
 {
-  impl_->scene.background.insert (impl_->scene.background.end (), points.begin (), points.end ());
+  std::vector<OrientedPoint>& background = impl_->scene.background;
+  background.insert (background.end (), points.begin (), points.end ());
+  normalise (background, background.size () - points.size ());
   impl_->scene.countBatch (0, points.size ());
 }
 
@@ -157,6 +175,7 @@ CoSection::addObject (ObjectInput object)
     throw InvalidArgument ("object " + std::to_string (object.id) + " was added twice");
   for (const TriangleMesh& proposal : object.proposals)
     requireSurface (proposal, "proposal");
+  normalise (object.points, 0);
   impl_->scene.batches[object.id] = {{-1, object.points.size ()}};
   impl_->scene.objects.push_back (std::move (object));
 }
@@ -176,6 +195,7 @@ CoSection::addPoints (int id, const std::vector<OrientedPoint>& points)
     object = impl_->scene.find (id);
   }
   object->points.insert (object->points.end (), points.begin (), points.end ());
+  normalise (object->points, object->points.size () - points.size ());
   impl_->scene.countBatch (id, points.size ());
 }
 

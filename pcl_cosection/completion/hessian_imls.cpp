@@ -148,7 +148,10 @@ HessianIMLSBase::complete (std::vector<OrientedPoint> points)
     for (const Eigen::Vector4d& plane : planes_)
       scene.addSupportPlane (plane);
     scene.addObject ({1, std::move (points), {}, proposals_});
-    ObjectResult result = std::move (scene.reconstruct (progress_).objects.front ());
+    SceneResult all = scene.reconstruct (progress_);
+    for (const std::string& warning : all.warnings)
+      PCL_WARN ("[pcl::cosection::HessianIMLS::reconstruct] %s\n", warning.c_str ());
+    ObjectResult result = std::move (all.objects.front ());
     if (!result.error.empty ())
       throw Error (result.error);
     result_ = std::move (result);

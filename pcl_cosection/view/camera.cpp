@@ -2,6 +2,7 @@
 #include <pcl/cosection/common/camera.h>
 
 #include "camera_resection.h"
+#include "pcl_cosection/volume/rigid_motion.h"
 #include "range_image.h"
 
 #include <pcl/cosection/common/error.h>
@@ -66,8 +67,8 @@ DepthView::validate () const
   if (depth.size () != static_cast<std::size_t> (camera.width) * camera.height)
     throw InvalidArgument ("the depth of a view has " + std::to_string (depth.size ()) + " values; its camera has " +
                            std::to_string (camera.width) + " x " + std::to_string (camera.height) + " pixels");
-  if (!T_world_sensor.matrix ().allFinite ())
-    throw InvalidArgument ("the pose of a view must be finite");
+  if (!isRigidMotion (T_world_sensor))
+    throw InvalidArgument ("the pose of a view must be a finite rigid motion");
   if (!(working_range_m > 0.0 && std::isfinite (working_range_m)))
     throw InvalidArgument ("the working range of a view must be positive and finite");
 }

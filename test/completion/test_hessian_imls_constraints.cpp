@@ -170,6 +170,12 @@ TEST (HessianImlsConstraints, SettersRefuseNonsense)
   EXPECT_FALSE (imls.setResolution (-1));
   EXPECT_FALSE (imls.addObstacle (nullptr));
   EXPECT_FALSE (imls.addView (DepthView ()));
+  DepthView scaled;
+  scaled.camera = {2, 2, 1.0, 1.0, 0.5, 0.5};
+  scaled.depth.assign (4, 1.0f);
+  EXPECT_TRUE (imls.addView (scaled));
+  scaled.T_world_sensor.linear () *= 2.0;
+  EXPECT_FALSE (imls.addView (scaled));
   EXPECT_FALSE (imls.addSupportPlane (pcl::ModelCoefficients ()));
   EXPECT_FALSE (imls.addSupportPlane (planeAt (1.0f, 0.0f)));
   EXPECT_FALSE (imls.addSupportPlane (planeAt (not_a_number, 1.0f)));

@@ -1,6 +1,6 @@
 # Installs the build in BUILD_DIR below WORK_DIR, builds the project in this folder against what was
 # installed, and runs it; installs it in part, and asks which components are found. Started by CTest with -D for each of
-#   SOURCE_DIR  BUILD_DIR  WORK_DIR  GENERATOR  CXX_COMPILER  CXX_LAUNCHER  BUILD_TYPE  VERSION  TOOL  VIEWER
+#   SOURCE_DIR  BUILD_DIR  WORK_DIR  GENERATOR  CXX_COMPILER  CXX_LAUNCHER  BUILD_TYPE  VERSION  TOOL  PYTHON  VIEWER
 
 # Fails with what the command said unless it succeeds.
 function(run)
@@ -50,6 +50,16 @@ if(TOOL)
       message(FATAL_ERROR "the installed program ${TOOL}${suffix} says '${run_output}', not ${VERSION}")
     endif()
   endforeach()
+endif()
+
+# The installed module finds the installed network.
+file(GLOB module "${WORK_DIR}/prefix/lib/python3/dist-packages/pcl_cosection/__init__.py")
+if(PYTHON AND module)
+  run("${CMAKE_COMMAND}" -E env "PYTHONPATH=${WORK_DIR}/prefix/lib/python3/dist-packages"
+    "${PYTHON}" "${CMAKE_CURRENT_LIST_DIR}/../packages_python.py")
+  if(NOT run_output MATCHES "network: ${WORK_DIR}/prefix/share/pcl_cosection/completion.onnx")
+    message(FATAL_ERROR "the installed Python module does without the network:\n${run_output}")
+  endif()
 endif()
 
 # --- Components ------------------------------------------------------------------------------------------------------

@@ -23,7 +23,9 @@ namespace pcl::cosection {
 namespace {
 
 constexpr int edge = CompletionNetwork::size;
-constexpr int most_levels = 4; // from the library or program up to the folder in which it was installed
+// From the library or program up to the folder in which it was installed: from the Python module it is
+// lib/python3/dist-packages/pcl_cosection.
+constexpr int most_levels = 5;
 
 cv::Mat
 toMat (const std::vector<float>& observed)

@@ -160,3 +160,32 @@ TEST (Proposals, WhatReachesIntoANeighbourKeepsClearOfIt)
     EXPECT_LE (result.penetration_m, 0.004) << result.id;
   EXPECT_LT (meanError (results[0].mesh, figure ()), 0.0025);
 }
+
+TEST (CoSectionInput, NormalsAreOfAnyLength)
+{
+  const RenderedView seen = seenFromTheFront (figure ());
+  const auto completed = [&] (float factor) {
+    CoSection task (optionsFor (0.004));
+    task.addView (seen.view);
+    std::vector<OrientedPoint> background = seen.points.at (0), points = seen.points.at (1);
+    for (std::vector<OrientedPoint>* all : {&background, &points})
+      for (OrientedPoint& point : *all)
+        point.normal *= factor;
+    task.setBackground (background);
+    task.addObject ({1, points, {}});
+    return task.reconstruct ().objects.at (0).mesh;
+  };
+  const double error_m = meanError (completed (1.0f), figure ());
+  for (const float factor : {0.001f, 7.0f})
+    EXPECT_NEAR (meanError (completed (factor), figure ()), error_m, 1e-5) << factor;
+}
+
+TEST (CoSectionInput, PosesAreRigid)
+{
+  const RenderedView seen = seenFromTheFront (figure ());
+  Eigen::Isometry3d scaled = Eigen::Isometry3d::Identity ();
+  scaled.linear () *= 2.0;
+  CoSection task (optionsFor (0.004));
+  EXPECT_THROW (task.addView (seen.view, {{1, scaled}}), InvalidArgument);
+  EXPECT_THROW (task.addObstacle (meshOf (figure ()), {scaled}), InvalidArgument);
+}

@@ -53,7 +53,7 @@ struct PCL_COSECTION_EXPORT DepthView
   float at (int u, int v) const { return depth[static_cast<std::size_t> (v) * camera.width + u]; }
 
   /** \brief Check all values. \throws InvalidArgument if the camera is not valid, there is not one depth per pixel,
-   * the pose is not finite, or the working range is not positive and finite. */
+   * the pose is not a finite rigid motion, or the working range is not positive and finite. */
   void validate () const;
 };
 
