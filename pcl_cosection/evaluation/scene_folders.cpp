@@ -86,9 +86,9 @@ void
 requireTruth (const std::string& folder)
 {
   requireFolder (folder, "a dataset with truth: gt-cam-0.txt, gt-NAME-ID.txt and gt-mesh/NAME.ply");
-  if (!fs::exists (inFolder (folder, "gt-cam-0.txt")))
-    throw IoError (folder + ": has no gt-cam-0.txt, the poses of the camera; scenes with truth_LABEL.ply are for " +
-                   "pcl_cosection_evaluate views");
+  if (const std::string camera = inFolder (folder, "gt-cam-0.txt"); !fs::exists (camera))
+    throw IoError (camera +
+                   ": there is no such file; scenes with truth_LABEL.ply are for pcl_cosection_evaluate views");
 }
 
 /** \brief \param[in] poses folder of the trajectories */
