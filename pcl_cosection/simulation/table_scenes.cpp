@@ -5,6 +5,7 @@
 #include "pcl_cosection/common/require.h"
 #include "pcl_cosection/io/lower_case.h"
 #include "pcl_cosection/rendering/picture.h"
+#include "pcl_cosection/sequence/numbered_files.h"
 #include "pcl_cosection/view/look_at.h"
 #include "pcl_cosection/view/organized_cloud.h"
 #include "random_numbers.h"
@@ -286,9 +287,7 @@ writeTableScenes (const std::string& folder, const std::string& output, const Ta
       open.push_back (file.string ());
   }
   if (!open.empty ())
-    warnings.push_back (open.front () +
-                        (open.size () > 1 ? " and " + std::to_string (open.size () - 1) + " more" : "") +
-                        ": not closed; evaluations have no volume of such a truth");
+    warnings.push_back (firstAndMore (open) + ": not closed; evaluations have no volume of such a truth");
 
   const int per_scene = options.per_scene;
   const int scenes = options.scenes > 0 ? options.scenes
