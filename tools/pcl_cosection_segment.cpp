@@ -36,6 +36,7 @@ struct FoundObjects
   std::vector<std::uint32_t> labels; ///< one per point
   std::vector<Object> objects;       ///< label n is at n - 1
   std::vector<Eigen::Vector4f> support_planes;
+  std::vector<std::string> warnings; ///< without the name of the file
 };
 
 FoundObjects
@@ -45,8 +46,9 @@ findByGeometry (const SegmentSettings& settings, OrganizedCloud cloud, const Ima
     if (ignored.pixels[i] != 0)
       cloud.points[i].setConstant (std::numeric_limits<float>::quiet_NaN ());
   ObjectSegmentation found = segmentCloud (cloud, settings.segmentation);
-  return {std::move (found.labels), std::vector<FoundObjects::Object> (found.objects),
-          std::move (found.support_planes)};
+  std::vector<std::string> warnings = warningsOf (found, settings.segmentation);
+  return {std::move (found.labels), std::vector<FoundObjects::Object> (found.objects), std::move (found.support_planes),
+          std::move (warnings)};
 }
 
 FoundObjects
@@ -96,14 +98,13 @@ findObjects (const SegmentSettings& settings, const OrganizedCloud& cloud, Insta
 }
 
 std::vector<std::string>
-warningsOf (const SegmentSettings& settings, const OrganizedCloud& cloud)
+warningsOf (const OrganizedCloud& cloud)
 {
   std::vector<std::string> warnings;
   if (cloud.moved)
-    warnings.push_back (settings.input +
-                        ": its points are not in the frame of their sensor, which was found by their order");
+    warnings.emplace_back ("its points are not in the frame of their sensor, which was found by their order");
   if (const std::string hint = hintOfUnit (cloud.points); !hint.empty ())
-    warnings.push_back (settings.input + ": " + hint);
+    warnings.push_back (hint);
   return warnings;
 }
 
@@ -178,9 +179,13 @@ run (const SegmentSettings& given, Terminal& terminal)
   const bool needs_image = settings.network || !settings.ignored.empty ();
   const OrganizedCloud cloud = readOrganizedCloud (settings.input, reading, !needs_image);
   const double read_s = total.getTimeSeconds ();
-  const std::vector<std::string> warnings = warningsOf (settings, cloud);
-  for (const std::string& warning : warnings)
-    terminal.warning (warning);
+  std::vector<std::string> warnings;
+  const auto warn = [&] (const std::string& warning) {
+    terminal.warning (settings.input + ": " + warning);
+    warnings.push_back (settings.input + ": " + warning);
+  };
+  for (const std::string& warning : warningsOf (cloud))
+    warn (warning);
 
   std::optional<InstanceDetector> detector;
   if (settings.network)
@@ -188,8 +193,8 @@ run (const SegmentSettings& given, Terminal& terminal)
   const pcl::StopWatch segmentation;
   const FoundObjects found = findObjects (settings, cloud, detector ? &*detector : nullptr);
   const double segmentation_s = segmentation.getTimeSeconds ();
-  if (!detector && found.support_planes.empty ())
-    terminal.warning (settings.input + ": shows no plane on which objects stand; each group of points is taken as one");
+  for (const std::string& warning : found.warnings)
+    warn (warning);
   copyWithLabels (settings.input, found.labels, settings.output);
 
   for (std::size_t n = 0; n < found.objects.size (); ++n)

@@ -2,6 +2,7 @@
 #include <pcl/cosection/surface/co_section.h>
 
 #include "complete_scene.h"
+#include "pcl_cosection/common/require.h"
 #include "pcl_cosection/volume/mesh_distance/mesh_surface.h"
 #include "pcl_cosection/volume/rigid_motion.h"
 
@@ -12,6 +13,7 @@
 #include <cmath>
 #include <limits>
 #include <string>
+#include <utility>
 
 namespace pcl::cosection {
 
@@ -26,18 +28,24 @@ namespace {
 void
 checkPoses (const std::vector<Eigen::Isometry3d>& poses)
 {
-  if (!std::all_of (poses.begin (), poses.end (), isRigidMotion))
-    throw InvalidArgument ("the pose of a body is not a finite rigid motion");
+  require (!poses.empty (), "a body needs a pose");
+  require (std::all_of (poses.begin (), poses.end (), isRigidMotion),
+           "the pose of a body is not a finite rigid motion");
 }
 
-/** \brief Normals are directions: of whatever length. */
-void
-normalise (std::vector<OrientedPoint>& points, std::size_t first)
+/** \brief The points with unit normals, as normals are directions, of whatever length. \throws InvalidArgument if a
+ * weight is no likelihood */
+std::vector<OrientedPoint>
+checkedPoints (std::vector<OrientedPoint> points)
 {
   constexpr float rounding = 1e-3f; // what is a unit vector but for it stays as it is
-  for (std::size_t n = first; n < points.size (); ++n)
-    if (const float length = points[n].normal.stableNorm (); length > 0.0f && std::abs (length - 1.0f) > rounding)
-      points[n].normal /= length;
+  for (OrientedPoint& point : points)
+  {
+    require (point.weight >= 0.0f && point.weight <= 1.0f, "weight of a point", point.weight, "between 0 and 1");
+    if (const float length = point.normal.stableNorm (); length > 0.0f && std::abs (length - 1.0f) > rounding)
+      point.normal /= length;
+  }
+  return points;
 }
 
 Eigen::Isometry3d
@@ -57,8 +65,15 @@ CoSection::CoSection (const CoSectionOptions& options) : impl_ (new Impl)
 }
 
 CoSection::~CoSection () = default;
-CoSection::CoSection (CoSection&&) noexcept = default;
-CoSection& CoSection::operator= (CoSection&&) noexcept = default;
+
+CoSection::CoSection (CoSection&& other) noexcept : impl_ (std::exchange (other.impl_, std::make_unique<Impl> ())) {}
+
+CoSection&
+CoSection::operator= (CoSection&& other) noexcept
+{
+  std::swap (impl_, other.impl_);
+  return *this;
+}
 
 int
 CoSection::addView (DepthView view)
@@ -150,8 +165,7 @@ CoSection::removeObject (int id)
 void
 CoSection::setBackground (std::vector<OrientedPoint> points)
 {
-  impl_->scene.background = std::move (points);
-  normalise (impl_->scene.background, 0);
+  impl_->scene.background = checkedPoints (std::move (points));
   impl_->scene.batches[0] = {{-1, impl_->scene.background.size ()}};
   impl_->state.background = {};
   impl_->state.blocks = {};
@@ -160,9 +174,8 @@ CoSection::setBackground (std::vector<OrientedPoint> points)
 void
 CoSection::addBackground (const std::vector<OrientedPoint>& points)
 {
-  std::vector<OrientedPoint>& background = impl_->scene.background;
-  background.insert (background.end (), points.begin (), points.end ());
-  normalise (background, background.size () - points.size ());
+  const std::vector<OrientedPoint> checked = checkedPoints (points);
+  impl_->scene.background.insert (impl_->scene.background.end (), checked.begin (), checked.end ());
   impl_->scene.countBatch (0, points.size ());
 }
 
@@ -175,7 +188,7 @@ CoSection::addObject (ObjectInput object)
     throw InvalidArgument ("object " + std::to_string (object.id) + " was added twice");
   for (const TriangleMesh& proposal : object.proposals)
     requireSurface (proposal, "proposal");
-  normalise (object.points, 0);
+  object.points = checkedPoints (std::move (object.points));
   impl_->scene.batches[object.id] = {{-1, object.points.size ()}};
   impl_->scene.objects.push_back (std::move (object));
 }
@@ -183,6 +196,7 @@ CoSection::addObject (ObjectInput object)
 void
 CoSection::addPoints (int id, const std::vector<OrientedPoint>& points)
 {
+  const std::vector<OrientedPoint> checked = checkedPoints (points);
   ObjectInput* object = impl_->scene.find (id);
   if (!object)
   {
@@ -194,8 +208,7 @@ CoSection::addPoints (int id, const std::vector<OrientedPoint>& points)
     addObject (std::move (fresh));
     object = impl_->scene.find (id);
   }
-  object->points.insert (object->points.end (), points.begin (), points.end ());
-  normalise (object->points, object->points.size () - points.size ());
+  object->points.insert (object->points.end (), checked.begin (), checked.end ());
   impl_->scene.countBatch (id, points.size ());
 }
 
@@ -211,9 +224,13 @@ CoSection::addSupportPlane (const Eigen::Vector4d& plane)
 void
 CoSection::addObstacle (SignedDistanceField::ConstPtr body, const std::vector<Eigen::Isometry3d>& T_body_world)
 {
-  if (!body || body->values.size () != body->grid.size () ||
-      (!body->supported.empty () && body->supported.size () != body->grid.size ()))
-    throw InvalidArgument ("a signed distance field must have one value per voxel");
+  require (body && body->values.size () == body->grid.size () &&
+               (body->supported.empty () || body->supported.size () == body->grid.size ()),
+           "a signed distance field must have one value per voxel");
+  const VoxelGrid& grid = body->grid;
+  require (grid.dims.minCoeff () > 0 && grid.voxel_size_m > 0.0 && std::isfinite (grid.voxel_size_m) &&
+               grid.origin_m.allFinite (),
+           "the grid of a signed distance field must have voxels, of positive size, at a finite place");
   checkPoses (T_body_world);
   impl_->scene.obstacles.push_back ({std::move (body), T_body_world});
 }

@@ -23,6 +23,7 @@ namespace {
 constexpr int least_free_views = 2;
 constexpr double free_share = 0.25;
 constexpr double max_contradicted_share = 0.1; // of an object's points; good poses leave 0.03 or less
+constexpr double most_turned_away = 0.5;       // of the normals of points that views see: noise turns few
 constexpr double residual_cell_m = 0.02;
 
 void
@@ -166,12 +167,19 @@ readBackground (const Scene& scene, CompletionMode mode, const std::vector<Scene
 double
 judgeAgreement (const Scene& scene, const SceneObject& object, const ViewAgreement& agreement, CompletionLog& log)
 {
+  const std::string object_name = "object " + std::to_string (object.input->id);
+  if (agreement.nothingSeen ())
+    log.warn (object_name +
+              ": no view sees its points, or looks through them: are the camera, the pose and the unit of "
+              "the views right?");
+  if (const double turned = agreement.turnedAwayShare (); turned > most_turned_away)
+    log.warn (object_name + ": " + std::to_string (std::lround (100.0 * turned)) +
+              " % of its normals point away from the views that see them; they must point out of it");
   const auto [share, view] = agreement.worst ();
   if (share > max_contradicted_share)
   {
     const std::string& name = scene.views[static_cast<std::size_t> (view)].depth.name;
-    log.warn ("object " + std::to_string (object.input->id) + ": " +
-              (name.empty () ? "view " + std::to_string (view) : name) + " looks through " +
+    log.warn (object_name + ": " + (name.empty () ? "view " + std::to_string (view) : name) + " looks through " +
               std::to_string (std::lround (100.0 * share)) +
               " % of its points there: a pose may be wrong, or it has moved");
   }

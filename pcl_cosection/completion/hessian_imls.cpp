@@ -5,6 +5,9 @@
 
 #include <pcl/point_types.h>
 
+#include <algorithm>
+#include <limits>
+
 namespace pcl::cosection {
 
 bool
@@ -41,10 +44,15 @@ HessianIMLSBase::setResolution (int resolution)
   });
 }
 
-void
+bool
 HessianIMLSBase::setNumberOfThreads (unsigned int threads)
 {
-  options_.threads = static_cast<int> (threads);
+  return reportErrors ("cosection::HessianIMLS::setNumberOfThreads", [&] {
+    CoSectionOptions options = options_;
+    options.threads = static_cast<int> (std::min<unsigned int> (threads, std::numeric_limits<int>::max ()));
+    options.validate ();
+    options_ = options;
+  });
 }
 
 bool

@@ -91,9 +91,8 @@ deepest (const SignedDistanceField& field, int threads, DepthAt&& depthAt)
 double
 penetrationOfGivenPlanes (const Scene& scene, const SceneObject& object, const SignedDistanceField& surface)
 {
-  const auto begin = object.support->planes.begin (); // given planes come first
-  const std::vector<Eigen::Vector4d> given (begin, begin + static_cast<std::ptrdiff_t> (scene.planes.size ()));
-  const std::vector<Eigen::Vector4d> planes = planesAtPoses (*object.input, object.observation->box.center (), given,
+  const std::vector<Eigen::Vector4d> planes = planesAtPoses (*object.input, object.observation->box.center (),
+                                                             givenPlanes (scene, *object.input, *object.observation),
                                                              object.T_world_object);
   if (planes.empty ())
     return 0.0;

@@ -46,6 +46,14 @@ isAtRest (const ObjectInput& object)
                       [&] (const Eigen::Isometry3d& T) { return T.isApprox (firstPose (object)); });
 }
 
+/** \brief Whether a given plane may bound an object: what moves may come near it. */
+bool
+isInReach (const ObjectInput& object, const Observation& observation, const Eigen::Vector4d& plane)
+{
+  const double distance_m = std::abs (heightOver (plane, firstPose (object) * observation.box.center ()));
+  return !isAtRest (object) || distance_m <= (hidden_plane_reach + 0.5) * observation.box.sizes ().maxCoeff ();
+}
+
 /** \brief The points of an object in the world frame. */
 std::vector<OrientedPoint>
 worldPoints (const ObjectInput& object, const Observation& observation)
@@ -55,6 +63,19 @@ worldPoints (const ObjectInput& object, const Observation& observation)
   for (OrientedPoint& p : points)
     p = {T * p.position, T.linear () * p.normal};
   return points;
+}
+
+/** \brief Warn if all given planes are too far from all objects to bound any. */
+void
+warnOfDistantPlanes (const Scene& scene, const std::vector<Observation>& observations, CompletionLog& log)
+{
+  bool any_in_reach = scene.planes.empty ();
+  for (std::size_t o = 0; o < scene.objects.size (); ++o)
+    for (const Eigen::Vector4d& plane : scene.planes)
+      any_in_reach = any_in_reach || log.failed (o) || isInReach (scene.objects[o], observations[o], plane);
+  if (!any_in_reach && !scene.objects.empty ())
+    log.warn ("the planes that were given are left out, as they are far from all objects: are their coefficients in "
+              "metres, in the world frame, and is the sign of the last one right?");
 }
 
 /** \brief Warn if a given plane or obstacle contains too many of the object's points.
@@ -76,12 +97,11 @@ warnIfCut (const ObjectInput& object, const Observation& observation, IsCut&& is
 }
 
 void
-warnIfCutByPlanes (const Scene& scene, const ObjectInput& object, const Observation& observation,
-                   const std::vector<Eigen::Vector4d>& planes, CompletionLog& log)
+warnIfCutByPlanes (const Scene& scene, const ObjectInput& object, const Observation& observation, CompletionLog& log)
 {
-  for (std::size_t n = 0; n < scene.planes.size (); ++n)
+  for (const Eigen::Vector4d& plane : givenPlanes (scene, object, observation))
   {
-    const Eigen::Vector4d local = transformPlane (planes[n], firstPose (object));
+    const Eigen::Vector4d local = transformPlane (plane, firstPose (object));
     const auto is_cut = [&] (const Eigen::Vector3d& p) {
       return local.head<3> ().dot (p) + local[3] < -cut_voxels * observation.voxel_size_m;
     };
@@ -190,11 +210,19 @@ settingOf (const Scene& scene, const ObjectInput& object, const BodyState& body)
 }
 
 std::vector<Eigen::Vector4d>
-boundingPlanes (const Scene& scene, const ObjectInput& object, const Observation& observation)
+givenPlanes (const Scene& scene, const ObjectInput& object, const Observation& observation)
 {
   std::vector<Eigen::Vector4d> planes;
   for (const Eigen::Vector4d& plane : scene.planes)
-    planes.push_back (towards (object, observation, plane));
+    if (isInReach (object, observation, plane))
+      planes.push_back (towards (object, observation, plane));
+  return planes;
+}
+
+std::vector<Eigen::Vector4d>
+boundingPlanes (const Scene& scene, const ObjectInput& object, const Observation& observation)
+{
+  std::vector<Eigen::Vector4d> planes = givenPlanes (scene, object, observation);
   if (!scene.options.use_planes || scene.background.empty ())
     return planes;
   std::vector<OrientedPoint> points = observation.points ();
@@ -220,19 +248,20 @@ findObjectPlanes (const Scene& scene, const std::vector<Observation>& observatio
 {
   const CoSectionOptions& options = scene.options;
   std::vector<SupportPlanes> support (scene.objects.size ());
+  warnOfDistantPlanes (scene, observations, log);
   for (std::size_t o = 0; options.use_intersection && o < support.size (); ++o)
   {
     if (log.failed (o))
       continue;
     const ObjectInput& object = scene.objects[o];
     support[o].planes = boundingPlanes (scene, object, observations[o]);
-    warnIfCutByPlanes (scene, object, observations[o], support[o].planes, log);
+    warnIfCutByPlanes (scene, object, observations[o], log);
     standOnOther (scene, observations, o, log, support);
     if (!support[o].planes.empty () || !scene.hasNothingAround () || !options.activePriors ().plane)
       continue;
     const ObjectSetting setting = settingOf (scene, object, state.objects[object.id]);
     if (const auto plane = inferSupportPlane (observations[o], setting))
-      support[o] = {{transformPlane (*plane, firstPose (object).inverse ())}, true};
+      support[o] = {{transformPlane (*plane, firstPose (object).inverse ())}, true, std::nullopt, {}};
   }
   return support;
 }

@@ -104,7 +104,12 @@ aliveObjects (const std::vector<SceneObject>& objects, const CompletionLog& log)
 /** \brief The surroundings of an object, as priors need them. */
 ObjectSetting settingOf (const Scene& scene, const ObjectInput& object, const BodyState& body);
 
-/** \brief The given planes, oriented towards the object, and its support planes found in the background. */
+/** \brief The given planes that may bound an object, with normals towards it, world frame: those within reach of it, or
+ * all, if it moves. */
+std::vector<Eigen::Vector4d> givenPlanes (const Scene& scene, const ObjectInput& object,
+                                          const Observation& observation);
+
+/** \brief givenPlanes () of the object, and its support planes found in the background. */
 std::vector<Eigen::Vector4d> boundingPlanes (const Scene& scene, const ObjectInput& object,
                                              const Observation& observation);
 

@@ -191,8 +191,15 @@ TEST (ClusterSegmentation, LongThingsAndCrumbsAreNoObjects)
 {
   LabelledPoints scene = tableWithThreeThings ();
   ObjectSegmentationOptions options;
+  ObjectSegmentation found = segmentClusters (scene.points, options);
+  EXPECT_EQ (found.objects, 3u);
+  EXPECT_TRUE (warningsOf (found, options).empty ());
   options.max_object_size_m = 0.15;
-  EXPECT_EQ (segmentClusters (scene.points, options).objects, 2u);
+  found = segmentClusters (scene.points, options);
+  EXPECT_EQ (found.objects, 2u);
+  const std::vector<std::string> warnings = warningsOf (found, options);
+  ASSERT_EQ (warnings.size (), 1u);
+  EXPECT_NE (warnings[0].find ("of what is longer than 0.15 m"), std::string::npos) << warnings[0];
   options.min_object_size_m = 0.08;
   EXPECT_EQ (segmentClusters (scene.points, options).objects, 1u);
 }

@@ -209,8 +209,8 @@ findLabels (const std::string& path, const Settings& settings, const PcdViewOpti
       found.objects = std::min (found.objects, label == 0 ? found.objects : label - 1);
       label = 0;
     }
-  if (found.support_planes.empty ())
-    warnings.push_back (path + ": shows no plane on which objects stand; each group of points is taken as one");
+  for (const std::string& warning : warningsOf (found, options))
+    warnings.push_back (path + ": " + warning);
   if (found.objects == 0)
     throw DegenerateInput (path +
                            ": no object was found on its planes; give labels, --max-object-size, or try "

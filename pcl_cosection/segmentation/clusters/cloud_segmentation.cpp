@@ -9,11 +9,13 @@
 #include <algorithm>
 #include <limits>
 #include <optional>
+#include <sstream>
 #include <utility>
 
 namespace pcl::cosection {
 namespace {
 
+constexpr std::ptrdiff_t worth_saying = 100; // points, as many as an object needs
 constexpr double least_dense = 0.8; // share of the pixels with a point that have one beside and one below them, too
 
 /** \brief Which point of an unorganised cloud a sensor at the origin saw in each pixel of an image. */
@@ -118,6 +120,22 @@ segmentCloud (const OrganizedCloud& cloud, const ObjectSegmentationOptions& opti
     if (auto found = segmentAsImage (cloud.points, options))
       return std::move (*found);
   return segmentClusters (cloud.points, options);
+}
+
+std::vector<std::string>
+warningsOf (const ObjectSegmentation& found, const ObjectSegmentationOptions& options)
+{
+  std::vector<std::string> warnings;
+  if (found.support_planes.empty ())
+    warnings.emplace_back ("shows no plane on which objects stand; each group of points is taken as one");
+  if (const auto points = std::count (found.too_long.begin (), found.too_long.end (), 1); points >= worth_saying)
+  {
+    std::ostringstream text;
+    text << points << " points are left out, of what is longer than " << options.max_object_size_m
+         << " m, as furniture is; if it is an object, give --max-object-size";
+    warnings.push_back (text.str ());
+  }
+  return warnings;
 }
 
 } // namespace pcl::cosection

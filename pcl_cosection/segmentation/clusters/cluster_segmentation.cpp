@@ -171,7 +171,8 @@ takePlane (const Points::Ptr& cloud, const ObjectSegmentationOptions& options, c
   return support;
 }
 
-/** \brief Whether a cluster is as large as an object, and stands on a plane, if there is any. */
+/** \brief Whether a cluster is as large as an object, and stands on a plane, if there is any.
+ * \param[out] is_too_long whether it stands there, but is larger */
 bool
 standsOn (const std::vector<Support>& supports, const Points& cloud, const Indices& cluster,
           const ObjectSegmentationOptions& options, const Lengths& lengths, bool& is_too_long)
@@ -184,10 +185,7 @@ standsOn (const std::vector<Support>& supports, const Points& cloud, const Indic
   const double longest = box.sizes ().maxCoeff ();
   if (longest < options.min_object_size_m)
     return false;
-  is_too_long = longest > options.max_object_size_m;
-  if (is_too_long || supports.empty ())
-    return !is_too_long;
-  bool stands = false;
+  bool stands = supports.empty ();
   for (const Support& support : supports)
   {
     std::vector<float> heights;
@@ -201,7 +199,8 @@ standsOn (const std::vector<Support>& supports, const Points& cloud, const Indic
       return false;
     stands = true;
   }
-  return stands;
+  is_too_long = stands && longest > options.max_object_size_m;
+  return stands && !is_too_long;
 }
 
 } // namespace

@@ -120,7 +120,10 @@ ViewAgreement::ViewAgreement (const std::vector<OrientedPoint>& points)
 {
   const std::size_t stride = (points.size () + most_samples - 1) / most_samples;
   for (std::size_t p = 0; p < points.size (); p += stride)
+  {
     positions_.push_back (points[p].position);
+    normals_.push_back (points[p].normal);
+  }
 }
 
 void
@@ -128,12 +131,17 @@ ViewAgreement::add (int number, const FreeSpaceView& view, const Eigen::Isometry
 {
   std::vector<FreeSpaceVotes> votes (positions_.size ());
   addVotes (positions_, view, T_points_sensor, votes, 0.0, threads);
+  const Eigen::Vector3f sensor = T_points_sensor.translation ().cast<float> ();
   int free = 0, surface = 0;
-  for (const FreeSpaceVotes& vote : votes)
+  for (std::size_t p = 0; p < votes.size (); ++p)
   {
-    free += vote.free;
-    surface += vote.surface;
+    free += votes[p].free;
+    surface += votes[p].surface;
+    turned_away_ += votes[p].surface > 0 && normals_[p].dot (sensor - positions_[p]) < 0.0f;
   }
+  seen_ += surface;
+  const std::vector<float>& depth = view.view ().depth;
+  has_readings_ = has_readings_ || std::any_of (depth.begin (), depth.end (), isReading);
   if (free + surface < least_asked * static_cast<double> (positions_.size ()))
     return;
   of_views_.push_back ({static_cast<double> (free) / (free + surface), number});

@@ -61,9 +61,17 @@ public:
   /** \brief The largest; but of many views every twentieth may be worse. */
   Contradiction worst () const;
 
+  /** \brief Whether there are views with readings, none of which says anything about a tenth of the points. */
+  bool nothingSeen () const { return has_readings_ && of_views_.empty (); }
+
+  /** \brief Share in [0, 1] of normals that point away from a view, among those of points that it sees. */
+  double turnedAwayShare () const { return seen_ == 0 ? 0.0 : static_cast<double> (turned_away_) / seen_; }
+
 private:
-  std::vector<Eigen::Vector3f> positions_;
+  std::vector<Eigen::Vector3f> positions_, normals_;
   std::vector<Contradiction> of_views_;
+  bool has_readings_ = false;
+  int seen_ = 0, turned_away_ = 0; // over all views
 };
 
 } // namespace pcl::cosection

@@ -155,6 +155,32 @@ TEST (CompletionErrors, LoseOnlyTheObjectConcerned)
   EXPECT_TRUE (result.objects[1].mesh.empty ());
 }
 
+TEST (CompletionErrors, WeightsAreLikelihoods)
+{
+  for (const float weight : {-1.0f, 2.0f, std::numeric_limits<float>::quiet_NaN ()})
+  {
+    const std::vector<OrientedPoint> points = {{Eigen::Vector3f::Zero (), Eigen::Vector3f::UnitZ (), weight, {}}};
+    CoSection scene;
+    EXPECT_THROW (scene.addObject ({1, points, {}}), InvalidArgument) << weight;
+    EXPECT_THROW (scene.addPoints (1, points), InvalidArgument) << weight;
+    EXPECT_THROW (scene.setBackground (points), InvalidArgument) << weight;
+    EXPECT_THROW (scene.addBackground (points), InvalidArgument) << weight;
+    EXPECT_TRUE (scene.reconstruct ().objects.empty ());
+  }
+}
+
+TEST (CompletionErrors, AMovedFromSceneIsEmpty)
+{
+  const RenderedView seen = tableScene (Shape::Box).render (tableCamera (), fromAbove ());
+  CoSection first (optionsFor (0.01));
+  first.addObject ({1, seen.points.at (1), {}});
+  CoSection second (std::move (first));
+  EXPECT_TRUE (first.reconstruct ().objects.empty ()); // NOLINT(bugprone-use-after-move): that is the question
+  first = std::move (second);
+  EXPECT_EQ (first.reconstruct ().objects.size (), 1u);
+  EXPECT_TRUE (second.reconstruct ().objects.empty ()); // NOLINT(bugprone-use-after-move)
+}
+
 TEST (CompletionErrors, CancelFromTheCallback)
 {
   const RenderedView seen = tableScene (Shape::Box).render (tableCamera (), fromAbove ());

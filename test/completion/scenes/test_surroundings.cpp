@@ -14,6 +14,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <memory>
+#include <string>
 
 using namespace pcl::cosection;
 using namespace pcl::cosection::test;
@@ -90,6 +93,13 @@ highest (const TriangleMesh& mesh, int axis)
   for (const Eigen::Vector3f& v : mesh.vertices)
     most = std::max (most, v[axis]);
   return most;
+}
+
+bool
+isSaid (const SceneResult& result, const std::string& text)
+{
+  return std::any_of (result.warnings.begin (), result.warnings.end (),
+                      [&] (const std::string& warning) { return warning.find (text) != std::string::npos; });
 }
 
 constexpr float tolerance_m = 0.5f * static_cast<float> (voxel_m);
@@ -181,21 +191,43 @@ TEST (Surroundings, FarMeshesChangeNothing)
   EXPECT_EQ (alone.mesh.vertices, far.mesh.vertices);
 }
 
-TEST (Surroundings, APlaneThroughTheObjectIsSaid)
+TEST (Surroundings, PlanesThatMayBeWrongAreSaid)
 {
   const Cropped ball (Shape::Sphere);
-  for (const double height_m : {0.0, 0.07})
+  const ObjectResult free = completeAmong (ball, [] (CoSection&) {});
+  for (const double height_m : {0.0, 0.07, -20.0})
   {
     CoSection task (optionsFor (voxel_m));
     task.addView (ball.view);
     task.addSupportPlane ({0.0, 0.0, 1.0, -height_m});
     task.addObject ({1, ball.seen.points.at (1), {}});
     const SceneResult result = task.reconstruct ();
-    const bool said = std::any_of (result.warnings.begin (), result.warnings.end (), [] (const std::string& warning) {
-      return warning.find ("behind a plane that was given") != std::string::npos;
-    });
-    EXPECT_EQ (said, height_m > 0.0) << height_m;
+    EXPECT_EQ (isSaid (result, "behind a plane that was given"), height_m > 0.0) << height_m;
+    EXPECT_EQ (isSaid (result, "are left out, as they are far from all objects"), height_m < -1.0) << height_m;
+    EXPECT_EQ (result.objects.at (0).mesh.vertices == free.mesh.vertices, height_m < -1.0) << height_m;
   }
+}
+
+TEST (Surroundings, ViewsAndNormalsThatMayBeWrongAreSaid)
+{
+  const Cropped ball (Shape::Sphere);
+  const auto complete = [&] (const Eigen::Isometry3d& moved, float turned) {
+    CoSection task (optionsFor (voxel_m));
+    DepthView view = ball.view;
+    view.T_world_sensor = moved * view.T_world_sensor;
+    std::vector<OrientedPoint> points = ball.seen.points.at (1);
+    for (OrientedPoint& p : points)
+      p.normal *= turned;
+    task.addView (view);
+    task.addObject ({1, points, {}});
+    return task.reconstruct ();
+  };
+  const Eigen::Isometry3d elsewhere (Eigen::Translation3d (3.0, 0.0, 0.0));
+  const std::string no_view = "no view sees its points", turned = "normals point away from the views";
+  const SceneResult right = complete (Eigen::Isometry3d::Identity (), 1.0f);
+  EXPECT_FALSE (isSaid (right, no_view) || isSaid (right, turned));
+  EXPECT_TRUE (isSaid (complete (elsewhere, 1.0f), no_view));
+  EXPECT_TRUE (isSaid (complete (Eigen::Isometry3d::Identity (), -1.0f), turned));
 }
 
 TEST (Surroundings, ABodyThroughTheObjectIsSaid)
@@ -209,10 +241,7 @@ TEST (Surroundings, ABodyThroughTheObjectIsSaid)
     task.addView (box.view);
     task.addObstacle (body);
     task.addObject ({1, box.seen.points.at (1), {}});
-    const SceneResult result = task.reconstruct ();
-    return std::any_of (result.warnings.begin (), result.warnings.end (), [] (const std::string& warning) {
-      return warning.find ("inside a body that was given") != std::string::npos;
-    });
+    return isSaid (task.reconstruct (), "inside a body that was given");
   };
   EXPECT_FALSE (is_said (tableTop ()));
   EXPECT_TRUE (is_said (from_below));
@@ -226,6 +255,17 @@ TEST (Surroundings, WhatBoundsNothingIsRefused)
   TriangleMesh broken = tableTop ();
   broken.vertices[0].x () = std::numeric_limits<float>::quiet_NaN ();
   EXPECT_THROW (CoSection ().addObstacle (broken), InvalidArgument);
+  EXPECT_THROW (CoSection ().addObstacle (tableTop (), {}), InvalidArgument);
+  const auto field = [] (int edge, double voxel_size_m) {
+    auto field = std::make_shared<SignedDistanceField> ();
+    field->grid = {Eigen::Vector3i::Constant (edge), voxel_size_m, Eigen::Vector3d::Zero ()};
+    field->values.assign (field->grid.size (), 1.0f);
+    return field;
+  };
+  EXPECT_NO_THROW (CoSection ().addObstacle (field (2, voxel_m)));
+  EXPECT_THROW (CoSection ().addObstacle (field (0, voxel_m)), InvalidArgument);
+  EXPECT_THROW (CoSection ().addObstacle (field (2, -voxel_m)), InvalidArgument);
+  EXPECT_THROW (CoSection ().addObstacle (field (2, std::nan (""))), InvalidArgument);
 }
 
 TEST (Surroundings, HessianImlsTakesPolygonMeshes)

@@ -132,10 +132,10 @@ public:
   /** \brief An empty scene. \throws InvalidArgument as CoSectionOptions::validate () */
   explicit CoSection (const CoSectionOptions& options = {});
   ~CoSection ();
-  /** \brief Takes over what the other one has. */
-  CoSection (CoSection&&) noexcept;
-  /** \brief Takes over what the other one has. */
-  CoSection& operator= (CoSection&&) noexcept;
+  /** \brief Takes over what the other one has, which is an empty scene then. */
+  CoSection (CoSection&& other) noexcept;
+  /** \brief Exchanges what both have. */
+  CoSection& operator= (CoSection&& other) noexcept;
 
   /** \brief Add a depth view of the whole scene; what lies in front of its readings is free.
    * \return its index, to which ObjectInput::T_world_object refers
@@ -161,31 +161,35 @@ public:
    */
   void removeObject (int id);
 
-  /** \brief Set the points of everything that is not an object, world frame, metres; replaces earlier ones. */
+  /** \brief Set the points of everything that is not an object, world frame, metres; replaces earlier ones.
+   * \throws InvalidArgument if a weight is not in [0, 1] */
   void setBackground (std::vector<OrientedPoint> points);
 
-  /** \brief Add points of what is not an object to the earlier ones, world frame, metres. */
+  /** \brief Add points of what is not an object to the earlier ones, world frame, metres.
+   * \throws InvalidArgument if a weight is not in [0, 1] */
   void addBackground (const std::vector<OrientedPoint>& points);
 
-  /** \brief Add an object. \throws InvalidArgument if the id is not positive or already there, or a proposal is not
-   * consistent or not finite
+  /** \brief Add an object. \throws InvalidArgument if the id is not positive or already there, a weight is not in
+   * [0, 1], or a proposal is not consistent or not finite
    * \throws DegenerateInput if a proposal has no triangles, or none of any area */
   void addObject (ObjectInput object);
 
   /** \brief Add points of an object, object frame, metres. An object that is not there yet is added; if views named its
    * pose, it has those, else the object frame is the world frame.
-   * \throws InvalidArgument if the id is not positive */
+   * \throws InvalidArgument if the id is not positive, or a weight is not in [0, 1] */
   void addPoints (int id, const std::vector<OrientedPoint>& points);
 
   /** \brief Add a plane a x + b y + c z + d = 0 that no object crosses, world frame. The coefficients (a, b, c, d) have
-   * any scale and either sign: each object is on the side of most of its points.
+   * any scale and either sign: each object is on the side of most of its points. An object at rest that is more than
+   * four times its own length away from the plane is as if there were no such plane.
    * \throws InvalidArgument if the normal is zero or a coefficient is not finite */
   void addSupportPlane (const Eigen::Vector4d& plane);
 
   /** \brief Add a body that objects cannot enter, at one or many poses relative to the world.
    * \param[in] body signed distance in the frame of the body, one value per voxel
    * \param[in] T_body_world takes points of the world to the frame of the body: the inverse of the body's pose
-   * \throws InvalidArgument if the field does not have one value per voxel, or a pose is not finite */
+   * \throws InvalidArgument if the field does not have one value per voxel, its grid is not valid, or there is no pose
+   * or one that is not a rigid motion */
   void addObstacle (SignedDistanceField::ConstPtr body,
                     const std::vector<Eigen::Isometry3d>& T_body_world = {Eigen::Isometry3d::Identity ()});
 

@@ -39,8 +39,9 @@ public:
   /** \brief Set the number of voxels along the longest observed side; overrides the voxel size. */
   bool setResolution (int resolution);
 
-  /** \brief Set the number of threads; 0 (default): all processors. The result does not depend on it. */
-  void setNumberOfThreads (unsigned int threads = 0);
+  /** \brief Set the number of threads; 0 (default): all processors. The result does not depend on it.
+   * \return false if there are more than 1024; the number is as before then */
+  bool setNumberOfThreads (unsigned int threads = 0);
 
   /** \brief Add a view of the scene: the space in front of its readings is free.
    * \param[in] cloud in its sensor's frame: organised (x right, y down, z forward), as a pinhole camera sees it, not
